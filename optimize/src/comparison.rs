@@ -4,6 +4,7 @@ use softstop::{Dimension, Language, Machine, Parameter};
 use softstop_console::record::Record;
 use softstop_dynamics::{Orbit, Stroke};
 
+use crate::design::figure::Figure;
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
 
@@ -78,8 +79,8 @@ impl Table<'_> {
 
     /// What is sought, and what the motions do beside a design of this velocity.
     fn add_figures(&mut self, velocity: f64) {
-        let objective = self.problem.objective;
-        let (figure, by_velocity) = (objective.figure, objective.is_velocity());
+        let figure = self.problem.objective.figure;
+        let by_velocity = figure == Figure::Velocity;
         if !by_velocity {
             let (name, dimension) = (figure.meaning(), figure.dimension());
             self.add_figure([name, ""], dimension, true, |orbit| {

@@ -5,9 +5,9 @@ use softstop::Parameter;
 
 use crate::design::Problem;
 use crate::design::conflict::bound;
+use crate::design::constraint::Limit as Active;
 use crate::design::figure::Figure;
-use crate::design::judge::Met;
-use crate::design::space::Interval;
+use crate::design::space::End;
 use crate::optimize::outcome::Outcome;
 
 /// One thing that does.
@@ -28,92 +28,65 @@ impl Limit {
     }
 }
 
-/// Distance in s within which a design stands at the end of the allowed window.
-const AT_MARGIN: f64 = 1e-9;
-/// Share of a bound within which it holds a design back.
-const AT_BOUND: f64 = 1e-6;
-
 /// All that holds a design back.
 pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<Limit> {
-    let design = &found.design;
-    let at_end = |parameter: Parameter, range: Interval| {
-        let end = end(range, design.machine.value(parameter)?)?;
-        let machine = &design.machine;
-        let (key, meaning) = (machine.name(parameter), machine.meaning_of(parameter).0);
-        let words = format!("the {end} bound of the {meaning}");
-        Some(Limit::new(format!("{key}: {end} bound"), words))
-    };
-    let axes = problem.axes.iter();
-    let axes = axes.filter_map(|axis| at_end(axis.parameter, axis.range));
-    let mut limits: Vec<Limit> = axes.collect();
-    limits.extend(found.met.iter().filter(is_bound).map(|it| {
-        let (machine, requirement) = (&design.machine, &it.requirement);
-        let (name, meaning) = (requirement.figure.name(), requirement.figure.meaning());
-        let required = bound(machine, requirement);
-        Limit::new(
-            format!("{name}: {required}"),
-            format!("the {meaning} ({name}), {required}"),
-        )
-    }));
-    limits.extend(problem.edge_at(design).map(|edge| {
-        let words = edge.replace("tolerances: they reach", "the tolerances, which reach");
-        Limit::new(&edge, words)
-    }));
-    if design.place <= problem.margin + AT_MARGIN {
-        limits.push(at_margin("g0"));
-    }
-    if design.place >= 1.0 - problem.margin - AT_MARGIN {
-        limits.push(at_margin("s_SN"));
-    } else {
-        limits.extend(at_end(Parameter::Frequency, problem.frequency));
-    }
-    limits
+    let limits = found.limits.iter();
+    limits.filter_map(|it| limit(problem, found, it)).collect()
 }
 
-/// True if a requirement holds a design back. Trials count, and are not counted on beyond what is required; the margin
-/// from the ends of the zone is told with its end.
-fn is_bound(met: &&Met) -> bool {
-    let figure = met.requirement.figure;
-    let size = (met.value - met.margin()).abs();
-    !figure.is_trial() && figure != Figure::Share && met.margin() <= AT_BOUND * size
+fn limit(problem: &Problem, found: &Outcome, limit: &Active) -> Option<Limit> {
+    let at_end = |parameter: Parameter, end: End| {
+        let end = match end {
+            End::Lower => "lower",
+            End::Upper => "upper",
+        };
+        let machine = &found.design.machine;
+        let (key, meaning) = (machine.name(parameter), machine.meaning_of(parameter).0);
+        let words = format!("the {end} bound of the {meaning}");
+        Limit::new(format!("{key}: {end} bound"), words)
+    };
+    let side = |end| match end {
+        End::Lower => "g0",
+        End::Upper => "s_SN",
+    };
+    let design = &found.design;
+    Some(match limit {
+        Active::Axis(parameter, end) => at_end(*parameter, *end),
+        Active::Frequency(end) => at_end(Parameter::Frequency, *end),
+        Active::Margin(end) => at_margin(side(*end)),
+        Active::Required(Figure::Share, _) => match design.place < 0.5 {
+            true => at_margin("g0"),
+            false => at_margin("s_SN"),
+        },
+        Active::Required(figure, _) => {
+            let requirement = problem
+                .requirements
+                .iter()
+                .find(|it| it.figure == *figure)?;
+            let (name, meaning) = (figure.name(), figure.meaning());
+            let required = bound(&design.machine, requirement);
+            Limit::new(
+                format!("{name}: {required}"),
+                format!("the {meaning} ({name}), {required}"),
+            )
+        }
+        Active::Tolerances(end) => reached(side(*end)),
+        Active::Loss => reached(&match problem.border_within(design) {
+            Some(by) => format!("a border inside the zone ({by})"),
+            None => "a border inside the zone".to_owned(),
+        }),
+    })
+}
+
+fn reached(what: &str) -> Limit {
+    Limit::new(
+        format!("tolerances: they reach {what}"),
+        format!("the tolerances, which reach {what}"),
+    )
 }
 
 fn at_margin(end: &str) -> Limit {
     let key = format!("margin from {end}");
     let words = format!("the {key}");
     Limit::new(key, words)
-}
-
-/// The end of a searched range at which a value stands, to rounding: frequencies pass through the place in the zone, and
-/// other values through the optimiser's unit cube.
-fn end(range: Interval, value: f64) -> Option<&'static str> {
-    let width = range.high - range.low;
-    let rounding = AT_BOUND
-        * if width.is_finite() {
-            width
-        } else {
-            value.abs()
-        };
-    let is_near = |end: f64| end.is_finite() && (value - end).abs() <= rounding;
-    match (range.is_held(), is_near(range.low), is_near(range.high)) {
-        (false, true, _) => Some("lower"),
-        (false, _, true) => Some("upper"),
-        _ => None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Interval, end};
-
-    #[test]
-    fn a_bound_is_met_to_rounding() {
-        let range = |low, high| Interval { low, high };
-        let clearance = range(0.005, 0.04);
-        assert_eq!(end(clearance, 0.005_000_000_011_588_867), Some("lower"));
-        assert_eq!(end(clearance, 0.04), Some("upper"));
-        assert_eq!(end(clearance, 0.0051), None);
-        assert_eq!(end(range(f64::MIN_POSITIVE, f64::INFINITY), 1.2), None);
-        assert_eq!(end(Interval::held(2.0), 2.0), None);
-    }
 }

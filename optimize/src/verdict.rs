@@ -14,12 +14,14 @@ use crate::design::{Design, Problem};
 
 type Required<'a> = (&'a Machine, &'a Met);
 
-fn columns<'a>() -> [Column<Required<'a>>; 8] {
+fn columns<'a>() -> [Column<Required<'a>>; 10] {
     columns! { Required<'a>, it;
         "name" [None] Plain, "as in the task" => it.1.requirement.figure.name();
         "required" [None] Plain, "what is required" => bound(it.0, &it.1.requirement);
         "value" [None] Seven, "what the design has" => own_of(it, it.1.value);
-        "margin" [None] Seven, "distance to the bound, negative beyond it" => own_of(it, it.1.margin());
+        "worst" [None] Seven, "what the worst machine within the tolerances has" => it.1.within.as_ref().and_then(|within| own_of(it, within.worst));
+        "violating" [None] Plain, "share of the machines within the tolerances that violate it" => it.1.violating;
+        "margin" [None] Seven, "distance to the bound, of the worst machine if there are tolerances; negative beyond it" => own_of(it, it.1.margin());
         "unit" [None] Plain, "unit of value and margin" => it.0.unit(it.1.requirement.figure.dimension());
         "met" [None] Plain, "whether it is met" => it.1.is_met();
         "meaning" [None] Plain, "what it is" => it.1.requirement.figure.meaning();

@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 use softstop::{Machine, Parameter};
 use softstop_optimize::design::Problem;
-use softstop_optimize::design::figure::Figure;
+use softstop_optimize::design::critical::{CriticalMachines, Extreme, Target};
+use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::local::{Local, local};
 use softstop_optimize::design::operating_point::At;
 use softstop_optimize::design::problem::{Tolerance, Width};
@@ -74,11 +75,7 @@ fn problem(machine: Machine) -> Problem {
         }
         _ => 1.0,
     };
-    let requirement = |figure| Requirement {
-        figure,
-        least: Some(unit(figure)),
-        most: None,
-    };
+    let requirement = |figure| Requirement::new(figure, Some(unit(figure)), None);
     let requirements = FIGURES.map(requirement).to_vec();
     Problem {
         requirements,
@@ -102,14 +99,22 @@ fn tolerances() -> Vec<Tolerance> {
     .to_vec()
 }
 
-/// A direction to the fold.
-fn known() -> LossDirections {
-    LossDirections {
-        directions: vec![vec![0.6, -0.3, 0.2, 1.0]],
+/// A direction to the fold, and machines that are extreme in a figure.
+fn known() -> CriticalMachines {
+    let extreme = |figure: &Figure| Extreme {
+        target: Target::Bound(*figure, Sense::Least),
+        at: vec![1.0, -1.0, 0.7, 0.02],
+    };
+    CriticalMachines {
+        losses: LossDirections {
+            directions: vec![vec![0.6, -0.3, 0.2, 1.0]],
+        },
+        extremes: FIGURES[..8].iter().map(extreme).collect(),
+        ..CriticalMachines::default()
     }
 }
 
-fn at(problem: &Problem, known: &LossDirections, coordinates: &[f64]) -> Option<Local> {
+fn at(problem: &Problem, known: &CriticalMachines, coordinates: &[f64]) -> Option<Local> {
     let (place, unit) = coordinates.split_last()?;
     let moved: Vec<usize> = (0..unit.len()).collect();
     let at = At {
@@ -124,20 +129,20 @@ fn at(problem: &Problem, known: &LossDirections, coordinates: &[f64]) -> Option<
 const STEPS: [f64; 2] = [2e-4, 1e-4];
 
 /// Values in a row, the score first.
-fn values(problem: &Problem, known: &LossDirections, coordinates: &[f64]) -> Option<Vec<f64>> {
+fn values(problem: &Problem, known: &CriticalMachines, coordinates: &[f64]) -> Option<Vec<f64>> {
     let found = at(problem, known, coordinates)?;
     Some(all(&found).map(|it| it.value).collect())
 }
 
 fn all(found: &Local) -> impl Iterator<Item = &Slope> {
     let first = [&found.objective].into_iter();
-    first.chain(&found.constraints)
+    first.chain(found.constraints.iter().map(|it| &it.slope))
 }
 
 /// Central differences of the fourth order by one coordinate, and how far those of the second order are from them.
 fn differences(
     problem: &Problem,
-    known: &LossDirections,
+    known: &CriticalMachines,
     coordinates: &[f64],
     index: usize,
 ) -> Option<Vec<(f64, f64)>> {
@@ -176,7 +181,7 @@ proptest! {
         coordinates.push(place);
         let index = axis % coordinates.len();
         let tolerated = Problem { tolerances: tolerances(), ..exact.clone() };
-        for (problem, known) in [(exact, LossDirections::default()), (tolerated, known())] {
+        for (problem, known) in [(exact, CriticalMachines::default()), (tolerated, known())] {
             let found = at(&problem, &known, &coordinates);
             let expected = differences(&problem, &known, &coordinates, index);
             let Some((found, expected)) = found.zip(expected) else {

@@ -99,19 +99,11 @@ impl Held {
 }
 
 fn stop_force(most: f64) -> Requirement {
-    Requirement {
-        figure: Figure::StopForce,
-        least: None,
-        most: Some(most),
-    }
+    Requirement::new(Figure::StopForce, None, Some(most))
 }
 
 fn margin_sn(least: f64) -> Requirement {
-    Requirement {
-        figure: Figure::FrequencySn,
-        least: Some(least),
-        most: None,
-    }
+    Requirement::new(Figure::FrequencySn, Some(least), None)
 }
 
 fn ratios() -> Outcome<Vec<Held>> {

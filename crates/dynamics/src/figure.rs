@@ -5,7 +5,7 @@ use crate::stroke::Stroke;
 use softstop::Dimension;
 
 /// On which side of a bound a figure is good.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Sense {
     /// More is better.
     Least,

@@ -1,28 +1,32 @@
 //! The ascent from a point of the search to the best design that derivatives lead to: a nonlinear program over the axes and
-//! the place in the zone, for [`Slsqp`] or another solver of `argmin`.
+//! the place in the zone, for [`Slsqp`] or another solver of `argmin`. Where the worst machine within the tolerances counts,
+//! one more coordinate is a level below the scores of all machines that are known.
 
 use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor, Gradient, Jacobian, Operator};
 
 use super::coordinates::{Candidate, Coordinates};
+use super::critical::CriticalMachines;
 use super::local::{Local, local};
 use super::problem::Problem;
-use super::reach::LossDirections;
+use super::requirement::Scope;
 use super::slope::Slope;
 use super::slsqp::Slsqp;
 use super::space::Space;
 
-/// Designs that one iteration looks at, at most.
+/// Designs that one run looks at, at most.
 const MAX_EVALUATIONS: usize = 60;
 /// Changes of cost and coordinates, relative and in edges of the cube, that are too small to go on.
 const COST_TOLERANCE: f64 = 1e-12;
 const STEP_TOLERANCE: f64 = 1e-11;
-/// Coordinates for each of which there may be one more iteration, and the relative gain of one that is too small for another.
-const COORDINATES_PER_ITERATION: usize = 3;
-const LEAST_GAIN: f64 = 1e-10;
+/// Runs of the solver at most, and the relative gain of one that is too small for another.
+const MAX_RUNS: usize = 8;
+const LEAST_GAIN: f64 = 1e-8;
 /// By how much each constraint is to be met, in its own unit: more than the solver leaves open.
 const SLACK: f64 = 1e-10;
+/// The highest level, in units of the score at the start.
+const HIGHEST_LEVEL: f64 = 1e6;
 /// Cost, and value of every constraint, where there is no motion: far above every cost, which is about -1.
 const NOWHERE: f64 = 1e3;
 
@@ -31,41 +35,50 @@ pub(super) fn ascend(problem: &Problem, unit: &[f64]) -> Option<Candidate> {
     let values = Space(&problem.axes).values(unit);
     let start = problem.at_batch(&[values]).remove(0);
     let place = start.map_or(0.5, |design| design.place);
-    ascend_from(problem, &LossDirections::default(), (unit, place))
+    ascend_from(problem, &CriticalMachines::default(), (unit, place))
 }
 
 /// The best design that is met on the way from a point of the unit cube and a place of its zone, with what is known of the
 /// machines within the tolerances.
 pub(super) fn ascend_from(
     problem: &Problem,
-    known: &LossDirections,
+    known: &CriticalMachines,
     (unit, place): (&[f64], f64),
 ) -> Option<Candidate> {
-    let (program, start) = Program::new(problem, known, unit, place)?;
+    let (mut program, mut start) = Program::new(problem, known, unit, place)?;
     if start.is_empty() {
         return program.best.into_inner();
     }
-    let solver = Slsqp {
-        bounds: program.coordinates.bounds(problem),
-        constraints: program.constraints,
-        max_evaluations: MAX_EVALUATIONS,
-        cost_tolerance: COST_TOLERANCE,
-        step_tolerance: STEP_TOLERANCE,
-        least_gain: LEAST_GAIN,
-    };
-    let iterations = (start.len() / COORDINATES_PER_ITERATION).max(1) as u64;
-    let executor = Executor::new(program, solver);
-    let executor = executor.configure(|state| state.param(start).max_iters(iterations));
-    let found = executor.timer(false).run().ok()?;
-    found.problem.get_problem()?.best.into_inner()
+    // A run may end where rounding or a border of the motions stops its line search: another goes on from the best design.
+    for _ in 0..MAX_RUNS {
+        let before = program.best_score();
+        let solver = Slsqp {
+            bounds: program.bounds(),
+            constraints: program.constraints,
+            max_evaluations: MAX_EVALUATIONS,
+            cost_tolerance: COST_TOLERANCE,
+            step_tolerance: STEP_TOLERANCE,
+        };
+        let executor = Executor::new(program, solver);
+        let executor = executor.configure(|state| state.param(start).max_iters(1));
+        let found = executor.timer(false).run().ok()?;
+        program = found.problem.problem?;
+        let best = program.best_score();
+        if best <= before * (1.0 + LEAST_GAIN) {
+            break;
+        }
+        start = program.best_start()?;
+    }
+    program.best.into_inner()
 }
 
 /// A nonlinear program: minus the score of the motion at a place of the zone of a machine, in units of the score at the
-/// start, and constraints that hold where they are not positive.
+/// start, or minus the level, and constraints that hold where they are not positive.
 struct Program<'a> {
     problem: &'a Problem,
-    known: &'a LossDirections,
+    known: &'a CriticalMachines,
     coordinates: Coordinates,
+    has_level: bool,
     score: f64,
     constraints: usize,
     /// The last point, for all that a solver asks of it.
@@ -77,16 +90,19 @@ impl<'a> Program<'a> {
     /// The program about a point of the unit cube and its start; none if there is no motion.
     fn new(
         problem: &'a Problem,
-        known: &'a LossDirections,
+        known: &'a CriticalMachines,
         unit: &[f64],
         place: f64,
     ) -> Option<(Self, Vec<f64>)> {
         let coordinates = Coordinates::new(problem, unit);
-        let start = coordinates.start(place);
+        let mut start = coordinates.start(place);
+        let has_level = problem.objective.scope == Scope::Tolerances && !start.is_empty();
+        start.extend(has_level.then_some(1.0));
         let mut program = Self {
             problem,
             known,
             coordinates,
+            has_level,
             score: 1.0,
             constraints: 0,
             last: RefCell::default(),
@@ -94,12 +110,43 @@ impl<'a> Program<'a> {
         };
         let first = program.compute(&start);
         let (score, constraints) = first.as_ref().map(|first| {
-            let score = first.objective.value.abs().max(f64::MIN_POSITIVE);
-            (score, first.constraints.len())
+            let score = first.score().abs().max(f64::MIN_POSITIVE);
+            let levels = usize::from(has_level) * (1 + first.scores.len());
+            (score, first.constraints.len() + levels)
         })?;
-        program.last = RefCell::new((start.clone(), first));
+        let own = start.len() - usize::from(has_level);
+        program.last = RefCell::new((start[..own].to_vec(), first));
         (program.score, program.constraints) = (score, constraints);
         Some((program, start))
+    }
+
+    /// The score of the best design that was met; 0 if there is none.
+    fn best_score(&self) -> f64 {
+        let best = self.best.borrow();
+        best.as_ref()
+            .map_or(0.0, |best| self.problem.score(&best.design))
+    }
+
+    /// The best design that was met, to start from.
+    fn best_start(&self) -> Option<Vec<f64>> {
+        let best = self.best.borrow();
+        let Candidate { unit, design } = best.as_ref()?;
+        let mut start = Coordinates::new(self.problem, unit).start(design.place);
+        let level = self.problem.score(design) / self.score;
+        start.extend(self.has_level.then_some(level));
+        Some(start)
+    }
+
+    fn bounds(&self) -> Vec<(f64, f64)> {
+        let mut bounds = self.coordinates.bounds(self.problem);
+        bounds.extend(self.has_level.then_some((0.0, HIGHEST_LEVEL)));
+        bounds
+    }
+
+    /// The scores that the level lies below.
+    fn scores<'b>(&self, of: &'b Local) -> impl Iterator<Item = &'b Slope> {
+        let all = [&of.objective].into_iter().chain(&of.scores);
+        all.take(if self.has_level { usize::MAX } else { 0 })
     }
 
     /// Computes what is sought and required at a point, and takes note of its design.
@@ -120,6 +167,7 @@ impl<'a> Program<'a> {
 
     /// Computes a point once for all that a solver asks of it.
     fn with<T>(&self, at: &[f64], take: impl FnOnce(Option<&Local>) -> T) -> T {
+        let at = &at[..at.len() - usize::from(self.has_level)];
         let is_last = self.last.borrow().0 == at;
         if !is_last {
             self.last.replace((at.to_vec(), self.compute(at)));
@@ -128,16 +176,15 @@ impl<'a> Program<'a> {
     }
 }
 
-fn scaled(slope: &Slope, factor: f64) -> Vec<f64> {
-    slope.by.iter().map(|by| factor * by).collect()
-}
-
 impl CostFunction for Program<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
     fn cost(&self, at: &Vec<f64>) -> Result<f64, Error> {
-        let cost = |it: &Local| -it.objective.value / self.score;
+        let cost = |it: &Local| match self.has_level {
+            true => -at[at.len() - 1],
+            false => -it.objective.value / self.score,
+        };
         Ok(self.with(at, |found| found.map_or(NOWHERE, cost)))
     }
 }
@@ -147,8 +194,18 @@ impl Gradient for Program<'_> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, at: &Vec<f64>) -> Result<Vec<f64>, Error> {
-        let gradient = |it: &Local| scaled(&it.objective, -1.0 / self.score);
-        Ok(self.with(at, |found| found.map_or(vec![0.0; at.len()], gradient)))
+        let nowhere = || vec![0.0; at.len()];
+        let gradient = |it: &Local| match self.has_level {
+            true => {
+                let mut gradient = nowhere();
+                if let Some(by_level) = gradient.last_mut() {
+                    *by_level = -1.0;
+                }
+                gradient
+            }
+            false => scaled(&it.objective, -1.0 / self.score, None),
+        };
+        Ok(self.with(at, |found| found.map_or_else(nowhere, gradient)))
     }
 }
 
@@ -157,10 +214,13 @@ impl Operator for Program<'_> {
     type Output = Vec<f64>;
 
     fn apply(&self, at: &Vec<f64>) -> Result<Vec<f64>, Error> {
-        let values =
-            |it: &Local| Vec::from_iter(it.constraints.iter().map(|one| SLACK - one.value));
+        let values = |it: &Local| {
+            let constraints = it.constraints.iter().map(|one| SLACK - one.slope.value);
+            let above = |score: &Slope| at[at.len() - 1] - score.value / self.score;
+            constraints.chain(self.scores(it).map(above)).collect()
+        };
         Ok(self.with(at, |found| {
-            found.map_or(vec![NOWHERE; self.constraints], values)
+            found.map_or_else(|| vec![NOWHERE; self.constraints], values)
         }))
     }
 }
@@ -170,8 +230,25 @@ impl Jacobian for Program<'_> {
     type Jacobian = Vec<Vec<f64>>;
 
     fn jacobian(&self, at: &Vec<f64>) -> Result<Vec<Vec<f64>>, Error> {
-        let rows = |it: &Local| Vec::from_iter(it.constraints.iter().map(|one| scaled(one, -1.0)));
+        let level = |by: f64| self.has_level.then_some(by);
+        let rows = |it: &Local| {
+            let constraints = it.constraints.iter();
+            let constraints = constraints.map(|one| scaled(&one.slope, -1.0, level(0.0)));
+            let scores = self.scores(it);
+            let scores = scores.map(|one| scaled(one, -1.0 / self.score, level(1.0)));
+            constraints.chain(scores).collect()
+        };
         let nowhere = || vec![vec![0.0; at.len()]; self.constraints];
         Ok(self.with(at, |found| found.map_or_else(nowhere, rows)))
     }
+}
+
+/// Derivatives times a factor, and that by the level.
+fn scaled(slope: &Slope, factor: f64, by_level: Option<f64>) -> Vec<f64> {
+    slope
+        .by
+        .iter()
+        .map(|by| factor * by)
+        .chain(by_level)
+        .collect()
 }

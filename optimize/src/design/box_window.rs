@@ -158,6 +158,7 @@ impl Corners<'_> {
     fn without_width(&self, frequency: f64, sign: f64) -> f64 {
         let mut tolerances = self.problem.tolerances.iter();
         let speed = tolerances.find(|it| it.parameter == Parameter::Frequency);
+        let sign = sign * self.problem.reserve;
         match speed.map(|it| it.width) {
             Some(Width::Own(width)) => {
                 frequency - sign * self.machine.to_si(Dimension::Frequency, width)

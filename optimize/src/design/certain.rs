@@ -6,10 +6,10 @@ use std::cell::RefCell;
 use cobyla::{Func, RhoBeg, StopTols, minimize};
 
 use super::coordinates::{Candidate, Coordinates};
+use super::critical::CriticalMachines;
 use super::judge::violation;
 use super::operating_point::OperatingPoint;
 use super::problem::Problem;
-use super::trial::certainty;
 
 /// Designs that are looked at, at most; edge of the first simplex, and when to end, in edges of the cube.
 const MOST: usize = 40;
@@ -27,8 +27,12 @@ struct Sample {
     within: f64,
 }
 
-/// From a design on, by its own score; none if no design has so large a share.
-pub(super) fn certain(problem: &Problem, from: &Candidate, share: f64) -> Option<Candidate> {
+/// From a design on, by its own score; none if no design has so large a share, in its own machine and in all that are known.
+pub(super) fn certain(
+    problem: &Problem,
+    from: &Candidate,
+    (share, known): (f64, &CriticalMachines),
+) -> Option<Candidate> {
     let coordinates = Coordinates::new(problem, &from.unit);
     let unit = problem.objective.score(from.design.value);
     let best: RefCell<Option<Candidate>> = RefCell::default();
@@ -41,7 +45,7 @@ pub(super) fn certain(problem: &Problem, from: &Candidate, share: f64) -> Option
         let outside = here.outside(problem)? + violation(&problem.met(&motion));
         let known = Sample {
             score: problem.objective.score(value) / unit,
-            share: certainty(&here.orbit).ok()? - share,
+            share: problem.least_certainty((here.machine(), &here.orbit), &known.tried)? - share,
             within: -outside,
         };
         let mut best = best.borrow_mut();

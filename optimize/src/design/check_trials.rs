@@ -8,12 +8,10 @@ use softstop_console::interrupt;
 
 use super::ascent::ascend_from;
 use super::certain::certain;
-use super::conflict::conflict;
 use super::coordinates::{Candidate, Coordinates};
-use super::judge::{Met, violation};
+use super::critical::CriticalMachines;
 use super::operating_point::OperatingPoint;
 use super::problem::Problem;
-use super::reach::LossDirections;
 use super::robustify::{Robust, look};
 use super::space::Space;
 use super::trial::FULL;
@@ -32,14 +30,15 @@ const HALVINGS: u32 = 9;
 /// Relative distance from a score at which another is just above it, and steps to find that.
 const JUST: f64 = 1e-4;
 const SECANTS: usize = 4;
-/// Places of a zone that are tried to find one that passes, if none is known elsewhere.
+/// Places of a zone that are tried to find one that passes, if none is known elsewhere, and if one is, or beyond the last.
 const TRIES: usize = 8;
+const FEW_TRIES: usize = 3;
 /// Share of a score that is no gain.
 const GAIN: f64 = 1e-9;
 /// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
 const MARGINS: [f64; 2] = [0.2, 0.4];
-/// How often what is lost within the tolerances of what was found is taken note of.
-const ROUNDS: usize = 4;
+/// How often what is lost within the tolerances of what was found, or fails there, is taken note of.
+const ROUNDS: usize = 8;
 
 /// How fine a search with trials has looked.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -63,40 +62,51 @@ const RESOLUTION: Resolution = Resolution {
 pub(super) fn check_trials(
     problem: &Problem,
     mut held: Robust,
-) -> Result<(Candidate, Option<Resolution>), Infeasible> {
-    let tried = problem.tried(&held.candidate.design.orbit);
-    let tried = tried.map_err(Infeasible::unknown)?;
-    if tried.iter().all(Met::is_met) {
-        return Ok((held.candidate, None));
-    }
-    for _ in 0..ROUNDS {
+) -> Result<(Robust, Option<Resolution>), Infeasible> {
+    let lack = problem.lack_of_trials(&held.candidate.design, &mut held.known);
+    let Some(lack) = lack else {
+        return Ok((held, None));
+    };
+    let mut from = held.candidate;
+    for round in 0..ROUNDS {
         let trials = Trials {
             problem,
             known: &held.known,
         };
-        let Some(found) = trials.best(&held.candidate) else {
+        let found = match round {
+            0 => trials.best(&from),
+            _ => trials.best_near(&from),
+        };
+        let Some(mut candidate) = found else {
             break;
         };
-        if look(problem, &found.design, &mut held.known).is_ok() {
-            return Ok((found, Some(RESOLUTION)));
+        from = candidate.clone();
+        let seen = look(problem, &mut candidate.design, &mut held.known);
+        if seen.lack.is_some() {
+            continue;
+        }
+        let lack = problem.lack_of_trials(&candidate.design, &mut held.known);
+        if lack.is_none() {
+            let known = held.known;
+            return Ok((Robust { candidate, known }, Some(RESOLUTION)));
         }
     }
-    Err(Infeasible {
-        gap: violation(&tried),
-        reason: conflict(&held.candidate.design.machine, &tried),
-    })
+    Err(lack)
 }
 
-/// A design near one that does not pass its trials and passes them: without the search that [`pass`] takes, and good to a
-/// per cent or so.
-pub(super) fn nearby(problem: &Problem, from: &Candidate) -> Option<Candidate> {
-    let known = &LossDirections::default();
+/// A design near one that does not pass its trials and passes them: without the search that [`check_trials`] takes, and good
+/// to a per cent or so.
+pub(super) fn nearby(
+    problem: &Problem,
+    from: &Candidate,
+    known: &CriticalMachines,
+) -> Option<Candidate> {
     Trials { problem, known }.first(from)
 }
 
 struct Trials<'a> {
     problem: &'a Problem,
-    known: &'a LossDirections,
+    known: &'a CriticalMachines,
 }
 
 impl Trials<'_> {
@@ -111,7 +121,17 @@ impl Trials<'_> {
         let lattice = lattice(coordinates.axes().len());
         let lattice: Vec<_> = lattice.iter().map(|at| coordinates.unit(at)).collect();
         let first = self.first(from);
-        let mut best = self.best_of(&lattice, first.as_ref()).or(first)?;
+        let best = self.best_of(&lattice, first.as_ref()).or(first)?;
+        self.compass(best)
+    }
+
+    /// The same without a lattice.
+    fn best_near(&self, from: &Candidate) -> Option<Candidate> {
+        self.compass(self.first(from)?)
+    }
+
+    /// A compass search from a design.
+    fn compass(&self, mut best: Candidate) -> Option<Candidate> {
         let mut step = FIRST;
         while step >= LAST && !interrupt::requested() {
             let around = Coordinates::new(self.problem, &best.unit).around(step);
@@ -132,12 +152,12 @@ impl Trials<'_> {
                 ..self.problem.clone()
             };
             let place = (&from.unit[..], from.design.place);
-            ascend_from(&wider, &LossDirections::default(), place)
+            ascend_from(&wider, self.known, place)
         });
         let mut starts = vec![from.clone()];
         starts.extend(wider.collect::<Vec<_>>());
         let share = self.problem.least_share();
-        let led = |start: &Candidate| certain(self.problem, start, share?);
+        let led = |start: &Candidate| certain(self.problem, start, (share?, self.known));
         let passing = starts.par_iter().filter_map(led);
         let best = self.better_of(passing.filter(|it| self.passes(it)).collect());
         let units: Vec<_> = starts.into_iter().map(|it| it.unit).collect();
@@ -151,7 +171,11 @@ impl Trials<'_> {
         let design = &it.design;
         let here = OperatingPoint::on(design.machine.clone(), &design.zone, design.place);
         here.is_some_and(|here| self.known.value(self.problem, &here).is_some())
-            && self.problem.passes(&design.orbit, FULL)
+            && self.is_passed(design)
+    }
+
+    fn is_passed(&self, design: &Design) -> bool {
+        self.problem.passes(design, &self.known.tried, FULL)
     }
 
     /// The best of some zones that is better than one that is known.
@@ -200,19 +224,29 @@ impl Trials<'_> {
         all.extend(better.filter(|it| self.score(it) > least));
         all.sort_by(|a, b| self.score(a).total_cmp(&self.score(b)));
         let last = all.len().checked_sub(1)?;
-        // The least of them passes most easily; the best ends the search.
-        let tries = if least > 0.0 { 1 } else { TRIES };
-        let spread = (0..tries).map(|index| index * last / (TRIES - 1));
-        let mut low = spread
-            .filter(|index| problem.passes(&all[*index].orbit, FULL))
-            .max()?;
+        // The least of them pass most easily, but what is counted scatters; the best ends the search.
+        let spread: Vec<usize> = match least > 0.0 {
+            true => (0..=last).take(FEW_TRIES).collect(),
+            false => (0..TRIES).map(|index| index * last / (TRIES - 1)).collect(),
+        };
+        let passing = spread.into_iter();
+        let passing = passing.filter(|index| self.is_passed(&all[*index]));
+        let mut low = passing.max()?;
         let mut high = all.len();
         while high - low > 1 {
             let middle = low.midpoint(high);
-            match problem.passes(&all[middle].orbit, FULL) {
+            match self.is_passed(&all[middle]) {
                 true => low = middle,
                 false => high = middle,
             }
+        }
+        // What is counted scatters: some of the next may pass again.
+        let beyond = |low: usize| {
+            let mut next = (low + 2..all.len()).take(FEW_TRIES);
+            next.find(|index| self.is_passed(&all[*index]))
+        };
+        while let Some(next) = beyond(low) {
+            (low, high) = (next, next + 1);
         }
         let next = all.get(high).cloned();
         let mut best = all.swap_remove(low);
@@ -222,7 +256,7 @@ impl Trials<'_> {
         for _ in 0..HALVINGS {
             match design(0.5 * (best.place + failing.place)) {
                 Some(middle) if self.score(&middle) <= self.score(&best) => break,
-                Some(middle) if problem.passes(&middle.orbit, FULL) => best = middle,
+                Some(middle) if self.is_passed(&middle) => best = middle,
                 Some(middle) => failing = middle,
                 None => break,
             }

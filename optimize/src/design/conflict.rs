@@ -52,6 +52,19 @@ fn words(machine: &Machine, met: &Met) -> String {
     )
 }
 
+/// `within the tolerances stop_force goes to 528 N: must be at most 500 N`.
+pub(super) fn violated_within(machine: &Machine, requirement: &Requirement, worst: f64) -> String {
+    let figure = requirement.figure;
+    let value = short(machine.to_own(figure.dimension(), worst));
+    let told = format!(
+        "within the tolerances {} goes to {value} {}",
+        figure.name(),
+        machine.unit(figure.dimension())
+    );
+    let bound = bound(machine, requirement);
+    format!("{}: must be {bound}", told.trim_end())
+}
+
 /// A parameter of a machine with a value in its own units: `clearance = 0.01 m`.
 pub fn stated(machine: &Machine, parameter: Parameter, value: f64) -> String {
     let (name, unit) = (machine.name(parameter), machine.unit_of(parameter));

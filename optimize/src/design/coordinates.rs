@@ -1,18 +1,22 @@
 //! What the last stages of a search move: the axes that are no catalogues, and the place in the zone.
 
+use softstop::Parameter;
+
 use super::Design;
 use super::operating_point::At;
 use super::problem::Problem;
 
 /// A design and its point of the unit cube.
 #[derive(Debug, Clone)]
-pub(super) struct Candidate {
+pub struct Candidate {
+    /// The point.
     pub unit: Vec<f64>,
+    /// The design.
     pub design: Design,
 }
 
-/// Distance from the ends of the cube that is none.
-const AT_END: f64 = 1e-12;
+/// Distance from the ends of the cube that is none: a solver comes as near to them as that.
+const AT_END: f64 = 1e-9;
 
 /// Axes that are moved all at once, at most.
 const FEW: usize = 3;
@@ -40,6 +44,13 @@ impl Coordinates {
             moved: moved.map(|(index, _)| index).collect(),
             with_place: !problem.frequency.is_held(),
         }
+    }
+
+    /// The parameters of the axes that are moved.
+    pub(super) fn parameters(&self, problem: &Problem) -> Vec<Parameter> {
+        let free = problem.axes.iter().filter(|axis| !axis.range.is_held());
+        let free: Vec<Parameter> = free.map(|axis| axis.parameter).collect();
+        self.moved.iter().map(|index| free[*index]).collect()
     }
 
     /// Those of a point of the cube and a place.
@@ -107,7 +118,10 @@ impl Coordinates {
         At {
             unit,
             moved: &self.moved,
-            place: at.get(self.moved.len()).copied(),
+            place: at
+                .get(self.moved.len())
+                .copied()
+                .filter(|_| self.with_place),
         }
     }
 }

@@ -10,8 +10,8 @@ use super::figure::Figure;
 use super::judge::Judged;
 use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
-use super::rates::rates;
 use super::space::Space;
+use crate::robust::rates;
 
 /// A motion of the search with its derivatives by the coordinates.
 pub(super) struct Linearization<'a> {
@@ -122,7 +122,10 @@ impl<'a> Linearization<'a> {
             }
             Figure::Share if motion.place < 0.5 => Some(self.place.clone()),
             Figure::Share => Some(self.place.iter().map(|by| -by).collect()),
-            _ => rates(figure, &self.slopes, motion).map(|by| self.total(&by)),
+            _ => {
+                let motion = (motion.orbit, &motion.stroke);
+                rates(figure, &self.slopes, motion).map(|by| self.total(&by))
+            }
         }
     }
 

@@ -9,13 +9,13 @@ use super::ascent::{ascend, ascend_from};
 use super::certain::certain;
 use super::check_trials::nearby;
 use super::coordinates::Candidate;
+use super::critical::CriticalMachines;
 use super::figure::{Figure, Sense};
 use super::problem::Problem;
-use super::reach::LossDirections;
-use super::requirement::Requirement;
-use super::robustify::is_at_edge;
+use super::requirement::{Requirement, Scope};
+use super::robustify::enforce;
+use super::search::Found;
 use super::trial::{ROUGH, certainty};
-use crate::robust::first_losses;
 
 /// What is given up for more of what is sought.
 #[derive(Debug, Clone)]
@@ -34,6 +34,11 @@ pub struct Front {
 }
 
 impl Front {
+    /// True if one of its points is better than the design in both quantities.
+    pub fn beats_design(&self, problem: &Problem, point: (f64, f64)) -> bool {
+        beats(problem, self.figure, point, self.design)
+    }
+
     /// How it was found, as far as its axes do not tell; may be empty.
     pub fn note(&self) -> String {
         let found = match self.figure {
@@ -69,59 +74,100 @@ const WIDEST: f64 = 0.5;
 const WIDENING: f64 = 0.1;
 /// Shares of starts between that of the design and all of them.
 const SHARES: usize = 4;
-/// Change of what is sought, relative, below which the bound no longer holds the design.
+/// Change of what is sought, relative, below which the bound no longer holds the design, and below which it is none.
 const FREE: f64 = 1e-6;
+const GAIN: f64 = 1e-9;
 
-/// What a figure costs of what is sought, around a design at a point of the unit cube; none if the design has no such
-/// figure. The others are sought without requirements that take many motions; those that fail them give way to ones near
-/// them, and are left out if there is none.
-pub fn front(
-    problem: &Problem,
-    (unit, design): (&[f64], &Design),
-    figure: Figure,
-) -> Option<Front> {
-    let start = Candidate {
-        unit: unit.to_vec(),
-        design: design.clone(),
-    };
-    let own = place(figure, &start)?;
+/// A front, and the best design on the way that solves the problem itself better than the design, if there is one: then the
+/// search can go on from there.
+#[derive(Debug)]
+pub struct Traded {
+    /// The front.
+    pub front: Front,
+    /// The better design.
+    pub better: Option<Candidate>,
+}
+
+/// What a figure costs of what is sought, around a design; none if the design has no such figure. The others are sought
+/// without requirements that take many motions; those that fail them give way to ones near them, and are left out if there
+/// is none.
+pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded> {
+    let start = found.candidate();
+    let known = &found.known;
+    let own = place(problem, figure, &start)?;
     let is_held = |parameter| problem.axes.iter().all(|axis| axis.parameter != parameter);
+    let is_of_force = figure == Figure::DriveForce && is_held(Parameter::Amplitude);
     let others = match figure {
         Figure::Share => margins(problem, start),
         Figure::Certainty => shares(problem, &start, own.0),
-        Figure::DriveForce if is_held(Parameter::Amplitude) => forces(problem, &start),
-        _ => bounds(problem, &start, figure, own.0),
+        _ if is_of_force => forces(problem, (&start, known)),
+        _ => bounds(problem, (&start, known), figure, own.0),
     };
-    let mut tried: Vec<Tried> = others
-        .par_iter()
-        .filter_map(|it| tried(figure, it))
-        .collect();
-    let left_out = others.len() - tried.len();
+    let all = others.par_iter();
+    let mut tried: Vec<Tried> = all.filter_map(|it| tried(figure, it, known)).collect();
+    // Another drive amplitude is another problem.
+    let score = |it: &Candidate| problem.score(&it.design);
+    let is_above = |it: &Tried| {
+        !is_of_force
+            && score(&it.candidate) > (1.0 + GAIN) * problem.score(&found.design)
+            && problem.is_solved_without_trials(&it.candidate.design)
+    };
+    let (above, rest) = tried.drain(..).partition(is_above);
+    tried = rest;
+    let above: Vec<Tried> = above;
+    let passing = above.into_par_iter().map(|it| it.candidate);
+    let passing = passing.filter(|it| {
+        let trials = problem.lack_of_trials(&it.design, &mut CriticalMachines::default());
+        trials.is_none()
+    });
+    let passing: Vec<Candidate> = passing.collect();
+    let better = passing
+        .into_iter()
+        .max_by(|a, b| score(a).total_cmp(&score(b)));
     tried.push(Tried {
         place: own,
         is_moved: false,
+        candidate: found.candidate(),
     });
+    // At a bound of the problem itself rounding makes no point better.
+    tried.retain(|it| !beats(problem, figure, it.place, own));
+    let left_out = others.len() + 1 - tried.len();
     let mut best = undominated(problem, figure, &tried);
     best.sort_by(|a, b| a.place.0.total_cmp(&b.place.0));
     best.dedup_by(|a, b| a.place == b.place);
-    Some(Front {
+    let front = Front {
         figure,
         design: own,
         points: best.iter().map(|it| it.place).collect(),
         moved: best.iter().filter(|it| it.is_moved).count(),
         left_out,
-    })
+    };
+    Some(Traded { front, better })
+}
+
+impl Problem {
+    /// Whether a design is as required, with its whole box of tolerances, as far as that takes no trials.
+    fn is_solved_without_trials(&self, design: &Design) -> bool {
+        self.is_allowed(design) && self.has_box(design).is_ok()
+    }
+}
+
+/// Whether a figure and what is sought are both better at one place than at another.
+fn beats(problem: &Problem, figure: Figure, one: (f64, f64), other: (f64, f64)) -> bool {
+    let is_better = match figure.sense() {
+        Sense::Least => one.0 > other.0,
+        Sense::Most => one.0 < other.0,
+    };
+    let score = |value| problem.objective.score(value);
+    is_better && score(one.1) > score(other.1)
 }
 
 /// Those that no other one beats in both quantities.
 fn undominated<'a>(problem: &Problem, figure: Figure, tried: &'a [Tried]) -> Vec<&'a Tried> {
-    let is_better = |it: f64, than: f64| match figure.sense() {
-        Sense::Least => it > than,
-        Sense::Most => it < than,
+    let is_beaten = |it: &&Tried| {
+        let mut all = tried.iter();
+        all.any(|other| beats(problem, figure, other.place, it.place))
     };
-    let score = |value| problem.objective.score(value);
-    let beats = |a: (f64, f64), b: (f64, f64)| is_better(a.0, b.0) && score(a.1) > score(b.1);
-    let is_beaten = |it: &&Tried| tried.iter().any(|other| beats(other.place, it.place));
     tried.iter().filter(|it| !is_beaten(it)).collect()
 }
 
@@ -134,36 +180,43 @@ struct Tried {
     place: (f64, f64),
     /// Whether it had to give way for that.
     is_moved: bool,
+    candidate: Candidate,
 }
 
 /// A design on the way, or one near it that passes; none if there is none.
-fn tried(figure: Figure, (problem, candidate): &Bounded) -> Option<Tried> {
-    let is_moved = !problem.passes(&candidate.design.orbit, ROUGH);
+fn tried(
+    figure: Figure,
+    (problem, candidate): &Bounded,
+    known: &CriticalMachines,
+) -> Option<Tried> {
+    let held = enforce(problem, candidate, known.clone()).ok()?;
+    let is_moved = !problem.passes(&held.candidate.design, &known.tried, ROUGH);
     let candidate = match is_moved {
-        true => nearby(problem, candidate)?,
-        false => candidate.clone(),
+        true => {
+            let moved = nearby(problem, &held.candidate, &held.known)?;
+            problem.has_box(&moved.design).ok()?;
+            moved
+        }
+        false => held.candidate,
     };
-    if !keeps_box(problem, &candidate.design) {
-        return None;
-    }
-    let place = place(figure, &candidate)?;
-    Some(Tried { place, is_moved })
-}
-
-/// Whether a design keeps its motion at corners of its box of tolerances and at places all over it.
-fn keeps_box(problem: &Problem, design: &Design) -> bool {
-    let spread = problem.spread(&design.machine);
-    spread.is_none_or(|spread| {
-        let lost = first_losses(&spread, &design.orbit);
-        lost.iter().all(|(at, _)| is_at_edge(at))
+    let place = place(problem, figure, &candidate)?;
+    Some(Tried {
+        place,
+        is_moved,
+        candidate,
     })
 }
 
-/// Value of a figure, and of what is sought.
-fn place(figure: Figure, at: &Candidate) -> Option<(f64, f64)> {
-    let value = match figure {
-        Figure::Certainty => certainty(&at.design.orbit).ok()?,
-        _ => at.design.judged().ok()?.value(figure),
+/// Value of a figure, of the worst machine within the tolerances if that is bounded, and of what is sought.
+fn place(problem: &Problem, figure: Figure, at: &Candidate) -> Option<(f64, f64)> {
+    let within = problem.worst_of_required(&at.design);
+    let within = within
+        .iter()
+        .find(|(of, side, _)| (*of, *side) == (figure, figure.sense()));
+    let value = match (within, figure) {
+        (Some((.., worst)), _) => worst.value,
+        (None, Figure::Certainty) => certainty(&at.design.orbit).ok()?,
+        (None, _) => at.design.judged().ok()?.value(figure),
     };
     value.is_finite().then_some((value, at.design.value))
 }
@@ -187,14 +240,14 @@ fn shares(problem: &Problem, start: &Candidate, own: f64) -> Vec<Bounded> {
     let mut from = start.clone();
     let shares = (1..=SHARES).map(|step| own + (1.0 - own) * step as f64 / (SHARES + 1) as f64);
     let all = shares.map_while(|share| {
-        from = certain(problem, &from, share)?;
+        from = certain(problem, &from, (share, &CriticalMachines::default()))?;
         Some((problem.clone(), from.clone()))
     });
     all.collect()
 }
 
 /// Over the drive's amplitude that the task holds.
-fn forces(problem: &Problem, start: &Candidate) -> Vec<Bounded> {
+fn forces(problem: &Problem, start: (&Candidate, &CriticalMachines)) -> Vec<Bounded> {
     let Some(held) = problem.machine.value(Parameter::Amplitude) else {
         return Vec::new();
     };
@@ -207,23 +260,29 @@ fn forces(problem: &Problem, start: &Candidate) -> Vec<Bounded> {
 }
 
 /// Over a bound of a figure, tighter and looser.
-fn bounds(problem: &Problem, start: &Candidate, figure: Figure, own: f64) -> Vec<Bounded> {
+fn bounds(
+    problem: &Problem,
+    start: (&Candidate, &CriticalMachines),
+    figure: Figure,
+    own: f64,
+) -> Vec<Bounded> {
     both_ways(start, own, |bound| bounded(problem, figure, bound))
 }
 
 /// Step by step from the design on, down and up, until there is no design or its bound no longer holds it.
-fn both_ways(start: &Candidate, own: f64, with_bound: impl Fn(f64) -> Problem) -> Vec<Bounded> {
+fn both_ways(
+    (start, known): (&Candidate, &CriticalMachines),
+    own: f64,
+    with_bound: impl Fn(f64) -> Problem,
+) -> Vec<Bounded> {
     let mut all = Vec::new();
     for change in [-STEP, STEP] {
         let (mut from, mut bound) = (start.clone(), own);
         for _ in 0..STEPS {
             bound *= 1.0 + change;
             let problem = with_bound(bound);
-            let Some(candidate) = ascend_from(
-                &problem,
-                &LossDirections::default(),
-                (&from.unit, from.design.place),
-            ) else {
+            let place = (&from.unit[..], from.design.place);
+            let Some(candidate) = ascend_from(&problem, known, place) else {
                 break;
             };
             let gain = (candidate.design.value - from.design.value).abs();
@@ -248,10 +307,13 @@ fn without(problem: &Problem, figure: Figure) -> Problem {
 fn bounded(problem: &Problem, figure: Figure, bound: f64) -> Problem {
     let mut bounded = without(problem, figure);
     let is_least = figure.sense() == Sense::Least;
+    let mut required = problem.requirements.iter();
+    let known = required.find(|it| it.figure == figure);
     bounded.requirements.push(Requirement {
         figure,
         least: is_least.then_some(bound),
         most: (!is_least).then_some(bound),
+        scope: known.map_or(Scope::Drawing, |it| it.scope),
     });
     bounded
 }

@@ -1,4 +1,4 @@
-//! Catalogues: from the values that the swarm has found, those beside them are tried, each with everything else sought
+//! Catalogues: from the values that were found, those beside them are tried, each with everything else sought
 //! anew, until none is better.
 
 use std::collections::HashSet;
@@ -9,7 +9,7 @@ use softstop_console::interrupt;
 use super::ascent::{ascend, ascend_from};
 use super::coordinates::Candidate;
 use super::problem::Problem;
-use super::robustify::{Robust, enforce_tolerance_box};
+use super::robustify::{Robust, enforce};
 
 /// How far along one catalogue values are tried; of two, both neighbours at once.
 const FAR: usize = 3;
@@ -31,7 +31,7 @@ pub(super) fn improve_catalogue(problem: &Problem, from: &Robust) -> Robust {
             let unit = catalogues.unit(&best.candidate.unit, places);
             let warm = ascend_from(problem, &best.known, (&unit, best.candidate.design.place));
             let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
-            enforce_tolerance_box(problem, &start).ok()
+            enforce(problem, &start, best.known.clone()).ok()
         });
         let next = sought.collect::<Vec<_>>().into_iter().reduce(|one, other| {
             if score(&other) > score(&one) {

@@ -156,7 +156,7 @@ const NARROWINGS: usize = 24;
 const AT_FOLD: f64 = 1e-6;
 
 /// A requirement and what a motion has of it, in SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Met {
     /// What is required.
     pub requirement: Requirement,
@@ -164,12 +164,40 @@ pub struct Met {
     pub value: f64,
     /// The starts that tell it, if it takes many.
     pub starts: Option<Establishment>,
+    /// What the worst machine within the tolerances has, if they count.
+    pub within: Option<Within>,
+    /// Share of the machines within the tolerances that violate it, if they were looked at.
+    pub violating: Option<f64>,
+}
+
+/// The worst machine within the tolerances.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Within {
+    /// What it has, in SI units; of a share that is counted, the lower end of its interval.
+    pub worst: f64,
+    /// Its coordinates in the box.
+    pub at: Vec<f64>,
 }
 
 impl Met {
-    /// Distance to the nearer bound in SI units; negative beyond it.
+    /// By what it is judged: of a share that is counted, the lower end of its interval.
+    pub fn judged(&self) -> f64 {
+        match (&self.starts, self.requirement.figure) {
+            (Some(starts), Figure::Certainty) => starts.interval[0],
+            _ => self.value,
+        }
+    }
+
+    /// Distance to the nearer bound in SI units, of the worst machine within the tolerances if they count; negative beyond it.
     pub fn margin(&self) -> f64 {
-        self.requirement.margin(self.value)
+        let own = self.requirement.margin(self.judged());
+        let within = self.within.as_ref();
+        let within = within.map(|it| self.requirement.margin(it.worst));
+        // NaN stays.
+        match within {
+            Some(within) if within.is_nan() || within < own => within,
+            _ => own,
+        }
     }
 
     /// Whether it is met.
@@ -213,6 +241,8 @@ impl Problem {
             requirement: *requirement,
             value: motion.value(requirement.figure),
             starts: None,
+            within: None,
+            violating: None,
         })
         .collect()
     }
@@ -222,13 +252,11 @@ impl Problem {
         let value = motion.value(Figure::Share);
         let is_at_bound = (value - self.margin).abs() < ROUNDING;
         (self.margin > 0.0).then_some(Met {
-            requirement: Requirement {
-                figure: Figure::Share,
-                least: Some(self.margin),
-                most: None,
-            },
+            requirement: Requirement::new(Figure::Share, Some(self.margin), None),
             value: if is_at_bound { self.margin } else { value },
             starts: None,
+            within: None,
+            violating: None,
         })
     }
 }

@@ -3,50 +3,70 @@
 use softstop::Dimension;
 
 use super::Design;
+use super::constraint::{Constraint, Limit};
+use super::critical::CriticalMachines;
 use super::differences::differences;
 use super::exact::Linearization;
-use super::figure::Figure;
-use super::judge::{Judged, Met};
+use super::figure::{Figure, Sense};
+use super::judge::Judged;
 use super::operating_point::{At, OperatingPoint};
 use super::problem::Problem;
-use super::reach::{LossDirections, inside};
+use super::reach::inside;
 use super::requirement::Requirement;
 use super::slope::Slope;
+use super::space::End;
 
-/// What is known at a point: what is sought as a score, and constraints, which are met where they are not negative.
+/// What is known at a point: what is sought as a score, and constraints.
 #[derive(Debug, Clone)]
 pub struct Local {
-    /// The score.
+    /// The score of the drawing's machine.
     pub objective: Slope,
-    /// The constraints, each in units of its bound.
-    pub constraints: Vec<Slope>,
+    /// The scores of the machines that are known as the worst within the tolerances, if the worst counts.
+    pub scores: Vec<Slope>,
+    /// The constraints.
+    pub constraints: Vec<Constraint>,
     /// The design there, if it is as required.
     pub design: Option<Design>,
 }
 
+impl Local {
+    /// The score that counts: the worst.
+    pub fn score(&self) -> f64 {
+        let scores = self.scores.iter().map(|it| it.value);
+        scores.fold(self.objective.value, f64::min)
+    }
+}
+
 /// What is known at a point, with what is known of the machines within the tolerances; none if there is no stable motion.
-pub fn local(problem: &Problem, at: &At<'_>, known: &LossDirections) -> Option<Local> {
+pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option<Local> {
     let here = OperatingPoint::find(problem, at)?;
     let motion = here.judged()?;
     let exact = Linearization::of(problem, at, &here);
     let slopes = slopes(problem, at, exact.as_ref(), (&here, &motion))?;
     let (frequency, figures) = slopes.split_last()?;
     let (sought, required) = figures.split_first()?;
-    let objective = problem.objective.slope(sought.clone());
-    let score = objective.value;
     let mut constraints = Vec::new();
+    let mut keep = |limit, slope| constraints.push(Constraint { limit, slope });
     for (it, slope) in single(problem).zip(required) {
-        for (bound, sign) in [(it.least, 1.0), (it.most, -1.0)] {
-            constraints.extend(bound.map(|bound| slope.beyond(bound, sign)));
+        for (side, bound) in it.sides() {
+            let sign = if side == Sense::Least { 1.0 } else { -1.0 };
+            keep(Limit::Required(it.figure, side), slope.beyond(bound, sign));
         }
     }
     let si = |end: f64| problem.machine.to_si(Dimension::Frequency, end);
     match required.get(single(problem).count()) {
-        Some(share) => constraints.push(share.beyond(problem.margin, 1.0)),
+        Some(share) => keep(
+            Limit::Required(Figure::Share, Sense::Least),
+            share.beyond(problem.margin, 1.0),
+        ),
         None => {
-            for (end, sign) in [(problem.frequency.low, 1.0), (problem.frequency.high, -1.0)] {
-                if end.is_finite() && end > f64::MIN_POSITIVE {
-                    constraints.push(frequency.beyond(si(end), sign));
+            let ends = [
+                (End::Lower, problem.frequency.low, 1.0),
+                (End::Upper, problem.frequency.high, -1.0),
+            ];
+            for (end, bound, sign) in ends {
+                if bound.is_finite() && bound > f64::MIN_POSITIVE {
+                    keep(Limit::Frequency(end), frequency.beyond(si(bound), sign));
                 }
             }
         }
@@ -56,26 +76,45 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &LossDirections) -> Option<L
         let exact = exact.as_ref()?;
         let none = || Slope::free(exact.frequency.len());
         let inside = |edge| inside(exact, edge);
-        constraints.push(inside(&edges.low)?);
+        keep(Limit::Tolerances(End::Lower), inside(&edges.low)?);
         for edge in &edges.high {
-            constraints.push(edge.as_ref().map_or_else(|| Some(none()), inside)?);
+            let slope = edge.as_ref().map_or_else(|| Some(none()), inside)?;
+            keep(Limit::Tolerances(End::Upper), slope);
         }
     }
-    let kept = known.reserves(exact.as_ref())?;
-    let is_kept = kept.iter().all(|it| it.value >= -ROUNDING);
-    constraints.extend(kept);
-    let is_met = problem.met(&motion).iter().all(Met::is_met);
+    let critical = known.slopes(exact.as_ref())?;
+    let reserves = critical.reserves.into_iter();
+    let reserves = reserves.map(|slope| (Limit::Loss, slope));
+    let bounds = critical.bounds.into_iter();
+    let bounds = bounds.map(|(figure, side, slope)| (Limit::Required(figure, side), slope));
+    let mut is_kept = true;
+    for (limit, slope) in reserves.chain(bounds) {
+        let least = if limit == Limit::Loss { -ROUNDING } else { 0.0 };
+        is_kept &= slope.value >= least;
+        keep(limit, slope);
+    }
+    // What rounding puts beyond a bound is at it elsewhere; here nobody is led there.
+    let mut required = constraints.iter().take(2 * single(problem).count());
+    let is_met =
+        required.all(|it| !matches!(it.limit, Limit::Required(..)) || it.slope.value >= 0.0);
+    let found = Local {
+        objective: problem.objective.slope(sought.clone()),
+        scores: critical.scores,
+        constraints,
+        design: None,
+    };
+    let score = found.score();
     let is_good = is_met
         && is_kept
         && here.is_within(problem, edges.as_ref())
         && score > 0.0
         && score.is_finite();
-    let design = is_good.then(|| here.design(sought.value));
-    Some(Local {
-        objective,
-        constraints,
-        design,
-    })
+    let value = match found.scores.is_empty() {
+        true => sought.value,
+        false => problem.objective.value_of(score),
+    };
+    let design = is_good.then(|| here.design(value));
+    Some(Local { design, ..found })
 }
 
 /// How far outside a bound the solver may leave what it holds.

@@ -10,7 +10,9 @@ mod box_window;
 mod certain;
 mod check_trials;
 pub mod conflict;
-mod coordinates;
+pub mod constraint;
+pub mod coordinates;
+pub mod critical;
 mod differences;
 mod exact;
 pub mod front;
@@ -19,16 +21,17 @@ mod incumbent;
 pub mod judge;
 mod line_search;
 pub mod local;
+mod multipliers;
 mod nearest_miss;
 pub mod operating_point;
 pub mod problem;
-mod rates;
 pub mod reach;
 pub mod requirement;
 mod robustify;
 pub mod search;
 pub mod slope;
 pub mod slsqp;
+pub mod solution;
 pub mod space;
 mod survey;
 pub mod trial;
@@ -37,7 +40,7 @@ mod within;
 use std::slice;
 
 use box_window::BoxWindow;
-use judge::Judged;
+use judge::{Judged, Met};
 use rayon::prelude::*;
 use softstop::internals::budget::Fork;
 use softstop::{Dimension, Machine, MotionError, Parameter, Scene};
@@ -165,17 +168,20 @@ impl Problem {
         })
     }
 
-    /// What the tolerances touch, if they do: an end of the zone, or what else ends the motion.
-    pub fn edge_at(&self, design: &Design) -> Option<String> {
-        let edges = BoxWindow::of(self, &design.machine, &design.zone).ok()??;
-        let frequency = design.orbit.scene.excitation.frequency;
-        let is_at = |edge: f64| (frequency - edge).abs() <= AT_EDGE * edge;
-        match (is_at(edges.low.frequency), is_at(edges.highest())) {
-            (true, _) => Some("tolerances: they reach g0".to_owned()),
-            (_, true) => Some("tolerances: they reach s_SN".to_owned()),
-            _ => robustify::touched(self, design)
-                .map(|by| format!("tolerances: they reach a border inside the zone ({by})")),
-        }
+    /// Whether the drawing's machine is as required, and stands where margin, frequency bounds and the zones of the machines
+    /// within the tolerances allow.
+    fn is_allowed(&self, design: &Design) -> bool {
+        let motion = design.judged();
+        let is_met = motion.is_ok_and(|motion| self.met(&motion).iter().all(Met::is_met));
+        let window = self.window(&design.machine, &design.zone);
+        let contains =
+            |it: Interval| (it.low - ROUNDING..=it.high + ROUNDING).contains(&design.place);
+        is_met && window.is_ok_and(contains)
+    }
+
+    /// What ends the motion inside the zone where the tolerances of a design touch that, in words.
+    pub fn border_within(&self, design: &Design) -> Option<String> {
+        robustify::touched(self, design)
     }
 
     /// The places s that margin, frequency bounds and tolerances leave of a zone.
@@ -229,8 +235,8 @@ fn distance_from_zones(scene: &Scene, error: &ZoneError) -> f64 {
     DISTANT + finite_or(beyond, 0.0)
 }
 
-/// Distance, relative, from an edge at which tolerances touch it.
-const AT_EDGE: f64 = 1e-7;
+/// What rounding may do to a place.
+const ROUNDING: f64 = 1e-12;
 
 /// The gap of a point of which nothing better is known.
 const DISTANT: f64 = 10.0;

@@ -3,7 +3,7 @@
 use softstop::{Machine, Parameter};
 
 use super::figure::{Figure, Sense};
-use super::requirement::Requirement;
+use super::requirement::{Requirement, Scope};
 use super::slope::Slope;
 use super::space::{Axis, Interval};
 use crate::robust::{self, Tolerances};
@@ -23,6 +23,8 @@ pub struct Problem {
     pub links: Vec<Link>,
     /// What cannot be made exactly.
     pub tolerances: Vec<Tolerance>,
+    /// How many times as wide as the tolerances the box is that a design keeps.
+    pub reserve: f64,
     /// What is sought.
     pub objective: Objective,
     /// What must hold.
@@ -76,6 +78,15 @@ impl Width {
         }
     }
 
+    /// So many times as wide.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        match self {
+            Self::Own(width) => Self::Own(factor * width),
+            Self::Share(share) => Self::Share(factor * share),
+        }
+    }
+
     /// Around a value, in the units of the value.
     pub fn around(&self, value: f64) -> f64 {
         match self {
@@ -92,6 +103,8 @@ pub struct Objective {
     pub figure: Figure,
     /// [`Sense::Least`]: as much as can be, [`Sense::Most`]: as little.
     pub sense: Sense,
+    /// Of the drawing's machine, or of the worst within the tolerances.
+    pub scope: Scope,
 }
 
 impl Default for Objective {
@@ -100,11 +113,26 @@ impl Default for Objective {
         Self {
             figure: Figure::Velocity,
             sense: Sense::Least,
+            scope: Scope::Drawing,
         }
     }
 }
 
 impl Objective {
+    /// The value of a grade.
+    pub(super) fn value_of(&self, score: f64) -> f64 {
+        // The reciprocal of a reciprocal.
+        self.score(score)
+    }
+
+    /// The worse of two values.
+    pub(super) fn worse(&self, one: f64, other: f64) -> f64 {
+        match self.score(one) < self.score(other) {
+            true => one,
+            false => other,
+        }
+    }
+
     /// The grade of a value, positive and the higher the better.
     pub fn score(&self, value: f64) -> f64 {
         match self.sense {
@@ -127,18 +155,17 @@ impl Objective {
         }
     }
 
-    /// True if it is the highest before-impact velocity.
-    pub fn is_velocity(&self) -> bool {
-        self.figure == Figure::Velocity && self.sense == Sense::Least
-    }
-
     /// As a phrase after "the design with".
     pub fn words(&self) -> String {
         let most = match self.sense {
             Sense::Least => "highest",
             Sense::Most => "least",
         };
-        format!("{most} {}", self.figure.meaning())
+        let whose = match self.scope {
+            Scope::Tolerances => " of the worst machine",
+            Scope::Drawing => "",
+        };
+        format!("{most} {}{whose}", self.figure.meaning())
     }
 }
 
@@ -155,6 +182,7 @@ impl Problem {
             },
             links: Vec::new(),
             tolerances: Vec::new(),
+            reserve: 1.0,
             objective: Objective::default(),
             requirements: Vec::new(),
         }
@@ -179,10 +207,18 @@ impl Problem {
         }
     }
 
-    /// The tolerances about a machine whose drive runs at its frequency; none if all of it is exact.
+    /// The same problem with tolerances as they are, without reserve.
+    pub fn as_built(&self) -> Self {
+        Self {
+            reserve: 1.0,
+            ..self.clone()
+        }
+    }
+
+    /// The box of tolerances, with its reserve, about a machine whose drive runs at its frequency; none if all of it is exact.
     pub fn spread(&self, machine: &Machine) -> Option<Tolerances> {
         let half_width = |it: &Tolerance| {
-            let width = it.width.around(machine.value(it.parameter)?);
+            let width = self.reserve * it.width.around(machine.value(it.parameter)?);
             let half_width = match it.parameter {
                 Parameter::Preload if machine.preload_deflection.is_some() => width,
                 parameter => machine.to_si(parameter.about().dimension, width),
@@ -197,8 +233,18 @@ impl Problem {
         spread?.ok()
     }
 
+    /// True if something cannot be made exactly.
+    pub fn has_tolerances(&self) -> bool {
+        self.tolerances_in_use() > 0
+    }
+
+    /// How many of the tolerances are not zero.
+    pub(super) fn tolerances_in_use(&self) -> usize {
+        self.tolerances.iter().filter(|it| !it.is_exact()).count()
+    }
+
     /// True if nothing is asked of a motion but its velocity and its place in the zone.
     pub fn is_plain(&self) -> bool {
-        self.objective.is_velocity() && self.requirements.is_empty()
+        self.objective == Objective::default() && self.requirements.is_empty()
     }
 }

@@ -11,9 +11,7 @@ use softstop_dynamics::zone::Loss;
 use super::box_window::Edge;
 use super::differences::differences;
 use super::exact::Linearization;
-use super::judge::Met;
 use super::operating_point::OperatingPoint;
-use super::problem::Problem;
 use super::slope::Slope;
 use super::within::Rows;
 use crate::robust::{Tolerances, is_loss};
@@ -29,18 +27,11 @@ pub struct LossDirections {
 }
 
 impl LossDirections {
-    /// The value of a motion that meets its requirements; none if it is lost in one of the directions.
-    pub(super) fn value(&self, problem: &Problem, here: &OperatingPoint) -> Option<f64> {
-        let motion = here.judged()?;
-        let is_met = problem.met(&motion).iter().all(Met::is_met);
-        let value = problem.sought(&motion).filter(|_| is_met)?;
-        let Some(spread) = problem.spread(here.machine()) else {
-            return Some(value);
-        };
-        for direction in &self.directions {
-            end(&spread, here, direction).filter(|(share, _)| *share >= 1.0)?;
-        }
-        Some(value)
+    /// Whether a motion goes on to the ends of all of them.
+    pub(super) fn are_reached(&self, spread: &Tolerances, here: &OperatingPoint) -> bool {
+        let share = |direction| end(spread, here, direction).map(|(share, _)| share);
+        let mut shares = self.directions.iter().map(|it| share(it));
+        shares.all(|share| share.is_some_and(|share| share >= 1.0))
     }
 
     /// How much of the tolerances more than all of them each direction takes until the motion is lost; none if one cannot be
@@ -96,7 +87,11 @@ fn end(
 }
 
 /// By how much of the tolerances the motion goes on beyond them in a direction.
-fn reserve(about: &Linearization<'_>, spread: &Tolerances, direction: &[f64]) -> Option<Slope> {
+pub(super) fn reserve(
+    about: &Linearization<'_>,
+    spread: &Tolerances,
+    direction: &[f64],
+) -> Option<Slope> {
     let (share, lost) = end(spread, about.point, direction)?;
     let value = share - 1.0;
     let Some((loss, point)) = lost else {

@@ -1,6 +1,16 @@
 //! What a task asks of a design.
 
-use super::figure::Figure;
+use softstop_dynamics::figure::{Figure, Sense};
+
+/// Which machines something is asked of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Scope {
+    /// All within the tolerances.
+    #[default]
+    Tolerances,
+    /// The one of the drawing.
+    Drawing,
+}
 
 /// Bounds of a figure, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,17 +21,55 @@ pub struct Requirement {
     pub least: Option<f64>,
     /// Largest allowed value.
     pub most: Option<f64>,
+    /// Of which machines. What a motion does not tell by itself, nor trials, is asked of the drawing's machine.
+    pub scope: Scope,
 }
 
+/// Share of a bound by which rounding may put a value beyond it.
+const ROUNDING: f64 = 1e-9;
+
 impl Requirement {
-    /// How far inside its bounds a value lies, in SI units; negative outside.
+    /// At least so much of a figure, or at most, in all machines within the tolerances.
+    pub fn new(figure: Figure, least: Option<f64>, most: Option<f64>) -> Self {
+        Self {
+            figure,
+            least,
+            most,
+            scope: Scope::Tolerances,
+        }
+    }
+
+    /// How far inside its bounds a value lies, in SI units; negative outside. What rounding puts outside is at its bound.
     pub fn margin(&self, value: f64) -> f64 {
         if value.is_nan() {
             return value;
         }
-        let above = self.least.map_or(f64::INFINITY, |least| value - least);
-        let below = self.most.map_or(f64::INFINITY, |most| most - value);
-        above.min(below)
+        let inside = |margin: f64, bound: f64| match -margin <= ROUNDING * bound.abs() {
+            true => margin.max(0.0),
+            false => margin,
+        };
+        let least = self.least.map(|least| inside(value - least, least));
+        let most = self.most.map(|most| inside(most - value, most));
+        least
+            .unwrap_or(f64::INFINITY)
+            .min(most.unwrap_or(f64::INFINITY))
+    }
+
+    /// Whether a value is within its bounds; what is no value is not.
+    pub fn is_met(&self, value: f64) -> bool {
+        self.margin(value) >= 0.0
+    }
+
+    /// Whether the motion of each machine within the tolerances is to be looked at.
+    pub fn is_of_each_motion(&self) -> bool {
+        self.scope == Scope::Tolerances && is_of_motion(self.figure)
+    }
+
+    /// The sides on which a value may be too far, by the side that is good.
+    pub fn sides(&self) -> impl Iterator<Item = (Sense, f64)> {
+        let least = self.least.map(|least| (Sense::Least, least));
+        let most = self.most.map(|most| (Sense::Most, most));
+        least.into_iter().chain(most)
     }
 
     /// How far outside its bounds a value lies, in units of the bound; 0 inside. A value that is none is as far as
@@ -41,6 +89,11 @@ impl Requirement {
     }
 }
 
+/// True if a motion tells a figure by itself, without its zone and without trials.
+pub(super) const fn is_of_motion(figure: Figure) -> bool {
+    !figure.is_trial() && !figure.is_margin()
+}
+
 /// The violation of what has no value.
 const FARTHEST: f64 = 10.0;
 
@@ -50,11 +103,7 @@ mod tests {
 
     #[test]
     fn margins_are_those_of_the_nearer_bound() {
-        let both = Requirement {
-            figure: Figure::Velocity,
-            least: Some(2.0),
-            most: Some(5.0),
-        };
+        let both = Requirement::new(Figure::Velocity, Some(2.0), Some(5.0));
         assert_eq!(both.margin(4.5), 0.5);
         assert_eq!(both.margin(1.0), -1.0);
         assert_eq!(both.violation(1.0), 0.2);

@@ -1,22 +1,26 @@
-//! Holds the whole box of tolerances. A search knows the ends of the zone; what else is lost within the box, a fold inside
-//! the zone, a flip, an inner grazing, is looked for about what it has found. Each such place becomes a constraint, and the
-//! design moves until there are no more.
+//! Keeps the whole box of tolerances. A search knows the ends of the zone; what else is lost within the box, a fold inside
+//! the zone, a flip, an inner grazing, and which machines leave the bounds of a requirement, is looked for about what it has
+//! found. Each such place becomes a constraint, and the design moves until there are no more.
 
 use softstop_console::interrupt;
 use softstop_dynamics::zone::Loss;
 use softstop_explore::zone::lost_by;
 
 use super::ascent::ascend_from;
+use super::conflict::violated_within;
 use super::coordinates::Candidate;
+use super::critical::{CriticalMachines, Target};
+use super::figure::{Figure, Sense};
 use super::problem::Problem;
-use super::reach::LossDirections;
 use super::{Design, Infeasible};
-use crate::robust::{Manifold, Norm, Tolerances, first_losses, nearest};
+use crate::robust::{Manifold, Norm, Tolerances, Worst, first_losses, nearest, worst};
 
 /// How often a design is moved.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 16;
 /// Share of the tolerances that is rounding.
 const ROUNDING: f64 = 1e-7;
+/// Relative change of what is sought that is none.
+const GAIN: f64 = 1e-9;
 /// Directions that are added at once, at most.
 const MOST: usize = 4;
 /// Places of the zone from which a design is sought anew.
@@ -38,10 +42,10 @@ struct Lost {
 pub(super) struct Robust {
     pub candidate: Candidate,
     /// What had to be known for that.
-    pub known: LossDirections,
+    pub known: CriticalMachines,
 }
 
-/// The best design about this one of which no machine within the tolerances loses the motion.
+/// The best design about this one of which no machine within the tolerances loses the motion or violates a requirement.
 ///
 /// # Errors
 /// [`Infeasible`] with how much is lacking if there is none.
@@ -49,53 +53,152 @@ pub(super) fn enforce_tolerance_box(
     problem: &Problem,
     start: &Candidate,
 ) -> Result<Robust, Infeasible> {
-    let mut known = LossDirections::default();
-    let mut candidate = start.clone();
-    let mut lack: Option<Infeasible> = None;
-    for _ in 0..ROUNDS {
-        let before = known.directions.len();
-        let Err(lost) = look(problem, &candidate.design, &mut known) else {
-            return Ok(Robust { candidate, known });
-        };
-        if known.directions.len() == before {
-            return Err(lost);
-        }
-        if lack.as_ref().is_none_or(|it| lost.gap < it.gap) {
-            lack = Some(lost);
-        }
-        let next = again(problem, &known, &candidate).next();
-        candidate = next.ok_or_else(|| lack.clone().unwrap_or_else(untold))?;
-    }
-    Err(lack.unwrap_or_else(untold))
+    enforce(problem, start, CriticalMachines::default())
 }
 
-/// Looks all around, and takes note of what was not known.
-///
-/// # Errors
-/// [`Infeasible`] with how much is lacking if machines lose the motion, or cannot be computed.
-pub(super) fn look(
+/// The same with what is known already.
+pub(super) fn enforce(
     problem: &Problem,
-    design: &Design,
-    known: &mut LossDirections,
-) -> Result<(), Infeasible> {
-    let Some(spread) = problem.spread(&design.machine) else {
-        return Ok(());
+    start: &Candidate,
+    mut known: CriticalMachines,
+) -> Result<Robust, Infeasible> {
+    let score = |it: &Candidate| problem.score(&it.design);
+    let mut candidate = start.clone();
+    let mut best: Option<Robust> = None;
+    let mut lack: Option<Infeasible> = None;
+    for _ in 0..ROUNDS {
+        let Look { is_new, lack: lost } = look(problem, &mut candidate.design, &mut known);
+        match lost {
+            Some(lost) if lack.as_ref().is_none_or(|it| lost.gap < it.gap) => lack = Some(lost),
+            Some(_) => {}
+            None => {
+                let found = Robust {
+                    candidate: candidate.clone(),
+                    known: known.clone(),
+                };
+                if best
+                    .as_ref()
+                    .is_none_or(|best| score(&best.candidate) < score(&candidate))
+                {
+                    best = Some(found);
+                }
+            }
+        }
+        if !is_new {
+            break;
+        }
+        let next = again(problem, &known, &candidate).next();
+        let Some(next) = next else { break };
+        candidate = next;
+    }
+    best.ok_or_else(|| lack.unwrap_or_else(untold))
+}
+
+/// What is seen of the machines about a design.
+pub(super) struct Look {
+    /// Whether something was not known.
+    pub is_new: bool,
+    /// How much is lacking if machines lose the motion, violate a requirement or cannot be computed.
+    pub lack: Option<Infeasible>,
+}
+
+/// Looks all around, takes note of what was not known, and sets what is sought to that of the worst machine, if that counts.
+pub(super) fn look(problem: &Problem, design: &mut Design, known: &mut CriticalMachines) -> Look {
+    let kept = Look {
+        is_new: false,
+        lack: None,
     };
-    let lost = lost(&spread, design)?;
-    let lacking = lost.first().map(lacking);
-    known
-        .directions
-        .extend(lost.into_iter().map(|it| it.direction));
-    lacking.map_or(Ok(()), Err)
+    let Some(spread) = problem.spread(&design.machine) else {
+        return kept;
+    };
+    let unknown = |lack| Look {
+        is_new: false,
+        lack: Some(lack),
+    };
+    let lost = match lost(&spread, design) {
+        Ok(lost) => lost,
+        Err(error) => return unknown(error),
+    };
+    if let Some(first) = lost.first() {
+        let lack = Some(lacking(first));
+        let directions = &mut known.losses.directions;
+        directions.extend(lost.into_iter().map(|it| it.direction));
+        return Look { is_new: true, lack };
+    }
+    let targets = problem.targets();
+    let all = match extremes(&spread, design, &targets) {
+        Ok(all) => all,
+        Err(error) => return unknown(error),
+    };
+    let mut seen = kept;
+    for ((target, ..), found) in targets.iter().zip(&all) {
+        // What is worst in the drawing's machine is known anyway.
+        let is_own = found.at.iter().all(|at| *at == 0.0);
+        let is_new = !is_own && known.note(*target, &found.at);
+        match target {
+            Target::Objective => {
+                let claimed = problem.score(design);
+                design.value = problem.objective.worse(design.value, found.value);
+                let loss = claimed - problem.score(design);
+                seen.is_new |= is_new && loss > GAIN * claimed.abs();
+            }
+            Target::Bound(figure, _) => {
+                let mut required = problem.requirements.iter();
+                let broken = required.find(|it| it.figure == *figure && it.is_of_each_motion());
+                let broken = broken.filter(|it| it.margin(found.value) < 0.0);
+                if let Some(requirement) = broken {
+                    seen.is_new |= is_new;
+                    let lack = Infeasible {
+                        gap: requirement.violation(found.value),
+                        reason: violated_within(&design.machine, requirement, found.value),
+                    };
+                    if seen.lack.as_ref().is_none_or(|it| lack.gap > it.gap) {
+                        seen.lack = Some(lack);
+                    }
+                }
+            }
+        }
+    }
+    seen
+}
+
+/// The worst machine of each target.
+fn extremes(
+    spread: &Tolerances,
+    design: &Design,
+    targets: &[(Target, Figure, Sense)],
+) -> Result<Vec<Worst>, Infeasible> {
+    if targets.is_empty() {
+        return Ok(Vec::new());
+    }
+    let figures = targets.iter().map(|(_, figure, side)| (*figure, *side));
+    let figures: Vec<(Figure, Sense)> = figures.collect();
+    let found = worst(spread, &design.orbit, &figures, &interrupt::watch);
+    found.map_err(Infeasible::unknown)
 }
 
 impl Problem {
-    /// Whether a design has its whole box.
+    /// Whether a design has its whole box, and is as required in all of it.
     ///
     /// # Errors
     /// [`Infeasible`] with how much is lacking.
     pub fn has_box(&self, design: &Design) -> Result<(), Infeasible> {
-        look(self, design, &mut LossDirections::default())
+        let seen = look(self, &mut design.clone(), &mut CriticalMachines::default());
+        seen.lack.map_or(Ok(()), Err)
+    }
+
+    /// The machines within the tolerances that are worst in each figure that is required of all of them, by the side that is
+    /// good; none if nothing is, or where they cannot be computed.
+    pub fn worst_of_required(&self, design: &Design) -> Vec<(Figure, Sense, Worst)> {
+        let Some(spread) = self.spread(&design.machine) else {
+            return Vec::new();
+        };
+        let mut targets = self.targets();
+        targets.retain(|(target, ..)| *target != Target::Objective);
+        let found = extremes(&spread, design, &targets).unwrap_or_default();
+        let pairs = targets.into_iter().zip(found);
+        let each = pairs.map(|((_, figure, side), worst)| (figure, side, worst));
+        each.collect()
     }
 }
 
@@ -116,7 +219,7 @@ fn lacking(lost: &Lost) -> Infeasible {
 /// The best designs with what is known of the box, from one, and from other places of its zone.
 fn again<'a>(
     problem: &'a Problem,
-    known: &'a LossDirections,
+    known: &'a CriticalMachines,
     from: &'a Candidate,
 ) -> impl Iterator<Item = Candidate> + 'a {
     let places = [from.design.place].into_iter().chain(PLACES);
@@ -171,9 +274,4 @@ fn told(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<Lost> {
         }
     });
     lost.filter(|it| it.share < 1.0 - ROUNDING).collect()
-}
-
-/// Whether a place lies at the border of the box, or beyond it.
-pub(super) fn is_at_edge(at: &[f64]) -> bool {
-    at.iter().any(|part| part.abs() >= 1.0 - ROUNDING)
 }

@@ -2,24 +2,26 @@
 //! points, the box of tolerances, the values beside those of catalogues, and the trials.
 //!
 //! The survey finds hills: the best design can stand on a narrow ridge. Each ascent (`ascend`) leads to the top of one. The
-//! best of these give way until they keep the motion within the whole box of tolerances (`enforce_tolerance_box`); the best
-//! of those is compared with what else catalogues hold (`improve_catalogue`) and passes its trials (`check_trials`).
+//! best of these give way until they keep the whole box of tolerances (`enforce_tolerance_box`). Ascents go on from further
+//! points until some of them in a row have bettered nothing, or the evaluations are spent. The best design is compared with
+//! what else catalogues hold (`improve_catalogue`) and passes its trials (`check_trials`).
 //!
 //! The survey sees the unit cube, whose boundary is part of its lattice: many optima stand there. `&Problem` is the cost
 //! function of every solver of `argmin` that needs no derivatives.
 
-use std::mem::swap;
-
 use rayon::prelude::*;
 use softstop_dynamics::watch::Kept;
 
-use super::ascent::ascend;
+use super::ascent::{ascend, ascend_from};
 pub use super::check_trials::Resolution;
 use super::check_trials::check_trials;
 use super::conflict::stated;
+use super::constraint::Limit;
 use super::coordinates::Candidate;
+use super::critical::CriticalMachines;
 use super::improve_catalogue::improve_catalogue;
 use super::incumbent::{Incumbent, Rank};
+use super::multipliers::limits;
 use super::nearest_miss::nearest_miss;
 use super::robustify::{Robust, enforce_tolerance_box};
 use super::space::Space;
@@ -33,17 +35,19 @@ pub const LEAST_EVALUATIONS: u64 = 100;
 /// Share of the evaluations that the survey takes for each coordinate, as 1 / share, and of all coordinates at most.
 const SURVEY: u64 = 15;
 const LARGEST_SURVEY: u64 = 3;
-/// Points from which ascents start. Of many axes, those that the survey leaves of the evaluations, so many for each.
+/// Points from which ascents start at once: where as many better nothing, no more are made. What each may take of the
+/// evaluations that the survey leaves.
 const STARTS: usize = 4;
-const MANY_AXES: usize = 6;
-const EVALUATIONS_PER_START: u64 = 100;
-/// Points of the survey from which ascents start where the best designs had to give way, at most.
-const SPARE: usize = 4;
+const EVALUATIONS_PER_START: u64 = 80;
 /// How far apart along an axis they are at least, and the cost of a point that has no motion to begin with.
 const APART: f64 = 0.12;
 const DISTANT: f64 = 10.0;
 /// Share of the best score from which another design is a rival.
 const RIVAL: f64 = 0.97;
+/// Designs whose catalogues and trials are looked at, at most, until one passes.
+const FINALISTS: usize = 3;
+/// Relative gain of a score that is none.
+const GAIN: f64 = 1e-9;
 /// Distance along a coordinate that is none.
 const SAME: f64 = 1e-5;
 
@@ -82,10 +86,25 @@ pub struct Found {
     pub design: Design,
     /// Its point of the unit cube.
     pub unit: Vec<f64>,
+    /// Machines within its tolerances that it has to keep within bounds.
+    pub known: CriticalMachines,
+    /// All that holds it back.
+    pub limits: Vec<Limit>,
     /// Others, far from it and nearly as good: a small change of the task can make one of them the best.
     pub rivals: Vec<Design>,
     /// How fine it was looked for, if trials were in the way.
     pub resolution: Option<Resolution>,
+    /// What it took.
+    pub effort: Effort,
+}
+
+/// What a search took.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Ascents from distant points.
+    pub ascents: usize,
+    /// The last of them, as many as have bettered nothing.
+    pub idle: usize,
 }
 
 /// The feasible design that is best by the problem's objective. What is known of the search is recalled.
@@ -98,15 +117,32 @@ pub fn search(
     watch: &dyn Watch,
     kept: Kept<'_>,
 ) -> Result<Found, SearchError> {
+    search_from(problem, settings, &[], (watch, kept))
+}
+
+/// The same with points of the unit cube from which ascents start beside those of the survey, each with a place of its zone.
+///
+/// # Errors
+/// As [`search`].
+pub fn search_from(
+    problem: &Problem,
+    settings: Settings,
+    starts: &[(Vec<f64>, f64)],
+    (watch, kept): (&dyn Watch, Kept<'_>),
+) -> Result<Found, SearchError> {
     let incumbent = Incumbent::new(problem);
     let survey = Survey::new(problem, watch, &incumbent, kept);
-    let found = Search::new(&survey, settings).map(|search| search.best());
+    let found = Search::new(&survey, settings, starts).map(|search| search.best());
     // What was cut short may be among the best.
     if survey.is_over_budget() {
         return Err(SearchError::OverBudget);
     }
     if watch.stop() {
         let best = incumbent.take();
+        let best = best.map(|candidate| Robust {
+            candidate,
+            known: CriticalMachines::default(),
+        });
         let best = best.map(|it| Box::new(Found::new(problem, it, &[])));
         return Err(SearchError::Stopped(best));
     }
@@ -115,9 +151,10 @@ pub fn search(
 
 impl Found {
     /// The best of some designs, and those that are its rivals.
-    fn new(problem: &Problem, best: Candidate, others: &[Candidate]) -> Self {
+    fn new(problem: &Problem, best: Robust, others: &[Candidate]) -> Self {
         let score = |it: &Design| problem.score(it);
-        let mut all = vec![best.design];
+        let limits = limits(problem, &best.candidate, &best.known);
+        let mut all = vec![best.candidate.design];
         for other in others {
             let is_new = all
                 .iter()
@@ -129,10 +166,66 @@ impl Found {
         let rivals = all.split_off(1);
         Self {
             design: all.remove(0),
-            unit: best.unit,
+            unit: best.candidate.unit,
+            known: best.known,
+            limits,
             rivals,
             resolution: None,
+            effort: Effort::default(),
         }
+    }
+
+    /// Its place, to start from.
+    pub fn start(&self) -> (Vec<f64>, f64) {
+        (self.unit.clone(), self.design.place)
+    }
+
+    pub(super) fn candidate(&self) -> Candidate {
+        Candidate {
+            unit: self.unit.clone(),
+            design: self.design.clone(),
+        }
+    }
+
+    /// Goes on from a design of a problem like this one: true if that has led to a better design.
+    pub fn go_on_from(&mut self, problem: &Problem, from: &Candidate) -> bool {
+        let mut start = from.clone();
+        let sought = start.design.judged().ok();
+        if let Some(value) = sought.and_then(|motion| problem.sought(&motion)) {
+            start.design.value = value;
+        }
+        let place = (&start.unit[..], start.design.place);
+        let top = ascend_from(problem, &CriticalMachines::default(), place);
+        let start = Some(start).filter(|it| problem.is_allowed(&it.design));
+        let starts = start.into_iter().chain(top);
+        let robust = starts.filter_map(|it| enforce_tolerance_box(problem, &it).ok());
+        let score = |it: &Robust| problem.score(&it.candidate.design);
+        let is_better = |it: &Robust| score(it) > (1.0 + GAIN) * problem.score(&self.design);
+        let best = robust.max_by(|a, b| score(a).total_cmp(&score(b)));
+        let Some(robust) = best.filter(is_better) else {
+            return false;
+        };
+        let improved = improve_catalogue(problem, &robust);
+        let Ok((best, resolution)) = check_trials(problem, improved) else {
+            return false;
+        };
+        if !is_better(&best) {
+            return false;
+        }
+        let rivals = std::mem::take(&mut self.rivals);
+        let others = rivals.into_iter().chain([self.design.clone()]);
+        let unit = self.unit.clone();
+        let others = others.map(|design| Candidate {
+            unit: unit.clone(),
+            design,
+        });
+        let others: Vec<Candidate> = others.collect();
+        *self = Self {
+            resolution,
+            effort: self.effort,
+            ..Self::new(problem, best, &others)
+        };
+        true
     }
 }
 
@@ -149,42 +242,55 @@ struct Search<'a> {
     robust: Vec<Robust>,
     /// What the best of the others lacks.
     lack: Option<Infeasible>,
+    effort: Effort,
 }
 
 impl<'a> Search<'a> {
     /// None if the survey was stopped.
-    fn new(survey: &'a Survey<'a>, settings: Settings) -> Option<Self> {
+    fn new(survey: &'a Survey<'a>, settings: Settings, starts: &[(Vec<f64>, f64)]) -> Option<Self> {
         let problem = survey.problem;
         let dimension = Space(&problem.axes).dimension();
         let share = dimension as u64 * settings.evaluations / SURVEY;
         let share = share.min(settings.evaluations / LARGEST_SURVEY);
         let points = survey.points(share as usize)?;
-        let left = (settings.evaluations - share) / EVALUATIONS_PER_START;
-        let starts = match dimension < MANY_AXES {
-            true => STARTS,
-            false => STARTS.max(left as usize),
-        };
+        let most = STARTS.max(((settings.evaluations - share) / EVALUATIONS_PER_START) as usize);
         let mut apart: Vec<Point> = Vec::new();
         for point in &points {
             let is_new = apart.iter().all(|other| is_apart(&other.unit, &point.unit));
-            if apart.len() < starts + SPARE && is_new && point.cost < DISTANT {
+            if apart.len() < most && is_new && point.cost < DISTANT {
                 apart.push(point.clone());
             }
         }
-        let spare = apart.split_off(starts.min(apart.len()));
-        let ascents = apart
-            .par_iter()
-            .filter_map(|start| survey.charged(|| ascend(problem, &start.unit)));
+        let known = CriticalMachines::default();
+        let given = starts.par_iter().filter_map(|(unit, place)| {
+            survey.charged(|| ascend_from(problem, &known, (unit, *place)))
+        });
         let mut search = Self {
             survey,
             nearest: points.into_iter().next()?,
-            tops: ascents.collect(),
-            spare,
+            tops: given.collect(),
+            spare: apart,
             robust: Vec::new(),
             lack: None,
+            effort: Effort::default(),
         };
+        search.ascend_from_spare();
         search.sort();
         Some(search)
+    }
+
+    /// Ascends from the next spare points; true if there were any.
+    fn ascend_from_spare(&mut self) -> bool {
+        let count = STARTS.min(self.spare.len());
+        let points: Vec<Point> = self.spare.drain(..count).collect();
+        let survey = self.survey;
+        let tops = points
+            .par_iter()
+            .map(|start| survey.charged(|| ascend(survey.problem, &start.unit)));
+        let tops: Vec<Option<Candidate>> = tops.collect();
+        self.tops.extend(tops.into_iter().flatten());
+        self.effort.ascents += count;
+        count > 0
     }
 
     fn score(&self, it: &Candidate) -> f64 {
@@ -207,28 +313,54 @@ impl<'a> Search<'a> {
         }
         self.survey.incumbent.update(&self.tops[0], Rank::Motion);
         self.make_robust();
-        let Some(first) = self.robust.first() else {
+        if self.robust.is_empty() {
             let unknown = Infeasible {
                 gap: 0.0,
                 reason: "the search has met nothing".to_owned(),
             };
             return Err(self.no_design(self.lack.clone().unwrap_or(unknown)));
-        };
-        let improved = improve_catalogue(problem, first);
-        let (mut best, resolution) =
-            check_trials(problem, improved).map_err(|it| self.no_design(it))?;
-        let others = self.robust.iter().map(|it| &it.candidate);
-        let others = others.filter(|it| {
-            self.score(it) > RIVAL * self.score(&best) && problem.passes(&it.design.orbit, FULL)
-        });
-        let mut others: Vec<Candidate> = others.cloned().collect();
-        let better = others.first_mut();
-        if let Some(better) = better.filter(|it| self.score(it) > self.score(&best)) {
-            swap(better, &mut best);
         }
-        self.survey.incumbent.update(&best, Rank::Trials);
+        let mut failed = None;
+        let mut finalists: Vec<&Robust> = Vec::new();
+        for robust in &self.robust {
+            let design = &robust.candidate.design;
+            let is_new = |it: &&Robust| is_another(problem, &it.candidate.design, design);
+            if finalists.len() < FINALISTS && finalists.iter().all(is_new) {
+                finalists.push(robust);
+            }
+        }
+        let mut passing: Vec<(Robust, Option<Resolution>)> = Vec::new();
+        for finalist in finalists {
+            let improved = improve_catalogue(problem, finalist);
+            let least = passing.iter().map(|(it, _)| self.score(&it.candidate));
+            if self.score(&improved.candidate) <= least.fold(0.0, f64::max) {
+                continue;
+            }
+            match check_trials(problem, improved) {
+                Ok(found) => passing.push(found),
+                Err(error) => drop(failed.get_or_insert(error)),
+            }
+        }
+        let score = |(it, _): &(Robust, _)| self.score(&it.candidate);
+        passing.sort_by(|a, b| score(b).total_cmp(&score(a)));
+        let mut passing = passing.into_iter();
+        let Some((best, resolution)) = passing.next() else {
+            return Err(self.no_design(failed.unwrap_or_else(|| Infeasible::unknown("stopped"))));
+        };
+        let tried = passing.map(|(it, _)| it.candidate);
+        let rivals = self.robust.iter();
+        let rivals = rivals.filter(|it| {
+            let score = self.score(&it.candidate);
+            (RIVAL * self.score(&best.candidate)..=self.score(&best.candidate)).contains(&score)
+                && problem.passes(&it.candidate.design, &best.known.tried, FULL)
+        });
+        let rivals = rivals.map(|it| it.candidate.clone());
+        let others: Vec<Candidate> = tried.chain(rivals).collect();
+        let incumbent = self.survey.incumbent;
+        incumbent.update(&best.candidate, Rank::Trials);
         Ok(Found {
             resolution,
+            effort: self.effort,
             ..Found::new(problem, best, &others)
         })
     }
@@ -251,28 +383,32 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Makes tops keep their box of tolerances, as long as they may be rivals of the best, then those of spare points that may
-    /// be better.
+    /// Makes tops keep their box of tolerances, as long as they may be rivals of the best, and ascends from spare points until
+    /// that betters nothing.
     fn make_robust(&mut self) {
-        for top in self.tops.clone() {
-            if self.score(&top) > RIVAL * self.best_robust() {
-                self.add_robust(&top);
+        let mut done: Vec<Candidate> = Vec::new();
+        loop {
+            let before = self.best_robust();
+            for top in self.tops.clone() {
+                let is_new = !done.iter().any(|other| is_same(other, &top));
+                if is_new && self.score(&top) > RIVAL * self.best_robust() {
+                    self.add_robust(&top);
+                    done.push(top);
+                }
             }
-        }
-        for point in std::mem::take(&mut self.spare) {
-            if -point.cost <= self.best_robust() {
-                continue;
+            let is_better = self.best_robust() > (1.0 + GAIN) * before;
+            self.effort.idle = if is_better { 0 } else { STARTS };
+            let is_stopped = self.survey.watch.stop() || self.survey.is_over_budget();
+            if !is_better || is_stopped || !self.ascend_from_spare() {
+                break;
             }
-            let top = ascend(self.survey.problem, &point.unit);
-            let top = top.filter(|top| !self.tops.iter().any(|other| is_same(other, top)));
-            if let Some(top) = top {
-                self.add_robust(&top);
-                self.tops.push(top);
-            }
+            self.sort();
         }
         let problem = self.survey.problem;
         let score = |it: &Robust| problem.score(&it.candidate.design);
         self.robust.sort_by(|a, b| score(b).total_cmp(&score(a)));
+        self.robust
+            .dedup_by(|it, known| is_same(&it.candidate, &known.candidate));
     }
 
     fn best_robust(&self) -> f64 {

@@ -18,7 +18,7 @@ impl Slope {
         }
     }
 
-    /// How far it lies beyond a bound, in units of that.
+    /// How far it lies beyond a bound, in units of that, or, of a bound of 0, of its largest derivative.
     pub(super) fn beyond(&self, bound: f64, sign: f64) -> Self {
         if self.value.is_infinite() {
             return Self {
@@ -26,10 +26,11 @@ impl Slope {
                 by: vec![0.0; self.by.len()],
             };
         }
-        let unit = if bound == 0.0 {
-            self.value.abs().max(f64::MIN_POSITIVE)
-        } else {
-            bound.abs()
+        let largest = self.by.iter().fold(0.0, |most: f64, by| most.max(by.abs()));
+        let unit = match bound == 0.0 {
+            true if largest > 0.0 => largest,
+            true => self.value.abs().max(f64::MIN_POSITIVE),
+            false => bound.abs(),
         };
         Self {
             value: sign * (self.value - bound) / unit,

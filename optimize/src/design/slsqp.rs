@@ -3,17 +3,16 @@
 use std::cell::RefCell;
 
 use argmin::core::{
-    CostFunction, Error, Gradient, IterState, Jacobian, KV, Operator, Problem, Solver, State,
-    TerminationReason, TerminationStatus,
+    CostFunction, Error, Gradient, IterState, Jacobian, KV, Operator, Problem, Solver,
 };
-use slsqp::{Func, StopTols, SuccessStatus, minimize};
+use slsqp::{Func, StopTols, minimize};
 
 type Point = Vec<f64>;
 type SqpState = IterState<Point, Point, (), (), (), f64>;
 
 /// Minimises a [`CostFunction`] with its [`Gradient`] within bounds, where all values of an [`Operator`] with its
 /// [`Jacobian`] are at most 0. An iteration is a run of quadratic programs from the point of the one before, without its
-/// memory of curvature; the first run that converges is the last.
+/// memory of curvature.
 #[derive(Debug, Clone)]
 pub struct Slsqp {
     /// Least and largest value of each coordinate.
@@ -26,8 +25,6 @@ pub struct Slsqp {
     pub cost_tolerance: f64,
     /// Change of all coordinates that ends an iteration.
     pub step_tolerance: f64,
-    /// Relative gain of an iteration that is too small for another one.
-    pub least_gain: f64,
 }
 
 impl<P> Solver<P, SqpState> for Slsqp
@@ -94,7 +91,6 @@ where
             self.max_evaluations,
             Some(tolerances),
         );
-        let is_cut_short = matches!(found, Ok((SuccessStatus::MaxEvalReached, ..)));
         // A run that fails, by rounding mostly, has its best point too.
         let (at, cost) = match found {
             Ok((_, at, cost)) | Err((_, at, cost)) => (at, cost),
@@ -102,21 +98,6 @@ where
         if let Some(error) = failure.into_inner() {
             return Err(error);
         }
-        let state = state.param(at).cost(cost);
-        Ok(match is_cut_short {
-            true => (state, None),
-            false => (
-                state.terminate_with(TerminationReason::SolverConverged),
-                None,
-            ),
-        })
-    }
-
-    fn terminate(&mut self, state: &SqpState) -> TerminationStatus {
-        let gain = state.get_prev_cost() - state.get_cost();
-        match state.get_iter() > 0 && gain <= self.least_gain * state.get_cost().abs() {
-            true => TerminationStatus::Terminated(TerminationReason::SolverConverged),
-            false => TerminationStatus::NotTerminated,
-        }
+        Ok((state.param(at).cost(cost), None))
     }
 }

@@ -4,6 +4,18 @@ use std::fmt;
 
 use softstop::Parameter;
 
+/// An end of a range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum End {
+    /// The lower one; of a zone g0.
+    Lower,
+    /// The upper one; of a zone `s_SN`.
+    Upper,
+}
+
+/// Distance from an end of an interval, as a share of it, that is none.
+const AT_END: f64 = 1e-9;
+
 /// A closed interval; a value that is held has both ends equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
@@ -35,6 +47,16 @@ impl Interval {
             self.high
         } else {
             (self.low + unit * (self.high - self.low)).clamp(self.low, self.high)
+        }
+    }
+
+    /// Which end a value stands at to rounding, if the interval has two.
+    pub fn end_at(&self, value: f64) -> Option<End> {
+        let near = |end: f64| (value - end).abs() <= AT_END * (self.high - self.low);
+        match self.is_held() {
+            true => None,
+            false if near(self.low) => Some(End::Lower),
+            false => near(self.high).then_some(End::Upper),
         }
     }
 }
@@ -140,6 +162,9 @@ mod tests {
             [7.0, 0.3],
             "outside the cube: pulled in"
         );
+        assert_eq!(range.end_at(0.3), Some(End::Upper));
+        assert_eq!(range.end_at(0.2), None);
+        assert_eq!(Interval::held(2.0).end_at(2.0), None);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Requirements that take many simulated motions: establishing certainty, run-up from rest, missing strips. They have
-//! no derivatives: `pass` seeks a design that meets them.
+//! no derivatives: `check_trials` seeks a design that meets them. Within tolerances they are made at the corners of the box.
 
+use rayon::prelude::*;
 use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::SurveyError;
@@ -8,10 +9,14 @@ use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::run_up::RunUp;
 use softstop_dynamics::supply::{Reading, outlasts};
 
+use super::conflict::{conflict, violated_within};
+use super::critical::CriticalMachines;
 use super::figure::Figure;
-use super::judge::Met;
+use super::judge::{Met, Within, violation};
 use super::problem::Problem;
-use super::requirement::Requirement;
+use super::requirement::{Requirement, Scope};
+use super::{Design, Infeasible};
+use crate::robust::{Neighbours, corners};
 
 /// Starts of the box.
 pub const STARTS: usize = 1024;
@@ -35,33 +40,152 @@ pub(super) const ROUGH: Effort = Effort {
     angles: ANGLES / 4,
 };
 
+/// Corners of the tolerances at which trials are made, at most.
+const CORNERS: usize = 16;
+
 impl Problem {
     /// The requirements that take many motions.
     fn trials(&self) -> impl Iterator<Item = &Requirement> {
         self.requirements.iter().filter(|it| it.figure.is_trial())
     }
 
-    /// What a motion has of the requirements that take many.
+    /// What a design has of the requirements that take many motions, at the corners of the tolerances too.
     ///
     /// # Errors
     /// [`SurveyError`] if a motion cannot be computed, or somebody asked to stop.
-    pub fn tried(&self, orbit: &Orbit) -> Result<Vec<Met>, SurveyError> {
+    pub fn tried(&self, design: &Design) -> Result<Vec<Met>, SurveyError> {
+        let corners = self.corners(design);
         let tried = self.trials().map(|requirement| {
-            let (value, starts) = value(requirement, orbit, FULL)?;
+            let own = tried(requirement, &design.orbit, FULL)?;
             Ok(Met {
-                requirement: *requirement,
-                value,
-                starts,
+                within: self.tried_within(requirement, &corners)?,
+                ..own
             })
         });
         tried.collect()
     }
 
-    /// Whether a motion meets the requirements that take many.
-    pub(super) fn passes(&self, orbit: &Orbit, effort: Effort) -> bool {
-        self.trials().all(|requirement| {
-            value(requirement, orbit, effort)
-                .is_ok_and(|(value, _)| requirement.margin(value) >= 0.0)
+    /// The motions at corners of the tolerances; none where the motion is lost.
+    fn corners(&self, design: &Design) -> Vec<(Vec<f64>, Option<Orbit>)> {
+        let is_asked = self.trials().any(|it| it.scope == Scope::Tolerances);
+        let spread = self.spread(&design.machine).filter(|_| is_asked);
+        spread.map_or_else(Vec::new, |spread| {
+            let all = corners(self.tolerances_in_use(), CORNERS).into_par_iter();
+            let neighbours = Neighbours::new(&spread, &design.orbit);
+            let all = all.map(|at: Vec<f64>| {
+                let orbit = neighbours.motion(&at);
+                (at, orbit)
+            });
+            all.collect()
+        })
+    }
+
+    /// What the worst of some machines has of a requirement; none if there are none, or it asks for nothing of them.
+    fn tried_within(
+        &self,
+        requirement: &Requirement,
+        corners: &[(Vec<f64>, Option<Orbit>)],
+    ) -> Result<Option<Within>, SurveyError> {
+        if requirement.scope == Scope::Drawing {
+            return Ok(None);
+        }
+        let each = corners.par_iter().map(|(at, orbit)| {
+            let orbit = orbit.as_ref();
+            let met = orbit.map(|orbit| tried(requirement, orbit, FULL));
+            let worst = met.transpose()?.map_or(f64::NAN, |met| met.judged());
+            let at = at.clone();
+            Ok(Within { worst, at })
+        });
+        let each: Result<Vec<Within>, SurveyError> = each.collect();
+        let lacking = |it: &Within| -requirement.violation(it.worst);
+        let margin = |it: &Within| requirement.margin(it.worst);
+        let order = |a: &Within, b: &Within| {
+            let by_violation = lacking(a).total_cmp(&lacking(b));
+            by_violation.then(margin(a).total_cmp(&margin(b)))
+        };
+        Ok(each?.into_iter().min_by(order))
+    }
+
+    /// What a design lacks of the requirements that take many motions; the corner of the tolerances that lacks most is taken
+    /// note of.
+    pub(super) fn lack_of_trials(
+        &self,
+        design: &Design,
+        known: &mut CriticalMachines,
+    ) -> Option<Infeasible> {
+        if !self.has_trials() {
+            return None;
+        }
+        let own: Result<Vec<Met>, SurveyError> = self
+            .trials()
+            .map(|it| tried(it, &design.orbit, FULL))
+            .collect();
+        let own = match own {
+            Ok(own) => own,
+            Err(error) => return Some(Infeasible::unknown(error)),
+        };
+        let failed = own.iter().filter(|it| !it.is_met());
+        known.failed.extend(failed.map(|it| it.requirement.figure));
+        if !own.iter().all(Met::is_met) {
+            return Some(Infeasible {
+                gap: violation(&own),
+                reason: conflict(&design.machine, &own),
+            });
+        }
+        let corners = self.corners(design);
+        for requirement in self.trials() {
+            let within = match self.tried_within(requirement, &corners) {
+                Ok(within) => within,
+                Err(error) => return Some(Infeasible::unknown(error)),
+            };
+            let violated = within.filter(|it| !requirement.is_met(it.worst));
+            if let Some(Within { worst, at }) = violated {
+                let gap = requirement.violation(worst);
+                known.tried.push(at);
+                known.failed.push(requirement.figure);
+                return Some(Infeasible {
+                    gap,
+                    reason: violated_within(&design.machine, requirement, worst),
+                });
+            }
+        }
+        None
+    }
+
+    /// Whether a design meets the requirements that take many motions, in its own machine and in some within the tolerances.
+    pub(super) fn passes(&self, design: &Design, others: &[Vec<f64>], effort: Effort) -> bool {
+        let own = self.trials().all(|it| is_passed(it, &design.orbit, effort));
+        let spread = self
+            .spread(&design.machine)
+            .filter(|_| own && !others.is_empty());
+        let neighbours = spread.as_ref().map(|it| Neighbours::new(it, &design.orbit));
+        let at = |at: &Vec<f64>| {
+            let orbit = neighbours.as_ref().and_then(|it| it.motion(at));
+            let mut all = self.trials().filter(|it| it.scope == Scope::Tolerances);
+            orbit.is_some_and(|orbit| all.all(|it| is_passed(it, &orbit, effort)))
+        };
+        own && (spread.is_none() || others.iter().all(at))
+    }
+
+    /// The least share of starts that lead to the motion of a design, of its own machine or of some within the tolerances, by
+    /// the lower end of its interval; none if a motion is lost.
+    pub(super) fn least_certainty(
+        &self,
+        (machine, orbit): (&softstop::Machine, &Orbit),
+        others: &[Vec<f64>],
+    ) -> Option<f64> {
+        let of = |orbit: &Orbit| {
+            let found = Establishment::of(orbit, STARTS, &interrupt::watch).ok()?;
+            Some(found.interval[0])
+        };
+        let spread = self.spread(machine);
+        let others = others
+            .iter()
+            .take(if spread.is_some() { usize::MAX } else { 0 });
+        let neighbours = spread.as_ref().map(|it| Neighbours::new(it, orbit));
+        others.fold(of(orbit), |least, at| {
+            let other = of(&neighbours.as_ref()?.motion(at)?)?;
+            Some(least?.min(other))
         })
     }
 
@@ -75,6 +199,26 @@ impl Problem {
     pub fn has_trials(&self) -> bool {
         self.trials().next().is_some()
     }
+}
+
+/// What a motion has of a requirement that takes many.
+fn tried(requirement: &Requirement, orbit: &Orbit, effort: Effort) -> Result<Met, SurveyError> {
+    let (value, starts) = value(requirement, orbit, effort)?;
+    Ok(Met {
+        requirement: *requirement,
+        value,
+        starts,
+        within: None,
+        violating: None,
+    })
+}
+
+/// Whether it meets one: with few motions by what was counted, else by the lower end of its interval.
+fn is_passed(requirement: &Requirement, orbit: &Orbit, effort: Effort) -> bool {
+    tried(requirement, orbit, effort).is_ok_and(|met| match effort.starts < STARTS {
+        true => requirement.margin(met.value) >= 0.0,
+        false => met.is_met(),
+    })
 }
 
 /// The share of starts that lead to a motion.

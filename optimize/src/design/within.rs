@@ -85,6 +85,17 @@ impl Rows {
         &self.parameters
     }
 
+    /// Derivatives by some of the parameters as derivatives by the coordinates of the search.
+    pub(super) fn chain(&self, parameters: &[Parameter], by: &[f64]) -> Vec<f64> {
+        let total = |row: &Values| {
+            let pairs = parameters.iter().zip(by);
+            pairs
+                .map(|(parameter, by)| by * row[*parameter as usize])
+                .sum()
+        };
+        self.by.iter().map(total).collect()
+    }
+
     /// How the machine's distance in frequency from a border changes with each coordinate of the search, and on the way
     /// outwards, in rad/s.
     pub(super) fn across(&self, border: &Border) -> (Vec<f64>, f64) {

@@ -183,6 +183,9 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         Some(looked) => looked,
         None => Looked::new(&job, &outcome, false)?,
     };
+    if let Some(study) = &looked.study {
+        outcome.note_violating(study.violating());
+    }
     let report = looked.report(&job, &outcome);
     let name = job.problem.machine.name.as_deref().unwrap_or_default();
     export.file("svg", looked.response.document(name).as_bytes())?;
@@ -229,7 +232,7 @@ impl Looked {
         let (problem, design) = (&job.problem, &outcome.design);
         let references = reference::references(&problem.machine)?;
         let study = match is_whole {
-            true => study::study(job, design)?,
+            true => study::study(job, outcome)?,
             false => None,
         };
         let response = response(problem, design, &references, study.as_ref());

@@ -7,6 +7,10 @@ use softstop_console::failure::Failure;
 
 use crate::design::figure::{Figure, Sense};
 use crate::design::problem::Objective;
+use crate::design::requirement::Scope;
+
+/// What is sought if nothing is said.
+const VELOCITY: &str = Figure::Velocity.name();
 
 /// `[objective]`.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -14,12 +18,23 @@ use crate::design::problem::Objective;
 pub struct Goal {
     maximise: Option<String>,
     minimise: Option<String>,
+    of: Option<Whose>,
+}
+
+/// Whose figure counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Whose {
+    /// That of the drawing's machine.
+    Drawing,
+    /// That of the worst machine within the tolerances.
+    Worst,
 }
 
 /// What is sought: the highest before-impact velocity, if nothing is said.
 pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Failure> {
     let (name, sense, says) = match (&goal.maximise, &goal.minimise) {
-        (None, None) => return Ok(Objective::default()),
+        (None, None) => (&VELOCITY.to_owned(), Sense::Least, "maximise"),
         (Some(name), None) => (name, Sense::Least, "maximise"),
         (None, Some(name)) => (name, Sense::Most, "minimise"),
         (Some(_), Some(_)) => {
@@ -50,7 +65,15 @@ pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Fai
             "objective.{says} = {name}: this machine has no {lacks}"
         )));
     }
-    Ok(Objective { figure, sense })
+    let scope = match goal.of {
+        Some(Whose::Worst) => Scope::Tolerances,
+        Some(Whose::Drawing) | None => Scope::Drawing,
+    };
+    Ok(Objective {
+        figure,
+        sense,
+        scope,
+    })
 }
 
 pub(super) fn known(place: &str, name: &str) -> Result<Figure, Failure> {

@@ -7,9 +7,11 @@ use softstop_dynamics::basin::ErosionProfile;
 use softstop_dynamics::run_up::RunUp;
 
 use crate::design::Design;
+use crate::design::constraint::Limit;
 use crate::design::front::Front;
 use crate::design::judge::Met;
-use crate::design::search::Resolution;
+use crate::design::requirement::Requirement;
+use crate::design::search::{Effort, Resolution};
 
 /// Places of the erosion profile beside the design's.
 pub(super) const PLACES: usize = 25;
@@ -51,6 +53,10 @@ impl Interrupted {
 pub struct Outcome {
     /// The best design.
     pub design: Design,
+    /// All that holds it back.
+    pub limits: Vec<Limit>,
+    /// The best design if nothing has a tolerance and nothing is tried.
+    pub relaxed: Option<Design>,
     /// Others nearly as good, far from it.
     pub rivals: Vec<Design>,
     /// What was required, and what the design has of it.
@@ -59,6 +65,8 @@ pub struct Outcome {
     pub evaluations: u64,
     /// How fine it was looked for, if trials were in the way.
     pub resolution: Option<Resolution>,
+    /// What the search took.
+    pub effort: Effort,
     /// Whether the run was asked to end.
     pub interrupted: Option<Interrupted>,
     /// The basin along the zone, for the report.
@@ -85,5 +93,15 @@ impl Outcome {
         interrupt::save();
         self.interrupted = Some(Interrupted::Report);
         Ok(None)
+    }
+
+    /// Takes note of the share of the machines within the tolerances that violate each requirement.
+    pub(super) fn note_violating(&mut self, shares: impl Iterator<Item = (Requirement, f64)>) {
+        for (requirement, share) in shares {
+            let mut met = self.met.iter_mut();
+            if let Some(met) = met.find(|it| it.requirement == requirement) {
+                met.violating = Some(share);
+            }
+        }
     }
 }

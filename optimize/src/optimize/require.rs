@@ -9,36 +9,73 @@ use toml::{Table, Value};
 use super::objective::{known, lacks};
 use super::toml_leaves::number;
 use crate::design::figure::{Figure, Sense};
-use crate::design::requirement::Requirement;
+use crate::design::requirement::{Requirement, Scope};
 
-/// `{ least = 10, most = 12 }`.
+/// `{ least = 10, most = 12, at = "drawing" }`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Bounds {
     least: Option<f64>,
     most: Option<f64>,
+    at: Option<Where>,
 }
 
-/// `[require]`, in SI units, and apart from it the least distance from both ends of the zone as a share of its width.
-pub(super) fn requirements(
-    machine: &Machine,
-    table: &Table,
-) -> Result<(Vec<Requirement>, Option<f64>), Failure> {
+/// Where a bound holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Where {
+    /// In the drawing's machine alone.
+    Drawing,
+    /// In all machines within the tolerances.
+    Tolerances,
+}
+
+/// What `[require]` says, in SI units.
+#[derive(Debug, Clone)]
+pub(super) struct Required {
+    /// Bounds of figures.
+    pub figures: Vec<Requirement>,
+    /// Least distance from both ends of the zone as a share of its width.
+    pub margin: Option<f64>,
+    /// How many times as wide as the tolerances the box is that must hold.
+    pub reserve: f64,
+}
+
+/// The key of the reserve.
+pub(super) const RESERVE: &str = "tolerance_reserve";
+
+/// Reads `[require]`.
+pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Required, Failure> {
+    let reserve = match table.get(RESERVE) {
+        None => 1.0,
+        Some(value) => {
+            let reserve = number(value).filter(|it| (1.0..=10.0).contains(it));
+            reserve.ok_or_else(|| {
+                Failure::usage(format!(
+                    "require.{RESERVE} = {value}: must be a number in [1, 10]"
+                ))
+            })?
+        }
+    };
     let one = |(name, value): (&String, &Value)| {
         let figure = known("require.", name)?;
         let wrong = |what: &str| Failure::usage(format!("require.{name} = {value}: {what}"));
         let what = match figure {
             Figure::RunUp => "must be true or false, or how many ways there must be",
-            _ => "must be a number, or { least = NUMBER, most = NUMBER }",
+            _ => "must be a number, or { least = NUMBER, most = NUMBER, at = \"drawing\" }",
         };
+        let mut scope = Scope::Tolerances;
         let (least, most) = match (value, figure.sense()) {
             (Value::Boolean(true), _) if figure == Figure::RunUp => (Some(1.0), None),
             (Value::Boolean(false), _) if figure == Figure::RunUp => (Some(0.0), None),
             (Value::Table(words), _) => {
                 let bounds: Bounds = words.clone().try_into().map_err(|_| wrong(what))?;
+                if bounds.at == Some(Where::Drawing) {
+                    scope = Scope::Drawing;
+                }
                 (bounds.least, bounds.most)
             }
-            (value, sense) => match (number(value), sense) {
+            (value, sense) => match (number(value).or_else(|| percent(figure, value)), sense) {
                 (Some(least), Sense::Least) => (Some(least), None),
                 (Some(most), Sense::Most) => (None, Some(most)),
                 (None, _) => return Err(wrong(what)),
@@ -59,9 +96,11 @@ pub(super) fn requirements(
             figure,
             least: least.map(si),
             most: most.map(si),
+            scope,
         })
     };
-    let all: Result<Vec<Requirement>, Failure> = table.iter().map(one).collect();
+    let figures = table.iter().filter(|(name, _)| *name != RESERVE);
+    let all: Result<Vec<Requirement>, Failure> = figures.map(one).collect();
     let mut all = all?;
     for requirement in &all {
         if let Some(lacks) = lacks(machine, requirement.figure) {
@@ -76,8 +115,20 @@ pub(super) fn requirements(
         Some(share) if share.most.is_some() => Err(Failure::usage(
             "require.margin: can be at least so much, not at most",
         )),
-        share => Ok((all, share.and_then(|it| it.least))),
+        share => Ok(Required {
+            figures: all,
+            margin: share.and_then(|it| it.least),
+            reserve,
+        }),
     }
+}
+
+/// A share as text, `"50 %"`.
+fn percent(figure: Figure, value: &Value) -> Option<f64> {
+    let is_share = matches!(figure, Figure::Certainty | Figure::Share);
+    let text = value.as_str().filter(|_| is_share)?;
+    let share: f64 = text.trim().strip_suffix('%')?.trim().parse().ok()?;
+    Some(share / 100.0)
 }
 
 /// Where bounds of a figure can lie.

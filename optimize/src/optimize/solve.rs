@@ -1,7 +1,6 @@
 //! From a task to what came of it.
 
 use anyhow::anyhow;
-use rayon::prelude::*;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::Keep;
@@ -11,12 +10,12 @@ use softstop_dynamics::run_up::RunUp;
 use super::outcome::{Interrupted, Outcome, PLACES};
 use super::progress::Best;
 use super::task::Job;
-use crate::design::figure::Figure;
-use crate::design::front::{Front, front};
-use crate::design::judge::Met;
-use crate::design::search::{self, Found, SearchError};
+use crate::design::judge::{Met, Within};
+use crate::design::search::SearchError;
+use crate::design::solution::{Beside, Solution};
 use crate::design::trial::{ANGLES, STARTS};
 use crate::design::{Design, Problem};
+use crate::robust::Worst;
 
 /// Searches, and looks at what was found; a search that is interrupted ends with its best design, if that is as asked.
 pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
@@ -25,21 +24,34 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         .windows()
         .saturating_mul(job.settings.evaluations);
     let best = Best::new(&job.problem, job.settings.evaluations, budget);
-    let outcome = search::search(&job.problem, job.settings, &best, Some(keep));
+    let beside = Beside {
+        relaxed: job.samples > 0 && job.problem.has_tolerances(),
+        fronts: job.report,
+    };
+    let outcome = Solution::of(&job.problem, job.settings, beside, (&best, Some(keep)));
     let evaluations = best.evaluations();
     drop(best);
     let mut interrupted = None;
-    let found = match outcome {
-        Ok(found) => found,
+    let solution = match outcome {
+        Ok(solution) => solution,
         Err(SearchError::Stopped(Some(found))) => {
             interrupt::save();
             interrupted = Some(Interrupted::Search);
-            *found
+            Solution {
+                found: *found,
+                relaxed: None,
+                fronts: Vec::new(),
+            }
         }
         Err(SearchError::Stopped(None)) => return Err(Failure::Interrupted),
         Err(SearchError::OverBudget) => return Err(anyhow!(job.budget.refusal()).into()),
         Err(error) => return Err(Failure::Run(error.into())),
     };
+    let Solution {
+        found,
+        relaxed,
+        fronts,
+    } = solution;
     let mut met = met(&job.problem, &found.design);
     if interrupt::requested() {
         interrupt::save();
@@ -55,15 +67,12 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     }
     let design = &found.design;
     let watcher = &interrupt::watch;
-    let ((erosion, run_up), fronts) = match job.report && interrupted.is_none() {
-        false => ((None, None), Vec::new()),
-        true => rayon::join(
-            || {
-                let up = || RunUp::of(&design.orbit, ANGLES, watcher);
-                rayon::join(|| erosion(design), || up().ok())
-            },
-            || fronts(&job.problem, &found),
-        ),
+    let (erosion, run_up) = match job.report && interrupted.is_none() {
+        false => (None, None),
+        true => {
+            let up = || RunUp::of(&design.orbit, ANGLES, watcher);
+            rayon::join(|| erosion(design), || up().ok())
+        }
     };
     Ok(Outcome {
         met,
@@ -71,9 +80,12 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         erosion,
         run_up,
         fronts,
+        relaxed,
+        limits: found.limits,
         rivals: found.rivals,
         evaluations,
         resolution: found.resolution,
+        effort: found.effort,
         interrupted,
     })
 }
@@ -90,30 +102,25 @@ fn erosion(design: &Design) -> Option<ErosionProfile> {
     Some(profile)
 }
 
-/// What a design has of all that is required.
+/// What a design has of all that is required, in its own machine and in the worst within the tolerances.
 fn met(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
     let motion = design.judged().map_err(anyhow::Error::from)?;
     let mut met = Vec::from_iter(problem.share(&motion));
-    met.extend(problem.met(&motion));
-    met.extend(problem.tried(&design.orbit).map_err(anyhow::Error::from)?);
+    let worst = problem.worst_of_required(design);
+    met.extend(problem.met(&motion).into_iter().map(|met| {
+        let own = worst
+            .iter()
+            .filter(|(figure, ..)| *figure == met.requirement.figure);
+        let own = own.map(|(.., worst)| worst);
+        let margin = |it: &&Worst| met.requirement.margin(it.value);
+        let nearest = own.min_by(|a, b| margin(a).total_cmp(&margin(b)));
+        let is_asked = met.requirement.is_of_each_motion();
+        let within = nearest.filter(|_| is_asked).map(|it| Within {
+            worst: it.value,
+            at: it.at.clone(),
+        });
+        Met { within, ..met }
+    }));
+    met.extend(problem.tried(design).map_err(anyhow::Error::from)?);
     Ok(met)
-}
-
-/// What is traded for what is sought.
-const TRADED: [Figure; 5] = [
-    Figure::Share,
-    Figure::Certainty,
-    Figure::StopForce,
-    Figure::DriveForce,
-    Figure::DrivePower,
-];
-
-/// What more of one good costs of another, where it costs something.
-fn fronts(problem: &Problem, found: &Found) -> Vec<Front> {
-    let traded = TRADED.par_iter();
-    let traded = traded.filter(|figure| **figure != problem.objective.figure);
-    let found = traded.filter_map(|figure| front(problem, (&found.unit, &found.design), *figure));
-    found
-        .filter(|it| it.points.len() > 2 || it.left_out > 0)
-        .collect()
 }

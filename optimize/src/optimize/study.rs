@@ -3,15 +3,18 @@
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
+use softstop_dynamics::Orbit;
 use softstop_dynamics::orbit::OrbitError;
 
+use super::outcome::Outcome;
 use super::task::Job;
 use crate::design::Design;
+use crate::design::figure::{Figure, Sense};
 use crate::design::problem::Problem;
-use crate::design::search::{self, Unwatched};
+use crate::design::requirement::Requirement;
 use crate::robust::{
-    Effort, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Verdict, Worst, nearest,
-    scatter, sensitivities, verify, worst,
+    Effort, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Tolerances, Verdict, Worst,
+    nearest, scatter, sensitivities, verify, worst,
 };
 
 /// A design's machines within its tolerances.
@@ -21,6 +24,8 @@ pub struct Study {
     pub tolerances: Vec<Tolerance>,
     /// Before-impact velocity of the design itself in m/s.
     pub nominal: f64,
+    /// What is required of each of its machines, in the order of the verdict.
+    pub required: Vec<Requirement>,
     /// What the machines have shown.
     pub verdict: Verdict,
     /// The machine that strikes the least.
@@ -52,6 +57,14 @@ pub struct Without {
 }
 
 impl Study {
+    /// The share of the machines that violate each requirement.
+    pub(super) fn violating(&self) -> impl Iterator<Item = (Requirement, f64)> {
+        let machines = self.verdict.machines as f64;
+        let shares = self.verdict.violating.iter();
+        let shares = shares.map(move |count| *count as f64 / machines);
+        self.required.iter().copied().zip(shares)
+    }
+
     /// The slowest impact in m/s that was found between the bounds: by steps down from the design, or seen.
     pub fn slowest(&self) -> f64 {
         let seen = self.verdict.slowest.as_ref().map(|(_, it)| it.velocity);
@@ -65,9 +78,11 @@ const FARTHEST: f64 = 3.0;
 /// Machines that are looked at about the design without tolerances.
 const FEWER: usize = 1 << 11;
 
-/// Looks at machines all over the tolerances; none if everything is exact.
-pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure> {
-    let spread = job.problem.spread(&design.machine);
+/// Looks at machines all over the tolerances, without reserve; none if everything is exact.
+pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failure> {
+    let design = &outcome.design;
+    let problem = job.problem.as_built();
+    let spread = problem.spread(&design.machine);
     let Some(spread) = spread.filter(|_| job.samples > 0) else {
         return Ok(None);
     };
@@ -81,7 +96,10 @@ pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure
         machines: job.samples,
         ..Settings::default()
     };
-    let verdict = verify(&spread, nominal, settings, &progress.watcher()).map_err(stopped)?;
+    let required = problem.requirements.iter().copied();
+    let required: Vec<Requirement> = required.filter(Requirement::is_of_each_motion).collect();
+    let verdict = verify(&spread, nominal, (settings, &required), &progress.watcher());
+    let verdict = verdict.map_err(stopped)?;
     drop(progress);
     let distances = |norm| nearest(&spread, nominal, norm, FARTHEST, watcher).map_err(stopped);
     let sensitivities =
@@ -89,12 +107,19 @@ pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure
     let study = Study {
         nominal: design.before_impact_velocity(),
         verdict,
-        worst: worst(&spread, nominal, watcher).map_err(stopped)?,
+        worst: slowest(&spread, nominal).map_err(stopped)?,
+        required,
         nearest_box: distances(Norm::Box)?,
         nearest_ball: distances(Norm::Ball)?,
         sensitivities,
         scatter: scatter(&spread, nominal, Effort::default(), watcher).map_err(stopped)?,
-        without: without(job).map_err(stopped)?,
+        without: outcome
+            .relaxed
+            .as_ref()
+            .map(|it| without(&problem, it))
+            .transpose()
+            .map_err(stopped)?
+            .flatten(),
         tolerances: spread.all().to_vec(),
     };
     match interrupt::requested() {
@@ -103,35 +128,33 @@ pub(super) fn study(job: &Job, design: &Design) -> Result<Option<Study>, Failure
     }
 }
 
-/// The same task without tolerances and trials; none if it has no solution.
-fn without(job: &Job) -> Result<Option<Without>, OrbitError> {
-    let mut exact = Problem {
-        tolerances: Vec::new(),
-        ..job.problem.clone()
-    };
-    exact.requirements.retain(|it| !it.figure.is_trial());
-    let Ok(found) = search::search(&exact, job.settings, &Unwatched, None) else {
-        return Ok(None);
-    };
-    let design = found.design;
-    let Some(spread) = job.problem.spread(&design.machine) else {
+/// The machine that strikes the least.
+fn slowest(spread: &Tolerances, nominal: &Orbit) -> Result<Worst, OrbitError> {
+    let figures = [(Figure::Velocity, Sense::Least)];
+    let mut found = worst(spread, nominal, &figures, &interrupt::watch)?;
+    found.pop().ok_or(OrbitError::NotIsolated)
+}
+
+/// What becomes of the best design without tolerances with them; none if it has no box of them.
+fn without(problem: &Problem, design: &Design) -> Result<Option<Without>, OrbitError> {
+    let Some(spread) = problem.spread(&design.machine) else {
         return Ok(None);
     };
     let settings = Settings {
         machines: FEWER,
         ..Settings::default()
     };
-    let verdict = verify(&spread, &design.orbit, settings, &interrupt::watch)?;
+    let verdict = verify(&spread, &design.orbit, (settings, &[]), &interrupt::watch)?;
     // Steps down end wherever the motion is lost.
     let seen = verdict.slowest.as_ref().map(|(_, it)| it.velocity);
     let slowest = match verdict.lost {
-        0 => worst(&spread, &design.orbit, &interrupt::watch)?.value,
+        0 => slowest(&spread, &design.orbit)?.value,
         _ => design.before_impact_velocity(),
     };
     Ok(Some(Without {
         machines: verdict.machines,
         lost: verdict.lost,
         slowest: seen.map_or(slowest, |seen| seen.min(slowest)),
-        design,
+        design: design.clone(),
     }))
 }

@@ -14,7 +14,7 @@ use softstop_console::range::require;
 use softstop_console::scene_file;
 
 use super::objective::objective;
-use super::require::requirements;
+use super::require::{Required, requirements};
 use super::task_spec::{Search, TaskSpec};
 use super::title::{Source, Title};
 use super::tolerance::tolerances;
@@ -23,6 +23,7 @@ use super::{OptimizeArguments, older};
 use crate::design::Problem;
 use crate::design::problem::Tolerance;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
+use crate::design::space::Axis;
 
 const MARGIN: f64 = 0.25;
 /// Zones to compute at most, unless that is said.
@@ -56,7 +57,11 @@ impl Job {
         let machine = machine(arguments, &task, place.clone())?;
         let sources = Source::all(arguments, place.as_deref())?;
         let tolerances = tolerances(&machine, &task.tolerance)?;
-        let (requirements, share) = requirements(&machine, &task.require)?;
+        let Required {
+            figures: requirements,
+            margin: share,
+            reserve,
+        } = requirements(&machine, &task.require)?;
         let objective = objective(&machine, &task.objective)?;
         let says_where = tolerances.iter().any(|it| !it.is_exact())
             || requirements.iter().any(|it| it.figure.is_margin());
@@ -76,7 +81,14 @@ impl Job {
         for tolerance in &tolerances {
             let axis = axes.iter().find(|it| it.parameter == tolerance.parameter);
             let highest = axis.map(|it| it.range.high);
-            leaves_machines(&machine, tolerance, highest)?;
+            let reserved = Tolerance {
+                width: tolerance.width.times(reserve),
+                ..*tolerance
+            };
+            leaves_machines(&machine, &reserved, highest)?;
+        }
+        for axis in &axes {
+            has_effect(&machine, axis)?;
         }
         let Search { seed, evaluations } = task.search;
         if arguments.seed.or(seed).is_some() {
@@ -102,6 +114,7 @@ impl Job {
                 frequency,
                 links,
                 tolerances,
+                reserve,
                 objective,
                 requirements,
             },
@@ -172,12 +185,29 @@ fn leaves_machines(
         return Ok(());
     };
     let width = tolerance.width.around(value);
+    if value > 0.0 && width >= value {
+        return Err(Failure::usage(format!(
+            "tolerance.{name} = {width}: is as large as the value, {value} at most, or larger"
+        )));
+    }
     let least = parameter.about().allowed.check(name, value - width);
     least.map(|_| ()).map_err(|error| {
         Failure::usage(format!(
             "tolerance.{name} = {width}: is too wide about {value}: {error}"
         ))
     })
+}
+
+/// Refuses to search a parameter without effect.
+fn has_effect(machine: &Machine, axis: &Axis) -> Result<(), Failure> {
+    let is_searched = !axis.range.is_held();
+    match axis.parameter {
+        Parameter::Phase if is_searched => Err(Failure::usage(format!(
+            "vary.{}: has no effect: it shifts the drive in time alone",
+            machine.name(axis.parameter)
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The task of `--config`, or the one that stands beside the machine in its file.

@@ -14,6 +14,7 @@ use softstop_console::schema;
 use toml::Table;
 
 use super::objective::Goal;
+use super::require::RESERVE;
 use super::title::Title;
 use crate::design::figure::Figure;
 use crate::design::search::LEAST_EVALUATIONS;
@@ -74,9 +75,13 @@ task! {
     /// What is sought: `maximise` or `minimise` a figure.
     objective: Goal, json!({
         "type": "object",
-        "properties": { "maximise": { "type": "string" }, "minimise": { "type": "string" } },
+        "properties": {
+            "maximise": { "type": "string" },
+            "minimise": { "type": "string" },
+            "of": { "enum": ["drawing", "worst"], "description": "whose figure counts: the drawing's, or that of the worst machine within the tolerances" }
+        },
         "additionalProperties": false,
-        "maxProperties": 1
+        "not": { "required": ["maximise", "minimise"] }
     });
     /// What must hold: a number, or `{ least = 10, most = 12 }`, for each figure.
     require: Table, requirements_schema();
@@ -133,9 +138,9 @@ fn requirements_schema() -> serde_json::Value {
         let number = json!({ "type": "number" });
         let bounds = json!({
             "type": "object",
-            "properties": { "least": number, "most": number },
+            "properties": { "least": number, "most": number, "at": { "enum": ["tolerances", "drawing"] } },
             "additionalProperties": false,
-            "minProperties": 1
+            "anyOf": [{ "required": ["least"] }, { "required": ["most"] }]
         });
         let value = match figure {
             Figure::RunUp => {
@@ -145,7 +150,14 @@ fn requirements_schema() -> serde_json::Value {
         };
         (figure.name().to_owned(), value)
     };
-    let figures: serde_json::Map<_, _> = Figure::ALL.iter().map(bound).collect();
+    let mut figures: serde_json::Map<_, _> = Figure::ALL.iter().map(bound).collect();
+    figures.insert(
+        RESERVE.to_owned(),
+        json!({
+            "type": "number", "minimum": 1, "maximum": 10,
+            "description": "how many times as wide as the tolerances the box is that must hold"
+        }),
+    );
     json!({ "type": "object", "properties": figures, "additionalProperties": false })
 }
 

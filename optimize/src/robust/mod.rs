@@ -1,14 +1,18 @@
 //! Robust design: what tolerances do to a z = 1 motion.
 //!
 //! A machine is made with [`Tolerance`]s about its design; together they are a box about it ([`Tolerances`]), in which
-//! coordinates run from -1 to 1. [`nearest`] finds the nearest machine that loses the motion, [`worst`] the one that strikes
-//! the least, and [`verify`] looks at a million others; [`sensitivities`] and [`scatter`] tell whose tolerance it is.
+//! coordinates run from -1 to 1. [`nearest`] finds the nearest machine that loses the motion, [`worst`] the one with
+//! the worst value of a figure, and [`verify`] looks at a million others; [`sensitivities`] and [`scatter`] tell whose
+//! tolerance it is.
 
 mod corners;
 mod indices;
 mod meeting;
 mod nearest;
+mod neighbours;
+mod rates;
 mod scatter;
+mod screen;
 mod verify;
 mod worst;
 
@@ -22,6 +26,8 @@ pub use worst::{Worst, worst};
 pub(crate) use corners::corners;
 pub(crate) use meeting::is_loss;
 pub(crate) use nearest::first_losses;
+pub(crate) use neighbours::{Neighbours, value_of};
+pub(crate) use rates::rates;
 
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
 use softstop_dynamics::spread::Spread;

@@ -1,4 +1,5 @@
-//! Machines of a box, one by one: how many lose the z = 1 motion, and how hard the others strike.
+//! Machines of a box, one by one: how many lose the z = 1 motion, how many are not as required, and how hard the others
+//! strike.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -9,6 +10,9 @@ use softstop_dynamics::points::{BLOCK, blocks, place};
 use softstop_dynamics::spread::{Fate, Guide, Model, Settled, Spread};
 use softstop_dynamics::watch::Watcher;
 use softstop_dynamics::zone::Loss;
+
+use super::screen::Screen;
+use crate::design::requirement::Requirement;
 
 /// Machines between two looks at how many are lost, and those that one thread looks at in a row.
 const GROUP: usize = 1 << 14;
@@ -67,6 +71,8 @@ pub struct Verdict {
     pub lost: usize,
     /// The first of them.
     pub examples: Vec<LostMachine>,
+    /// Machines that violate each requirement, those that are lost among them.
+    pub violating: Vec<usize>,
     /// Where the slowest impact was, if all are not lost.
     pub slowest: Option<(Vec<f64>, Settled)>,
     /// Where the largest multiplier was.
@@ -132,15 +138,15 @@ impl Verdict {
     }
 }
 
-/// Looks at machines all over a box, about the z = 1 motion of its nominal machine. The watcher is told how many are
-/// done; the verdict does not depend on the number of threads.
+/// Looks at machines all over a box, about the z = 1 motion of its nominal machine, and whether each is as required, by what
+/// its motion tells by itself. The watcher is told how many are done; the verdict does not depend on the number of threads.
 ///
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from.
 pub fn verify(
     spread: &dyn Spread,
     nominal: &Orbit,
-    settings: Settings,
+    (settings, required): (Settings, &[Requirement]),
     watcher: Watcher<'_>,
 ) -> Result<Verdict, OrbitError> {
     let dimensions = spread.dimensions();
@@ -149,10 +155,12 @@ pub fn verify(
     let known = first..first + Model::wanted(dimensions);
     let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
     let guide = Guide::new(spread, nominal, &known)?;
+    let screen = Screen::new(spread, &guide, (&known, required));
     let mut verdict = Verdict {
         machines: 0,
         lost: 0,
         examples: Vec::new(),
+        violating: vec![0; required.len()],
         slowest: None,
         least_stable: None,
         velocities: Vec::new(),
@@ -163,8 +171,13 @@ pub fn verify(
         let machines = verdict.machines..(verdict.machines + GROUP).min(settings.machines);
         let rows = blocks(machines.start as u64..machines.end as u64, ROW);
         let fates = rows.map(|row| {
-            let fate = |index| guide.fate(&place(index as usize, dimensions));
-            let fates: Vec<Fate> = row.clone().map(fate).collect();
+            let fate = |index| {
+                let at = place(index as usize, dimensions);
+                let fate = guide.fate(&at);
+                let violated = screen.violated(&at, &fate);
+                (fate, violated)
+            };
+            let fates: Vec<_> = row.clone().map(fate).collect();
             let looked = row.end - row.start;
             let done = done.fetch_add(looked, Ordering::Relaxed) + looked;
             let go_on = watcher(done, settings.machines as u64);
@@ -173,8 +186,11 @@ pub fn verify(
         let Some(fates) = fates.collect::<Option<Vec<_>>>() else {
             break;
         };
-        for (index, fate) in machines.zip(fates.into_iter().flatten()) {
+        for (index, (fate, violated)) in machines.zip(fates.into_iter().flatten()) {
             verdict.take(index, dimensions, fate);
+            for (count, is_violated) in verdict.violating.iter_mut().zip(violated) {
+                *count += usize::from(is_violated);
+            }
         }
     }
     verdict.velocities = verdict.sequences.concat();

@@ -1,25 +1,29 @@
 //! The worst machine between the bounds.
 
 use rayon::prelude::*;
-use softstop_dynamics::Orbit;
+use softstop_dynamics::figure::{Figure, Sense};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::spread::{Spread, along, velocity_slopes};
+use softstop_dynamics::slopes;
+use softstop_dynamics::spread::{Spread, in_coordinates, varied};
 use softstop_dynamics::watch::Watcher;
+use softstop_dynamics::{Orbit, Stroke};
 
 use super::corners::corners;
+use super::neighbours::{Neighbours, value_of};
+use super::rates::rates;
 
 /// Steps towards the worst machine, and halvings of one.
 const STEPS: usize = 60;
 const HALVINGS: usize = 40;
-/// Share of a velocity that is nothing to gain.
+/// Share of a value that is nothing to gain.
 const GAIN: f64 = 1e-10;
-/// Change of a coordinate over which a velocity without exact derivatives is differenced.
+/// Change of a coordinate over which a figure without exact derivatives is differenced.
 const DIFFERENCE: f64 = 1e-3;
 /// Corners that are looked at, at most, and from how many of the worst of them steps are taken.
 const CORNERS: usize = 16;
 const STARTS: usize = 3;
 
-/// The machine with the slowest impact.
+/// The machine with the worst value of a figure.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Worst {
@@ -27,111 +31,146 @@ pub struct Worst {
     pub at: Vec<f64>,
     /// Its motion.
     pub orbit: Orbit,
-    /// Its before-impact velocity in m/s.
+    /// Its value of the figure, in SI units.
     pub value: f64,
     /// d(value)/d(coordinate) there; zeros at a fold, where it has none.
     pub slopes: Vec<f64>,
 }
 
-/// The slowest impact between the bounds: by steps down the velocity's gradient that end at the bounds, from the nominal
-/// machine and from the slowest corners, until no coordinate at its other bound is slower. Where machines between the
-/// bounds lose the motion, it is that of the machines on this side of the loss.
+/// The worst value between the bounds of each figure that a motion tells by itself, the least of one whose good side is
+/// [`Sense::Least`], else the largest: by steps along the figure's gradient that end at the bounds, from the nominal machine
+/// and from the worst corners, until no coordinate at its other bound is worse. Where machines between the bounds lose the
+/// motion, it is that of the machines on this side of the loss.
 ///
 /// # Errors
 /// [`OrbitError::Stopped`]; [`OrbitError`] if the nominal motion is not one to start from.
 pub fn worst(
     spread: &dyn Spread,
     nominal: &Orbit,
+    figures: &[(Figure, Sense)],
     watcher: Watcher<'_>,
-) -> Result<Worst, OrbitError> {
-    let dimensions = spread.dimensions();
-    let search = Search {
-        spread,
-        nominal,
-        watcher,
-    };
-    let mut best = search.descend(&vec![0.0; dimensions], nominal.clone())?;
-    let corners = corners(dimensions, CORNERS).into_par_iter();
-    let tried = corners.filter_map(|at| Some((search.motion(&at)?, at)));
-    let mut starts: Vec<(Orbit, Vec<f64>)> = tried.collect();
-    let velocity = |start: &(Orbit, _)| start.0.before_impact_velocity();
-    starts.sort_by(|a, b| velocity(a).total_cmp(&velocity(b)));
-    for (orbit, at) in starts.into_iter().take(STARTS) {
-        let found = search.descend(&at, orbit)?;
-        if found.value < best.value {
-            best = found;
-        }
-    }
-    let flipped = |best: &Worst| {
-        (0..2 * dimensions).find_map(|index| {
-            let mut at = best.at.clone();
-            at[index / 2] = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
-            let orbit = search.motion(&at)?;
-            let is_slower = orbit.before_impact_velocity() < best.value * (1.0 - GAIN);
-            is_slower.then_some((at, orbit))
-        })
-    };
-    while let Some((at, orbit)) = flipped(&best) {
-        best = search.descend(&at, orbit)?;
-    }
-    Ok(best)
+) -> Result<Vec<Worst>, OrbitError> {
+    let neighbours = Neighbours::new(spread, nominal);
+    let corners = corners(spread.dimensions(), CORNERS).into_par_iter();
+    let corners = corners.filter_map(|at| Some((neighbours.motion(&at)?, at)));
+    let corners: Vec<(Orbit, Vec<f64>)> = corners.collect();
+    let each = figures.par_iter().map(|(figure, sense)| {
+        let search = Search {
+            neighbours: &neighbours,
+            figure: *figure,
+            // What is worst is least.
+            sign: if *sense == Sense::Least { 1.0 } else { -1.0 },
+            watcher,
+        };
+        search.run(&corners)
+    });
+    each.collect()
 }
 
+/// The derivatives of a figure of a motion by the coordinates; none if it has no exact ones.
+fn slopes_of(figure: Figure, spread: &dyn Spread, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
+    let slopes = slopes::of(orbit, &varied(spread, at)).ok()?;
+    let by = rates(figure, &slopes, (orbit, &Stroke::of(orbit).ok()?))?;
+    Some(in_coordinates(spread, at, &slopes.parameters, &by))
+}
+
+/// The search for the machine with the least value of a figure, times a sign.
 struct Search<'a> {
-    spread: &'a dyn Spread,
-    nominal: &'a Orbit,
+    neighbours: &'a Neighbours<'a>,
+    figure: Figure,
+    sign: f64,
     watcher: Watcher<'a>,
 }
 
 impl Search<'_> {
-    /// The motion at some coordinates that goes on from the nominal one.
-    fn motion(&self, at: &[f64]) -> Option<Orbit> {
-        let reached = along(self.spread, self.nominal, at, 1.0).ok()?;
-        let orbit = Orbit::near(&self.spread.scene(at), reached.point.state());
-        orbit.ok().filter(|_| reached.loss.is_none())
+    fn run(&self, corners: &[(Orbit, Vec<f64>)]) -> Result<Worst, OrbitError> {
+        let Neighbours {
+            spread, nominal, ..
+        } = self.neighbours;
+        let dimensions = spread.dimensions();
+        let nominal = self.point(vec![0.0; dimensions], (*nominal).clone());
+        let mut best = self.descend(nominal.ok_or(OrbitError::NotIsolated)?)?;
+        let tried = corners
+            .iter()
+            .filter_map(|(orbit, at)| Some((self.signed(orbit)?, orbit, at)));
+        let mut starts: Vec<(f64, &Orbit, &Vec<f64>)> = tried.collect();
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, orbit, at) in starts.into_iter().take(STARTS) {
+            let Some(start) = self.point(at.clone(), orbit.clone()) else {
+                continue;
+            };
+            best = self.worse(best, self.descend(start)?);
+        }
+        let flipped = |best: &Worst| {
+            (0..2 * dimensions).find_map(|index| {
+                let mut at = best.at.clone();
+                at[index / 2] = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
+                let orbit = self.neighbours.motion(&at)?;
+                let gain = self.sign * best.value - self.signed(&orbit)?;
+                let is_worse = gain > GAIN * best.value.abs();
+                is_worse.then(|| self.point(at, orbit)).flatten()
+            })
+        };
+        while let Some(start) = flipped(&best) {
+            best = self.descend(start)?;
+        }
+        Ok(best)
     }
 
-    /// The derivatives of a motion's velocity: exact, or by differences where it has no exact ones.
-    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
-        let velocity = |index: usize, change: f64| {
-            let mut at = at.to_vec();
-            at[index] += change;
-            self.motion(&at).map(|it| it.before_impact_velocity())
-        };
-        let slope = |index| {
-            let (below, above) = (velocity(index, -DIFFERENCE)?, velocity(index, DIFFERENCE)?);
-            Some((above - below) / (2.0 * DIFFERENCE))
-        };
-        let exact = velocity_slopes(self.spread, at, orbit).ok();
-        exact.or_else(|| (0..at.len()).map(slope).collect())
-    }
-
-    /// A machine and its motion; without derivatives at a fold, where no step leads on.
-    fn point(&self, at: Vec<f64>, orbit: Orbit) -> Worst {
-        let slopes = self.slopes(&at, &orbit);
-        Worst {
-            slopes: slopes.unwrap_or_else(|| vec![0.0; at.len()]),
-            value: orbit.before_impact_velocity(),
-            at,
-            orbit,
+    fn worse(&self, one: Worst, other: Worst) -> Worst {
+        match self.sign * other.value < self.sign * one.value {
+            true => other,
+            false => one,
         }
     }
 
+    /// What is least where a motion is worst.
+    fn signed(&self, orbit: &Orbit) -> Option<f64> {
+        value_of(self.figure, orbit).map(|value| self.sign * value)
+    }
+
+    /// The derivatives of a motion's figure: exact, or by differences where it has no exact ones.
+    fn slopes(&self, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
+        let value = |index: usize, change: f64| {
+            let mut at = at.to_vec();
+            at[index] += change;
+            self.neighbours.value(&at, self.figure)
+        };
+        let slope = |index| {
+            let (below, above) = (value(index, -DIFFERENCE)?, value(index, DIFFERENCE)?);
+            Some((above - below) / (2.0 * DIFFERENCE))
+        };
+        let exact = slopes_of(self.figure, self.neighbours.spread, at, orbit);
+        exact.or_else(|| (0..at.len()).map(slope).collect())
+    }
+
+    /// A machine and its motion, which may have no value; without derivatives at a fold, where no step leads on.
+    fn point(&self, at: Vec<f64>, orbit: Orbit) -> Option<Worst> {
+        let slopes = self.slopes(&at, &orbit);
+        Some(Worst {
+            slopes: slopes.unwrap_or_else(|| vec![0.0; at.len()]),
+            value: value_of(self.figure, &orbit)?,
+            at,
+            orbit,
+        })
+    }
+
     /// Steps down from a machine.
-    fn descend(&self, at: &[f64], orbit: Orbit) -> Result<Worst, OrbitError> {
-        let mut here = self.point(at.to_vec(), orbit);
+    fn descend(&self, start: Worst) -> Result<Worst, OrbitError> {
+        let mut here = start;
         for _ in 0..STEPS {
-            let Some((at, orbit)) = self.step(&here)? else {
+            let Some(next) = self.step(&here)? else {
                 break;
             };
-            here = self.point(at, orbit);
+            here = next;
         }
         Ok(here)
     }
 
-    /// A machine down the gradient with a slower impact, if there is one.
-    fn step(&self, here: &Worst) -> Result<Option<(Vec<f64>, Orbit)>, OrbitError> {
-        let sizes = here.slopes.iter().map(|slope| slope.abs());
+    /// A worse machine down the gradient, if there is one.
+    fn step(&self, here: &Worst) -> Result<Option<Worst>, OrbitError> {
+        let slopes: Vec<f64> = here.slopes.iter().map(|slope| self.sign * slope).collect();
+        let sizes = slopes.iter().map(|slope| slope.abs());
         let flattest = sizes.filter(|slope| *slope > 0.0).min_by(f64::total_cmp);
         let Some(flattest) = flattest else {
             return Ok(None);
@@ -142,18 +181,22 @@ impl Search<'_> {
             if (self.watcher)(0, 0).is_break() {
                 return Err(OrbitError::Stopped);
             }
-            let down = here.at.iter().zip(&here.slopes);
+            let down = here.at.iter().zip(&slopes);
             let at: Vec<f64> = down
                 .map(|(at, slope)| (at - length * slope).clamp(-1.0, 1.0))
                 .collect();
-            let ways = at.iter().zip(&here.at).zip(&here.slopes);
+            let ways = at.iter().zip(&here.at).zip(&slopes);
             let gain: f64 = ways.map(|((to, from), slope)| slope * (from - to)).sum();
             if gain <= GAIN * here.value.abs() {
                 break;
             }
-            let tried = self.motion(&at);
-            if let Some(orbit) = tried.filter(|it| it.before_impact_velocity() < here.value) {
-                return Ok(Some((at, orbit)));
+            let tried = self.neighbours.motion(&at);
+            let is_worse = |orbit: &Orbit| {
+                let value = self.signed(orbit);
+                value.is_some_and(|value| value < self.sign * here.value)
+            };
+            if let Some(orbit) = tried.filter(is_worse) {
+                return Ok(self.point(at, orbit));
             }
             length *= 0.5;
         }
@@ -168,8 +211,9 @@ pub(super) fn nominal_slopes(
     watcher: Watcher<'_>,
 ) -> Result<Vec<f64>, OrbitError> {
     let search = Search {
-        spread,
-        nominal,
+        neighbours: &Neighbours::new(spread, nominal),
+        figure: Figure::Velocity,
+        sign: 1.0,
         watcher,
     };
     let slopes = search.slopes(&vec![0.0; spread.dimensions()], nominal);

@@ -167,6 +167,8 @@ fn conflicts_are_named_with_how_much_is_missing() -> Outcome {
             "optimize",
             file.to_str().ok_or("path")?,
             "--no-report",
+            "--budget",
+            "20",
             "--output",
             output.to_str().ok_or("path")?,
         ];

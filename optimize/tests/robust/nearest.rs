@@ -86,7 +86,7 @@ fn no_machine_within_is_lost_and_some_are_just_outside() -> Outcome {
             let least = lost.next();
             let factor = least.map_or(FARTHEST, |least| least.distance);
             let within = Scaled(&tolerances, 0.9999 * factor);
-            let verdict = verify(&within, &nominal, few(4096), &unwatched)?;
+            let verdict = verify(&within, &nominal, (few(4096), &[]), &unwatched)?;
             assert_eq!(
                 verdict.lost, 0,
                 "{:?} {percent:?} {found:?} {:?}",
@@ -98,7 +98,7 @@ fn no_machine_within_is_lost_and_some_are_just_outside() -> Outcome {
             assert_eq!(end.loss.map(Manifold::Motion), Some(least.manifold.clone()));
             if percent.len() == 2 {
                 let outside = Scaled(&tolerances, 1.02 * factor);
-                let verdict = verify(&outside, &nominal, few(1 << 15), &unwatched)?;
+                let verdict = verify(&outside, &nominal, (few(1 << 15), &[]), &unwatched)?;
                 assert!(verdict.lost > 0, "{least:?}");
             }
         }

@@ -15,7 +15,7 @@ mod ray;
 pub use guide::{Fate, Guide};
 pub use look::Settled;
 pub use model::Model;
-pub use normal::{critical_normal, free_normal, velocity_slopes};
+pub use normal::{critical_normal, free_normal, in_coordinates, varied};
 pub use ray::{Reached, along};
 
 use std::fmt::Debug;

@@ -1,9 +1,9 @@
-//! Exact derivatives by the coordinates of a spread: normals of borders, slopes of a motion.
+//! Exact derivatives by the coordinates of a spread: normals of borders, and the chain rule for all else.
 
 use super::Spread;
 use crate::continuation::{BranchPoint, Test};
-use crate::orbit::{Orbit, OrbitError};
-use crate::slopes::{self, Border};
+use crate::orbit::OrbitError;
+use crate::slopes::Border;
 use crate::zone::ZoneError;
 use softstop::{Parameter, Scene};
 
@@ -46,24 +46,6 @@ pub fn critical_normal(
     ))
 }
 
-/// d(before-impact velocity)/d(coordinate) in m/s of the motion at some coordinates.
-///
-/// # Errors
-/// [`OrbitError`] as of [`slopes::of`](crate::slopes::of); [`OrbitError::OtherRegime`] for a motion without impacts.
-pub fn velocity_slopes(
-    spread: &dyn Spread,
-    at: &[f64],
-    orbit: &Orbit,
-) -> Result<Vec<f64>, OrbitError> {
-    let slopes = slopes::of(orbit, &varied(spread, at))?;
-    let strike = slopes.impacts.first();
-    let by = &strike
-        .ok_or(OrbitError::OtherRegime { impacts: 0 })?
-        .velocity
-        .by;
-    Ok(in_coordinates(spread, at, &slopes.parameters, by))
-}
-
 /// The machines on both sides of one along a coordinate.
 fn beside(spread: &dyn Spread, at: &[f64], index: usize) -> [Scene; 2] {
     [-CHANGE, CHANGE].map(|change| {
@@ -79,8 +61,8 @@ fn rate([below, above]: &[Scene; 2], parameter: Parameter) -> f64 {
     values.map_or(0.0, |(below, above)| (above - below) / (2.0 * CHANGE))
 }
 
-/// The parameters that change with the coordinates.
-fn varied(spread: &dyn Spread, at: &[f64]) -> Vec<Parameter> {
+/// The parameters that change with the coordinates, in the order of [`Parameter::ALL`].
+pub fn varied(spread: &dyn Spread, at: &[f64]) -> Vec<Parameter> {
     let pairs: Vec<_> = (0..at.len())
         .map(|index| beside(spread, at, index))
         .collect();
@@ -88,8 +70,8 @@ fn varied(spread: &dyn Spread, at: &[f64]) -> Vec<Parameter> {
     Parameter::ALL.into_iter().filter(changes).collect()
 }
 
-/// Derivatives by parameters as such by coordinates.
-fn in_coordinates(
+/// Derivatives by parameters as derivatives by the coordinates, at some coordinates.
+pub fn in_coordinates(
     spread: &dyn Spread,
     at: &[f64],
     parameters: &[Parameter],

@@ -3,18 +3,21 @@
 use std::f64::consts::TAU;
 
 use softstop::Parameter;
+use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes::Slopes;
-
-use super::figure::Figure;
-use super::judge::Judged;
+use softstop_dynamics::{Orbit, Stroke};
 
 /// Distance, relative, within which two figures are the same one.
 const SAME: f64 = 1e-9;
 
 /// The derivatives of a figure of a motion by the parameters of its slopes; none if it is not among those that have exact
 /// ones.
-pub(super) fn rates(figure: Figure, slopes: &Slopes, motion: &Judged<'_>) -> Option<Vec<f64>> {
-    let scene = &motion.orbit.scene;
+pub(crate) fn rates(
+    figure: Figure,
+    slopes: &Slopes,
+    (orbit, stroke): (&Orbit, &Stroke),
+) -> Option<Vec<f64>> {
+    let scene = &orbit.scene;
     let mass = scene.mass;
     let per_second = scene.excitation.frequency / TAU;
     let plus = |by: Vec<f64>, parameter, more| plus(slopes, by, parameter, more);
@@ -35,7 +38,7 @@ pub(super) fn rates(figure: Figure, slopes: &Slopes, motion: &Judged<'_>) -> Opt
     match figure {
         Figure::Velocity => Some(velocity()?.by.clone()),
         Figure::ImpactEnergy => energy(),
-        Figure::ImpactPower => Some(power(energy()?, motion.stroke.impact_energy)),
+        Figure::ImpactPower => Some(power(energy()?, stroke.impact_energy)),
         Figure::DriveForce => Some(plus(
             vec![0.0; slopes.parameters.len()],
             Parameter::Amplitude,
@@ -49,7 +52,7 @@ pub(super) fn rates(figure: Figure, slopes: &Slopes, motion: &Judged<'_>) -> Opt
         }
         Figure::StopForce => {
             let peak = slopes.peak_force.as_ref()?;
-            let is_same = (peak.value - motion.stroke.stop_force).abs() <= SAME * peak.value.abs();
+            let is_same = (peak.value - stroke.stop_force).abs() <= SAME * peak.value.abs();
             is_same.then(|| peak.by.clone())
         }
         Figure::CutThrough => {

@@ -1,0 +1,216 @@
+//! Machines within the tolerances that a search keeps within bounds: those that lose the motion, and those whose figures come
+//! nearest to a bound. A search adds to them what it finds until there are no more (an exchange method of semi-infinite
+//! programming, Blankenship and Falk 1976).
+
+use softstop::Parameter;
+use softstop_dynamics::{Stroke, slopes};
+
+use super::differences::differences;
+use super::exact::Linearization;
+use super::figure::{Figure, Sense};
+use super::judge::Met;
+use super::operating_point::OperatingPoint;
+use super::problem::Problem;
+use super::reach::{LossDirections, reserve};
+use super::requirement::{Requirement, Scope};
+use super::slope::Slope;
+use super::within::Rows;
+use crate::robust::{Neighbours, rates, value_of};
+
+/// What a machine is extreme in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Target {
+    /// In what is sought.
+    Objective,
+    /// In a required figure, on this side.
+    Bound(Figure, Sense),
+}
+
+/// A machine within the tolerances with an extreme figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Extreme {
+    /// In what.
+    pub target: Target,
+    /// Its coordinates in the box.
+    pub at: Vec<f64>,
+}
+
+/// Machines within the tolerances that a design has to keep within its bounds.
+#[derive(Debug, Clone, Default)]
+pub struct CriticalMachines {
+    /// Directions in which the motion is lost.
+    pub losses: LossDirections,
+    /// Machines that come nearest to a bound.
+    pub extremes: Vec<Extreme>,
+    /// Machines on which trials are made beside the drawing's.
+    pub tried: Vec<Vec<f64>>,
+    /// Trials that better designs have failed.
+    pub failed: Vec<Figure>,
+}
+
+/// Distance between coordinates of the box that is none.
+const SAME: f64 = 1e-6;
+
+/// True if two places of the box are one.
+pub(super) fn is_same_place(one: &[f64], other: &[f64]) -> bool {
+    one.iter().zip(other).all(|(a, b)| (a - b).abs() < SAME)
+}
+
+impl CriticalMachines {
+    /// Takes note of an extreme machine; false if it is known.
+    pub(super) fn note(&mut self, target: Target, at: &[f64]) -> bool {
+        let mut known = self.extremes.iter();
+        let is_new = known.all(|it| it.target != target || !is_same_place(&it.at, at));
+        if is_new {
+            let at = at.to_vec();
+            self.extremes.push(Extreme { target, at });
+        }
+        is_new
+    }
+
+    /// What is sought of a motion that is as required in the drawing's machine and in all of these; none if it is not.
+    pub(super) fn value(&self, problem: &Problem, here: &OperatingPoint) -> Option<f64> {
+        let motion = here.judged()?;
+        let is_met = problem.met(&motion).iter().all(Met::is_met);
+        let mut value = problem.sought(&motion).filter(|_| is_met)?;
+        let Some(spread) = problem.spread(here.machine()) else {
+            return Some(value);
+        };
+        let neighbours = Neighbours::new(&spread, &here.orbit);
+        if !self.losses.are_reached(&spread, here) {
+            return None;
+        }
+        for Extreme { target, at } in &self.extremes {
+            let Some((figure, requirement)) = problem.asked(*target) else {
+                continue;
+            };
+            let own = neighbours.value(at, figure)?;
+            match requirement {
+                Some(requirement) if requirement.margin(own) < 0.0 => return None,
+                Some(_) => {}
+                None => value = problem.objective.worse(value, own),
+            }
+        }
+        Some(value)
+    }
+
+    /// How far inside its bound each extreme machine is, in units of the bound, and the scores of those that are extreme in
+    /// what is sought; none if one cannot be computed.
+    pub(super) fn slopes(&self, about: Option<&Linearization<'_>>) -> Option<CriticalSlopes> {
+        let mut found = CriticalSlopes {
+            reserves: self.losses.reserves(about)?,
+            ..CriticalSlopes::default()
+        };
+        if self.extremes.is_empty() {
+            return Some(found);
+        }
+        let about = about?;
+        let problem = about.problem;
+        let spread = problem.spread(about.point.machine())?;
+        let neighbours = Neighbours::new(&spread, &about.point.orbit);
+        for Extreme { target, at } in &self.extremes {
+            let Some((figure, requirement)) = problem.asked(*target) else {
+                continue;
+            };
+            let of = slope_at(about, &neighbours, at, figure);
+            match (requirement, target) {
+                (Some(requirement), Target::Bound(_, side)) => {
+                    let slope = match of {
+                        Some(of) => of.inside(requirement, *side),
+                        // The motion is lost on the way there.
+                        None => Some(reserve(about, &spread, at)?),
+                    };
+                    found.bounds.extend(slope.map(|it| (figure, *side, it)));
+                }
+                _ => found.scores.push(problem.objective.slope(of?)),
+            }
+        }
+        Some(found)
+    }
+}
+
+/// What extreme machines have, with derivatives.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CriticalSlopes {
+    /// How far beyond the tolerances the motion goes on.
+    pub reserves: Vec<Slope>,
+    /// How far inside its bound a figure is, in units of that.
+    pub bounds: Vec<(Figure, Sense, Slope)>,
+    /// Scores.
+    pub scores: Vec<Slope>,
+}
+
+impl Problem {
+    /// The figure of a target, and the requirement if it is one; none if the problem does not ask for it.
+    fn asked(&self, target: Target) -> Option<(Figure, Option<&Requirement>)> {
+        match target {
+            Target::Objective => {
+                let is_asked = self.objective.scope == Scope::Tolerances;
+                is_asked.then_some((self.objective.figure, None))
+            }
+            Target::Bound(figure, _) => {
+                let mut all = self.requirements.iter();
+                let found = all.find(|it| it.figure == figure && it.is_of_each_motion())?;
+                Some((figure, Some(found)))
+            }
+        }
+    }
+
+    /// What is asked of every machine within the tolerances, by the side that is good.
+    pub(super) fn targets(&self) -> Vec<(Target, Figure, Sense)> {
+        let required = self.requirements.iter().filter(|it| it.is_of_each_motion());
+        let bound = |it: &Requirement| {
+            let figure = it.figure;
+            it.sides()
+                .map(move |(side, _)| (Target::Bound(figure, side), figure, side))
+                .collect::<Vec<_>>()
+        };
+        let sought = self.objective;
+        let worst = (sought.scope == Scope::Tolerances).then_some((
+            Target::Objective,
+            sought.figure,
+            sought.sense,
+        ));
+        required.flat_map(bound).chain(worst).collect()
+    }
+}
+
+impl Slope {
+    /// How far inside a requirement's bound it lies on one side, in units of the bound; none if there is no such bound.
+    fn inside(&self, requirement: &Requirement, side: Sense) -> Option<Self> {
+        match side {
+            Sense::Least => Some(self.beyond(requirement.least?, 1.0)),
+            Sense::Most => Some(self.beyond(requirement.most?, -1.0)),
+        }
+    }
+}
+
+/// The value of a figure of the machine at a place of the box, with its derivatives by the coordinates of the search.
+fn slope_at(
+    about: &Linearization<'_>,
+    neighbours: &Neighbours<'_>,
+    at: &[f64],
+    figure: Figure,
+) -> Option<Slope> {
+    let orbit = neighbours.motion(at)?;
+    let value = value_of(figure, &orbit)?;
+    let exact = || {
+        let rows = Rows::at(about, at)?;
+        let mut parameters = rows.parameters().to_vec();
+        parameters.push(Parameter::Frequency);
+        let slopes = slopes::of(&orbit, &parameters).ok()?;
+        let by = rates(figure, &slopes, (&orbit, &Stroke::of(&orbit).ok()?))?;
+        Some(rows.chain(&parameters, &by))
+    };
+    let differenced = || {
+        let value = |point: &OperatingPoint| {
+            let spread = about.problem.spread(point.machine())?;
+            Some(vec![
+                Neighbours::new(&spread, &point.orbit).value(at, figure)?,
+            ])
+        };
+        Some(differences(about.problem, about.at, &value)?.concat())
+    };
+    let by = exact().or_else(differenced)?;
+    Some(Slope { value, by })
+}

@@ -1,0 +1,187 @@
+//! What holds a design back: the constraints whose multipliers are positive (Karush, Kuhn and Tucker).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::constraint::Limit;
+use super::coordinates::{Candidate, Coordinates};
+use super::critical::CriticalMachines;
+use super::figure::Sense;
+use super::local::{Local, local};
+use super::problem::Problem;
+use super::space::{Axis, End, Space};
+
+/// Value of a constraint, in its own unit, and distance from an end of a coordinate, at which a design stands there.
+const AT_LIMIT: f64 = 1e-6;
+/// Multiplier of a constraint that holds nothing back: change of the score by a change of the bound, both relative.
+const IDLE: f64 = 1e-6;
+/// What may be left of the gradient, relative; where it is more, multipliers tell nothing.
+const RESIDUE: f64 = 1e-2;
+
+/// All that holds a design back.
+pub(super) fn limits(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> Vec<Limit> {
+    let coordinates = Coordinates::new(problem, &it.unit);
+    let start = coordinates.start(it.design.place);
+    let at = coordinates.at(&it.unit, &start);
+    let mut limits: Vec<Limit> = catalogue_ends(problem, &it.unit);
+    if let Some(found) = local(problem, &at, known) {
+        let candidates = candidates(problem, &coordinates, &start, &found);
+        limits.extend(held_by(&found, candidates));
+    }
+    limits.extend(
+        known
+            .failed
+            .iter()
+            .map(|it| Limit::Required(*it, Sense::Least)),
+    );
+    let mut all: Vec<Limit> = Vec::new();
+    for limit in limits {
+        if !all.contains(&limit) {
+            all.push(limit);
+        }
+    }
+    all
+}
+
+/// Ends of catalogues at which a point of the unit cube stands.
+fn catalogue_ends(problem: &Problem, unit: &[f64]) -> Vec<Limit> {
+    let values = Space(&problem.axes).values(unit);
+    let axes = problem.axes.iter().zip(values);
+    let axes = axes.filter(|(axis, _)| !axis.catalogue.is_empty());
+    let end = |(axis, value): (&Axis, f64)| {
+        let end = axis.range.end_at(value)?;
+        Some(Limit::Axis(axis.parameter, end))
+    };
+    axes.filter_map(end).collect()
+}
+
+/// What a design stands at, each with its derivatives, inwards.
+fn candidates(
+    problem: &Problem,
+    coordinates: &Coordinates,
+    start: &[f64],
+    found: &Local,
+) -> Vec<(Limit, Vec<f64>)> {
+    let active = found.constraints.iter();
+    let active = active.filter(|it| it.slope.value <= AT_LIMIT);
+    let mut all: Vec<(Limit, Vec<f64>)> =
+        active.map(|it| (it.limit, it.slope.by.clone())).collect();
+    let bounds = coordinates.bounds(problem).into_iter();
+    let parameters = coordinates.parameters(problem);
+    for (index, ((low, high), at)) in bounds.zip(start).enumerate() {
+        for (end, distance, inwards) in [(End::Lower, at - low, 1.0), (End::Upper, high - at, -1.0)]
+        {
+            if distance <= AT_LIMIT {
+                let limit = match parameters.get(index) {
+                    Some(parameter) => Limit::Axis(*parameter, end),
+                    None => Limit::Margin(end),
+                };
+                let mut by = vec![0.0; start.len()];
+                by[index] = inwards;
+                all.push((limit, by));
+            }
+        }
+    }
+    all
+}
+
+/// Those of them that hold the score back.
+fn held_by(found: &Local, candidates: Vec<(Limit, Vec<f64>)>) -> Vec<Limit> {
+    let least = found.score();
+    let scores = [&found.objective].into_iter().chain(&found.scores);
+    let scores = scores.filter(|it| it.value - least <= AT_LIMIT * least.abs());
+    // One weight for each score, of sum 1, so that the weighted gradient is what the constraints hold.
+    let scores: Vec<Vec<f64>> = scores
+        .map(|it| it.by.iter().map(|by| by / least).chain([1.0]).collect())
+        .collect();
+    let size = scores[0].len();
+    let rows = candidates.iter();
+    let rows = rows.map(|(_, by)| by.iter().copied().chain([0.0]).collect::<Vec<f64>>());
+    let columns: Vec<Vec<f64>> = scores.iter().cloned().chain(rows).collect();
+    let matrix = DMatrix::from_fn(size, columns.len(), |row, column| columns[column][row]);
+    let mut target = DVector::zeros(size);
+    target[size - 1] = 1.0;
+    let (multipliers, residue) = non_negative_least_squares(&matrix, &target);
+    let gradient: f64 = scores[0][..size - 1].iter().map(|by| by * by).sum();
+    let is_told = residue <= RESIDUE * gradient.sqrt().max(f64::MIN_POSITIVE);
+    let multipliers = multipliers.iter().skip(scores.len());
+    let pairs = candidates.into_iter().zip(multipliers);
+    let held = pairs.filter(|(_, multiplier)| !is_told || **multiplier > IDLE);
+    held.map(|((limit, _), _)| limit).collect()
+}
+
+/// The x >= 0 with the least |A x - b|, and that (Lawson and Hanson 1974, chapter 23).
+fn non_negative_least_squares(matrix: &DMatrix<f64>, target: &DVector<f64>) -> (Vec<f64>, f64) {
+    let count = matrix.ncols();
+    let mut found = vec![0.0; count];
+    let mut passive: Vec<usize> = Vec::new();
+    for _ in 0..3 * count {
+        let rest = target - matrix * DVector::from_column_slice(&found);
+        let gradient = matrix.tr_mul(&rest);
+        let free = (0..count).filter(|index| !passive.contains(index));
+        let steepest = free.max_by(|a, b| gradient[*a].total_cmp(&gradient[*b]));
+        let Some(next) = steepest.filter(|it| gradient[*it] > f64::EPSILON.sqrt() * matrix.norm())
+        else {
+            break;
+        };
+        passive.push(next);
+        loop {
+            let columns = matrix.select_columns(&passive);
+            let Ok(solved) = columns.svd(true, true).solve(target, f64::EPSILON) else {
+                return (found, rest.norm());
+            };
+            let shares = passive.iter().zip(solved.iter());
+            let shares = shares.filter(|(_, to)| **to <= 0.0);
+            let share = shares.map(|(index, to)| found[*index] / (found[*index] - to));
+            let share = share.fold(1.0, f64::min);
+            for (index, to) in passive.iter().zip(solved.iter()) {
+                found[*index] += share * (to - found[*index]);
+            }
+            if share >= 1.0 {
+                break;
+            }
+            passive.retain(|index| {
+                let stays = found[*index] > f64::EPSILON;
+                if !stays {
+                    found[*index] = 0.0;
+                }
+                stays
+            });
+            if passive.is_empty() {
+                break;
+            }
+        }
+    }
+    let rest = target - matrix * DVector::from_column_slice(&found);
+    (found, rest.norm())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::non_negative_least_squares;
+    use nalgebra::{DMatrix, DVector};
+
+    #[test]
+    fn what_would_be_negative_stays_zero() {
+        let matrix = DMatrix::from_row_slice(3, 3, &[1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+        let (found, rest) =
+            non_negative_least_squares(&matrix, &DVector::from_column_slice(&[2.0, 1.0, 3.0]));
+        let expected = [1.0, 1.0, 3.0];
+        assert!(
+            found
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
+        assert!(rest < 1e-12);
+        let (found, rest) =
+            non_negative_least_squares(&matrix, &DVector::from_column_slice(&[1.0, 2.0, -3.0]));
+        // The first and the last would have to be -1 and -3: without them the second is 1.5.
+        assert!(
+            found
+                .iter()
+                .zip([0.0, 1.5, 0.0])
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
+        assert!((rest - 9.5_f64.sqrt()).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,142 @@
+//! The design of a task with what stands beside it: the task without tolerances, and trade-offs. Each of them may meet a better
+//! design; the search goes on from that until none does. So none of them contradicts the design.
+
+use rayon::prelude::*;
+use softstop_console::interrupt;
+use softstop_dynamics::watch::Kept;
+
+use super::figure::Figure;
+use super::front::{Front, Traded, front};
+use super::requirement::Scope;
+use super::search::{Found, SearchError, Settings, Unwatched, Watch, search, search_from};
+use super::{Design, Problem};
+
+/// What is traded for what is sought.
+const TRADED: [Figure; 5] = [
+    Figure::Share,
+    Figure::Certainty,
+    Figure::StopForce,
+    Figure::DriveForce,
+    Figure::DrivePower,
+];
+
+/// How often the search goes on from what was met beside it.
+const ROUNDS: usize = 8;
+
+/// What is looked at beside the search.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Beside {
+    /// The task without tolerances.
+    pub relaxed: bool,
+    /// What more of one good costs of another.
+    pub fronts: bool,
+}
+
+/// The design of a task and what stands beside it.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// The design.
+    pub found: Found,
+    /// The best design if nothing has a tolerance and nothing is tried.
+    pub relaxed: Option<Design>,
+    /// What more of one good costs of another, where it costs something.
+    pub fronts: Vec<Front>,
+}
+
+impl Problem {
+    /// The same problem without tolerances and trials: whatever solves this one solves that one.
+    #[must_use]
+    pub fn relaxed(&self) -> Self {
+        let mut relaxed = Self {
+            tolerances: Vec::new(),
+            ..self.clone()
+        };
+        relaxed.objective.scope = Scope::Drawing;
+        relaxed.requirements.retain(|it| !it.figure.is_trial());
+        relaxed
+    }
+}
+
+impl Solution {
+    /// Searches, looks beside, and goes on from what is better there.
+    ///
+    /// # Errors
+    /// As [`search`].
+    pub fn of(
+        problem: &Problem,
+        settings: Settings,
+        beside: Beside,
+        (watch, kept): (&dyn Watch, Kept<'_>),
+    ) -> Result<Self, SearchError> {
+        let mut found = search(problem, settings, watch, kept)?;
+        let relaxed_problem = problem.relaxed();
+        let mut relaxed = None;
+        if beside.relaxed && !interrupt::requested() {
+            let starts = [found.start()];
+            relaxed = search_from(&relaxed_problem, settings, &starts, (&Unwatched, None)).ok();
+        }
+        if let Some(relaxed) = &relaxed {
+            found.go_on_from(problem, &relaxed.candidate());
+        }
+        let mut fronts = Vec::new();
+        for _ in 0..ROUNDS {
+            if !beside.fronts || interrupt::requested() {
+                break;
+            }
+            let traded = traded(problem, &found);
+            let score = |it: &Traded| it.better.as_ref().map(|it| problem.score(&it.design));
+            let best = traded.iter().max_by(|a, b| {
+                let [a, b] = [a, b].map(|it| score(it).unwrap_or(0.0));
+                a.total_cmp(&b)
+            });
+            let better = best.and_then(|it| it.better.clone());
+            fronts = traded.into_iter().map(|it| it.front).collect();
+            if !better.is_some_and(|better| found.go_on_from(problem, &better)) {
+                break;
+            }
+        }
+        if let Some(relaxed) = &mut relaxed {
+            relaxed.go_on_from(&relaxed_problem, &found.candidate());
+        }
+        fronts.retain(|it| it.points.len() > 2 || it.left_out > 0);
+        Ok(Self {
+            found,
+            relaxed: relaxed.map(|it| it.design),
+            fronts,
+        })
+    }
+
+    /// What contradicts the design, in words: must be nothing.
+    pub fn contradictions(&self, problem: &Problem) -> Vec<String> {
+        let own = problem.score(&self.found.design);
+        let relaxed = self.relaxed.iter().filter_map(|it| {
+            let score = problem.relaxed().score(it);
+            (score < (1.0 - ROUNDING) * own)
+                .then(|| format!("without tolerances {score}, with them {own}"))
+        });
+        let fronts = self.fronts.iter().flat_map(|front| {
+            let better = front
+                .points
+                .iter()
+                .filter(|it| front.beats_design(problem, **it));
+            better.map(|it| format!("{}: {it:?} against {:?}", front.figure.name(), front.design))
+        });
+        let rivals = self.found.rivals.iter().filter_map(|it| {
+            let score = problem.score(it);
+            (score > (1.0 + ROUNDING) * own).then(|| format!("a rival with {score}, not {own}"))
+        });
+        relaxed.chain(fronts).chain(rivals).collect()
+    }
+}
+
+/// Relative difference between scores that is none.
+const ROUNDING: f64 = 1e-9;
+
+/// All trade-offs of a design.
+fn traded(problem: &Problem, found: &Found) -> Vec<Traded> {
+    let figures = TRADED.par_iter();
+    let figures = figures.filter(|figure| **figure != problem.objective.figure);
+    figures
+        .filter_map(|figure| front(problem, found, *figure))
+        .collect()
+}

@@ -1,0 +1,99 @@
+//! Whether machines are as required: by polynomials fitted to some of them where these leave no doubt, else by the motion.
+
+use rayon::prelude::*;
+use softstop_dynamics::spread::{Fate, Guide, Model, Spread};
+use softstop_dynamics::{Orbit, Stroke};
+
+use crate::design::requirement::Requirement;
+
+/// How many times the largest misfit of a polynomial a value has to lie within its bounds to be within them without doubt.
+const RESERVE: f64 = 10.0;
+
+/// Judges the machines of a spread.
+pub(super) struct Screen<'a> {
+    spread: &'a dyn Spread,
+    required: &'a [Requirement],
+    /// For two requirements each, with their largest misfits; none if machines that are known lose the motion.
+    models: Option<Vec<(Model, [f64; 2])>>,
+}
+
+impl<'a> Screen<'a> {
+    /// From machines at some places of the box.
+    pub fn new(
+        spread: &'a dyn Spread,
+        guide: &Guide<'_>,
+        (places, required): (&[Vec<f64>], &'a [Requirement]),
+    ) -> Self {
+        let mut screen = Self {
+            spread,
+            required,
+            models: None,
+        };
+        if !required.is_empty() {
+            let values = places.par_iter();
+            let values = values.map(|at| screen.values(at, &guide.fate(at)));
+            let values: Option<Vec<Vec<f64>>> = values.collect();
+            screen.models = values.and_then(|values| models(places, &values, required.len()));
+        }
+        screen
+    }
+
+    /// The figures of a machine in the order of the requirements; none if it has lost the motion, or one has no value.
+    fn values(&self, at: &[f64], fate: &Fate) -> Option<Vec<f64>> {
+        let Fate::Kept(settled) = fate else {
+            return None;
+        };
+        let orbit = Orbit::near(&self.spread.scene(at), settled.state).ok()?;
+        let stroke = Stroke::of(&orbit).ok()?;
+        let value = |it: &Requirement| it.figure.of_motion(&orbit, &stroke);
+        let values = self.required.iter().map(value);
+        values.map(|it| it.filter(|it| it.is_finite())).collect()
+    }
+
+    /// Whether a machine violates each requirement.
+    pub fn violated(&self, at: &[f64], fate: &Fate) -> Vec<bool> {
+        if matches!(fate, Fate::Kept(_)) && self.is_clear(at) {
+            return vec![false; self.required.len()];
+        }
+        match self.values(at, fate) {
+            Some(values) => {
+                let pairs = self.required.iter().zip(values);
+                pairs.map(|(it, value)| !it.is_met(value)).collect()
+            }
+            None => vec![true; self.required.len()],
+        }
+    }
+
+    /// True if the polynomials leave no doubt that a machine is as required.
+    fn is_clear(&self, at: &[f64]) -> bool {
+        let Some(models) = &self.models else {
+            return self.required.is_empty();
+        };
+        let mut pairs = models.iter().zip(self.required.chunks(2));
+        pairs.all(|((model, misfit), required)| {
+            let values = model.at(at);
+            let mut all = required.iter().zip(values).zip(misfit);
+            all.all(|((it, value), misfit)| it.margin(value) > RESERVE * misfit)
+        })
+    }
+}
+
+fn models(
+    places: &[Vec<f64>],
+    values: &[Vec<f64>],
+    count: usize,
+) -> Option<Vec<(Model, [f64; 2])>> {
+    let pair = |first: usize| {
+        let of = |row: &Vec<f64>| [row[first], row[(first + 1).min(count - 1)]];
+        let pairs: Vec<[f64; 2]> = values.iter().map(of).collect();
+        let model = Model::fit(places, &pairs)?;
+        let mut misfit = [0.0_f64; 2];
+        for (at, pair) in places.iter().zip(&pairs) {
+            for ((misfit, own), fitted) in misfit.iter_mut().zip(pair).zip(model.at(at)) {
+                *misfit = misfit.max((own - fitted).abs());
+            }
+        }
+        Some((model, misfit))
+    };
+    (0..count).step_by(2).map(pair).collect()
+}
