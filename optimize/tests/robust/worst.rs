@@ -9,7 +9,7 @@ use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::{Orbit, zone};
 use softstop_optimize::robust::{Settings, sensitivities, shares, verify, worst};
 
-use crate::{Outcome, machines, press, shop, spread};
+use super::{Outcome, machines, press, shop, spread};
 
 #[test]
 fn no_machine_strikes_less_than_the_worst() -> Outcome {
