@@ -1,10 +1,9 @@
 //! Bad input gives an error that names the parameter and its value; nothing panics or hangs.
 
-use approx::assert_abs_diff_eq;
 use proptest::prelude::*;
 use softstop::{Excitation, MotionError, Piercing, Ratios, Scene, Simulation, Start, Stop};
 use softstop_testing::tolerance::MOTION;
-use softstop_testing::{cases, loaded};
+use softstop_testing::{assert_near, cases, hertz, loaded, preloaded};
 
 fn machine() -> Scene {
     loaded()
@@ -21,12 +20,7 @@ fn errors_name_parameter_and_value() {
         ("excitation.frequency = 0", |s| s.excitation.frequency = 0.0),
         ("clearance = NaN", |s| s.clearance = f64::NAN),
         ("contact.damping = -0.1", |s| s.contact_damping = -0.1),
-        ("stop.preload = -5", |s| {
-            s.stop = Stop::Preloaded {
-                stiffness: 1.0,
-                preload: -5.0,
-            }
-        }),
+        ("stop.preload = -5", |s| s.stop = preloaded(1.0, -5.0)),
         ("piercing.friction = -3", |s| {
             if let Some(strip) = &mut s.piercing {
                 strip.friction = -3.0;
@@ -72,11 +66,7 @@ fn an_unbounded_motion_is_an_error() {
 /// The law is of the eleventh power: the first step from so deep takes 1e-61 s, and time does not go on.
 #[test]
 fn a_contact_shorter_than_any_time_is_an_error() {
-    let scene = Scene::of_stop(Stop::Hertz {
-        stiffness: 150.0,
-        exponent: 11.0,
-        dissipation: 0.0,
-    });
+    let scene = Scene::of_stop(hertz(150.0, 11.0, 0.0));
     let mut machine = Simulation::new(&scene, Start::new(1e10, -0.5)).expect("finite");
     let error = machine.advance(1.0).expect_err("time stands still");
     assert!(matches!(error, MotionError::Stalled { .. }), "{error}");
@@ -186,7 +176,7 @@ fn the_strip_stays_until_the_stroke_is_over() {
         without.advance(time).expect("bounded");
         let (a, b) = (with.sample(), without.sample());
         assert_eq!(a.phase, b.phase);
-        assert_abs_diff_eq!(a.position, b.position, epsilon = MOTION);
+        assert_near(a.position, b.position, MOTION);
     }
     with.advance(time + scene.period()).expect("bounded");
     without.advance(time + scene.period()).expect("bounded");

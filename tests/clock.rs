@@ -1,9 +1,8 @@
 //! Time does not drift: the drive angle after very many periods, and the way there and back.
 
-use approx::{assert_abs_diff_eq, assert_relative_eq};
 use proptest::prelude::*;
 use softstop::{Clock, Drive, Instant};
-use softstop_testing::cases;
+use softstop_testing::{assert_near, assert_relative, cases};
 
 /// cos and sin of w t at 60 digits (mpmath), w and t taken as the exact doubles.
 const ANGLES: [(f64, f64, f64, f64); 4] = [
@@ -39,9 +38,9 @@ fn drive_angle_is_exact_after_a_hundred_million_periods() {
         let clock = Clock::new(frequency, 0.0);
         let instant = clock.instant(time);
         let Drive { cos, sin } = clock.drive(instant);
-        assert_abs_diff_eq!(cos, expected_cos, epsilon = 4e-15);
-        assert_abs_diff_eq!(sin, expected_sin, epsilon = 4e-15);
-        assert_relative_eq!(clock.time(instant), time, max_relative = f64::EPSILON);
+        assert_near(cos, expected_cos, 4e-15);
+        assert_near(sin, expected_sin, 4e-15);
+        assert_relative(clock.time(instant), time, f64::EPSILON);
     }
 }
 
@@ -55,11 +54,7 @@ fn whole_periods_leave_no_rest() {
     }
     // Each of the 200,000 sums may round by half a unit of the period.
     let rest = clock.elapsed(Clock::at_cycle(100_000), instant);
-    assert_abs_diff_eq!(
-        rest,
-        0.0,
-        epsilon = 200_000.0 * f64::EPSILON * clock.period()
-    );
+    assert_near(rest, 0.0, 200_000.0 * f64::EPSILON * clock.period());
 }
 
 proptest! {
@@ -77,9 +72,9 @@ proptest! {
         let to = clock.after(from, elapsed);
         prop_assert!(to.offset >= 0.0 && to.offset < clock.period());
         let rounding = 4.0 * f64::EPSILON * (time.abs() + elapsed + clock.period());
-        assert_abs_diff_eq!(clock.time(from), time, epsilon = rounding);
-        assert_abs_diff_eq!(clock.elapsed(from, to), elapsed, epsilon = rounding);
-        assert_abs_diff_eq!(clock.time(to) - time, elapsed, epsilon = rounding);
+        assert_near(clock.time(from), time, rounding);
+        assert_near(clock.elapsed(from, to), elapsed, rounding);
+        assert_near(clock.time(to) - time, elapsed, rounding);
         let same = Instant { ..from };
         prop_assert_eq!(clock.elapsed(from, same), 0.0);
     }

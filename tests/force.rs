@@ -4,14 +4,14 @@
 mod exact;
 mod refused;
 
-use approx::{abs_diff_eq, assert_relative_eq, relative_eq};
+use approx::{assert_relative_eq, relative_eq};
 use proptest::prelude::*;
 use softstop::internals::Polynomial;
 use softstop::{
     Excitation, HIGHEST_ORDER, MotionError, PhaseKind, Ratios, Scene, Simulation, Start, Stop,
 };
 use softstop_testing::tolerance::MOTION;
-use softstop_testing::{cases, loaded, machines, start_below};
+use softstop_testing::{cases, hertz, is_near, loaded, machines, start_below};
 
 const SEVENTH: [f64; 8] = [0.2, -0.1, 0.15, -0.02, -0.03, 0.02, -0.006, 0.0008];
 
@@ -82,11 +82,7 @@ fn a_polynomial_that_is_a_ramp_is_the_ramp() {
 
 #[test]
 fn the_division_of_a_run_does_not_matter() {
-    let hertz = Stop::Hertz {
-        stiffness: 50.0,
-        exponent: 1.5,
-        dissipation: 0.1,
-    };
+    let hertz = hertz(50.0, 1.5, 0.1);
     for stop in [hertz, Stop::Rigid { restitution: 0.6 }] {
         let scene = Scene {
             stop,
@@ -173,6 +169,6 @@ proptest! {
         let energy = machine.energy();
         let defect = energy.supplied - energy.dissipated - (energy.mechanical - before);
         let turnover = energy.supplied.abs() + energy.dissipated + energy.mechanical.abs();
-        assert!(abs_diff_eq!(defect, 0.0, epsilon = 10.0 * MOTION * turnover.max(1.0)), "{:e} of {:e}", defect, turnover);
+        assert!(is_near(defect, 0.0, 10.0 * MOTION * turnover.max(1.0)), "{:e} of {:e}", defect, turnover);
     }
 }

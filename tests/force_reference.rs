@@ -1,8 +1,8 @@
 //! Motions under polynomial forces against independent 40-digit integrations (tests/reference/force.py).
 
-use approx::abs_diff_eq;
 use serde_json::Value;
 use softstop::{PhaseKind, Simulation, Start};
+use softstop_testing::is_near;
 use softstop_testing::reference::{FORCE, list, number};
 use softstop_testing::scenes::scene;
 use softstop_testing::tolerance::MOTION;
@@ -78,7 +78,7 @@ impl Check<'_> {
         let defect = energy.supplied - energy.dissipated - (energy.mechanical - self.stored);
         let turnover = energy.supplied.abs() + energy.dissipated + energy.mechanical;
         assert!(
-            abs_diff_eq!(defect, 0.0, epsilon = 10.0 * MOTION * turnover.max(1.0)),
+            is_near(defect, 0.0, 10.0 * MOTION * turnover.max(1.0)),
             "{}: energy defect {defect:e}",
             self.name
         );

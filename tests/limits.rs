@@ -2,7 +2,7 @@
 //! a thousandth of theirs eight digits hold.
 
 use softstop::{Machine, Release, Scene, SceneError, Simulation, Slope, Start, Stop};
-use softstop_testing::loaded;
+use softstop_testing::{hertz, kelvin_voigt, loaded, preloaded};
 
 /// The promise of docs/machine.md.
 const EIGHT_DIGITS: f64 = 1e-8;
@@ -27,11 +27,8 @@ fn flight(frequency: f64, contact_damping: f64, stop: Stop) -> Scene {
     scene
 }
 
-fn kelvin_voigt(stiffness: f64) -> Stop {
-    Stop::KelvinVoigt {
-        stiffness,
-        release: Release::Clearance,
-    }
+fn spring(stiffness: f64) -> Stop {
+    kelvin_voigt(stiffness, Release::Clearance)
 }
 
 /// Speed after one contact over that before it.
@@ -48,7 +45,7 @@ fn a_contact_at_the_limit_keeps_eight_digits() {
             let fastest = (0.5 * HEAVIEST_WITH_EIGHT / zeta).min(LIMIT);
             let rate = INSIDE * fastest * frequency;
             let (stiffness, damping) = (2.0 * rate * rate, 2.0 * 2.0 * zeta * rate);
-            let scene = flight(frequency, damping, kelvin_voigt(stiffness));
+            let scene = flight(frequency, damping, spring(stiffness));
             let root = (1.0_f64 - zeta * zeta).sqrt();
             let expected = (-zeta * std::f64::consts::PI / root).exp();
             let error = (rebound(&scene, speed) - expected).abs();
@@ -73,17 +70,14 @@ fn limit(scene: &Scene) -> Option<(&'static str, f64)> {
 fn what_is_too_fast_is_named_with_its_limit() {
     let frequency = 3.0;
     let rate = LIMIT * frequency;
-    let (spring, damper) = (2.0 * rate * rate, 2.0 * DAMPER_LIMIT * frequency);
+    let (stiffest, damper) = (2.0 * rate * rate, 2.0 * DAMPER_LIMIT * frequency);
     type Set = fn(&mut Scene, f64);
     let cases: [(&str, f64, Set); 7] = [
-        ("stop.stiffness", spring, |s, k| s.stop = kelvin_voigt(k)),
-        ("stop.stiffness", spring, |s, k| {
-            s.stop = Stop::Preloaded {
-                stiffness: k,
-                preload: 3.0,
-            }
+        ("stop.stiffness", stiffest, |s, k| s.stop = spring(k)),
+        ("stop.stiffness", stiffest, |s, k| {
+            s.stop = preloaded(k, 3.0)
         }),
-        ("stop.loading", spring, |s, stiffness| {
+        ("stop.loading", stiffest, |s, stiffness| {
             let from = 0.0;
             s.stop = Stop::PiecewiseLinear {
                 loading: vec![Slope { from, stiffness }],
@@ -92,11 +86,11 @@ fn what_is_too_fast_is_named_with_its_limit() {
         }),
         ("damping", damper, |s, c| s.damping = c),
         ("contact.damping", damper, |s, c| s.contact_damping = c),
-        ("piercing.stiffness", spring, |s, k| {
+        ("piercing.stiffness", stiffest, |s, k| {
             s.piercing = loaded().piercing;
             s.piercing.as_mut().expect("a strip").stiffness = k;
         }),
-        ("piercing.friction", spring, |s, k| {
+        ("piercing.friction", stiffest, |s, k| {
             s.piercing = loaded().piercing;
             s.piercing.as_mut().expect("a strip").friction = k;
         }),
@@ -123,13 +117,8 @@ fn a_suspension_is_not_too_fast_for_its_drive() {
     assert!((least / 3.0 - 1.0).abs() < 1e-12, "{least}");
 }
 
-fn hertz(stiffness: f64, exponent: f64, dissipation: f64) -> Scene {
-    let stop = Stop::Hertz {
-        stiffness,
-        exponent,
-        dissipation,
-    };
-    flight(3.0, 0.0, stop)
+fn power_law(stiffness: f64, exponent: f64, dissipation: f64) -> Scene {
+    flight(3.0, 0.0, hertz(stiffness, exponent, dissipation))
 }
 
 /// It may take a motion of 10 m and 30 m/s within 1e-6 m.
@@ -140,20 +129,22 @@ fn a_power_law_has_a_depth() {
         let whole = (exponent + 1.0) * 2.0 * speed / depth.powf(exponent + 1.0);
         let most = 0.5 * speed * whole;
         if most < 1e24 {
-            assert_eq!(limit(&hertz(INSIDE * most, exponent, 0.0)), None);
-            let (name, found) = limit(&hertz(OUTSIDE * most, exponent, 0.0)).expect("too stiff");
+            assert_eq!(limit(&power_law(INSIDE * most, exponent, 0.0)), None);
+            let (name, found) =
+                limit(&power_law(OUTSIDE * most, exponent, 0.0)).expect("too stiff");
             assert_eq!(name, "stop.stiffness");
             assert!((found / most - 1.0).abs() < 1e-12, "{found}");
         }
         let most = whole / 1e3;
         if most < 1e24 {
-            assert_eq!(limit(&hertz(1e3, exponent, INSIDE * most)), None);
-            let (name, found) = limit(&hertz(1e3, exponent, OUTSIDE * most)).expect("too lossy");
+            assert_eq!(limit(&power_law(1e3, exponent, INSIDE * most)), None);
+            let (name, found) =
+                limit(&power_law(1e3, exponent, OUTSIDE * most)).expect("too lossy");
             assert_eq!(name, "stop.dissipation");
             assert!((found / most - 1.0).abs() < 1e-12, "{found}");
         }
     }
-    let message = hertz(1e3, 21.0, 0.0).validate().expect_err("too high");
+    let message = power_law(1e3, 21.0, 0.0).validate().expect_err("too high");
     assert_eq!(
         message.to_string(),
         "stop.exponent = 21: must be from 1 to 20"
@@ -165,7 +156,7 @@ fn a_power_law_has_a_depth() {
 fn the_highest_exponent_keeps_all_digits() {
     for exponent in [5.0, 10.0, 15.0, 20.0] {
         for stiffness in [150.0, 1e6, 1e12] {
-            let error = (rebound(&hertz(stiffness, exponent, 0.0), 3.0) - 1.0).abs();
+            let error = (rebound(&power_law(stiffness, exponent, 0.0), 3.0) - 1.0).abs();
             assert!(error < 1e-14, "n {exponent}, k {stiffness:e}: {error:e}");
         }
     }

@@ -1,10 +1,10 @@
 //! A hundred million periods: time is carried as whole periods and a rest, so neither the drive angle
 //! nor the motion loses accuracy.
 
-use approx::assert_abs_diff_eq;
 use softstop::internals::{Motion, samples};
 use softstop::{Begin, Clock, Ratios, Scene, Simulation, Start, Stop};
 use softstop_testing::tolerance::MOTION;
+use softstop_testing::{assert_near, hertz};
 
 const PERIODS: u64 = 100_000_000;
 
@@ -35,12 +35,8 @@ fn the_impactless_motion_keeps_its_phase() {
         let velocity = frequency * (imaginary * phase.cos() - real * phase.sin()) / size;
         let state = motion.state();
         let scale = 1.0 / size.sqrt();
-        assert_abs_diff_eq!(state.position, position, epsilon = 2e-15 * scale);
-        assert_abs_diff_eq!(
-            state.velocity,
-            velocity,
-            epsilon = 2e-15 * scale * frequency.max(1.0)
-        );
+        assert_near(state.position, position, 2e-15 * scale);
+        assert_near(state.velocity, velocity, 2e-15 * scale * frequency.max(1.0));
     }
 }
 
@@ -51,11 +47,7 @@ fn a_motion_does_not_depend_on_the_epoch() {
     let stops = [
         base.stop.clone(),
         Stop::Rigid { restitution: 0.6 },
-        Stop::Hertz {
-            stiffness: 50.0,
-            exponent: 1.5,
-            dissipation: 0.1,
-        },
+        hertz(50.0, 1.5, 0.1),
     ];
     for stop in stops {
         let scene = Scene {
@@ -83,8 +75,8 @@ fn stays_on_its_orbit(periods: u64) {
         .expect("bounded");
     let state = motion.state();
     // The sample holds twelve decimals.
-    assert_abs_diff_eq!(state.position, samples::UNLOADED.position, epsilon = MOTION);
-    assert_abs_diff_eq!(state.velocity, samples::UNLOADED.velocity, epsilon = MOTION);
+    assert_near(state.position, samples::UNLOADED.position, MOTION);
+    assert_near(state.velocity, samples::UNLOADED.velocity, MOTION);
 }
 
 #[test]

@@ -1,9 +1,8 @@
 //! Rates of the outputs against differences in time.
 
-use approx::abs_diff_eq;
 use proptest::prelude::*;
 use softstop::Simulation;
-use softstop_testing::{cases, machines, start_below};
+use softstop_testing::{cases, is_near, machines, start_below};
 
 /// Jerk, contact force and the three energies.
 fn outputs(machine: &Simulation) -> [f64; 5] {
@@ -56,14 +55,14 @@ proptest! {
             // Steep laws near their face are not resolved by the differences.
             prop_assume!((found - rough).abs() < 1e-3 * size);
             let allowed = 1e-6 * size + (found - rough).abs();
-            assert!(abs_diff_eq!(found, first[n], epsilon = allowed), "{n}: {found} {}", first[n]);
+            assert!(is_near(found, first[n], allowed), "{n}: {found} {}", first[n]);
             if n > 0 {
                 let found = (35.0 * f(0) - 104.0 * f(1) + 114.0 * f(2) - 56.0 * f(3) + 11.0 * f(4))
                     / (12.0 * width * width);
                 let rough = (f(0) - 2.0 * f(1) + f(2)) / (width * width);
                 let exact = rates[n - 1].1;
                 let allowed = 1e-3 * (size + exact.abs()) + (found - rough).abs();
-                assert!(abs_diff_eq!(found, exact, epsilon = allowed), "{n}: {found} {exact}");
+                assert!(is_near(found, exact, allowed), "{n}: {found} {exact}");
             }
         }
     }

@@ -1,11 +1,10 @@
 //! Derivatives of the outputs, across impacts, against differences of the motion itself.
 
-use approx::abs_diff_eq;
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::internals::Detuning;
 use softstop::{Clock, Perturbation, Scene, Sensitivity, Simulation, Start};
-use softstop_testing::{Meets, cases, machines, start_below};
+use softstop_testing::{Meets, cases, is_near, machines, start_below};
 
 /// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.
 fn outputs(machine: &Simulation) -> [f64; 9] {
@@ -121,7 +120,7 @@ proptest! {
             // Energies are known to 1e-10 of the motion's, so their differences to 1e-5.
             let noise = if ENERGIES.contains(&n) { 1e-5 } else { 1e-6 };
             let allowed = noise * size + 3.0 * error[n];
-            assert!(abs_diff_eq!(found[n], exact[n], epsilon = allowed), "{n}: {} {} {:?}", found[n], exact[n], meets.crossings);
+            assert!(is_near(found[n], exact[n], allowed), "{n}: {} {} {:?}", found[n], exact[n], meets.crossings);
         }
     }
     #[test]

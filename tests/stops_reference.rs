@@ -1,8 +1,8 @@
 //! Every law of a stop against independent 40-digit integrations (tests/reference/stops.py).
 
-use approx::abs_diff_eq;
 use serde_json::Value;
 use softstop::{PhaseKind, Scene, Start, Trajectory};
+use softstop_testing::is_near;
 use softstop_testing::reference::{STOPS, list, number};
 use softstop_testing::scenes::{instant, scene};
 use softstop_testing::tolerance::SOLVED;
@@ -117,8 +117,7 @@ fn compare_rests(case: &Value, trajectory: &Trajectory) -> Option<String> {
             number(rest, "to").min(end)
         };
         let is_this = |(start, end): &&(f64, f64)| {
-            abs_diff_eq!(*start, from, epsilon = 10.0 * SOLVED)
-                && abs_diff_eq!(*end, to, epsilon = 10.0 * SOLVED)
+            is_near(*start, from, 10.0 * SOLVED) && is_near(*end, to, 10.0 * SOLVED)
         };
         if to - from > 1e-6 && !found.iter().any(|rest| is_this(&rest)) {
             return Some(format!(

@@ -1,12 +1,11 @@
 //! The strip: half pierced it is met again, pierced it counts once per stroke.
 
-use approx::assert_abs_diff_eq;
 use softstop::{
     Begin, Crossing, CrossingKind, PhaseKind, Piercing, Ratios, Scene, Simulation, Start,
     Trajectory,
 };
-use softstop_testing::loaded;
 use softstop_testing::tolerance::MOTION;
+use softstop_testing::{assert_near, loaded, piercing};
 
 fn machine(frequency: f64, clearance: f64, strip: Piercing) -> Scene {
     let ratios = Ratios {
@@ -50,7 +49,7 @@ fn a_half_pierced_strip_is_met_again() {
         let damper = (scene.contact_damping - scene.damping) * sample.velocity;
         // Peterka 2003, eq. 1, with sign x' = 1.
         let expected = (21.0 + 23.0) * deflection + damper;
-        assert_abs_diff_eq!(sample.contact_force, expected, epsilon = MOTION);
+        assert_near(sample.contact_force, expected, MOTION);
     }
     assert_eq!(machine.pierce_count(), 0);
 }
@@ -58,12 +57,7 @@ fn a_half_pierced_strip_is_met_again() {
 /// A mass that stays beyond the clearance passes the far side of its strip again and again: one strip.
 #[test]
 fn a_strip_is_pierced_once_per_stroke() {
-    let soft = Piercing {
-        stiffness: 0.01,
-        friction: 0.01,
-        thickness: 2.5,
-        travel: 5.0,
-    };
+    let soft = piercing(0.01, 0.01, 2.5, 5.0);
     let scene = machine(0.7, -3.0, soft);
     let start = Start::new(-3.2, 0.0);
     let trajectory = scene.trajectory(start, 12).expect("bounded");

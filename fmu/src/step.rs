@@ -20,7 +20,7 @@ const BACKSTOP: u64 = 1 << 27;
 const MOST_PIECES: usize = 1 << 18;
 
 impl More {
-    /// The same without what is known of the last step.
+    /// All of it but what is known of the last step.
     pub(crate) fn afresh(self) -> Self {
         Self {
             contacts: None,
@@ -72,7 +72,7 @@ impl Machine {
         self.push_until(now)
     }
 
-    /// The same where the drive is followed up to a time.
+    /// Sets the force that holds now, where the drive is followed up to a time.
     fn push_until(&mut self, until: f64) -> Outcome<()> {
         let now = self.simulation().time();
         let force = self.more.external.at(now, self.simulation().scene().mass);

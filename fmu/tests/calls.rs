@@ -75,11 +75,7 @@ fn a_tolerance_has_no_effect() {
     let setup = || unsafe { fmi2SetupExperiment(unit.component, 1, 1e-4, 0.0, 0, 0.0) };
     assert_eq!(setup(), OK);
     assert!(unit.take_log().is_empty());
-    let category = c"warnings".as_ptr();
-    assert_eq!(
-        unsafe { fmi2SetDebugLogging(unit.component, 1, 1, &raw const category) },
-        OK
-    );
+    assert_eq!(unit.listen("warnings"), OK);
     assert_eq!(setup(), OK);
     let lines = unit.take_log();
     assert_eq!(lines.len(), 1);
@@ -89,16 +85,30 @@ fn a_tolerance_has_no_effect() {
     );
 }
 
+/// The standard's names are taken as well; of lines a unit says which of its own categories they are.
+#[test]
+fn categories_have_the_names_of_the_standard() {
+    for (name, lines) in [("logStatusWarning", 1), ("logAll", 2), ("logEvents", 1)] {
+        let unit = Unit::new();
+        unit.begin();
+        assert_eq!(unit.listen(name), OK);
+        assert_eq!(unit.step(0.0, 10.0), OK);
+        assert_eq!(unit.step(10.0 + 1e-9, 1e-3), OK);
+        assert_eq!(unit.take_log().len(), lines, "{name}");
+    }
+    let unit = Unit::new();
+    unit.refused(
+        unit.listen("logStatusPending"),
+        &["logStatusPending", "logStatusError"],
+    );
+}
+
 /// Importers that count in nanoseconds come close to the end of the last step, not onto it.
 #[test]
 fn a_gap_between_steps_is_told() {
     let unit = Unit::new();
     unit.begin();
-    let category = c"warnings".as_ptr();
-    assert_eq!(
-        unsafe { fmi2SetDebugLogging(unit.component, 1, 1, &raw const category) },
-        OK
-    );
+    assert_eq!(unit.listen("warnings"), OK);
     assert_eq!(unit.step(0.0, 1.0), OK);
     assert_eq!(unit.step(1.0 + 4.0 * f64::EPSILON, 1.0), OK);
     assert!(unit.take_log().is_empty());

@@ -2,8 +2,8 @@
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
 use crate::common::{OK, OUTPUTS, Unit};
-use approx::assert_abs_diff_eq;
 use softstop_fmu::ffi::*;
+use softstop_testing::assert_near;
 use softstop_testing::tolerance::SOLVED;
 
 fn outputs(unit: &Unit) -> [f64; 9] {
@@ -105,12 +105,10 @@ fn feedthrough_after_setting_the_force() {
 #[test]
 fn parameters_in_initialisation() {
     let unit = Unit::new();
-    let begin = |unit: &Unit| unsafe {
+    let begin = |unit: &Unit| {
         // Beyond the stop, where every parameter counts.
-        assert_eq!(unit.set("initial.position", 11.3), OK);
-        assert_eq!(unit.set("initial.velocity", 2.0), OK);
-        assert_eq!(fmi2SetupExperiment(unit.component, 0, 0.0, 0.0, 0, 0.0), OK);
-        assert_eq!(fmi2EnterInitializationMode(unit.component), OK);
+        unit.set_all(&[("initial.position", 11.3), ("initial.velocity", 2.0)]);
+        unit.enter(0.0);
     };
     begin(&unit);
     let mut felt = 0;
@@ -152,7 +150,7 @@ fn parameters_in_initialisation() {
     assert_eq!(felt, 13);
     // k (x - r - s - v) - k x + ... is linear in the preload.
     let found = unit.derivatives(&["contact.force"], &[("stop.preload", 1.0)]);
-    assert_abs_diff_eq!(found.expect("available")[0], 1.0, epsilon = SOLVED);
+    assert_near(found.expect("available")[0], 1.0, SOLVED);
 }
 
 /// At the end of its range a parameter can be changed to one side only.
@@ -160,7 +158,8 @@ fn parameters_in_initialisation() {
 fn parameters_at_the_end_of_their_range() {
     let begin = |thickness: f64| {
         let unit = Unit::new();
-        for (name, value) in [
+        unit.set_all(&[
+            ("stop.model", 2.0),
             ("piercing.thickness", thickness),
             ("piercing.travel", 0.0),
             ("piercing.friction", 0.0),
@@ -168,14 +167,8 @@ fn parameters_at_the_end_of_their_range() {
             ("clearance", 1.0),
             ("initial.position", 1.2),
             ("initial.velocity", 3.0),
-        ] {
-            assert_eq!(unit.set(name, value), OK, "{name}");
-        }
-        assert_eq!(unit.set_integer("stop.model", 2), OK);
-        unsafe {
-            assert_eq!(fmi2SetupExperiment(unit.component, 0, 0.0, 0.0, 0, 0.0), OK);
-            assert_eq!(fmi2EnterInitializationMode(unit.component), OK);
-        }
+        ]);
+        unit.enter(0.0);
         unit
     };
     let found = begin(0.0)
@@ -185,7 +178,7 @@ fn parameters_at_the_end_of_their_range() {
     let expected: Vec<_> = (0..9).map(|n| (there[n] - here[n]) / 1e-6).collect();
     assert_close(&found, &expected, 1e-5, "thickness");
     // Pressed with k4 (x - r - s), k4 = 7.
-    assert_abs_diff_eq!(found[3], -7.0, epsilon = 1e-9);
+    assert_near(found[3], -7.0, 1e-9);
 }
 
 #[test]

@@ -2,26 +2,14 @@
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
 use std::ffi::c_int;
-use std::ptr;
 
-use crate::common::{DISCARD, ERROR, OK, Unit, reference};
+use crate::common::{DISCARD, ERROR, OK, Unit};
 use softstop_fmu::ffi::*;
-
-fn last_successful_time(unit: &Unit) -> f64 {
-    let mut time = f64::NAN;
-    assert_eq!(
-        unsafe { fmi2GetRealStatus(unit.component, 2, &raw mut time) },
-        OK
-    );
-    time
-}
 
 fn step_status(unit: &Unit) -> c_int {
     let mut status = -1;
-    assert_eq!(
-        unsafe { fmi2GetStatus(unit.component, 0, &raw mut status) },
-        OK
-    );
+    let asked = unsafe { fmi2GetStatus(unit.component, 0, &raw mut status) };
+    assert_eq!(asked, OK);
     status
 }
 
@@ -36,8 +24,8 @@ fn assert_discarded(unit: &Unit, status: c_int) {
 /// Elastic bounces on a rigid stop under a fast drive: more impacts than a step may cost.
 fn busy() -> Unit {
     let unit = Unit::new();
-    assert_eq!(unit.set_integer("stop.model", 6), OK);
-    for (name, value) in [
+    unit.set_all(&[
+        ("stop.model", 6.0),
         ("piercing.thickness", 0.0),
         ("piercing.travel", 0.0),
         ("clearance", 0.0),
@@ -47,9 +35,7 @@ fn busy() -> Unit {
         ("stiffness", 1e8),
         ("initial.position", -1.0),
         ("initial.velocity", 0.0),
-    ] {
-        assert_eq!(unit.set(name, value), OK, "{name}");
-    }
+    ]);
     unit.begin();
     unit
 }
@@ -58,31 +44,25 @@ fn busy() -> Unit {
 fn a_step_of_too_many_impacts_is_carried_out_in_part() {
     let unit = busy();
     assert_discarded(&unit, unit.step(0.0, 1e9));
-    let reached = last_successful_time(&unit);
+    let reached = unit.last_successful_time();
     assert!(reached > 1e2 && reached < 1e9, "{reached}");
     let impacts = unit.get_integer("impact.count");
     assert!(f64::from(impacts) > 0.9 * reached * 1e4 / std::f64::consts::PI);
     assert!(unit.get("impact.time") <= reached);
 
-    let mut kept = ptr::null_mut();
-    assert_eq!(
-        unsafe { fmi2GetFMUstate(unit.component, &raw mut kept) },
-        OK
-    );
+    let kept = unit.keep();
 
     // It goes on from there ...
     assert_eq!(unit.step(reached, 1e-3), OK);
     assert_eq!(step_status(&unit), OK);
-    assert_eq!(last_successful_time(&unit), reached + 1e-3);
+    assert_eq!(unit.last_successful_time(), reached + 1e-3);
     // ... but, that done, not from the old start.
     let status = unit.step(0.0, 1.0);
     unit.refused(status, &["currentCommunicationPoint"]);
 
     // Or a shorter step from the old start, as if nothing had been.
-    unsafe {
-        assert_eq!(fmi2SetFMUstate(unit.component, kept), OK);
-        assert_eq!(fmi2FreeFMUstate(unit.component, &raw mut kept), OK);
-    }
+    assert_eq!(unsafe { fmi2SetFMUstate(unit.component, kept) }, OK);
+    unit.free(kept);
     assert_eq!(step_status(&unit), DISCARD);
     // An importer sets its inputs again before it repeats a step.
     assert_eq!(unit.set("force", 1e4), OK);
@@ -101,8 +81,8 @@ fn a_step_of_too_many_impacts_is_carried_out_in_part() {
 #[test]
 fn a_step_beyond_the_resolution_of_time_is_refused() {
     let unit = Unit::new();
-    assert_eq!(unit.set_integer("stop.model", 1), OK);
-    for (name, value) in [
+    unit.set_all(&[
+        ("stop.model", 1.0),
         ("piercing.thickness", 0.0),
         ("piercing.travel", 0.0),
         ("stiffness", 0.0),
@@ -111,9 +91,7 @@ fn a_step_beyond_the_resolution_of_time_is_refused() {
         ("mass", 1e-12),
         ("initial.position", 0.0),
         ("initial.velocity", -1e12),
-    ] {
-        assert_eq!(unit.set(name, value), OK, "{name}");
-    }
+    ]);
     unit.begin();
     assert_eq!(unit.set("force", -1e12), OK);
     assert_eq!(unit.step(0.0, 1.0), OK);
@@ -121,7 +99,7 @@ fn a_step_beyond_the_resolution_of_time_is_refused() {
     let status = unit.step(1.0, 1e200);
     unit.refused(status, &["time = 1e200"]);
     assert_eq!((unit.get("position"), unit.get("velocity")), before);
-    assert_eq!(last_successful_time(&unit), 1.0);
+    assert_eq!(unit.last_successful_time(), 1.0);
     assert_eq!(unit.step(1.0, 1.0), OK, "{:?}", unit.take_log());
 }
 
@@ -144,15 +122,13 @@ fn a_step_whose_inputs_overflow_can_be_repeated_with_others() {
             assert_eq!(unit.step(0.0, 0.5), OK);
         }
         let [unit, other] = units;
-        let (of, start) = (reference(input), unit.get(input));
-        let (of, at, slope) = (&raw const of, &raw const order, &raw const slope);
-        let set = unsafe { fmi2SetRealInputDerivatives(unit.component, of, 1, at, slope) };
-        assert_eq!(set, OK);
+        let start = unit.get(input);
+        assert_eq!(unit.slope(input, order, slope), OK);
         let found = unit.step(0.5, 4.0);
         let lines = unit.take_log();
         assert_eq!((found, lines.len()), (status, 1), "{input}: {lines:?}");
         assert!(found == DISCARD || lines[0].contains(input), "{lines:?}");
-        let reached = last_successful_time(&unit);
+        let reached = unit.last_successful_time();
         assert!((0.5..4.5).contains(&reached), "{input}: {reached}");
         assert_eq!(unit.set(input, start), OK);
         assert_eq!(unit.step(0.5, 1.0), OK, "{:?}", unit.take_log());
@@ -171,12 +147,12 @@ fn a_step_of_an_age_costs_no_more_than_a_step_may() {
     unit.begin();
     assert_discarded(&unit, unit.step(0.0, 1e12));
     let (reached, impacts) = (
-        last_successful_time(&unit),
+        unit.last_successful_time(),
         unit.get_integer("impact.count"),
     );
     assert!(reached > 1e3 && reached < 1e12, "{reached}");
     // Half a million crossings at most; an impact comes with the way back.
     assert!(impacts > 1_000 && impacts <= 1 << 18, "{impacts}");
     assert_eq!(unit.step(reached, 1.0), OK, "{:?}", unit.take_log());
-    assert_eq!(last_successful_time(&unit), reached + 1.0);
+    assert_eq!(unit.last_successful_time(), reached + 1.0);
 }

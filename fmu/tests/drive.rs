@@ -1,13 +1,10 @@
 //! The drive led by its inputs, the moving frame, and what both do, through the C functions.
-#![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
 use std::f64::consts::TAU;
 use std::ffi::c_int;
 
-use approx::assert_abs_diff_eq;
-use softstop_fmu::ffi::*;
-
-use crate::common::{OK, Unit, reference};
+use crate::common::{OK, Unit};
+use softstop_testing::assert_near;
 
 /// Differences of some hundred roundings.
 const SAME: f64 = 1e-11;
@@ -15,26 +12,18 @@ const SAME: f64 = 1e-11;
 const PIECEWISE: f64 = 1e-10;
 
 fn slope(unit: &Unit, name: &str, order: c_int, value: f64) {
-    let reference = reference(name);
-    let status = unsafe {
-        fmi2SetRealInputDerivatives(
-            unit.component,
-            &raw const reference,
-            1,
-            &raw const order,
-            &raw const value,
-        )
-    };
-    assert_eq!(status, OK);
+    assert_eq!(unit.slope(name, order, value), OK);
 }
 
 /// A unit whose drive its inputs lead, with this speed and the default amplitude.
 fn led(speed: f64) -> Unit {
     let unit = Unit::new();
-    assert_eq!(unit.set_boolean("drive.takes.speed", 1), OK);
-    assert_eq!(unit.set_boolean("drive.takes.amplitude", 1), OK);
-    assert_eq!(unit.set("drive.speed", speed), OK);
-    assert_eq!(unit.set("drive.amplitude", 1.0), OK);
+    unit.set_all(&[
+        ("drive.takes.speed", 1.0),
+        ("drive.takes.amplitude", 1.0),
+        ("drive.speed", speed),
+        ("drive.amplitude", 1.0),
+    ]);
     unit
 }
 
@@ -47,7 +36,7 @@ fn assert_same(one: &Unit, other: &Unit, tolerance: f64) {
         "energy.supplied",
         "drive.work",
     ] {
-        assert_abs_diff_eq!(one.get(name), other.get(name), epsilon = tolerance * 100.0);
+        assert_near(one.get(name), other.get(name), tolerance * 100.0);
     }
     assert_eq!(
         one.get_integer("impact.count"),
@@ -98,7 +87,7 @@ fn jumps_are_those_of_the_parameters() {
         assert_eq!(led.set("drive.speed", speed), OK);
         assert_eq!(led.set("drive.amplitude", amplitude), OK);
         for unit in [&tuned, &led] {
-            assert_abs_diff_eq!(unit.get("drive.angle"), angle, epsilon = SAME);
+            assert_near(unit.get("drive.angle"), angle, SAME);
             assert_eq!(unit.step(time, 2.7), OK);
         }
         angle += 2.7 * speed;
@@ -125,7 +114,7 @@ fn ramps_do_not_depend_on_the_step() {
         unit
     };
     let coarse = run(1);
-    assert_abs_diff_eq!(coarse.get("drive.angle"), -16.0 + 48.0, epsilon = SAME);
+    assert_near(coarse.get("drive.angle"), -16.0 + 48.0, SAME);
     assert!(coarse.get_integer("impact.count") > 0);
     for steps in [7, 400] {
         assert_same(&coarse, &run(steps), PIECEWISE);
@@ -156,7 +145,7 @@ fn ramps_are_limits_of_steps() {
     let exact = ramp.get("position");
     let errors = [300, 600].map(|steps| (end(steps) - exact).abs());
     assert!(errors[0] < 1e-4, "{errors:?}");
-    assert_abs_diff_eq!(errors[0] / errors[1], 4.0, epsilon = 0.02);
+    assert_near(errors[0] / errors[1], 4.0, 0.02);
 }
 
 /// The drive's work is the integral of its power; the balance closes over the whole unit.
@@ -186,11 +175,11 @@ fn work_of_the_drive_and_balance() {
         work += 0.5 * length * (before.0 + after.0);
         external += 0.5 * length * (before.1 + after.1);
     }
-    assert_abs_diff_eq!(unit.get("drive.work"), work, epsilon = 1e-3);
+    assert_near(unit.get("drive.work"), work, 1e-3);
     let supplied = unit.get("energy.supplied");
-    assert_abs_diff_eq!(supplied - unit.get("drive.work"), external, epsilon = 1e-3);
+    assert_near(supplied - unit.get("drive.work"), external, 1e-3);
     let balance = unit.get("energy.dissipated") + unit.get("energy.mechanical") - start;
-    assert_abs_diff_eq!(supplied, balance, epsilon = 1e-10 * supplied.abs());
+    assert_near(supplied, balance, 1e-10 * supplied.abs());
     assert!(unit.get_integer("pierce.count") > 2);
 }
 
@@ -214,7 +203,7 @@ fn the_frame_moves() {
     assert_same(&pushed, &moved, SAME);
     let force = moved.get("drive.force") - 1.25 * moved.get("base.acceleration");
     let frame = force - 1.25 * moved.get("acceleration");
-    assert_abs_diff_eq!(moved.get("frame.force"), frame, epsilon = SAME);
+    assert_near(moved.get("frame.force"), frame, SAME);
 }
 
 /// What is told of a step of many impacts is what many steps tell.
@@ -255,8 +244,8 @@ fn contacts_of_a_step() {
         assert_eq!(coarse.get_integer("impact.step.count"), impacts, "{model}");
         assert_eq!(coarse.get_integer("pierce.step.count"), pierced);
         assert!(impacts >= 4);
-        assert_abs_diff_eq!(coarse.get("contact.impulse"), impulse, epsilon = 1e-8);
-        assert_abs_diff_eq!(coarse.get("contact.peak"), peak, epsilon = 1e-8);
+        assert_near(coarse.get("contact.impulse"), impulse, 1e-8);
+        assert_near(coarse.get("contact.peak"), peak, 1e-8);
         assert!(
             peak >= sampled && peak - sampled < 1e-2 * peak,
             "{model} {peak} {sampled}"
@@ -265,13 +254,9 @@ fn contacts_of_a_step() {
             coarse.get("impact.step.first.time"),
             coarse.get("impact.step.first.velocity"),
         );
-        assert_abs_diff_eq!(first.0, times[0].0, epsilon = 1e-9);
-        assert_abs_diff_eq!(first.1, times[0].1, epsilon = 1e-9);
-        assert_abs_diff_eq!(
-            coarse.get("impact.step.hardest.velocity"),
-            hardest.0,
-            epsilon = 1e-8
-        );
+        assert_near(first.0, times[0].0, 1e-9);
+        assert_near(first.1, times[0].1, 1e-9);
+        assert_near(coarse.get("impact.step.hardest.velocity"), hardest.0, 1e-8);
         // Setting an input does not take it away.
         let before = coarse.get("contact.impulse");
         assert_eq!(coarse.set("force", 0.3), OK);
@@ -297,7 +282,7 @@ fn impulse_of_a_period() {
         );
     }
     // k1 times the integral of the position, and the impulse, balance each other.
-    assert_abs_diff_eq!(sums.1, -sums.0, epsilon = 1e-3);
+    assert_near(sums.1, -sums.0, 1e-3);
     assert!(sums.1 > 5.0);
 }
 
@@ -370,27 +355,9 @@ fn states_on_a_ramp() {
     slope(&unit, "drive.speed", 1, 0.05);
     slope(&unit, "drive.amplitude", 1, 0.1);
     assert_eq!(unit.step(0.0, 30.0), OK);
-    let (mut state, mut size) = (std::ptr::null_mut(), 0);
-    let mut again = std::ptr::null_mut();
     let other = led(9.0);
     other.begin();
-    unsafe {
-        assert_eq!(fmi2GetFMUstate(unit.component, &raw mut state), OK);
-        assert_eq!(
-            fmi2SerializedFMUstateSize(unit.component, state, &raw mut size),
-            OK
-        );
-        let mut bytes = vec![0; size];
-        let data = bytes.as_mut_ptr();
-        assert_eq!(fmi2SerializeFMUstate(unit.component, state, data, size), OK);
-        assert_eq!(
-            fmi2DeSerializeFMUstate(other.component, data, size, &raw mut again),
-            OK
-        );
-        assert_eq!(fmi2SetFMUstate(other.component, again), OK);
-        assert_eq!(fmi2FreeFMUstate(other.component, &raw mut again), OK);
-        assert_eq!(fmi2FreeFMUstate(unit.component, &raw mut state), OK);
-    }
+    assert_eq!(other.take_up(&unit.serialized()), OK);
     let by = [("initial.position", 1.0), ("drive.speed", 1.0)];
     let read = |unit: &Unit| {
         let values = NEW.map(|name| unit.get(name).to_bits());

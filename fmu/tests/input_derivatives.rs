@@ -10,13 +10,7 @@ use softstop_fmu::ffi::*;
 fn input_derivatives() {
     let unit = Unit::new();
     unit.begin();
-    let set = |name: &str, order: c_int, value: f64| {
-        let reference = reference(name);
-        let (order, value) = (&raw const order, &raw const value);
-        unsafe {
-            fmi2SetRealInputDerivatives(unit.component, &raw const reference, 1, order, value)
-        }
-    };
+    let set = |name: &str, order: c_int, value: f64| unit.slope(name, order, value);
     assert_eq!(set("force", 1, 0.25), OK);
     assert_eq!(set("force", 2, 0.0), OK);
     assert_eq!(set("force", 8, 0.0), OK);

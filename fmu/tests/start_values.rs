@@ -2,6 +2,7 @@
 
 use softstop::{Ratios, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
 use softstop_fmu::{NotServed, StartValues};
+use softstop_testing::{hertz, kelvin_voigt, preloaded, rigid_stop, slope};
 
 const START: Start = Start::new(4.5, -2.25);
 
@@ -16,10 +17,7 @@ fn scene(stop: Stop, rigid: Option<RigidStop>) -> Scene {
 }
 
 fn slopes(count: usize, stiffness: f64) -> Vec<Slope> {
-    let slope = |index| Slope {
-        from: 0.1 * f64::from(index),
-        stiffness: stiffness + f64::from(index),
-    };
+    let slope = |index| slope(0.1 * f64::from(index), stiffness + f64::from(index));
     (0..u32::try_from(count).expect("a small count"))
         .map(slope)
         .collect()
@@ -27,14 +25,8 @@ fn slopes(count: usize, stiffness: f64) -> Vec<Slope> {
 
 fn yielding_stops() -> Vec<Stop> {
     vec![
-        Stop::KelvinVoigt {
-            stiffness: 3.0,
-            release: Release::Clearance,
-        },
-        Stop::KelvinVoigt {
-            stiffness: 3.5,
-            release: Release::ZeroForce,
-        },
+        kelvin_voigt(3.0, Release::Clearance),
+        kelvin_voigt(3.5, Release::ZeroForce),
         Stop::PiecewiseLinear {
             loading: slopes(1, 2.0),
             unloading: vec![],
@@ -43,24 +35,14 @@ fn yielding_stops() -> Vec<Stop> {
             loading: slopes(8, 5.0),
             unloading: slopes(3, 1.0),
         },
-        Stop::Hertz {
-            stiffness: 40.0,
-            exponent: 1.75,
-            dissipation: 0.3,
-        },
-        Stop::Preloaded {
-            stiffness: 6.0,
-            preload: 11.0,
-        },
+        hertz(40.0, 1.75, 0.3),
+        preloaded(6.0, 11.0),
     ]
 }
 
 #[test]
 fn every_stop_there_and_back() {
-    let behind = RigidStop {
-        travel: 0.75,
-        restitution: 0.25,
-    };
+    let behind = rigid_stop(0.75, 0.25);
     let mut scenes = vec![
         scene(Stop::None, None),
         scene(Stop::Rigid { restitution: 0.0 }, None),
@@ -86,10 +68,7 @@ fn every_stop_there_and_back() {
 fn default_is_the_loaded_machine() {
     let sample = softstop::internals::samples::LOADED;
     let start = Start::new(sample.position, sample.velocity);
-    let behind = RigidStop {
-        travel: 5.0,
-        restitution: 0.6,
-    };
+    let behind = rigid_stop(5.0, 0.6);
     let scene = Scene {
         rigid: Some(behind),
         ..sample.ratios.scene().expect("a valid sample")
@@ -102,10 +81,7 @@ fn default_is_the_loaded_machine() {
 
 #[test]
 fn a_rigid_stop_out_of_reach_is_left_out() {
-    let behind = RigidStop {
-        travel: 0.75,
-        restitution: 0.25,
-    };
+    let behind = rigid_stop(0.75, 0.25);
     let rigid = Stop::Rigid { restitution: 0.5 };
     let values = StartValues::from_scene(&scene(rigid.clone(), Some(behind)), START);
     assert_eq!(values.expect("served").scene(), scene(rigid, None));
@@ -124,10 +100,7 @@ fn scenes_without_parameters_for_them() {
         let error = StartValues::from_scene(&scene, START).expect_err("too many slopes");
         assert!(error.to_string().contains(list), "{error}");
     }
-    let behind = RigidStop {
-        travel: 0.75,
-        restitution: 0.25,
-    };
+    let behind = rigid_stop(0.75, 0.25);
     let error = StartValues::from_scene(&scene(Stop::None, Some(behind)), START);
     assert_eq!(error, Err(NotServed::NothingInFront));
     let empty = too_many(vec![], vec![]);

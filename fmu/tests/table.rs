@@ -65,6 +65,12 @@ fn rows_stand_depth_first() {
     let mut present = Vec::<String>::new();
     for variable in table().rows() {
         let next = branches(variable.name);
+        let is_leaf = |branch: &String| table().by_name(branch).is_some();
+        assert!(
+            !next.iter().any(is_leaf),
+            "{} is below a leaf",
+            variable.name
+        );
         left.extend(
             present
                 .iter()

@@ -2,51 +2,20 @@
 //! standard allows.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-use std::ffi::{c_char, c_int, c_void};
-use std::ptr;
+use std::ffi::c_int;
 
-use crate::common::{ERROR, OK, Unit, reference};
+use crate::common::{DISCARD, ERROR, OK, Unit};
 use softstop_fmu::ffi::*;
 
-const DISCARD: c_int = 2;
-
 fn set_rate(unit: &Unit, rate: f64) -> c_int {
-    let (force, order) = (reference("force"), 1);
-    unsafe {
-        fmi2SetRealInputDerivatives(
-            unit.component,
-            &raw const force,
-            1,
-            &raw const order,
-            &raw const rate,
-        )
-    }
-}
-
-fn last_successful_time(unit: &Unit) -> f64 {
-    let mut time = f64::NAN;
-    assert_eq!(
-        unsafe { fmi2GetRealStatus(unit.component, 2, &raw mut time) },
-        OK
-    );
-    time
-}
-
-fn enter(unit: &Unit, start: f64) {
-    unsafe {
-        assert_eq!(
-            fmi2SetupExperiment(unit.component, 0, 0.0, start, 0, 0.0),
-            OK
-        );
-        assert_eq!(fmi2EnterInitializationMode(unit.component), OK);
-    }
+    unit.slope("force", 1, rate)
 }
 
 #[test]
 fn a_force_that_changes_is_counted_from_the_start() {
     let unit = Unit::new();
     assert_eq!(set_rate(&unit, 0.1), OK);
-    enter(&unit, 10.0);
+    unit.enter(10.0);
     assert_eq!(unit.get("force"), 0.0);
     unit.get("position");
     assert_eq!(unit.get("force"), 0.0);
@@ -58,7 +27,7 @@ fn material_before_the_start_counts_whether_outputs_were_read_or_not() {
     let ends = [false, true].map(|read| {
         let unit = Unit::new();
         assert_eq!(unit.set("initial.position", 10.2), OK);
-        enter(&unit, 0.0);
+        unit.enter(0.0);
         if read {
             unit.get("contact.force");
         }
@@ -88,8 +57,8 @@ fn what_was_set_before_the_end_shows_after_it() {
 /// A mass that is pressed on a Hertz stop for good: long steps cost much effort.
 fn laborious() -> Unit {
     let unit = Unit::new();
-    assert_eq!(unit.set_integer("stop.model", 4), OK);
-    for (name, value) in [
+    unit.set_all(&[
+        ("stop.model", 4.0),
         ("piercing.thickness", 0.0),
         ("piercing.travel", 0.0),
         ("stop.stiffness", 100.0),
@@ -97,9 +66,7 @@ fn laborious() -> Unit {
         ("initial.position", 1.0),
         ("initial.velocity", 0.0),
         ("force", 20.0),
-    ] {
-        assert_eq!(unit.set(name, value), OK);
-    }
+    ]);
     unsafe {
         assert_eq!(
             fmi2SetupExperiment(unit.component, 0, 0.0, 0.0, 1, 1e10),
@@ -126,25 +93,7 @@ fn outputs(unit: &Unit) -> [f64; 5] {
 /// A unit in the state of this one, which came over bytes.
 fn copy(unit: &Unit) -> Unit {
     let copy = Unit::new();
-    let (mut state, mut other): (*mut c_void, *mut c_void) = (ptr::null_mut(), ptr::null_mut());
-    let mut size = 0;
-    unsafe {
-        assert_eq!(fmi2GetFMUstate(unit.component, &raw mut state), OK);
-        assert_eq!(
-            fmi2SerializedFMUstateSize(unit.component, state, &raw mut size),
-            OK
-        );
-        let mut bytes: Vec<c_char> = vec![0; size];
-        let room = bytes.as_mut_ptr();
-        assert_eq!(fmi2SerializeFMUstate(unit.component, state, room, size), OK);
-        assert_eq!(
-            fmi2DeSerializeFMUstate(copy.component, room, size, &raw mut other),
-            OK
-        );
-        assert_eq!(fmi2SetFMUstate(copy.component, other), OK);
-        assert_eq!(fmi2FreeFMUstate(copy.component, &raw mut state), OK);
-        assert_eq!(fmi2FreeFMUstate(copy.component, &raw mut other), OK);
-    }
+    assert_eq!(copy.take_up(&unit.serialized()), OK);
     copy
 }
 
@@ -160,7 +109,7 @@ fn a_discarded_step_is_repeated_or_carried_on() {
     let unit = laborious();
     assert_eq!(unit.step(5.0, 1e9), DISCARD);
     assert_eq!(unit.take_log().len(), 1);
-    let reached = last_successful_time(&unit);
+    let reached = unit.last_successful_time();
     assert!(reached > 5.0 && reached < 1e9);
 
     let changes: [fn(&Unit); 4] = [
@@ -181,7 +130,7 @@ fn a_discarded_step_is_repeated_or_carried_on() {
 
     let onward = copy(&unit);
     assert_eq!(onward.step(reached, 1.0), OK);
-    assert_eq!(last_successful_time(&onward), reached + 1.0);
+    assert_eq!(onward.last_successful_time(), reached + 1.0);
 }
 
 #[test]
@@ -189,11 +138,11 @@ fn a_refused_repetition_changes_nothing() {
     let unit = laborious();
     assert_eq!(unit.step(5.0, 1e9), DISCARD);
     unit.take_log();
-    let (time, before) = (last_successful_time(&unit), outputs(&unit));
+    let (time, before) = (unit.last_successful_time(), outputs(&unit));
     for size in [1e11, 1e300, f64::NAN, -1.0] {
         assert_eq!(unit.step(5.0, size), ERROR, "{size}");
         assert_eq!(unit.take_log().len(), 1);
-        assert_eq!(last_successful_time(&unit), time, "{size}");
+        assert_eq!(unit.last_successful_time(), time, "{size}");
         assert_eq!(outputs(&unit), before, "{size}");
     }
 }

@@ -14,7 +14,7 @@ use softstop_optimize::design::space::{Axis, Interval, Space};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::robust::{self, verify};
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+use crate::Outcome;
 
 const SETTINGS: Settings = Settings { evaluations: 1200 };
 

@@ -28,10 +28,6 @@ fn every_call_on_a_page_is_one_that_the_program_takes() {
 #[cfg(unix)]
 #[test]
 fn the_tutorials_run_as_printed() -> Result<(), Box<dyn std::error::Error>> {
-    let program = softstop_testing::Program {
-        file: env!("CARGO_BIN_EXE_softstop"),
-        first: &[],
-    };
     let folder = tempfile::tempdir()?;
     std::os::unix::fs::symlink(
         pages::top().canonicalize()?.join("docs"),
@@ -47,7 +43,7 @@ fn the_tutorials_run_as_printed() -> Result<(), Box<dyn std::error::Error>> {
                 call.extend(["--no-report", "--samples", "4096"].map(str::to_owned));
             }
             let words: Vec<&str> = call.iter().map(String::as_str).collect();
-            let output = program
+            let output = crate::SOFTSTOP
                 .command(&words)
                 .current_dir(folder.path())
                 .output()?;

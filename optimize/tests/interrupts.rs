@@ -15,22 +15,15 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use softstop_console::interrupt::LATE;
-use softstop_testing::{Program, words};
+use softstop_testing::{with_folders, words};
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+use crate::{Outcome, SOFTSTOP};
 
-const SOFTSTOP: Program = Program {
-    file: env!("CARGO_BIN_EXE_softstop"),
-    first: &[],
-};
-
-const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes");
-const STUDIES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/studies");
 const SIGNALS: [&str; 5] = ["INT", "TERM", "HUP", "QUIT", "USR1"];
 
 /// It ends by itself: no step of it takes long. It goes on where the signals are ignored.
 fn ends(line: &str, kept: &[&str]) {
-    let line = line.replace("SCENES", SCENES).replace("STUDIES", STUDIES);
+    let line = with_folders(line);
     for signal in SIGNALS {
         let folder = tempfile::tempdir().expect("a folder");
         let said = SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept);
@@ -178,7 +171,7 @@ fn nothing_is_lost_to_kills() {
         "optimize --evaluations 4000",
         "study STUDIES/map.toml --csv",
     ] {
-        let line = line.replace("SCENES", SCENES).replace("STUDIES", STUDIES);
+        let line = with_folders(line);
         let folder = tempfile::tempdir().expect("a folder");
         SOFTSTOP.survives_kills(&words(&line), 6, folder.path());
     }

@@ -1,11 +1,9 @@
 //! Tolerances: what the machines of a box do, against what is known of them.
 
-mod robust {
-    mod indices;
-    mod nearest;
-    mod verify;
-    mod worst;
-}
+mod indices;
+mod nearest;
+mod verify;
+mod worst;
 
 use softstop::{Machine, Parameter};
 use softstop_dynamics::{Orbit, orbit};

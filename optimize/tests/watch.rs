@@ -4,14 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use softstop_testing::{Program, words};
+use softstop_testing::{docs, words};
 
-type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
-
-const SOFTSTOP: Program = Program {
-    file: env!("CARGO_BIN_EXE_softstop"),
-    first: &[],
-};
+use crate::{Outcome, SOFTSTOP};
 
 fn numbers(value: &Value) -> Vec<f64> {
     let values = value.as_array().expect("a list").iter();
@@ -81,9 +76,8 @@ fn holds_every_impact(arguments: &[&str]) -> Outcome<Value> {
 
 #[test]
 fn the_page_holds_every_impact_of_every_stop() -> Outcome {
-    let scenes = format!("{}/../docs/scenes", env!("CARGO_MANIFEST_DIR"));
     let mut count = 0;
-    for entry in fs::read_dir(scenes)? {
+    for entry in fs::read_dir(docs("scenes"))? {
         let path = entry?.path();
         let file = path.to_str().ok_or("path")?;
         let motion = holds_every_impact(&[file, "--periods", "9"])?;
@@ -148,10 +142,9 @@ fn the_last_periods_alone_are_shown() -> Outcome {
 fn the_page_needs_nothing_from_elsewhere() -> Outcome {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("odd.toml");
-    let scene = format!("{}/../docs/scenes/rigid.toml", env!("CARGO_MANIFEST_DIR"));
-    let odd =
-        "name = \"</script><b>odd</b>{{motion.js}}\"\n".to_owned() + &fs::read_to_string(scene)?;
-    fs::write(&file, odd)?;
+    let rigid = fs::read_to_string(docs("scenes/rigid.toml"))?;
+    let name = "name = \"</script><b>odd</b>{{motion.js}}\"\n";
+    fs::write(&file, name.to_owned() + &rigid)?;
     let (page, motion) = page(folder.path(), &[file.to_str().ok_or("path")?])?;
     assert_eq!(motion["title"], "</script><b>odd</b>{{motion.js}}");
     assert_eq!(page.matches("</script>").count(), 2);
@@ -160,33 +153,5 @@ fn the_page_needs_nothing_from_elsewhere() -> Outcome {
         assert_eq!(found, None, "{word}");
     }
     assert!(page.contains("default-src 'none'"));
-    Ok(())
-}
-
-#[test]
-fn bad_input_is_refused_and_writes_nothing() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let place = folder.path().join("out").join("page.html");
-    let output = ["--output", place.to_str().ok_or("path")?];
-    let cases: [(&str, i32, &[&str]); 8] = [
-        ("--periods 0", 2, &["periods = 0", "1 to 1000000"]),
-        ("--last 401", 2, &["last = 401", "1 to 400"]),
-        ("--position nan", 2, &["position = NaN", "finite"]),
-        ("--position 3 --set initial.position=2", 2, &["--position"]),
-        ("--frequency 0", 2, &["frequency = 0", "> 0"]),
-        (
-            "--missing-strips 1:2",
-            2,
-            &["missing-strips = 1:2", "no strip"],
-        ),
-        ("loaded --missing-strips 0:2", 2, &["0:2", "FIRST:LAST"]),
-        ("nowhere.toml", 2, &["nowhere.toml"]),
-    ];
-    for (line, code, told) in cases {
-        let line = words(line);
-        SOFTSTOP.ends_with(&[&["watch"], &line[..], &output].concat(), code, told);
-    }
-    SOFTSTOP.ends_with(&["watch", "--output", ".."], 2, &["no name of a file"]);
-    assert_eq!(fs::read_dir(folder.path())?.count(), 0);
     Ok(())
 }

@@ -34,7 +34,7 @@ SCENES = {  # stop model: parameters that bring up its phases within a few perio
 
 
 INPUTS = {
-    "force": FORCES, "material": [False], "material.real": [0.0],
+    "force": FORCES, "material": [False], "material_real": [0.0],
     "base.acceleration": [-200.0, 20.0],
     "drive.speed": [0.7], "drive.amplitude": [-20.0, 200.0],
 }

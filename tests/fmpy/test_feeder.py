@@ -132,7 +132,7 @@ def test_turning_back_begins_no_stroke(feeder):
 def test_held_by_hand(feeder):
     unit = feeder().begin()
     assert all(strokes(unit, 5))
-    for name, value, free in (("held", True, False), ("held.real", 1.0, 0.0)):
+    for name, value, free in (("held", True, False), ("held_real", 1.0, 0.0)):
         unit.set({name: value})
         assert strokes(unit, 4) == [True, False, False, False]
         unit.set({name: free})

@@ -203,7 +203,7 @@ def test_output_derivatives(unit):
     unit.refused(lambda: get([position], [3]), "position", "order 3")
 
 
-@pytest.mark.parametrize("name, no, yes", [("material", False, True), ("material.real", 0.0, 1.0)])
+@pytest.mark.parametrize("name, no, yes", [("material", False, True), ("material_real", 0.0, 1.0)])
 def test_without_material_nothing_is_pierced(unit, name, no, yes):
     unit.begin()
     unit.step(10 * PERIOD)

@@ -31,8 +31,7 @@ DIMENSIONS = {  # powers of kg, m, s, rad
     "m2": (0, 2, 0, 0),
 }
 SCALES = {
-    "g": 1e3, "N/mm": 1e-3, "kN": 1e-3, "mm": 1e3, "mm/s": 1e3, "ms": 1e3,
-    "kW": 1e-3, "Hz": 1 / math.tau, "deg": 180 / math.pi,
+    "kN": 1e-3, "mm": 1e3, "Hz": 1 / math.tau, "deg": 180 / math.pi,
 }
 
 
@@ -163,6 +162,21 @@ def test_units(root, variables):
         if shown:
             assert shown in {d.get("name") for d in units[unit].findall("DisplayUnit")}
     assert set(units) == used - {None}
+    shown = {kind(v).get("displayUnit") for v in variables} - {None}
+    assert shown == {d.get("name") for d in root.iter("DisplayUnit")}
+
+
+def test_no_name_is_a_leaf_and_a_record(variables):
+    names = {v.get("name") for v in variables}
+    records = {name[:at] for name in names for at, letter in enumerate(name) if letter == "."}
+    assert not names & records
+
+
+def test_log_categories(root, variables):
+    names = [c.get("name") for c in root.findall("LogCategories/Category")]
+    events = any(v.get("name").endswith("count") for v in variables)
+    assert unique(names) and ("events" in names) == ("logEvents" in names) == events
+    assert {"logStatusWarning", "logStatusDiscard", "logStatusError", "logAll"} < set(names)
 
 
 def indices(unknown):

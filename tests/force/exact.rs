@@ -1,9 +1,10 @@
 //! Forces whose motion has a closed form, or an order of its error.
 
 use super::*;
-use approx::{abs_diff_eq, assert_abs_diff_eq, assert_relative_eq};
+use approx::assert_relative_eq;
 use softstop::Start;
 use softstop_testing::tolerance::ROUNDING;
+use softstop_testing::{assert_near, is_near, preloaded};
 
 fn factorial(n: usize) -> f64 {
     (1..=n).map(|k| k as f64).product()
@@ -21,14 +22,14 @@ fn a_lone_mass_follows_each_order_in_closed_form() {
         machine.advance(0.9 * impact).expect("bounded");
         let expected = 0.9f64.powf(power);
         let found = machine.sample();
-        assert_abs_diff_eq!(found.position, expected, epsilon = 1e-15 * (1.0 + expected));
+        assert_near(found.position, expected, 1e-15 * (1.0 + expected));
         let speed = power * 0.9f64.powf(power - 1.0) / impact;
-        assert_abs_diff_eq!(found.velocity, speed, epsilon = 1e-15 * (1.0 + speed));
+        assert_near(found.velocity, speed, 1e-15 * (1.0 + speed));
         machine.advance(1.01 * impact).expect("bounded");
         let found = machine.last_impact().expect("an impact");
-        assert_abs_diff_eq!(found.time, impact, epsilon = 4e-16 * (1.0 + impact));
+        assert_near(found.time, impact, 4e-16 * (1.0 + impact));
         let speed = power / impact;
-        assert_abs_diff_eq!(found.velocity, speed, epsilon = 4e-15 * (1.0 + speed));
+        assert_near(found.velocity, speed, 4e-15 * (1.0 + speed));
     }
 }
 
@@ -86,10 +87,7 @@ fn a_sine_fitted_by_cubics_is_of_the_fourth_order() {
     let errors = [256, 512, 1024].map(error);
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
-        assert!(
-            abs_diff_eq!(order, 4.0, epsilon = 0.2),
-            "order {order}, errors {errors:?}"
-        );
+        assert!(is_near(order, 4.0, 0.2), "order {order}, errors {errors:?}");
     }
 }
 
@@ -103,10 +101,10 @@ fn a_long_run_keeps_the_force_where_it_was_set() {
     // b x = f - c f' / k + (c^2 / k^2 - m / k) f'', the polynomial answer, m = 1.
     let (k, c) = (scene.stiffness, scene.damping);
     let expected = (-20.0 + (c * c / k / k - scene.mass / k) * 0.04) / k;
-    assert_abs_diff_eq!(
+    assert_near(
         machine.sample().position,
         expected,
-        epsilon = 10.0 * ROUNDING * expected.abs()
+        10.0 * ROUNDING * expected.abs(),
     );
 }
 
@@ -114,10 +112,7 @@ fn a_long_run_keeps_the_force_where_it_was_set() {
 #[test]
 fn a_held_mass_is_let_go_when_its_balance_is_reached() {
     for order in 1..=HIGHEST_ORDER {
-        let stop = Stop::Preloaded {
-            stiffness: 7.0,
-            preload: 3.0,
-        };
+        let stop = preloaded(7.0, 3.0);
         let scene = Scene {
             clearance: 0.0,
             ..bare(stop)

@@ -1,6 +1,7 @@
 //! Forces that cannot be, or that are too much.
 
 use super::*;
+use softstop_testing::{hertz, preloaded};
 
 #[test]
 fn a_derivative_that_cannot_be_taken_is_named() {
@@ -35,22 +36,9 @@ fn huge_and_tiny_forces_neither_hang_nor_panic() {
     let stops = [
         (Stop::None, 20.0),
         (Stop::Rigid { restitution: 0.6 }, 20.0),
-        (
-            Stop::Preloaded {
-                stiffness: 7.0,
-                preload: 70.0,
-            },
-            20.0,
-        ),
+        (preloaded(7.0, 70.0), 20.0),
         // A contact that deep takes many thousand steps in each second.
-        (
-            Stop::Hertz {
-                stiffness: 50.0,
-                exponent: 1.5,
-                dissipation: 0.1,
-            },
-            0.05,
-        ),
+        (hertz(50.0, 1.5, 0.1), 0.05),
     ];
     for (stop, end) in stops {
         let loaded = Scene {

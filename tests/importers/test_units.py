@@ -12,7 +12,7 @@ from machine import package  # noqa: E402
 STEP, STEPS = 0.1, 400
 RUNS = {  # parameters, outputs; real numbers and counts only, as libcosim and ecos know no enumerations
     "drive": ({"initial.speed": 0.3, "motor.torque": 5.0}, ["speed", "angle", "energy.kinetic", "energy.supplied"]),
-    "feeder": ({"jam.probability": 0.3, "feed.speed": 3.0}, ["strip.count", "jam.count", "material.real", "fed.time"]),
+    "feeder": ({"jam.probability": 0.3, "feed.speed": 3.0}, ["strip.count", "jam.count", "material_real", "fed.time"]),
 }
 
 

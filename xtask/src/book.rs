@@ -18,7 +18,7 @@ const OUTSIDE: &str = "top";
 pub fn write() -> Result<PathBuf> {
     stage("pages, commands and examples");
     cargo("test --release -p softstop-testing --test pages")?;
-    cargo("test --release -p softstop --test guide")?;
+    cargo("test --release -p softstop --test optimize guide")?;
     cargo("test --release -p softstop-lab --test lab guide")?;
     cargo("test --release -p softstop-dynamics --doc guide")?;
     stage("book");

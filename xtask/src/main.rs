@@ -145,7 +145,7 @@ fn check() -> Result<()> {
     let quick = "lanes console fmi explore units testing".split(' ');
     let packages: String = quick.map(|room| format!(" -p softstop-{room}")).collect();
     cargo(&format!("test --release{packages} --tests --quiet"))?;
-    cargo("test --release -p softstop --test simulate --quiet")
+    cargo("test --release -p softstop --test optimize --quiet -- simulate refusals")
 }
 
 fn build() -> Result<PathBuf> {

@@ -30,6 +30,8 @@ impl Budget {
     pub const MACHINE: Self = Self(200);
     /// For a point of a study, of which there are many: some fifty times as much as one usually costs.
     pub const POINT: Self = Self(10);
+    /// For each zone of a search, of which few cost that much.
+    pub const ZONE: Self = Self(20);
 
     /// It in scan windows.
     pub fn windows(self) -> u64 {

@@ -1,12 +1,11 @@
 //! All motions of a scene, found from scratch: the coexisting motions of Peterka 2003, Figs. 8 and 9, and
 //! what other stops settle on.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop::{Scene, Start, Stop};
 use softstop_dynamics::Survey;
 use softstop_dynamics::attractors::{Attractor, Chaos, Options, attractors, classify};
 use softstop_dynamics::watch::unwatched;
-use softstop_testing::{loaded, unloaded};
+use softstop_testing::{assert_near, is_near, loaded, unloaded};
 
 const OPTIONS: Options = Options {
     starts: 96,
@@ -89,7 +88,7 @@ fn three_motions_coexist_and_the_order_of_impacts_differs() {
     assert!(chaos.watched > 200_000, "{}", chaos.watched);
     let [largest, _] = chaos.exponents.per_period;
     assert!(
-        abs_diff_eq!(largest, 0.137, epsilon = 0.01 + chaos.exponents.error),
+        is_near(largest, 0.137, 0.01 + chaos.exponents.error),
         "{:?}",
         chaos.exponents
     );
@@ -104,7 +103,7 @@ fn the_half_order_motion_gives_way_to_chaos_at_its_flip() {
     let half = orbits.find(|orbit| orbit.periods == 2);
     let half = half.map(|orbit| orbit.multipliers()[0].re);
     let off = half.expect("z = 1/2") + 0.9994;
-    assert_abs_diff_eq!(off, 0.0, epsilon = 1e-5);
+    assert_near(off, 0.0, 1e-5);
     let below = survey(&unloaded(0.988_494));
     assert_eq!(names(&below), ["1-1-0", "1-1-0-0", "chaos"]);
 }

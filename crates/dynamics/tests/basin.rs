@@ -1,6 +1,5 @@
 //! Basins against the scalar engine and against what is known of the machine.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
@@ -9,7 +8,7 @@ use softstop_dynamics::basin::{Options, basins, establishing};
 use softstop_dynamics::watch::{stop_if, unwatched};
 use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
 use softstop_testing::tolerance::DIFFERENCED;
-use softstop_testing::unloaded;
+use softstop_testing::{assert_near, is_near, rigid_stop, unloaded};
 
 const NONE: Regime = Regime {
     impacts: 0,
@@ -158,10 +157,10 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
             ball.centre[0] + within * 22.5 * cos,
             ball.centre[1] + within * 30.0 * sin,
         );
-        assert_abs_diff_eq!(
+        assert_near(
             (map.image(state).expect("there is one") - orbit.state()).norm(),
             0.0,
-            epsilon = DIFFERENCED
+            DIFFERENCED,
         );
     }
     assert!(ball.radius > 0.02 && ball.radius < 1.0, "{ball:?}");
@@ -185,10 +184,7 @@ fn the_certainty_falls_along_the_zone() {
     // The paper says from 1 at g0 to 0 at s_SN. A few starts at g0 lead to z = 3/4, and near the fold a share
     // above zero is left; in between the certainty hardly falls.
     assert!(shares[0] > 0.98 && shares[1] < 0.75, "{shares:?}");
-    assert!(
-        abs_diff_eq!(shares[2], shares[1], epsilon = 0.15),
-        "{shares:?}"
-    );
+    assert!(is_near(shares[2], shares[1], 0.15), "{shares:?}");
     assert!(
         shares[4] > 0.02 && shares[4] < 0.5 * shares[3],
         "{shares:?}"
@@ -218,10 +214,7 @@ fn it_stops_when_told() {
 #[test]
 fn cells_that_cannot_be_are_lost() {
     let mut ratios = Ratios::unloaded();
-    ratios.rigid = Some(softstop::RigidStop {
-        travel: 2.0,
-        restitution: 0.6,
-    });
+    ratios.rigid = Some(rigid_stop(2.0, 0.6));
     let found = on(&ratios.scene().expect("there is one"), &states(24));
     let beyond = (0..found.grid.cells()).filter(|cell| found.grid.start(*cell).0.position > 12.0);
     let lost = found.classes.last().expect("there is one");

@@ -4,20 +4,19 @@
 mod curves;
 mod doubling;
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop_testing::tolerance::{DIFFERENCED, GROWN, MOTION, SOLVED, printed};
 use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
-use softstop::{Parameter, Ratios, Scene, Stop};
+use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{
     Curve, CurveEnd, CurvePoint, End, Face, Region, Special, SpecialKind, Test, curve,
 };
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, StroboscopicMap};
-use softstop_testing::loaded;
 use softstop_testing::reference::{FOLDS, MACHINE, list, number};
 use softstop_testing::tangent::differences;
+use softstop_testing::{assert_near, is_near, loaded};
 
 type Frequencies = Along<1>;
 
@@ -28,11 +27,27 @@ fn frequencies(eta: f64) -> Frequencies {
 
 /// The branch of period-`n` orbits of the unloaded machine near a state.
 fn branch(eta: f64, n: u64, state: (f64, f64), range: (f64, f64)) -> Branch {
-    let limits = Limits { range, points: 500 };
     let state = Vector2::new(state.0, state.1);
-    Follower::new(&frequencies(eta), n)
-        .branch(eta, state, &limits, |_| ControlFlow::Continue(()))
-        .expect("a branch")
+    follow(&frequencies(eta), n, (eta, state), range)
+}
+
+/// The branch of a family from a frequency and a state on.
+fn follow(family: &Frequencies, n: u64, from: (f64, Vector2<f64>), range: (f64, f64)) -> Branch {
+    let limits = Limits { range, points: 500 };
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let branch = Follower::new(family, n).branch(from.0, from.1, &limits, go_on);
+    branch.expect("a branch")
+}
+
+/// The branch of twice the period from a flip on, over the frequencies about it.
+fn double(family: &Frequencies, n: u64, flip: &BranchPoint) -> Branch {
+    let limits = Limits {
+        range: (0.9, 1.1),
+        points: 500,
+    };
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let doubled = Follower::new(family, n).doubled(flip, &limits, go_on);
+    doubled.expect("a branch of twice the period")
 }
 
 /// The z = 1 branch through the paper's point A, and states of others (settled from arbitrary starts).
@@ -56,11 +71,9 @@ fn of_kind(branch: &Branch, symbol: &str) -> Vec<Special> {
     found.cloned().collect()
 }
 
-fn parameters(branch: &Branch) -> Vec<(&'static str, f64)> {
+fn symbols(branch: &Branch) -> Vec<&'static str> {
     let specials = branch.specials.iter();
-    specials
-        .map(|special| (special.kind.symbol(), special.point.parameter))
-        .collect()
+    specials.map(|special| special.kind.symbol()).collect()
 }
 
 /// From one grazing to the other: flip, fold, and at both ends the impact dies in the impact-less motion
@@ -68,47 +81,26 @@ fn parameters(branch: &Branch) -> Vec<(&'static str, f64)> {
 #[test]
 fn z1_goes_from_grazing_over_flip_and_fold_to_grazing() {
     let branch = all_of_z1();
-    let symbols: Vec<_> = parameters(&branch)
-        .into_iter()
-        .map(|(name, _)| name)
-        .collect();
-    assert_eq!(symbols, ["G", "PD", "SN", "G"]);
+    assert_eq!(symbols(&branch), ["G", "PD", "SN", "G"]);
     let (below, above) = grazing_frequencies(&unloaded()).expect("a boundary");
     let [low, flip, fold, high] = &branch.specials[..] else {
         panic!("{branch:?}");
     };
-    assert_abs_diff_eq!(
-        low.point.parameter,
-        below.expect("one below"),
-        epsilon = MOTION
-    );
-    assert_abs_diff_eq!(high.point.parameter, above, epsilon = MOTION);
-    assert_abs_diff_eq!(flip.point.parameter, 0.988_907, epsilon = printed(6));
-    assert_abs_diff_eq!(fold.point.parameter, 1.369_036, epsilon = printed(6));
-    assert_abs_diff_eq!(
-        fold.point.before_impact_velocity(),
-        16.87,
-        epsilon = printed(2)
-    );
+    assert_near(low.point.parameter, below.expect("one below"), MOTION);
+    assert_near(high.point.parameter, above, MOTION);
+    assert_near(flip.point.parameter, 0.988_907, printed(6));
+    assert_near(fold.point.parameter, 1.369_036, printed(6));
+    assert_near(fold.point.before_impact_velocity(), 16.87, printed(2));
     assert!(matches!(branch.ends, (End::Grazing, End::Grazing)));
 }
 
 #[test]
 fn the_other_side_of_the_same_grazing() {
-    let limits = Limits {
-        range: (0.96, 2.0),
-        points: 500,
-    };
-    let family = frequencies(1.15);
-    let branch = Follower::new(&family, 1)
-        .branch(1.15, Vector2::new(-3.0, 0.5), &limits, |_| {
-            ControlFlow::Continue(())
-        })
-        .expect("the impact-less motion");
+    let branch = branch(1.15, 1, (-3.0, 0.5), (0.96, 2.0));
     assert!(matches!(branch.ends, (End::Grazing, End::Range)));
     let graze = &branch.specials[0];
     let (_, above) = grazing_frequencies(&unloaded()).expect("a boundary");
-    assert_abs_diff_eq!(graze.point.parameter, above, epsilon = MOTION);
+    assert_near(graze.point.parameter, above, MOTION);
     match graze.kind {
         SpecialKind::Grazing(graze) => {
             assert!(!graze.dies && graze.impacts == 0 && graze.face == Face::Clearance);
@@ -130,9 +122,7 @@ fn grazing_ends_the_subharmonic_motions() {
     for (eta, n, state, expected) in rows {
         let branch = branch(eta, n, state, (0.9, 1.1));
         let grazings = of_kind(&branch, "G");
-        let near = |special: &&Special| {
-            abs_diff_eq!(special.point.parameter, expected, epsilon = 10.0 * GROWN)
-        };
+        let near = |special: &&Special| is_near(special.point.parameter, expected, 10.0 * GROWN);
         assert!(
             grazings.iter().any(|special| near(&special)),
             "{grazings:?}"
@@ -153,12 +143,12 @@ fn flips_of_the_subharmonic_motions() {
         let branch = branch(eta, n, state, (0.9, 1.1));
         let flips = of_kind(&branch, "PD");
         assert_eq!(flips.len(), 1);
-        assert_abs_diff_eq!(flips[0].point.parameter, expected, epsilon = 2.5e-6);
+        assert_near(flips[0].point.parameter, expected, 2.5e-6);
         let multiplier = flips[0].point.monodromy;
-        assert_abs_diff_eq!(
+        assert_near(
             1.0 + multiplier.trace() + multiplier.determinant(),
             0.0,
-            epsilon = SOLVED
+            SOLVED,
         );
     }
 }
@@ -166,25 +156,10 @@ fn flips_of_the_subharmonic_motions() {
 /// The loaded machine touches the stop behind the strip at both ends; between them flip and fold.
 #[test]
 fn inner_surfaces_end_a_branch_too() {
-    let family = Along::new(
-        Ratios::loaded().scene().expect("a scene"),
-        [Parameter::Frequency],
-    )
-    .expect("a family");
-    let limits = Limits {
-        range: (0.5, 2.0),
-        points: 500,
-    };
+    let family = Along::new(loaded(), [Parameter::Frequency]).expect("a family");
     let orbit = softstop_dynamics::orbit::find(&loaded()).expect("z = 1");
-    let state = Vector2::new(orbit.position, orbit.velocity);
-    let branch = Follower::new(&family, 1)
-        .branch(1.15, state, &limits, |_| ControlFlow::Continue(()))
-        .expect("a branch");
-    let symbols: Vec<_> = parameters(&branch)
-        .into_iter()
-        .map(|(name, _)| name)
-        .collect();
-    assert_eq!(symbols, ["G", "PD", "SN", "G"]);
+    let branch = follow(&family, 1, (1.15, orbit.state()), (0.5, 2.0));
+    assert_eq!(symbols(&branch), ["G", "PD", "SN", "G"]);
     for end in [&branch.specials[0], &branch.specials[3]] {
         match end.kind {
             SpecialKind::Grazing(graze) => {
@@ -197,7 +172,7 @@ fn inner_surfaces_end_a_branch_too() {
         let scene = ratios.scene().expect("a scene");
         let map = StroboscopicMap::new(&scene, 1).expect("a map");
         let highest = map.max_position(end.point.state()).expect("a motion");
-        assert_abs_diff_eq!(highest, scene.stop_position(), epsilon = 10.0 * SOLVED);
+        assert_near(highest, scene.stop_position(), 10.0 * SOLVED);
     }
 }
 
@@ -220,7 +195,7 @@ fn a_branch_from_an_end_of_its_range() {
             let machine = Ratios::unloaded().at_frequency(point.parameter);
             let map = StroboscopicMap::new(&machine.scene().expect("a scene"), 1).expect("a map");
             let image = map.image(point.state()).expect("a passage");
-            assert_abs_diff_eq!(image, point.state(), epsilon = SOLVED);
+            assert_near(image, point.state(), SOLVED);
         }
     }
 }
@@ -233,7 +208,7 @@ fn start_and_direction_do_not_matter() {
     let other = branch(at.parameter, 1, (at.position, at.velocity), (0.5, 2.0));
     assert_eq!(one.specials.len(), other.specials.len());
     for (a, b) in one.specials.iter().zip(&other.specials) {
-        assert_abs_diff_eq!(a.point.parameter, b.point.parameter, epsilon = SOLVED);
+        assert_near(a.point.parameter, b.point.parameter, SOLVED);
     }
     let reached: Vec<_> = one
         .specials
@@ -243,16 +218,12 @@ fn start_and_direction_do_not_matter() {
     let mut flips = of_kind(&one, "PD");
     let flip = flips.remove(0).point;
     let back = branch(0.97, 1, (low_state(&one).x, low_state(&one).y), (0.5, 2.0));
-    assert_abs_diff_eq!(
+    assert_near(
         of_kind(&back, "PD")[0].point.parameter,
         flip.parameter,
-        epsilon = SOLVED
+        SOLVED,
     );
-    assert_abs_diff_eq!(
-        of_kind(&back, "SN")[0].point.parameter,
-        reached[2],
-        epsilon = SOLVED
-    );
+    assert_near(of_kind(&back, "SN")[0].point.parameter, reached[2], SOLVED);
 }
 
 /// A state near the branch at eta = 0.97, unstable there.
@@ -286,7 +257,7 @@ fn finite_differences_confirm_fold_and_flip() {
         let map = StroboscopicMap::new(&ratios.scene().expect("a scene"), 1).expect("a map");
         let matrix = differences(|state| map.image(state).expect("an image"), point.state());
         let test = 1.0 + sign * matrix.trace() + matrix.determinant();
-        assert_abs_diff_eq!(test, 0.0, epsilon = DIFFERENCED);
+        assert_near(test, 0.0, DIFFERENCED);
     }
 }
 

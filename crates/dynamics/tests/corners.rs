@@ -1,7 +1,6 @@
 //! Branches on which the state at drive angle phi comes to lie on a surface, against the same branches seen at other
 //! drive angles: where the section lies has no part in what an orbit is.
 
-use approx::abs_diff_eq;
 use softstop_testing::tolerance::SOLVED;
 use std::ops::ControlFlow;
 
@@ -9,6 +8,7 @@ use softstop::{Machine, Parameter, Ratios, Scene, Stop};
 use softstop_dynamics::continuation::End;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, Orbit, StroboscopicMap};
+use softstop_testing::is_near;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -51,7 +51,7 @@ fn assert_section_does_not_matter(scene: &Scene, range: (f64, f64)) -> Outcome {
             && found
                 .iter()
                 .zip(&expected)
-                .all(|(a, b)| a.0 == b.0 && abs_diff_eq!(a.1, b.1, epsilon = 10.0 * SOLVED));
+                .all(|(a, b)| a.0 == b.0 && is_near(a.1, b.1, 10.0 * SOLVED));
         assert!(same, "at {angle}: {found:?} and {expected:?}");
     }
     Ok(())

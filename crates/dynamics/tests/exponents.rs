@@ -1,11 +1,10 @@
 //! Lyapunov exponents: the laws that they obey.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use softstop::{Scene, Stop};
 use softstop_dynamics::{Exponents, Orbit, StroboscopicMap};
 use softstop_testing::tolerance::{MOTION, ROUNDING, SOLVED};
-use softstop_testing::unloaded;
+use softstop_testing::{assert_near, is_near, unloaded};
 
 /// Periodic motions: z = 1, z = 2/3, (2/4)B, the impact-less one; soft and rigid stops.
 fn orbits() -> Vec<Orbit> {
@@ -32,21 +31,15 @@ fn on_periodic_motions_they_are_the_logarithms_of_the_multipliers() {
         let (along, _) = Exponents::along(&orbit.scene, orbit.state(), 200).expect("bounded");
         for (exact, along) in exact.per_period.iter().zip(along.per_period) {
             // Complex multipliers turn the frame: the mean is off by a fraction of a turn over 6,400 periods.
-            assert!(
-                abs_diff_eq!(*exact, along, epsilon = 1e-3),
-                "{exact} {along}"
-            );
+            assert!(is_near(*exact, along, 1e-3), "{exact} {along}");
         }
         let period = orbit.scene.period();
         for (map, flow) in exact.per_period.iter().zip(exact.per_second()) {
-            assert_abs_diff_eq!(*map, period * flow, epsilon = ROUNDING);
+            assert_near(*map, period * flow, ROUNDING);
         }
         let sum: f64 = exact.per_period.iter().sum();
         let divergence = orbit.determinant().abs().ln() / orbit.periods as f64;
-        assert!(
-            abs_diff_eq!(sum, divergence, epsilon = MOTION),
-            "{sum} {divergence}"
-        );
+        assert!(is_near(sum, divergence, MOTION), "{sum} {divergence}");
     }
 }
 
@@ -69,11 +62,7 @@ fn their_sum_is_the_mean_divergence_in_chaos_too() {
         }
         assert!(impacts > 100, "{impacts}");
         let sum: f64 = exponents.per_period.iter().sum();
-        assert_abs_diff_eq!(
-            sum,
-            divergence / exponents.periods as f64,
-            epsilon = 10.0 * SOLVED
-        );
+        assert_near(sum, divergence / exponents.periods as f64, 10.0 * SOLVED);
     }
 }
 
@@ -85,10 +74,10 @@ fn chaos_has_a_positive_one_beyond_its_error() {
     assert!(chaos.error > 0.0 && chaos.error < 0.02, "{chaos:?}");
     // Another stretch of the same motion agrees within both errors, doubled.
     let (again, _) = Exponents::along(&unloaded(0.9875), end, 100).expect("bounded");
-    assert_abs_diff_eq!(
+    assert_near(
         again.per_period[0],
         chaos.per_period[0],
-        epsilon = 2.0 * (again.error + chaos.error)
+        2.0 * (again.error + chaos.error),
     );
 }
 

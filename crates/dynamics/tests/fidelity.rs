@@ -4,7 +4,7 @@ mod contacts;
 mod ladder;
 mod observed;
 
-use softstop::{Excitation, Ratios, Release, Scene, Slope, Start, Stop};
+use softstop::{Excitation, Ratios, Release, Scene, Start, Stop};
 use softstop_dynamics::Regime;
 use softstop_dynamics::models::{
     Answers, Contact, FidelityError, Ladder, Likeness, Observation, Quantity, Rung, cheapest,

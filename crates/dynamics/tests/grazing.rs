@@ -1,13 +1,12 @@
 //! Periodic motions that all but graze their stop, where the stroboscopic map has a square root.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use softstop::{Ratios, Scene, Stop};
 use softstop_dynamics::orbit::{OrbitError, fixed_point};
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{Orbit, StroboscopicMap};
-use softstop_testing::loaded;
 use softstop_testing::tolerance::{GROWN, MOTION, SOLVED};
+use softstop_testing::{assert_near, is_near, loaded};
 
 /// The unloaded machine a relative distance above its lower (or upper) grazing frequency.
 fn beside(upper: bool, distance: f64) -> Scene {
@@ -55,16 +54,12 @@ fn newton_settles_down_to_a_distance_of_1e_9_from_grazing() {
             // one, below 2 in size. The frequency itself is rounded by 1e-16.
             let off = orbit.before_impact_velocity() / (slope * distance) - 1.0;
             assert!(
-                abs_diff_eq!(
-                    off,
-                    0.0,
-                    epsilon = 2.0 * (distance + 1e-6) + 1e-16 / distance
-                ),
+                is_near(off, 0.0, 2.0 * (distance + 1e-6) + 1e-16 / distance),
                 "{distance:e}: {off:e}"
             );
             let lost = (-orbit.damping_integral).exp() * loss * loss;
             assert!(
-                abs_diff_eq!(orbit.determinant() / lost, 1.0, epsilon = 10.0 * GROWN),
+                is_near(orbit.determinant() / lost, 1.0, 10.0 * GROWN),
                 "{distance:e}"
             );
             // It blows up as the reciprocal of the velocity: there is no bounded linear map at grazing.
@@ -117,25 +112,13 @@ fn from_impact_to_impact_strong_motions_are_the_same() {
             touch.before_impact_velocity - 1e-2,
         );
         let again = Orbit::by_impacts(&scene, 1, &[guess]).expect("an orbit");
-        assert_abs_diff_eq!(
-            (again.state() - orbit.state()).norm(),
-            0.0,
-            epsilon = 10.0 * MOTION
-        );
-        assert_abs_diff_eq!(
+        assert_near((again.state() - orbit.state()).norm(), 0.0, 10.0 * MOTION);
+        assert_near(
             (again.monodromy.matrix - orbit.monodromy.matrix).norm(),
             0.0,
-            epsilon = SOLVED
+            SOLVED,
         );
-        assert_abs_diff_eq!(
-            again.damping_integral,
-            orbit.damping_integral,
-            epsilon = MOTION
-        );
-        assert_abs_diff_eq!(
-            again.max_position,
-            orbit.max_position,
-            epsilon = 10.0 * MOTION
-        );
+        assert_near(again.damping_integral, orbit.damping_integral, MOTION);
+        assert_near(again.max_position, orbit.max_position, 10.0 * MOTION);
     }
 }

@@ -5,11 +5,11 @@ mod closed_form;
 mod equal;
 mod rigid;
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::{Matrix2, Vector2};
-use softstop::{Clock, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
+use softstop::{Clock, Ratios, Release, Scene, Start, Stop};
 use softstop_dynamics::{Orbit, orbit};
 use softstop_testing::tolerance::ROUNDING;
+use softstop_testing::{assert_near, hertz, is_near, kelvin_voigt, preloaded, slope};
 
 const DAMPING: f64 = 0.02;
 
@@ -40,7 +40,7 @@ fn assert_order(errors: &[f64], factor: f64, power: f64) {
     for pair in errors.windows(2) {
         let observed = (pair[0] / pair[1]).ln() / factor.ln();
         assert!(
-            abs_diff_eq!(observed, power, epsilon = 0.05),
+            is_near(observed, power, 0.05),
             "order {observed}, expected {power}, errors {errors:?}"
         );
     }
@@ -54,35 +54,13 @@ const START: Start = Start::new(0.0, 3.0);
 fn soft_stops_vanish() {
     let linear = end(&machine(0.8, 1.5, 0.0, Stop::None), START, 3.0);
     let stops: [fn(f64) -> Stop; 4] = [
-        |stiffness| Stop::KelvinVoigt {
-            stiffness,
-            release: Release::ZeroForce,
-        },
-        |stiffness| Stop::Preloaded {
-            stiffness,
-            preload: stiffness,
-        },
+        |stiffness| kelvin_voigt(stiffness, Release::ZeroForce),
+        |stiffness| preloaded(stiffness, stiffness),
         |stiffness| Stop::PiecewiseLinear {
-            loading: vec![
-                Slope {
-                    from: 0.0,
-                    stiffness,
-                },
-                Slope {
-                    from: 0.3,
-                    stiffness: 3.0 * stiffness,
-                },
-            ],
-            unloading: vec![Slope {
-                from: 0.0,
-                stiffness: 0.5 * stiffness,
-            }],
+            loading: vec![slope(0.0, stiffness), slope(0.3, 3.0 * stiffness)],
+            unloading: vec![slope(0.0, 0.5 * stiffness)],
         },
-        |stiffness| Stop::Hertz {
-            stiffness,
-            exponent: 1.5,
-            dissipation: 0.3,
-        },
+        |stiffness| hertz(stiffness, 1.5, 0.3),
     ];
     for stop in stops {
         let errors: Vec<f64> = [1e-3, 1e-5, 1e-7]
@@ -91,10 +69,10 @@ fn soft_stops_vanish() {
             .collect();
         assert_order(&errors, 1e-2, -1.0);
         let none = machine(0.8, 1.5, 2.0 * DAMPING, stop(0.0));
-        assert_abs_diff_eq!(
+        assert_near(
             (end(&none, START, 3.0) - linear).norm(),
             0.0,
-            epsilon = 10.0 * ROUNDING
+            10.0 * ROUNDING,
         );
     }
 }
@@ -102,11 +80,7 @@ fn soft_stops_vanish() {
 /// A power law comes continuously from its neighbours: exponent 1 + e is off the linear spring by O(e).
 #[test]
 fn exponents_join() {
-    let law = |exponent| Stop::Hertz {
-        stiffness: 30.0,
-        exponent,
-        dissipation: 0.0,
-    };
+    let law = |exponent| hertz(30.0, exponent, 0.0);
     let linear = end(&machine(0.8, 1.5, 0.5, law(1.0)), START, 1.0);
     let errors: Vec<f64> = [1e-3, 1e-5, 1e-7]
         .into_iter()

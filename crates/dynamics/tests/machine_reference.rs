@@ -1,10 +1,10 @@
 //! Whole motions against an independent 30-digit event-driven integrator
 //! (tests/reference/machine.py): impacts, states, dry friction, resting on the stop, stiff stops.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop::{Clock, Scene, Start};
 use softstop_testing::reference::{MACHINE, list, number, ratios};
 use softstop_testing::tolerance::MOTION;
+use softstop_testing::{assert_near, is_near};
 
 /// Rounding errors, in units of 2^-53 times the growth of a perturbation, that a motion may show.
 const ALLOWED: f64 = 400.0;
@@ -86,16 +86,12 @@ fn orbits_agree_with_thirty_digits() {
         ];
         for (value, key) in pairs {
             assert!(
-                abs_diff_eq!(value, number(expected, key), epsilon = MOTION),
+                is_near(value, number(expected, key), MOTION),
                 "{key}: {value}"
             );
         }
         let velocity = number(&list(expected, "impacts")[0], "velocity");
-        assert_abs_diff_eq!(orbit.before_impact_velocity(), velocity, epsilon = MOTION);
-        assert_abs_diff_eq!(
-            orbit.determinant(),
-            (-orbit.damping_integral).exp(),
-            epsilon = MOTION
-        );
+        assert_near(orbit.before_impact_velocity(), velocity, MOTION);
+        assert_near(orbit.determinant(), (-orbit.damping_integral).exp(), MOTION);
     }
 }

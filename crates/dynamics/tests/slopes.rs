@@ -1,6 +1,5 @@
 //! Derivatives of periodic motions, against the motions of machines beside.
 
-use approx::assert_abs_diff_eq;
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::{Clock, Parameter, Ratios, Scene, Start, Stop};
@@ -8,7 +7,7 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::slopes::{self, Figure, Slopes};
 use softstop_dynamics::{Orbit, zone};
 use softstop_testing::tolerance::{DIFFERENCED, SOLVED};
-use softstop_testing::{Meets, cases, machines};
+use softstop_testing::{Meets, assert_near, cases, hertz, machines};
 
 /// Share of a parameter over which differences are taken.
 const WIDTH: f64 = 2e-4;
@@ -128,11 +127,7 @@ fn where_there_is_no_derivative_none_is_told() {
     let turned = slopes::of(&fold, &[Parameter::Clearance]);
     assert_eq!(turned, Err(OrbitError::NotIsolated));
     // A power law of exponent 1 is a spring, and becomes another law beside.
-    let spring = Stop::Hertz {
-        stiffness: 7.0,
-        exponent: 1.0,
-        dissipation: 0.0,
-    };
+    let spring = hertz(7.0, 1.0, 0.0);
     let spring = Scene {
         stop: spring,
         ..scene.clone()
@@ -172,6 +167,6 @@ fn after_chatter_derivatives_go_on() {
         };
         let central = |width: f64| (supplied(width) - supplied(-width)) / (2.0 * width);
         let found = (4.0 * central(1e-4) - central(2e-4)) / 3.0;
-        assert_abs_diff_eq!(found, slopes.supplied.by[0], epsilon = DIFFERENCED);
+        assert_near(found, slopes.supplied.by[0], DIFFERENCED);
     }
 }

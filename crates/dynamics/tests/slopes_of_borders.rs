@@ -2,12 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use approx::assert_abs_diff_eq;
-use softstop::{Parameter, Ratios, RigidStop, Scene};
+use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{Face, SpecialKind, Test};
 use softstop_dynamics::slopes::{Border, BorderKind};
 use softstop_dynamics::{Along, Follower, Limits, orbit, zone};
 use softstop_testing::tolerance::DIFFERENCED;
+use softstop_testing::{assert_near, rigid_stop};
 
 /// The paper's machines.
 fn zones() -> Vec<Scene> {
@@ -87,10 +87,7 @@ fn normals_are_those_of_borders_found_again() {
     let scenes = [unloaded, loaded].map(|ratios| ratios.scene().expect("valid"));
     let walled = scenes[0].clone();
     let walled = Scene {
-        rigid: Some(RigidStop {
-            travel: 1.0,
-            restitution: 0.6,
-        }),
+        rigid: Some(rigid_stop(1.0, 0.6)),
         ..walled
     };
     let mut kinds = Vec::new();
@@ -111,7 +108,7 @@ fn normals_are_those_of_borders_found_again() {
             let central = |by: f64| (frequency(by) - frequency(-by)) / (2.0 * by * width);
             let found = (4.0 * central(1.0) - central(2.0)) / 3.0;
             let size = 1.0 + found.abs();
-            assert_abs_diff_eq!(-found, *normal, epsilon = 0.01 * DIFFERENCED * size);
+            assert_near(-found, *normal, 0.01 * DIFFERENCED * size);
         }
     }
     let has = |is: fn(&SpecialKind) -> bool| {

@@ -5,13 +5,13 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
-use softstop::{Parameter, Piercing, Ratios, RigidStop, Scene, Units};
+use softstop::{Parameter, Piercing, Ratios, Scene};
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::nalgebra::Vector2;
 use softstop_dynamics::slopes::{self, Border};
 use softstop_dynamics::{Orbit, zone};
-use softstop_testing::cases;
 use softstop_testing::tolerance::DIFFERENCED;
+use softstop_testing::{cases, rigid_stop, units};
 
 /// Shares of a parameter over which differences are taken: the best of them counts.
 const WIDTHS: [f64; 4] = [1e-3, 2e-4, 4e-5, 8e-6];
@@ -25,12 +25,9 @@ fn designs() -> impl Strategy<Value = (Scene, f64)> {
         (any::<bool>(), any::<bool>()),
         0.05..0.95f64,
     )
-        .prop_map(|(stop, (damping, contact_damping), units, with, share)| {
+        .prop_map(|(stop, (damping, contact_damping), scales, with, share)| {
             let (clearance, stiffness, preload) = stop;
-            let rigid = RigidStop {
-                travel: 5.0,
-                restitution: 0.5,
-            };
+            let rigid = rigid_stop(5.0, 0.5);
             let ratios = Ratios {
                 frequency: 1.0,
                 clearance,
@@ -41,12 +38,8 @@ fn designs() -> impl Strategy<Value = (Scene, f64)> {
                 rigid: with.0.then_some(rigid),
                 piercing: with.1.then_some(Piercing::PAPER),
             };
-            let (mass, stiffness, force) = units;
-            let units = Units {
-                mass,
-                stiffness,
-                force,
-            };
+            let (mass, stiffness, force) = scales;
+            let units = units(mass, stiffness, force);
             (ratios.dimensional(units).expect("valid"), share)
         })
 }

@@ -6,6 +6,7 @@ use softstop_dynamics::orbit::find;
 use softstop_dynamics::spread::{Model, Settled, Spread, along};
 use softstop_dynamics::zone::{Loss, hysteresis};
 use softstop_dynamics::{Follower, Limits, Orbit};
+use softstop_testing::assert_relative;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -36,7 +37,7 @@ fn a_way_out_ends_at_the_fold_of_the_machine_there() -> Outcome {
             assert_eq!(reached.loss, Some(Loss::Fold));
             let there = spread.scene(&to.map(|to| reached.share * to));
             let fold = hysteresis(&there)?.frequency_sn;
-            assert_relative_eq!(there.excitation.frequency, fold, max_relative = 1e-8);
+            assert_relative(there.excitation.frequency, fold, 1e-8);
         }
     }
     Ok(())
@@ -58,7 +59,7 @@ fn a_way_out_that_ends_in_a_flip_ends_at_that_of_its_branch() -> Outcome {
     let test = softstop_dynamics::continuation::Test::Flip;
     let flip = branch.critical(test).last().ok_or("a flip")?;
     let frequency = 1.15 * (1.0 - 0.5 * reached.share);
-    assert_relative_eq!(frequency, flip.parameter, max_relative = 1e-8);
+    assert_relative(frequency, flip.parameter, 1e-8);
     Ok(())
 }
 
@@ -75,9 +76,9 @@ fn what_settles_is_the_orbit() -> Outcome {
             assert_eq!(near.is_none(), is_away, "no farther than told");
             let orbit = Orbit::near(&scene, nominal.state())?;
             let velocity = orbit.before_impact_velocity();
-            assert_relative_eq!(settled.velocity, velocity, max_relative = 1e-9);
+            assert_relative(settled.velocity, velocity, 1e-9);
             let multiplier = orbit.multipliers()[0].norm();
-            assert_relative_eq!(settled.multiplier, multiplier, max_relative = 1e-6);
+            assert_relative(settled.multiplier, multiplier, 1e-6);
         }
     }
     Ok(())

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use approx::assert_relative_eq;
 use softstop::{Ratios, Scene, SceneError, Stop};
 use softstop_dynamics::{Orbit, StroboscopicMap};
+use softstop_testing::assert_relative;
 use softstop_testing::tolerance::{GROWN, SOLVED};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -47,13 +47,13 @@ fn stability_is_told_by_a_determinant_without_cancellation() -> Outcome {
                 }
                 steep += 1;
                 let known = (-orbit.damping_integral).exp() * loss * loss;
-                assert_relative_eq!(orbit.determinant(), known, max_relative = SOLVED);
+                assert_relative(orbit.determinant(), known, SOLVED);
                 assert!(orbit.is_stable() && !orbit.is_neutral());
                 assert!(orbit.multipliers().iter().all(|it| it.norm() < 1.0));
                 let passage = StroboscopicMap::new(&scene, 1)?.apply(orbit.state())?;
                 if !passage.impacts.is_empty() {
                     let found = passage.monodromy.determinant();
-                    assert_relative_eq!(found, known, max_relative = GROWN);
+                    assert_relative(found, known, GROWN);
                 }
                 let own = matrix.determinant();
                 let is_stable = matrix.trace().abs() < 1.0 + own && own < 1.0;

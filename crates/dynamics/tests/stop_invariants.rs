@@ -1,14 +1,13 @@
 //! What holds for every stop: the energy balance, independence of the way a run is divided,
 //! Liouville's theorem, the derivative of the map, dimensional similarity.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::{Clock, PhaseKind, Scene, Simulation, Start, Units};
+use softstop::{Clock, PhaseKind, Scene, Simulation, Start};
 use softstop_dynamics::StroboscopicMap;
 use softstop_testing::tangent::differences;
 use softstop_testing::tolerance::{GROWN, MOTION, SOLVED};
-use softstop_testing::{Meets, cases, machines, start_below};
+use softstop_testing::{Meets, assert_near, cases, is_near, machines, start_below, units};
 
 proptest! {
     #![proptest_config(cases(600))]
@@ -19,7 +18,7 @@ proptest! {
             .trajectory(start_below(&scene, depth, velocity), 10)
             .expect("bounded");
         let scale = trajectory.work.supplied.abs() + trajectory.work.dissipated.abs() + 100.0;
-        assert_abs_diff_eq!(trajectory.energy_defect(), 0.0, epsilon = 10.0 * MOTION * scale);
+        assert_near(trajectory.energy_defect(), 0.0, 10.0 * MOTION * scale);
         prop_assert!(trajectory.work.dissipated > -1e-11 * scale);
     }
 
@@ -88,7 +87,7 @@ proptest! {
         let passage = map.apply(Vector2::new(start.position, start.velocity)).expect("bounded");
         let expected = (meets.contraction - passage.damping_integral).exp();
         let size = passage.monodromy.norm_squared();
-        assert_abs_diff_eq!(passage.monodromy.determinant(), expected, epsilon = 10.0 * MOTION * (1.0 + size));
+        assert_near(passage.monodromy.determinant(), expected, 10.0 * MOTION * (1.0 + size));
     }
 
     #[test]
@@ -106,7 +105,7 @@ proptest! {
         let differences = differences(|state| map.image(state).expect("bounded"), state);
         let size = 1.0 + passage.monodromy.norm();
         for (found, exact) in differences.column_iter().zip(passage.monodromy.column_iter()) {
-            assert!(abs_diff_eq!((found - exact).norm(), 0.0, epsilon = 1e-5 * size * size), "{found} {exact}");
+            assert!(is_near((found - exact).norm(), 0.0, 1e-5 * size * size), "{found} {exact}");
         }
     }
 
@@ -118,11 +117,7 @@ proptest! {
         powers in (-4..4i32, -4..8i32, -6..6i32),
     ) {
         // Powers of four, so that nothing is rounded but d^n.
-        let units = Units {
-            mass: 4f64.powi(powers.0),
-            stiffness: 4f64.powi(powers.1),
-            force: 4f64.powi(powers.2),
-        };
+        let units = units(4f64.powi(powers.0), 4f64.powi(powers.1), 4f64.powi(powers.2));
         let start = start_below(&scene, depth, velocity);
         let plain = scene.trajectory(start, 1).expect("bounded");
         let other = scene.in_units(units).expect("valid");
@@ -134,7 +129,7 @@ proptest! {
             )
             .expect("bounded");
         prop_assert_eq!(plain.crossings.len(), scaled.crossings.len());
-        assert_abs_diff_eq!(plain.end.position, scaled.end.position / units.length(), epsilon = GROWN);
+        assert_near(plain.end.position, scaled.end.position / units.length(), GROWN);
     }
 }
 
@@ -195,7 +190,7 @@ fn elastic_bounces_end_in_rest() {
     assert!(machine.impact_count() < 2_000_000);
     let energy = machine.energy();
     let defect = energy.supplied - energy.dissipated - (energy.mechanical - before);
-    assert_abs_diff_eq!(defect, 0.0, epsilon = 10.0 * SOLVED * energy.supplied);
+    assert_near(defect, 0.0, 10.0 * SOLVED * energy.supplied);
 }
 
 /// A motion that has bounced for long goes on as one that begins in its state: what counts as rest does
@@ -248,7 +243,7 @@ fn the_tangent_of_a_plastic_impact() {
     {
         assert!(found.norm() > 1e-2);
         assert!(
-            abs_diff_eq!((found - exact).norm(), 0.0, epsilon = 10.0 * GROWN),
+            is_near((found - exact).norm(), 0.0, 10.0 * GROWN),
             "{found} {exact}"
         );
     }

@@ -1,12 +1,11 @@
 //! Figures of one period of a motion: against many points of the same motion, and the energy balance.
 
-use approx::assert_abs_diff_eq;
 use proptest::prelude::*;
 use softstop::internals::Phase;
 use softstop::{Arc, Clock, Observer, PhaseKind, Ratios, Scene, Simulation};
 use softstop_dynamics::{Orbit, Regime, Stroke, orbit};
 use softstop_testing::machines::{machines, start_below};
-use softstop_testing::{cases, loaded, unloaded};
+use softstop_testing::{assert_near, cases, loaded, rigid_stop, unloaded};
 
 /// What many points of a period show.
 #[derive(Default)]
@@ -97,12 +96,8 @@ fn a_running_machine_tallies_the_same() {
         let mut machine =
             Simulation::new(&scene, softstop::Start::from(orbit.state())).expect("valid");
         machine.advance(scene.period()).expect("bounded");
-        assert_abs_diff_eq!(machine.energy().supplied, stroke.supplied, epsilon = 1e-10);
-        assert_abs_diff_eq!(
-            machine.energy().dissipated,
-            stroke.losses.total(),
-            epsilon = 1e-10
-        );
+        assert_near(machine.energy().supplied, stroke.supplied, 1e-10);
+        assert_near(machine.energy().dissipated, stroke.losses.total(), 1e-10);
         assert_eq!(machine.pierce_count(), stroke.strips);
     }
 }
@@ -112,13 +107,13 @@ fn a_running_machine_tallies_the_same() {
 fn points_a_and_b() {
     let of = |scene: &Scene| Stroke::of(&orbit::find(scene).expect("z = 1")).expect("computed");
     let (a, b) = (of(&unloaded(1.15)), of(&loaded()));
-    assert_abs_diff_eq!(a.highest, 10.260_591, epsilon = 1e-6);
-    assert_abs_diff_eq!(b.highest, 11.155_995, epsilon = 1e-6);
-    assert_abs_diff_eq!(a.losses.total(), 16.69, epsilon = 0.005);
-    assert_abs_diff_eq!(b.losses.total(), 26.42, epsilon = 0.005);
-    assert_abs_diff_eq!(a.impact_energy, 0.5 * 6.494_627_f64.powi(2), epsilon = 1e-5);
+    assert_near(a.highest, 10.260_591, 1e-6);
+    assert_near(b.highest, 11.155_995, 1e-6);
+    assert_near(a.losses.total(), 16.69, 0.005);
+    assert_near(b.losses.total(), 26.42, 0.005);
+    assert_near(a.impact_energy, 0.5 * 6.494_627_f64.powi(2), 1e-5);
     assert_eq!((a.strips, b.strips, a.beyond_strip), (0, 1, None));
-    assert_abs_diff_eq!(b.beyond_strip.expect("a strip"), 0.755_995, epsilon = 1e-6);
+    assert_near(b.beyond_strip.expect("a strip"), 0.755_995, 1e-6);
     // The preload and 7 times the way beyond the stop, but for the damper.
     let stop = |stroke: &Stroke, behind: f64| 7.0 * (stroke.highest - 10.0 - behind);
     assert!(
@@ -130,7 +125,7 @@ fn points_a_and_b() {
         (0.0, 0.0, 0.0)
     );
     // Phase I takes 44/2 sigma^2 on the way in and 2/2 sigma^2 on the way back, phase II 1.76 nu and 0.88 nu.
-    assert_abs_diff_eq!(b.losses.strip, 23.0 * 0.16 + 2.64 * 0.5, epsilon = 1e-10);
+    assert_near(b.losses.strip, 23.0 * 0.16 + 2.64 * 0.5, 1e-10);
     // 44 sigma, and the damper of contact.
     assert!(b.strip_force > 17.6 && b.strip_force < 17.6 + 0.14 * b.impact_velocity);
     assert_eq!((a.before_wall, a.impulse), (None, 0.0));
@@ -140,20 +135,17 @@ fn points_a_and_b() {
 #[test]
 fn a_rigid_stop_behind() {
     let far = |travel| Ratios {
-        rigid: Some(softstop::RigidStop {
-            travel,
-            restitution: 0.5,
-        }),
+        rigid: Some(rigid_stop(travel, 0.5)),
         ..Ratios::loaded()
     };
     let of = |travel| {
         let scene = far(travel).scene().expect("valid");
         Stroke::of(&orbit::find(&scene).expect("z = 1")).expect("computed")
     };
-    assert_abs_diff_eq!(
+    assert_near(
         of(5.0).before_wall.expect("a wall"),
         15.9 - 11.155_995,
-        epsilon = 1e-6
+        1e-6,
     );
     let hit = of(0.1);
     assert_eq!(hit.before_wall, Some(0.0));

@@ -4,14 +4,13 @@ use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use rayon::ThreadPoolBuilder;
 use softstop::{Parameter, Ratios, Start, Stop};
 use softstop_dynamics::sweep::{PlanError, hysteresis};
 use softstop_dynamics::watch::{Memory, unwatched};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Regime, Step, orbit};
 use softstop_testing::tolerance::{GROWN, MOTION};
-use softstop_testing::unloaded;
+use softstop_testing::{assert_near, is_near, unloaded};
 
 /// Frequency at which the impact-less motion grazes, rho = 10.
 const G0: f64 = 1.04444;
@@ -78,7 +77,7 @@ fn between_grazing_and_fold_the_way_matters() {
         "{zone:?}"
     );
     assert!(zone.from >= G0 && zone.from < G0 + 5e-3, "{zone:?}");
-    assert!(abs_diff_eq!(zone.to, FOLD, epsilon = 2e-3), "{zone:?}");
+    assert!(is_near(zone.to, FOLD, 2e-3), "{zone:?}");
     let up = chains[0].jumps();
     let jump = up.last().expect("there is one");
     assert!(jump.before.regime() == Some(Regime::ONE) && jump.after.regime() == Some(NONE));
@@ -92,7 +91,7 @@ fn a_sweep_loses_the_motion_after_its_end() {
     // Which motion it is on is told by its impacts alone: nothing settles within 5 periods.
     let fine = frequencies((1.3, 1.4), 1001, 5);
     for plan in [slow, fine] {
-        assert_abs_diff_eq!(plan.rate(), 2e-5, epsilon = MOTION);
+        assert_near(plan.rate(), 2e-5, MOTION);
         // From the motion with impacts, as a sweep from below comes.
         let orbit = orbit::find(&unloaded(1.3));
         let plan = Plan {
@@ -101,10 +100,7 @@ fn a_sweep_loses_the_motion_after_its_end() {
         };
         let chains = run(&plan, vec![chain(Ratios::unloaded(), Direction::Up)]);
         let lost = lost(&chains[0]);
-        assert!(
-            lost > FOLD && abs_diff_eq!(lost, 1.371, epsilon = 2e-3),
-            "{lost}"
-        );
+        assert!(lost > FOLD && is_near(lost, 1.371, 2e-3), "{lost}");
     }
 }
 
@@ -141,12 +137,8 @@ fn steps_have_the_motions_of_newtons_method() {
         let scene = unloaded(step.value);
         let orbit = orbit::find(&scene).expect("there is one");
         assert_eq!(step.motion.regime(), Some(Regime::ONE));
-        assert_abs_diff_eq!(
-            step.hardest(),
-            orbit.before_impact_velocity(),
-            epsilon = GROWN
-        );
-        assert_abs_diff_eq!(step.max_position, orbit.max_position, epsilon = GROWN);
+        assert_near(step.hardest(), orbit.before_impact_velocity(), GROWN);
+        assert_near(step.max_position, orbit.max_position, GROWN);
     }
 }
 

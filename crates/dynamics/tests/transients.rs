@@ -1,11 +1,11 @@
 //! A machine near a flip of z = 8/8, where motions settle slowly: on 8/8 before it, and beyond it, after long transients,
 //! on z = 9/9.
 
-use approx::assert_abs_diff_eq;
 use softstop::{Ratios, Scene, SceneError, Slope, Start, Stop};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::settled::{Seen, Settling};
 use softstop_dynamics::watch::unwatched;
+use softstop_testing::assert_near;
 use softstop_testing::tolerance::printed;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -64,8 +64,8 @@ fn before_a_flip_the_period_is_not_doubled() -> Outcome {
             let orbit = Orbit::periodic(&scene, seen.end.into(), periods)?;
             assert_eq!(orbit.regime().to_string(), "8/8");
             let [first, second] = orbit.multipliers();
-            assert_abs_diff_eq!(first.re, -0.962352, epsilon = printed(6));
-            assert_abs_diff_eq!(second.re, -0.628294, epsilon = printed(6));
+            assert_near(first.re, -0.962352, printed(6));
+            assert_near(second.re, -0.628294, printed(6));
         }
     }
     assert!(count > 10, "{count}");

@@ -10,8 +10,9 @@ use proptest::test_runner::TestRunner;
 use softstop::{Ratios, Scene};
 use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{Loss, Stretch, find, find_among, stretches};
-use softstop_testing::random;
+use softstop_testing::random::{self, log_uniform};
 use softstop_testing::tolerance::GROWN;
+use softstop_testing::with_changes;
 
 /// Machines of the test that runs every day, and of the long one unless it is said otherwise.
 const MACHINES: u32 = 20;
@@ -21,15 +22,14 @@ const FREQUENCIES: u32 = 20;
 /// Machines after which progress is shown.
 const REPORTED: usize = 50;
 
-/// Numbers evenly spread in their logarithm.
-fn spread(low: f64, high: f64) -> impl Strategy<Value = f64> {
-    (low.ln()..high.ln()).prop_map(f64::exp)
-}
-
 /// Machines with damping ratios from 1e-5 to 1e-2, in flight and in contact.
 fn machines() -> impl Strategy<Value = Scene> {
-    let damping = (spread(1e-5, 1e-2), spread(1e-5, 1e-2));
-    let stop = (spread(0.2, 12.0), spread(0.1, 1e4), spread(0.1, 500.0));
+    let damping = (log_uniform(1e-5, 1e-2), log_uniform(1e-5, 1e-2));
+    let stop = (
+        log_uniform(0.2, 12.0),
+        log_uniform(0.1, 1e4),
+        log_uniform(0.1, 500.0),
+    );
     (damping, stop).prop_map(
         |((damping, contact_damping), (clearance, stiffness, preload))| {
             let ratios = Ratios {
@@ -129,15 +129,12 @@ fn what_zone_lists_orbit_finds_of_many() {
 /// A stretch of a relative width of 1e-4, where no start and no lattice shows the motion: its state is known.
 #[test]
 fn a_motion_of_a_narrow_stretch() {
-    let ratios = Ratios {
-        clearance: 0.32501198094201733,
-        damping: 0.00022857649680422946,
-        contact_damping: 0.0004507634334646064,
-        stiffness: 3.496589449532183,
-        preload: 0.2733947917988244,
-        ..Ratios::unloaded()
-    };
-    let scene = ratios.scene().expect("valid").at_frequency(0.386);
+    let scene = with_changes(
+        "unloaded",
+        "rho=0.32501198094201733 beta1=0.00022857649680422946 beta=0.0004507634334646064 \
+         k4=3.496589449532183 Fp=0.2733947917988244",
+    );
+    let scene = scene.at_frequency(0.386);
     let orbit = find(&scene).expect("a motion");
     assert!(
         (orbit.position - 0.4762689079367844).abs() < GROWN,
@@ -153,15 +150,12 @@ fn a_motion_of_a_narrow_stretch() {
 /// A multiplier goes beyond -1 and comes back within one step of the branch, from 0.37771 to 0.37933.
 #[test]
 fn two_flips_within_a_step_end_stretches() {
-    let ratios = Ratios {
-        clearance: 0.2832226066120024,
-        damping: 0.0012148818882863175,
-        contact_damping: 0.0001960139797589023,
-        stiffness: 3.9492412507357204,
-        preload: 0.21496140549193749,
-        ..Ratios::unloaded()
-    };
-    let (all, denied) = searched(&mut ratios.scene().expect("valid"));
+    let mut scene = with_changes(
+        "unloaded",
+        "rho=0.2832226066120024 beta1=0.0012148818882863175 beta=0.0001960139797589023 \
+         k4=3.9492412507357204 Fp=0.21496140549193749",
+    );
+    let (all, denied) = searched(&mut scene);
     assert!(denied.is_empty(), "{denied:#?}");
     let inside =
         |stretch: &&Stretch| stretch.low.frequency < 0.3785 && stretch.high.frequency > 0.3785;

@@ -15,7 +15,7 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{Loss, Stretch, stretches};
 use softstop_dynamics::{BranchPoint, Orbit};
 use softstop_lanes::{Job, Machine, Watch};
-use softstop_testing::random;
+use softstop_testing::random::{self, log_uniform};
 
 /// Machines of the test that runs every day, and after how many progress is shown.
 const MACHINES: u32 = 2000;
@@ -30,11 +30,6 @@ const NEAR: f64 = 0.02;
 /// Before-impact velocity in scales of the motion below which a motion is one that grazes.
 const WEAK: f64 = 1e-3;
 
-/// Numbers evenly spread in their logarithm.
-fn spread(low: f64, high: f64) -> impl Strategy<Value = f64> {
-    (low.ln()..high.ln()).prop_map(f64::exp)
-}
-
 /// A law of a stop: four times in eight the paper's, with a strip or without.
 fn stops() -> impl Strategy<Value = (Option<Stop>, Option<Piercing>)> {
     let strip = (0.0..30.0f64, 0.0..30.0f64, 0.05..1.0f64, 0.0..1.0f64);
@@ -46,8 +41,8 @@ fn stops() -> impl Strategy<Value = (Option<Stop>, Option<Piercing>)> {
     });
     let release = prop_oneof![Just(Release::Clearance), Just(Release::ZeroForce)];
     let slopes = (
-        spread(0.1, 1e3),
-        spread(1.0, 1e3),
+        log_uniform(0.1, 1e3),
+        log_uniform(1.0, 1e3),
         0.1..1.0f64,
         any::<bool>(),
     );
@@ -64,13 +59,13 @@ fn stops() -> impl Strategy<Value = (Option<Stop>, Option<Piercing>)> {
             unloading: if returns { slopes(0.5) } else { Vec::new() },
         }
     });
-    let hertz = (spread(1.0, 1e3), 1.0..2.5f64, 0.0..0.3f64);
+    let hertz = (log_uniform(1.0, 1e3), 1.0..2.5f64, 0.0..0.3f64);
     let hertz = hertz.prop_map(|(stiffness, exponent, dissipation)| Stop::Hertz {
         stiffness,
         exponent,
         dissipation,
     });
-    let kelvin_voigt = (spread(0.1, 1e4), release)
+    let kelvin_voigt = (log_uniform(0.1, 1e4), release)
         .prop_map(|(stiffness, release)| Stop::KelvinVoigt { stiffness, release });
     let bare = |stop: Stop| (Some(stop), None);
     prop_oneof![
@@ -84,26 +79,33 @@ fn stops() -> impl Strategy<Value = (Option<Stop>, Option<Piercing>)> {
 }
 
 fn machines() -> impl Strategy<Value = Scene> {
-    let preload = prop_oneof![1 => Just(0.0), 4 => spread(0.1, 500.0)];
-    let damping = (spread(1e-3, 0.1), spread(1e-3, 0.3));
-    (0.2..12.0f64, spread(0.1, 1e4), preload, damping, stops()).prop_map(
-        |(clearance, stiffness, preload, (damping, contact_damping), (stop, piercing))| {
-            let ratios = Ratios {
-                clearance,
-                stiffness,
-                preload,
-                damping,
-                contact_damping,
-                piercing,
-                ..Ratios::unloaded()
-            };
-            let scene = ratios.scene().expect("valid");
-            match stop {
-                Some(stop) => Scene { stop, ..scene },
-                None => scene,
-            }
-        },
+    let preload = prop_oneof![1 => Just(0.0), 4 => log_uniform(0.1, 500.0)];
+    let damping = (log_uniform(1e-3, 0.1), log_uniform(1e-3, 0.3));
+    (
+        0.2..12.0f64,
+        log_uniform(0.1, 1e4),
+        preload,
+        damping,
+        stops(),
     )
+        .prop_map(
+            |(clearance, stiffness, preload, (damping, contact_damping), (stop, piercing))| {
+                let ratios = Ratios {
+                    clearance,
+                    stiffness,
+                    preload,
+                    damping,
+                    contact_damping,
+                    piercing,
+                    ..Ratios::unloaded()
+                };
+                let scene = ratios.scene().expect("valid");
+                match stop {
+                    Some(stop) => Scene { stop, ..scene },
+                    None => scene,
+                }
+            },
+        )
 }
 
 /// Of each job the states at the ends of its last two drive periods.
@@ -229,7 +231,8 @@ fn assert_judged(machines_count: u32) {
     let count = config.cases;
     let mut runner = TestRunner::new(config);
     let shares = prop::collection::vec((0.0..1.0f64, any::<bool>()), FREQUENCIES);
-    let starts = prop::collection::vec((spread(0.3, 60.0), 0.0..std::f64::consts::TAU), STARTS);
+    let starts =
+        prop::collection::vec((log_uniform(0.3, 60.0), 0.0..std::f64::consts::TAU), STARTS);
     let strategy = (machines(), shares, starts);
     let mut draw = || strategy.new_tree(&mut runner).expect("a machine").current();
     let cases: Vec<Case> = (0..count).map(|_| draw()).collect();

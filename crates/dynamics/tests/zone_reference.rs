@@ -1,10 +1,10 @@
 //! Grazing boundary and fold against 30-digit values and against the published figures.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop::{Ratios, Scene};
 use softstop_dynamics::zone::{grazing_frequencies, hysteresis, stretches};
 use softstop_testing::reference::{FOLDS, MACHINE, list, number, ratios};
 use softstop_testing::tolerance::{DIFFERENCED, GROWN, ROUNDING, SOLVED, printed};
+use softstop_testing::{assert_near, is_near};
 
 fn scene(ratios: &Ratios) -> Scene {
     ratios.scene().expect("valid")
@@ -19,10 +19,10 @@ fn grazing_is_closed_form() {
             ..Ratios::unloaded()
         };
         let (below, above) = grazing_frequencies(&scene(&machine)).expect("a boundary");
-        assert_abs_diff_eq!(above, number(expected, "frequency_g0"), epsilon = ROUNDING);
+        assert_near(above, number(expected, "frequency_g0"), ROUNDING);
         match (below, expected["frequency_low"].is_null()) {
             (Some(below), false) => {
-                assert_abs_diff_eq!(below, number(expected, "frequency_low"), epsilon = ROUNDING);
+                assert_near(below, number(expected, "frequency_low"), ROUNDING);
             }
             (None, true) => {}
             other => panic!("{other:?} against {expected}"),
@@ -47,18 +47,14 @@ fn folds_agree_with_thirty_digits() {
         };
         compared += 1;
         assert!(
-            abs_diff_eq!(
-                zone.frequency_sn,
-                number(expected, "frequency_sn"),
-                epsilon = SOLVED
-            ),
+            is_near(zone.frequency_sn, number(expected, "frequency_sn"), SOLVED),
             "frequency of {expected}"
         );
         assert!(
-            abs_diff_eq!(
+            is_near(
                 zone.velocity_sn,
                 number(expected, "velocity_sn"),
-                epsilon = DIFFERENCED
+                DIFFERENCED
             ),
             "velocity of {expected}"
         );
@@ -75,10 +71,10 @@ fn folds_over_clearance() {
         }))
         .expect("a zone");
         assert!(
-            abs_diff_eq!(zone.velocity_sn, velocity, epsilon = printed(2)),
+            is_near(zone.velocity_sn, velocity, printed(2)),
             "{clearance}: {zone:?}"
         );
-        assert_abs_diff_eq!(zone.frequency_sn, frequency, epsilon = printed(5));
+        assert_near(zone.frequency_sn, frequency, printed(5));
     }
 }
 
@@ -105,7 +101,7 @@ fn orbits_within_the_zone_agree_with_thirty_digits() {
         // Below this clearance two stable z = 1 motions coexist in a part of the zone; the
         // reference follows one of them, the zone gives the stronger.
         let unique = clearance >= 1.5;
-        let agrees = abs_diff_eq!(error, 0.0, epsilon = GROWN) || (!unique && error > 0.0);
+        let agrees = is_near(error, 0.0, GROWN) || (!unique && error > 0.0);
         assert!(agrees, "{expected}: {error:e} off");
         compared += 1;
     }
@@ -142,17 +138,17 @@ fn peaks_agree_with_thirty_digits() {
         let peak = share(number(expected, "frequency"));
         let highest = velocity(peak);
         assert!(
-            abs_diff_eq!(
+            is_near(
                 highest,
                 number(expected, "before_impact_velocity"),
-                epsilon = 10.0 * SOLVED
+                10.0 * SOLVED
             ),
             "{expected}"
         );
         let stretches = stretches(&machine).expect("stretches");
         let tops = stretches.iter().filter(|one| one.is_part_of(&zone));
         let tops = tops.map(|one| one.hardest.before_impact_velocity());
-        assert_abs_diff_eq!(tops.fold(0.0, f64::max), highest, epsilon = 10.0 * SOLVED);
+        assert_near(tops.fold(0.0, f64::max), highest, 10.0 * SOLVED);
         assert!(velocity(peak - 1e-3) < highest && velocity(peak + 1e-3) < highest);
     }
 }

@@ -4,7 +4,6 @@
 //! --nocapture` prints them), with guesses of the orbits from which `tests/reference/zones.py` finds folds and flips by
 //! an integrator of its own.
 
-use approx::abs_diff_eq;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -13,9 +12,9 @@ use softstop::{Scene, Slope, Stop};
 use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::zone::{Zone, hysteresis, loss_of_stability};
-use softstop_testing::random;
 use softstop_testing::reference::{ZONES, list, number, ratios};
 use softstop_testing::tolerance::GROWN;
+use softstop_testing::{is_near, random};
 
 /// Machines of the sample.
 const MACHINES: usize = 200;
@@ -125,7 +124,7 @@ fn zones_agree_with_thirty_digits() {
         let zone = hysteresis(&scene(&expected["parameters"])).expect("a zone");
         let agrees = |value: f64, key: &str| {
             let wanted = number(expected, key);
-            let close = abs_diff_eq!(value, wanted, epsilon = GROWN * wanted.max(1.0));
+            let close = is_near(value, wanted, GROWN * wanted.max(1.0));
             assert!(close, "{key} {value} in place of {expected}");
         };
         agrees(zone.frequency_g0, "frequency_g0");

@@ -1,13 +1,13 @@
 //! A machine in SI has the zone of the same machine in ratios, whatever its stop, and the same motions.
 
 use proptest::prelude::*;
-use softstop::{Language, Machine, Piercing, Ratios, Scene, Start, Stop, Units};
+use softstop::{Language, Machine, Piercing, Ratios, Scene, Start, Stop};
 use softstop_dynamics::MotionKind;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::settled::Settling;
 use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{BranchEnd, ZoneError, hysteresis, loss_of_stability};
-use softstop_testing::random;
+use softstop_testing::{hertz, kelvin_voigt, preloaded, random, units};
 
 /// A machine by its clearance, its damping and which stop it has.
 fn machine(clearance: f64, damping: f64, which: usize) -> Scene {
@@ -20,25 +20,9 @@ fn machine(clearance: f64, damping: f64, which: usize) -> Scene {
     let mut scene = ratios.scene().expect("valid");
     match which {
         1 => scene.stop = Stop::Rigid { restitution: 0.6 },
-        2 => {
-            scene.stop = Stop::KelvinVoigt {
-                stiffness: 40.0,
-                release: Default::default(),
-            }
-        }
-        3 => {
-            scene.stop = Stop::Hertz {
-                stiffness: 30.0,
-                exponent: 1.5,
-                dissipation: 0.02,
-            }
-        }
-        4 => {
-            scene.stop = Stop::Preloaded {
-                stiffness: 3.0,
-                preload: 5.0,
-            }
-        }
+        2 => scene.stop = kelvin_voigt(40.0, Default::default()),
+        3 => scene.stop = hertz(30.0, 1.5, 0.02),
+        4 => scene.stop = preloaded(3.0, 5.0),
         _ => {}
     }
     scene
@@ -63,11 +47,7 @@ proptest! {
         which in 0..6usize,
         powers in (-4.0..4.0f64, -3.0..8.0f64, -3.0..5.0f64),
     ) {
-        let units = Units {
-            mass: 10f64.powf(powers.0),
-            stiffness: 10f64.powf(powers.1),
-            force: 10f64.powf(powers.2),
-        };
+        let units = units(10f64.powf(powers.0), 10f64.powf(powers.1), 10f64.powf(powers.2));
         let plain = machine(clearance, damping, which);
         let other = plain.in_units(units).expect("valid");
         let (w, speed) = (units.frequency(), units.frequency() * units.length());
@@ -87,11 +67,7 @@ proptest! {
 #[test]
 fn what_has_not_settled_is_no_chaos_in_any_units() {
     let plain = machine(10.0, 0.001, 0).at_frequency(1.5);
-    let units = |mass, stiffness| Units {
-        mass,
-        stiffness,
-        force: 1.0,
-    };
+    let units = |mass, stiffness| units(mass, stiffness, 1.0);
     let settling = Settling {
         periods: 80,
         longest: 80,

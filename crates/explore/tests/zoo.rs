@@ -1,14 +1,15 @@
 //! The zoo of stops: its pictures, its page and its example scenes say what the library does.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq, assert_relative_eq};
 use softstop_testing::tolerance::printed;
 use std::fs;
 
-use softstop::{Machine, PhaseKind, Release, Scene, Slope, Stop};
+use softstop::{Machine, PhaseKind, Release, Scene, Stop};
 use softstop_explore::simulate::name;
 use softstop_explore::stops::stroke::Stroke;
 use softstop_explore::stops::{picture, zoo::ZOO};
-use softstop_testing::docs;
+use softstop_testing::{
+    assert_near, assert_relative, docs, hertz, is_near, kelvin_voigt, preloaded, slope,
+};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -52,7 +53,7 @@ fn look_alike(a: &str, b: &str) -> bool {
     };
     let (a, b) = (words(a), words(b));
     let same = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
-        (Ok(a), Ok(b)) => abs_diff_eq!(a, b, epsilon = PIXELS),
+        (Ok(a), Ok(b)) => is_near(a, b, PIXELS),
         _ => a == b,
     };
     a.len() == b.len() && a.iter().zip(&b).all(same)
@@ -166,7 +167,7 @@ fn the_area_of_a_loop_is_the_energy_that_the_stroke_loses() -> Outcome {
     ] {
         let (kinetic, area) = lost(name, speed, damped)?;
         println!("{name}");
-        assert_abs_diff_eq!(kinetic, area, epsilon = 2e-3 * speed * speed);
+        assert_near(kinetic, area, 2e-3 * speed * speed);
     }
     Ok(())
 }
@@ -181,7 +182,7 @@ fn elastic_stops_throw_the_mass_back_as_fast_as_it_came() -> Outcome {
         let stroke = Stroke::new(&scene(name)?, speed, 0.1, false)?;
         let exit = stroke.exit_speed.ok_or("the mass does not come back")?;
         println!("{name}");
-        assert_relative_eq!(exit, speed, max_relative = 1e-9);
+        assert_relative(exit, speed, 1e-9);
     }
     Ok(())
 }
@@ -197,23 +198,10 @@ fn limits_of_the_laws_lower_to_one_another() -> Outcome {
         }
         .phases()
     };
-    let spring = with(Stop::KelvinVoigt {
-        stiffness: 50.0,
-        release: Release::Clearance,
-    });
-    let preloaded = with(Stop::Preloaded {
-        stiffness: 50.0,
-        preload: 0.0,
-    });
-    let linear = with(Stop::Hertz {
-        stiffness: 50.0,
-        exponent: 1.0,
-        dissipation: 0.0,
-    });
-    let slope = Slope {
-        from: 0.0,
-        stiffness: 50.0,
-    };
+    let spring = with(kelvin_voigt(50.0, Release::Clearance));
+    let preloaded = with(preloaded(50.0, 0.0));
+    let linear = with(hertz(50.0, 1.0, 0.0));
+    let slope = slope(0.0, 50.0);
     let chain = with(Stop::PiecewiseLinear {
         loading: vec![slope],
         unloading: vec![slope],
@@ -243,18 +231,15 @@ fn a_stop_without_stiffness_is_none() -> Outcome {
     let text = fs::read_to_string(docs("scenes/none.toml"))?;
     let none = Machine::from_toml(&text)?;
     let slack = Scene {
-        stop: Stop::KelvinVoigt {
-            stiffness: 0.0,
-            release: Release::Clearance,
-        },
+        stop: kelvin_voigt(0.0, Release::Clearance),
         ..none.scene.clone()
     };
     let (a, b) = (
         none.scene.trajectory(none.start, 20)?.end,
         slack.trajectory(none.start, 20)?.end,
     );
-    assert_abs_diff_eq!(a.position, b.position, epsilon = 1e-11);
-    assert_abs_diff_eq!(a.velocity, b.velocity, epsilon = 1e-11);
+    assert_near(a.position, b.position, 1e-11);
+    assert_near(a.velocity, b.velocity, 1e-11);
     Ok(())
 }
 
@@ -276,7 +261,7 @@ fn great_stiffness_is_a_rigid_stop() -> Outcome {
     // b - b1 is what remains as damping of the stroke.
     let z = (180.0 - 0.04) / 2e3_f64;
     let restitution = (-std::f64::consts::PI * z / (1.0 - z * z).sqrt()).exp();
-    assert_abs_diff_eq!(exit / 6.0, restitution, epsilon = printed(2));
+    assert_near(exit / 6.0, restitution, printed(2));
     Ok(())
 }
 

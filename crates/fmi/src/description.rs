@@ -7,7 +7,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use crate::imprint::Imprint;
-use crate::log::Category;
+use crate::log::{Category, LOG_ALL};
 use crate::quantity::{Enumeration, Quantity};
 use crate::unit::{About, Row, Unit};
 use crate::variable::{Access, Kind, RealKind};
@@ -126,12 +126,27 @@ pub(crate) fn capabilities<U: Unit>(about: &About<U>) -> Vec<(&'static str, Stri
     flags.map(|(name, value)| (name, value.to_owned())).into()
 }
 
+/// The categories of the unit by their own names and by the standard's; a unit without events has none for them.
 fn log_categories<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
-    let mut categories = Category::ALL.iter();
-    categories.try_for_each(|category| {
-        let description = category.description().unwrap_or(about.events);
-        let named = [("name", category.name()), ("description", description)];
-        empty(xml, "Category", named)
+    let told = Category::ALL.map(|it| (it, it.description().unwrap_or(about.events)));
+    let told = told
+        .into_iter()
+        .filter(|(_, description)| !description.is_empty());
+    let own = told
+        .clone()
+        .map(|(category, description)| (category.name(), description));
+    let standard = told.flat_map(|(category, description)| {
+        let names = category.standard_names().iter();
+        names.map(move |name| (*name, description))
+    });
+    let all = [(LOG_ALL, "all of these")];
+    let mut categories = own.chain(standard).chain(all);
+    categories.try_for_each(|(name, description)| {
+        empty(
+            xml,
+            "Category",
+            [("name", name), ("description", description)],
+        )
     })
 }
 

@@ -85,7 +85,9 @@ pub(crate) enum Fault {
     Blob(&'static str),
     #[error("kind {kind} has no {wanted} value")]
     StatusKind { kind: i32, wanted: &'static str },
-    #[error("no log category is named {0:?}: there are events, warnings and errors")]
+    #[error(
+        "no log category is named {0:?}: there are events, warnings and errors, and the standard's logEvents, logStatusWarning, logStatusDiscard, logStatusError and logAll"
+    )]
     LogCategory(String),
     #[error("no step is under way: fmi2DoStep never returns fmi2Pending")]
     NotPending,

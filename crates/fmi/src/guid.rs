@@ -30,7 +30,7 @@ pub fn library_guid<U: Unit>() -> Option<String> {
     Some(uuid.braced().to_string())
 }
 
-/// The same as a number. It is held without a heap so that unloading the library leaves nothing behind.
+/// The GUID as a number. It is held without a heap so that unloading the library leaves nothing behind.
 pub(crate) fn library_uuid<U: Unit>() -> Result<Uuid, Fault> {
     let uuid = U::about()
         .guid

@@ -50,7 +50,7 @@ impl<U: Unit> Imprint<U> {
         imprint
     }
 
-    /// The same under another name, the `modelName` of the description.
+    /// The imprint under another name, the `modelName` of the description.
     ///
     /// # Errors
     /// If it is empty, longer than 64 bytes, or holds control characters.
@@ -61,7 +61,7 @@ impl<U: Unit> Imprint<U> {
         })
     }
 
-    /// The same with another description.
+    /// The imprint with another description.
     ///
     /// # Errors
     /// If it is empty, longer than 256 bytes, or holds control characters.

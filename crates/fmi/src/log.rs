@@ -38,13 +38,29 @@ impl Category {
         }
     }
 
-    fn of(name: &str) -> Result<Self, Fault> {
-        let found = Self::ALL
-            .into_iter()
-            .find(|category| category.name() == name);
-        found.ok_or_else(|| Fault::LogCategory(name.to_owned()))
+    /// The standard's names of what it tells (FMI 2.0.4, 2.2.4).
+    pub(crate) const fn standard_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Events => &["logEvents"],
+            Self::Warnings => &["logStatusWarning"],
+            Self::Errors => &["logStatusDiscard", "logStatusError"],
+        }
+    }
+
+    /// The categories of a name, its own or one of the standard's.
+    fn named(name: &str) -> Result<Vec<Self>, Fault> {
+        let is_meant =
+            |it: &Self| it.name() == name || name == LOG_ALL || it.standard_names().contains(&name);
+        let found: Vec<_> = Self::ALL.into_iter().filter(is_meant).collect();
+        match found.is_empty() {
+            true => Err(Fault::LogCategory(name.to_owned())),
+            false => Ok(found),
+        }
     }
 }
+
+/// The standard's name of all categories.
+pub(crate) const LOG_ALL: &str = "logAll";
 
 /// The importer's wishes. Errors are always logged: a refused call must not pass in silence.
 #[derive(Debug, Clone, Copy)]
@@ -73,10 +89,8 @@ impl Wanted {
 
     /// Switches the named categories, or all if none is named.
     pub(crate) fn switch(&mut self, on: bool, names: &[Cow<str>]) -> Result<(), Fault> {
-        let categories = names
-            .iter()
-            .map(|name| Category::of(name))
-            .collect::<Result<Vec<_>, _>>()?;
+        let named = names.iter().map(|name| Category::named(name));
+        let categories = named.collect::<Result<Vec<_>, _>>()?.concat();
         if categories.is_empty() {
             *self = Self::all(on);
         }

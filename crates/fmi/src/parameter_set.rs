@@ -23,7 +23,7 @@ pub fn write<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
     write_some(imprint, |_| true)
 }
 
-/// The same with some of the parameters only.
+/// The parameter set with some of the parameters only.
 ///
 /// # Errors
 /// If writing to memory fails.

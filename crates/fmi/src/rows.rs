@@ -6,12 +6,17 @@ use crate::variable::{Access, Dependencies, Kind, RealKind, Slot, Variable};
 /// How a real output and its derivative along a direction are read.
 type Reading<U, T> = (fn(&U) -> f64, fn(&T) -> f64);
 
+/// A number far above any machine's, below which no intermediate result overflows.
+pub const LARGE: f64 = 1e12;
+/// Stands for "greater than zero" in ranges that the standard can only close.
+pub const SMALL: f64 = 1e-12;
+
 /// A real number of a quantity.
 pub const fn real(quantity: &'static Quantity) -> Kind {
     Kind::Real(RealKind::any(Some(quantity)))
 }
 
-/// The same within a range.
+/// A real number of a quantity within a range.
 pub const fn within(quantity: &'static Quantity, min: f64, max: f64) -> Kind {
     between(Some(quantity), min, max)
 }
@@ -29,7 +34,7 @@ const fn between(quantity: Option<&'static Quantity>, min: f64, max: f64) -> Kin
     })
 }
 
-/// The same of this order of magnitude.
+/// A kind with this order of magnitude.
 pub const fn nominal(mut kind: Kind, nominal: f64) -> Kind {
     if let Kind::Real(real) = &mut kind {
         real.nominal = Some(nominal);
@@ -37,7 +42,7 @@ pub const fn nominal(mut kind: Kind, nominal: f64) -> Kind {
     kind
 }
 
-/// The same, shown in this unit by default.
+/// A kind that is shown in this unit by default.
 pub const fn shown_in(mut kind: Kind, unit: &'static str) -> Kind {
     if let Kind::Real(real) = &mut kind {
         real.display_unit = Some(unit);
@@ -75,7 +80,7 @@ pub const fn fixed<U, T>(
     row(reference, name, kind, access, description)
 }
 
-/// The same parameter, to be set between steps.
+/// A parameter that may be set between steps, too.
 pub const fn tunable<U, T>(mut row: Variable<U, T>) -> Variable<U, T> {
     if let Access::Parameter { tunable, .. } = &mut row.access {
         *tunable = true;

@@ -17,10 +17,10 @@ macro_rules! quantities {
 
 quantities! {
     /// Mass, kg.
-    MASS = "Mass", "Mass", "kg", [("kg", 1)], [("g", 1e3)];
+    MASS = "Mass", "Mass", "kg", [("kg", 1)], [];
     /// Spring constant, N/m.
     STIFFNESS = "Stiffness", "TranslationalSpringConstant", "N/m",
-        [("kg", 1), ("s", -2)], [("N/mm", 1e-3)];
+        [("kg", 1), ("s", -2)], [];
     /// Damping constant, N.s/m.
     DAMPING = "Damping", "TranslationalDampingConstant", "N.s/m", [("kg", 1), ("s", -1)], [];
     /// Force, N.
@@ -28,7 +28,7 @@ quantities! {
     /// Length, m.
     LENGTH = "Length", "Length", "m", [("m", 1)], [("mm", 1e3)];
     /// Velocity, m/s.
-    VELOCITY = "Velocity", "Velocity", "m/s", [("m", 1), ("s", -1)], [("mm/s", 1e3)];
+    VELOCITY = "Velocity", "Velocity", "m/s", [("m", 1), ("s", -1)], [];
     /// Acceleration, m/s2.
     ACCELERATION = "Acceleration", "Acceleration", "m/s2", [("m", 1), ("s", -2)], [];
     /// Angular frequency, rad/s.
@@ -37,13 +37,13 @@ quantities! {
     /// Angle, rad.
     ANGLE = "Angle", "Angle", "rad", [("rad", 1)], [("deg", 180.0 * std::f64::consts::FRAC_1_PI)];
     /// Time, s.
-    TIME = "Time", "Time", "s", [("s", 1)], [("ms", 1e3)];
+    TIME = "Time", "Time", "s", [("s", 1)], [];
     /// Hunt and Crossley's dissipation factor, s/m.
     DISSIPATION = "Dissipation", "InverseVelocity", "s/m", [("s", 1), ("m", -1)], [];
     /// Energy, J.
     ENERGY = "Energy", "Energy", "J", [("kg", 1), ("m", 2), ("s", -2)], [];
     /// Power, W.
-    POWER = "Power", "Power", "W", [("kg", 1), ("m", 2), ("s", -3)], [("kW", 1e-3)];
+    POWER = "Power", "Power", "W", [("kg", 1), ("m", 2), ("s", -3)], [];
     /// Impulse, N.s.
     IMPULSE = "Impulse", "Impulse", "N.s", [("kg", 1), ("m", 1), ("s", -1)], [];
     /// Torque, N.m.

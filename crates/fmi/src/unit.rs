@@ -129,7 +129,7 @@ pub struct About<U: Unit> {
     pub copyright: &'static str,
     /// Date and time of the version (UTC), as in the XML.
     pub date: &'static str,
-    /// What the log category `events` tells.
+    /// What the log category `events` tells; empty if the unit has none.
     pub events: &'static str,
     /// What derivatives can be taken by after initialisation, to follow "there are those by".
     pub knowns: &'static str,

@@ -11,6 +11,7 @@ use softstop::{Excitation, Release, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, Judge, MethodError, Scheme, Solution, Task, Verdict,
 };
+use softstop_testing::kelvin_voigt;
 
 /// m = k1 = 1, no damping, no drive, w = 1; a Kelvin-Voigt stop.
 fn undriven(clearance: f64, stiffness: f64) -> Scene {
@@ -25,10 +26,7 @@ fn undriven(clearance: f64, stiffness: f64) -> Scene {
         },
         clearance,
         contact_damping: 0.0,
-        stop: Stop::KelvinVoigt {
-            stiffness,
-            release: Release::Clearance,
-        },
+        stop: kelvin_voigt(stiffness, Release::Clearance),
         piercing: None,
         rigid: None,
     }

@@ -1,12 +1,11 @@
 //! A figure of the paper as `softstop-lab paper` draws it in draft, once for all tests.
 
-use approx::abs_diff_eq;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 use serde_json::Value;
-use softstop_testing::Program;
+use softstop_testing::{Program, is_near};
 
 const PROGRAM: Program = Program {
     file: env!("CARGO_BIN_EXE_softstop-lab"),
@@ -74,7 +73,7 @@ impl Figure {
     #[track_caller]
     pub fn near(&self, name: &str, value: f64, tolerance: f64) {
         let found = self.get(name);
-        let is_near = abs_diff_eq!(found, value, epsilon = tolerance);
+        let is_near = is_near(found, value, tolerance);
         assert!(is_near, "{name}: {found}, not {value}");
     }
 }

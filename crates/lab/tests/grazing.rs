@@ -1,12 +1,12 @@
 //! The Jacobian of a motion that all but grazes its stop against differences of motions in 67 digits.
 
 use crate::many_digits::solve;
-use approx::assert_abs_diff_eq;
 use nalgebra::{Matrix2, Vector2};
 use softstop::{Ratios, Scene};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_lab::methods::Task;
+use softstop_testing::assert_near;
 use softstop_testing::tolerance::DIFFERENCED;
 
 /// Distance of the states that are compared: 1.5e-4 of that at which the motion grazes no more. Their images
@@ -39,7 +39,7 @@ fn near_grazing_the_jacobian_is_that_of_differences_in_many_digits() {
     // The state is rounded to 1.8e-15, which is 3e-7 of the same distance.
     assert!(off < 1e-6, "{off:e}");
     let largest = orbit.multipliers()[0].re;
-    assert_abs_diff_eq!(largest / differences.trace(), 1.0, epsilon = DIFFERENCED);
+    assert_near(largest / differences.trace(), 1.0, DIFFERENCED);
     // The fixed point itself, but for the rounding of its state: at 9.19 and 3.54 half a unit in the last place is
     // 4 and 1 times 2.2e-16, and Newton's method stops within four halves of the best state; the map stretches that.
     let gap = (image(&scene, orbit.state()) - orbit.state()).norm();

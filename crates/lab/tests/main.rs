@@ -14,6 +14,7 @@ mod paper_maps;
 mod paper_motions;
 mod precision;
 mod reference;
+mod refusals;
 mod solvers;
 mod stored;
 mod throughput;

@@ -4,13 +4,12 @@
 //! The table of docs/methods.md is printed by
 //! `cargo test --release -p softstop-lab --test lab methods::orders -- --nocapture`.
 
-use approx::abs_diff_eq;
 use proptest::prelude::*;
 use softstop::{Crossing, CrossingKind, Observer, Ratios, Release, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, MethodError, Moreau, Scheme, Solution, Task,
 };
-use softstop_testing::{cases, machines, start_below};
+use softstop_testing::{cases, hertz, is_near, kelvin_voigt, machines, preloaded, start_below};
 
 /// Starts whose errors are averaged: they differ in where in a step the impact falls.
 const STARTS: u32 = 64;
@@ -91,7 +90,7 @@ fn assert_orders(name: &str, stop: Stop, contact_damping: f64, left: (f64, f64))
             let (title, events) = (scheme.name(), events.name());
             println!("{name:22} {title:20} {events:15} {observed:.2} (theory {expected})");
             assert!(
-                abs_diff_eq!(observed, expected, epsilon = 0.1),
+                is_near(observed, expected, 0.1),
                 "{name}, {title}, {events}"
             );
         }
@@ -103,10 +102,7 @@ const SMOOTH: f64 = f64::INFINITY;
 const SAME: f64 = 0.04;
 
 fn sprung() -> Stop {
-    Stop::KelvinVoigt {
-        stiffness: 50.0,
-        release: Release::Clearance,
-    }
+    kelvin_voigt(50.0, Release::Clearance)
 }
 
 #[test]
@@ -124,10 +120,7 @@ fn orders_at_a_rigid_stop() {
 /// A jump of the force within a step takes O(h) from the velocity.
 #[test]
 fn orders_at_a_preloaded_stop() {
-    let stop = Stop::Preloaded {
-        stiffness: 7.0,
-        preload: 70.0,
-    };
+    let stop = preloaded(7.0, 70.0);
     assert_orders("preloaded", stop, SAME, (1.0, SMOOTH));
 }
 
@@ -146,11 +139,7 @@ fn orders_at_an_undamped_spring() {
 /// A power law of exponent n is not smooth at its face: wherever steps end, one next to it errs by h^(n + 1).
 #[test]
 fn orders_at_a_sphere() {
-    let stop = Stop::Hertz {
-        stiffness: 50.0,
-        exponent: 1.5,
-        dissipation: 0.0,
-    };
+    let stop = hertz(50.0, 1.5, 0.0);
     assert_orders("Hertz, n = 3/2", stop, SAME, (2.5, 2.5));
 }
 
@@ -168,10 +157,7 @@ fn orders_of_moreau() {
     ] {
         let observed = observed_order(&scene(clearance), &|step| Moreau { step, theta });
         println!("{name:22} Moreau, theta = {theta:4} {observed:22.2} (theory {expected})");
-        assert!(
-            abs_diff_eq!(observed, expected, epsilon = 0.1),
-            "{name} {theta}"
-        );
+        assert!(is_near(observed, expected, 0.1), "{name} {theta}");
     }
 }
 

@@ -4,11 +4,11 @@
 mod contacts;
 mod stability;
 
-use approx::abs_diff_eq;
 use softstop::{Excitation, Ratios, Release, Scene, Start, Stop};
 use softstop_lab::methods::{
     Events, Exact, FixedStep, Integrator, MethodError, Moreau, Scheme, Solution, Task,
 };
+use softstop_testing::is_near;
 
 /// x'' + 2 zeta x' + x = 0.
 fn free(zeta: f64) -> Scene {
@@ -121,9 +121,6 @@ fn the_last_step_ends_with_the_task() {
         assert_eq!(found.work.steps as f64, count);
         assert_eq!(found.work.evaluations as f64, 4.0 * count);
         let tolerance = (duration / count).powi(5) * count;
-        assert!(
-            abs_diff_eq!(found.end.0, duration.cos(), epsilon = tolerance),
-            "{share}"
-        );
+        assert!(is_near(found.end.0, duration.cos(), tolerance), "{share}");
     }
 }

@@ -1,10 +1,10 @@
 //! The maps of `softstop-lab paper`: regimes, basins, certainty, each as a first look.
 
-use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::MOTION;
 use std::fs;
 
 use crate::figure::Figure;
+use softstop_testing::assert_near;
 
 type Outcome = std::io::Result<()>;
 
@@ -43,9 +43,9 @@ fn three_motions_share_the_plane_at_09875() -> Outcome {
         "coexistence, z = 2/4 (1-1-0-0): share",
     ];
     let all: f64 = shares.iter().map(|name| found.get(name)).sum();
-    assert_abs_diff_eq!(all, 1.0, epsilon = MOTION);
+    assert_near(all, 1.0, MOTION);
     let both = found.get("A, z = 0: share") + found.get("A, z = 1: share");
-    assert_abs_diff_eq!(both, 1.0, epsilon = MOTION);
+    assert_near(both, 1.0, MOTION);
     assert!(found.get("A, z = 1: largest ball") > found.get("near the fold, z = 1: largest ball"));
     Ok(())
 }

@@ -1,10 +1,10 @@
 //! Figures 7 and 9 of the paper: their numbers against those known, and the files beside them.
 
-use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::{DIFFERENCED, MOTION, printed};
 use std::collections::BTreeMap;
 
 use crate::figure::Figure;
+use softstop_testing::assert_near;
 
 fn numbers(lines: &[BTreeMap<String, String>], name: &str) -> Vec<f64> {
     let number = |line: &BTreeMap<String, String>| line[name].parse().expect("a number");
@@ -105,7 +105,7 @@ fn the_twelve_motions_are_found_and_are_what_the_paper_says() {
         let modulus = figure.get(&format!("({letter}) largest multiplier, modulus"));
         let exponent = figure.get(&format!("({letter}) Lyapunov exponent per period"));
         assert!(modulus < 1.0, "({letter}) {modulus}");
-        assert_abs_diff_eq!(exponent * periods, modulus.ln(), epsilon = MOTION);
+        assert_near(exponent * periods, modulus.ln(), MOTION);
     }
     for letter in ['B', 'E', 'G', 'K'] {
         let exponent = figure.get(&format!("({letter}) Lyapunov exponent per period"));

@@ -2,7 +2,6 @@
 
 mod command;
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop_testing::tolerance::ROUNDING;
 use std::fs;
 use std::path::Path;
@@ -15,7 +14,7 @@ use softstop_lab::precision::errors::Scale;
 use softstop_lab::precision::family::{self, Family, Look};
 use softstop_lab::precision::measure::{Bench, Effort, Row};
 use softstop_lab::precision::truth::Truth;
-use softstop_testing::{Program, docs};
+use softstop_testing::{Program, assert_near, docs, is_near};
 
 use crate::many_digits;
 
@@ -111,7 +110,7 @@ fn the_error_of_a_method_falls_with_its_order() -> Outcome {
     let errors: Vec<f64> = rows(&task, &heun)?.iter().map(end_error).collect();
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
-        assert!(abs_diff_eq!(order, 2.0, epsilon = 0.1), "{errors:?}");
+        assert!(is_near(order, 2.0, 0.1), "{errors:?}");
     }
     Ok(())
 }
@@ -159,10 +158,10 @@ fn each_error_is_measured_for_itself() -> Outcome {
     };
     let late = errors(|solution| solution.impacts[1].time += 1e-3)?;
     let period = task.scene.period();
-    assert_abs_diff_eq!(
+    assert_near(
         late.impact_time_error.ok_or("time")?,
         1e-3 / period,
-        epsilon = 10.0 * ROUNDING
+        10.0 * ROUNDING,
     );
     assert!(end_error(&late) < 1e-13);
     let doubled = errors(|solution| {

@@ -1,7 +1,6 @@
 //! The many-digit reference against independent integrations in 56 digits (tests/reference/stops.py), a closed
 //! form and the exact method.
 
-use approx::abs_diff_eq;
 use std::cell::RefCell;
 use std::str::FromStr;
 
@@ -15,7 +14,7 @@ use softstop::{Excitation, Impact, Scene, Start, Stop};
 use softstop_lab::methods::{Exact, Integrator, Task};
 use softstop_lab::throughput::random_machines::{Draw, Kind};
 use softstop_testing::reference::{STOPS, list, number};
-use softstop_testing::unloaded;
+use softstop_testing::{hertz, is_near, unloaded};
 
 /// Half a unit in the 30th digit of numbers up to 1000, to which stops.json is written, ten times over.
 const ALLOWED: f64 = 1e-26;
@@ -111,14 +110,8 @@ fn a_machine_without_a_stop_has_its_closed_form() {
     };
     // 7.5 periods of pi: cos t = 0, sin t = -1, cos 2t = -1, sin 2t = 0.
     let reference = solve(&task(scene, (1.0, 0.0), 7.5), &|_| true).expect("a reference");
-    assert!(
-        abs_diff_eq!(reference.end.0, 1.0 / 3.0, epsilon = 1e-16),
-        "{reference:?}"
-    );
-    assert!(
-        abs_diff_eq!(reference.end.1, 4.0 / 3.0, epsilon = 3e-16),
-        "{reference:?}"
-    );
+    assert!(is_near(reference.end.0, 1.0 / 3.0, 1e-16), "{reference:?}");
+    assert!(is_near(reference.end.1, 4.0 / 3.0, 3e-16), "{reference:?}");
     assert!(reference.doubt.end < 1e-44, "{reference:?}");
     assert!(reference.impacts.is_empty() && reference.crossings == 0);
 }
@@ -159,11 +152,7 @@ fn progress_is_told_and_a_refusal_ends_the_run() {
 #[test]
 fn power_laws_and_starts_beyond_a_wall_are_refused() {
     let mut scene = unloaded(1.15);
-    scene.stop = Stop::Hertz {
-        stiffness: 50.0,
-        exponent: 1.5,
-        dissipation: 0.0,
-    };
+    scene.stop = hertz(50.0, 1.5, 0.0);
     let refused = solve(&task(scene.clone(), (0.0, 14.0), 1.0), &|_| true);
     let power = ReferenceError::PowerLaw {
         exponent: 1.5,

@@ -4,13 +4,12 @@ mod leaps;
 mod power;
 mod single;
 
-use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::{GROWN, SOLVED};
 use std::collections::HashMap;
 
-use softstop::{Clock, Crossing, Observer, Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
+use softstop::{Clock, Crossing, Observer, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run, run_with};
-use softstop_testing::Meets;
+use softstop_testing::{Meets, assert_near, kelvin_voigt, preloaded, rigid_stop};
 
 const PERIODS: u64 = 20;
 
@@ -39,29 +38,17 @@ fn scene(index: usize) -> Scene {
     if index % 3 == 1 {
         scene.stop = match index % 5 {
             0 => Stop::Rigid { restitution: 0.8 },
-            1 => Stop::KelvinVoigt {
-                stiffness,
-                release: Release::Clearance,
-            },
-            2 => Stop::KelvinVoigt {
-                stiffness,
-                release: Release::ZeroForce,
-            },
+            1 => kelvin_voigt(stiffness, Release::Clearance),
+            2 => kelvin_voigt(stiffness, Release::ZeroForce),
             3 => Stop::PiecewiseLinear {
                 loading: vec![slope(0.0, stiffness), slope(0.3, 2.0 * stiffness)],
                 unloading: vec![slope(0.0, 0.5 * stiffness)],
             },
-            _ => Stop::Preloaded {
-                stiffness,
-                preload: 10.0,
-            },
+            _ => preloaded(stiffness, 10.0),
         };
     }
     if index % 7 == 1 && !matches!(scene.stop, Stop::Rigid { .. }) {
-        scene.rigid = Some(RigidStop {
-            travel: 0.5,
-            restitution: 0.5,
-        });
+        scene.rigid = Some(rigid_stop(0.5, 0.5));
     }
     scene
 }
@@ -168,10 +155,7 @@ fn pressed_faces_and_contacts_that_must_not_pull_stay_in_lanes() {
         }
         let mut scene = ratios.scene().expect("valid");
         if !index.is_multiple_of(2) {
-            scene.stop = Stop::KelvinVoigt {
-                stiffness: 100.0,
-                release: Release::ZeroForce,
-            };
+            scene.stop = kelvin_voigt(100.0, Release::ZeroForce);
         }
         scene
     };
@@ -282,12 +266,8 @@ fn the_watcher_hears_of_every_impact_and_period() {
         let found = heard.impacts.remove(&index).unwrap_or_default();
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.iter().zip(&expected) {
-            assert_abs_diff_eq!(
-                found.0,
-                motion.clock.time(expected.instant),
-                epsilon = 10.0 * SOLVED
-            );
-            assert_abs_diff_eq!(found.1, expected.before_impact_velocity, epsilon = GROWN);
+            assert_near(found.0, motion.clock.time(expected.instant), 10.0 * SOLVED);
+            assert_near(found.1, expected.before_impact_velocity, GROWN);
         }
         let periods = &heard.periods[&index];
         assert_eq!(periods.len() as u64, PERIODS);

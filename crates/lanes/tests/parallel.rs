@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use approx::assert_abs_diff_eq;
 use rayon::ThreadPoolBuilder;
-use softstop::{Ratios, Scene, Start, Stop};
+use softstop::{Ratios, Scene, Start};
 use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run, run_parallel};
 use softstop_testing::tolerance::SOLVED;
+use softstop_testing::{assert_near, hertz};
 
 const JOBS: usize = 600;
 const PERIODS: u64 = 12;
@@ -70,11 +70,7 @@ fn a_batch_ends_where_its_watcher_says_so() {
     let (mut machines, mut jobs) = fleet();
     let linear = machines[0].clone();
     let rough = Scene {
-        stop: Stop::Hertz {
-            stiffness: 30.0,
-            exponent: 1.2,
-            dissipation: 0.0,
-        },
+        stop: hertz(30.0, 1.2, 0.0),
         ..Ratios::unloaded().scene().expect("valid")
     };
     let slow = Machine::new(&rough).expect("valid");
@@ -112,10 +108,6 @@ fn each_job_has_its_own_outcome_and_impacts() {
     for (job, (outcome, expected)) in outcomes.iter().zip(&expected).enumerate() {
         assert_eq!(outcome.impacts, counts[job], "{job}");
         assert_eq!(outcome.impacts, expected.impacts, "{job}");
-        assert_abs_diff_eq!(
-            outcome.end.position,
-            expected.end.position,
-            epsilon = 10.0 * SOLVED
-        );
+        assert_near(outcome.end.position, expected.end.position, 10.0 * SOLVED);
     }
 }

@@ -1,13 +1,13 @@
 //! Rows of the paper's Table 1, found from a few frequencies. The whole table takes longer than a test may:
 //! `softstop-lab table1`.
 
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop_dynamics::attractors::Options;
 use softstop_dynamics::transitions::Rules;
 use softstop_paper::table1::paper::{INTERVALS, ROWS};
 use softstop_paper::table1::report::{RowReport, TableReport};
 use softstop_paper::table1::{transitions, values};
 use softstop_testing::tolerance::GROWN;
+use softstop_testing::{assert_near, is_near};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -38,15 +38,14 @@ type Expected = (usize, f64, f64, &'static str, bool);
 fn compare(table: &TableReport, expected: &[Expected]) {
     for &(number, eta, tolerance, kind, hysteresis) in expected {
         let row = &table.rows[number - 1];
-        assert!(is_near(row, eta, tolerance), "{row:?}");
+        assert!(is_at(row, eta, tolerance), "{row:?}");
         assert_eq!(row.kind.as_deref(), Some(kind), "{row:?}");
         assert_eq!(row.hysteresis, Some(hysteresis), "{row:?}");
     }
 }
 
-fn is_near(row: &RowReport, eta: f64, tolerance: f64) -> bool {
-    row.eta
-        .is_some_and(|found| abs_diff_eq!(found, eta, epsilon = tolerance))
+fn is_at(row: &RowReport, eta: f64, tolerance: f64) -> bool {
+    row.eta.is_some_and(|found| is_near(found, eta, tolerance))
 }
 
 #[test]
@@ -56,9 +55,9 @@ fn rest_ends_by_grazing_and_impacts_by_a_fold_beyond_it() -> Outcome {
     // Grazing in closed form: the amplitude of the free motion is the clearance.
     let amplitude = |eta: f64| 1.0 / (1.0 - eta * eta).hypot(0.04 * eta);
     let eta = grazing.eta.ok_or("row 18 was not found")?;
-    assert_abs_diff_eq!(amplitude(eta), 10.0, epsilon = GROWN);
+    assert_near(amplitude(eta), 10.0, GROWN);
     assert_eq!(grazing.kind.as_deref(), Some("G"));
-    assert!(is_near(fold, 1.369_036, 5e-7), "{fold:?}");
+    assert!(is_at(fold, 1.369_036, 5e-7), "{fold:?}");
     assert_eq!(fold.kind.as_deref(), Some("SN"));
     assert_eq!(
         (grazing.hysteresis, fold.hysteresis),

@@ -4,11 +4,14 @@
 mod faults;
 pub mod machines;
 pub mod meets;
+mod near;
 pub mod pages;
 mod program;
 pub mod random;
 pub mod reference;
+pub mod report;
 pub mod scenes;
+mod session;
 mod signals;
 pub mod tangent;
 pub mod tolerance;
@@ -17,9 +20,14 @@ use std::path::{Path, PathBuf};
 
 pub use machines::{machines, start_below};
 pub use meets::Meets;
-pub use program::{Program, words};
+pub use near::{assert_near, assert_relative, is_near};
+pub use program::{Program, files, kill, words};
 pub use random::cases;
-pub use scenes::{loaded, unloaded};
+pub use report::{Report, has_near, number, with_folders};
+pub use scenes::{
+    hertz, kelvin_voigt, loaded, piercing, preloaded, rigid_stop, slope, units, unloaded,
+    with_changes,
+};
 
 /// A file of `docs`.
 pub fn docs(name: &str) -> PathBuf {

@@ -113,30 +113,6 @@ impl Program {
         }
     }
 
-    /// Interrupts the program a moment after it has made its folder, within 20 s: it ends with exit code 130
-    /// and takes the folder away.
-    ///
-    /// # Panics
-    /// If it does otherwise.
-    #[track_caller]
-    pub fn leaves_nothing_when_interrupted(&self, arguments: &[&str], folder: &Path) {
-        let mut command = self.command(arguments);
-        let mut run = command
-            .arg("--output")
-            .arg(folder)
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the program starts");
-        let deadline = Instant::now() + Duration::from_secs(20);
-        while !folder.is_dir() && Instant::now() < deadline {
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        std::thread::sleep(Duration::from_millis(200));
-        kill("INT", run.id());
-        assert_eq!(run.wait().expect("it ends").code(), Some(130));
-        assert!(!folder.exists(), "{} is left", folder.display());
-    }
-
     /// Kills the program at random moments of a job that writes into the folder `out`, and takes the job up again with
     /// `--resume`, over and over: in the end its files, and no others, hold what they hold after an undisturbed run.
     /// So many kills, or `SOFTSTOP_KILLS`, of a seed or `SOFTSTOP_KILLS_SEED`; `folder` is empty.
@@ -242,14 +218,14 @@ pub(crate) fn holds(folder: &Path, expected: &BTreeMap<PathBuf, Vec<u8>>, what: 
 }
 
 /// Sends a process a signal.
-pub(crate) fn kill(signal: &str, process: u32) {
+pub fn kill(signal: &str, process: u32) {
     let arguments = [format!("-{signal}"), process.to_string()];
     let status = Command::new("kill").args(arguments).status();
     assert!(status.expect("kill starts").success(), "kill -{signal}");
 }
 
 /// All files in a folder and below; none if it does not exist.
-pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
+pub fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let paths = entries.map(|entry| entry.expect("an entry").path());
     paths

@@ -1,5 +1,6 @@
 //! Random cases that are the same on every run.
 
+use proptest::prelude::Strategy;
 use proptest::test_runner::{Config, RngSeed};
 
 /// `cases` random cases from one fixed seed, so that a run of the tests is repeatable. Another seed
@@ -12,4 +13,9 @@ pub fn cases(cases: u32) -> Config {
         failure_persistence: None,
         ..Config::default()
     }
+}
+
+/// Numbers evenly spread in their logarithm.
+pub fn log_uniform(low: f64, high: f64) -> impl Strategy<Value = f64> {
+    (low.ln()..high.ln()).prop_map(f64::exp)
 }

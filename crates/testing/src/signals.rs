@@ -29,7 +29,7 @@ impl Program {
             .current_dir(folder)
             .spawn()
             .expect("the program starts");
-        sleep(Duration::from_millis(600));
+        let_work(run.id(), Duration::from_millis(150));
         let early = run.try_wait().expect("a process");
         assert_eq!(early, None, "{arguments:?} is over too soon");
         kill(signal, run.id());
@@ -70,12 +70,12 @@ impl Program {
     pub fn outlives_ignored_signals(&self, arguments: &[&str], folder: &Path, kept: &[&str]) {
         let mut command = self.after("trap '' HUP INT QUIT", arguments, folder);
         let mut run = command.spawn().expect("a shell");
-        for signal in ["HUP", "INT", "QUIT"] {
-            sleep(Duration::from_millis(300));
+        for (number, signal) in (1..).zip(["HUP", "INT", "QUIT"]) {
+            let_work(run.id(), Duration::from_millis(100 * number));
             kill(signal, run.id());
         }
         // Longer than a run may take that was asked to end.
-        sleep(Duration::from_millis(1200));
+        let_work(run.id(), Duration::from_millis(900));
         let early = run.try_wait().expect("a process");
         assert_eq!(early, None, "{arguments:?} ended");
         kill("TERM", run.id());
@@ -134,6 +134,25 @@ impl Program {
         let said = String::from_utf8_lossy(&stderr);
         assert_eq!(status.code(), Some(1), "{arguments:?}: {status}: {said}");
         assert!(said.contains("No space left"), "{arguments:?}: {said}");
+    }
+}
+
+/// Waits until a process has worked for so long, or is over: on a busy computer that takes a while.
+fn let_work(process: u32, time: Duration) {
+    let deadline = Instant::now() + Duration::from_secs(60);
+    let worked = || {
+        let text = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+        // Behind the name its state, and as the 12th and 13th number from there hundredths of seconds.
+        let (_, rest) = text.rsplit_once(") ")?;
+        let mut ticks = rest.split(' ').skip(11).map(str::parse::<u64>);
+        let ticks = ticks.next()?.ok()? + ticks.next()?.ok()?;
+        (!rest.starts_with('Z')).then(|| Duration::from_millis(10 * ticks))
+    };
+    if !Path::new("/proc").exists() {
+        sleep(4 * time);
+    }
+    while worked().is_some_and(|worked| worked < time) && Instant::now() < deadline {
+        sleep(Duration::from_millis(5));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use softstop_fmi::variable::{Access, Kind};
 
-use super::rows::{LARGE, Row, after, continuous, fixed, real, row, with_drive, within};
+use super::rows::{LARGE, Row, after, continuous, fixed, real, row, shown_in, with_drive, within};
 use crate::machine::Machine;
 use crate::signal;
 use crate::start::slot;
@@ -41,7 +41,7 @@ fn power(machine: &Machine) -> f64 {
 /// All of it.
 #[rustfmt::skip]
 pub(super) const DRIVE: &[Row] = &[
-    row(103, "drive.speed", within(&units::ANGULAR_FREQUENCY, -LARGE, LARGE), Access::Signal(signal::SPEED),
+    row(103, "drive.speed", shown_in(within(&units::ANGULAR_FREQUENCY, -LARGE, LARGE), "Hz"), Access::Signal(signal::SPEED),
         "Speed of the drive, its angle being the integral: it holds in place of excitation.frequency if drive.takes.speed is true. With derivatives of order 1 to 7 it goes on as a polynomial"),
     row(104, "drive.amplitude", within(&units::FORCE, -LARGE, LARGE), Access::Signal(signal::AMPLITUDE),
         "Amplitude of the drive: it holds in place of excitation.amplitude if drive.takes.amplitude is true. With derivatives as for drive.speed"),
@@ -49,10 +49,10 @@ pub(super) const DRIVE: &[Row] = &[
         "The input drive.speed leads the drive, which then begins at the angle excitation.phase; otherwise excitation.frequency does"),
     fixed(26, "drive.takes.amplitude", slot::TAKES_AMPLITUDE, Kind::Boolean,
         "The input drive.amplitude leads the drive; otherwise excitation.amplitude does"),
-    continuous(212, "drive.angle", real(&units::ANGLE), after(TURNED),
+    continuous(212, "drive.angle", shown_in(real(&units::ANGLE), "deg"), after(TURNED),
         (angle, |of| of.of(angle)), &[|machine| machine.drive_angle().1, |machine| machine.drive_angle().2],
         "Angle of the drive F0 cos(angle), counted on over the turns"),
-    continuous(213, "drive.force", real(&units::FORCE), with_drive(FORCED),
+    continuous(213, "drive.force", shown_in(real(&units::FORCE), "kN"), with_drive(FORCED),
         (force, |of| of.of(force)), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
         "Force of the drive on the mass"),
     continuous(214, "drive.power", real(&units::POWER), with_drive(POWERED),

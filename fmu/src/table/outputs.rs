@@ -68,7 +68,7 @@ const EVERYTHING: &[&str] = &[
     "stop.loading.stiffness", "stop.unloading.count", "stop.unloading.from", "stop.unloading.stiffness",
     "rigid.present", "rigid.travel", "piercing.stiffness", "piercing.friction", "piercing.thickness",
     "piercing.travel", "initial.position", "initial.velocity", "force", "base.acceleration", "drive.amplitude",
-    "drive.takes.speed", "drive.takes.amplitude", "material", "material.real",
+    "drive.takes.speed", "drive.takes.amplitude", "material", "material_real",
 ];
 
 /// What the energy stored at the start depends on.
@@ -95,7 +95,7 @@ pub(super) const OUTPUTS: &[Row] = &[
         (frame, |of| of.of(frame)),
         &[|machine| machine.frame_force().1, |machine| machine.frame_force().2],
         "Force of suspension, dampers, strip and stop on the frame, k1 x + b1 x' + contact.force"),
-    continuous(200, "position", shown_in(nominal(real(&units::LENGTH), 10.0), "mm"), after(&["initial.position"]),
+    continuous(200, "position", nominal(real(&units::LENGTH), 10.0), after(&["initial.position"]),
         (|machine| machine.sample().position, |of| of.along(|of| of.position, |machine| machine.sample().position)), &[velocity, acceleration],
         "Position of the mass"),
     continuous(201, "velocity", nominal(real(&units::VELOCITY), 10.0), after(&["initial.velocity"]),

@@ -14,7 +14,7 @@ pub(super) const INPUTS: &[Row] = &[
         "Further external force on the mass; with its derivatives of order 1 to 7 it goes on as a polynomial until it is set anew, which sets them to zero"),
     row(101, "material", Kind::Boolean, Access::Input(slot::MATERIAL),
         "A strip is fed; taken over when the mass next crosses the clearance upward. Without it the piercing phases fall away, the stop stays where it is"),
-    row(106, "material.real", bare(0.0, 1.0), Access::Input(slot::MATERIAL_SHARE),
+    row(106, "material_real", bare(0.0, 1.0), Access::Input(slot::MATERIAL_SHARE),
         "The same for masters that know Real inputs only: without a strip below 0.5. A strip is fed if neither of both says no"),
     row(102, "base.acceleration", within(&units::ACCELERATION, -LARGE, LARGE), Access::Signal(signal::BASE),
         "Acceleration of the frame: position, velocity and acceleration of the mass are those beside the frame. With derivatives as for force"),
@@ -35,7 +35,7 @@ pub(super) const OSCILLATOR: &[Row] = &[
         "Angular frequency w of the drive; when it is tuned, the drive angle goes on without a jump")),
     fixed(5, "excitation.phase", slot::DRIVE_PHASE, shown_in(within(&units::ANGLE, -LARGE, LARGE), "deg"),
         "Drive angle phi at time 0"),
-    tunable(fixed(6, "clearance", slot::CLEARANCE, shown_in(nominal(within(&units::LENGTH, -LARGE, LARGE), 10.0), "mm"),
+    tunable(fixed(6, "clearance", slot::CLEARANCE, nominal(within(&units::LENGTH, -LARGE, LARGE), 10.0),
         "Clearance r: contact begins at this position; negative means interference. It cannot be tuned such that a rigid stop would stand before the mass")),
 ];
 
@@ -50,7 +50,7 @@ pub(super) const STRIP_AND_START: &[Row] = &[
         "Thickness s of the strip; with piercing.travel = 0 as well there is no piercing at all"),
     fixed(14, "piercing.travel", slot::PIERCING_TRAVEL, shown_in(within(&units::LENGTH, 0.0, LARGE), "mm"),
         "Travel v from the pierced strip to the stop"),
-    fixed(15, "initial.position", slot::INITIAL_POSITION, shown_in(nominal(within(&units::LENGTH, -LARGE, LARGE), 10.0), "mm"),
+    fixed(15, "initial.position", slot::INITIAL_POSITION, nominal(within(&units::LENGTH, -LARGE, LARGE), 10.0),
         "Position at the start time; not beyond a rigid stop"),
     fixed(16, "initial.velocity", slot::INITIAL_VELOCITY, nominal(within(&units::VELOCITY, -LARGE, LARGE), 10.0),
         "Velocity at the start time"),

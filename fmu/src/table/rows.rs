@@ -11,11 +11,6 @@ pub(super) use softstop_fmi::rows::*;
 /// One row of the table.
 pub(crate) type Row = Variable<Machine, Tangent>;
 
-/// A number far above any machine's, below which no intermediate result overflows.
-pub(super) const LARGE: f64 = 1e12;
-/// Stands for "greater than zero" in ranges that the standard can only close.
-pub(super) const SMALL: f64 = 1e-12;
-
 /// How many elements of the arrays of slopes are in use.
 pub(super) const fn count_of_slopes(min: i32) -> Kind {
     let max = Some(SLOPES as i32);

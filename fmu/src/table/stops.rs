@@ -2,7 +2,9 @@
 
 use softstop_fmi::variable::Kind;
 
-use super::rows::{LARGE, Row, bare, count_of_slopes, fixed, nominal, slopes, tunable, within};
+use super::rows::{
+    LARGE, Row, bare, count_of_slopes, fixed, nominal, shown_in, slopes, tunable, within,
+};
 use crate::start::slot::{self, SLOPES};
 use crate::units;
 
@@ -16,7 +18,7 @@ pub(super) const LAWS: &[Row] = &[
         "Force law of the stop, which stands at clearance + piercing.thickness + piercing.travel"),
     tunable(fixed(9, "stop.stiffness", slot::STOP_STIFFNESS, within(&units::STIFFNESS, 0.0, LARGE),
         "Stiffness k4 of the stop (kelvinVoigt, hertz, preloaded); with hertz its unit is N/m^stop.exponent")),
-    tunable(fixed(10, "stop.preload", slot::STOP_PRELOAD, nominal(within(&units::FORCE, 0.0, LARGE), 70.0),
+    tunable(fixed(10, "stop.preload", slot::STOP_PRELOAD, shown_in(nominal(within(&units::FORCE, 0.0, LARGE), 70.0), "kN"),
         "Force of the preloaded stop at first touch")),
     fixed(17, "stop.restitution", slot::STOP_RESTITUTION, bare(0.0, 1.0),
         "Newton's coefficient of restitution R of the rigid stop, and of the one behind another stop"),

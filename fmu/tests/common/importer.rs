@@ -4,6 +4,7 @@
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 
+use softstop_fmi::variable::Kind;
 use softstop_fmu::ffi::*;
 use softstop_fmu::{library_guid, table};
 
@@ -111,13 +112,19 @@ impl Unit {
         assert_eq!(self.try_to_begin(), OK);
     }
 
+    /// Leads into initialisation.
+    pub fn enter(&self, start: f64) {
+        unsafe {
+            let setup = fmi2SetupExperiment(self.component, 0, 0.0, start, 0, 0.0);
+            assert_eq!(setup, OK);
+            assert_eq!(fmi2EnterInitializationMode(self.component), OK);
+        }
+    }
+
     /// Leads through initialisation; returns the status of its end.
     pub fn try_to_begin(&self) -> c_int {
-        unsafe {
-            assert_eq!(fmi2SetupExperiment(self.component, 0, 0.0, 0.0, 0, 0.0), OK);
-            assert_eq!(fmi2EnterInitializationMode(self.component), OK);
-            fmi2ExitInitializationMode(self.component)
-        }
+        self.enter(0.0);
+        unsafe { fmi2ExitInitializationMode(self.component) }
     }
 
     pub fn set(&self, name: &str, value: f64) -> c_int {
@@ -133,6 +140,39 @@ impl Unit {
     pub fn set_boolean(&self, name: &str, value: c_int) -> c_int {
         let reference = reference(name);
         unsafe { fmi2SetBoolean(self.component, &raw const reference, 1, &raw const value) }
+    }
+
+    /// Sets values of any type.
+    pub fn set_all(&self, values: &[(&str, f64)]) {
+        for (name, value) in values {
+            let status = match table().by_name(name).expect("a variable").kind {
+                Kind::Real(_) => self.set(name, *value),
+                Kind::Boolean => self.set_boolean(name, *value as c_int),
+                _ => self.set_integer(name, *value as c_int),
+            };
+            assert_eq!(status, OK, "{name}: {:?}", self.take_log());
+        }
+    }
+
+    /// Sets a derivative of an input.
+    pub fn slope(&self, name: &str, order: c_int, value: f64) -> c_int {
+        let (reference, component) = (reference(name), self.component);
+        let (order, value) = (&raw const order, &raw const value);
+        unsafe { fmi2SetRealInputDerivatives(component, &raw const reference, 1, order, value) }
+    }
+
+    /// Asks for log lines of a category.
+    pub fn listen(&self, category: &str) -> c_int {
+        let category = CString::new(category).expect("no NUL");
+        let name = category.as_ptr();
+        unsafe { fmi2SetDebugLogging(self.component, 1, 1, &raw const name) }
+    }
+
+    pub fn last_successful_time(&self) -> f64 {
+        let mut time = f64::NAN;
+        let status = unsafe { fmi2GetRealStatus(self.component, 2, &raw mut time) };
+        assert_eq!(status, OK);
+        time
     }
 
     pub fn get(&self, name: &str) -> f64 {

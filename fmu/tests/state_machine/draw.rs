@@ -204,7 +204,16 @@ fn life() -> impl Strategy<Value = Call> {
     let start = prop_oneof![8 => select(vec![0.0, 10.0, -5.0]), 1 => Just(f64::NAN)];
     let names = vec(
         select(vec![
-            "events", "warnings", "errors", "events", "nonsense", "", "NULL",
+            "events",
+            "warnings",
+            "errors",
+            "logEvents",
+            "logStatusError",
+            "logAll",
+            "nonsense",
+            "",
+            "logStatusPending",
+            "NULL",
         ]),
         0..3,
     );

@@ -24,6 +24,18 @@ pub enum Life {
     Terminated,
 }
 
+/// Names of log categories: the unit's own and the standard's.
+const CATEGORIES: [&str; 8] = [
+    "events",
+    "warnings",
+    "errors",
+    "logEvents",
+    "logStatusWarning",
+    "logStatusDiscard",
+    "logStatusError",
+    "logAll",
+];
+
 /// An instance as the importer must imagine it.
 #[derive(Debug, Clone)]
 pub struct Model {
@@ -102,9 +114,7 @@ impl Model {
         match call {
             Call::SetDebugLogging(_, names, null) => if_all(&[
                 names.is_empty() || *null != Null::First,
-                names
-                    .iter()
-                    .all(|n| ["events", "warnings", "errors"].contains(n)),
+                names.iter().all(|name| CATEGORIES.contains(name)),
             ]),
             Call::SetupExperiment(tolerance, start, stop) => if_all(&[
                 self.life == Life::Instantiated,

@@ -141,7 +141,7 @@ pub struct OptimizeArguments {
     pub samples: usize,
     /// Work that survey and ascents of the search may cost, in millions of scan windows for each of
     /// --evaluations; a search that would cost more is refused, the same on every computer
-    #[arg(long, value_name = "MILLIONS", default_value_t = Budget::POINT)]
+    #[arg(long, value_name = "MILLIONS", default_value_t = Budget::ZONE)]
     pub budget: Budget,
     /// Search alone: without report.html, the basin along the zone and the trade-offs
     #[arg(long)]

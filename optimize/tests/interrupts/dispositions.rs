@@ -1,9 +1,9 @@
 //! Every command where its output is unread, its disk full, its files limited: it says so, and leaves nothing half
 //! written.
 
-use softstop_testing::words;
+use softstop_testing::{with_folders, words};
 
-use super::{SCENES, SOFTSTOP, STUDIES};
+use super::SOFTSTOP;
 
 /// What a command writes besides its output.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -40,10 +40,8 @@ pub const COMMANDS: [(&str, Writes); 16] = [
 
 /// Their lines, with the folders of scenes and studies.
 pub fn lines() -> impl Iterator<Item = (String, Writes)> {
-    COMMANDS.into_iter().map(|(line, writes)| {
-        let line = line.replace("SCENES", SCENES);
-        (line.replace("STUDIES", STUDIES), writes)
-    })
+    let lines = COMMANDS.into_iter();
+    lines.map(|(line, writes)| (with_folders(line), writes))
 }
 
 #[test]

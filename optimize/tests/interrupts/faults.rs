@@ -1,8 +1,8 @@
 //! Failing calls of the system, over every file that a command writes or keeps.
 
-use softstop_testing::words;
+use softstop_testing::{with_folders, words};
 
-use super::{SCENES, SOFTSTOP, STUDIES};
+use super::SOFTSTOP;
 
 #[test]
 fn nothing_is_lost_to_faults() {
@@ -21,7 +21,7 @@ fn nothing_is_lost_to_faults() {
         ("simulate SCENES/hertz.toml", false, ""),
         ("stops", false, ""),
     ] {
-        let line = line.replace("SCENES", SCENES).replace("STUDIES", STUDIES);
+        let line = with_folders(line);
         let folder = tempfile::tempdir().expect("a folder");
         SOFTSTOP.survives_faults(&words(&line), 6, folder.path(), resumes, kept);
     }

@@ -8,7 +8,9 @@ use std::time::{Duration, Instant};
 use softstop_console::output::Folder;
 
 use super::dispositions::{Writes, lines};
-use super::{Outcome, SOFTSTOP, words};
+use softstop_testing::{with_folders, words};
+
+use super::{Outcome, SOFTSTOP};
 
 /// Where another run writes, no command does: that is no wrong usage, and nothing of the other run is lost.
 #[test]
@@ -106,7 +108,7 @@ fn links_are_not_followed() -> Outcome {
         let out = folder.path().join("out");
         fs::create_dir(&out)?;
         symlink(&precious, out.join(part))?;
-        let line = line.replace("STUDIES", super::STUDIES) + " --output out --resume";
+        let line = with_folders(line) + " --output out --resume";
         let run = SOFTSTOP
             .command(&words(&line))
             .current_dir(folder.path())

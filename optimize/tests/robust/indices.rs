@@ -8,7 +8,7 @@ use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone;
 use softstop_optimize::robust::{Effort, Estimate, indices, scatter, sensitivities};
 
-use crate::{Outcome, press, shop, spread};
+use super::{Outcome, press, shop, spread};
 
 /// An estimate is right within five of its standard errors, or so much of rounding.
 #[track_caller]

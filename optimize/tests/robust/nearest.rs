@@ -12,7 +12,7 @@ use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{self, Loss};
 use softstop_optimize::robust::{Manifold, Nearest, Norm, Settings, nearest, verify};
 
-use crate::{Outcome, machines, press, shop, spread};
+use super::{Outcome, machines, press, shop, spread};
 
 const TWO: [(Parameter, f64); 2] = [(Parameter::Clearance, 2.0), (Parameter::Frequency, 2.0)];
 

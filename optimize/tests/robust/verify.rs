@@ -11,7 +11,7 @@ use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
 use softstop_optimize::robust::{Settings, Tolerance, Tolerances, verify};
 
-use crate::{Outcome, machines, press, shop, spread};
+use super::{Outcome, machines, press, shop, spread};
 
 const FEW: Settings = Settings {
     machines: 4096,

@@ -11,7 +11,7 @@ use softstop_dynamics::{Orbit, Stroke, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::robust::{Settings, Worst, sensitivities, shares, verify, worst};
 
-use crate::{Outcome, machines, press, shop, spread};
+use super::{Outcome, machines, press, shop, spread};
 
 /// The machine that strikes the least.
 fn slowest(spread: &dyn Spread, nominal: &Orbit) -> Result<Worst, OrbitError> {

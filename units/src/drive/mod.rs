@@ -87,7 +87,7 @@ static ABOUT: About<Drive> = About {
     author: env!("CARGO_PKG_AUTHORS"),
     copyright: package::COPYRIGHT,
     date: package::DATE,
-    events: "nothing: a drive has no events",
+    events: "",
     knowns: "the inputs motor.voltage.added and load.work, over the first step also by initial.speed and initial.angle",
     experiment: package::EXPERIMENT,
     quantities: table::QUANTITIES,
@@ -99,7 +99,7 @@ static ABOUT: About<Drive> = About {
 };
 
 impl Drive {
-    /// The same as an array, for the equations.
+    /// The state as an array, for the equations.
     fn numbers(&self) -> [f64; 5] {
         let State {
             speed,

@@ -2,7 +2,7 @@
 
 use softstop_fmi::Quantity;
 use softstop_fmi::rows::{
-    after, bare, continuous, fixed, nominal, real, row, shown_in, tunable, within,
+    LARGE, SMALL, after, bare, continuous, fixed, nominal, real, row, shown_in, tunable, within,
 };
 use softstop_fmi::si;
 use softstop_fmi::variable::{Access, Dependencies, Kind, Variable};
@@ -10,7 +10,6 @@ use softstop_fmi::variable::{Access, Dependencies, Kind, Variable};
 use super::motor::MODEL;
 use super::{Drive, LOAD, VOLTAGE, slot};
 use crate::difference::Direction;
-use crate::package::{LARGE, SMALL};
 
 type Row = Variable<Drive, Direction<Drive>>;
 
@@ -58,7 +57,7 @@ const PARAMETERS: &[Row] = &[
         "Voltage u as a share of the rated one; 0 is a motor without current")),
     fixed(2, "motor.torque", slot::TORQUE, within(&si::TORQUE, 0.0, LARGE),
         "Torque at rest (directCurrent), or the largest one (asynchronous), at the rated voltage"),
-    fixed(3, "motor.speed", slot::SPEED, within(&si::ANGULAR_FREQUENCY, SMALL, LARGE),
+    fixed(3, "motor.speed", slot::SPEED, shown_in(within(&si::ANGULAR_FREQUENCY, SMALL, LARGE), "Hz"),
         "Speed without load at the rated voltage"),
     fixed(4, "motor.slip", slot::SLIP, bare(SMALL, LARGE),
         "Slip at the largest torque (asynchronous)"),
@@ -68,7 +67,7 @@ const PARAMETERS: &[Row] = &[
         "Viscous friction c of the bearings"),
     fixed(7, "unbalance", slot::UNBALANCE, within(&si::UNBALANCE, 0.0, LARGE),
         "Mass of the unbalance times its distance from the axis"),
-    fixed(8, "initial.speed", slot::INITIAL_SPEED, within(&si::ANGULAR_FREQUENCY, -LARGE, LARGE),
+    fixed(8, "initial.speed", slot::INITIAL_SPEED, shown_in(within(&si::ANGULAR_FREQUENCY, -LARGE, LARGE), "Hz"),
         "Speed at the start time"),
     fixed(9, "initial.angle", slot::INITIAL_ANGLE, shown_in(within(&si::ANGLE, -LARGE, LARGE), "deg"),
         "Angle at the start time"),
@@ -100,13 +99,13 @@ fn paid(drive: &Drive) -> f64 {
 
 #[rustfmt::skip]
 const OUTPUTS: &[Row] = &[
-    continuous(200, "speed", real(&si::ANGULAR_FREQUENCY), after(&["initial.speed"]),
+    continuous(200, "speed", shown_in(real(&si::ANGULAR_FREQUENCY), "Hz"), after(&["initial.speed"]),
         (speed, |of| of.of(speed)), &[|drive| drive.now()[0]],
         "Speed w of the rotor: drive.speed of softstop.fmu"),
     continuous(201, "angle", shown_in(real(&si::ANGLE), "deg"), after(&["initial.angle"]),
         (angle, |of| of.of(angle)), &[speed],
         "Angle of the rotor, counted on over the turns"),
-    continuous(202, "amplitude", real(&si::FORCE), after(&["initial.speed", "unbalance"]),
+    continuous(202, "amplitude", shown_in(real(&si::FORCE), "kN"), after(&["initial.speed", "unbalance"]),
         (Drive::amplitude, |of| of.of(Drive::amplitude)),
         &[|drive| 2.0 * drive.motor.unbalance * drive.state.speed * drive.now()[0]],
         "Force of the rotating unbalance, unbalance w^2: drive.amplitude of softstop.fmu"),

@@ -1,14 +1,15 @@
 //! The variables of the feeder.
 
 use softstop_fmi::Quantity;
-use softstop_fmi::rows::{bare, count, discrete, fixed, real, row, shown_in, tunable, within};
+use softstop_fmi::rows::{
+    LARGE, bare, count, discrete, fixed, real, row, shown_in, tunable, within,
+};
 use softstop_fmi::si;
 use softstop_fmi::variable::{Access, Dependencies, Kind, Variable};
 
 use super::supply::MODEL;
 use super::{ANGLE, Feeder, PATTERN, slot};
 use crate::difference::Direction;
-use crate::package::LARGE;
 
 type Row = Variable<Feeder, Direction<Feeder>>;
 
@@ -28,7 +29,7 @@ const FIRST: Dependencies = Dependencies {
     inputs: &[],
     initial: &[
         "held",
-        "held.real",
+        "held_real",
         "supply.model",
         "supply.pattern.count",
         "supply.pattern.strokes",
@@ -44,7 +45,7 @@ const INPUTS: &[Row] = &[
         "Angle of the shaft if feed.takes.angle is true: drive.angle of softstop.fmu, or angle of drive.fmu, with its derivatives of order 1 to 7 if they are known. What it jumps by the shaft turns evenly over the next step"),
     row(101, "held", Kind::Boolean, Access::Input(slot::HELD),
         "Strips are held back: strokes get none as long as this is true"),
-    row(102, "held.real", SHARE, Access::Input(slot::HELD_SHARE),
+    row(102, "held_real", SHARE, Access::Input(slot::HELD_SHARE),
         "The same for masters that know Real inputs only: held back from 0.5 on. Strips are held back if either of both says so"),
 ];
 
@@ -112,8 +113,8 @@ const OUTPUTS: &[Row] = &[
     row(200, "material", Kind::Boolean,
         Access::Integer { value: |feeder| i32::from(feeder.strip()), depends: FIRST },
         "A strip lies in the press since the last stroke: material of softstop.fmu"),
-    row(201, "material.real", SHARE, Access::Discrete { value: share, tangent: |of| of.of(share), depends: FIRST },
-        "The same as 1 or 0: material.real of softstop.fmu"),
+    row(201, "material_real", SHARE, Access::Discrete { value: share, tangent: |of| of.of(share), depends: FIRST },
+        "The same as 1 or 0: material_real of softstop.fmu"),
     row(202, "strip.count", strokes(0), Access::Integer { value: |feeder| clamp(feeder.line.strips), depends: FIRST },
         "Strips so far, the one at the start included"),
     row(203, "missing.count", strokes(0), Access::Integer { value: |feeder| clamp(feeder.line.missing), depends: FIRST },

@@ -1,8 +1,8 @@
 //! Curves of special points in two parameters.
 
 use super::*;
-use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::{MOTION, SOLVED, printed};
+use softstop_testing::{assert_near, with_changes};
 
 fn plane(parameters: [Parameter; 2]) -> Along<2> {
     Along::new(Ratios::unloaded().scene().expect("a scene"), parameters).expect("a family")
@@ -65,13 +65,9 @@ fn fold_curve_passes_through_all_known_folds() {
         let range = (clearance.min(10.0), clearance.max(10.0));
         let curve = followed(&fold, 1, &family, 10.0, [(1.0, 2.0), range]);
         let nearest = at_clearance(&curve, clearance);
-        assert_abs_diff_eq!(nearest.parameters[0], frequency, epsilon = printed(5));
-        assert_abs_diff_eq!(nearest.impacts[0], velocity, epsilon = printed(2));
-        assert_abs_diff_eq!(
-            Test::Fold.value(&nearest.monodromy),
-            0.0,
-            epsilon = 10.0 * MOTION
-        );
+        assert_near(nearest.parameters[0], frequency, printed(5));
+        assert_near(nearest.impacts[0], velocity, printed(2));
+        assert_near(Test::Fold.value(&nearest.monodromy), 0.0, 10.0 * MOTION);
     }
 }
 
@@ -95,10 +91,10 @@ fn fold_curve_agrees_with_thirty_digits() {
         let range = (ratios.clearance.min(10.0), ratios.clearance.max(10.0));
         let curve = followed(&fold, 1, &family, 10.0, [(1.0, 2.0), range]);
         let hit = at_clearance(&curve, ratios.clearance);
-        assert_abs_diff_eq!(
+        assert_near(
             hit.parameters[0],
             number(expected, "frequency_sn"),
-            epsilon = 10.0 * SOLVED
+            10.0 * SOLVED,
         );
         compared += 1;
     }
@@ -115,7 +111,7 @@ fn grazing_curve_is_closed_form() {
     for point in &curve.points {
         let [eta, rho] = point.parameters;
         let amplitude = 1.0 / (1.0 - eta * eta).hypot(0.04 * eta);
-        assert_abs_diff_eq!(amplitude / rho, 1.0, epsilon = 10.0 * MOTION);
+        assert_near(amplitude / rho, 1.0, 10.0 * MOTION);
     }
     // It passes over resonance, where the clearance is the highest amplitude of all.
     let highest = curve
@@ -138,28 +134,12 @@ fn flip_curve_meets_the_branch_of_another_stiffness() {
         .iter()
         .max_by(|a, b| a.parameters[1].total_cmp(&b.parameters[1]))
         .expect("points");
-    assert_abs_diff_eq!(end.parameters[1], 9.0, epsilon = 10.0 * SOLVED);
-    let stiffer = Ratios {
-        stiffness: 9.0,
-        ..Ratios::unloaded()
-    };
-    let along =
-        Along::new(stiffer.scene().expect("a scene"), [Parameter::Frequency]).expect("a family");
-    let limits = Limits {
-        range: (0.9, 1.2),
-        points: 500,
-    };
-    let branch = Follower::new(&along, 1)
-        .branch(1.15, Vector2::new(A.0, A.1), &limits, |_| {
-            ControlFlow::Continue(())
-        })
-        .expect("a branch");
+    assert_near(end.parameters[1], 9.0, 10.0 * SOLVED);
+    let stiffer = with_changes("unloaded", "k4=9");
+    let along = Along::new(stiffer, [Parameter::Frequency]).expect("a family");
+    let branch = follow(&along, 1, (1.15, Vector2::new(A.0, A.1)), (0.9, 1.2));
     let flips = of_kind(&branch, "PD");
-    assert_abs_diff_eq!(
-        flips[0].point.parameter,
-        end.parameters[0],
-        epsilon = SOLVED
-    );
+    assert_near(flips[0].point.parameter, end.parameters[0], SOLVED);
 }
 
 /// Close to the resonance the end of the range may lie where Newton's method does not settle from between the ends of a
@@ -175,6 +155,6 @@ fn flip_curve_comes_to_the_end_of_its_range_with_any_step() {
         at_clearance(&curve, 24.5).parameters[0]
     });
     for eta in ends {
-        assert_abs_diff_eq!(eta, ends[0], epsilon = 10.0 * SOLVED);
+        assert_near(eta, ends[0], 10.0 * SOLVED);
     }
 }

@@ -1,18 +1,12 @@
 //! Branches of twice the period, and orbits asked for at a multiple of theirs.
 
 use super::*;
-use approx::assert_abs_diff_eq;
 use softstop_testing::tolerance::MOTION;
+use softstop_testing::{assert_near, with_changes};
 
 /// A rigid stop of restitution 1/2.
 fn rigid() -> Frequencies {
-    let ratios = Ratios {
-        frequency: 2.2,
-        clearance: 0.2,
-        ..Ratios::unloaded()
-    };
-    let mut scene = ratios.scene().expect("a scene");
-    scene.stop = Stop::Rigid { restitution: 0.5 };
+    let scene = with_changes("unloaded", "eta=2.2 rho=0.2 stop.model=rigid R=0.5");
     Along::new(scene, [Parameter::Frequency]).expect("a family")
 }
 
@@ -26,9 +20,7 @@ fn doublings_of_a_rigid_stop_are_feigenbaums() {
         points: 500,
     };
     let state = Vector2::new(-0.630_529, 0.062_449);
-    let branch = follower
-        .branch(2.2, state, &limits, |_| ControlFlow::Continue(()))
-        .expect("a branch");
+    let branch = follow(&family, 1, (2.2, state), limits.range);
     let flip = of_kind(&branch, "PD").remove(0).point;
     let flips = follower.cascade(&flip, 5, &limits).expect("a cascade");
     assert_eq!(flips.len(), 5);
@@ -39,7 +31,7 @@ fn doublings_of_a_rigid_stop_are_feigenbaums() {
         .windows(2)
         .map(|pair| pair[1].parameter - pair[0].parameter)
         .collect();
-    assert_abs_diff_eq!(gaps[2] / gaps[3], 4.669, epsilon = 0.05);
+    assert_near(gaps[2] / gaps[3], 4.669, 0.05);
 }
 
 /// The paper's machine doubles once and then grazes: no cascade (PD -> ISN in its Table 1). The doubled
@@ -48,20 +40,13 @@ fn doublings_of_a_rigid_stop_are_feigenbaums() {
 fn the_doubled_branch_of_z1_grazes() {
     let z1 = all_of_z1();
     let flip = of_kind(&z1, "PD").remove(0).point;
-    let family = frequencies(1.15);
-    let limits = Limits {
-        range: (0.9, 1.1),
-        points: 500,
-    };
-    let doubled = Follower::new(&family, 1)
-        .doubled(&flip, &limits, |_| ControlFlow::Continue(()))
-        .expect("a branch of twice the period");
+    let doubled = double(&frequencies(1.15), 1, &flip);
     assert_eq!(doubled.periods, 2);
     assert!(matches!(doubled.ends.1, End::Grazing));
     let dies = of_kind(&doubled, "G").remove(0).point;
     let half = branch(0.9886, 2, HALF, (0.9, 1.1));
     let born = of_kind(&half, "G").remove(1).point;
-    assert_abs_diff_eq!(dies.parameter, born.parameter, epsilon = 10.0 * MOTION);
+    assert_near(dies.parameter, born.parameter, 10.0 * MOTION);
 }
 
 /// An orbit of one period that is asked for as one of four is followed as one of one.
@@ -71,8 +56,8 @@ fn the_shortest_period_is_found() {
     assert_eq!(branch.periods, 1);
     assert!(matches!(branch.ends, (End::Range, End::Range)));
     let (low, high) = (&branch.points[0], &branch.points[branch.points.len() - 1]);
-    assert_abs_diff_eq!(low.parameter, 1.1, epsilon = MOTION);
-    assert_abs_diff_eq!(high.parameter, 1.2, epsilon = MOTION);
+    assert_near(low.parameter, 1.1, MOTION);
+    assert_near(high.parameter, 1.2, MOTION);
 }
 
 /// A doubled branch that comes back to the orbit of half its period ends there.
@@ -81,24 +66,14 @@ fn a_doubled_branch_merges_into_the_one_it_came_from() {
     let branch = branch(0.9886, 2, HALF, (0.9, 1.1));
     let flip = of_kind(&branch, "PD").remove(0).point;
     let family = frequencies(0.9886);
-    let limits = Limits {
-        range: (0.9, 1.1),
-        points: 500,
-    };
-    let doubled = Follower::new(&family, 2)
-        .doubled(&flip, &limits, |_| ControlFlow::Continue(()))
-        .expect("a branch");
-    let middle = &doubled.points[1];
-    let back = Follower::new(&family, 4)
-        .branch(middle.parameter, middle.state(), &limits, |_| {
-            ControlFlow::Continue(())
-        })
-        .expect("the same");
+    let middle = &double(&family, 2, &flip).points[1];
+    let from = (middle.parameter, middle.state());
+    let back = follow(&family, 4, from, (0.9, 1.1));
     let ends = [
         (&back.ends.0, &back.points[0]),
         (&back.ends.1, &back.points[back.points.len() - 1]),
     ];
     let merged = ends.iter().find(|(end, _)| matches!(end, End::Merged));
     let (_, point) = merged.expect("one end is the flip");
-    assert_abs_diff_eq!(point.parameter, flip.parameter, epsilon = 10.0 * MOTION);
+    assert_near(point.parameter, flip.parameter, 10.0 * MOTION);
 }

@@ -1,8 +1,8 @@
 //! Formulas that match one contact to another, against exact contacts.
 
 use super::*;
-use approx::assert_relative_eq;
 use softstop_testing::tolerance::{GROWN, MOTION, ROUNDING, SOLVED};
+use softstop_testing::{assert_relative, hertz};
 
 #[test]
 fn a_spring_beside_a_damper_behaves_as_the_formulas_say() -> Outcome {
@@ -11,39 +11,34 @@ fn a_spring_beside_a_damper_behaves_as_the_formulas_say() -> Outcome {
     for release in [Release::Clearance, Release::ZeroForce] {
         for zeta in [0.0, 1e-6, 0.01, 0.3, 0.7, 0.95] {
             let contact = Contact::of(&kelvin_voigt(stiffness, zeta, release), speed)?;
-            assert_relative_eq!(
+            assert_relative(
                 contact.restitution,
                 matching::restitution(release, zeta),
-                epsilon = 0.0,
-                max_relative = MOTION
+                MOTION,
             );
-            assert_relative_eq!(
+            assert_relative(
                 contact.penetration,
                 speed * second * matching::penetration(zeta),
-                epsilon = 0.0,
-                max_relative = MOTION
+                MOTION,
             );
-            assert_relative_eq!(
+            assert_relative(
                 contact.duration,
                 second * matching::duration(release, zeta),
-                epsilon = 0.0,
-                max_relative = MOTION
+                MOTION,
             );
         }
     }
     for zeta in [1.0, 1.2, 4.0] {
         let contact = Contact::of(&kelvin_voigt(stiffness, zeta, Release::ZeroForce), speed)?;
-        assert_relative_eq!(
+        assert_relative(
             contact.restitution,
             matching::restitution(Release::ZeroForce, zeta),
-            epsilon = 0.0,
-            max_relative = 10.0 * MOTION
+            10.0 * MOTION,
         );
-        assert_relative_eq!(
+        assert_relative(
             contact.duration,
             second * matching::duration(Release::ZeroForce, zeta),
-            epsilon = 0.0,
-            max_relative = 10.0 * MOTION
+            10.0 * MOTION,
         );
     }
     let stays = Contact::of(&kelvin_voigt(stiffness, 1.1, Release::Clearance), speed)?;
@@ -75,18 +70,12 @@ fn schwager_poeschel(zeta: f64) -> f64 {
 fn one_formula_is_the_three_of_the_literature() {
     for zeta in [0.01, 0.2, 0.6, 0.8, 0.99, 1.01, 2.0, 10.0] {
         let found = matching::restitution(Release::ZeroForce, zeta);
-        assert_relative_eq!(
-            found,
-            schwager_poeschel(zeta),
-            epsilon = 0.0,
-            max_relative = MOTION
-        );
+        assert_relative(found, schwager_poeschel(zeta), MOTION);
     }
-    assert_relative_eq!(
+    assert_relative(
         matching::restitution(Release::ZeroForce, 1.0),
         (-2.0f64).exp(),
-        epsilon = 0.0,
-        max_relative = 1e-15
+        1e-15,
     );
 }
 
@@ -96,12 +85,7 @@ fn the_damping_ratio_is_the_inverse_of_the_restitution() {
         assert_eq!(matching::damping_ratio(release, 1.0), Some(0.0));
         for restitution in [1e-6, 0.05, 0.5, 0.9, 1.0 - 1e-9] {
             let zeta = matching::damping_ratio(release, restitution).expect("in range");
-            assert_relative_eq!(
-                matching::restitution(release, zeta),
-                restitution,
-                epsilon = 0.0,
-                max_relative = MOTION
-            );
+            assert_relative(matching::restitution(release, zeta), restitution, MOTION);
         }
         for impossible in [0.0, -0.1, 1.1, f64::NAN] {
             assert_eq!(matching::damping_ratio(release, impossible), None);
@@ -126,14 +110,8 @@ fn by_runge_kutta(stiffness: f64, dissipation: f64, speed: f64) -> f64 {
     }
 }
 
-fn hertz(stiffness: f64, dissipation: f64) -> Scene {
-    let exponent = 1.5;
-    let stop = Stop::Hertz {
-        stiffness,
-        exponent,
-        dissipation,
-    };
-    machine(stop, 0.0)
+fn sphere(stiffness: f64, dissipation: f64) -> Scene {
+    machine(hertz(stiffness, 1.5, dissipation), 0.0)
 }
 
 #[test]
@@ -141,25 +119,15 @@ fn a_hunt_crossley_contact_has_the_restitution_that_it_is_made_for() -> Outcome 
     let (stiffness, speed) = (900.0, 2.5);
     for restitution in [1e-3, 0.1, 0.5, 0.9, 0.999, 1.0 - 1e-7] {
         let a = matching::hunt_crossley(restitution).ok_or("in range")?;
-        let contact = Contact::of(&hertz(stiffness, a / speed), speed)?;
-        assert_relative_eq!(
-            contact.restitution,
-            restitution,
-            epsilon = 0.0,
-            max_relative = 10.0 * SOLVED
-        );
+        let contact = Contact::of(&sphere(stiffness, a / speed), speed)?;
+        assert_relative(contact.restitution, restitution, 10.0 * SOLVED);
         let stored = stiffness * contact.penetration.powf(2.5) / 2.5;
         let energy = 2.0 * speed * speed * matching::hunt_crossley_energy(a);
-        assert_relative_eq!(stored, energy, epsilon = 0.0, max_relative = 10.0 * SOLVED);
+        assert_relative(stored, energy, 10.0 * SOLVED);
     }
     let a = matching::hunt_crossley(0.6).ok_or("in range")?;
     let integrated = by_runge_kutta(stiffness, a / speed, speed);
-    assert_relative_eq!(
-        integrated / speed,
-        0.6,
-        epsilon = 0.0,
-        max_relative = 10.0 * GROWN
-    );
+    assert_relative(integrated / speed, 0.6, 10.0 * GROWN);
     assert_eq!(matching::hunt_crossley(0.0), None);
     assert_eq!(matching::hunt_crossley(1.0), Some(0.0));
     Ok(())
@@ -171,13 +139,8 @@ fn without_much_loss_the_approximations_of_the_literature_hold() -> Outcome {
         let r = 1.0 - loss;
         let exact = matching::hunt_crossley(r).ok_or("in range")?;
         // Hunt and Crossley 1975; Lankarani and Nikravesh 1990: both to first order in the loss.
-        assert_relative_eq!(1.5 * loss, exact, epsilon = 0.0, max_relative = 3.0 * loss);
-        assert_relative_eq!(
-            0.75 * (1.0 - r * r),
-            exact,
-            epsilon = 0.0,
-            max_relative = 3.0 * loss
-        );
+        assert_relative(1.5 * loss, exact, 3.0 * loss);
+        assert_relative(0.75 * (1.0 - r * r), exact, 3.0 * loss);
     }
     let exact = matching::hunt_crossley(0.5).ok_or("in range")?;
     assert!(0.75 * (1.0 - 0.25) < 0.6 * exact, "not at R = 1/2");
@@ -190,18 +153,8 @@ fn without_damping_a_preloaded_contact_obeys_the_energy_equivalence() -> Outcome
     let scene = machine(Stop::Preloaded { stiffness, preload }, 0.0);
     let contact = Contact::of(&scene, speed)?;
     let d = contact.penetration;
-    assert_relative_eq!(
-        contact.restitution,
-        1.0,
-        epsilon = 0.0,
-        max_relative = 10.0 * ROUNDING
-    );
-    assert_relative_eq!(
-        preload * d + 0.5 * stiffness * d * d,
-        speed * speed,
-        epsilon = 0.0,
-        max_relative = MOTION
-    );
+    assert_relative(contact.restitution, 1.0, 10.0 * ROUNDING);
+    assert_relative(preload * d + 0.5 * stiffness * d * d, speed * speed, MOTION);
     let ladder = Ladder {
         truth: scene,
         likeness: Likeness::Penetration,
@@ -210,11 +163,6 @@ fn without_damping_a_preloaded_contact_obeys_the_energy_equivalence() -> Outcome
     else {
         return Err("no spring".into());
     };
-    assert_relative_eq!(
-        0.5 * k * d * d,
-        speed * speed,
-        epsilon = 0.0,
-        max_relative = MOTION
-    );
+    assert_relative(0.5 * k * d * d, speed * speed, MOTION);
     Ok(())
 }

@@ -1,16 +1,13 @@
 //! Models of a machine from the simplest to itself.
 
 use super::*;
-use approx::{abs_diff_eq, assert_relative_eq};
 use softstop_testing::tolerance::{GROWN, MOTION, SOLVED};
+use softstop_testing::{assert_relative, is_near, slope};
 
 /// A chain of one slope is a Kelvin-Voigt stop, but stands on no rung.
 fn spring_in_disguise(stiffness: f64, zeta: f64) -> Scene {
     let damping = 2.0 * zeta * (2.0 * stiffness).sqrt();
-    let slope = Slope {
-        from: 0.0,
-        stiffness,
-    };
+    let slope = slope(0.0, stiffness);
     let stop = Stop::PiecewiseLinear {
         loading: vec![slope],
         unloading: Vec::new(),
@@ -32,31 +29,15 @@ fn a_spring_in_disguise_is_found_out() -> Outcome {
         let Stop::KelvinVoigt { stiffness, .. } = model.scene.stop else {
             return Err("no spring".into());
         };
-        assert_relative_eq!(
-            stiffness,
-            150.0,
-            epsilon = 0.0,
-            max_relative = 10.0 * MOTION
-        );
-        assert_relative_eq!(
+        assert_relative(stiffness, 150.0, 10.0 * MOTION);
+        assert_relative(
             model.scene.contact_damping,
             truth.contact_damping,
-            epsilon = 0.0,
-            max_relative = 10.0 * MOTION
+            10.0 * MOTION,
         );
         let modelled = Observation::settled(&model.scene, None, FLUNG)?;
-        assert_relative_eq!(
-            modelled.max_position,
-            observed.max_position,
-            epsilon = 0.0,
-            max_relative = 10.0 * MOTION
-        );
-        assert_relative_eq!(
-            from_truth(&modelled)?,
-            velocity,
-            epsilon = 0.0,
-            max_relative = 10.0 * MOTION
-        );
+        assert_relative(modelled.max_position, observed.max_position, 10.0 * MOTION);
+        assert_relative(from_truth(&modelled)?, velocity, 10.0 * MOTION);
     }
     Ok(())
 }
@@ -105,10 +86,7 @@ fn the_rigid_model_comes_nearer_with_the_root_of_the_stiffness() -> Outcome {
     for stiffness in [4e6, 1.6e7, 6.4e7] {
         let next = error(stiffness)?;
         let order = (last / next).log2();
-        assert!(
-            abs_diff_eq!(order, 1.0, epsilon = 0.02),
-            "order {order} in 1/sqrt(k)"
-        );
+        assert!(is_near(order, 1.0, 0.02), "order {order} in 1/sqrt(k)");
         last = next;
     }
     Ok(())
@@ -125,26 +103,15 @@ fn a_preloaded_stop_stands_in_for_a_strip() -> Outcome {
         };
         for rung in [Rung::Preloaded, Rung::Hertz, Rung::KelvinVoigt, Rung::Rigid] {
             let like = Contact::of(&ladder.model(rung, 8.4)?.scene, 8.4)?;
-            assert_relative_eq!(
-                like.restitution,
-                contact.restitution,
-                epsilon = 0.0,
-                max_relative = 10.0 * SOLVED
-            );
+            assert_relative(like.restitution, contact.restitution, 10.0 * SOLVED);
             match likeness {
                 _ if rung == Rung::Rigid => assert_eq!(like.penetration, 0.0),
-                Likeness::Penetration => assert_relative_eq!(
-                    like.penetration,
-                    contact.penetration,
-                    epsilon = 0.0,
-                    max_relative = 10.0 * SOLVED
-                ),
-                Likeness::Duration => assert_relative_eq!(
-                    like.duration,
-                    contact.duration,
-                    epsilon = 0.0,
-                    max_relative = 10.0 * SOLVED
-                ),
+                Likeness::Penetration => {
+                    assert_relative(like.penetration, contact.penetration, 10.0 * SOLVED)
+                }
+                Likeness::Duration => {
+                    assert_relative(like.duration, contact.duration, 10.0 * SOLVED)
+                }
             }
         }
     }
@@ -179,12 +146,7 @@ fn a_predicted_model_is_matched_at_its_own_velocity() -> Outcome {
         let velocity = from_truth(&observed)?;
         let again = Contact::of(&model.scene, velocity)?;
         let own = Contact::of(&ladder.truth, velocity)?;
-        assert_relative_eq!(
-            again.restitution,
-            own.restitution,
-            epsilon = 0.0,
-            max_relative = 10.0 * GROWN
-        );
+        assert_relative(again.restitution, own.restitution, 10.0 * GROWN);
     }
     Ok(())
 }

@@ -1,8 +1,8 @@
 //! What is observed of a machine, and how models are compared by it.
 
 use super::*;
-use approx::assert_relative_eq;
 use softstop::Start;
+use softstop_testing::assert_relative;
 use softstop_testing::tolerance::{DIFFERENCED, MOTION, SOLVED, printed};
 
 #[test]
@@ -11,11 +11,10 @@ fn what_is_observed_balances() -> Outcome {
     let observed = Observation::settled(&truth, None, FLUNG)?;
     let period = truth.period();
     let trajectory = truth.trajectory(observed.start, 1)?;
-    assert_relative_eq!(
+    assert_relative(
         observed.mean_power * period,
         trajectory.work.dissipated,
-        epsilon = 0.0,
-        max_relative = SOLVED
+        SOLVED,
     );
     let contact = observed.energy_per_impact.ok_or("it strikes")?;
     assert!(contact < trajectory.work.dissipated);
@@ -23,11 +22,10 @@ fn what_is_observed_balances() -> Outcome {
     let observed = Observation::settled(&rigid, None, FLUNG)?;
     let velocity = from_truth(&observed)?;
     let lost = 0.5 * 2.0 * velocity * velocity * (1.0 - 0.36);
-    assert_relative_eq!(
+    assert_relative(
         observed.energy_per_impact.ok_or("it strikes")?,
         lost,
-        epsilon = 0.0,
-        max_relative = MOTION
+        MOTION,
     );
     assert_eq!(observed.peak_force, None);
     assert_eq!(observed.contact_time, Some(0.0));
@@ -46,7 +44,7 @@ fn the_largest_force_is_that_of_the_samples_and_no_less() -> Outcome {
         seen = seen.max(simulation.sample().contact_force);
     }
     assert!(peak >= seen, "{peak} < {seen}");
-    assert_relative_eq!(peak, seen, epsilon = 0.0, max_relative = DIFFERENCED);
+    assert_relative(peak, seen, DIFFERENCED);
     Ok(())
 }
 
@@ -57,35 +55,15 @@ fn bounds_are_those_of_the_paper() -> Outcome {
     let found = Answers::of(&truth, observed, true)?
         .bounds
         .ok_or("bounds")?;
-    assert_relative_eq!(
-        found.grazing.ok_or("g0")?,
-        1.044_440_04,
-        epsilon = 0.0,
-        max_relative = 2.0 * printed(8)
-    );
-    assert_relative_eq!(
-        found.flip.ok_or("s_PD")?,
-        0.988_907,
-        epsilon = 0.0,
-        max_relative = printed(6)
-    );
-    assert_relative_eq!(
-        found.fold.ok_or("s_SN")?,
-        1.369_036,
-        epsilon = 0.0,
-        max_relative = printed(6)
-    );
+    assert_relative(found.grazing.ok_or("g0")?, 1.044_440_04, 2.0 * printed(8));
+    assert_relative(found.flip.ok_or("s_PD")?, 0.988_907, printed(6));
+    assert_relative(found.fold.ok_or("s_SN")?, 1.369_036, printed(6));
     let still = machine(Stop::None, 0.08);
     let observed = Observation::settled(&still, None, FLUNG)?;
     let found = Answers::of(&still, observed, true)?
         .bounds
         .ok_or("bounds")?;
-    assert_relative_eq!(
-        found.grazing.ok_or("g0")?,
-        1.044_440_04,
-        epsilon = 0.0,
-        max_relative = 2.0 * printed(8)
-    );
+    assert_relative(found.grazing.ok_or("g0")?, 1.044_440_04, 2.0 * printed(8));
     assert_eq!((found.flip, found.fold), (None, None));
     Ok(())
 }
@@ -150,13 +128,12 @@ fn errors_are_relative_and_angles_wrap() -> Outcome {
     };
     let (a, b) = (answers(0.1, 8.0), answers(6.2, 10.0));
     let velocity = Quantity::BeforeImpactVelocity.error(&a, &b).ok_or("both")?;
-    assert_relative_eq!(velocity, 0.25, epsilon = 0.0, max_relative = 1e-15);
+    assert_relative(velocity, 0.25, 1e-15);
     let phase = Quantity::ImpactPhase.error(&a, &b).ok_or("both")?;
-    assert_relative_eq!(
+    assert_relative(
         phase,
         (0.1 + std::f64::consts::TAU - 6.2) / std::f64::consts::TAU,
-        epsilon = 0.0,
-        max_relative = MOTION
+        MOTION,
     );
     assert_eq!(Quantity::FoldFrequency.error(&a, &b), None);
     for quantity in Quantity::ALL {

@@ -1,7 +1,7 @@
 //! The rigid stop's periodic motion in closed form.
 
 use super::*;
-use approx::assert_abs_diff_eq;
+use softstop_testing::assert_near;
 use softstop_testing::tolerance::{MOTION, ROUNDING};
 
 /// The z = 1 motion of a rigid stop in closed form (Peterka 1981; Shaw and Holmes 1983): between two
@@ -80,19 +80,19 @@ fn rigid_orbits_are_those_of_the_closed_form() {
             .min_by(|a, b| gap(a).total_cmp(&gap(b)))
             .expect("a solution");
         assert!(gap(&nearest) < 1e-12, "velocity off by {:e}", gap(&nearest));
-        assert_abs_diff_eq!(orbit.trace(), nearest.trace, epsilon = 10.0 * MOTION);
+        assert_near(orbit.trace(), nearest.trace, 10.0 * MOTION);
         let fade = (-2.0 * DAMPING * scene.period()).exp();
         let determinant = restitution * restitution * fade;
-        assert_abs_diff_eq!(orbit.determinant(), determinant, epsilon = 10.0 * ROUNDING);
+        assert_near(orbit.determinant(), determinant, 10.0 * ROUNDING);
         // From a state near it Newton's method finds it again, even where its first step leads beyond
         // the stop.
         for (dx, dv) in [(-1e-2, -1e-2), (-1e-2, 1e-2), (-3e-2, 0.0)] {
             let state = Vector2::new(orbit.position + dx, orbit.velocity + dv);
             let again = Orbit::near(&scene, state).expect("Newton's method settles");
-            assert_abs_diff_eq!(
+            assert_near(
                 again.before_impact_velocity(),
                 orbit.before_impact_velocity(),
-                epsilon = 10.0 * MOTION
+                10.0 * MOTION,
             );
         }
     }

@@ -1,6 +1,7 @@
 //! Soft stops that grow rigid: how fast, and to which restitution.
 
 use super::*;
+use softstop_testing::hertz;
 
 /// A damped spring sends a mass back with R = exp(-zeta pi / sqrt(1 - zeta^2)) when it keeps it for
 /// half a period of the damped oscillation, and with R = exp(-zeta / sqrt(1 - zeta^2) acos(2 zeta^2 - 1))
@@ -38,11 +39,7 @@ fn hertz_grows_rigid() {
         let factor = 10f64.powf(exponent + 1.0);
         let errors: Vec<f64> = (3..7)
             .map(|power| {
-                let stop = Stop::Hertz {
-                    stiffness: factor.powi(power),
-                    exponent,
-                    dissipation: 0.0,
-                };
+                let stop = hertz(factor.powi(power), exponent, 0.0);
                 (end(&machine(0.8, 1.5, 2.0 * DAMPING, stop), START, 1.2) - limit).norm()
             })
             .collect();
@@ -86,11 +83,7 @@ fn hunt_and_crossley_grows_rigid() {
     let factor = 10f64.powf(exponent + 1.0);
     let errors: Vec<f64> = (3..7)
         .map(|power| {
-            let stop = Stop::Hertz {
-                stiffness: factor.powi(power),
-                exponent,
-                dissipation,
-            };
+            let stop = hertz(factor.powi(power), exponent, dissipation);
             (end(&machine(0.8, 1.5, 2.0 * DAMPING, stop), START, 0.6) - limit).norm()
         })
         .collect();

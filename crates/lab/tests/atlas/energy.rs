@@ -1,7 +1,7 @@
 //! Methods that gain energy where there is none to gain.
 
 use super::*;
-use approx::assert_abs_diff_eq;
+use softstop_testing::assert_near;
 use softstop_testing::tolerance::{MOTION, ROUNDING};
 
 /// A mass of 50 J between its suspension and a stop at 1 m: free swings of x = 10 cos, contacts about the
@@ -35,12 +35,12 @@ fn the_exact_method_bounces_as_the_closed_form_does() {
         let task = task(undriven(1.0, stiffness), 0.0, 10.0, TAU);
         let found = exact(&task);
         let (end, impacts) = bounce(stiffness, TAU);
-        assert_abs_diff_eq!(found.end.0, end.0, epsilon = MOTION);
-        assert_abs_diff_eq!(found.end.1, end.1, epsilon = 10.0 * MOTION);
+        assert_near(found.end.0, end.0, MOTION);
+        assert_near(found.end.1, end.1, 10.0 * MOTION);
         assert_eq!(found.impacts.len(), impacts.len());
         for (impact, time) in found.impacts.iter().zip(impacts) {
-            assert_abs_diff_eq!(impact.time, time, epsilon = ROUNDING);
-            assert_abs_diff_eq!(impact.velocity, 99.0_f64.sqrt(), epsilon = MOTION);
+            assert_near(impact.time, time, ROUNDING);
+            assert_near(impact.velocity, 99.0_f64.sqrt(), MOTION);
         }
     }
 }

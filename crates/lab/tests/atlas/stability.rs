@@ -1,7 +1,7 @@
 //! Limits of stability in contact lie where theory has them.
 
 use super::*;
-use approx::assert_abs_diff_eq;
+use softstop_testing::assert_near;
 use softstop_testing::tolerance::{DIFFERENCED, ROUNDING};
 
 /// Share of the depth at rest by which the mass starts off its rest: so little that no stage of a step leaves
@@ -86,11 +86,11 @@ const DECADES: [f64; 5] = [1.0, 1e2, 1e4, 1e6, 1e8];
 /// Holds theory and runs in contact to a limit, and prints a row: docs/methods.md sums them up.
 fn check(scheme: Scheme, ratio: f64, limit: f64, steps: u32) {
     let theory = scheme.stability_limit(ratio).expect("there is a limit");
-    assert_abs_diff_eq!(theory, limit, epsilon = DIFFERENCED);
+    assert_near(theory, limit, DIFFERENCED);
     let mut row = format!("| {} | {ratio} | {limit:.4} |", scheme.name());
     for stiffness in DECADES {
         let found = measured(scheme, stiffness, ratio, steps);
-        assert_abs_diff_eq!(found, limit, epsilon = 1e-3 * limit);
+        assert_near(found, limit, 1e-3 * limit);
         row += &format!(" {found:.4} |");
     }
     println!("{row}");
@@ -141,15 +141,11 @@ fn explicit_ones_blow_up_in_contact() {
     let truth = exact(&task);
     let angle = frequency * task.duration();
     // An angle of 1e5 rad is rounded to 1e-11, a position of 10 m to 2e-15 m.
-    assert_abs_diff_eq!(
-        truth.end.0,
-        rest - 0.5 * depth * angle.cos(),
-        epsilon = ROUNDING
-    );
-    assert_abs_diff_eq!(
+    assert_near(truth.end.0, rest - 0.5 * depth * angle.cos(), ROUNDING);
+    assert_near(
         truth.end.1,
         0.5 * depth * frequency * angle.sin(),
-        epsilon = 10.0 * ROUNDING
+        10.0 * ROUNDING,
     );
     assert!(truth.impacts.is_empty());
     for scheme in [

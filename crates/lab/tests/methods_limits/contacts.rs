@@ -1,8 +1,8 @@
 //! Contacts that steps of fixed length pass over or never leave.
 
 use super::*;
-use approx::assert_abs_diff_eq;
 use softstop::Start;
+use softstop_testing::assert_near;
 use softstop_testing::tolerance::SOLVED;
 
 /// The paper's machine from rest with a velocity at which it just reaches the stop within the first period.
@@ -82,8 +82,8 @@ fn chatter_is_counted_by_location_only() {
         theta: 0.5,
     };
     let found = moreau.integrate(&task).expect("bounded");
-    assert_abs_diff_eq!(found.end.0, -0.5, epsilon = 1e-3);
-    assert_abs_diff_eq!(found.end.1, 0.0, epsilon = 10.0 * SOLVED);
+    assert_near(found.end.0, -0.5, 1e-3);
+    assert_near(found.end.1, 0.0, 10.0 * SOLVED);
     assert!((3..exact.impacts.len()).contains(&found.impacts.len()));
 }
 

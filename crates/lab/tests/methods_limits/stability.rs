@@ -1,9 +1,9 @@
 //! Limits of stability, and gain and loss of energy.
 
 use super::*;
-use approx::{abs_diff_eq, assert_abs_diff_eq};
 use softstop::Start;
 use softstop_testing::tolerance::SOLVED;
+use softstop_testing::{assert_near, is_near, kelvin_voigt};
 
 fn energy(found: &Solution) -> f64 {
     0.5 * (found.end.0.powi(2) + found.end.1.powi(2))
@@ -47,10 +47,7 @@ fn a_stiff_stop_sets_the_limit() {
     let scene = Scene {
         clearance: 0.0,
         contact_damping: 20.0,
-        stop: Stop::KelvinVoigt {
-            stiffness: 1e6,
-            release: Release::Clearance,
-        },
+        stop: kelvin_voigt(1e6, Release::Clearance),
         excitation: Excitation {
             frequency: 1e-3,
             ..base.excitation
@@ -73,7 +70,7 @@ fn a_stiff_stop_sets_the_limit() {
             method.integrate(&task).expect("bounded")
         };
         let below = end(0.99);
-        assert_abs_diff_eq!(below.end.0, 1e-6, epsilon = 1e-9);
+        assert_near(below.end.0, 1e-6, 1e-9);
         assert!(below.impacts.is_empty());
         assert!((end(1.01).end.0 - 1e-6).abs() > 1e-7);
     }
@@ -86,14 +83,11 @@ fn energies_of_the_free_oscillator() {
     // Explicit Euler multiplies the energy by 1 + h^2 in every step.
     let gained = run(Scheme::ExplicitEuler, 0.01, 10_000);
     let expected = 0.5 * (1.0f64 + 1e-4).powi(10_000);
-    assert!(
-        abs_diff_eq!(gained / expected, 1.0, epsilon = SOLVED),
-        "{gained}"
-    );
+    assert!(is_near(gained / expected, 1.0, SOLVED), "{gained}");
     // The semi-implicit one keeps x^2 + v^2 - h x v.
     for count in [10_001, 50_000, 99_999] {
         let kept = run(Scheme::SemiImplicitEuler, 0.2, count);
-        assert!(abs_diff_eq!(kept, 0.5, epsilon = 0.06), "{kept}");
+        assert!(is_near(kept, 0.5, 0.06), "{kept}");
     }
     // Implicit midpoint and average acceleration keep quadratic energies at any step.
     for scheme in [
@@ -103,10 +97,7 @@ fn energies_of_the_free_oscillator() {
     ] {
         for step in [0.1, 1.0, 30.0] {
             let kept = run(scheme, step, 10_000);
-            assert!(
-                abs_diff_eq!(kept, 0.5, epsilon = SOLVED),
-                "{scheme:?} {step}: {kept}"
-            );
+            assert!(is_near(kept, 0.5, SOLVED), "{scheme:?} {step}: {kept}");
         }
     }
     // Generalised-alpha with numerical damping, and RK4 below its limit, lose some.

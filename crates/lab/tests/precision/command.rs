@@ -94,45 +94,6 @@ fn any_scene_file_can_be_measured() -> Outcome {
 }
 
 #[test]
-fn bad_values_are_named() {
-    PROGRAM.refuses(
-        &["periodic", "--periods", "0"],
-        &["periods = 0", "above 0 to 100000"],
-    );
-    PROGRAM.refuses(&["periodic", "--periods", "nan"], &["periods = NaN"]);
-    PROGRAM.refuses(&["periodic", "--periods", "-1"], &["periods = -1"]);
-    PROGRAM.refuses(
-        &["periodic", "--budget", "0"],
-        &["budget = 0", "0.001 to 3600"],
-    );
-    PROGRAM.refuses(&["periodic", "--method", "rk5"], &["method = rk5", "RK4"]);
-    PROGRAM.refuses(&["periodic", "--method", ""], &["method = :", "RK4"]);
-    PROGRAM.refuses(
-        &["smooth"],
-        &["scene = smooth", "periodic", "sticking", "TOML"],
-    );
-}
-
-#[test]
-fn a_start_behind_a_rigid_stop_is_refused() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let file = folder.path().join("behind.toml");
-    let text = fs::read_to_string(docs("scenes").join("rigid.toml"))?;
-    fs::write(&file, text.replace("position = 6.9", "position = 16.9"))?;
-    PROGRAM.refuses(&[file.to_str().ok_or("path")?], &["position", "16.9"]);
-    Ok(())
-}
-
-#[cfg(unix)]
-#[test]
-fn an_interrupt_leaves_nothing_behind() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let target = folder.path().join("charts");
-    PROGRAM.leaves_nothing_when_interrupted(&["all", "--budget", "5"], &target);
-    Ok(())
-}
-
-#[test]
 fn every_built_in_scene_is_on_the_page_with_its_chart() -> Outcome {
     let page = fs::read_to_string(docs("accuracy.md"))?;
     for built_in in BUILT_IN {

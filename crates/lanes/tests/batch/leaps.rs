@@ -1,6 +1,7 @@
 //! Motions that settle: lanes leap over them, and end where the scalar engine does.
 
 use super::*;
+use softstop_testing::{kelvin_voigt, rigid_stop};
 
 /// A motion of each machine, over 100 to 700 drive periods.
 pub fn long(count: usize) -> Batch {
@@ -47,10 +48,7 @@ fn what_settles_ends_where_the_scalar_engine_ends() {
 #[test]
 fn what_settles_slowly_ends_there_too() {
     let slope = |from, stiffness| Slope { from, stiffness };
-    let spring = Stop::KelvinVoigt {
-        stiffness: 842.3299739426583,
-        release: Release::Clearance,
-    };
+    let spring = kelvin_voigt(842.3299739426583, Release::Clearance);
     let slopes = Stop::PiecewiseLinear {
         loading: vec![
             slope(0.0, 4.17115533397688),
@@ -191,14 +189,8 @@ fn a_wall_met_once_in_four_periods_is_not_leapt_over() {
         damping: 0.04917039099942139,
         contact_damping: 0.008831085181392005,
         clearance: 1.4984661408273618,
-        rigid: Some(RigidStop {
-            travel: 0.21806296263168568,
-            restitution: 0.7616078054049735,
-        }),
-        ..Scene::of_stop(Stop::KelvinVoigt {
-            stiffness: 277.51353894263457,
-            release: Release::Clearance,
-        })
+        rigid: Some(rigid_stop(0.21806296263168568, 0.7616078054049735)),
+        ..Scene::of_stop(kelvin_voigt(277.51353894263457, Release::Clearance))
     };
     scene.excitation.frequency = 1.4024137084556623;
     let start = |index| Start::new(1.25 + 0.0025 * f64::from(index), 3.6967804372227033);

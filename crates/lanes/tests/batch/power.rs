@@ -1,19 +1,20 @@
 //! Contacts under power laws, with and without dissipation.
 
 use super::*;
+use softstop_testing::hertz;
 
 /// A machine with a power law for a stop: behind a strip, far, near, or pressed for good.
 fn power(index: usize) -> Scene {
     let mut scene = scene(index);
     scene.rigid = None;
-    scene.stop = Stop::Hertz {
-        stiffness: 10f64.powf(between(0.0, 4.0, spread(index, 7))),
-        exponent: [1.5, 2.0, 2.5][index / 2 % 3],
-        dissipation: match index % 2 {
+    scene.stop = hertz(
+        10f64.powf(between(0.0, 4.0, spread(index, 7))),
+        [1.5, 2.0, 2.5][index / 2 % 3],
+        match index % 2 {
             0 => 0.0,
             _ => between(0.0, 0.1, spread(index, 6)),
         },
-    };
+    );
     if index.is_multiple_of(5) {
         scene.piercing = None;
         scene.clearance = between(-1.0, 1.0, spread(index, 6));
@@ -73,11 +74,7 @@ fn a_mass_that_the_stop_would_pull_is_pressed_again() {
     for index in 0..200 {
         let mut scene = power(2 * index + 1);
         scene.piercing = None;
-        scene.stop = Stop::Hertz {
-            stiffness: 100.0,
-            exponent: [1.5, 2.0, 2.5][index % 3],
-            dissipation: 0.07,
-        };
+        scene.stop = hertz(100.0, [1.5, 2.0, 2.5][index % 3], 0.07);
         let position = scene.clearance + between(0.5, 1.5, spread(index, 4));
         let start = Start::new(position, between(-1.01, -1.0, spread(index, 5)) / 0.07);
         let (end, impacts) = scalar(&scene, start);

@@ -1,15 +1,12 @@
 //! Machines one by one: what lanes hand over, and the ends of periods.
 
 use super::*;
+use softstop_testing::{hertz, kelvin_voigt};
 
 #[test]
 fn what_lanes_cannot_follow_the_scalar_engine_does() {
     let mut scene = Ratios::unloaded().scene().expect("valid");
-    scene.stop = Stop::Hertz {
-        stiffness: 100.0,
-        exponent: 1.2,
-        dissipation: 0.1,
-    };
+    scene.stop = hertz(100.0, 1.2, 0.1);
     let machine = Machine::new(&scene).expect("valid");
     assert!(!machine.is_for_lanes());
     let from = Start {
@@ -100,10 +97,7 @@ impl Watch for Periods {
 fn an_impact_at_the_very_end_of_a_period_is_counted_once() {
     for index in 0..400 {
         let mut scene = Ratios::unloaded().scene().expect("valid");
-        scene.stop = Stop::KelvinVoigt {
-            stiffness: 10.0,
-            release: Release::Clearance,
-        };
+        scene.stop = kelvin_voigt(10.0, Release::Clearance);
         scene.excitation.frequency = between(0.5, 2.0, spread(index, 1));
         scene.clearance = 1e3;
         let start = start(index, &scene);
@@ -197,10 +191,7 @@ fn a_release_before_a_handing_over_is_counted_once() {
     scene.excitation.frequency = 1.2163176370887587;
     (scene.damping, scene.clearance) = (0.13521975858568694, 1.9729499601366405);
     scene.contact_damping = 0.2930588834400743;
-    scene.stop = Stop::KelvinVoigt {
-        stiffness: 89.65661092882665,
-        release: Release::ZeroForce,
-    };
+    scene.stop = kelvin_voigt(89.65661092882665, Release::ZeroForce);
     let (position, velocity) = (-1.8661909629556042, 0.7786930774679091);
     let start = Start::new(position, velocity);
     let outcome = in_a_lane(&scene, start, 600, &mut ());
@@ -215,10 +206,7 @@ fn a_contact_that_would_pull_at_first_is_handed_over_as_released() {
     scene.excitation.frequency = 0.921887305313236;
     (scene.damping, scene.clearance) = (0.06302900706962594, 7.578978897315506);
     scene.contact_damping = 0.000171133978576001;
-    scene.stop = Stop::KelvinVoigt {
-        stiffness: 865.8420934406535,
-        release: Release::ZeroForce,
-    };
+    scene.stop = kelvin_voigt(865.8420934406535, Release::ZeroForce);
     let start = Start::new(-3.4008997014310474, -5.889542254762304);
     let outcome = in_a_lane(&scene, start, 20, &mut ());
     let (end, impacts, crossings) = safely(&scene, start, 20);

@@ -1,0 +1,31 @@
+//! The tests of the optimiser, and of the program `softstop` as users and scripts meet it, as one program.
+
+mod basin;
+mod best;
+mod command_line;
+mod continuation;
+mod fidelity;
+mod gradients;
+mod guide;
+mod handed_on;
+mod held;
+mod interrupts;
+mod motions;
+mod optimum;
+mod refusals;
+mod report;
+mod robust;
+mod simulate;
+mod study;
+mod sweep;
+mod tolerated;
+mod watch;
+
+use softstop_testing::Program;
+
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+
+const SOFTSTOP: Program = Program {
+    file: env!("CARGO_BIN_EXE_softstop"),
+    first: &[],
+};
