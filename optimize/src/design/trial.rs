@@ -152,19 +152,18 @@ impl Problem {
         None
     }
 
-    /// Whether a design meets the requirements that take many motions, in its own machine and in some within the tolerances.
+    /// Whether a design meets the requirements that take many motions, in its own machine and in some within the tolerances:
+    /// those that were met last first, which most likely fail.
     pub(super) fn passes(&self, design: &Design, others: &[Vec<f64>], effort: Effort) -> bool {
-        let own = self.trials().all(|it| is_passed(it, &design.orbit, effort));
-        let spread = self
-            .spread(&design.machine)
-            .filter(|_| own && !others.is_empty());
+        let spread = self.spread(&design.machine);
         let neighbours = spread.as_ref().map(|it| Neighbours::new(it, &design.orbit));
-        let at = |at: &Vec<f64>| {
-            let orbit = neighbours.as_ref().and_then(|it| it.motion(at));
+        let at = |neighbours: &Neighbours, at: &[f64]| {
             let mut all = self.trials().filter(|it| it.scope == Scope::Tolerances);
+            let orbit = neighbours.motion(at);
             orbit.is_some_and(|orbit| all.all(|it| is_passed(it, &orbit, effort)))
         };
-        own && (spread.is_none() || others.iter().all(at))
+        let within = neighbours.is_none_or(|it| others.iter().rev().all(|other| at(&it, other)));
+        within && self.trials().all(|it| is_passed(it, &design.orbit, effort))
     }
 
     /// The least share of starts that lead to the motion of a design, of its own machine or of some within the tolerances, by
