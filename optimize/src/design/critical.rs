@@ -5,6 +5,7 @@
 use softstop::Parameter;
 use softstop_dynamics::{Stroke, slopes};
 
+use super::constraint::Limit;
 use super::differences::differences;
 use super::exact::Linearization;
 use super::figure::{Figure, Sense};
@@ -115,12 +116,13 @@ impl CriticalMachines {
             let of = slope_at(about, &neighbours, at, figure);
             match (requirement, target) {
                 (Some(requirement), Target::Bound(_, side)) => {
-                    let slope = match of {
-                        Some(of) => of.inside(requirement, *side),
+                    let bound = Limit::Required(figure, *side);
+                    let (limit, slope) = match of {
+                        Some(of) => (bound, of.inside(requirement, *side)),
                         // The motion is lost on the way there.
-                        None => Some(reserve(about, &spread, at)?),
+                        None => (Limit::Loss, Some(reserve(about, &spread, at)?)),
                     };
-                    found.bounds.extend(slope.map(|it| (figure, *side, it)));
+                    found.bounds.extend(slope.map(|it| (limit, it)));
                 }
                 _ => found.scores.push(problem.objective.slope(of?)),
             }
@@ -134,8 +136,8 @@ impl CriticalMachines {
 pub(super) struct CriticalSlopes {
     /// How far beyond the tolerances the motion goes on.
     pub reserves: Vec<Slope>,
-    /// How far inside its bound a figure is, in units of that.
-    pub bounds: Vec<(Figure, Sense, Slope)>,
+    /// How far inside its bound a figure is, in units of that, or how far the motion goes on beyond the machine.
+    pub bounds: Vec<(Limit, Slope)>,
     /// Scores.
     pub scores: Vec<Slope>,
 }

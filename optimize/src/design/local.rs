@@ -85,10 +85,8 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option
     let critical = known.slopes(exact.as_ref())?;
     let reserves = critical.reserves.into_iter();
     let reserves = reserves.map(|slope| (Limit::Loss, slope));
-    let bounds = critical.bounds.into_iter();
-    let bounds = bounds.map(|(figure, side, slope)| (Limit::Required(figure, side), slope));
     let mut is_kept = true;
-    for (limit, slope) in reserves.chain(bounds) {
+    for (limit, slope) in reserves.chain(critical.bounds) {
         let least = if limit == Limit::Loss { -ROUNDING } else { 0.0 };
         is_kept &= slope.value >= least;
         keep(limit, slope);
