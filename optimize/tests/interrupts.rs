@@ -49,7 +49,7 @@ fn watch() {
 
 #[test]
 fn motions() {
-    ends("motions --clearance -3", &[]);
+    ends("motions --clearance -3 --budget 1000000", &[]);
     ends("motions SCENES/chatter.toml --starts 100000", &[]);
 }
 
