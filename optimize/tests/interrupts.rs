@@ -21,9 +21,17 @@ use crate::{Outcome, SOFTSTOP};
 
 const SIGNALS: [&str; 5] = ["INT", "TERM", "HUP", "QUIT", "USR1"];
 
+/// A budget that no run spends before it is interrupted.
+const ENDLESS: &str = "--budget 1000000";
+
 /// It ends by itself: no step of it takes long. It goes on where the signals are ignored.
 fn ends(line: &str, kept: &[&str]) {
-    let line = with_folders(line);
+    let budget = if line.starts_with("study") {
+        ""
+    } else {
+        ENDLESS
+    };
+    let line = with_folders(&format!("{line} {budget}"));
     for signal in SIGNALS {
         let folder = tempfile::tempdir().expect("a folder");
         let said = SOFTSTOP.ends_on(signal, &words(&line), folder.path(), kept);
@@ -49,7 +57,7 @@ fn watch() {
 
 #[test]
 fn motions() {
-    ends("motions --clearance -3 --budget 1000000", &[]);
+    ends("motions --clearance -3", &[]);
     ends("motions SCENES/chatter.toml --starts 100000", &[]);
 }
 
