@@ -12,16 +12,18 @@ use softstop_console::machine::Regime;
 use softstop_console::output::Format;
 use softstop_console::range::require;
 use softstop_console::scene_file;
+use toml::Table;
 
 use super::objective::objective;
-use super::require::{Required, requirements};
+use super::require::{RESERVE, Required, requirements};
 use super::task_spec::{Search, TaskSpec};
 use super::title::{Source, Title};
 use super::tolerance::tolerances;
 use super::vary::{Searched, held, searched, variables};
 use super::{OptimizeArguments, older};
 use crate::design::Problem;
-use crate::design::problem::Tolerance;
+use crate::design::problem::{Objective, Tolerance};
+use crate::design::requirement::Scope;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
 use crate::design::space::Axis;
 
@@ -63,8 +65,9 @@ impl Job {
             reserve,
         } = requirements(&machine, &task.require)?;
         let objective = objective(&machine, &task.objective)?;
-        let says_where = tolerances.iter().any(|it| !it.is_exact())
-            || requirements.iter().any(|it| it.figure.is_margin());
+        let is_exact = tolerances.iter().all(Tolerance::is_exact);
+        has_tolerances(is_exact, &objective, &task.require)?;
+        let says_where = !is_exact || requirements.iter().any(|it| it.figure.is_margin());
         let usual = if says_where { 0.0 } else { MARGIN };
         let margin = arguments.margin.or(share).unwrap_or(usual);
         require(
@@ -131,6 +134,20 @@ impl Job {
             title: task.report,
             sources,
         })
+    }
+}
+
+/// Refuses what asks for machines within tolerances where there are none.
+fn has_tolerances(is_exact: bool, objective: &Objective, require: &Table) -> Result<(), Failure> {
+    let stated = [
+        ("objective.of", objective.scope == Scope::Tolerances),
+        ("require.tolerance_reserve", require.contains_key(RESERVE)),
+    ];
+    match stated.iter().find(|(_, is_stated)| is_exact && *is_stated) {
+        Some((key, _)) => Err(Failure::usage(format!(
+            "{key}: plays no part without [tolerance]"
+        ))),
+        None => Ok(()),
     }
 }
 
