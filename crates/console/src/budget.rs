@@ -14,8 +14,8 @@ use crate::interrupt;
 /// The option that limits the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Args)]
 pub struct BudgetArguments {
-    /// Work that the answer may cost, or each thousand steps of a sweep, cells of a basin or motions of models, in millions of scan windows;
-    /// what would cost more is refused, the same on every computer
+    /// Work that the answer may cost, or each thousand steps of a sweep, cells of a basin or motions of models, in
+    /// millions of scan windows; what would cost more is refused, the same on every computer
     #[arg(long, value_name = "MILLIONS", default_value_t = Budget::MACHINE)]
     pub budget: Budget,
 }
