@@ -208,7 +208,7 @@ fn tables(folder: &Path, report: &Value) -> Outcome {
     Ok(())
 }
 
-/// The same task makes the same page, whenever it is made.
+/// A task makes the same page at any time.
 #[test]
 fn what_is_absent_is_left_out_with_its_heading() -> Outcome {
     let line = [

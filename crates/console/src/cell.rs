@@ -67,7 +67,7 @@ impl<T: Into<Cell>> From<Option<T>> for Cell {
 const MAX_LISTED: usize = 8;
 
 impl Cell {
-    /// The same, and nothing in place of a number that is not finite.
+    /// The cell, empty where its number is not finite.
     pub(crate) fn finite(&self) -> &Self {
         match self {
             Self::Number(number) if !number.is_finite() => &Self::Empty,

@@ -52,7 +52,7 @@ impl Record {
         self
     }
 
-    /// The same, and a figure for programs and pages alone.
+    /// Adds a figure that programs and pages read and texts leave out.
     #[must_use]
     pub fn hidden(self, name: &'static str, cell: impl Into<Cell>) -> Self {
         let mut record = self.with(name, "", cell);

@@ -125,7 +125,7 @@ impl Trials<'_> {
         self.compass(best)
     }
 
-    /// The same without a lattice.
+    /// The best design that passes, sought near one that does not: by a compass search without a lattice.
     fn best_near(&self, from: &Candidate) -> Option<Candidate> {
         self.compass(self.first(from)?)
     }

@@ -207,7 +207,7 @@ impl Problem {
         }
     }
 
-    /// The same problem with tolerances as they are, without reserve.
+    /// The problem with tolerances as they are stated, without reserve.
     pub fn as_built(&self) -> Self {
         Self {
             reserve: 1.0,

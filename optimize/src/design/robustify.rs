@@ -56,7 +56,7 @@ pub(super) fn enforce_tolerance_box(
     enforce(problem, start, CriticalMachines::default())
 }
 
-/// The same with what is known already.
+/// [`enforce_tolerance_box`] with the critical machines that are known already.
 pub(super) fn enforce(
     problem: &Problem,
     start: &Candidate,

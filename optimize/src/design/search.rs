@@ -120,7 +120,7 @@ pub fn search(
     search_from(problem, settings, &[], (watch, kept))
 }
 
-/// The same with points of the unit cube from which ascents start beside those of the survey, each with a place of its zone.
+/// [`search`] with further starts of ascents: points of the unit cube, each with a place of its zone.
 ///
 /// # Errors
 /// As [`search`].

@@ -44,7 +44,7 @@ pub struct Solution {
 }
 
 impl Problem {
-    /// The same problem without tolerances and trials: whatever solves this one solves that one.
+    /// The problem without tolerances and trials: every design of the whole problem is one of this.
     #[must_use]
     pub fn relaxed(&self) -> Self {
         let mut relaxed = Self {
