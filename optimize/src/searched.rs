@@ -10,7 +10,7 @@ use softstop_console::number::NumberStyle::Six;
 use softstop_console::record::Record;
 
 use crate::design::Problem;
-use crate::design::search::Resolution;
+use crate::design::search::{Ascents, Resolution};
 use crate::design::space::Axis;
 use crate::optimize::outcome::{Interrupted, Outcome};
 
@@ -27,6 +27,8 @@ pub struct SearchReport {
     pub evaluations: u64,
     /// Zones that were computed.
     pub evaluations_used: u64,
+    /// Ascents from the best distant zones, and the last of them that bettered nothing.
+    pub ascents: Ascents,
     /// How fine it was looked for, if trials were in the way.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<Resolution>,
@@ -74,6 +76,7 @@ impl SearchReport {
             links: problem.links.len(),
             evaluations,
             evaluations_used: outcome.evaluations,
+            ascents: outcome.ascents,
             resolution: outcome.resolution,
             interrupted: outcome.interrupted,
         }
@@ -92,6 +95,16 @@ impl SearchReport {
                 Six.format(100.0 * it.place)
             )
         });
-        interrupted.into_iter().chain(resolution).collect()
+        let Ascents { made, idle } = self.ascents;
+        let ended = self.interrupted.is_none().then(|| {
+            let zones = format!("{} of {} zones", self.evaluations_used, self.evaluations);
+            let why = match idle {
+                0 => "no further start is left within them".to_owned(),
+                idle => format!("the last {idle} bettered nothing"),
+            };
+            format!("Ended after {zones} and {made} ascents: {why}.\n")
+        });
+        let all = interrupted.into_iter().chain(ended);
+        all.chain(resolution).collect()
     }
 }

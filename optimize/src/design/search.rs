@@ -10,6 +10,7 @@
 //! function of every solver of `argmin` that needs no derivatives.
 
 use rayon::prelude::*;
+use serde::Serialize;
 use softstop_dynamics::watch::Kept;
 
 use super::ascent::{ascend, ascend_from};
@@ -95,14 +96,14 @@ pub struct Found {
     /// How fine it was looked for, if trials were in the way.
     pub resolution: Option<Resolution>,
     /// What it took.
-    pub effort: Effort,
+    pub ascents: Ascents,
 }
 
-/// What a search took.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Effort {
-    /// Ascents from distant points.
-    pub ascents: usize,
+/// The ascents of a search.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Ascents {
+    /// All from distant points.
+    pub made: usize,
     /// The last of them, as many as have bettered nothing.
     pub idle: usize,
 }
@@ -171,7 +172,7 @@ impl Found {
             limits,
             rivals,
             resolution: None,
-            effort: Effort::default(),
+            ascents: Ascents::default(),
         }
     }
 
@@ -222,7 +223,7 @@ impl Found {
         let others: Vec<Candidate> = others.collect();
         *self = Self {
             resolution,
-            effort: self.effort,
+            ascents: self.ascents,
             ..Self::new(problem, best, &others)
         };
         true
@@ -242,7 +243,7 @@ struct Search<'a> {
     robust: Vec<Robust>,
     /// What the best of the others lacks.
     lack: Option<Infeasible>,
-    effort: Effort,
+    ascents: Ascents,
 }
 
 impl<'a> Search<'a> {
@@ -272,7 +273,7 @@ impl<'a> Search<'a> {
             spare: apart,
             robust: Vec::new(),
             lack: None,
-            effort: Effort::default(),
+            ascents: Ascents::default(),
         };
         search.ascend_from_spare();
         search.sort();
@@ -289,7 +290,7 @@ impl<'a> Search<'a> {
             .map(|start| survey.charged(|| ascend(survey.problem, &start.unit)));
         let tops: Vec<Option<Candidate>> = tops.collect();
         self.tops.extend(tops.into_iter().flatten());
-        self.effort.ascents += count;
+        self.ascents.made += count;
         count > 0
     }
 
@@ -360,7 +361,7 @@ impl<'a> Search<'a> {
         incumbent.update(&best.candidate, Rank::Trials);
         Ok(Found {
             resolution,
-            effort: self.effort,
+            ascents: self.ascents,
             ..Found::new(problem, best, &others)
         })
     }
@@ -397,7 +398,11 @@ impl<'a> Search<'a> {
                 }
             }
             let is_better = self.best_robust() > (1.0 + GAIN) * before;
-            self.effort.idle = if is_better { 0 } else { STARTS };
+            self.ascents.idle = if is_better {
+                0
+            } else {
+                STARTS.min(self.ascents.made)
+            };
             let is_stopped = self.survey.watch.stop() || self.survey.is_over_budget();
             if !is_better || is_stopped || !self.ascend_from_spare() {
                 break;

@@ -11,7 +11,7 @@ use crate::design::constraint::Limit;
 use crate::design::front::Front;
 use crate::design::judge::Met;
 use crate::design::requirement::Requirement;
-use crate::design::search::{Effort, Resolution};
+use crate::design::search::{Ascents, Resolution};
 
 /// Places of the erosion profile beside the design's.
 pub(super) const PLACES: usize = 25;
@@ -66,7 +66,7 @@ pub struct Outcome {
     /// How fine it was looked for, if trials were in the way.
     pub resolution: Option<Resolution>,
     /// What the search took.
-    pub effort: Effort,
+    pub ascents: Ascents,
     /// Whether the run was asked to end.
     pub interrupted: Option<Interrupted>,
     /// The basin along the zone, for the report.

@@ -85,7 +85,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         rivals: found.rivals,
         evaluations,
         resolution: found.resolution,
-        effort: found.effort,
+        ascents: found.ascents,
         interrupted,
     })
 }

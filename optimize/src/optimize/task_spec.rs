@@ -146,6 +146,10 @@ fn requirements_schema() -> serde_json::Value {
             Figure::RunUp => {
                 json!({ "anyOf": [{ "type": "boolean" }, number], "description": figure.meaning() })
             }
+            Figure::Certainty | Figure::Share => {
+                let share = json!({ "type": "string", "pattern": "%\\s*$" });
+                json!({ "anyOf": [number, share, bounds], "description": figure.meaning() })
+            }
             _ => json!({ "anyOf": [number, bounds], "description": figure.meaning() }),
         };
         (figure.name().to_owned(), value)
