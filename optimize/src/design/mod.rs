@@ -15,6 +15,7 @@ pub mod coordinates;
 pub mod critical;
 mod differences;
 mod exact;
+mod found;
 pub mod front;
 mod improve_catalogue;
 mod incumbent;

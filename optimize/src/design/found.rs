@@ -1,0 +1,136 @@
+//! What a search has found: the best design, its rivals, and how it goes on from a better one that is met elsewhere.
+
+use serde::Serialize;
+
+use super::ascent::ascend_from;
+use super::check_trials::{Resolution, check_trials};
+use super::constraint::Limit;
+use super::coordinates::Candidate;
+use super::critical::CriticalMachines;
+use super::improve_catalogue::improve_catalogue;
+use super::multipliers::limits;
+use super::robustify::{Robust, enforce_tolerance_box};
+use super::{Design, Problem};
+
+/// Share of the best score from which another design is a rival.
+pub(super) const RIVAL: f64 = 0.97;
+/// Relative gain of a score that is none.
+pub(super) const GAIN: f64 = 1e-9;
+/// Distance along an axis, as a share of its range, from which on two designs are different hills.
+pub(super) const APART: f64 = 0.12;
+
+/// What a search has found.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// The best design.
+    pub design: Design,
+    /// Its point of the unit cube.
+    pub unit: Vec<f64>,
+    /// Machines within its tolerances that it has to keep within bounds.
+    pub known: CriticalMachines,
+    /// All that holds it back.
+    pub limits: Vec<Limit>,
+    /// Others, far from it and nearly as good: a small change of the task can make one of them the best.
+    pub rivals: Vec<Design>,
+    /// How fine it was looked for, if trials were in the way.
+    pub resolution: Option<Resolution>,
+    /// What it took.
+    pub ascents: Ascents,
+}
+
+/// The ascents of a search.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Ascents {
+    /// All from distant points.
+    pub made: usize,
+    /// The last of them, as many as have bettered nothing.
+    pub idle: usize,
+}
+
+impl Found {
+    /// The best of some designs, and those that are its rivals.
+    pub(super) fn new(problem: &Problem, best: Robust, others: &[Candidate]) -> Self {
+        let score = |it: &Design| problem.score(it);
+        let limits = limits(problem, &best.candidate, &best.known);
+        let mut all = vec![best.candidate.design];
+        for other in others {
+            let is_new = all
+                .iter()
+                .all(|known| is_another(problem, known, &other.design));
+            if is_new && score(&other.design) > RIVAL * score(&all[0]) {
+                all.push(other.design.clone());
+            }
+        }
+        let rivals = all.split_off(1);
+        Self {
+            design: all.remove(0),
+            unit: best.candidate.unit,
+            known: best.known,
+            limits,
+            rivals,
+            resolution: None,
+            ascents: Ascents::default(),
+        }
+    }
+
+    /// Its place, to start from.
+    pub fn start(&self) -> (Vec<f64>, f64) {
+        (self.unit.clone(), self.design.place)
+    }
+
+    pub(super) fn candidate(&self) -> Candidate {
+        Candidate {
+            unit: self.unit.clone(),
+            design: self.design.clone(),
+        }
+    }
+
+    /// Goes on from a design of a problem like this one: true if that has led to a better design.
+    pub fn go_on_from(&mut self, problem: &Problem, from: &Candidate) -> bool {
+        let mut start = from.clone();
+        let sought = start.design.judged().ok();
+        if let Some(value) = sought.and_then(|motion| problem.sought(&motion)) {
+            start.design.value = value;
+        }
+        let place = (&start.unit[..], start.design.place);
+        let top = ascend_from(problem, &CriticalMachines::default(), place);
+        let start = Some(start).filter(|it| problem.is_allowed(&it.design));
+        let starts = start.into_iter().chain(top);
+        let robust = starts.filter_map(|it| enforce_tolerance_box(problem, &it).ok());
+        let score = |it: &Robust| problem.score(&it.candidate.design);
+        let is_better = |it: &Robust| score(it) > (1.0 + GAIN) * problem.score(&self.design);
+        let best = robust.max_by(|a, b| score(a).total_cmp(&score(b)));
+        let Some(robust) = best.filter(is_better) else {
+            return false;
+        };
+        let improved = improve_catalogue(problem, &robust);
+        let Ok((best, resolution)) = check_trials(problem, improved) else {
+            return false;
+        };
+        if !is_better(&best) {
+            return false;
+        }
+        let rivals = std::mem::take(&mut self.rivals);
+        let others = rivals.into_iter().chain([self.design.clone()]);
+        let unit = self.unit.clone();
+        let others = others.map(|design| Candidate {
+            unit: unit.clone(),
+            design,
+        });
+        let others: Vec<Candidate> = others.collect();
+        *self = Self {
+            resolution,
+            ascents: self.ascents,
+            ..Self::new(problem, best, &others)
+        };
+        true
+    }
+}
+
+/// True if two designs differ by more than a small part of the range of some axis.
+pub(super) fn is_another(problem: &Problem, one: &Design, other: &Design) -> bool {
+    problem.axes.iter().any(|axis| {
+        let [one, other] = [one, other].map(|it| it.machine.value(axis.parameter).unwrap_or(0.0));
+        (one - other).abs() > APART * (axis.range.high - axis.range.low)
+    })
+}
