@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 #[path = "interrupts/dispositions.rs"]
-mod dispositions;
+pub mod dispositions;
 #[cfg(target_os = "linux")]
 #[path = "interrupts/faults.rs"]
 mod faults;

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use softstop_optimize::design::figure::Figure;
 use softstop_testing::{docs, files, with_folders, words};
 
+use crate::interrupts::dispositions;
 use crate::{Outcome, SOFTSTOP};
 
 fn place(name: &str) -> PathBuf {
@@ -151,6 +152,11 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
             &["--regime", "hertz.toml"],
         ),
     ];
+    for name in dispositions::names() {
+        let is_listed = commands.iter().any(|(line, _)| words(line)[0] == name);
+        let takes_machine = SOFTSTOP.text(&[&name, "--help"]).contains("[MACHINE]");
+        assert_eq!(is_listed, takes_machine, "{name}");
+    }
     for (command, more) in commands {
         let starts = ["simulate", "watch", "fidelity", "fmu"].contains(&command);
         // These take a start.

@@ -1,6 +1,4 @@
-//! The commands that look at one machine, each with its own picture: [`orbit`], [`zone`], [`simulate`],
-//! [`watch`], [`motions`], [`continuation`], [`sweep`], [`basin`], [`stops`] and [`fidelity`]; and the one
-//! that looks at many, [`study`].
+//! The commands that analyse one machine, each with its own picture, and the one for many machines, [`study`].
 //!
 //! Whatever fails does so with [`Failure::Usage`] for values that cannot be, with [`Failure::Run`] if nothing can be
 //! computed or written, and with [`Failure::Interrupted`] after Ctrl-C.

@@ -70,7 +70,7 @@ each beside it as CSV; files are written whole or not at all.";
 #[command(after_help = EXAMPLES)]
 pub struct PaperArguments {
     /// Figures to draw [default: all]
-    #[arg(value_parser = PossibleValuesParser::new(FIGURES.map(|it| it.0)), value_name = "FIGURE")]
+    #[arg(value_parser = PossibleValuesParser::new(FIGURES.iter().map(|it| it.0)), value_name = "FIGURE")]
     #[arg(hide_possible_values = true)]
     pub figures: Vec<String>,
     /// Coarser grids and shorter runs, ten times as fast
@@ -88,7 +88,7 @@ pub struct PaperArguments {
 }
 
 /// The figures by their names on the command line, each with its code.
-static FIGURES: [(&str, Draw); 16] = [
+static FIGURES: &[(&str, Draw)] = &[
     ("6a", figure6::draw),
     ("6b", figure6::draw),
     ("7a", figure7::draw),

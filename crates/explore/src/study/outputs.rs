@@ -45,7 +45,7 @@ outputs! {
 }
 
 /// Figures of a motion and of its machine that a study can have.
-const FIGURES: [Figure; 18] = [
+const FIGURES: &[Figure] = &[
     Figure::Velocity,
     Figure::ImpactEnergy,
     Figure::ImpactPower,
@@ -97,7 +97,7 @@ impl Output {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
         let own = Own::ALL.iter().map(|own| Self::Own(*own));
-        own.chain(FIGURES.map(Self::Figure))
+        own.chain(FIGURES.iter().copied().map(Self::Figure))
     }
 
     /// The one of this name.
