@@ -6,17 +6,21 @@
 //! then found along it (`line_search`). [`search`] drives the outer search.
 
 mod ascent;
+mod bounded;
 mod box_window;
 mod certain;
 mod check_trials;
 pub mod conflict;
 pub mod constraint;
 pub mod coordinates;
+pub mod cost;
 pub mod critical;
 mod differences;
 mod exact;
+pub mod expression;
 mod found;
 pub mod front;
+mod front_search;
 mod improve_catalogue;
 mod incumbent;
 pub mod judge;
@@ -24,7 +28,9 @@ mod line_search;
 pub mod local;
 mod multipliers;
 mod nearest_miss;
+mod non_dominated;
 pub mod operating_point;
+pub mod pareto;
 pub mod problem;
 pub mod reach;
 pub mod requirement;
