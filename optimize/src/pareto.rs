@@ -11,7 +11,7 @@ use softstop_console::table::aligned;
 
 use crate::design::Problem;
 use crate::design::figure::{Figure, Sense};
-use crate::design::pareto::{Pareto, Point, Tally};
+use crate::design::pareto::{Alternative, Pareto, Tally};
 use crate::design::problem::Objective;
 use crate::optimize::pareto::CheckedFront;
 
@@ -181,7 +181,7 @@ fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
         is_axis || (parameter == Parameter::Frequency && !problem.frequency.is_held())
     };
     let parameter = |parameter: Parameter| {
-        let value = |it: &Point| it.found.design.machine.value(parameter);
+        let value = |it: &Alternative| it.found.design.machine.value(parameter);
         Column {
             name: machine.name(parameter),
             unit: machine.unit_of(parameter),
@@ -196,7 +196,7 @@ fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
         !it.is_trial() && !is_sought
     };
     let others = Figure::ALL.iter().filter(is_other).map(|it| {
-        let value = |point: &Point| {
+        let value = |point: &Alternative| {
             let motion = point.found.design.judged();
             motion.map_or(f64::NAN, |motion| problem.value(&motion, *it))
         };

@@ -5,8 +5,8 @@
 //! a zone is feasible. The zone does not depend on s: at each point it is computed once and the best s is
 //! then found along it (`line_search`). [`search`] drives the outer search.
 
+mod alternative;
 mod ascent;
-mod bounded;
 mod box_window;
 mod certain;
 mod check_trials;
@@ -20,7 +20,6 @@ mod exact;
 pub mod expression;
 mod found;
 pub mod front;
-mod front_search;
 mod improve_catalogue;
 mod incumbent;
 pub mod judge;
@@ -31,6 +30,8 @@ mod nearest_miss;
 mod non_dominated;
 pub mod operating_point;
 pub mod pareto;
+mod pareto_search;
+mod posed;
 pub mod problem;
 pub mod reach;
 pub mod requirement;

@@ -5,15 +5,15 @@ const SAME: f64 = 1e-6;
 
 /// The points that no other one dominates.
 #[derive(Debug, PartialEq)]
-pub(super) struct Front {
+pub(super) struct NonDominated {
     /// Which, the one with the largest first coordinate first.
     pub members: Vec<usize>,
     /// The place among them of the one that is nearest to the largest of each coordinate, in units of their ranges.
     pub nearest: usize,
 }
 
-/// The front of points whose coordinates are the better the larger. Of points that differ by next to nothing it has one.
-pub(super) fn front(points: &[Vec<f64>]) -> Front {
+/// The points that no other one dominates, whose coordinates are the better the larger. Of points that differ by next to nothing it has one.
+pub(super) fn non_dominated(points: &[Vec<f64>]) -> NonDominated {
     let scaled = scaled(points);
     let sum = |index: &usize| scaled[*index].iter().sum::<f64>();
     let mut order: Vec<usize> = (0..points.len()).collect();
@@ -35,7 +35,7 @@ pub(super) fn front(points: &[Vec<f64>]) -> Front {
     let distances = self::scaled(&own);
     let distances = distances.iter().map(distance).enumerate();
     let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
-    Front {
+    NonDominated {
         members,
         nearest: nearest.map_or(0, |(index, _)| index),
     }
@@ -59,7 +59,7 @@ fn scaled(points: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Front, front};
+    use super::{NonDominated, non_dominated};
 
     #[test]
     fn what_others_dominate_or_equal_is_left_out() {
@@ -70,11 +70,14 @@ mod tests {
             [0.0, 3.0],
             [2.0, 2.0 - 1e-9],
         ];
-        let found = front(&points.map(Vec::from));
+        let found = non_dominated(&points.map(Vec::from));
         let (members, nearest) = (vec![0, 1, 3], 1);
-        assert_eq!(found, Front { members, nearest });
+        assert_eq!(found, NonDominated { members, nearest });
         let (members, nearest) = (vec![0], 0);
-        assert_eq!(front(&[vec![1.0, 5.0]]), Front { members, nearest });
-        assert!(front(&[]).members.is_empty());
+        assert_eq!(
+            non_dominated(&[vec![1.0, 5.0]]),
+            NonDominated { members, nearest }
+        );
+        assert!(non_dominated(&[]).members.is_empty());
     }
 }

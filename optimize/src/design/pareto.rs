@@ -1,9 +1,9 @@
 //! Designs of which none is better in all that is sought.
 
-pub use super::bounded::Point;
-pub use super::front_search::Tally;
-use super::front_search::search_front;
-use super::non_dominated::{Front, front};
+pub use super::alternative::Alternative;
+use super::non_dominated::{NonDominated, non_dominated};
+pub use super::pareto_search::Tally;
+use super::pareto_search::search_pareto;
 use super::problem::{Objective, Problem};
 use super::search::{Found, SearchError, Settings, Watch};
 
@@ -13,7 +13,7 @@ pub struct Pareto {
     /// What is sought.
     pub objectives: Vec<Objective>,
     /// The designs, the best by the first objective first.
-    pub points: Vec<Point>,
+    pub points: Vec<Alternative>,
     /// The one that is nearest to the best of each objective, in units of their ranges.
     pub nearest: usize,
     /// What became of the problems.
@@ -40,7 +40,7 @@ impl Pareto {
         (settings, watch): (Settings, &dyn Watch),
     ) -> Result<Self, SearchError> {
         let objectives = problem.objectives();
-        let (points, tally) = search_front(problem, &objectives, first, (settings, watch))?;
+        let (points, tally) = search_pareto(problem, &objectives, first, (settings, watch))?;
         let found = Self {
             objectives,
             points,
@@ -53,7 +53,7 @@ impl Pareto {
     /// With another best design by the first objective.
     #[must_use]
     pub(super) fn with(mut self, problem: &Problem, found: &Found) -> Self {
-        let point = Point::new(problem, &self.objectives, found);
+        let point = Alternative::new(problem, &self.objectives, found);
         if let (Some(point), Some(first)) = (point, self.points.first_mut()) {
             *first = point;
         }
@@ -76,7 +76,7 @@ impl Pareto {
     fn filtered(mut self) -> Self {
         let all = self.points.iter().map(|it| it.graded(&self.objectives));
         let all: Vec<Vec<f64>> = all.collect();
-        let Front { members, nearest } = front(&all);
+        let NonDominated { members, nearest } = non_dominated(&all);
         self.points = members
             .iter()
             .map(|index| self.points[*index].clone())

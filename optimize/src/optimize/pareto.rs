@@ -9,7 +9,7 @@ use super::met::met;
 use super::task::Job;
 use crate::design::Problem;
 use crate::design::judge::Met;
-use crate::design::pareto::{Pareto, Point};
+use crate::design::pareto::{Alternative, Pareto};
 use crate::robust::{Settings, verify};
 
 /// Machines within the tolerances of each design at least.
@@ -74,7 +74,7 @@ impl CheckedFront {
         let required = problem.requirements.iter().copied();
         let required: Vec<_> = required.filter(|it| it.is_of_each_motion()).collect();
         let progress = Progress::new((machines * points.len()) as u64, "machines of the front");
-        let share = |point: &Point| {
+        let share = |point: &Alternative| {
             let design = &point.found.design;
             let spread = problem.spread(&design.machine)?;
             let watcher = progress.watcher();

@@ -1,4 +1,4 @@
-//! What designs have of several objectives, and problems that bound these.
+//! Designs with what they have of several objectives, and problems that bound these.
 
 use softstop_console::interrupt;
 
@@ -11,20 +11,11 @@ use crate::robust::worst;
 
 /// A design with what it has of each objective.
 #[derive(Debug, Clone)]
-pub struct Point {
+pub struct Alternative {
     /// The design.
     pub found: Found,
     /// What is sought, in SI units; of the worst machine within the tolerances, if that counts.
     pub values: Vec<f64>,
-}
-
-/// What a problem of a front asks for.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Posed {
-    /// Which objective is to be best.
-    pub objective: usize,
-    /// Bounds of the objectives, in SI units.
-    pub bounds: Vec<Option<f64>>,
 }
 
 impl Objective {
@@ -67,12 +58,8 @@ impl Problem {
         let mut all = self.requirements.iter_mut();
         match all.find(|it| it.figure == figure && it.scope == scope) {
             Some(own) => {
-                own.least = least
-                    .map(|it| own.least.map_or(it, |own| own.max(it)))
-                    .or(own.least);
-                own.most = most
-                    .map(|it| own.most.map_or(it, |own| own.min(it)))
-                    .or(own.most);
+                own.least = least.into_iter().chain(own.least).reduce(f64::max);
+                own.most = most.into_iter().chain(own.most).reduce(f64::min);
             }
             None => self.requirements.push(Requirement {
                 figure,
@@ -85,7 +72,7 @@ impl Problem {
     }
 }
 
-impl Point {
+impl Alternative {
     /// What it has of each objective, by its good side.
     pub(super) fn graded(&self, objectives: &[Objective]) -> Vec<f64> {
         let pairs = objectives.iter().zip(&self.values);

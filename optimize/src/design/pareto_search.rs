@@ -6,19 +6,15 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::bounded::{Point, Posed};
-use super::non_dominated::{Front, front};
+use super::alternative::Alternative;
+use super::non_dominated::{NonDominated, non_dominated};
+use super::posed::{Posed, Ranges, levels};
 use super::problem::{Objective, Problem};
 use super::search::{Found, LEAST_EVALUATIONS, SearchError, Settings, Watch, search_from};
 
-/// Bounds of each objective but the first between its ends, by how many objectives there are from three on: 35, 26 and 15
-/// problems.
-const LEVELS: [usize; 3] = [5, 2, 1];
-/// Problems of two objectives, those that are solved at once, and the gap between designs, in units of the front, that needs
-/// none.
+/// Problems of two objectives, and those of them that are solved at once.
 const PROBLEMS: usize = 14;
 const AT_ONCE: usize = 2;
-const SMALL_GAP: f64 = 0.04;
 /// Share of the evaluations of a search that each problem with bounds may take: its neighbours are solved.
 const SHARE: u64 = 4;
 /// Neighbours from which a problem starts.
@@ -46,7 +42,7 @@ pub struct Tally {
 struct Solved {
     problem: Problem,
     posed: Posed,
-    point: Point,
+    alternative: Alternative,
 }
 
 /// A watch of one of many searches: it can be stopped, and tells nothing.
@@ -59,28 +55,23 @@ impl Watch for Quiet<'_> {
     }
 }
 
-/// Bounds of each objective but the first, of so many.
-fn levels(objectives: usize) -> usize {
-    LEVELS[(objectives - 3).min(LEVELS.len() - 1)]
-}
-
 /// The designs of a front from the best one by the first objective on, some of which others may dominate, and what became of
 /// the problems; an interrupted search has those that are found by then.
 ///
 /// # Errors
 /// [`SearchError`] if no design has one of the objectives.
-pub(super) fn search_front(
+pub(super) fn search_pareto(
     problem: &Problem,
     objectives: &[Objective],
     first: &Found,
     (settings, watch): (Settings, &dyn Watch),
-) -> Result<(Vec<Point>, Tally), SearchError> {
-    let mut search = FrontSearch {
+) -> Result<(Vec<Alternative>, Tally), SearchError> {
+    let mut search = ParetoSearch {
         problem,
         objectives,
         settings,
         watch,
-        ranges: Vec::new(),
+        ranges: Ranges::default(),
         solved: Vec::new(),
         failed: Vec::new(),
         tally: Tally::default(),
@@ -92,7 +83,7 @@ pub(super) fn search_front(
         _ => search.solve_lattice(),
     }
     search.exchange();
-    let points: Vec<Point> = search.solved.into_iter().map(|it| it.point).collect();
+    let points: Vec<Alternative> = search.solved.into_iter().map(|it| it.alternative).collect();
     let solved = points.len();
     Ok((
         points,
@@ -104,20 +95,19 @@ pub(super) fn search_front(
 }
 
 /// The search of a front.
-struct FrontSearch<'a> {
+struct ParetoSearch<'a> {
     problem: &'a Problem,
     objectives: &'a [Objective],
     settings: Settings,
     watch: &'a dyn Watch,
-    /// For each objective the worst value of the best designs by each, and the best.
-    ranges: Vec<[f64; 2]>,
+    ranges: Ranges,
     solved: Vec<Solved>,
     /// Problems without a design.
     failed: Vec<Posed>,
     tally: Tally,
 }
 
-impl FrontSearch<'_> {
+impl ParetoSearch<'_> {
     /// The best design by each objective alone.
     fn find_anchors(&mut self, first: &Found) -> Result<(), SearchError> {
         let count = self.objectives.len();
@@ -146,36 +136,26 @@ impl FrontSearch<'_> {
             self.keep(problem, alone(index), &found);
             self.tell();
         }
-        self.ranges = (0..count).map(|index| self.range(index)).collect();
+        self.ranges = Ranges((0..count).map(|index| self.range(index)).collect());
         Ok(())
     }
 
     /// The best designs by another objective among those that are best by each, of which there may be many.
     fn refine_anchors(&mut self) {
         let count = self.objectives.len();
-        let at_best = |index: usize| {
-            let mut bounds = vec![None; count];
-            bounds[index] = Some(self.ranges[index][1]);
-            Posed {
-                objective: usize::from(index == 0),
-                bounds,
-            }
+        let at_best = |index: usize| Posed {
+            objective: usize::from(index == 0),
+            ..Posed::of_bound(count, index, self.ranges.0[index][1])
         };
         self.solve_all((0..count).map(at_best).collect());
     }
 
     fn range(&self, index: usize) -> [f64; 2] {
         let objective = &self.objectives[index];
-        let values = self.solved.iter().map(|it| it.point.values[index]);
+        let values = self.solved.iter().map(|it| it.alternative.values[index]);
         let by_grade = |a: &f64, b: &f64| objective.graded(*a).total_cmp(&objective.graded(*b));
         let worst = values.clone().min_by(by_grade).unwrap_or(f64::NAN);
         [worst, values.max_by(by_grade).unwrap_or(f64::NAN)]
-    }
-
-    /// A value of an objective in units of its range: 0 at its worst, 1 at its best.
-    fn scaled(&self, index: usize, value: f64) -> f64 {
-        let [worst, best] = self.ranges[index];
-        (value - worst) / (best - worst)
     }
 
     fn tell(&self) {
@@ -185,11 +165,11 @@ impl FrontSearch<'_> {
 
     /// Takes note of a solution.
     fn keep(&mut self, problem: Problem, posed: Posed, found: &Found) {
-        match Point::new(self.problem, self.objectives, found) {
-            Some(point) => self.solved.push(Solved {
+        match Alternative::new(self.problem, self.objectives, found) {
+            Some(alternative) => self.solved.push(Solved {
                 problem,
                 posed,
-                point,
+                alternative,
             }),
             None => self.fail(posed),
         }
@@ -204,7 +184,7 @@ impl FrontSearch<'_> {
     fn fill_gaps(&mut self) {
         let mut all: Vec<Posed> = Vec::new();
         while all.len() < PROBLEMS && !self.watch.stop() {
-            let mut next = self.widest_gaps(&all);
+            let mut next = self.ranges.widest_gaps(self.undominated(), &all);
             next.truncate(AT_ONCE.min(PROBLEMS - all.len()));
             if next.is_empty() {
                 break;
@@ -217,68 +197,19 @@ impl FrontSearch<'_> {
         }
     }
 
-    /// Problems in the middle of the gaps between designs, the widest first, but for those that were posed.
-    fn widest_gaps(&self, posed: &[Posed]) -> Vec<Posed> {
-        let mut points: Vec<[f64; 2]> = self.undominated();
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut gaps: Vec<(f64, Posed)> = Vec::new();
-        for pair in points.windows(2) {
-            let widths = [0, 1].map(|index| {
-                (self.scaled(index, pair[0][index]) - self.scaled(index, pair[1][index])).abs()
-            });
-            let wider = usize::from(widths[1] > widths[0]);
-            let of = |bounded: usize| {
-                let mut bounds = vec![None; 2];
-                bounds[bounded] = Some(0.5 * (pair[0][bounded] + pair[1][bounded]));
-                Posed {
-                    objective: 1 - bounded,
-                    bounds,
-                }
-            };
-            let new = [wider, 1 - wider].map(of).into_iter();
-            let mut new = new.filter(|it| !posed.contains(it));
-            let width = widths[0].hypot(widths[1]);
-            gaps.extend(
-                new.next()
-                    .filter(|_| width > SMALL_GAP)
-                    .map(|it| (width, it)),
-            );
-        }
-        gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
-        gaps.into_iter().map(|(_, it)| it).collect()
-    }
-
     /// The values of the designs of two objectives that no other one dominates.
     fn undominated(&self) -> Vec<[f64; 2]> {
-        let points: Vec<&Point> = self.solved.iter().map(|it| &it.point).collect();
-        let grades = points.iter().map(|it| it.graded(self.objectives));
-        let Front { members, .. } = front(&grades.collect::<Vec<_>>());
-        let values = members.iter().map(|index| &points[*index].values);
+        let all: Vec<&Alternative> = self.solved.iter().map(|it| &it.alternative).collect();
+        let grades = all.iter().map(|it| it.graded(self.objectives));
+        let NonDominated { members, .. } = non_dominated(&grades.collect::<Vec<_>>());
+        let values = members.iter().map(|index| &all[*index].values);
         values.map(|it| [it[0], it[1]]).collect()
     }
 
     /// The best designs by the first objective with so many bounds of each other one, the loosest first: those of one sum of
     /// levels do not depend on each other.
     fn solve_lattice(&mut self) {
-        let (others, levels) = (self.objectives.len() - 1, levels(self.objectives.len()));
-        let count = (levels + 1).pow(others as u32);
-        let digit =
-            |number: usize, place: usize| number / (levels + 1).pow(place as u32) % (levels + 1);
-        let bound = |index: usize, level: usize| {
-            let [worst, best] = self.ranges[index];
-            worst + (best - worst) * level as f64 / (levels + 1) as f64
-        };
-        let mut sums: Vec<Vec<Posed>> = vec![Vec::new(); others * levels + 1];
-        for number in 1..count {
-            let own: Vec<usize> = (0..others).map(|place| digit(number, place)).collect();
-            let bounds = own.iter().enumerate();
-            let bounds =
-                bounds.map(|(place, level)| (*level > 0).then(|| bound(place + 1, *level)));
-            sums[own.iter().sum::<usize>()].push(Posed {
-                objective: 0,
-                bounds: [None].into_iter().chain(bounds).collect(),
-            });
-        }
+        let sums = self.ranges.lattice();
         for posed in sums {
             if !self.watch.stop() {
                 self.solve_all(posed);
@@ -297,7 +228,12 @@ impl FrontSearch<'_> {
             match found {
                 Ok(found) => self.keep(problem, posed, &found),
                 Err(SearchError::Stopped(_)) => return,
-                Err(_) if self.solved.iter().any(|it| self.keeps(&it.point, &posed)) => {
+                Err(_)
+                    if self
+                        .solved
+                        .iter()
+                        .any(|it| self.keeps(&it.alternative, &posed)) =>
+                {
                     self.tally.implied += 1;
                 }
                 Err(_) => self.fail(posed),
@@ -320,12 +256,16 @@ impl FrontSearch<'_> {
         };
         let mut solved = self.solved.iter();
         self.failed.iter().any(is_looser)
-            || solved.any(|it| is_looser(&it.posed) && self.keeps(&it.point, posed))
+            || solved.any(|it| is_looser(&it.posed) && self.keeps(&it.alternative, posed))
     }
 
     /// Whether a design keeps the bounds of a problem.
-    fn keeps(&self, point: &Point, posed: &Posed) -> bool {
-        let pairs = self.objectives.iter().zip(&point.values).zip(&posed.bounds);
+    fn keeps(&self, design: &Alternative, posed: &Posed) -> bool {
+        let pairs = self
+            .objectives
+            .iter()
+            .zip(&design.values)
+            .zip(&posed.bounds);
         let mut bounded = pairs.filter_map(|((objective, value), bound)| {
             let bound = (*bound)?;
             let margin = objective.graded(*value) - objective.graded(bound);
@@ -346,16 +286,16 @@ impl FrontSearch<'_> {
             }
         }
         let distance = |it: &Solved| {
-            let bounds = posed.bounds.iter().zip(&it.point.values).enumerate();
+            let bounds = posed.bounds.iter().zip(&it.alternative.values).enumerate();
             let parts = bounds.filter_map(|(index, (bound, value))| {
-                Some(self.scaled(index, *value) - self.scaled(index, (*bound)?))
+                Some(self.ranges.scaled(index, *value) - self.ranges.scaled(index, (*bound)?))
             });
             parts.map(|part| part * part).sum::<f64>()
         };
         let mut near: Vec<&Solved> = self.solved.iter().collect();
         near.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
         let starts = near.iter().take(NEIGHBOURS);
-        let starts: Vec<(Vec<f64>, f64)> = starts.map(|it| it.point.found.start()).collect();
+        let starts: Vec<(Vec<f64>, f64)> = starts.map(|it| it.alternative.found.start()).collect();
         let settings = Settings {
             evaluations: (self.settings.evaluations / SHARE).max(LEAST_EVALUATIONS),
         };
@@ -372,21 +312,24 @@ impl FrontSearch<'_> {
             let own = &self.solved[index];
             let objective = own.posed.objective;
             let graded =
-                |it: &Solved| self.objectives[objective].graded(it.point.values[objective]);
+                |it: &Solved| self.objectives[objective].graded(it.alternative.values[objective]);
             let is_better = |it: &&Solved| {
                 let gain = graded(it) - graded(own);
-                gain > ROUNDING * graded(own).abs() && self.keeps(&it.point, &own.posed)
+                gain > ROUNDING * graded(own).abs() && self.keeps(&it.alternative, &own.posed)
             };
             let better = self.solved.iter().filter(is_better);
             let Some(best) = better.max_by(|a, b| graded(a).total_cmp(&graded(b))) else {
                 continue;
             };
-            let (from, mut found) = (best.point.found.candidate(), own.point.found.clone());
-            found.design.value = own.point.values[objective];
+            let (from, mut found) = (
+                best.alternative.found.candidate(),
+                own.alternative.found.clone(),
+            );
+            found.design.value = own.alternative.values[objective];
             if found.go_on_from(&own.problem, &from)
-                && let Some(point) = Point::new(self.problem, self.objectives, &found)
+                && let Some(alternative) = Alternative::new(self.problem, self.objectives, &found)
             {
-                self.solved[index].point = point;
+                self.solved[index].alternative = alternative;
             }
         }
     }
