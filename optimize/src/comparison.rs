@@ -2,7 +2,7 @@
 
 use softstop::{Dimension, Language, Machine, Parameter};
 use softstop_console::record::Record;
-use softstop_dynamics::{Orbit, Stroke};
+use softstop_dynamics::Orbit;
 
 use crate::design::figure::Figure;
 use crate::design::{Design, Problem};
@@ -79,13 +79,18 @@ impl Table<'_> {
 
     /// What is sought, and what the motions do beside a design of this velocity.
     fn add_figures(&mut self, velocity: f64) {
-        let figure = self.problem.objective.figure;
-        let by_velocity = figure == Figure::Velocity;
-        if !by_velocity {
-            let (name, dimension) = (figure.meaning(), figure.dimension());
-            self.add_figure([name, ""], dimension, true, |orbit| {
-                figure.of_motion(orbit, &Stroke::of(orbit).ok()?)
-            });
+        let problem = self.problem;
+        let sought = problem.objective.figure;
+        let by_velocity = sought == Figure::Velocity;
+        let cost = problem.cost.as_ref().map(|_| Figure::Cost);
+        let cost = cost.filter(|it| *it != sought);
+        for figure in [sought].into_iter().chain(cost) {
+            if figure != Figure::Velocity && figure.is_of_motion() {
+                let (name, dimension) = (figure.meaning(), figure.dimension());
+                self.add_figure([name, ""], dimension, figure == sought, |orbit| {
+                    problem.value_of_motion(figure, orbit)
+                });
+            }
         }
         let [number, length, speed] = [Dimension::Number, Dimension::Length, Dimension::Velocity];
         let impact = ["before-impact velocity", "X′₋"];

@@ -25,6 +25,7 @@ use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
 use crate::optimize::title::{Source, Title};
 use crate::page::figure::Figure;
+use crate::pareto::FrontReport;
 use crate::searched::SearchReport;
 use crate::tolerated::Tolerated;
 use crate::{started, verdict};
@@ -63,6 +64,9 @@ pub struct OptimizeReport {
     /// What more of one good costs of another.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     fronts: Vec<Record>,
+    /// The designs among which one can choose, if more than one thing is sought.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) pareto: Option<FrontReport>,
     /// Its machines within the tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerances: Option<Tolerated>,
@@ -119,6 +123,10 @@ impl OptimizeReport {
             requirements: met.collect(),
             rivals: rivals.collect(),
             fronts: fronts.collect(),
+            pareto: found
+                .pareto
+                .as_ref()
+                .map(|it| FrontReport::new(problem, it)),
             tolerances: study.map(|it| Tolerated::of(machine, it)),
             run_up: ways.collect(),
             left_out: left_out(design),
@@ -178,7 +186,10 @@ impl Report for OptimizeReport {
         ]);
         let mut text = self.search.text() + &heading(&self.heading);
         text += &below(&self.comparison, &units);
-        text + &self.stands() + &tables + &tolerances.unwrap_or_default()
+        let front = self.pareto.as_ref().map(FrontReport::text);
+        text += &self.stands();
+        text += &front.unwrap_or_default();
+        text + &tables + &tolerances.unwrap_or_default()
     }
 }
 

@@ -3,7 +3,9 @@
 use proptest::prelude::*;
 use softstop::{Machine, Parameter};
 use softstop_optimize::design::Problem;
+use softstop_optimize::design::cost::{Cost, Term};
 use softstop_optimize::design::critical::{CriticalMachines, Extreme, Target};
+use softstop_optimize::design::expression::Expression;
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::local::{Local, local};
 use softstop_optimize::design::operating_point::At;
@@ -15,7 +17,7 @@ use softstop_optimize::design::space::{Axis, Interval};
 use softstop_testing::random::cases;
 
 /// What is looked at: the figures that have exact derivatives.
-const FIGURES: [Figure; 11] = [
+const FIGURES: [Figure; 12] = [
     Figure::Velocity,
     Figure::ImpactEnergy,
     Figure::ImpactPower,
@@ -24,6 +26,7 @@ const FIGURES: [Figure; 11] = [
     Figure::MaxPosition,
     Figure::Stroke,
     Figure::StopForce,
+    Figure::Cost,
     Figure::FrequencyG0,
     Figure::FrequencySn,
     Figure::FrequencyPd,
@@ -44,6 +47,21 @@ fn machines() -> Vec<Machine> {
         Machine::from_toml(press).expect("a press"),
         soft,
     ]
+}
+
+/// A cost over figures, parameters, and the preload as the machine states it.
+fn cost(machine: &Machine) -> Option<Cost> {
+    let formula = "2 + velocity^2 / stop.stiffness + sqrt(max(stop_force, drive_power)) * clearance + \
+                   0.1 * contact.damping^0.5 / excitation.frequency";
+    let preload = machine.value(Parameter::Preload);
+    let preload = preload.map(|value| format!(" + {} / {value}", machine.name(Parameter::Preload)));
+    let formula = formula.to_owned() + &preload.unwrap_or_default();
+    let expression = Expression::parse(&formula).ok()?;
+    let terms = expression.names().iter();
+    let terms = terms
+        .map(|name| Term::named(machine, name))
+        .collect::<Option<Vec<_>>>()?;
+    Some(Cost::new(&formula, expression, terms))
 }
 
 /// Each axis from 0.8 to 1.25 of the machine's value.
@@ -77,8 +95,10 @@ fn problem(machine: Machine) -> Problem {
     };
     let requirement = |figure| Requirement::new(figure, Some(unit(figure)), None);
     let requirements = FIGURES.map(requirement).to_vec();
+    let cost = cost(&machine).expect("a cost");
     Problem {
         requirements,
+        cost: Some(cost),
         ..Problem::of(machine, axes)
     }
 }
@@ -109,7 +129,7 @@ fn known() -> CriticalMachines {
         losses: LossDirections {
             directions: vec![vec![0.6, -0.3, 0.2, 1.0]],
         },
-        extremes: FIGURES[..8].iter().map(extreme).collect(),
+        extremes: FIGURES[..9].iter().map(extreme).collect(),
         ..CriticalMachines::default()
     }
 }

@@ -78,6 +78,7 @@ figures! {
     Integrity "integrity", Number, Least, true, "largest ball of starts about the motion that all lead to it, in halves of their box";
     RunUp "run_up", Number, Least, true, "ways to run up from rest into the motion";
     MissingStrips "missing_strips", Number, Least, true, "strips in a row that may be missing at any drive angle";
+    Cost "cost", Number, Most, false, "cost by the task's formula";
 }
 
 impl Figure {
@@ -97,7 +98,8 @@ impl Figure {
         }
     }
 
-    /// Its value in SI units, NaN if the motion has none; nothing if it takes more than the motion to tell it.
+    /// Its value in SI units, NaN if the motion has none; nothing if it takes more than the motion to tell it: a zone,
+    /// trials, or the formula of a cost.
     pub fn of_motion(self, orbit: &Orbit, stroke: &Stroke) -> Option<f64> {
         Some(match self {
             Self::Velocity => stroke.impact_velocity,
@@ -117,6 +119,11 @@ impl Figure {
             }
             _ => return None,
         })
+    }
+
+    /// True if a motion tells it by itself, without its zone and without trials.
+    pub const fn is_of_motion(self) -> bool {
+        !self.is_trial() && !self.is_margin()
     }
 
     /// True if it is a distance from where the motion is lost.

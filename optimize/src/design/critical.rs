@@ -3,7 +3,7 @@
 //! programming, Blankenship and Falk 1976).
 
 use softstop::Parameter;
-use softstop_dynamics::{Stroke, slopes};
+use softstop_dynamics::slopes;
 
 use super::constraint::Limit;
 use super::differences::differences;
@@ -16,7 +16,7 @@ use super::reach::{LossDirections, reserve};
 use super::requirement::{Requirement, Scope};
 use super::slope::Slope;
 use super::within::Rows;
-use crate::robust::{Neighbours, rates, value_of};
+use crate::robust::Neighbours;
 
 /// What a machine is extreme in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -195,13 +195,14 @@ fn slope_at(
     figure: Figure,
 ) -> Option<Slope> {
     let orbit = neighbours.motion(at)?;
-    let value = value_of(figure, &orbit)?;
+    let spread = neighbours.spread;
+    let value = spread.value(figure, &orbit)?;
     let exact = || {
         let rows = Rows::at(about, at)?;
         let mut parameters = rows.parameters().to_vec();
         parameters.push(Parameter::Frequency);
         let slopes = slopes::of(&orbit, &parameters).ok()?;
-        let by = rates(figure, &slopes, (&orbit, &Stroke::of(&orbit).ok()?))?;
+        let by = spread.rates(figure, &slopes, &orbit)?;
         Some(rows.chain(&parameters, &by))
     };
     let differenced = || {

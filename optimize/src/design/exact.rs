@@ -124,7 +124,8 @@ impl<'a> Linearization<'a> {
             Figure::Share => Some(self.place.iter().map(|by| -by).collect()),
             _ => {
                 let motion = (motion.orbit, &motion.stroke);
-                rates(figure, &self.slopes, motion).map(|by| self.total(&by))
+                let cost = self.problem.cost.as_ref();
+                rates((figure, cost), &self.slopes, motion).map(|by| self.total(&by))
             }
         }
     }

@@ -85,6 +85,17 @@ impl Found {
         }
     }
 
+    /// Takes the design of another search, which is the better one or as good.
+    pub(super) fn take_design(&mut self, problem: &Problem, other: &Self) {
+        let candidate = other.candidate();
+        *self = Self {
+            limits: limits(problem, &candidate, &other.known),
+            rivals: std::mem::take(&mut self.rivals),
+            ascents: self.ascents,
+            ..other.clone()
+        };
+    }
+
     /// Goes on from a design of a problem like this one: true if that has led to a better design.
     pub fn go_on_from(&mut self, problem: &Problem, from: &Candidate) -> bool {
         let mut start = from.clone();

@@ -216,7 +216,7 @@ fn place(problem: &Problem, figure: Figure, at: &Candidate) -> Option<(f64, f64)
     let value = match (within, figure) {
         (Some((.., worst)), _) => worst.value,
         (None, Figure::Certainty) => certainty(&at.design.orbit).ok()?,
-        (None, _) => at.design.judged().ok()?.value(figure),
+        (None, _) => problem.value(&at.design.judged().ok()?, figure),
     };
     value.is_finite().then_some((value, at.design.value))
 }

@@ -49,7 +49,7 @@ impl<'a> Judged<'a> {
         })
     }
 
-    /// The value of a figure in SI units; NaN if it has none, infinite where nothing bounds the motion.
+    /// The value of a figure in SI units; NaN if it has none or is a cost ([`Problem::value`]), infinite where nothing bounds the motion.
     pub fn value(&self, figure: Figure) -> f64 {
         if let Some(value) = figure.of_motion(self.orbit, &self.stroke) {
             return value;
@@ -227,11 +227,32 @@ impl Met {
 }
 
 impl Problem {
+    /// The value of a figure of a motion, as [`Judged::value`], or its cost.
+    pub fn value(&self, motion: &Judged<'_>, figure: Figure) -> f64 {
+        match figure {
+            Figure::Cost => self
+                .cost
+                .as_ref()
+                .map_or(f64::NAN, |cost| cost.value(motion.orbit, &motion.stroke)),
+            _ => motion.value(figure),
+        }
+    }
+
     /// What is sought of a motion, in SI units; none if it has no such figure.
     pub fn sought(&self, motion: &Judged<'_>) -> Option<f64> {
-        let value = motion.value(self.objective.figure);
+        let value = self.value(motion, self.objective.figure);
         let score = self.objective.score(value);
         (score > 0.0 && score.is_finite()).then_some(value)
+    }
+
+    /// The value of a figure that a motion tells by itself, or of its cost, in SI units; none if there is none.
+    pub fn value_of_motion(&self, figure: Figure, orbit: &Orbit) -> Option<f64> {
+        let stroke = Stroke::of(orbit).ok()?;
+        let value = match figure {
+            Figure::Cost => self.cost.as_ref()?.value(orbit, &stroke),
+            _ => figure.of_motion(orbit, &stroke)?,
+        };
+        value.is_finite().then_some(value)
     }
 
     /// The requirements that one motion tells, and what it has of them.
@@ -239,7 +260,7 @@ impl Problem {
         let all = self.requirements.iter().filter(|it| !it.figure.is_trial());
         all.map(|requirement| Met {
             requirement: *requirement,
-            value: motion.value(requirement.figure),
+            value: self.value(motion, requirement.figure),
             starts: None,
             within: None,
             violating: None,

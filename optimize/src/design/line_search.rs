@@ -7,7 +7,7 @@ use argmin::solver::brent::BrentOpt;
 use softstop::Machine;
 use softstop_dynamics::{BranchPoint, Orbit, Zone};
 
-use super::conflict::conflict;
+use super::conflict::{conflict, short};
 use super::judge::{Judged, violation};
 use super::problem::Problem;
 use super::space::Interval;
@@ -133,8 +133,17 @@ impl Line<'_> {
         let met = self.problem.met(&motion);
         match violation(&met) {
             0.0 => self.problem.sought(&motion).ok_or_else(|| {
-                let name = self.problem.objective.figure.name();
-                Infeasible::unknown(format!("{name} has no value"))
+                let figure = self.problem.objective.figure;
+                let name = figure.name();
+                Infeasible::unknown(match self.problem.value(&motion, figure) {
+                    value if value.is_finite() => {
+                        format!(
+                            "{name} is {}: what is sought must be positive",
+                            short(value)
+                        )
+                    }
+                    _ => format!("{name} has no value"),
+                })
             }),
             gap => Err(Infeasible {
                 gap,

@@ -152,7 +152,9 @@ fn slopes(
     let value = |here: &OperatingPoint| {
         let motion = &here.judged()?;
         let sought = problem.sought(motion)?;
-        let rest = figures[1..].iter().map(|figure| motion.value(*figure));
+        let rest = figures[1..]
+            .iter()
+            .map(|figure| problem.value(motion, *figure));
         let frequency = motion.orbit.scene.excitation.frequency;
         Some(
             [sought]

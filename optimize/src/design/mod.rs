@@ -5,6 +5,7 @@
 //! a zone is feasible. The zone does not depend on s: at each point it is computed once and the best s is
 //! then found along it (`line_search`). [`search`] drives the outer search.
 
+mod alternative;
 mod ascent;
 mod box_window;
 mod certain;
@@ -12,9 +13,11 @@ mod check_trials;
 pub mod conflict;
 pub mod constraint;
 pub mod coordinates;
+pub mod cost;
 pub mod critical;
 mod differences;
 mod exact;
+pub mod expression;
 mod found;
 pub mod front;
 mod improve_catalogue;
@@ -24,7 +27,11 @@ mod line_search;
 pub mod local;
 mod multipliers;
 mod nearest_miss;
+mod non_dominated;
 pub mod operating_point;
+pub mod pareto;
+mod pareto_search;
+mod posed;
 pub mod problem;
 pub mod reach;
 pub mod requirement;

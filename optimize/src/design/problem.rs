@@ -2,6 +2,7 @@
 
 use softstop::{Machine, Parameter};
 
+use super::cost::Cost;
 use super::figure::{Figure, Sense};
 use super::requirement::{Requirement, Scope};
 use super::slope::Slope;
@@ -27,8 +28,12 @@ pub struct Problem {
     pub reserve: f64,
     /// What is sought.
     pub objective: Objective,
+    /// What else is sought: a front trades it for the first.
+    pub traded: Vec<Objective>,
     /// What must hold.
     pub requirements: Vec<Requirement>,
+    /// The formula of [`Figure::Cost`].
+    pub cost: Option<Cost>,
 }
 
 /// A parameter that follows another one, in the machine's own units.
@@ -184,7 +189,9 @@ impl Problem {
             tolerances: Vec::new(),
             reserve: 1.0,
             objective: Objective::default(),
+            traded: Vec::new(),
             requirements: Vec::new(),
+            cost: None,
         }
     }
 
@@ -230,7 +237,7 @@ impl Problem {
         };
         let all: Vec<_> = self.tolerances.iter().filter_map(half_width).collect();
         let spread = (!all.is_empty()).then(|| Tolerances::new(machine, &all));
-        spread?.ok()
+        Some(spread?.ok()?.with_cost(self.cost.clone()))
     }
 
     /// True if something cannot be made exactly.

@@ -62,7 +62,7 @@ impl Requirement {
 
     /// Whether the motion of each machine within the tolerances is to be looked at.
     pub fn is_of_each_motion(&self) -> bool {
-        self.scope == Scope::Tolerances && is_of_motion(self.figure)
+        self.scope == Scope::Tolerances && self.figure.is_of_motion()
     }
 
     /// The sides on which a value may be too far, by the side that is good.
@@ -87,11 +87,6 @@ impl Requirement {
             margin => (-margin / unit).clamp(0.0, FARTHEST),
         }
     }
-}
-
-/// True if a motion tells a figure by itself, without its zone and without trials.
-pub(super) const fn is_of_motion(figure: Figure) -> bool {
-    !figure.is_trial() && !figure.is_margin()
 }
 
 /// The violation of what has no value.

@@ -7,6 +7,7 @@ use softstop_dynamics::watch::Kept;
 
 use super::figure::Figure;
 use super::front::{Front, Traded, front};
+use super::pareto::Pareto;
 use super::requirement::Scope;
 use super::search::{Found, SearchError, Settings, Unwatched, Watch, search, search_from};
 use super::{Design, Problem};
@@ -41,6 +42,8 @@ pub struct Solution {
     pub relaxed: Option<Design>,
     /// What more of one good costs of another, where it costs something.
     pub fronts: Vec<Front>,
+    /// The designs among which one can choose, if more than one thing is sought; the first of them is the design.
+    pub pareto: Option<Pareto>,
 }
 
 impl Problem {
@@ -78,6 +81,13 @@ impl Solution {
         if let Some(relaxed) = &relaxed {
             found.go_on_from(problem, &relaxed.candidate());
         }
+        let pareto = match problem.traded.is_empty() {
+            true => None,
+            false => Some(Pareto::search(problem, &found, (settings, watch))?),
+        };
+        if let Some(best) = pareto.as_ref().and_then(|it| it.points.first()) {
+            found.take_design(problem, &best.found);
+        }
         let mut fronts = Vec::new();
         for _ in 0..ROUNDS {
             if !beside.fronts || interrupt::requested() {
@@ -99,7 +109,9 @@ impl Solution {
             relaxed.go_on_from(&relaxed_problem, &found.candidate());
         }
         fronts.retain(|it| it.points.len() > 2 || it.left_out > 0);
+        let pareto = pareto.map(|it| it.with(problem, &found));
         Ok(Self {
+            pareto,
             found,
             relaxed: relaxed.map(|it| it.design),
             fronts,

@@ -22,6 +22,8 @@ pub trait Watch: Sync {
     fn evaluated(&self, value: Option<f64>);
     /// Whether to give up.
     fn stop(&self) -> bool;
+    /// So many problems of a front are done, of so many.
+    fn posed(&self, _done: u64, _all: u64) {}
     /// Work that the survey and the ascents from it may cost, in scan windows.
     fn budget(&self) -> u64 {
         u64::MAX

@@ -1,8 +1,11 @@
 //! `softstop optimize`: the hardest impact inside the hysteresis zone.
 
+mod cost;
+mod met;
 mod objective;
 mod older;
 pub mod outcome;
+pub mod pareto;
 mod progress;
 pub mod reference;
 mod require;
@@ -16,7 +19,6 @@ mod toml_leaves;
 mod vary;
 
 use std::path::PathBuf;
-use std::slice;
 
 use clap::Args;
 use softstop::{Dimension, Machine, Start};
@@ -32,7 +34,7 @@ use softstop_console::scene_file;
 use crate::design::Problem;
 use crate::fmu::{archive, library, parameters};
 use crate::page::figure::Figure;
-use crate::page::figures::{figures, response};
+use crate::page::figures::{figures, pareto, response};
 use crate::page::html;
 use crate::report::OptimizeReport;
 use outcome::Outcome;
@@ -76,7 +78,9 @@ A machine's file may hold a task (docs/tutorials/press.md takes a press from fil
     clearance = 3e-4
     stop.stiffness = \"5 %\"
     [objective]                              maximise or minimise: velocity, impact_energy, impact_power,
-    maximise = \"velocity\"                  stroke_work, drive_force, drive_power, stop_force
+    maximise = \"velocity\"                  stroke_work, drive_force, drive_power, stop_force, cost; lists, such as
+                                           maximise = [\"velocity\"], minimise = [\"stop_force\"], give a front of designs
+    cost = \"120 + 3e-5 * stop.stiffness\"   a formula over parameters and figures of a motion
     [require]                                a bound on its good side, or { least = 1, most = 2 }
     margin_sn = 0.5                          (softstop schema task lists all that can be required)
     stop_force = 5e5
@@ -89,7 +93,8 @@ With tolerances, all machines within them stay in the zone, and a million of the
 
 Files, whole or not at all: report.html (for people, one page), design.json (what --format json prints),
 design.toml (the machine, for every command), design.fmu (FMI 2.0 co-simulation, starting in the design's
-motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report.
+motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report; of a front pareto.csv and
+pareto.svg, and the design with the best of the figure that is named first in the others.
 Ctrl-C writes the best design so far, marked as such and without its report; a second one ends at once.";
 
 /// Has the tasks checked that stand in machine files, by every command.
@@ -155,13 +160,14 @@ pub struct OptimizeArguments {
 }
 
 /// The files of a run by their kinds, besides the tables.
-const FILES: [(&str, &str); 6] = [
+const FILES: [(&str, &str); 7] = [
     ("json", "design.json"),
     ("svg", "design.svg"),
     ("fmu", "design.fmu"),
     ("toml", "design.toml"),
     ("ssv", "design.ssv"),
     ("html", "report.html"),
+    ("pareto_svg", "pareto.svg"),
 ];
 
 /// Searches, prints and writes the files.
@@ -179,6 +185,10 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         }
         outcome => outcome?,
     };
+    if let Some(mut front) = outcome.pareto.take() {
+        outcome.go_on(|_| front.look_at_machines(&job))?;
+        outcome.pareto = Some(front);
+    }
     let looked = match outcome.go_on(|outcome| Looked::new(&job, outcome, true))? {
         Some(looked) => looked,
         None => Looked::new(&job, &outcome, false)?,
@@ -187,8 +197,15 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         outcome.note_violating(study.violating());
     }
     let report = looked.report(&job, &outcome);
+    if let Some(front) = &report.pareto {
+        export.sheets([&front.sheet])?;
+    }
     let name = job.problem.machine.name.as_deref().unwrap_or_default();
     export.file("svg", looked.response.document(name).as_bytes())?;
+    match &looked.pareto {
+        Some(picture) => export.file("pareto_svg", picture.document(name).as_bytes())?,
+        None => export.forgo("pareto_svg"),
+    }
     let start = Start::from(outcome.design.orbit.state());
     let machine = Machine {
         start,
@@ -222,6 +239,8 @@ struct Looked {
     references: Vec<Reference>,
     study: Option<Study>,
     response: Figure,
+    /// The designs of a front.
+    pareto: Option<Figure>,
     /// The other pictures.
     figures: Vec<Figure>,
 }
@@ -236,6 +255,8 @@ impl Looked {
             false => None,
         };
         let response = response(problem, design, &references, study.as_ref());
+        let front = outcome.pareto.as_ref();
+        let pareto = front.map(|it| pareto(problem, &it.pareto));
         let figures = match is_whole && job.report {
             true => figures(problem, outcome, study.as_ref()),
             false => Vec::new(),
@@ -244,6 +265,7 @@ impl Looked {
             references,
             study,
             response,
+            pareto,
             figures,
         })
     }
@@ -255,7 +277,8 @@ impl Looked {
         report.title = job.title.clone();
         report.sources = job.sources.clone();
         if !self.figures.is_empty() {
-            report.figures = [&self.figures[..], slice::from_ref(&self.response)].concat();
+            let more = self.pareto.iter().chain([&self.response]).cloned();
+            report.figures = self.figures.iter().cloned().chain(more).collect();
         }
         report
     }

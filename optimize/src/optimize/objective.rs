@@ -1,5 +1,7 @@
 //! What a task seeks: the table `[objective]`.
 
+use std::slice;
+
 use serde::Deserialize;
 use softstop::internals::{did_you_mean, nearest};
 use softstop::{Machine, Parameter};
@@ -16,9 +18,28 @@ const VELOCITY: &str = Figure::Velocity.name();
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Goal {
-    maximise: Option<String>,
-    minimise: Option<String>,
+    maximise: Option<Names>,
+    minimise: Option<Names>,
     of: Option<Whose>,
+    /// The formula of [`Figure::Cost`].
+    pub(super) cost: Option<String>,
+}
+
+/// One figure, or all that a front trades.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged, expecting = "expected a figure or a list of figures")]
+enum Names {
+    One(String),
+    Several(Vec<String>),
+}
+
+impl Names {
+    fn all(&self) -> &[String] {
+        match self {
+            Self::One(name) => slice::from_ref(name),
+            Self::Several(names) => names,
+        }
+    }
 }
 
 /// Whose figure counts.
@@ -31,20 +52,88 @@ enum Whose {
     Worst,
 }
 
-/// What is sought: the highest before-impact velocity, if nothing is said.
-pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Failure> {
-    let (name, sense, says) = match (&goal.maximise, &goal.minimise) {
-        (None, None) => (&VELOCITY.to_owned(), Sense::Least, "maximise"),
-        (Some(name), None) => (name, Sense::Least, "maximise"),
-        (None, Some(name)) => (name, Sense::Most, "minimise"),
-        (Some(_), Some(_)) => {
+/// Objectives of a front at most.
+pub(super) const MAX_OBJECTIVES: usize = 5;
+
+/// What is sought, the first to be maximised in front: the highest before-impact velocity, if nothing is said.
+pub(super) fn objectives(machine: &Machine, goal: &Goal) -> Result<Vec<Objective>, Failure> {
+    let usual = Names::One(VELOCITY.to_owned());
+    let sides = match (&goal.maximise, &goal.minimise) {
+        (None, None) => [(Some(&usual), Sense::Least), (None, Sense::Most)],
+        (Some(Names::One(_)), Some(Names::One(_))) => {
             return Err(Failure::usage(
-                "objective: only one of maximise and minimise can be given",
+                "objective: only one of maximise and minimise can be given, or lists of figures for a front of designs",
             ));
         }
+        (most, least) => [(most.as_ref(), Sense::Least), (least.as_ref(), Sense::Most)],
+    };
+    let named = sides.into_iter().flat_map(|(names, sense)| {
+        let names = names.map_or(&[][..], Names::all).iter();
+        names.map(move |name| (name, sense))
+    });
+    let named: Vec<(&String, Sense)> = named.collect();
+    let is_front = named.len() > 1;
+    let scope = match goal.of {
+        Some(Whose::Worst) => Scope::Tolerances,
+        Some(Whose::Drawing) | None => Scope::Drawing,
+    };
+    let mut all: Vec<Objective> = Vec::new();
+    for (name, sense) in named {
+        let figure = sought(machine, goal, (name, sense), is_front)?;
+        if all.iter().any(|it| it.figure == figure) {
+            return Err(Failure::usage(format!("objective: {name} is given twice")));
+        }
+        all.push(Objective {
+            figure,
+            sense,
+            scope,
+        });
+    }
+    match all.len() {
+        0 => Err(Failure::usage("objective: the lists name no figure")),
+        count if count > MAX_OBJECTIVES => Err(Failure::usage(format!(
+            "objective: {count} figures are too many for a front: {MAX_OBJECTIVES} at most"
+        ))),
+        _ => Ok(all),
+    }
+}
+
+/// A figure that can be sought, alone or in a front.
+fn sought(
+    machine: &Machine,
+    goal: &Goal,
+    (name, sense): (&str, Sense),
+    is_front: bool,
+) -> Result<Figure, Failure> {
+    let says = match sense {
+        Sense::Least => "maximise",
+        Sense::Most => "minimise",
     };
     let figure = known(&format!("objective.{says} = "), name)?;
-    let is_sought = matches!(
+    let wrong = |what: &str| Failure::usage(format!("objective.{says} = {name}: {what}"));
+    match is_front {
+        true if !is_traded(figure) => {
+            return Err(wrong(
+                "cannot be traded: it takes many motions, or is infinite where nothing bounds it; it goes to [require]",
+            ));
+        }
+        false if !is_sought(figure) => {
+            return Err(wrong(
+                "must be velocity, impact_energy, impact_power, stroke_work, drive_force, drive_power, stop_force or cost; \
+                 what else counts goes to [require]",
+            ));
+        }
+        _ => {}
+    }
+    match lacks(machine, goal, figure) {
+        Some(lacks) => Err(wrong(&lacks)),
+        None => Ok(figure),
+    }
+}
+
+/// Whether a figure can be the only one that is sought.
+const fn is_sought(figure: Figure) -> bool {
+    matches!(
         figure,
         Figure::Velocity
             | Figure::ImpactEnergy
@@ -53,27 +142,17 @@ pub(super) fn objective(machine: &Machine, goal: &Goal) -> Result<Objective, Fai
             | Figure::DriveForce
             | Figure::DrivePower
             | Figure::StopForce
-    );
-    if !is_sought {
-        return Err(Failure::usage(format!(
-            "objective.{says} = {name}: must be velocity, impact_energy, impact_power, stroke_work, drive_force, \
-             drive_power or stop_force; what else counts goes to [require]"
-        )));
-    }
-    if let Some(lacks) = lacks(machine, figure) {
-        return Err(Failure::usage(format!(
-            "objective.{says} = {name}: this machine has no {lacks}"
-        )));
-    }
-    let scope = match goal.of {
-        Some(Whose::Worst) => Scope::Tolerances,
-        Some(Whose::Drawing) | None => Scope::Drawing,
-    };
-    Ok(Objective {
+            | Figure::Cost
+    )
+}
+
+/// Whether a figure can be one of those that a front trades: one motion and its zone tell it, and it is finite.
+pub(super) const fn is_traded(figure: Figure) -> bool {
+    let is_unbounded = matches!(
         figure,
-        sense,
-        scope,
-    })
+        Figure::FrequencyPd | Figure::ClearanceSn | Figure::ClearancePd
+    );
+    !figure.is_trial() && !is_unbounded
 }
 
 pub(super) fn known(place: &str, name: &str) -> Result<Figure, Failure> {
@@ -87,10 +166,13 @@ pub(super) fn known(place: &str, name: &str) -> Result<Figure, Failure> {
     })
 }
 
-/// What a machine would have to have for a figure.
-pub(super) fn lacks(machine: &Machine, figure: Figure) -> Option<&'static str> {
+/// What machine or task would have to have for a figure.
+pub(super) fn lacks(machine: &Machine, goal: &Goal, figure: Figure) -> Option<String> {
     let scene = &machine.scene;
-    match figure {
+    let lacks = match figure {
+        Figure::Cost if goal.cost.is_none() => {
+            return Some("no formula states it: objective.cost = \"...\" does".to_owned());
+        }
         Figure::CutThrough | Figure::MissingStrips | Figure::StrokeWork
             if scene.piercing.is_none() =>
         {
@@ -103,5 +185,6 @@ pub(super) fn lacks(machine: &Machine, figure: Figure) -> Option<&'static str> {
             Some("drive amplitude of its own: it speaks ratios, whose unit of force is F0")
         }
         _ => None,
-    }
+    };
+    lacks.map(|lacks| format!("this machine has no {lacks}"))
 }

@@ -6,6 +6,7 @@ use softstop_console::interrupt;
 use softstop_dynamics::basin::ErosionProfile;
 use softstop_dynamics::run_up::RunUp;
 
+use super::pareto::CheckedFront;
 use crate::design::Design;
 use crate::design::constraint::Limit;
 use crate::design::front::Front;
@@ -75,6 +76,8 @@ pub struct Outcome {
     pub run_up: Option<RunUp>,
     /// What more of one good costs of another, for the report.
     pub fronts: Vec<Front>,
+    /// The designs among which one can choose, if more than one thing is sought.
+    pub pareto: Option<CheckedFront>,
 }
 
 impl Outcome {

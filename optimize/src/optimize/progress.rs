@@ -1,7 +1,7 @@
 //! The progress of a search: how many zones it has seen, the best so far, and when it ends.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, OnceLock};
 
 use crate::design::Problem;
 use crate::design::problem::Objective;
@@ -11,7 +11,9 @@ use softstop_console::progress::Progress;
 
 /// Watches a search.
 pub(super) struct Best {
-    progress: Progress,
+    /// None once a front is searched.
+    zones: Mutex<Option<Progress>>,
+    front: OnceLock<Progress>,
     best: Mutex<Option<f64>>,
     evaluations: AtomicU64,
     budget: u64,
@@ -23,7 +25,8 @@ impl Best {
     pub(super) fn new(problem: &Problem, evaluations: u64, budget: u64) -> Self {
         let objective = problem.objective;
         Self {
-            progress: Progress::new(evaluations, "zones"),
+            zones: Mutex::new(Some(Progress::new(evaluations, "zones"))),
+            front: OnceLock::new(),
             best: Mutex::new(None),
             evaluations: AtomicU64::new(0),
             budget,
@@ -41,18 +44,26 @@ impl Best {
 impl Watch for Best {
     fn evaluated(&self, value: Option<f64>) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
-        self.progress.more(1);
-        let Some(value) = value else { return };
-        let Ok(mut best) = self.best.lock() else {
+        let (Ok(zones), Ok(mut best)) = (self.zones.lock(), self.best.lock()) else {
             return;
         };
+        let Some(zones) = &*zones else { return };
+        zones.more(1);
+        let Some(value) = value else { return };
         let score = |value| self.objective.score(value);
         if best.is_none_or(|best| score(value) > score(best)) {
             *best = Some(value);
             let (what, unit) = (self.objective.words(), self.unit);
-            self.progress
-                .say(format!("{what} {value:.4} {unit}").trim_end());
+            zones.say(format!("{what} {value:.4} {unit}").trim_end());
         }
+    }
+
+    fn posed(&self, done: u64, all: u64) {
+        if let Ok(mut zones) = self.zones.lock() {
+            *zones = None;
+        }
+        let front = || Progress::new(all, "problems of the front");
+        self.front.get_or_init(front).at(done);
     }
 
     fn stop(&self) -> bool {

@@ -6,7 +6,7 @@ use softstop_console::failure::Failure;
 use softstop_dynamics::run_up::Way;
 use toml::{Table, Value};
 
-use super::objective::{known, lacks};
+use super::objective::{Goal, known, lacks};
 use super::toml_leaves::number;
 use crate::design::figure::{Figure, Sense};
 use crate::design::requirement::{Requirement, Scope};
@@ -45,7 +45,11 @@ pub(super) struct Required {
 pub(super) const RESERVE: &str = "tolerance_reserve";
 
 /// Reads `[require]`.
-pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Required, Failure> {
+pub(super) fn requirements(
+    machine: &Machine,
+    goal: &Goal,
+    table: &Table,
+) -> Result<Required, Failure> {
     let reserve = match table.get(RESERVE) {
         None => 1.0,
         Some(value) => {
@@ -103,11 +107,9 @@ pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Required,
     let all: Result<Vec<Requirement>, Failure> = figures.map(one).collect();
     let mut all = all?;
     for requirement in &all {
-        if let Some(lacks) = lacks(machine, requirement.figure) {
+        if let Some(lacks) = lacks(machine, goal, requirement.figure) {
             let name = requirement.figure.name();
-            return Err(Failure::usage(format!(
-                "require.{name}: this machine has no {lacks}"
-            )));
+            return Err(Failure::usage(format!("require.{name}: {lacks}")));
         }
     }
     let share = all.extract_if(.., |it| it.figure == Figure::Share).next();

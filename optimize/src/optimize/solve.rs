@@ -7,15 +7,16 @@ use softstop_console::keep::Keep;
 use softstop_dynamics::basin::{ErosionProfile, zone_box};
 use softstop_dynamics::run_up::RunUp;
 
+use super::met::met;
 use super::outcome::{Interrupted, Outcome, PLACES};
+use super::pareto::CheckedFront;
 use super::progress::Best;
 use super::task::Job;
-use crate::design::judge::{Met, Within};
+use crate::design::Design;
+use crate::design::judge::Met;
 use crate::design::search::SearchError;
 use crate::design::solution::{Beside, Solution};
 use crate::design::trial::{ANGLES, STARTS};
-use crate::design::{Design, Problem};
-use crate::robust::Worst;
 
 /// Searches, and looks at what was found; a search that is interrupted ends with its best design, if that is as asked.
 pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
@@ -41,6 +42,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
                 found: *found,
                 relaxed: None,
                 fronts: Vec::new(),
+                pareto: None,
             }
         }
         Err(SearchError::Stopped(None)) => return Err(Failure::Interrupted),
@@ -51,6 +53,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         found,
         relaxed,
         fronts,
+        pareto,
     } = solution;
     let mut met = met(&job.problem, &found.design);
     if interrupt::requested() {
@@ -65,6 +68,10 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     if interrupted == Some(Interrupted::Search) && !is_whole(&found.design) {
         return Err(Failure::Interrupted);
     }
+    let pareto = pareto.map(|it| match interrupted {
+        None => CheckedFront::new(&job.problem, it),
+        Some(_) => CheckedFront::found(it),
+    });
     let design = &found.design;
     let watcher = &interrupt::watch;
     let (erosion, run_up) = match job.report && interrupted.is_none() {
@@ -80,6 +87,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         erosion,
         run_up,
         fronts,
+        pareto,
         relaxed,
         limits: found.limits,
         rivals: found.rivals,
@@ -100,27 +108,4 @@ fn erosion(design: &Design) -> Option<ErosionProfile> {
     let mut profile = ErosionProfile::of(&design.zone, &region, (&places, STARTS), watcher).ok()?;
     profile.widened |= widened;
     Some(profile)
-}
-
-/// What a design has of all that is required, in its own machine and in the worst within the tolerances.
-fn met(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
-    let motion = design.judged().map_err(anyhow::Error::from)?;
-    let mut met = Vec::from_iter(problem.share(&motion));
-    let worst = problem.worst_of_required(design);
-    met.extend(problem.met(&motion).into_iter().map(|met| {
-        let own = worst
-            .iter()
-            .filter(|(figure, ..)| *figure == met.requirement.figure);
-        let own = own.map(|(.., worst)| worst);
-        let margin = |it: &&Worst| met.requirement.margin(it.value);
-        let nearest = own.min_by(|a, b| margin(a).total_cmp(&margin(b)));
-        let is_asked = met.requirement.is_of_each_motion();
-        let within = nearest.filter(|_| is_asked).map(|it| Within {
-            worst: it.value,
-            at: it.at.clone(),
-        });
-        Met { within, ..met }
-    }));
-    met.extend(problem.tried(design).map_err(anyhow::Error::from)?);
-    Ok(met)
 }

@@ -14,7 +14,8 @@ use softstop_console::range::require;
 use softstop_console::scene_file;
 use toml::Table;
 
-use super::objective::objective;
+use super::cost::cost;
+use super::objective::{Goal, objectives};
 use super::require::{RESERVE, Required, requirements};
 use super::task_spec::{Search, TaskSpec};
 use super::title::{Source, Title};
@@ -22,6 +23,7 @@ use super::tolerance::tolerances;
 use super::vary::{Searched, held, searched, variables};
 use super::{OptimizeArguments, older};
 use crate::design::Problem;
+use crate::design::cost::Cost;
 use crate::design::problem::{Objective, Tolerance};
 use crate::design::requirement::Scope;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
@@ -63,8 +65,9 @@ impl Job {
             figures: requirements,
             margin: share,
             reserve,
-        } = requirements(&machine, &task.require)?;
-        let objective = objective(&machine, &task.objective)?;
+        } = requirements(&machine, &task.objective, &task.require)?;
+        let Sought { objectives, cost } = Sought::new(&machine, &task.objective)?;
+        let (objective, traded) = (objectives[0], objectives[1..].to_vec());
         let is_exact = tolerances.iter().all(Tolerance::is_exact);
         has_tolerances(is_exact, &objective, &task.require)?;
         let says_where = !is_exact || requirements.iter().any(|it| it.figure.is_margin());
@@ -119,7 +122,9 @@ impl Job {
                 tolerances,
                 reserve,
                 objective,
+                traded,
                 requirements,
+                cost,
             },
             settings: Settings { evaluations },
             samples: arguments.samples,
@@ -133,6 +138,22 @@ impl Job {
             format: arguments.format.or(task.format).unwrap_or_default(),
             title: task.report,
             sources,
+        })
+    }
+}
+
+/// What a task seeks.
+struct Sought {
+    objectives: Vec<Objective>,
+    cost: Option<Cost>,
+}
+
+impl Sought {
+    fn new(machine: &Machine, goal: &Goal) -> Result<Self, Failure> {
+        let formula = goal.cost.as_ref();
+        Ok(Self {
+            objectives: objectives(machine, goal)?,
+            cost: formula.map(|text| cost(machine, text)).transpose()?,
         })
     }
 }
@@ -165,8 +186,8 @@ impl Job {
 pub(super) fn check(machine: &Machine, text: &str) -> Result<(), Failure> {
     let task = TaskSpec::beside_machine(text)?.unwrap_or_default();
     tolerances(machine, &task.tolerance)?;
-    requirements(machine, &task.require)?;
-    objective(machine, &task.objective)?;
+    requirements(machine, &task.objective, &task.require)?;
+    Sought::new(machine, &task.objective)?;
     searched(machine, &[variables(&task.vary)?], false)?;
     Ok(())
 }

@@ -13,7 +13,7 @@ use softstop_console::output::Format;
 use softstop_console::schema;
 use toml::Table;
 
-use super::objective::Goal;
+use super::objective::{Goal, MAX_OBJECTIVES, is_traded};
 use super::require::RESERVE;
 use super::title::Title;
 use crate::design::figure::Figure;
@@ -72,16 +72,20 @@ task! {
     vary: Table, json!({ "type": "object" });
     /// Half-widths of what cannot be made exactly: `clearance = 0.1` or `"2 %"`.
     tolerance: Table, json!({ "type": "object" });
-    /// What is sought: `maximise` or `minimise` a figure.
+    /// What is sought: `maximise` or `minimise` a figure, or lists of them for a front of designs.
     objective: Goal, json!({
         "type": "object",
         "properties": {
-            "maximise": { "type": "string" },
-            "minimise": { "type": "string" },
+            "maximise": sought(),
+            "minimise": sought(),
+            "cost": { "type": "string", "description": "formula of the figure cost over parameters and figures of a motion" },
             "of": { "enum": ["drawing", "worst"], "description": "whose figure counts: the drawing's, or that of the worst machine within the tolerances" }
         },
         "additionalProperties": false,
-        "not": { "required": ["maximise", "minimise"] }
+        "not": {
+            "required": ["maximise", "minimise"],
+            "properties": { "maximise": { "type": "string" }, "minimise": { "type": "string" } }
+        }
     });
     /// What must hold: a number, or `{ least = 10, most = 12 }`, for each figure.
     require: Table, requirements_schema();
@@ -120,6 +124,16 @@ task! {
 
 fn evaluations() -> serde_json::Value {
     json!({ "type": "integer", "minimum": LEAST_EVALUATIONS })
+}
+
+/// A figure that is sought, or a list of them.
+fn sought() -> serde_json::Value {
+    let traded = Figure::ALL.iter().filter(|it| is_traded(**it));
+    let names: Vec<&str> = traded.map(|it| it.name()).collect();
+    json!({ "anyOf": [
+        { "type": "string" },
+        { "type": "array", "items": { "enum": names }, "maxItems": MAX_OBJECTIVES }
+    ] })
 }
 
 /// The table `[search]`.

@@ -26,11 +26,16 @@ pub use worst::{Worst, worst};
 pub(crate) use corners::corners;
 pub(crate) use meeting::is_loss;
 pub(crate) use nearest::first_losses;
-pub(crate) use neighbours::{Neighbours, value_of};
+pub(crate) use neighbours::Neighbours;
 pub(crate) use rates::rates;
 
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
+use softstop_dynamics::figure::Figure;
+use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::spread::Spread;
+use softstop_dynamics::{Orbit, Stroke};
+
+use crate::design::cost::Cost;
 
 /// How far a parameter may lie from its design value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +51,7 @@ pub struct Tolerance {
 pub struct Tolerances {
     machine: Machine,
     tolerances: Vec<Tolerance>,
+    cost: Option<Cost>,
 }
 
 impl Tolerances {
@@ -68,7 +74,39 @@ impl Tolerances {
                 ..machine.clone()
             },
             tolerances: tolerances.to_vec(),
+            cost: None,
         })
+    }
+
+    /// With the formula of what its machines cost.
+    #[must_use]
+    pub fn with_cost(self, cost: Option<Cost>) -> Self {
+        Self { cost, ..self }
+    }
+
+    /// The value of a figure of a motion of one of the machines; none if it has none, or not by itself.
+    pub(crate) fn value(&self, figure: Figure, orbit: &Orbit) -> Option<f64> {
+        self.value_of_stroke(figure, orbit, &Stroke::of(orbit).ok()?)
+    }
+
+    /// [`Tolerances::value`] of a motion whose stroke is known.
+    pub(crate) fn value_of_stroke(
+        &self,
+        figure: Figure,
+        orbit: &Orbit,
+        stroke: &Stroke,
+    ) -> Option<f64> {
+        let value = match figure {
+            Figure::Cost => self.cost.as_ref()?.value(orbit, stroke),
+            _ => figure.of_motion(orbit, stroke)?,
+        };
+        value.is_finite().then_some(value)
+    }
+
+    /// The derivatives of a figure of a motion by the parameters of its slopes; none if it has no exact ones.
+    pub(crate) fn rates(&self, figure: Figure, slopes: &Slopes, orbit: &Orbit) -> Option<Vec<f64>> {
+        let stroke = Stroke::of(orbit).ok()?;
+        rates((figure, self.cost.as_ref()), slopes, (orbit, &stroke))
     }
 
     /// The tolerances, in the order of the coordinates.

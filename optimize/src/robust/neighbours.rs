@@ -1,10 +1,12 @@
 //! Motions of machines near one whose motion is known.
 
 use nalgebra::Vector2;
+use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes;
 use softstop_dynamics::spread::{Settled, Spread, along, in_coordinates, varied};
-use softstop_dynamics::{Orbit, Stroke};
+
+use super::Tolerances;
 
 /// How far from where its derivatives lead a motion may be found: a share of that way, and so far anyway, in the scales of the
 /// motion.
@@ -13,14 +15,14 @@ const NEAR: f64 = 1e-3;
 
 /// The machines of a spread, about the motion of the nominal one.
 pub(crate) struct Neighbours<'a> {
-    pub spread: &'a dyn Spread,
+    pub spread: &'a Tolerances,
     pub nominal: &'a Orbit,
     /// How position and velocity at time 0 change with each coordinate; none where they have no derivatives.
     state: Option<[Vec<f64>; 2]>,
 }
 
 impl<'a> Neighbours<'a> {
-    pub fn new(spread: &'a dyn Spread, nominal: &'a Orbit) -> Self {
+    pub fn new(spread: &'a Tolerances, nominal: &'a Orbit) -> Self {
         let centre = vec![0.0; spread.dimensions()];
         let slopes = slopes::of(nominal, &varied(spread, &centre)).ok();
         let state = slopes.map(|slopes| {
@@ -57,12 +59,6 @@ impl<'a> Neighbours<'a> {
 
     /// The value of a figure of the motion at some coordinates.
     pub fn value(&self, at: &[f64], figure: Figure) -> Option<f64> {
-        value_of(figure, &self.motion(at)?)
+        self.spread.value(figure, &self.motion(at)?)
     }
-}
-
-/// The value of a figure of a motion; none if it has none, or not by itself.
-pub(crate) fn value_of(figure: Figure, orbit: &Orbit) -> Option<f64> {
-    let value = figure.of_motion(orbit, &Stroke::of(orbit).ok()?)?;
-    value.is_finite().then_some(value)
 }

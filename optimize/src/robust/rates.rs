@@ -7,13 +7,15 @@ use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::{Orbit, Stroke};
 
+use crate::design::cost::Cost;
+
 /// Distance, relative, within which two figures are the same one.
 const SAME: f64 = 1e-9;
 
-/// The derivatives of a figure of a motion by the parameters of its slopes; none if it is not among those that have exact
-/// ones.
+/// The derivatives of a figure of a motion, or of its cost, by the parameters of its slopes; none if it is not among those
+/// that have exact ones.
 pub(crate) fn rates(
-    figure: Figure,
+    (figure, cost): (Figure, Option<&Cost>),
     slopes: &Slopes,
     (orbit, stroke): (&Orbit, &Stroke),
 ) -> Option<Vec<f64>> {
@@ -58,6 +60,10 @@ pub(crate) fn rates(
         Figure::CutThrough => {
             let by = plus(slopes.max_position.by.clone(), Parameter::Clearance, -1.0);
             Some(plus(by, Parameter::Thickness, -1.0))
+        }
+        Figure::Cost => {
+            let rates = |figure| rates((figure, None), slopes, (orbit, stroke));
+            cost?.rates(slopes, (orbit, stroke), rates)
         }
         _ => None,
     }

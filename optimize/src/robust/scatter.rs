@@ -8,6 +8,7 @@ use softstop_dynamics::watch::{Watcher, unwatched};
 use softstop_dynamics::zone::{ZoneError, hysteresis_soon};
 use softstop_dynamics::{Orbit, Zone};
 
+use super::Tolerances;
 use super::indices::{Effort, Index, indices};
 use super::worst::nominal_slopes;
 
@@ -34,7 +35,7 @@ pub fn shares(slopes: &[f64]) -> Vec<f64> {
 /// # Errors
 /// [`ZoneError`] where a fold has no derivatives, or there is no motion to difference beside this one.
 pub fn sensitivities(
-    spread: &dyn Spread,
+    spread: &Tolerances,
     nominal: &Orbit,
     zone: &Zone,
 ) -> Result<Sensitivities, ZoneError> {

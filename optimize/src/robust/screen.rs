@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use softstop_dynamics::spread::{Fate, Guide, Model, Spread};
 use softstop_dynamics::{Orbit, Stroke};
 
+use super::Tolerances;
 use crate::design::requirement::Requirement;
 
 /// How many times the largest misfit of a polynomial a value has to lie within its bounds to be within them without doubt.
@@ -11,7 +12,7 @@ const RESERVE: f64 = 10.0;
 
 /// Judges the machines of a spread.
 pub(super) struct Screen<'a> {
-    spread: &'a dyn Spread,
+    spread: &'a Tolerances,
     required: &'a [Requirement],
     /// For two requirements each, with their largest misfits; none if machines that are known lose the motion.
     models: Option<Vec<(Model, [f64; 2])>>,
@@ -20,7 +21,7 @@ pub(super) struct Screen<'a> {
 impl<'a> Screen<'a> {
     /// From machines at some places of the box.
     pub fn new(
-        spread: &'a dyn Spread,
+        spread: &'a Tolerances,
         guide: &Guide<'_>,
         (places, required): (&[Vec<f64>], &'a [Requirement]),
     ) -> Self {
@@ -45,9 +46,9 @@ impl<'a> Screen<'a> {
         };
         let orbit = Orbit::near(&self.spread.scene(at), settled.state).ok()?;
         let stroke = Stroke::of(&orbit).ok()?;
-        let value = |it: &Requirement| it.figure.of_motion(&orbit, &stroke);
-        let values = self.required.iter().map(value);
-        values.map(|it| it.filter(|it| it.is_finite())).collect()
+        let spread = self.spread;
+        let value = |it: &Requirement| spread.value_of_stroke(it.figure, &orbit, &stroke);
+        self.required.iter().map(value).collect()
     }
 
     /// Whether a machine violates each requirement.

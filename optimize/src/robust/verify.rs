@@ -11,6 +11,7 @@ use softstop_dynamics::spread::{Fate, Guide, Model, Settled, Spread};
 use softstop_dynamics::watch::Watcher;
 use softstop_dynamics::zone::Loss;
 
+use super::Tolerances;
 use super::screen::Screen;
 use crate::design::requirement::Requirement;
 
@@ -144,7 +145,7 @@ impl Verdict {
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from.
 pub fn verify(
-    spread: &dyn Spread,
+    spread: &Tolerances,
     nominal: &Orbit,
     (settings, required): (Settings, &[Requirement]),
     watcher: Watcher<'_>,

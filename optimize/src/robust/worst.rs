@@ -1,16 +1,16 @@
 //! The worst machine between the bounds.
 
 use rayon::prelude::*;
+use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::{Figure, Sense};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::slopes;
 use softstop_dynamics::spread::{Spread, in_coordinates, varied};
 use softstop_dynamics::watch::Watcher;
-use softstop_dynamics::{Orbit, Stroke};
 
+use super::Tolerances;
 use super::corners::corners;
-use super::neighbours::{Neighbours, value_of};
-use super::rates::rates;
+use super::neighbours::Neighbours;
 
 /// Steps towards the worst machine, and halvings of one.
 const STEPS: usize = 60;
@@ -45,7 +45,7 @@ pub struct Worst {
 /// # Errors
 /// [`OrbitError::Stopped`]; [`OrbitError`] if the nominal motion is not one to start from.
 pub fn worst(
-    spread: &dyn Spread,
+    spread: &Tolerances,
     nominal: &Orbit,
     figures: &[(Figure, Sense)],
     watcher: Watcher<'_>,
@@ -68,9 +68,9 @@ pub fn worst(
 }
 
 /// The derivatives of a figure of a motion by the coordinates; none if it has no exact ones.
-fn slopes_of(figure: Figure, spread: &dyn Spread, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
+fn slopes_of(figure: Figure, spread: &Tolerances, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
     let slopes = slopes::of(orbit, &varied(spread, at)).ok()?;
-    let by = rates(figure, &slopes, (orbit, &Stroke::of(orbit).ok()?))?;
+    let by = spread.rates(figure, &slopes, orbit)?;
     Some(in_coordinates(spread, at, &slopes.parameters, &by))
 }
 
@@ -126,7 +126,8 @@ impl Search<'_> {
 
     /// What is least where a motion is worst.
     fn signed(&self, orbit: &Orbit) -> Option<f64> {
-        value_of(self.figure, orbit).map(|value| self.sign * value)
+        let value = self.neighbours.spread.value(self.figure, orbit);
+        value.map(|value| self.sign * value)
     }
 
     /// The derivatives of a motion's figure: exact, or by differences where it has no exact ones.
@@ -149,7 +150,7 @@ impl Search<'_> {
         let slopes = self.slopes(&at, &orbit);
         Some(Worst {
             slopes: slopes.unwrap_or_else(|| vec![0.0; at.len()]),
-            value: value_of(self.figure, &orbit)?,
+            value: self.neighbours.spread.value(self.figure, &orbit)?,
             at,
             orbit,
         })
@@ -206,7 +207,7 @@ impl Search<'_> {
 
 /// d(before-impact velocity)/d(coordinate) in m/s of the nominal motion.
 pub(super) fn nominal_slopes(
-    spread: &dyn Spread,
+    spread: &Tolerances,
     nominal: &Orbit,
     watcher: Watcher<'_>,
 ) -> Result<Vec<f64>, OrbitError> {

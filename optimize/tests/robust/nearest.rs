@@ -7,7 +7,7 @@ use approx::assert_relative_eq;
 use rayon::prelude::*;
 use softstop::Parameter;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::spread::{Scaled, Spread, along};
+use softstop_dynamics::spread::{Spread, along};
 use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{self, Loss};
 use softstop_optimize::robust::{Manifold, Nearest, Norm, Settings, nearest, verify};
@@ -85,7 +85,7 @@ fn no_machine_within_is_lost_and_some_are_just_outside() -> Outcome {
                 .filter(|one| one.manifold != Manifold::Hysteresis);
             let least = lost.next();
             let factor = least.map_or(FARTHEST, |least| least.distance);
-            let within = Scaled(&tolerances, 0.9999 * factor);
+            let (within, _) = spread(&machine, &percent, 0.9999 * factor)?;
             let verdict = verify(&within, &nominal, (few(4096), &[]), &unwatched)?;
             assert_eq!(
                 verdict.lost, 0,
@@ -97,7 +97,7 @@ fn no_machine_within_is_lost_and_some_are_just_outside() -> Outcome {
             let end = along(&tolerances, &nominal, &worst, 1.0001 * factor)?;
             assert_eq!(end.loss.map(Manifold::Motion), Some(least.manifold.clone()));
             if percent.len() == 2 {
-                let outside = Scaled(&tolerances, 1.02 * factor);
+                let (outside, _) = spread(&machine, &percent, 1.02 * factor)?;
                 let verdict = verify(&outside, &nominal, (few(1 << 15), &[]), &unwatched)?;
                 assert!(verdict.lost > 0, "{least:?}");
             }

@@ -9,12 +9,14 @@ use softstop_dynamics::spread::{Spread, along};
 use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::{Orbit, Stroke, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
-use softstop_optimize::robust::{Settings, Worst, sensitivities, shares, verify, worst};
+use softstop_optimize::robust::{
+    Settings, Tolerances, Worst, sensitivities, shares, verify, worst,
+};
 
 use super::{Outcome, machines, press, shop, spread};
 
 /// The machine that strikes the least.
-fn slowest(spread: &dyn Spread, nominal: &Orbit) -> Result<Worst, OrbitError> {
+fn slowest(spread: &Tolerances, nominal: &Orbit) -> Result<Worst, OrbitError> {
     let figures = [(Figure::Velocity, Sense::Least)];
     let mut found = worst(spread, nominal, &figures, &unwatched)?;
     found.pop().ok_or(OrbitError::NotIsolated)

@@ -7,6 +7,7 @@ mod front;
 mod histogram;
 mod map;
 mod motion;
+mod pareto;
 mod portrait;
 mod response;
 mod sketch;
@@ -19,6 +20,7 @@ use crate::design::{Design, Problem};
 use crate::optimize::outcome::Outcome;
 use crate::optimize::study::Study;
 
+pub use pareto::pareto;
 pub use response::response;
 
 /// The pictures of what a run has found, but for the response.

@@ -1,0 +1,140 @@
+//! What a design costs: an expression of its task over the machine's parameters and figures of its motion.
+
+use std::fmt::{self, Debug, Formatter};
+use std::sync::Arc;
+
+use softstop::{Machine, Parameter};
+use softstop_dynamics::slopes::Slopes;
+use softstop_dynamics::{Orbit, Stroke};
+
+use super::expression::Expression;
+use super::figure::Figure;
+use super::slope::Slope;
+
+/// A cost, a bare number.
+#[derive(Clone)]
+pub struct Cost(Arc<Formula>);
+
+struct Formula {
+    text: String,
+    expression: Expression,
+    /// What the names of the expression stand for, with the unit of each in SI units.
+    terms: Vec<(Term, f64)>,
+}
+
+/// What a name stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Term {
+    /// A figure that a motion tells by itself.
+    Figure(Figure),
+    /// A parameter of the machine.
+    Parameter(Parameter),
+    /// The preload as a deflection of the stop.
+    PreloadDeflection,
+}
+
+/// The text alone: a problem states its machine beside it.
+impl Debug for Cost {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        Debug::fmt(&self.0.text, formatter)
+    }
+}
+
+impl Term {
+    /// What a name stands for in a machine, and its unit in SI units; none for what is no figure of a motion and no parameter.
+    pub fn named(machine: &Machine, name: &str) -> Option<(Self, f64)> {
+        let si = |dimension| machine.to_si(dimension, 1.0);
+        if let Some(figure) = Figure::named(name) {
+            let is_allowed = figure.is_of_motion() && figure != Figure::Cost;
+            return is_allowed.then(|| (Self::Figure(figure), si(figure.dimension())));
+        }
+        let (parameter, unit) = machine.stated(name).ok()?;
+        let is_deflection = parameter == Parameter::Preload && machine.preload_deflection.is_some();
+        Some(match is_deflection {
+            true => (Self::PreloadDeflection, 1.0),
+            false => (
+                Self::Parameter(parameter),
+                si(parameter.about().dimension) * unit,
+            ),
+        })
+    }
+
+    /// Its value in SI units; NaN if there is none.
+    fn value(self, (orbit, stroke): (&Orbit, &Stroke)) -> f64 {
+        let own = |parameter: Parameter| parameter.get(&orbit.scene).unwrap_or(f64::NAN);
+        match self {
+            Self::Figure(figure) => figure.of_motion(orbit, stroke).unwrap_or(f64::NAN),
+            Self::Parameter(parameter) => own(parameter),
+            Self::PreloadDeflection => own(Parameter::Preload) / own(Parameter::StopStiffness),
+        }
+    }
+
+    /// Its derivatives by the parameters of slopes, those of figures being given by `rates`.
+    fn by(
+        self,
+        slopes: &Slopes,
+        orbit: &Orbit,
+        rates: impl Fn(Figure) -> Option<Vec<f64>>,
+    ) -> Option<Vec<f64>> {
+        let unit = |of: Parameter, by: f64| {
+            let all = slopes.parameters.iter();
+            let all = all.map(|it| if *it == of { by } else { 0.0 });
+            all.collect::<Vec<f64>>()
+        };
+        match self {
+            Self::Figure(figure) => rates(figure),
+            Self::Parameter(parameter) => Some(unit(parameter, 1.0)),
+            Self::PreloadDeflection => {
+                let preload = Parameter::Preload.get(&orbit.scene)?;
+                let stiffness = Parameter::StopStiffness.get(&orbit.scene)?;
+                let by_stiffness =
+                    unit(Parameter::StopStiffness, -preload / (stiffness * stiffness));
+                let by_preload = unit(Parameter::Preload, stiffness.recip());
+                let pairs = by_preload.iter().zip(&by_stiffness);
+                Some(pairs.map(|(one, other)| one + other).collect())
+            }
+        }
+    }
+}
+
+impl Cost {
+    /// A cost by an expression and what its names stand for, each with its unit.
+    pub fn new(text: &str, expression: Expression, terms: Vec<(Term, f64)>) -> Self {
+        let text = text.to_owned();
+        Self(Arc::new(Formula {
+            text,
+            expression,
+            terms,
+        }))
+    }
+
+    /// Its value and its derivatives by its terms, each in its own unit.
+    fn at(&self, motion: (&Orbit, &Stroke)) -> Slope {
+        let values = self.0.terms.iter();
+        let values = values.map(|(term, unit)| term.value(motion) / unit);
+        self.0.expression.at(&values.collect::<Vec<f64>>())
+    }
+
+    /// Its value; NaN if it has none.
+    pub fn value(&self, orbit: &Orbit, stroke: &Stroke) -> f64 {
+        self.at((orbit, stroke)).value
+    }
+
+    /// Its derivatives by the parameters of slopes, by the chain rule on those of figures; none if a figure has none.
+    pub fn rates(
+        &self,
+        slopes: &Slopes,
+        (orbit, stroke): (&Orbit, &Stroke),
+        rates: impl Fn(Figure) -> Option<Vec<f64>>,
+    ) -> Option<Vec<f64>> {
+        let outer = self.at((orbit, stroke)).by;
+        let mut total = vec![0.0; slopes.parameters.len()];
+        for ((term, unit), outer) in self.0.terms.iter().zip(outer) {
+            let inner = term.by(slopes, orbit, &rates)?;
+            for (total, inner) in total.iter_mut().zip(inner) {
+                *total += outer * inner / unit;
+            }
+        }
+        Some(total)
+    }
+}

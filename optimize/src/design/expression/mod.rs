@@ -1,0 +1,143 @@
+//! Arithmetic expressions of named values, with exact derivatives by the chain rule.
+
+mod parser;
+mod step;
+
+use super::slope::Slope;
+use parser::Parser;
+use step::Step;
+
+/// Characters of an expression at most.
+const MAX_LENGTH: usize = 1000;
+
+/// An expression as the steps of a stack machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expression {
+    steps: Vec<Step>,
+    names: Vec<String>,
+}
+
+impl Expression {
+    /// Reads an expression.
+    ///
+    /// # Errors
+    /// What is wrong where, in words.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        if text.chars().count() > MAX_LENGTH {
+            return Err(format!("has more than {MAX_LENGTH} characters"));
+        }
+        let (steps, names) = Parser::read(text)?;
+        Ok(Self { steps, names })
+    }
+
+    /// The names in it, each once.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Its value, and its derivatives by the named values.
+    pub fn at(&self, values: &[f64]) -> Slope {
+        let mut stack: Vec<Slope> = Vec::new();
+        let constant = |value| Slope {
+            value,
+            by: vec![0.0; values.len()],
+        };
+        for step in &self.steps {
+            let last = stack.pop();
+            match (*step, last) {
+                (Step::Unary(of), Some(last)) => stack.push(of.at(&last)),
+                (Step::Binary(of), Some(last)) => {
+                    let first = stack.pop();
+                    stack.extend(first.map(|first| of.at(&first, &last)));
+                }
+                (step, last) => {
+                    stack.extend(last);
+                    stack.push(match step {
+                        Step::Number(number) => constant(number),
+                        Step::Name(index) => {
+                            let mut named = constant(values[index]);
+                            named.by[index] = 1.0;
+                            named
+                        }
+                        _ => constant(f64::NAN),
+                    });
+                }
+            }
+        }
+        stack.pop().unwrap_or_else(|| constant(f64::NAN))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Expression;
+
+    #[test]
+    fn values_and_derivatives_are_those_of_the_formula() -> Result<(), String> {
+        let (x, y): (f64, f64) = (1.3, 2.1);
+        let cases = [
+            ("2", 2.0, [0.0, 0.0]),
+            ("x.a - y / 2 - 1", x - y / 2.0 - 1.0, [1.0, -0.5]),
+            ("-x.a^2", -x * x, [-2.0 * x, 0.0]),
+            (
+                "2^-x.a",
+                2.0_f64.powf(-x),
+                [-2.0_f64.powf(-x) * 2.0_f64.ln(), 0.0],
+            ),
+            ("x.a^2^y", x.powf(2.0_f64.powf(y)), {
+                let power = 2.0_f64.powf(y);
+                let value = x.powf(power);
+                [power * value / x, value * x.ln() * power * 2.0_f64.ln()]
+            }),
+            (
+                "3e-5*x.a*y + .5E+1",
+                3e-5 * x * y + 5.0,
+                [3e-5 * y, 3e-5 * x],
+            ),
+            ("max(x.a, y) * min(x.a, y)", x * y, [y, x]),
+            (
+                "sqrt(x.a) / y",
+                x.sqrt() / y,
+                [0.5 / x.sqrt() / y, -x.sqrt() / (y * y)],
+            ),
+            ("exp(ln(abs(-x.a))) - -y", x + y, [1.0, 1.0]),
+            ("(-1)^2 * ( x.a )", x, [1.0, 0.0]),
+        ];
+        for (text, value, by) in cases {
+            let expression = Expression::parse(text)?;
+            let given = [("x.a", x), ("y", y)];
+            let named = |name: &String| given.iter().position(|(own, _)| own == name);
+            let indices: Option<Vec<usize>> = expression.names().iter().map(named).collect();
+            let indices = indices.ok_or(text)?;
+            let values: Vec<f64> = indices.iter().map(|index| given[*index].1).collect();
+            let found = expression.at(&values);
+            assert!((found.value - value).abs() < 1e-12, "{text}");
+            for (own, by) in indices.iter().map(|index| by[*index]).zip(found.by) {
+                assert!((own - by).abs() < 1e-12, "{text}");
+            }
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn what_is_no_expression_is_refused() {
+        for (text, says) in [
+            ("", "ends where a number, a name or a bracket"),
+            ("2 *", "ends where"),
+            ("2 x", "has \"x\" where an operator"),
+            ("(x", "ends where a closing bracket"),
+            ("x)", "has \")\" where an operator"),
+            ("1.2.3", "\"1.2.3\", which is no number"),
+            ("1e400", "no number"),
+            ("sin(x)", "no function sin; known are abs, exp"),
+            ("max(x)", "has \")\" where a comma"),
+            ("x ** 2", "has \"* 2\" where"),
+            ("2 €", "has \"€\" where an operator"),
+        ] {
+            let error = Expression::parse(text).expect_err(text);
+            assert!(error.contains(says), "{error}");
+        }
+        assert!(Expression::parse(&"(".repeat(1000)).is_err());
+        assert!(Expression::parse(&"x+".repeat(501)).is_err());
+    }
+}

@@ -1,0 +1,195 @@
+//! The grammar of an expression:
+//!
+//! ```text
+//! sum     = product { ("+" | "-") product }
+//! product = signed { ("*" | "/") signed }
+//! signed  = { "+" | "-" } power
+//! power   = atom [ "^" signed ]
+//! atom    = number | name | "(" sum ")" | function "(" sum { "," sum } ")"
+//! ```
+
+use super::step::{Binary, Step, Unary};
+
+/// The functions that an expression may call.
+const FUNCTIONS: [(&str, Step); 6] = [
+    ("abs", Step::Unary(Unary::Abs)),
+    ("exp", Step::Unary(Unary::Exp)),
+    ("ln", Step::Unary(Unary::Ln)),
+    ("max", Step::Binary(Binary::Max)),
+    ("min", Step::Binary(Binary::Min)),
+    ("sqrt", Step::Unary(Unary::Sqrt)),
+];
+
+/// Reads an expression from left to right.
+pub struct Parser<'a> {
+    rest: &'a str,
+    steps: Vec<Step>,
+    names: Vec<String>,
+}
+
+impl<'a> Parser<'a> {
+    /// The steps of an expression and the names in it.
+    ///
+    /// # Errors
+    /// What is wrong where, in words.
+    pub fn read(text: &'a str) -> Result<(Vec<Step>, Vec<String>), String> {
+        let mut parser = Self {
+            rest: text.trim_start(),
+            steps: Vec::new(),
+            names: Vec::new(),
+        };
+        parser.sum()?;
+        match parser.rest {
+            "" => Ok((parser.steps, parser.names)),
+            _ => Err(parser.unexpected("an operator")),
+        }
+    }
+
+    /// Takes a sign, if it is one of these, and the space behind it.
+    fn sign(&mut self, signs: &[char]) -> Option<char> {
+        let sign = self.rest.chars().next().filter(|it| signs.contains(it))?;
+        self.take(sign.len_utf8());
+        Some(sign)
+    }
+
+    /// Takes so many bytes and the space behind them.
+    fn take(&mut self, bytes: usize) -> &'a str {
+        let (taken, rest) = self.rest.split_at(bytes);
+        self.rest = rest.trim_start();
+        taken
+    }
+
+    fn unexpected(&self, wanted: &str) -> String {
+        match self.rest {
+            "" => format!("ends where {wanted} must stand"),
+            rest => format!("has {rest:?} where {wanted} must stand"),
+        }
+    }
+
+    fn push(&mut self, step: Step) {
+        self.steps.push(step);
+    }
+
+    fn sum(&mut self) -> Result<(), String> {
+        self.product()?;
+        while let Some(sign) = self.sign(&['+', '-']) {
+            self.product()?;
+            let is_sum = sign == '+';
+            self.push(Step::Binary(if is_sum {
+                Binary::Plus
+            } else {
+                Binary::Minus
+            }));
+        }
+        Ok(())
+    }
+
+    fn product(&mut self) -> Result<(), String> {
+        self.signed()?;
+        while let Some(sign) = self.sign(&['*', '/']) {
+            self.signed()?;
+            let is_product = sign == '*';
+            self.push(Step::Binary(if is_product {
+                Binary::Times
+            } else {
+                Binary::Over
+            }));
+        }
+        Ok(())
+    }
+
+    fn signed(&mut self) -> Result<(), String> {
+        let mut is_negative = false;
+        while let Some(sign) = self.sign(&['+', '-']) {
+            is_negative ^= sign == '-';
+        }
+        self.atom()?;
+        if self.sign(&['^']).is_some() {
+            self.signed()?;
+            self.push(Step::Binary(Binary::Power));
+        }
+        if is_negative {
+            self.push(Step::Unary(Unary::Minus));
+        }
+        Ok(())
+    }
+
+    fn atom(&mut self) -> Result<(), String> {
+        if self.sign(&['(']).is_some() {
+            self.sum()?;
+            return self.close();
+        }
+        if let Some(number) = self.number()? {
+            self.push(Step::Number(number));
+            return Ok(());
+        }
+        let is_of_name = |it: char| it.is_alphanumeric() || it == '_' || it == '.';
+        let length = self.rest.find(|it| !is_of_name(it));
+        let length = length.unwrap_or(self.rest.len());
+        if length == 0 {
+            return Err(self.unexpected("a number, a name or a bracket"));
+        }
+        let name = self.take(length);
+        match self.rest.starts_with('(') {
+            true => self.call(name),
+            false => {
+                self.name(name);
+                Ok(())
+            }
+        }
+    }
+
+    fn name(&mut self, name: &str) {
+        let names = &mut self.names;
+        let known = names.iter().position(|it| it == name);
+        let index = known.unwrap_or_else(|| {
+            names.push(name.to_owned());
+            names.len() - 1
+        });
+        self.push(Step::Name(index));
+    }
+
+    fn call(&mut self, name: &str) -> Result<(), String> {
+        let known = FUNCTIONS.iter().find(|(own, _)| *own == name);
+        let Some((_, step)) = known else {
+            let known = FUNCTIONS.map(|(own, _)| own).join(", ");
+            return Err(format!("has no function {name}; known are {known}"));
+        };
+        self.sign(&['(']);
+        self.sum()?;
+        if matches!(step, Step::Binary(_)) {
+            if self.sign(&[',']).is_none() {
+                return Err(self.unexpected("a comma"));
+            }
+            self.sum()?;
+        }
+        self.push(*step);
+        self.close()
+    }
+
+    fn close(&mut self) -> Result<(), String> {
+        match self.sign(&[')']) {
+            Some(_) => Ok(()),
+            None => Err(self.unexpected("a closing bracket")),
+        }
+    }
+
+    /// Takes a number, if one stands here.
+    fn number(&mut self) -> Result<Option<f64>, String> {
+        let is_start = |it: char| it.is_ascii_digit() || it == '.';
+        if !self.rest.starts_with(is_start) {
+            return Ok(None);
+        }
+        let bytes = self.rest.as_bytes();
+        let is_inside = |index: &usize| match bytes[*index] {
+            b'+' | b'-' => matches!(bytes[index - 1], b'e' | b'E'),
+            other => other.is_ascii_alphanumeric() || other == b'.',
+        };
+        let length = 1 + (1..bytes.len()).take_while(is_inside).count();
+        let text = &self.rest[..length];
+        let number = text.parse::<f64>().ok().filter(|it| it.is_finite());
+        let number = number.ok_or_else(|| format!("has {text:?}, which is no number"))?;
+        self.take(length);
+        Ok(Some(number))
+    }
+}

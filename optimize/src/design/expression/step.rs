@@ -1,0 +1,83 @@
+//! The steps of an expression, with the derivatives of each.
+
+use crate::design::slope::Slope;
+
+/// A step of a stack machine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Step {
+    Number(f64),
+    /// A named value, by its index.
+    Name(usize),
+    Unary(Unary),
+    Binary(Binary),
+}
+
+/// What is computed of one value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Unary {
+    Minus,
+    Abs,
+    Exp,
+    Ln,
+    Sqrt,
+}
+
+/// What is computed of two values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Binary {
+    Plus,
+    Minus,
+    Times,
+    Over,
+    Power,
+    Max,
+    Min,
+}
+
+impl Unary {
+    pub fn at(self, of: &Slope) -> Slope {
+        let x = of.value;
+        let (value, by) = match self {
+            Self::Minus => (-x, -1.0),
+            Self::Abs => (x.abs(), x.signum()),
+            Self::Exp => (x.exp(), x.exp()),
+            Self::Ln => (x.ln(), x.recip()),
+            Self::Sqrt => (x.sqrt(), 0.5 / x.sqrt()),
+        };
+        Slope {
+            value,
+            by: of.by.iter().map(|own| chained(by, *own)).collect(),
+        }
+    }
+}
+
+impl Binary {
+    pub fn at(self, first: &Slope, second: &Slope) -> Slope {
+        let (x, y) = (first.value, second.value);
+        let pick = |is_first: bool| match is_first {
+            true => (x, 1.0, 0.0),
+            false => (y, 0.0, 1.0),
+        };
+        let (value, by_first, by_second) = match self {
+            Self::Plus => (x + y, 1.0, 1.0),
+            Self::Minus => (x - y, 1.0, -1.0),
+            Self::Times => (x * y, y, x),
+            Self::Over => (x / y, y.recip(), -x / (y * y)),
+            Self::Power => (x.powf(y), y * x.powf(y - 1.0), x.powf(y) * x.ln()),
+            Self::Max => pick(x >= y),
+            Self::Min => pick(x <= y),
+        };
+        let pairs = first.by.iter().zip(&second.by);
+        let by =
+            pairs.map(|(first, second)| chained(by_first, *first) + chained(by_second, *second));
+        Slope {
+            value,
+            by: by.collect(),
+        }
+    }
+}
+
+/// A product of derivatives; 0 if the inner one is, whatever the outer.
+fn chained(outer: f64, inner: f64) -> f64 {
+    if inner == 0.0 { 0.0 } else { outer * inner }
+}

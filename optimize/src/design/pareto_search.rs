@@ -1,0 +1,336 @@
+//! The search of a front: the best design by each objective alone, then the best by one of them with bounds of the others (the
+//! epsilon-constraint method, Haimes, Lasdon and Wismer 1971). Of two objectives one is bounded in the middle of the widest gap
+//! between designs, of more all but the first on a lattice. A problem whose solution follows from a looser one is not searched
+//! (Mavrotas 2009).
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::alternative::Alternative;
+use super::non_dominated::{NonDominated, non_dominated};
+use super::posed::{Posed, Ranges, levels};
+use super::problem::{Objective, Problem};
+use super::search::{Found, LEAST_EVALUATIONS, SearchError, Settings, Watch, search_from};
+
+/// Problems of two objectives, and those of them that are solved at once.
+const PROBLEMS: usize = 14;
+const AT_ONCE: usize = 2;
+/// Share of the evaluations of a search that each problem with bounds may take: its neighbours are solved.
+const SHARE: u64 = 4;
+/// Neighbours from which a problem starts.
+const NEIGHBOURS: usize = 3;
+/// Relative difference of a value that is none.
+const ROUNDING: f64 = 1e-9;
+
+/// The problems of a front, and what became of them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Tally {
+    /// All problems.
+    pub problems: usize,
+    /// Those that led to a design.
+    pub solved: usize,
+    /// Those that a looser one solves, or that have no design because it has none.
+    pub implied: usize,
+    /// Those without a design that is as asked.
+    pub failed: usize,
+    /// Designs that another one dominates, or that are the same.
+    pub dominated: usize,
+}
+
+/// A problem of a front with its solution.
+#[derive(Debug, Clone)]
+struct Solved {
+    problem: Problem,
+    posed: Posed,
+    alternative: Alternative,
+}
+
+/// A watch of one of many searches: it can be stopped, and tells nothing.
+struct Quiet<'a>(&'a dyn Watch);
+
+impl Watch for Quiet<'_> {
+    fn evaluated(&self, _: Option<f64>) {}
+    fn stop(&self) -> bool {
+        self.0.stop()
+    }
+}
+
+/// The designs of a front from the best one by the first objective on, some of which others may dominate, and what became of
+/// the problems; an interrupted search has those that are found by then.
+///
+/// # Errors
+/// [`SearchError`] if no design has one of the objectives.
+pub(super) fn search_pareto(
+    problem: &Problem,
+    objectives: &[Objective],
+    first: &Found,
+    (settings, watch): (Settings, &dyn Watch),
+) -> Result<(Vec<Alternative>, Tally), SearchError> {
+    let mut search = ParetoSearch {
+        problem,
+        objectives,
+        settings,
+        watch,
+        ranges: Ranges::default(),
+        solved: Vec::new(),
+        failed: Vec::new(),
+        tally: Tally::default(),
+    };
+    search.find_anchors(first)?;
+    search.refine_anchors();
+    match objectives.len() {
+        2 => search.fill_gaps(),
+        _ => search.solve_lattice(),
+    }
+    search.exchange();
+    let points: Vec<Alternative> = search.solved.into_iter().map(|it| it.alternative).collect();
+    let solved = points.len();
+    Ok((
+        points,
+        Tally {
+            solved,
+            ..search.tally
+        },
+    ))
+}
+
+/// The search of a front.
+struct ParetoSearch<'a> {
+    problem: &'a Problem,
+    objectives: &'a [Objective],
+    settings: Settings,
+    watch: &'a dyn Watch,
+    ranges: Ranges,
+    solved: Vec<Solved>,
+    /// Problems without a design.
+    failed: Vec<Posed>,
+    tally: Tally,
+}
+
+impl ParetoSearch<'_> {
+    /// The best design by each objective alone.
+    fn find_anchors(&mut self, first: &Found) -> Result<(), SearchError> {
+        let count = self.objectives.len();
+        self.tally.problems = 2 * count
+            + match count {
+                2 => PROBLEMS,
+                _ => (levels(count) + 1).pow(count as u32 - 1) - 1,
+            };
+        let alone = |objective| Posed {
+            objective,
+            bounds: vec![None; count],
+        };
+        self.keep(self.problem.clone(), alone(0), first);
+        for (index, objective) in self.objectives.iter().enumerate().skip(1) {
+            let problem = Problem {
+                objective: *objective,
+                ..self.problem.clone()
+            };
+            let starts = [first.start()];
+            let quiet = Quiet(self.watch);
+            let found = match search_from(&problem, self.settings, &starts, (&quiet, None)) {
+                Ok(found) => found,
+                Err(SearchError::Stopped(_)) => break,
+                Err(error) => return Err(error),
+            };
+            self.keep(problem, alone(index), &found);
+            self.tell();
+        }
+        self.ranges = Ranges((0..count).map(|index| self.range(index)).collect());
+        Ok(())
+    }
+
+    /// The best designs by another objective among those that are best by each, of which there may be many.
+    fn refine_anchors(&mut self) {
+        let count = self.objectives.len();
+        let at_best = |index: usize| Posed {
+            objective: usize::from(index == 0),
+            ..Posed::of_bound(count, index, self.ranges.0[index][1])
+        };
+        self.solve_all((0..count).map(at_best).collect());
+    }
+
+    fn range(&self, index: usize) -> [f64; 2] {
+        let objective = &self.objectives[index];
+        let values = self.solved.iter().map(|it| it.alternative.values[index]);
+        let by_grade = |a: &f64, b: &f64| objective.graded(*a).total_cmp(&objective.graded(*b));
+        let worst = values.clone().min_by(by_grade).unwrap_or(f64::NAN);
+        [worst, values.max_by(by_grade).unwrap_or(f64::NAN)]
+    }
+
+    fn tell(&self) {
+        let done = self.solved.len() + self.failed.len() + self.tally.implied;
+        self.watch.posed(done as u64, self.tally.problems as u64);
+    }
+
+    /// Takes note of a solution.
+    fn keep(&mut self, problem: Problem, posed: Posed, found: &Found) {
+        match Alternative::new(self.problem, self.objectives, found) {
+            Some(alternative) => self.solved.push(Solved {
+                problem,
+                posed,
+                alternative,
+            }),
+            None => self.fail(posed),
+        }
+    }
+
+    fn fail(&mut self, posed: Posed) {
+        self.tally.failed += 1;
+        self.failed.push(posed);
+    }
+
+    /// The best designs by one of two objectives with a bound of the other, in the middle of the widest gaps.
+    fn fill_gaps(&mut self) {
+        let mut all: Vec<Posed> = Vec::new();
+        while all.len() < PROBLEMS && !self.watch.stop() {
+            let mut next = self.ranges.widest_gaps(self.undominated(), &all);
+            next.truncate(AT_ONCE.min(PROBLEMS - all.len()));
+            if next.is_empty() {
+                break;
+            }
+            all.extend(next.iter().cloned());
+            self.solve_all(next);
+        }
+        if !self.watch.stop() {
+            self.tally.problems -= PROBLEMS - all.len();
+        }
+    }
+
+    /// The values of the designs of two objectives that no other one dominates.
+    fn undominated(&self) -> Vec<[f64; 2]> {
+        let all: Vec<&Alternative> = self.solved.iter().map(|it| &it.alternative).collect();
+        let grades = all.iter().map(|it| it.graded(self.objectives));
+        let NonDominated { members, .. } = non_dominated(&grades.collect::<Vec<_>>());
+        let values = members.iter().map(|index| &all[*index].values);
+        values.map(|it| [it[0], it[1]]).collect()
+    }
+
+    /// The best designs by the first objective with so many bounds of each other one, the loosest first: those of one sum of
+    /// levels do not depend on each other.
+    fn solve_lattice(&mut self) {
+        let sums = self.ranges.lattice();
+        for posed in sums {
+            if !self.watch.stop() {
+                self.solve_all(posed);
+            }
+        }
+    }
+
+    /// Solves problems that do not depend on each other.
+    fn solve_all(&mut self, all: Vec<Posed>) {
+        let (implied, posed): (Vec<_>, Vec<_>) =
+            all.into_iter().partition(|it| self.is_implied(it));
+        self.tally.implied += implied.len();
+        let found = posed.par_iter().map(|it| self.solve(it));
+        let found: Vec<_> = found.collect();
+        for (posed, (problem, found)) in posed.into_iter().zip(found) {
+            match found {
+                Ok(found) => self.keep(problem, posed, &found),
+                Err(SearchError::Stopped(_)) => return,
+                Err(_)
+                    if self
+                        .solved
+                        .iter()
+                        .any(|it| self.keeps(&it.alternative, &posed)) =>
+                {
+                    self.tally.implied += 1;
+                }
+                Err(_) => self.fail(posed),
+            }
+        }
+        self.tell();
+    }
+
+    /// Whether the solution of a looser problem keeps these bounds, or that has none.
+    fn is_implied(&self, posed: &Posed) -> bool {
+        let is_looser = |other: &Posed| {
+            let pairs = other.bounds.iter().zip(&posed.bounds);
+            let mut pairs = pairs.zip(self.objectives);
+            let is_tighter = |own: Option<f64>, bound: f64, it: &Objective| {
+                own.is_some_and(|own| it.graded(own) >= it.graded(bound))
+            };
+            other.objective == posed.objective
+                && pairs
+                    .all(|((other, own), it)| other.is_none_or(|other| is_tighter(*own, other, it)))
+        };
+        let mut solved = self.solved.iter();
+        self.failed.iter().any(is_looser)
+            || solved.any(|it| is_looser(&it.posed) && self.keeps(&it.alternative, posed))
+    }
+
+    /// Whether a design keeps the bounds of a problem.
+    fn keeps(&self, design: &Alternative, posed: &Posed) -> bool {
+        let pairs = self
+            .objectives
+            .iter()
+            .zip(&design.values)
+            .zip(&posed.bounds);
+        let mut bounded = pairs.filter_map(|((objective, value), bound)| {
+            let bound = (*bound)?;
+            let margin = objective.graded(*value) - objective.graded(bound);
+            Some(margin >= -ROUNDING * bound.abs())
+        });
+        bounded.all(|is_kept| is_kept)
+    }
+
+    /// A problem with bounds, from the designs that are nearest to these on.
+    fn solve(&self, posed: &Posed) -> (Problem, Result<Found, SearchError>) {
+        let mut problem = Problem {
+            objective: self.objectives[posed.objective],
+            ..self.problem.clone()
+        };
+        for (objective, bound) in self.objectives.iter().zip(&posed.bounds) {
+            if let Some(bound) = bound {
+                problem = problem.bounded(objective, *bound);
+            }
+        }
+        let distance = |it: &Solved| {
+            let bounds = posed.bounds.iter().zip(&it.alternative.values).enumerate();
+            let parts = bounds.filter_map(|(index, (bound, value))| {
+                Some(self.ranges.scaled(index, *value) - self.ranges.scaled(index, (*bound)?))
+            });
+            parts.map(|part| part * part).sum::<f64>()
+        };
+        let mut near: Vec<&Solved> = self.solved.iter().collect();
+        near.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let starts = near.iter().take(NEIGHBOURS);
+        let starts: Vec<(Vec<f64>, f64)> = starts.map(|it| it.alternative.found.start()).collect();
+        let settings = Settings {
+            evaluations: (self.settings.evaluations / SHARE).max(LEAST_EVALUATIONS),
+        };
+        let found = search_from(&problem, settings, &starts, (&Quiet(self.watch), None));
+        (problem, found)
+    }
+
+    /// Goes on with each problem from the design of another one, where that solves it better.
+    fn exchange(&mut self) {
+        for index in (0..self.solved.len()).rev() {
+            if self.watch.stop() {
+                return;
+            }
+            let own = &self.solved[index];
+            let objective = own.posed.objective;
+            let graded =
+                |it: &Solved| self.objectives[objective].graded(it.alternative.values[objective]);
+            let is_better = |it: &&Solved| {
+                let gain = graded(it) - graded(own);
+                gain > ROUNDING * graded(own).abs() && self.keeps(&it.alternative, &own.posed)
+            };
+            let better = self.solved.iter().filter(is_better);
+            let Some(best) = better.max_by(|a, b| graded(a).total_cmp(&graded(b))) else {
+                continue;
+            };
+            let (from, mut found) = (
+                best.alternative.found.candidate(),
+                own.alternative.found.clone(),
+            );
+            found.design.value = own.alternative.values[objective];
+            if found.go_on_from(&own.problem, &from)
+                && let Some(alternative) = Alternative::new(self.problem, self.objectives, &found)
+            {
+                self.solved[index].alternative = alternative;
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The problems of a front: which objective is best within which bounds of the others.
+
+/// Bounds of each objective but the first between its ends, by how many objectives there are from three on: 35, 26 and 15
+/// problems.
+const LEVELS: [usize; 3] = [5, 2, 1];
+/// Gap between designs of two objectives, in units of their ranges, that needs no design.
+const SMALL_GAP: f64 = 0.04;
+
+/// Bounds of each objective but the first, of so many.
+pub(super) fn levels(objectives: usize) -> usize {
+    LEVELS[(objectives - 3).min(LEVELS.len() - 1)]
+}
+
+/// What a problem of a front asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Posed {
+    /// Which objective is to be best.
+    pub objective: usize,
+    /// Bounds of the objectives, in SI units.
+    pub bounds: Vec<Option<f64>>,
+}
+
+/// For each objective the worst value of the best designs by each, and the best.
+#[derive(Debug, Default)]
+pub(super) struct Ranges(pub Vec<[f64; 2]>);
+
+impl Posed {
+    /// The best by the first of so many objectives with a bound of one of them.
+    pub fn of_bound(count: usize, bounded: usize, bound: f64) -> Self {
+        let mut bounds = vec![None; count];
+        bounds[bounded] = Some(bound);
+        Self {
+            objective: 0,
+            bounds,
+        }
+    }
+}
+
+impl Ranges {
+    /// A value of an objective in units of its range: 0 at its worst, 1 at its best.
+    pub fn scaled(&self, index: usize, value: f64) -> f64 {
+        let [worst, best] = self.0[index];
+        (value - worst) / (best - worst)
+    }
+
+    /// Problems in the middle of the gaps between designs of two objectives, the widest first, but for those that were posed.
+    pub fn widest_gaps(&self, mut points: Vec<[f64; 2]>, posed: &[Posed]) -> Vec<Posed> {
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut gaps: Vec<(f64, Posed)> = Vec::new();
+        for pair in points.windows(2) {
+            let widths = [0, 1].map(|index| {
+                (self.scaled(index, pair[0][index]) - self.scaled(index, pair[1][index])).abs()
+            });
+            let wider = usize::from(widths[1] > widths[0]);
+            let of = |bounded: usize| Posed {
+                objective: 1 - bounded,
+                ..Posed::of_bound(2, bounded, 0.5 * (pair[0][bounded] + pair[1][bounded]))
+            };
+            let new = [wider, 1 - wider].map(of).into_iter();
+            let mut new = new.filter(|it| !posed.contains(it));
+            let width = widths[0].hypot(widths[1]);
+            gaps.extend(
+                new.next()
+                    .filter(|_| width > SMALL_GAP)
+                    .map(|it| (width, it)),
+            );
+        }
+        gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
+        gaps.into_iter().map(|(_, it)| it).collect()
+    }
+
+    /// Problems of the first objective with so many bounds of each other one, by the sums of their levels.
+    pub fn lattice(&self) -> Vec<Vec<Posed>> {
+        let (others, levels) = (self.0.len() - 1, levels(self.0.len()));
+        let count = (levels + 1).pow(others as u32);
+        let digit =
+            |number: usize, place: usize| number / (levels + 1).pow(place as u32) % (levels + 1);
+        let bound = |index: usize, level: usize| {
+            let [worst, best] = self.0[index];
+            worst + (best - worst) * level as f64 / (levels + 1) as f64
+        };
+        let mut sums: Vec<Vec<Posed>> = vec![Vec::new(); others * levels + 1];
+        for number in 1..count {
+            let own: Vec<usize> = (0..others).map(|place| digit(number, place)).collect();
+            let bounds = own.iter().enumerate();
+            let bounds =
+                bounds.map(|(place, level)| (*level > 0).then(|| bound(place + 1, *level)));
+            sums[own.iter().sum::<usize>()].push(Posed {
+                objective: 0,
+                bounds: [None].into_iter().chain(bounds).collect(),
+            });
+        }
+        sums
+    }
+}

@@ -1,0 +1,30 @@
+//! What a design has of all that is required.
+
+use softstop_console::failure::Failure;
+
+use crate::design::judge::{Met, Within};
+use crate::design::{Design, Problem};
+use crate::robust::Worst;
+
+/// What a design has of all that is required, in its own machine and in the worst within the tolerances.
+pub(super) fn met(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
+    let motion = design.judged().map_err(anyhow::Error::from)?;
+    let mut met = Vec::from_iter(problem.share(&motion));
+    let worst = problem.worst_of_required(design);
+    met.extend(problem.met(&motion).into_iter().map(|met| {
+        let own = worst
+            .iter()
+            .filter(|(figure, ..)| *figure == met.requirement.figure);
+        let own = own.map(|(.., worst)| worst);
+        let margin = |it: &&Worst| met.requirement.margin(it.value);
+        let nearest = own.min_by(|a, b| margin(a).total_cmp(&margin(b)));
+        let is_asked = met.requirement.is_of_each_motion();
+        let within = nearest.filter(|_| is_asked).map(|it| Within {
+            worst: it.value,
+            at: it.at.clone(),
+        });
+        Met { within, ..met }
+    }));
+    met.extend(problem.tried(design).map_err(anyhow::Error::from)?);
+    Ok(met)
+}

@@ -1,0 +1,77 @@
+//! The designs of a front: each pair of what is sought.
+
+use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
+
+use crate::design::Problem;
+use crate::design::pareto::Pareto;
+use crate::design::problem::Objective;
+use crate::page::figure::{Figure, HALF, Section, WIDE};
+use crate::pareto::told;
+
+const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
+/// Height of a row of panels.
+const ROW: f64 = 400.0;
+
+/// The picture.
+pub fn pareto(problem: &Problem, front: &Pareto) -> Figure {
+    let objectives = &front.objectives;
+    let indices = 0..objectives.len();
+    let pairs = indices
+        .clone()
+        .flat_map(|y| indices.clone().skip(y + 1).map(move |x| (x, y)));
+    let panels: Vec<Panel> = pairs.map(|(x, y)| panel(problem, front, [x, y])).collect();
+    let size = match panels.len() {
+        1 => HALF,
+        count => (WIDE.0, ROW * count.div_ceil(2) as f64),
+    };
+    let caption = format!(
+        "Designs of which none is better in all that is sought, by their numbers; each is as required. Number 1 is the design of \
+         this report, number {} is nearest to the best of each. {}",
+        front.nearest + 1,
+        told(&front.tally)
+    );
+    let mut figure = Figure::new(
+        Section::Cost,
+        size,
+        "Designs to choose from",
+        panels,
+        caption,
+    );
+    figure.chart.shares_y = false;
+    figure
+}
+
+/// The designs over two of what is sought.
+fn panel(problem: &Problem, front: &Pareto, axes: [usize; 2]) -> Panel {
+    let machine = &problem.machine;
+    let axis = |index: usize| {
+        let figure = front.objectives[index].figure;
+        Axis::new(machine.label(figure.meaning(), "", figure.dimension()))
+    };
+    let own =
+        |objective: &Objective, value: f64| machine.to_own(objective.figure.dimension(), value);
+    let place = |index: usize| {
+        let values = &front.points[index].values;
+        let [x, y] = axes.map(|axis| own(&front.objectives[axis], values[axis]));
+        (x, y)
+    };
+    let all: Vec<(f64, f64)> = (0..front.points.len()).map(place).collect();
+    let at = |index: usize| all.get(index).copied();
+    let marks = Layer::marks(all.clone(), Mark::Circle, style::DESIGN).sized(3.5);
+    let first = Layer::marks(at(0), Mark::Triangle, style::OPTIMUM).sized(8.0);
+    let nearest = Layer::marks(at(front.nearest), Mark::Diamond, style::OPTIMUM).sized(7.0);
+    let line = (front.objectives.len() == 2).then(|| Layer::line(all.clone(), LINED));
+    let labels = all.iter().enumerate();
+    let labels = labels.map(|(index, at)| Layer::label(*at, (index + 1).to_string()));
+    let layers = line.into_iter().chain([
+        marks.named("front"),
+        first.named("this design"),
+        nearest.named("nearest to the best of each"),
+    ]);
+    Panel {
+        x: axis(axes[0]),
+        y: axis(axes[1]),
+        layers: layers.chain(labels).collect(),
+        ..Panel::default()
+    }
+}

@@ -1,0 +1,244 @@
+//! The designs of a front, as records, a table and text.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use softstop::Parameter;
+use softstop_console::number::NumberStyle::Seven;
+use softstop_console::record::Record;
+use softstop_console::sheet::Sheet;
+use softstop_console::table::aligned;
+
+use crate::design::Problem;
+use crate::design::figure::{Figure, Sense};
+use crate::design::pareto::{Alternative, Pareto, Tally};
+use crate::design::problem::Objective;
+use crate::optimize::pareto::CheckedFront;
+
+/// A quantity of all designs, in the machine's own units.
+struct Column {
+    name: &'static str,
+    unit: &'static str,
+    /// Whether the text has it.
+    is_shown: bool,
+    values: Vec<Option<f64>>,
+}
+
+impl Column {
+    fn head(&self) -> String {
+        match self.unit {
+            "" => self.name.to_owned(),
+            unit => format!("{} ({unit})", self.name),
+        }
+    }
+}
+
+/// The designs of a front, in the machine's own units.
+#[derive(Debug, Serialize)]
+pub struct FrontReport {
+    /// What is sought.
+    objectives: Vec<Record>,
+    #[serde(flatten)]
+    tally: Tally,
+    /// Machines within the tolerances that were looked at about each design.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    machines: Option<usize>,
+    /// The number of the design that is nearest to the best of each objective.
+    nearest: usize,
+    /// The units of the designs' values by their names.
+    units: BTreeMap<&'static str, &'static str>,
+    /// What people read of them: what is sought, and what was searched.
+    shown: Vec<&'static str>,
+    /// The designs, the best by the first objective first.
+    points: Vec<Record>,
+    /// The same with units in the heads.
+    #[serde(skip)]
+    pub(crate) sheet: Sheet,
+    /// What was sought, in words.
+    #[serde(skip)]
+    words: Vec<String>,
+    #[serde(skip)]
+    table: String,
+}
+
+impl FrontReport {
+    /// The report on a front of a problem.
+    pub(crate) fn new(problem: &Problem, front: &CheckedFront) -> Self {
+        let Pareto {
+            objectives,
+            tally,
+            nearest,
+            points,
+        } = &front.pareto;
+        let columns = columns(problem, front);
+        let record = |index: usize| {
+            let number = Record::default().with("number", "", index + 1);
+            columns.iter().fold(number, |record, it| {
+                record.with(it.name, "", it.values[index])
+            })
+        };
+        let records: Vec<Record> = (0..points.len()).map(record).collect();
+        let heads = columns.iter().map(Column::head);
+        let heads = ["number".to_owned()].into_iter().chain(heads).collect();
+        let sought = objectives.iter().map(|it| sought(problem, it));
+        Self {
+            objectives: sought.collect(),
+            tally: *tally,
+            machines: front.violating.as_ref().map(|it| it.0),
+            nearest: nearest + 1,
+            units: columns.iter().map(|it| (it.name, it.unit)).collect(),
+            shown: columns
+                .iter()
+                .filter(|it| it.is_shown)
+                .map(|it| it.name)
+                .collect(),
+            sheet: Sheet {
+                heads,
+                ..Sheet::of_records("pareto", &records)
+            },
+            points: records,
+            words: objectives.iter().map(Objective::words).collect(),
+            table: table(&columns, points.len(), *nearest),
+        }
+    }
+
+    /// What was sought and found, with a line for each design.
+    pub(crate) fn text(&self) -> String {
+        let machines = self.machines.map_or_else(String::new, |machines| {
+            format!(
+                "violating: of {machines} machines within the tolerances of each design, the largest share that violates one \
+                 requirement or loses the motion.\n"
+            )
+        });
+        let first = self.words.first().map_or("", String::as_str);
+        format!(
+            "\nFront of {}: {}\n{}\n{}{machines}The design of the files is number 1, with the {first}; number {} is nearest to the \
+             best of each. The values of another one go to --vary.\n",
+            self.points.len(),
+            self.words.join(", "),
+            told(&self.tally),
+            self.table,
+            self.nearest,
+        )
+    }
+}
+
+/// What became of the problems of a front, in a sentence.
+pub(crate) fn told(tally: &Tally) -> String {
+    let Tally {
+        problems,
+        solved,
+        implied,
+        failed,
+        dominated,
+    } = tally;
+    let open = problems.saturating_sub(solved + implied + failed);
+    let open = match open {
+        0 => String::new(),
+        open => format!(", {open} were not searched"),
+    };
+    format!(
+        "Of {problems} problems {solved} led to a design, {implied} followed from a looser one, {failed} had no design as \
+         asked{open}; {dominated} designs were the same as others or dominated by them."
+    )
+}
+
+fn sought(problem: &Problem, objective: &Objective) -> Record {
+    let figure = objective.figure;
+    let sense = match objective.sense {
+        Sense::Least => "maximise",
+        Sense::Most => "minimise",
+    };
+    let record = Record::default().with("figure", "", figure.name());
+    let record = record.with("sense", "", sense);
+    let unit = problem.machine.unit(figure.dimension());
+    record
+        .with("words", "", objective.words())
+        .with("unit", "", unit)
+}
+
+/// What is sought, the searched parameters and the others, and all figures that take no trials; trials that are required.
+fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
+    let (machine, points) = (&problem.machine, &front.pareto.points);
+    let objectives = &front.pareto.objectives;
+    let figure = |figure: Figure, is_shown: bool, values: Vec<f64>| Column {
+        name: figure.name(),
+        unit: machine.unit(figure.dimension()),
+        is_shown,
+        values: own(values
+            .into_iter()
+            .map(|it| machine.to_own(figure.dimension(), it))),
+    };
+    let sought = objectives.iter().enumerate().map(|(index, it)| {
+        let values = points.iter().map(|point| point.values[index]);
+        figure(it.figure, true, values.collect())
+    });
+    let is_searched = |parameter: Parameter| {
+        let is_axis = problem
+            .axes
+            .iter()
+            .any(|it| it.parameter == parameter && !it.range.is_held());
+        is_axis || (parameter == Parameter::Frequency && !problem.frequency.is_held())
+    };
+    let parameter = |parameter: Parameter| {
+        let value = |it: &Alternative| it.found.design.machine.value(parameter);
+        Column {
+            name: machine.name(parameter),
+            unit: machine.unit_of(parameter),
+            is_shown: is_searched(parameter),
+            values: points.iter().map(value).collect(),
+        }
+    };
+    let mut parameters: Vec<Parameter> = machine.parameters().collect();
+    parameters.sort_by_key(|it| !is_searched(*it));
+    let is_other = |it: &&Figure| {
+        let is_sought = objectives.iter().any(|objective| objective.figure == **it);
+        !it.is_trial() && !is_sought
+    };
+    let others = Figure::ALL.iter().filter(is_other).map(|it| {
+        let value = |point: &Alternative| {
+            let motion = point.found.design.judged();
+            motion.map_or(f64::NAN, |motion| problem.value(&motion, *it))
+        };
+        figure(*it, false, points.iter().map(value).collect())
+    });
+    let trials = front.met.first().into_iter().flatten().enumerate();
+    let trials = trials.filter(|(_, it)| it.requirement.figure.is_trial());
+    let trials = trials.map(|(index, it)| {
+        let values = front.met.iter().map(|met| met[index].judged());
+        figure(it.requirement.figure, false, values.collect())
+    });
+    let violating = front.violating.iter().map(|(_, shares)| Column {
+        name: "violating",
+        unit: "",
+        is_shown: true,
+        values: own(shares.iter().copied()),
+    });
+    let parameters = parameters.into_iter().map(parameter);
+    let all = sought.chain(parameters).chain(others).chain(trials);
+    let has_values = |it: &Column| it.values.iter().any(Option::is_some);
+    all.filter(has_values).chain(violating).collect()
+}
+
+/// Values, without those that are none.
+fn own(values: impl Iterator<Item = f64>) -> Vec<Option<f64>> {
+    values
+        .map(|it| Some(it).filter(|it| it.is_finite()))
+        .collect()
+}
+
+/// The shown columns, a line for each design.
+fn table(columns: &[Column], count: usize, nearest: usize) -> String {
+    let shown: Vec<&Column> = columns.iter().filter(|it| it.is_shown).collect();
+    let heads = shown.iter().map(|it| it.head());
+    let heads = ["number".to_owned()].into_iter().chain(heads).collect();
+    let line = |index: usize| {
+        let mark = if index == nearest { "* " } else { "" };
+        let value = |it: &&Column| it.values[index].map_or_else(String::new, |it| Seven.format(it));
+        let values = shown.iter().map(value);
+        let number = format!("{mark}{}", index + 1);
+        [number].into_iter().chain(values).collect()
+    };
+    let lines: Vec<Vec<String>> = [heads].into_iter().chain((0..count).map(line)).collect();
+    aligned(&lines, |_| false)
+}
