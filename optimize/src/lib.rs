@@ -11,6 +11,7 @@ pub mod fmu;
 mod limits;
 pub mod optimize;
 pub mod page;
+mod placed;
 pub mod report;
 pub mod robust;
 pub mod searched;

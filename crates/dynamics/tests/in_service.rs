@@ -170,7 +170,7 @@ fn one_box_tells_the_same_of_a_motion_alone_and_along_its_zone() {
     let a = one(&unloaded(1.15));
     let zone = zone_of(&a.scene);
     let alone = Establishment::of(&a, 512, &unwatched).expect("computed");
-    let width = zone.frequency_sn - zone.frequency_g0;
+    let width = zone.high.frequency - zone.frequency_g0;
     let place = (a.scene.excitation.frequency - zone.frequency_g0) / width;
     let along = ErosionProfile::of(&zone, &alone.region, (&[place], 512), &unwatched);
     assert_eq!(

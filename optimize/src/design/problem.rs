@@ -1,6 +1,7 @@
 //! What is searched: the machine, what may change of it, what is sought and what must hold.
 
 use softstop::{Machine, Parameter};
+use softstop_dynamics::zone::ZoneKind;
 
 use super::figure::{Figure, Sense};
 use super::requirement::{Requirement, Scope};
@@ -13,6 +14,8 @@ use crate::robust::{self, Tolerances};
 pub struct Problem {
     /// The machine; what is searched of it plays no part.
     pub machine: Machine,
+    /// Which motions are searched.
+    pub zone: ZoneKind,
     /// Least distance M of s from 0 and 1, in [0, 0.5].
     pub margin: f64,
     /// The parameters that the search may choose, but the drive's frequency.
@@ -174,6 +177,7 @@ impl Problem {
     pub fn of(machine: Machine, axes: Vec<Axis>) -> Self {
         Self {
             machine,
+            zone: ZoneKind::Hysteresis,
             margin: 0.0,
             axes,
             frequency: Interval {

@@ -90,7 +90,11 @@ task! {
         "type": "object",
         "properties": {
             "seed": { "type": "integer", "minimum": 0, "deprecated": true },
-            "evaluations": evaluations()
+            "evaluations": evaluations(),
+            "zone": {
+                "enum": ["hysteresis", "z = 1"], "default": "hysteresis",
+                "description": "which motions: those beside which the machine may also stay without impacts, or all stable z = 1"
+            }
         },
         "additionalProperties": false
     });
@@ -130,6 +134,20 @@ pub struct Search {
     pub seed: Option<u64>,
     /// Zones that the search may compute.
     pub evaluations: Option<u64>,
+    /// Which motions are searched.
+    pub zone: Motions,
+}
+
+/// Which motions are searched.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+pub enum Motions {
+    /// Those beside which the machine may also stay without impacts.
+    #[default]
+    #[serde(rename = "hysteresis")]
+    Hysteresis,
+    /// All stable ones with one impact a drive period.
+    #[serde(rename = "z = 1")]
+    SingleImpact,
 }
 
 /// A bound of each figure.
@@ -193,7 +211,7 @@ mod tests {
                     evaluations = 200\noutput = \"there\"\nformat = \"json\"\n[fix]\nstop.stiffness = 7\n\
                     [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n[vary]\nclearance = 3\n\
                     [tolerance]\nclearance = 0.1\n[objective]\nmaximise = \"velocity\"\n[require]\n\
-                    velocity = 3\n[search]\nseed = 1\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
+                    velocity = 3\n[search]\nseed = 1\nzone = \"z = 1\"\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
         toml::from_str::<TaskSpec>(file)?;
         let written: toml::Table = toml::from_str(file)?;
         let schema = TaskSpec::schema();

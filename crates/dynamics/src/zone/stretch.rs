@@ -1,6 +1,6 @@
 //! A stretch of frequencies with a stable z = 1 motion, and what ends it.
 
-use nalgebra::Vector4;
+use nalgebra::{Vector2, Vector4};
 
 use super::{Frequencies, Zone};
 use crate::continuation::{
@@ -111,7 +111,7 @@ impl Stretch {
     /// [`OrbitError`] if the stretch is lost.
     pub fn contains(&self, scene: &Scene, point: &BranchPoint) -> Result<bool, OrbitError> {
         let own = self.point_at(scene, point.parameter)?;
-        Ok(own.is_some_and(|own| is_same(&own, point, scene)))
+        Ok(own.is_some_and(|own| is_same(&own, point.state(), scene)))
     }
 
     /// True if it is a part of a hysteresis zone.
@@ -125,10 +125,10 @@ impl Stretch {
     }
 }
 
-/// True if the states of two points at one frequency differ by no more than rounding.
-pub(super) fn is_same(one: &BranchPoint, other: &BranchPoint, scene: &Scene) -> bool {
-    let size = other.state().norm().max(scene.scales().length);
-    (one.state() - other.state()).norm() < SAME * size
+/// True if a point is at a state of the same frequency but for rounding.
+pub(super) fn is_same(one: &BranchPoint, other: Vector2<f64>, scene: &Scene) -> bool {
+    let size = other.norm().max(scene.scales().length);
+    (one.state() - other).norm() < SAME * size
 }
 
 /// Units of positions, velocities and frequencies.
