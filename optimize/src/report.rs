@@ -109,8 +109,9 @@ impl OptimizeReport {
         let met = found.met.iter().map(|it| verdict::required(machine, it));
         let rivals = found.rivals.iter().map(|it| verdict::rival(problem, it));
         let fronts = found.fronts.iter().map(|it| verdict::traded(problem, it));
-        let ways = found.run_up.iter().flat_map(|it| &it.ways);
-        let ways = ways.map(|it| Record::of(&started::columns(), &(machine, it)));
+        let ways = found.run_up.iter();
+        let ways = ways.flat_map(|all| all.ways.iter().map(move |it| (machine, all, it)));
+        let ways = ways.map(|it| Record::of(&started::columns(), &it));
         Self {
             title: Title::default(),
             objective: Record::of(&objective(), &(problem, design)),
@@ -163,6 +164,7 @@ impl Report for OptimizeReport {
         let tolerances = self.tolerances.as_ref().map(|it| it.text(&units));
         let tables = sections([
             ("What was required", below(&self.requirements, &units)),
+            ("How to run the machine up", below(&self.run_up, &units)),
             (
                 "Nearly as good, but far from it: a small change of the task may lead there",
                 below(&self.rivals, &units),

@@ -12,6 +12,7 @@ mod held;
 mod interrupts;
 mod motions;
 mod optimum;
+mod pile_driver;
 mod refusals;
 mod report;
 mod robust;

@@ -1,6 +1,7 @@
 //! What is searched: the machine, what may change of it, what is sought and what must hold.
 
 use softstop::{Machine, Parameter};
+use softstop_dynamics::run_up;
 use softstop_dynamics::zone::ZoneKind;
 
 use super::figure::{Figure, Sense};
@@ -32,6 +33,8 @@ pub struct Problem {
     pub objective: Objective,
     /// What must hold.
     pub requirements: Vec<Requirement>,
+    /// How the machine may be run up.
+    pub run_up: run_up::Settings,
 }
 
 /// A parameter that follows another one, in the machine's own units.
@@ -189,6 +192,7 @@ impl Problem {
             reserve: 1.0,
             objective: Objective::default(),
             requirements: Vec::new(),
+            run_up: run_up::Settings::default(),
         }
     }
 

@@ -64,6 +64,7 @@ impl Job {
             figures: requirements,
             margin: share,
             reserve,
+            run_up,
         } = requirements(&machine, &task.require)?;
         let objective = objective(&machine, &task.objective)?;
         let is_exact = tolerances.iter().all(Tolerance::is_exact);
@@ -133,6 +134,7 @@ impl Job {
                 reserve,
                 objective,
                 requirements,
+                run_up,
             },
             settings: Settings { evaluations },
             samples: arguments.samples,

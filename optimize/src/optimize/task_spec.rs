@@ -11,6 +11,7 @@ use softstop_console::machine::Regime;
 use softstop_console::older::PaperRatios;
 use softstop_console::output::Format;
 use softstop_console::schema;
+use softstop_dynamics::run_up::Way;
 use toml::Table;
 
 use super::objective::Goal;
@@ -162,7 +163,17 @@ fn requirements_schema() -> serde_json::Value {
         });
         let value = match figure {
             Figure::RunUp => {
-                json!({ "anyOf": [{ "type": "boolean" }, number], "description": figure.meaning() })
+                let positive = json!({ "type": "number", "exclusiveMinimum": 0 });
+                let ways = json!({
+                    "type": "object",
+                    "properties": {
+                        "ways": { "type": "array", "items": { "enum": Way::ALL }, "minItems": 1 },
+                        "ramp_rate": positive, "force": positive,
+                        "least": number, "most": number, "at": { "enum": ["tolerances", "drawing"] }
+                    },
+                    "additionalProperties": false
+                });
+                json!({ "anyOf": [{ "type": "boolean" }, number, ways], "description": figure.meaning() })
             }
             Figure::Certainty | Figure::Share => {
                 let share = json!({ "type": "string", "pattern": "%\\s*$" });

@@ -55,28 +55,18 @@ fn together(
     let zones = scenes.iter().zip(&frequencies).map(|(scene, frequencies)| {
         let starts: Vec<_> = found.by_ref().take(frequencies.len()).collect();
         scene.validate()?;
-        let mut zones: Vec<(Zone, f64)> = Vec::new();
+        let mut zones: Vec<Zone> = Vec::new();
         for start in starts.into_iter().flatten() {
-            let velocity = start.before_impact_velocity();
-            match zones.iter_mut().find(|(zone, _)| contains(zone, &start)) {
-                Some((_, hardest)) => *hardest = hardest.max(velocity),
-                None => {
-                    let zone = about(scene, &start, between, watcher).ok().flatten();
-                    zones.extend(zone.map(|zone| (zone, velocity)));
-                }
+            if !zones.iter().any(|zone| contains(zone, &start)) {
+                zones.extend(about(scene, &start, between, watcher).ok().flatten());
             }
             OrbitError::ask(watcher)?;
         }
-        let hardest = |(zone, hardest): &(Zone, f64)| {
-            let inside = zone.branch.iter().filter(|point| {
-                point.is_stable() && (between.0..=between.1).contains(&point.parameter)
-            });
-            let velocities = inside.map(BranchPoint::before_impact_velocity);
-            velocities.fold(*hardest, f64::max)
-        };
-        let best = zones
-            .into_iter()
-            .max_by(|a, b| hardest(a).total_cmp(&hardest(b)));
+        let hardest = zones.into_iter().filter_map(|zone| {
+            let velocity = hardest_between(&zone, between)?;
+            Some((zone, velocity))
+        });
+        let best = hardest.max_by(|a, b| a.1.total_cmp(&b.1));
         let (from, to) = between;
         let none = ZoneError::NoMotion {
             from: from.into(),
@@ -85,6 +75,16 @@ fn together(
         best.map(|(zone, _)| zone).ok_or(none)
     });
     zones.collect()
+}
+
+/// The highest velocity at the points of a zone between two frequencies, and at these; none if it lies outside.
+fn hardest_between(zone: &Zone, (low, high): (f64, f64)) -> Option<f64> {
+    let inside = zone.branch.iter();
+    let inside = inside.filter(|it| it.is_stable() && (low..=high).contains(&it.parameter));
+    let at_ends = [low, high].map(|at| zone.point_at(zone.place_of(at)).ok());
+    let all = inside.chain(at_ends.iter().flatten());
+    all.map(BranchPoint::before_impact_velocity)
+        .max_by(f64::total_cmp)
 }
 
 /// True if a stable motion is the one that a zone has at its frequency.
@@ -107,11 +107,10 @@ fn starts(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
         (between.0, between.0)
     };
     let g0 = grazing_frequencies(scene).map(|(_, above)| above);
-    let g0 = g0.into_iter().filter(|g0| (low..=high).contains(g0));
     let count = if low < high { STARTS } else { 1 };
     let inside =
         (0..count).map(|index| low * (high / low).powf((index as f64 + 0.5) / count as f64));
-    g0.chain(inside).collect()
+    g0.into_iter().chain(inside).collect()
 }
 
 /// The range about a motion; none if it has no width.
