@@ -18,6 +18,7 @@ pub mod searched;
 mod started;
 mod tolerated;
 mod verdict;
+mod zone_end;
 
 use std::process::ExitCode;
 

@@ -9,7 +9,7 @@ use crate::design::constraint::Limit as Active;
 use crate::design::figure::Figure;
 use crate::design::space::End;
 use crate::optimize::outcome::Outcome;
-use crate::placed::end_name;
+use crate::zone_end::end_name;
 
 /// One thing that does.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

@@ -6,10 +6,10 @@ use softstop_console::columns;
 use softstop_console::number::NumberStyle::Six;
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::zone::ZoneEnd;
-use softstop_explore::zone::lost_by;
 
 use crate::design::{Design, Problem};
 use crate::limits::Limit;
+use crate::zone_end::end_name;
 
 type Placed<'a> = (&'a Problem, &'a Design, &'a [Limit]);
 
@@ -49,16 +49,6 @@ pub(crate) fn sentences(design: &Design) -> String {
         100.0 * design.place,
         starting(design)
     )
-}
-
-/// What ends a zone, in words.
-pub(crate) fn end_name(end: &ZoneEnd) -> String {
-    match end.kind.loss() {
-        None => "g0".to_owned(),
-        Some(_) if end.is(Test::Fold) => "s_SN".to_owned(),
-        Some(_) if end.is(Test::Flip) => "s_PD".to_owned(),
-        Some(loss) => lost_by(&loss),
-    }
 }
 
 /// g0 in rad/s, if there is one.

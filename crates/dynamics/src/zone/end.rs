@@ -1,7 +1,35 @@
 //! What ends a range of z = 1 motions.
 
-use super::stretch::Loss;
-use crate::continuation::{Branch, BranchPoint, Face, SpecialKind, Test};
+use crate::continuation::{Border, Branch, BranchPoint, End, Face, SpecialKind, Test};
+use crate::orbit::OrbitError;
+
+/// Why a stretch ends.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Loss {
+    /// The motion meets an unstable one and vanishes.
+    Fold,
+    /// It doubles its period.
+    Flip,
+    /// Its multipliers leave the unit circle as a complex pair.
+    NeimarkSacker,
+    /// Its impact dies: it grazes the clearance.
+    Grazing,
+    /// Another impact comes up: a turning point reaches the clearance.
+    AnotherImpact,
+    /// It grazes a surface beyond the clearance, where the force jumps: a border collision.
+    Inner(Face),
+    /// Another border collision.
+    Border(Border),
+    /// It is followed no farther than here.
+    Range,
+    /// The branch has more points than are followed.
+    Budget,
+    /// It is too unstable to be followed.
+    Unstable,
+    /// No step is short enough to follow it.
+    Lost(OrbitError),
+}
 
 /// One end of a [`Zone`](super::Zone).
 #[derive(Debug, Clone)]
@@ -72,4 +100,39 @@ pub(crate) fn first_end<'a>(
         };
         Some((point, kind))
     })
+}
+
+impl Loss {
+    /// At a special point.
+    pub(crate) fn at(kind: &SpecialKind) -> Self {
+        match kind {
+            SpecialKind::Critical(test) => Self::from(*test),
+            SpecialKind::Grazing(graze) => match graze.face {
+                Face::Clearance if graze.impacts == 0 => Self::Grazing,
+                Face::Clearance => Self::AnotherImpact,
+                face => Self::Inner(face),
+            },
+        }
+    }
+
+    /// Where a branch ends otherwise; at a grazing its special point says which.
+    pub(crate) fn of(end: &End) -> Self {
+        match end {
+            End::Points => Self::Budget,
+            End::Border(border) => Self::Border(*border),
+            End::Unstable => Self::Unstable,
+            End::Lost(error) => Self::Lost(error.clone()),
+            _ => Self::Range,
+        }
+    }
+}
+
+impl From<Test> for Loss {
+    fn from(test: Test) -> Self {
+        match test {
+            Test::Fold => Self::Fold,
+            Test::Flip => Self::Flip,
+            Test::NeimarkSacker => Self::NeimarkSacker,
+        }
+    }
 }

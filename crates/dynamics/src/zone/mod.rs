@@ -15,14 +15,14 @@ mod stretches;
 
 pub use bounds::Bounds;
 pub(crate) use end::first_end;
-pub use end::{EndKind, ZoneEnd};
+pub use end::{EndKind, Loss, ZoneEnd};
 pub use find::{find, find_among, find_watched, find_zones};
 pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{hysteresis, hysteresis_soon, hysteresis_watched};
 pub use loss::{end_along, loss_of_stability};
 pub use places::{Zone, ZoneKind};
 pub use single_impact::single_impact;
-pub use stretch::{Loss, Stretch, StretchEnd};
+pub use stretch::{Stretch, StretchEnd};
 pub use stretches::{stretches, stretches_watched};
 
 use std::fmt::{self, Display, Formatter};

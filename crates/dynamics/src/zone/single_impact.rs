@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::end::{EndKind, ZoneEnd, first_end};
+use super::end::{EndKind, Loss, ZoneEnd, first_end};
 use super::hysteresis::{LONGEST_BRANCH, highest_fold, upward};
 use super::places::{Zone, ZoneKind};
-use super::stretch::{Loss, is_same};
+use super::stretch::is_same;
 use super::stretches::FOLLOWED;
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading, Limits, SpecialKind, Test};
