@@ -12,12 +12,14 @@ mod limits;
 pub mod optimize;
 pub mod page;
 mod pareto;
+mod placed;
 pub mod report;
 pub mod robust;
 pub mod searched;
 mod started;
 mod tolerated;
 mod verdict;
+mod zone_end;
 
 use std::process::ExitCode;
 

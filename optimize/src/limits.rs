@@ -9,6 +9,7 @@ use crate::design::constraint::Limit as Active;
 use crate::design::figure::Figure;
 use crate::design::space::End;
 use crate::optimize::outcome::Outcome;
+use crate::zone_end::end_name;
 
 /// One thing that does.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -45,18 +46,20 @@ fn limit(problem: &Problem, found: &Outcome, limit: &Active) -> Option<Limit> {
         let words = format!("the {end} bound of the {meaning}");
         Limit::new(format!("{key}: {end} bound"), words)
     };
-    let side = |end| match end {
-        End::Lower => "g0",
-        End::Upper => "s_SN",
-    };
     let design = &found.design;
+    let side = |end| {
+        end_name(match end {
+            End::Lower => &design.zone.low,
+            End::Upper => &design.zone.high,
+        })
+    };
     Some(match limit {
         Active::Axis(parameter, end) => at_end(*parameter, *end),
         Active::Frequency(end) => at_end(Parameter::Frequency, *end),
-        Active::Margin(end) => at_margin(side(*end)),
+        Active::Margin(end) => at_margin(&side(*end)),
         Active::Required(Figure::Share, _) => match design.place < 0.5 {
-            true => at_margin("g0"),
-            false => at_margin("s_SN"),
+            true => at_margin(&side(End::Lower)),
+            false => at_margin(&side(End::Upper)),
         },
         Active::Required(figure, _) => {
             let requirement = problem
@@ -70,7 +73,7 @@ fn limit(problem: &Problem, found: &Outcome, limit: &Active) -> Option<Limit> {
                 format!("the {meaning} ({name}), {required}"),
             )
         }
-        Active::Tolerances(end) => reached(side(*end)),
+        Active::Tolerances(end) => reached(&side(*end)),
         Active::Loss => reached(&match problem.border_within(design) {
             Some(by) => format!("a border inside the zone ({by})"),
             None => "a border inside the zone".to_owned(),

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop::{Dimension, Machine, Parameter};
-use softstop_console::column::{Column, Told, Units};
+use softstop::{Dimension, Machine};
+use softstop_console::column::{Column, Units};
 use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::interrupt;
-use softstop_console::number::NumberStyle::Six;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{Stated, motion};
 use softstop_console::sheet::Sheet;
@@ -28,7 +27,7 @@ use crate::page::figure::Figure;
 use crate::pareto::FrontReport;
 use crate::searched::SearchReport;
 use crate::tolerated::Tolerated;
-use crate::{started, verdict};
+use crate::{placed, started, verdict};
 
 /// A motion and its machine, in the machine's own units.
 #[derive(Debug, Serialize)]
@@ -82,6 +81,9 @@ pub struct OptimizeReport {
     /// What the design is, in a line.
     #[serde(skip)]
     heading: String,
+    /// Where it stands, in sentences.
+    #[serde(skip)]
+    stands: String,
     /// Its pictures.
     #[serde(skip)]
     pub figures: Vec<Figure>,
@@ -107,12 +109,13 @@ impl OptimizeReport {
             motion: motion(machine, orbit).and(more),
         };
         let reference = |it: &Reference| (it.name, one(&it.machine, &it.orbit, gain(design, it)));
-        let place = Record::of(&place(), &(problem, design, &limits));
+        let place = Record::of(&placed::columns(), &(problem, design, &limits));
         let met = found.met.iter().map(|it| verdict::required(machine, it));
         let rivals = found.rivals.iter().map(|it| verdict::rival(problem, it));
         let fronts = found.fronts.iter().map(|it| verdict::traded(problem, it));
-        let ways = found.run_up.iter().flat_map(|it| &it.ways);
-        let ways = ways.map(|it| Record::of(&started::columns(), &(machine, it)));
+        let ways = found.run_up.iter();
+        let ways = ways.flat_map(|all| all.ways.iter().map(move |it| (machine, all, it)));
+        let ways = ways.map(|it| Record::of(&started::columns(), &it));
         Self {
             title: Title::default(),
             objective: Record::of(&objective(), &(problem, design)),
@@ -133,6 +136,7 @@ impl OptimizeReport {
             search: SearchReport::new(problem, evaluations, found),
             machine: machine.clone(),
             heading: head(problem),
+            stands: placed::sentences(design),
             figures: Vec::new(),
             sources: Vec::new(),
         }
@@ -153,14 +157,7 @@ impl OptimizeReport {
 
     /// Where the design stands, and what holds it back.
     fn stands(&self) -> String {
-        let number = |name| Six.format(self.design.motion.number(name));
-        let mut text = format!(
-            "\nZone of the design: {} from {} (g0) to {} (s_SN); the design stands at {:.1} % of the way.\n",
-            self.machine.label_of(Parameter::Frequency),
-            number("frequency_g0"),
-            number("frequency_sn"),
-            100.0 * self.design.motion.number("s"),
-        );
+        let mut text = format!("\n{}", self.stands);
         if !self.limits.is_empty() {
             let limits: Vec<&str> = self.limits.iter().map(|it| it.words.as_str()).collect();
             text += &format!("Held back by: {}.\n", limits.join("; "));
@@ -175,6 +172,7 @@ impl Report for OptimizeReport {
         let tolerances = self.tolerances.as_ref().map(|it| it.text(&units));
         let tables = sections([
             ("What was required", below(&self.requirements, &units)),
+            ("How to run the machine up", below(&self.run_up, &units)),
             (
                 "Nearly as good, but far from it: a small change of the task may lead there",
                 below(&self.rivals, &units),
@@ -211,18 +209,6 @@ fn head(problem: &Problem) -> String {
     crate::page::capital(&format!("{what}: {name}{margin}"))
 }
 
-type Placed<'a> = (&'a Problem, &'a Design, &'a [Limit]);
-
-fn place<'a>() -> [Column<Placed<'a>>; 5] {
-    columns! { Placed<'a>, it;
-        "frequency_g0" [Frequency], "lower end of the design's zone" => own(it.1, it.1.zone.frequency_g0);
-        "frequency_sn" [Frequency], "its upper end" => own(it.1, it.1.zone.frequency_sn);
-        "margin" [None], "least distance M from both ends, as a share of the zone" => it.0.margin;
-        "s" [None], "place in the zone, in [M, 1 - M]" => it.1.place;
-        "at_limits" [None], "what holds it back" => keys(it.2);
-    }
-}
-
 type Sought<'a> = (&'a Problem, &'a Design);
 
 fn objective<'a>() -> [Column<Sought<'a>>; 5] {
@@ -232,13 +218,6 @@ fn objective<'a>() -> [Column<Sought<'a>>; 5] {
         "words" [None], "what is sought of it" => it.0.objective.words();
         "value" [None], "what the design has" => it.0.machine.to_own(it.0.objective.figure.dimension(), it.1.value);
         "unit" [None], "its unit" => it.0.machine.unit(it.0.objective.figure.dimension());
-    }
-}
-
-fn keys(limits: &[Limit]) -> Told {
-    Told {
-        value: limits.iter().map(|it| it.key.as_str()).collect(),
-        words: String::new(),
     }
 }
 

@@ -1,25 +1,37 @@
 //! Ways to bring a machine into its motion, as records.
 
-use softstop::Machine;
+use softstop::{Dimension, Machine};
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_dynamics::run_up::{Attempt, Way};
+use softstop_dynamics::run_up::{Attempt, Peaks, RunUp, Way};
 
 use crate::page::quantity;
 
-type Tried<'a> = (&'a Machine, &'a Attempt);
+type Tried<'a> = (&'a Machine, &'a RunUp, &'a Attempt);
 
 /// What came of a way of a machine.
-pub(crate) fn columns<'a>() -> [Column<Tried<'a>>; 4] {
+pub(crate) fn columns<'a>() -> [Column<Tried<'a>>; 8] {
     columns! { Tried<'a>, it;
-        "way" [None] Plain, "what is done" => it.1.way.name();
-        "reaches" [None] Plain, "whether the machine then moves as designed" => it.1.share == 1.0;
-        "share" [None], "share of the runs that end on the motion" => it.1.share;
+        "way" [None] Plain, "what is done" => it.2.way.name();
+        "reaches" [None] Plain, "whether the machine then moves as designed" => it.2.share == 1.0;
+        "share" [None], "share of the runs that end on the motion" => it.2.share;
+        "periods" [None] Plain, "drive periods that it takes" => it.2.periods;
+        "stop_force" [Force] Six, "peak force of the stop on the way" => peak(it, Dimension::Force, |it| it.stop_force);
+        "max_position" [Length] Six, "largest position on the way" => peak(it, Dimension::Length, |it| it.highest);
+        "allowed" [None] Plain, "whether that force is allowed" => it.1.is_gentle(it.2);
         "note" [None] Plain, "what else is to be known" => note(it);
     }
 }
 
-fn note((machine, attempt): &Tried<'_>) -> String {
+fn peak(
+    (machine, _, attempt): &Tried<'_>,
+    dimension: Dimension,
+    of: impl Fn(&Peaks) -> f64,
+) -> Option<f64> {
+    Some(machine.to_own(dimension, of(attempt.peaks.as_ref()?)))
+}
+
+fn note((machine, _, attempt): &Tried<'_>) -> String {
     let angle = attempt.angle.filter(|_| attempt.share < 1.0);
     let own = |value: f64| {
         let dimension = attempt.way.changes()?.about().dimension;

@@ -61,8 +61,8 @@ fn parameters<'a>() -> [Column<One<'a>>; 11] {
         "value" [None], "its value" => it.0.value(parameter(it));
         "tolerance" [None] Seven, "half-width" => half_width(it.0, &it.1.tolerances[it.2]);
         "velocity" [Velocity] Seven, "change of the velocity at its upper end" => it.1.sensitivities.velocity[it.2];
-        "to_fold" [Frequency] Seven, "of the margin to s_SN" => own(it, it.1.sensitivities.to_fold[it.2]);
-        "to_g0" [Frequency] Seven, "of the margin to g0" => own(it, it.1.sensitivities.to_free[it.2]);
+        "to_fold" [Frequency] Seven, "of the margin to s_SN" => margin(it, it.1.sensitivities.to_fold.as_ref());
+        "to_g0" [Frequency] Seven, "of the margin to g0" => margin(it, it.1.sensitivities.to_free.as_ref());
         "first_index" [None] Fixed(4), "Sobol index of the velocity" => indices(it).map(|all| all[0].first.value);
         "total_index" [None] Fixed(4), "with all others" => indices(it).map(|all| all[0].total.value);
         "margin_index" [None] Fixed(4), "of the place in the zone, with all others; g0 and s_SN as fitted polynomials" => indices(it).map(|all| all[1].total.value);
@@ -79,8 +79,9 @@ fn indices((_, study, index): &One<'_>) -> Option<[Index; 2]> {
     Some([all.velocity[*index], all.place[*index]])
 }
 
-fn own((machine, ..): &One<'_>, frequency: f64) -> f64 {
-    machine.to_own(Dimension::Frequency, frequency)
+/// The change of a margin in the machine's own units.
+fn margin((machine, _, index): &One<'_>, all: Option<&Vec<f64>>) -> Option<f64> {
+    Some(machine.to_own(Dimension::Frequency, all?[*index]))
 }
 
 /// The half-width of a tolerance in the machine's own units.

@@ -13,6 +13,7 @@ mod interrupts;
 mod motions;
 mod optimum;
 mod pareto;
+mod pile_driver;
 mod refusals;
 mod report;
 mod robust;

@@ -247,7 +247,7 @@ fn without_margin_the_fold_itself_is_allowed() -> Outcome {
         ..problem(0.0)
     };
     let design = solve(&problem, 100)?;
-    let fold = design.zone.velocity_sn;
+    let fold = design.zone.high.point.before_impact_velocity();
     assert!(
         design.before_impact_velocity() >= fold * (1.0 - 1e-7),
         "{} below {fold}",

@@ -60,8 +60,8 @@ fn is_front(problem: &Problem, front: &Pareto) -> Outcome {
     for point in &front.points {
         let machine = &point.found.design.machine;
         let zone = zone::hysteresis(&machine.scene)?;
-        let width = zone.frequency_sn - zone.frequency_g0;
-        let place = (machine.scene.excitation.frequency - zone.frequency_g0) / width;
+        let width = zone.high.frequency - zone.low.frequency;
+        let place = (machine.scene.excitation.frequency - zone.low.frequency) / width;
         let orbit = zone.orbit(&zone.point_at(place)?)?;
         let motion = Judged::new(machine, &zone, place, &orbit)?;
         assert!(place > problem.margin - 1e-7 && place < 1.0 - problem.margin + 1e-7);

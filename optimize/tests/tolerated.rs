@@ -84,7 +84,7 @@ fn grid(problem: &Problem, clearances: usize, places: usize) -> Vec<Design> {
         let design = move |index: usize| {
             let zone = zone.clone()?;
             let frequency = problem.frequency.at(index as f64 / (places - 1) as f64);
-            let place = (frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0);
+            let place = (frequency - zone.frequency_g0) / (zone.high.frequency - zone.frequency_g0);
             let orbit = zone.orbit_at(place).ok().filter(|it| it.is_stable())?;
             let mut machine = machine.clone();
             Parameter::Frequency.set(&mut machine.scene, frequency);

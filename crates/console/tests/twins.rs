@@ -70,12 +70,12 @@ fn zones_of_twins_are_the_same() -> Outcome {
         );
         let near = |a: f64, b: f64| assert_relative_eq!(a, b, max_relative = 1e-9);
         near(own.frequency_g0 * UNITS.frequency(), other.frequency_g0);
-        near(own.frequency_sn * UNITS.frequency(), other.frequency_sn);
+        near(own.high.frequency * UNITS.frequency(), other.high.frequency);
         let velocity = UNITS.length() * UNITS.frequency();
         // At a fold the motion moves as the root of a change of the frequency.
         assert_relative_eq!(
-            own.velocity_sn * velocity,
-            other.velocity_sn,
+            own.high.point.before_impact_velocity() * velocity,
+            other.high.point.before_impact_velocity(),
             max_relative = 1e-5
         );
     }

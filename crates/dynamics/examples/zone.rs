@@ -8,9 +8,9 @@ use softstop_dynamics::zone;
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let machine = Ratios::unloaded().scene()?;
     let zone = zone::hysteresis(&machine)?;
-    println!("eta from {} to {}", zone.frequency_g0, zone.frequency_sn);
+    println!("eta from {} to {}", zone.frequency_g0, zone.high.frequency);
     assert_abs_diff_eq!(zone.frequency_g0, 1.04444, epsilon = 5e-6);
-    assert_abs_diff_eq!(zone.frequency_sn, 1.369_036, epsilon = 5e-7);
+    assert_abs_diff_eq!(zone.high.frequency, 1.369_036, epsilon = 5e-7);
 
     let units = Units {
         mass: 12.0,
@@ -21,9 +21,9 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let zone_in_si = zone::hysteresis(&press)?;
     println!(
         "{} to {} rad/s",
-        zone_in_si.frequency_g0, zone_in_si.frequency_sn
+        zone_in_si.frequency_g0, zone_in_si.high.frequency
     );
-    let ratio = zone_in_si.frequency_sn / zone.frequency_sn;
+    let ratio = zone_in_si.high.frequency / zone.high.frequency;
     assert_abs_diff_eq!(ratio / units.frequency(), 1.0, epsilon = 1e-9);
     Ok(())
 }

@@ -18,7 +18,7 @@
 //! let orbit: Orbit = orbit::find(&scene)?;
 //! assert_eq!(orbit.regime().to_string(), "1");
 //! let zone: Zone = zone::hysteresis(&scene)?;
-//! assert!((zone.frequency_sn - 1.369_036).abs() < 1e-6);
+//! assert!((zone.high.frequency - 1.369_036).abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]

@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 use crate::attractors::SurveyError;
 use crate::basin::{Home, at_section};
 use crate::motion::MotionKind;
-use crate::orbit::{Orbit, Regime};
+use crate::orbit::{Orbit, OrbitError, Regime};
+use crate::stroke::Passed;
 use crate::sweep::{Chain, Direction, Plan};
 use crate::watch::{Watcher, stop_if};
 use crate::zone::free_amplitude;
-use softstop::{Parameter, Scene, Start};
+use softstop::{MotionError, Parameter, Scene, Start};
 
 /// A way to bring a machine into a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -43,6 +44,15 @@ impl Way {
         Self::ClearanceOpened,
         Self::AmplitudeRaised,
         Self::AmplitudeLowered,
+    ];
+
+    /// Those that need no more than the drive's own amplitude.
+    pub const BY_OWN_DRIVE: [Self; 5] = [
+        Self::SwitchedOn,
+        Self::FrequencyRaised,
+        Self::FrequencyLowered,
+        Self::ClearanceOpened,
+        Self::AmplitudeRaised,
     ];
 
     /// In words.
@@ -118,6 +128,47 @@ const STEPS: usize = 256;
 const PERIODS: u64 = 64;
 const RETURN: f64 = 1e-2;
 
+/// Which ways are tried, and what is asked of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Those that are tried.
+    pub ways: Vec<Way>,
+    /// Change of the drive's frequency in rad/s from each drive period to the next; none for a slow one.
+    pub ramp: Option<f64>,
+    /// Largest force in N at the stop that is allowed on the way.
+    pub most_force: Option<f64>,
+    /// Whether forces and positions on the way are computed even if none is bounded.
+    pub with_peaks: bool,
+}
+
+impl Default for Settings {
+    /// Slow ways by the drive's own amplitude, with any force.
+    fn default() -> Self {
+        Self {
+            ways: Way::BY_OWN_DRIVE.to_vec(),
+            ramp: None,
+            most_force: None,
+            with_peaks: false,
+        }
+    }
+}
+
+impl Settings {
+    fn has_peaks(&self) -> bool {
+        self.with_peaks || self.most_force.is_some()
+    }
+
+    /// Values of a parameter on the way, and drive periods of each.
+    fn steps(&self, parameter: Parameter, (low, high): (f64, f64)) -> (usize, u64) {
+        match self.ramp {
+            Some(rate) if parameter == Parameter::Frequency => {
+                (((high - low) / rate).ceil() as usize + 1, 1)
+            }
+            _ => (STEPS, PERIODS),
+        }
+    }
+}
+
 /// What came of a way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -135,36 +186,74 @@ pub struct Attempt {
     pub ends: Option<MotionKind>,
     /// Value at which a slow way that does not lead there showed z = 1 last, in SI units; none if it never did.
     pub lost: Option<f64>,
+    /// Drive periods that the way takes; none where the drive is switched on at once.
+    pub periods: Option<u64>,
+    /// The largest values of all runs on the way and in 64 drive periods after it, if they were computed.
+    pub peaks: Option<Peaks>,
+}
+
+/// The largest values on a way.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Peaks {
+    /// Force of contact in N while the stop is touched.
+    pub stop_force: f64,
+    /// Position in m.
+    pub highest: f64,
+}
+
+impl Peaks {
+    /// Goes on with some periods; the state after them.
+    fn take(&mut self, scene: &Scene, start: Start, periods: u64) -> Result<Start, MotionError> {
+        let passed = Passed::of(scene, start, periods)?;
+        self.stop_force = self.stop_force.max(passed.stop_force);
+        self.highest = self.highest.max(passed.highest);
+        Ok(passed.end)
+    }
 }
 
 /// All ways that were tried.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunUp {
-    /// They, in the order of [`Way::ALL`]; those that a machine does not have are left out.
+    /// They, in the order in which they were asked for; those that a machine does not have are left out.
     pub ways: Vec<Attempt>,
+    /// Largest force in N at the stop that is allowed on the way.
+    pub most_force: Option<f64>,
 }
 
 impl RunUp {
-    /// Tries all ways into a stable motion; the drive is switched on at so many drive angles.
+    /// Tries ways into a stable motion; the drive is switched on at so many drive angles.
     ///
     /// # Errors
     /// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
-    pub fn of(orbit: &Orbit, angles: usize, watcher: Watcher<'_>) -> Result<Self, SurveyError> {
+    pub fn of(
+        orbit: &Orbit,
+        settings: &Settings,
+        angles: usize,
+        watcher: Watcher<'_>,
+    ) -> Result<Self, SurveyError> {
         let home = Home::of(orbit)?;
-        let tried = Way::ALL.par_iter().map(|way| match way {
-            Way::SwitchedOn => switched_on(orbit, &home, angles, watcher).map(Some),
-            _ => slowly(orbit, &home, *way, watcher),
+        let tried = settings.ways.par_iter().map(|way| match way {
+            Way::SwitchedOn => switched_on(orbit, &home, (settings, angles), watcher).map(Some),
+            _ => changed(orbit, &home, (settings, *way), watcher),
         });
         let tried = tried.collect::<Result<Vec<Option<Attempt>>, SurveyError>>()?;
         Ok(Self {
             ways: tried.into_iter().flatten().collect(),
+            most_force: settings.most_force,
         })
     }
 
-    /// The ways that lead to the motion for sure.
+    /// The ways that lead to the motion for sure, with no more force than is allowed.
     pub fn works(&self) -> impl Iterator<Item = &Attempt> {
-        self.ways.iter().filter(|attempt| attempt.share == 1.0)
+        let all = self.ways.iter().filter(|attempt| attempt.share == 1.0);
+        all.filter(|attempt| self.is_gentle(attempt))
+    }
+
+    /// True if the stop is pressed no harder on a way than is allowed.
+    pub fn is_gentle(&self, attempt: &Attempt) -> bool {
+        let within = |most: f64| attempt.peaks.is_some_and(|it| it.stop_force <= most);
+        self.most_force.is_none_or(within)
     }
 
     /// What came of one way.
@@ -206,7 +295,7 @@ fn at_rest(scene: &Scene) -> Start {
 fn switched_on(
     orbit: &Orbit,
     home: &Home,
-    angles: usize,
+    (settings, angles): (&Settings, usize),
     watcher: Watcher<'_>,
 ) -> Result<Attempt, SurveyError> {
     let (scene, rest) = (&orbit.scene, at_rest(&orbit.scene));
@@ -216,7 +305,15 @@ fn switched_on(
         .collect();
     let states = angles.iter();
     let states = states.map(|angle| at_section(&phases, scene.excitation, rest, *angle));
-    let reached = home.reached(&states.collect::<Result<Vec<_>, _>>()?, watcher)?;
+    let states = states.collect::<Result<Vec<Start>, _>>()?;
+    let reached = home.reached(&states, watcher)?;
+    let peaks = || {
+        let mut peaks = Peaks::default();
+        for state in states {
+            peaks.take(scene, state, PERIODS)?;
+        }
+        Ok::<_, MotionError>(peaks)
+    };
     let all = reached.iter().filter(|reached| **reached).count();
     Ok(Attempt {
         way: Way::SwitchedOn,
@@ -225,6 +322,8 @@ fn switched_on(
         from: None,
         ends: None,
         lost: None,
+        periods: None,
+        peaks: settings.has_peaks().then(peaks).transpose()?,
     })
 }
 
@@ -242,10 +341,10 @@ fn middle(circle: &[bool]) -> Option<f64> {
     (length > 0).then_some(first as f64 + 0.5 * (length as f64 - 1.0))
 }
 
-fn slowly(
+fn changed(
     orbit: &Orbit,
     home: &Home,
-    way: Way,
+    (settings, way): (&Settings, Way),
     watcher: Watcher<'_>,
 ) -> Result<Option<Attempt>, SurveyError> {
     let scene = &orbit.scene;
@@ -256,7 +355,8 @@ fn slowly(
         return Ok(None);
     };
     let range = (from.min(at_work), from.max(at_work));
-    let Ok(plan) = Plan::new(parameter, range, STEPS, PERIODS) else {
+    let (steps, periods) = settings.steps(parameter, range);
+    let Ok(plan) = Plan::new(parameter, range, steps, periods) else {
         return Ok(None);
     };
     let plan = Plan {
@@ -275,6 +375,17 @@ fn slowly(
         Some(last) => home.reached(&[last.end], watcher)?[0],
         None => false,
     };
+    let peaks = || {
+        let (mut peaks, mut state) = (Peaks::default(), plan.start);
+        for step in 0..steps {
+            let mut scene = scene.clone();
+            parameter.set(&mut scene, plan.value(step, direction));
+            state = peaks.take(&scene, state, periods)?;
+            OrbitError::ask(watcher)?;
+        }
+        peaks.take(scene, state, PERIODS)?;
+        Ok::<_, OrbitError>(peaks)
+    };
     let is_one = |motion: &MotionKind| motion.regime() == Some(Regime::ONE);
     let mut ones = chain.steps.iter().rev().filter(|step| is_one(&step.motion));
     Ok(Some(Attempt {
@@ -284,5 +395,8 @@ fn slowly(
         from: Some(from),
         ends: last.map(|last| last.motion.clone()),
         lost: ones.next().map(|step| step.value).filter(|_| !reached),
+        periods: Some(steps as u64 * periods),
+        // A way that cannot be computed to its end has none.
+        peaks: settings.has_peaks().then(peaks).and_then(Result::ok),
     }))
 }

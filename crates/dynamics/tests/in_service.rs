@@ -1,10 +1,10 @@
 //! What a machine does in service: missing strips, run-up, certainty and integrity along the zone.
 
 use rayon::ThreadPoolBuilder;
-use softstop::{Machine, Scene};
+use softstop::{Machine, Scene, Simulation, Start};
 use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{ErosionProfile, Establishment, Home, Options, basins, zone_box};
-use softstop_dynamics::run_up::{RunUp, Way};
+use softstop_dynamics::run_up::{RunUp, Settings, Way};
 use softstop_dynamics::supply::{Reading, outlasts};
 use softstop_dynamics::watch::{stop_if, unwatched};
 use softstop_dynamics::{Axis, Grid, Orbit, Regime, Zone, orbit, zone};
@@ -89,11 +89,73 @@ fn near_the_fold_missing_strips_end_the_motion() {
     assert!(lost.clone().count() > 0 && lost.clone().all(|gap| gap.missed > 3));
 }
 
+fn all_ways() -> Settings {
+    Settings {
+        ways: Way::ALL.to_vec(),
+        ..Settings::default()
+    }
+}
+
+/// A ramp by a step of the frequency each drive period, against a plain simulation of its periods, one by one.
+#[test]
+fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
+    let orbit = one(&unloaded(1.15));
+    let settings = Settings {
+        ways: vec![Way::FrequencyRaised],
+        ramp: Some(0.005),
+        with_peaks: true,
+        ..Settings::default()
+    };
+    let found = RunUp::of(&orbit, &settings, 1, &unwatched).expect("computed");
+    let attempt = found.by(Way::FrequencyRaised).expect("tried");
+    let steps = attempt.periods.expect("periods");
+    assert_eq!(steps, 131, "from 0.5 to 1.15");
+    let (mut state, mut highest, mut force) = (Start::REST, 0.0_f64, 0.0_f64);
+    for step in 0..steps + 64 {
+        let share = (step as f64 / (steps - 1) as f64).min(1.0);
+        let scene = orbit.scene.at_frequency(0.5 + share * 0.65);
+        let mut run = Simulation::new(&scene, state).expect("a scene");
+        let period = scene.period();
+        for part in 1..=400 {
+            run.advance(period * f64::from(part) / 400.0)
+                .expect("computed");
+            let now = run.sample();
+            (highest, force) = (highest.max(now.position), force.max(now.contact_force));
+            state = Start::new(now.position, now.velocity);
+        }
+    }
+    let peaks = attempt.peaks.expect("computed");
+    assert!(peaks.highest >= highest && peaks.stop_force >= force);
+    assert!(
+        peaks.highest < highest * 1.001,
+        "{} {highest}",
+        peaks.highest
+    );
+    assert!(
+        peaks.stop_force < force * 1.01,
+        "{} {force}",
+        peaks.stop_force
+    );
+    let bounded = |most| {
+        let settings = Settings {
+            most_force: Some(most),
+            ..settings.clone()
+        };
+        RunUp::of(&orbit, &settings, 1, &unwatched).expect("computed")
+    };
+    let reaches = attempt.share == 1.0;
+    assert_eq!(
+        bounded(1.01 * peaks.stop_force).works().count(),
+        usize::from(reaches)
+    );
+    assert_eq!(bounded(0.99 * peaks.stop_force).works().count(), 0);
+}
+
 /// The paper: impacts in the hysteresis zone are reached from impacts, not from rest.
 #[test]
 fn a_and_b_are_run_up_from_impacts() {
     for scene in [unloaded(1.15), loaded()] {
-        let run_up = RunUp::of(&one(&scene), 64, &unwatched).expect("computed");
+        let run_up = RunUp::of(&one(&scene), &all_ways(), 64, &unwatched).expect("computed");
         let works: Vec<Way> = run_up.works().map(|attempt| attempt.way).collect();
         let ways = [
             Way::FrequencyRaised,
@@ -120,7 +182,7 @@ fn a_way_says_where_it_loses_the_motion() {
     // A narrow stretch of z = 1 above a gap: at rho = 22, loaded, the flip ends it at 1.016794.
     let mut scene = loaded();
     (scene.clearance, scene.excitation.frequency) = (22.0, 1.005);
-    let run_up = RunUp::of(&one(&scene), 64, &unwatched).expect("computed");
+    let run_up = RunUp::of(&one(&scene), &all_ways(), 64, &unwatched).expect("computed");
     for attempt in &run_up.ways {
         let is_lost = attempt.lost.is_some_and(|lost| Some(lost) != attempt.from);
         assert!(attempt.share == 0.0 || !is_lost, "{attempt:?}");
@@ -170,7 +232,7 @@ fn one_box_tells_the_same_of_a_motion_alone_and_along_its_zone() {
     let a = one(&unloaded(1.15));
     let zone = zone_of(&a.scene);
     let alone = Establishment::of(&a, 512, &unwatched).expect("computed");
-    let width = zone.frequency_sn - zone.frequency_g0;
+    let width = zone.high.frequency - zone.frequency_g0;
     let place = (a.scene.excitation.frequency - zone.frequency_g0) / width;
     let along = ErosionProfile::of(&zone, &alone.region, (&[place], 512), &unwatched);
     assert_eq!(
@@ -196,7 +258,7 @@ fn threads_and_watchers() {
         (
             Establishment::of(&a, 2000, &unwatched).expect("computed"),
             outlasts(&b, 3, Reading::Near, 300, &unwatched).expect("computed"),
-            RunUp::of(&a, 32, &unwatched).expect("computed"),
+            RunUp::of(&a, &Settings::default(), 32, &unwatched).expect("computed"),
             ErosionProfile::of(&zone, &region, (&[0.2, 0.8], 700), &unwatched).expect("computed"),
         )
     };
@@ -207,7 +269,8 @@ fn threads_and_watchers() {
     assert_eq!(on(1), on(3));
     let a = one(&unloaded(1.15));
     let stop = |_, _| stop_if(true);
-    assert!(Establishment::of(&a, 10, &stop).is_err() && RunUp::of(&a, 4, &stop).is_err());
+    assert!(Establishment::of(&a, 10, &stop).is_err());
+    assert!(RunUp::of(&a, &Settings::default(), 4, &stop).is_err());
     assert!(outlasts(&a, 1, Reading::Fixed, 4, &stop).is_err());
 }
 

@@ -30,3 +30,4 @@ mod zone_light;
 mod zone_reference;
 mod zone_sample;
 mod zone_units;
+mod zone_whole;

@@ -25,8 +25,8 @@ fn normals_are_those_of_zones_computed_anew() {
             .collect();
         let of = |scene: &Scene| zone::hysteresis(scene).expect("a zone");
         let zone = of(&scene);
-        let fold =
-            Border::critical(&scene, 1, (Test::Fold, &zone.fold), &parameters).expect("smooth");
+        let fold = Border::critical(&scene, 1, (Test::Fold, &zone.high.point), &parameters)
+            .expect("smooth");
         let free = Border::free(&scene, true, &parameters).expect("grazes");
         for (index, parameter) in parameters.into_iter().enumerate() {
             if matches!(parameter, Parameter::Frequency | Parameter::Phase) {
@@ -38,7 +38,7 @@ fn normals_are_those_of_zones_computed_anew() {
                 let mut scene = scene.clone();
                 parameter.set(&mut scene, value + shift);
                 let zone = of(&scene);
-                [zone.frequency_sn, zone.frequency_g0]
+                [zone.high.frequency, zone.frequency_g0]
             };
             let [ahead, behind, farther, back] =
                 [1.0, -1.0, 2.0, -2.0].map(|shift| frequencies(shift * width));

@@ -126,7 +126,8 @@ fn judged(scene: &Scene, share: f64) -> Option<Tally> {
         .iter()
         .map(|figure| figure.value.abs())
         .collect();
-    let fold = Border::critical(scene, 1, (Test::Fold, &zone.fold), &parameters).expect("smooth");
+    let fold =
+        Border::critical(scene, 1, (Test::Fold, &zone.high.point), &parameters).expect("smooth");
     let mut tally = (0, 0, 0.0);
     for (index, parameter) in parameters.iter().enumerate() {
         let value = parameter.get(&orbit.scene)?;

@@ -36,7 +36,7 @@ fn a_way_out_ends_at_the_fold_of_the_machine_there() -> Outcome {
             let reached = along(&spread, &nominal, &to, 1.0)?;
             assert_eq!(reached.loss, Some(Loss::Fold));
             let there = spread.scene(&to.map(|to| reached.share * to));
-            let fold = hysteresis(&there)?.frequency_sn;
+            let fold = hysteresis(&there)?.high.frequency;
             assert_relative(there.excitation.frequency, fold, 1e-8);
         }
     }

@@ -57,7 +57,7 @@ fn a_loaded_branch_with_three_folds() -> Outcome {
     assert_folds(&zone, &[1.601, 1.473, 1.664], 3);
     let hardest = find(&scene.at_frequency(1.495))?.before_impact_velocity();
     assert_near(hardest, 60.0, printed(0));
-    let share = (1.495 - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0);
+    let share = (1.495 - zone.frequency_g0) / (zone.high.frequency - zone.frequency_g0);
     let on_branch = zone.orbit_at(share)?.before_impact_velocity();
     assert_near(on_branch, hardest, printed(6));
     Ok(())

@@ -109,7 +109,9 @@ fn sample() {
         let parameters = machines.new_tree(&mut runner).expect("a machine").current();
         if let Ok(zone) = hysteresis(&scene(&parameters)) {
             let flip = flip(&zone).map(|flip| guess(&flip));
-            found.push(json!({"parameters": parameters, "fold": guess(&zone.fold), "flip": flip}));
+            found.push(
+                json!({"parameters": parameters, "fold": guess(&zone.high.point), "flip": flip}),
+            );
         }
     }
     println!("{}", json!(found));
@@ -128,8 +130,8 @@ fn zones_agree_with_thirty_digits() {
             assert!(close, "{key} {value} in place of {expected}");
         };
         agrees(zone.frequency_g0, "frequency_g0");
-        agrees(zone.frequency_sn, "frequency_sn");
-        agrees(zone.velocity_sn, "velocity_sn");
+        agrees(zone.high.frequency, "frequency_sn");
+        agrees(zone.high.point.before_impact_velocity(), "velocity_sn");
         match (flip(&zone), expected["frequency_pd"].is_null()) {
             (Some(flip), false) => {
                 agrees(flip.parameter, "frequency_pd");

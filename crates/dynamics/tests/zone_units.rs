@@ -34,7 +34,12 @@ fn bounds(scene: &Scene) -> Result<[f64; 4], String> {
     let orbit = zone.orbit_at(0.5).map_err(|error| format!("{error:?}"))?;
     let flip = loss_of_stability(&orbit, Heading::Down, Test::Flip).expect("a branch");
     let flip = flip.map_or(f64::NAN, |point| point.parameter);
-    Ok([zone.frequency_g0, zone.frequency_sn, zone.velocity_sn, flip])
+    Ok([
+        zone.frequency_g0,
+        zone.high.frequency,
+        zone.high.point.before_impact_velocity(),
+        flip,
+    ])
 }
 
 proptest! {

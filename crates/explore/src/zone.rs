@@ -126,8 +126,8 @@ fn grazing(machine: &Machine) -> Option<f64> {
 fn columns<'a>() -> [Column<Zoned<'a>>; 3] {
     columns! { Zoned<'a>, it;
         "frequency_g0" [Frequency] Six, "grazing g0" => grazing(it.0);
-        "frequency_sn" [Frequency] Six, "fold s_SN" => it.1.map(|zone| own(it.0, zone.frequency_sn));
-        "velocity_sn" [Velocity] Six, "before-impact velocity at the fold" => it.1.map(|zone| zone.velocity_sn);
+        "frequency_sn" [Frequency] Six, "fold s_SN" => it.1.map(|zone| own(it.0, zone.high.frequency));
+        "velocity_sn" [Velocity] Six, "before-impact velocity at the fold" => it.1.map(|zone| zone.high.point.before_impact_velocity());
     }
 }
 

@@ -6,7 +6,7 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::spread::{Spread, critical_normal, free_normal};
-use softstop_dynamics::zone::grazing_frequencies;
+use softstop_dynamics::zone::{EndKind, grazing_frequencies};
 use softstop_dynamics::{BranchPoint, Zone};
 
 use super::Infeasible;
@@ -33,9 +33,9 @@ const CORNERS: usize = 3;
 /// Both ends.
 #[derive(Debug, Clone)]
 pub(super) struct BoxWindow {
-    /// g0, which moves one way with each parameter.
-    pub low: Edge,
-    /// `s_SN` at each corner where it can be the nearest: on both sides of the tolerances along which its normal is small.
+    /// g0, which moves one way with each parameter, if the zone begins there.
+    pub low: Option<Edge>,
+    /// `s_SN`, if the zone ends there, at each corner where it can be the nearest: on both sides of the tolerances along which its normal is small.
     /// Always as many, so that the constraints of a search stay the same.
     pub high: [Option<Edge>; 1 << DOUBTFUL],
 }
@@ -59,7 +59,10 @@ impl BoxWindow {
             spread,
         };
         Ok(Some(Self {
-            low: corners.low()?,
+            low: match zone.low.kind {
+                EndKind::Free => Some(corners.low()?),
+                _ => None,
+            },
             high: corners.high(zone)?,
         }))
     }
@@ -69,6 +72,12 @@ impl BoxWindow {
         let edges = self.high.iter().flatten().map(|edge| edge.frequency);
         edges.fold(f64::INFINITY, f64::min)
     }
+}
+
+/// The fold at which a zone ends, if that is what ends it.
+fn fold_of(zone: &Zone) -> Option<BranchPoint> {
+    let is_fold = zone.high.is(Test::Fold);
+    is_fold.then(|| zone.high.point.clone())
 }
 
 struct Corners<'a> {
@@ -93,7 +102,9 @@ impl Corners<'_> {
 
     fn high(&self, zone: &Zone) -> Result<[Option<Edge>; 1 << DOUBTFUL], Infeasible> {
         let mut corner = vec![0.0; self.spread.dimensions()];
-        let mut fold = zone.fold.clone();
+        let Some(mut fold) = fold_of(zone) else {
+            return Ok(std::array::from_fn(|_| None));
+        };
         let normal = |corner: &[f64], fold: &BranchPoint| {
             critical_normal(&self.spread, corner, (Test::Fold, fold)).map_err(Infeasible::unknown)
         };
@@ -103,15 +114,16 @@ impl Corners<'_> {
             if towards == corner {
                 break;
             }
-            corner = towards;
-            let zone = self.problem.zone(&self.spread.machine(&corner));
-            fold = zone
-                .map_err(|error| {
-                    Infeasible::unknown(format!(
-                        "a machine within the tolerances has no zone: {error}"
-                    ))
-                })?
-                .fold;
+            let zone = self.problem.zone_of(&self.spread.machine(&towards));
+            let zone = zone.map_err(|error| {
+                Infeasible::unknown(format!(
+                    "a machine within the tolerances has no zone: {error}"
+                ))
+            })?;
+            let Some(there) = fold_of(&zone) else {
+                break;
+            };
+            (corner, fold) = (towards, there);
             outwards = normal(&corner, &fold)?;
         }
         let doubtful = self.doubtful(&outwards);

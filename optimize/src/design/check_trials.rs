@@ -207,7 +207,7 @@ impl Trials<'_> {
         let problem = self.problem;
         let machine = problem.machine_at(&Space(&problem.axes).values(unit));
         machine.validate().ok()?;
-        let zone = problem.zone(&machine).ok()?;
+        let zone = problem.zone_of(&machine).ok()?;
         let window = problem.window(&machine, &zone).ok()?;
         let design = |place: f64| {
             let here = OperatingPoint::on(machine.clone(), &zone, place)?;

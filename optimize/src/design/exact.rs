@@ -2,10 +2,12 @@
 //! ends of its zone, and the chain rule through links and the place in the zone.
 
 use softstop::Parameter;
+use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::slopes::{self, Border, Slopes};
-use softstop_dynamics::zone::loss_of_stability;
+use softstop_dynamics::zone::{ZoneEnd, loss_of_stability};
 
+use super::differences::differences;
 use super::figure::Figure;
 use super::judge::Judged;
 use super::operating_point::{At, OperatingPoint};
@@ -21,10 +23,9 @@ pub(super) struct Linearization<'a> {
     slopes: Slopes,
     /// By each coordinate, what changes of the parameters of `slopes`, in SI units.
     directions: Vec<Vec<f64>>,
-    /// Derivatives of the drive's frequency by the coordinates, and of the ends of the zone.
+    /// Derivatives of the drive's frequency by the coordinates, and of the upper end of the zone.
     pub(super) frequency: Vec<f64>,
-    g0: Vec<f64>,
-    sn: Vec<f64>,
+    high: Vec<f64>,
     /// Derivatives of the place in the zone.
     place: Vec<f64>,
 }
@@ -40,7 +41,6 @@ impl<'a> Linearization<'a> {
         at: &'a At<'a>,
         point: &'a OperatingPoint,
     ) -> Option<Self> {
-        let scene = &point.orbit.scene;
         let mut parameters: Vec<Parameter> = Parameter::ALL.to_vec();
         let all = directions(problem, at);
         parameters.retain(|it| *it != Parameter::Frequency);
@@ -54,32 +54,32 @@ impl<'a> Linearization<'a> {
                 .collect::<Vec<f64>>()
         };
         let mut directions: Vec<Vec<f64>> = all.iter().map(part).collect();
-        let g0 = Border::free(scene, true, &parameters).ok()?;
-        let sn = Border::critical(
-            &point.zone.scene,
-            1,
-            (Test::Fold, &point.zone.fold),
-            &parameters,
-        )
-        .ok()?;
-        let along = |border: &Border, row: &Vec<f64>| -dot(&border.normal, row);
-        let mut ends: Vec<[f64; 2]> = directions
-            .iter()
-            .map(|row| [along(&g0, row), along(&sn, row)])
-            .collect();
-        let width = point.zone.frequency_sn - point.zone.frequency_g0;
+        let moved = |end: fn(&Zone) -> &ZoneEnd| {
+            let border = Border::end(&point.zone.scene, end(&point.zone), &parameters);
+            let by_normal = |border: Border| {
+                let moved = directions.iter().map(|row| -dot(&border.normal, row));
+                moved.collect::<Vec<f64>>()
+            };
+            let frequency = |other: &OperatingPoint| Some(vec![end(&other.zone).frequency]);
+            let differenced = || Some(differences(problem, at, &frequency)?.concat());
+            border.ok().map(by_normal).or_else(differenced)
+        };
+        let low = moved(|zone| &zone.low)?;
+        let mut high = moved(|zone| &zone.high)?;
+        high.truncate(directions.len());
+        let width = point.zone.width();
         let share = point.place;
         let mut place: Vec<f64> = Vec::new();
         let mut frequency: Vec<f64> = Vec::new();
-        for [g0, sn] in &ends {
-            let moved = g0 + share * (sn - g0);
+        for (low, high) in low.iter().zip(&high) {
+            let moved = low + share * (high - low);
             let is_placed = at.place.is_some();
             frequency.push(if is_placed { moved } else { 0.0 });
             place.push(if is_placed { 0.0 } else { -moved / width });
         }
         if at.place.is_some() {
             directions.push(vec![0.0; parameters.len()]);
-            ends.push([0.0; 2]);
+            high.push(0.0);
             frequency.push(width);
             place.push(1.0);
         }
@@ -94,8 +94,7 @@ impl<'a> Linearization<'a> {
             slopes: slopes::of(&point.orbit, &parameters).ok()?,
             directions,
             frequency,
-            g0: ends.iter().map(|ends| ends[0]).collect(),
-            sn: ends.iter().map(|ends| ends[1]).collect(),
+            high,
             place,
         })
     }
@@ -103,22 +102,25 @@ impl<'a> Linearization<'a> {
     /// The derivatives of a figure by the coordinates; none if it is not among those that have exact ones.
     pub(super) fn by(&self, figure: Figure, motion: &Judged<'_>) -> Option<Vec<f64>> {
         let minus = |a: &[f64], b: &[f64]| Some(a.iter().zip(b).map(|(a, b)| a - b).collect());
+        let (_, parameters) = self.slopes.parameters.split_last()?;
+        let above = |border: &Border| {
+            let moved = self.directions.iter().map(|row| dot(&border.normal, row));
+            let both = moved.zip(&self.frequency);
+            both.map(|(moved, own)| own + moved).collect::<Vec<f64>>()
+        };
         match figure {
-            Figure::FrequencyG0 => minus(&self.frequency, &self.g0),
-            Figure::FrequencySn => minus(&self.sn, &self.frequency),
+            Figure::FrequencyG0 => {
+                let border = Border::free(&motion.orbit.scene, true, parameters);
+                Some(above(&border.ok()?))
+            }
+            Figure::FrequencySn if motion.zone.high.is(Test::Fold) => {
+                minus(&self.high, &self.frequency)
+            }
             Figure::FrequencyPd => {
                 let flip = loss_of_stability(motion.orbit, Heading::Down, Test::Flip).ok()??;
                 let scene = &motion.orbit.scene;
-                let (_, parameters) = self.slopes.parameters.split_last()?;
-                let border = Border::critical(scene, 1, (Test::Flip, &flip), parameters).ok()?;
-                let moved = |row: &Vec<f64>| dot(&border.normal, row);
-                let moved = self.directions.iter().map(moved);
-                Some(
-                    moved
-                        .zip(&self.frequency)
-                        .map(|(moved, own)| own + moved)
-                        .collect(),
-                )
+                let border = Border::critical(scene, 1, (Test::Flip, &flip), parameters);
+                Some(above(&border.ok()?))
             }
             Figure::Share if motion.place < 0.5 => Some(self.place.clone()),
             Figure::Share => Some(self.place.iter().map(|by| -by).collect()),

@@ -7,7 +7,7 @@ use softstop_console::interrupt;
 use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::zone::{end_along, free_amplitude, hysteresis_soon, loss_of_stability};
+use softstop_dynamics::zone::{end_along, find_zones, free_amplitude, loss_of_stability};
 use softstop_dynamics::{Along, Orbit, Stroke, Zone};
 
 use super::figure::Figure;
@@ -58,7 +58,10 @@ impl<'a> Judged<'a> {
         match figure {
             Figure::Share => self.place.min(1.0 - self.place),
             Figure::FrequencyG0 => frequency - self.zone.frequency_g0,
-            Figure::FrequencySn => self.zone.frequency_sn - frequency,
+            Figure::FrequencySn | Figure::ClearanceSn if !self.zone.high.is(Test::Fold) => {
+                f64::INFINITY
+            }
+            Figure::FrequencySn => self.zone.high.frequency - frequency,
             // At the fold itself there is no way down the stable branch to a flip.
             Figure::FrequencyPd | Figure::ClearancePd if self.is_at_fold() => f64::NAN,
             Figure::FrequencyPd => {
@@ -90,10 +93,11 @@ impl<'a> Judged<'a> {
         let above = |clearance: f64| {
             let mut scene = self.orbit.scene.clone();
             scene.clearance = clearance;
-            let zone = hysteresis_soon(slice::from_ref(&scene), &interrupt::watch).remove(0);
-            zone.map_or(-frequency, |zone| zone.frequency_sn - frequency)
+            let scenes = slice::from_ref(&scene);
+            let zone = find_zones(self.zone.kind, scenes, &interrupt::watch).remove(0);
+            zone.map_or(-frequency, |zone| zone.high.frequency - frequency)
         };
-        let (mut low, mut high) = ((from, self.zone.frequency_sn - frequency), None);
+        let (mut low, mut high) = ((from, self.zone.high.frequency - frequency), None);
         let mut step = WIDER * from;
         for _ in 0..REACH {
             let next = low.0 + step;

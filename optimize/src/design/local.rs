@@ -76,7 +76,9 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option
         let exact = exact.as_ref()?;
         let none = || Slope::free(exact.frequency.len());
         let inside = |edge| inside(exact, edge);
-        keep(Limit::Tolerances(End::Lower), inside(&edges.low)?);
+        if let Some(edge) = &edges.low {
+            keep(Limit::Tolerances(End::Lower), inside(edge)?);
+        }
         for edge in &edges.high {
             let slope = edge.as_ref().map_or_else(|| Some(none()), inside)?;
             keep(Limit::Tolerances(End::Upper), slope);

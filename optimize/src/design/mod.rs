@@ -1,7 +1,7 @@
-//! The search for the hardest impact inside the hysteresis zone.
+//! The search for the hardest impact inside the hysteresis zone, or among all stable z = 1 motions.
 //!
 //! Parameters of the machine (its stop's stiffness and clearance, if nothing else is said) are searched in
-//! a box; the frequency is written as g0 + s (w_SN - g0) with s in [M, 1 - M], so that every point that has
+//! a box; the frequency is written as g0 + s (w_SN - g0), or between other ends, with s in [M, 1 - M], so that every point that has
 //! a zone is feasible. The zone does not depend on s: at each point it is computed once and the best s is
 //! then found along it (`line_search`). [`search`] drives the outer search.
 
@@ -53,7 +53,7 @@ use rayon::prelude::*;
 use softstop::internals::budget::Fork;
 use softstop::{Dimension, Machine, MotionError, Parameter, Scene};
 use softstop_console::interrupt;
-use softstop_dynamics::zone::ZoneError;
+use softstop_dynamics::zone::{ZoneError, ZoneKind};
 use softstop_dynamics::{Orbit, Zone, zone};
 
 pub use problem::Problem;
@@ -65,7 +65,7 @@ use space::Interval;
 pub struct Design {
     /// The machine of the design, its drive at the design's frequency.
     pub machine: Machine,
-    /// Place in the zone: 0 at g0, 1 at s_SN.
+    /// Place in the zone: 0 at its lower end, 1 at its upper end.
     pub place: f64,
     /// The zone of the machine.
     pub zone: Zone,
@@ -127,21 +127,24 @@ impl Problem {
     /// [`Infeasible`] if there is no zone, or none of it is allowed and stable.
     pub fn at(&self, values: &[f64]) -> Result<Design, Infeasible> {
         let machine = self.machine_at(values);
-        let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch);
+        let zone = match self.zone {
+            ZoneKind::Hysteresis => zone::hysteresis_watched(&machine.scene, &interrupt::watch),
+            ZoneKind::SingleImpact { .. } => self.zone_of(&machine),
+        };
         self.best_of(machine, zone)
     }
 
     /// The zone of a machine, on the way of a search.
-    fn zone(&self, machine: &Machine) -> Result<Zone, ZoneError> {
+    fn zone_of(&self, machine: &Machine) -> Result<Zone, ZoneError> {
         let scenes = slice::from_ref(&machine.scene);
-        zone::hysteresis_soon(scenes, &interrupt::watch).remove(0)
+        zone::find_zones(self.zone, scenes, &interrupt::watch).remove(0)
     }
 
     /// The best frequencies at many points, with zones of less accuracy: on the way of a search.
     fn at_batch(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
         let machines: Vec<Machine> = points.iter().map(|at| self.machine_at(at)).collect();
         let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
-        let zones = zone::hysteresis_soon(&scenes, &interrupt::watch);
+        let zones = zone::find_zones(self.zone, &scenes, &interrupt::watch);
         let pairs: Vec<_> = machines.into_iter().zip(zones).collect();
         let fork = Fork::default();
         let designs = pairs.into_par_iter();
@@ -203,15 +206,15 @@ impl Problem {
         zone: &Zone,
         tolerated: Option<&BoxWindow>,
     ) -> Result<Interval, Infeasible> {
-        let width = zone.frequency_sn - zone.frequency_g0;
         let own = |frequency: f64| self.machine.to_own(Dimension::Frequency, frequency);
         let si = |frequency: f64| self.machine.to_si(Dimension::Frequency, frequency);
-        let place = |frequency: f64| (frequency - zone.frequency_g0) / width;
-        let mut low = self.margin.max(place(si(self.frequency.low)));
-        let mut high = (1.0 - self.margin).min(place(si(self.frequency.high)));
+        let mut low = self.margin.max(zone.place_of(si(self.frequency.low)));
+        let mut high = (1.0 - self.margin).min(zone.place_of(si(self.frequency.high)));
         if let Some(tolerated) = tolerated {
-            low = low.max(place(tolerated.low.frequency));
-            high = high.min(place(tolerated.highest()));
+            if let Some(edge) = &tolerated.low {
+                low = low.max(zone.place_of(edge.frequency));
+            }
+            high = high.min(zone.place_of(tolerated.highest()));
         }
         if low <= high {
             return Ok(Interval { low, high });
@@ -222,8 +225,8 @@ impl Problem {
                 "bounds ({}), margin and tolerances leave no frequency in the zone {:.6} to {:.6}: it would have to be \
                  at least {:.6} and at most {:.6}",
                 self.frequency,
-                own(zone.frequency_g0),
-                own(zone.frequency_sn),
+                own(zone.low.frequency),
+                own(zone.high.frequency),
                 own(zone.frequency_at(low)),
                 own(zone.frequency_at(high))
             ),

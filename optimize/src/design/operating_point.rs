@@ -39,10 +39,10 @@ impl OperatingPoint {
         let values = Space(&problem.axes).values(at.unit);
         let machine = problem.machine_at(&values);
         machine.validate().ok()?;
-        let zone = problem.zone(&machine).ok()?;
+        let zone = problem.zone_of(&machine).ok()?;
         let held = || {
             let frequency = machine.to_si(Dimension::Frequency, problem.frequency.low);
-            (frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0)
+            zone.place_of(frequency)
         };
         let place = at.place.unwrap_or_else(held);
         Self::on(machine, &zone, place)

@@ -1,6 +1,8 @@
 //! What is searched: the machine, what may change of it, what is sought and what must hold.
 
 use softstop::{Machine, Parameter};
+use softstop_dynamics::run_up;
+use softstop_dynamics::zone::ZoneKind;
 
 use super::cost::Cost;
 use super::figure::{Figure, Sense};
@@ -14,6 +16,8 @@ use crate::robust::{self, Tolerances};
 pub struct Problem {
     /// The machine; what is searched of it plays no part.
     pub machine: Machine,
+    /// Which motions are searched.
+    pub zone: ZoneKind,
     /// Least distance M of s from 0 and 1, in [0, 0.5].
     pub margin: f64,
     /// The parameters that the search may choose, but the drive's frequency.
@@ -34,6 +38,8 @@ pub struct Problem {
     pub requirements: Vec<Requirement>,
     /// The formula of [`Figure::Cost`].
     pub cost: Option<Cost>,
+    /// How the machine may be run up.
+    pub run_up: run_up::Settings,
 }
 
 /// A parameter that follows another one, in the machine's own units.
@@ -179,6 +185,7 @@ impl Problem {
     pub fn of(machine: Machine, axes: Vec<Axis>) -> Self {
         Self {
             machine,
+            zone: ZoneKind::Hysteresis,
             margin: 0.0,
             axes,
             frequency: Interval {
@@ -192,6 +199,7 @@ impl Problem {
             traded: Vec::new(),
             requirements: Vec::new(),
             cost: None,
+            run_up: run_up::Settings::default(),
         }
     }
 

@@ -11,6 +11,7 @@
 
 use rayon::prelude::*;
 use softstop_dynamics::watch::Kept;
+use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};
 pub use super::check_trials::Resolution;
@@ -58,9 +59,11 @@ pub struct Settings {
 pub enum SearchError {
     /// Nothing within the bounds is feasible.
     #[error(
-        "no stable z = 1 motion in a hysteresis zone is as the task asks within the bounds; nearest try{place}: {reason}"
+        "no stable z = 1 motion {zone}is as the task asks within the bounds; nearest try{place}: {reason}"
     )]
     NoDesign {
+        /// Where it was looked for, in words.
+        zone: &'static str,
         /// The least infeasible point: names and values.
         place: String,
         /// What is wrong there.
@@ -331,6 +334,10 @@ impl<'a> Search<'a> {
         let all = values.map(|(axis, value)| stated(&problem.machine, axis.parameter, value));
         let all = all.collect::<Vec<_>>().join(", ");
         SearchError::NoDesign {
+            zone: match problem.zone {
+                ZoneKind::Hysteresis => "in a hysteresis zone ",
+                ZoneKind::SingleImpact { .. } => "",
+            },
             place: match problem.axes.is_empty() {
                 true => String::new(),
                 false => format!(", at {all}"),

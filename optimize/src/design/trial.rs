@@ -6,7 +6,7 @@ use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::Establishment;
-use softstop_dynamics::run_up::RunUp;
+use softstop_dynamics::run_up::{self, RunUp};
 use softstop_dynamics::supply::{Reading, outlasts};
 
 use super::conflict::{conflict, violated_within};
@@ -56,7 +56,7 @@ impl Problem {
     pub fn tried(&self, design: &Design) -> Result<Vec<Met>, SurveyError> {
         let corners = self.corners(design);
         let tried = self.trials().map(|requirement| {
-            let own = tried(requirement, &design.orbit, FULL)?;
+            let own = self.tried_of(requirement, &design.orbit, FULL)?;
             Ok(Met {
                 within: self.tried_within(requirement, &corners)?,
                 ..own
@@ -91,7 +91,7 @@ impl Problem {
         }
         let each = corners.par_iter().map(|(at, orbit)| {
             let orbit = orbit.as_ref();
-            let met = orbit.map(|orbit| tried(requirement, orbit, FULL));
+            let met = orbit.map(|orbit| self.tried_of(requirement, orbit, FULL));
             let worst = met.transpose()?.map_or(f64::NAN, |met| met.judged());
             let at = at.clone();
             Ok(Within { worst, at })
@@ -118,7 +118,7 @@ impl Problem {
         }
         let own: Result<Vec<Met>, SurveyError> = self
             .trials()
-            .map(|it| tried(it, &design.orbit, FULL))
+            .map(|it| self.tried_of(it, &design.orbit, FULL))
             .collect();
         let own = match own {
             Ok(own) => own,
@@ -160,10 +160,13 @@ impl Problem {
         let at = |neighbours: &Neighbours, at: &[f64]| {
             let mut all = self.trials().filter(|it| it.scope == Scope::Tolerances);
             let orbit = neighbours.motion(at);
-            orbit.is_some_and(|orbit| all.all(|it| is_passed(it, &orbit, effort)))
+            orbit.is_some_and(|orbit| all.all(|it| self.is_passed(it, &orbit, effort)))
         };
         let within = neighbours.is_none_or(|it| others.iter().rev().all(|other| at(&it, other)));
-        within && self.trials().all(|it| is_passed(it, &design.orbit, effort))
+        within
+            && self
+                .trials()
+                .all(|it| self.is_passed(it, &design.orbit, effort))
     }
 
     /// The least share of starts that lead to the motion of a design, of its own machine or of some within the tolerances, by
@@ -194,30 +197,36 @@ impl Problem {
         all.find(|it| it.figure == Figure::Certainty)?.least
     }
 
+    /// What a motion has of a requirement that takes many.
+    fn tried_of(
+        &self,
+        requirement: &Requirement,
+        orbit: &Orbit,
+        effort: Effort,
+    ) -> Result<Met, SurveyError> {
+        let (value, starts) = value(requirement, orbit, (effort, &self.run_up))?;
+        Ok(Met {
+            requirement: *requirement,
+            value,
+            starts,
+            within: None,
+            violating: None,
+        })
+    }
+
+    /// Whether it meets one: with few motions by what was counted, else by the lower end of its interval.
+    fn is_passed(&self, requirement: &Requirement, orbit: &Orbit, effort: Effort) -> bool {
+        self.tried_of(requirement, orbit, effort)
+            .is_ok_and(|met| match effort.starts < STARTS {
+                true => requirement.margin(met.value) >= 0.0,
+                false => met.is_met(),
+            })
+    }
+
     /// True if a motion must be tried.
     pub fn has_trials(&self) -> bool {
         self.trials().next().is_some()
     }
-}
-
-/// What a motion has of a requirement that takes many.
-fn tried(requirement: &Requirement, orbit: &Orbit, effort: Effort) -> Result<Met, SurveyError> {
-    let (value, starts) = value(requirement, orbit, effort)?;
-    Ok(Met {
-        requirement: *requirement,
-        value,
-        starts,
-        within: None,
-        violating: None,
-    })
-}
-
-/// Whether it meets one: with few motions by what was counted, else by the lower end of its interval.
-fn is_passed(requirement: &Requirement, orbit: &Orbit, effort: Effort) -> bool {
-    tried(requirement, orbit, effort).is_ok_and(|met| match effort.starts < STARTS {
-        true => requirement.margin(met.value) >= 0.0,
-        false => met.is_met(),
-    })
 }
 
 /// The share of starts that lead to a motion.
@@ -232,7 +241,7 @@ pub(super) fn certainty(orbit: &Orbit) -> Result<f64, SurveyError> {
 fn value(
     requirement: &Requirement,
     orbit: &Orbit,
-    Effort { starts, angles }: Effort,
+    (Effort { starts, angles }, ways): (Effort, &run_up::Settings),
 ) -> Result<(f64, Option<Establishment>), SurveyError> {
     let watcher = &interrupt::watch;
     let value = match requirement.figure {
@@ -244,7 +253,7 @@ fn value(
             let (starts, radius) = Establishment::with_ball(orbit, starts, watcher)?;
             return Ok((radius, Some(starts)));
         }
-        Figure::RunUp => RunUp::of(orbit, angles, watcher)?.works().count() as f64,
+        Figure::RunUp => RunUp::of(orbit, ways, angles, watcher)?.works().count() as f64,
         Figure::MissingStrips => f64::from(survived(requirement, orbit, angles)?),
         _ => f64::NAN,
     };

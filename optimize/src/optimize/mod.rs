@@ -1,4 +1,4 @@
-//! `softstop optimize`: the hardest impact inside the hysteresis zone.
+//! `softstop optimize`: the hardest impact inside the hysteresis zone, or of all stable z = 1 motions.
 
 mod cost;
 mod met;
@@ -30,6 +30,7 @@ use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::Format;
 use softstop_console::scene_file;
+use softstop_dynamics::zone::ZoneKind;
 
 use crate::design::Problem;
 use crate::fmu::{archive, library, parameters};
@@ -66,7 +67,7 @@ Examples:
           [require]
           margin = 0.25
 
-The zone of a machine reaches from g0 to s_SN; the drive frequency is g0 + s (s_SN - g0) with s in
+The hysteresis zone of a machine reaches from g0 to s_SN; the drive frequency is g0 + s (s_SN - g0) with s in
 [M, 1 - M]. What --set says of a searched value is held, as by --vary NAME=VALUE.
 
 A machine's file may hold a task (docs/tutorials/press.md takes a press from file to report):
@@ -84,9 +85,11 @@ A machine's file may hold a task (docs/tutorials/press.md takes a press from fil
     [require]                                a bound on its good side, or { least = 1, most = 2 }
     margin_sn = 0.5                          (softstop schema task lists all that can be required)
     stop_force = 5e5
-    run_up = true
+    run_up = true                            or { ways = [\"frequency_raised\"], ramp_rate = 0.2, force = 5e5 }
     [search]
     evaluations = 2000
+    zone = \"z = 1\"                           stable z = 1 below g0 too, where the machine strikes by itself;
+                                             \"hysteresis\": beside rest, it has to be started
     [report]                                 title, author and date above the report
     author = \"A. Engineer\"
 With tolerances, all machines within them stay in the zone, and a million of them are looked at (--samples).
@@ -307,6 +310,10 @@ fn named(problem: &Problem, outcome: &Outcome) -> Machine {
     let design = &outcome.design;
     let interrupted = outcome.interrupted.map(|it| format!(" ({})", it.words()));
     let words = problem.objective.words();
+    let zone = match problem.zone {
+        ZoneKind::Hysteresis => "inside its hysteresis zone",
+        ZoneKind::SingleImpact { .. } => "of stable z = 1",
+    };
     let machine = &design.machine;
     let own = |value: f64, dimension| {
         let value = format!("{value:.6} {}", machine.unit(dimension));
@@ -315,7 +322,7 @@ fn named(problem: &Problem, outcome: &Outcome) -> Machine {
     Machine {
         name: Some(design_name(machine)),
         description: Some(format!(
-            "Design with the {words} inside its hysteresis zone: drive frequency {}, before-impact velocity {}{}",
+            "Design with the {words} {zone}: drive frequency {}, before-impact velocity {}{}",
             own(design.frequency(), Dimension::Frequency),
             own(design.before_impact_velocity(), Dimension::Velocity),
             interrupted.unwrap_or_default()

@@ -1,9 +1,9 @@
 //! What a task requires of the design: the table `[require]`.
 
 use serde::Deserialize;
-use softstop::Machine;
+use softstop::{Dimension, Machine};
 use softstop_console::failure::Failure;
-use softstop_dynamics::run_up::Way;
+use softstop_dynamics::run_up::{self, Way};
 use toml::{Table, Value};
 
 use super::objective::{Goal, known, lacks};
@@ -39,6 +39,8 @@ pub(super) struct Required {
     pub margin: Option<f64>,
     /// How many times as wide as the tolerances the box is that must hold.
     pub reserve: f64,
+    /// How the machine may be run up.
+    pub run_up: run_up::Settings,
 }
 
 /// The key of the reserve.
@@ -61,11 +63,15 @@ pub(super) fn requirements(
             })?
         }
     };
+    let run_up = ways(machine, table.get(Figure::RunUp.name()))?;
     let one = |(name, value): (&String, &Value)| {
         let figure = known("require.", name)?;
         let wrong = |what: &str| Failure::usage(format!("require.{name} = {value}: {what}"));
         let what = match figure {
-            Figure::RunUp => "must be true or false, or how many ways there must be",
+            Figure::RunUp => {
+                "must be true or false, how many ways there must be, or { ways = [\"frequency_raised\"], \
+                 ramp_rate = NUMBER, force = NUMBER, least = NUMBER }"
+            }
             _ => "must be a number, or { least = NUMBER, most = NUMBER, at = \"drawing\" }",
         };
         let mut scope = Scope::Tolerances;
@@ -73,7 +79,14 @@ pub(super) fn requirements(
             (Value::Boolean(true), _) if figure == Figure::RunUp => (Some(1.0), None),
             (Value::Boolean(false), _) if figure == Figure::RunUp => (Some(0.0), None),
             (Value::Table(words), _) => {
-                let bounds: Bounds = words.clone().try_into().map_err(|_| wrong(what))?;
+                let mut words = words.clone();
+                if figure == Figure::RunUp {
+                    words.retain(|key, _| !WAYS.contains(&key));
+                    if !words.contains_key("least") && !words.contains_key("most") {
+                        words.insert("least".to_owned(), 1.into());
+                    }
+                }
+                let bounds: Bounds = words.try_into().map_err(|_| wrong(what))?;
                 if bounds.at == Some(Where::Drawing) {
                     scope = Scope::Drawing;
                 }
@@ -95,6 +108,12 @@ pub(super) fn requirements(
             return Err(wrong("least must be <= most"));
         }
         allowed(figure, given).map_err(wrong)?;
+        if figure == Figure::RunUp && least > Some(run_up.ways.len() as f64) {
+            return Err(wrong(&format!(
+                "only {} ways are permitted; ways = [...] says which",
+                run_up.ways.len()
+            )));
+        }
         let si = |bound: f64| machine.to_si(figure.dimension(), bound);
         Ok(Requirement {
             figure,
@@ -121,8 +140,55 @@ pub(super) fn requirements(
             figures: all,
             margin: share.and_then(|it| it.least),
             reserve,
+            run_up,
         }),
     }
+}
+
+/// What `run_up = { ... }` says of the ways.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Ways {
+    ways: Option<Vec<Way>>,
+    ramp_rate: Option<f64>,
+    force: Option<f64>,
+}
+
+/// Its keys.
+pub(super) const WAYS: [&str; 3] = ["ways", "ramp_rate", "force"];
+
+/// How a machine may be run up: a ramp's rate is a change of the frequency each drive period.
+fn ways(machine: &Machine, value: Option<&Value>) -> Result<run_up::Settings, Failure> {
+    let usual = run_up::Settings::default();
+    let Some(Value::Table(words)) = value else {
+        return Ok(usual);
+    };
+    let usage = |what: &str| Failure::usage(format!("require.run_up{what}"));
+    let words: Ways = words
+        .clone()
+        .try_into()
+        .map_err(|error: toml::de::Error| usage(&format!(": {}", error.message())))?;
+    let positive = |key: &str, value: Option<f64>, dimension| {
+        let Some(value) = value else { return Ok(None) };
+        match value > 0.0 && value.is_finite() {
+            true => Ok(Some(machine.to_si(dimension, value))),
+            false => Err(usage(&format!(".{key} = {value}: must be positive"))),
+        }
+    };
+    let ways = words.ways.unwrap_or(usual.ways);
+    if ways.is_empty() {
+        return Err(usage(".ways: must name a way"));
+    }
+    let (ramp, most_force) = (
+        positive("ramp_rate", words.ramp_rate, Dimension::Frequency)?,
+        positive("force", words.force, Dimension::Force)?,
+    );
+    Ok(run_up::Settings {
+        ways,
+        ramp,
+        most_force,
+        with_peaks: false,
+    })
 }
 
 /// A share as text, `"50 %"`.

@@ -5,7 +5,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::Keep;
 use softstop_dynamics::basin::{ErosionProfile, zone_box};
-use softstop_dynamics::run_up::RunUp;
+use softstop_dynamics::run_up::{RunUp, Settings};
 
 use super::met::met;
 use super::outcome::{Interrupted, Outcome, PLACES};
@@ -13,6 +13,7 @@ use super::pareto::CheckedFront;
 use super::progress::Best;
 use super::task::Job;
 use crate::design::Design;
+use crate::design::figure::Figure;
 use crate::design::judge::Met;
 use crate::design::search::SearchError;
 use crate::design::solution::{Beside, Solution};
@@ -74,11 +75,19 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     });
     let design = &found.design;
     let watcher = &interrupt::watch;
-    let (erosion, run_up) = match job.report && interrupted.is_none() {
+    let is_required = met.iter().any(|it| it.requirement.figure == Figure::RunUp);
+    let (erosion, run_up) = match interrupted.is_none() {
         false => (None, None),
         true => {
-            let up = || RunUp::of(&design.orbit, ANGLES, watcher);
-            rayon::join(|| erosion(design), || up().ok())
+            let ways = Settings {
+                with_peaks: true,
+                ..job.problem.run_up.clone()
+            };
+            let up = || RunUp::of(&design.orbit, &ways, ANGLES, watcher).ok();
+            rayon::join(
+                || job.report.then(|| erosion(design)).flatten(),
+                || (job.report || is_required).then(up).flatten(),
+            )
         }
     };
     Ok(Outcome {

@@ -13,8 +13,8 @@ use crate::design::figure::{Figure, Sense};
 use crate::design::problem::Problem;
 use crate::design::requirement::Requirement;
 use crate::robust::{
-    Effort, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Tolerances, Verdict, Worst,
-    nearest, scatter, sensitivities, verify, worst,
+    Effort, Manifold, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Tolerances,
+    Verdict, Worst, nearest, scatter, sensitivities, verify, worst,
 };
 
 /// A design's machines within its tolerances.
@@ -101,7 +101,13 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
     let verdict = verify(&spread, nominal, (settings, &required), &progress.watcher());
     let verdict = verdict.map_err(stopped)?;
     drop(progress);
-    let distances = |norm| nearest(&spread, nominal, norm, FARTHEST, watcher).map_err(stopped);
+    let distances = |norm| {
+        let mut found = nearest(&spread, nominal, norm, FARTHEST, watcher).map_err(stopped)?;
+        let is_loss =
+            |it: &Nearest| it.manifold != Manifold::Hysteresis || design.zone.is_hysteresis();
+        found.retain(is_loss);
+        Ok::<_, Failure>(found)
+    };
     let sensitivities =
         sensitivities(&spread, nominal, &design.zone).map_err(anyhow::Error::from)?;
     let study = Study {
@@ -112,7 +118,8 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
         nearest_box: distances(Norm::Box)?,
         nearest_ball: distances(Norm::Ball)?,
         sensitivities,
-        scatter: scatter(&spread, nominal, Effort::default(), watcher).map_err(stopped)?,
+        scatter: scatter(&spread, (nominal, problem.zone), Effort::default(), watcher)
+            .map_err(stopped)?,
         without: outcome
             .relaxed
             .as_ref()

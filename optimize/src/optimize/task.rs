@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use softstop::{Machine, Parameter};
+use softstop::{Dimension, Machine, Parameter};
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
@@ -12,12 +12,13 @@ use softstop_console::machine::Regime;
 use softstop_console::output::Format;
 use softstop_console::range::require;
 use softstop_console::scene_file;
+use softstop_dynamics::zone::ZoneKind;
 use toml::Table;
 
 use super::cost::cost;
 use super::objective::{Goal, objectives};
 use super::require::{RESERVE, Required, requirements};
-use super::task_spec::{Search, TaskSpec};
+use super::task_spec::{Motions, Search, TaskSpec};
 use super::title::{Source, Title};
 use super::tolerance::tolerances;
 use super::vary::{Searched, held, searched, variables};
@@ -65,6 +66,7 @@ impl Job {
             figures: requirements,
             margin: share,
             reserve,
+            run_up,
         } = requirements(&machine, &task.objective, &task.require)?;
         let Sought { objectives, cost } = Sought::new(&machine, &task.objective)?;
         let (objective, traded) = (objectives[0], objectives[1..].to_vec());
@@ -96,7 +98,11 @@ impl Job {
         for axis in &axes {
             has_effect(&machine, axis)?;
         }
-        let Search { seed, evaluations } = task.search;
+        let Search {
+            seed,
+            evaluations,
+            zone,
+        } = task.search;
         if arguments.seed.or(seed).is_some() {
             // If nobody reads it, there is nobody to tell.
             let _ = writeln!(
@@ -112,9 +118,17 @@ impl Job {
             evaluations,
             &least,
         )?;
+        let si = |end: f64| machine.to_si(Dimension::Frequency, end);
+        let zone = match zone {
+            Motions::Hysteresis => ZoneKind::Hysteresis,
+            Motions::SingleImpact => ZoneKind::SingleImpact {
+                between: (si(frequency.low), si(frequency.high)),
+            },
+        };
         Ok(Self {
             problem: Problem {
                 machine,
+                zone,
                 margin,
                 axes,
                 frequency,
@@ -125,6 +139,7 @@ impl Job {
                 traded,
                 requirements,
                 cost,
+                run_up,
             },
             settings: Settings { evaluations },
             samples: arguments.samples,

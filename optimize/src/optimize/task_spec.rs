@@ -11,6 +11,7 @@ use softstop_console::machine::Regime;
 use softstop_console::older::PaperRatios;
 use softstop_console::output::Format;
 use softstop_console::schema;
+use softstop_dynamics::run_up::Way;
 use toml::Table;
 
 use super::objective::{Goal, MAX_OBJECTIVES, is_traded};
@@ -94,7 +95,11 @@ task! {
         "type": "object",
         "properties": {
             "seed": { "type": "integer", "minimum": 0, "deprecated": true },
-            "evaluations": evaluations()
+            "evaluations": evaluations(),
+            "zone": {
+                "enum": ["hysteresis", "z = 1"], "default": "hysteresis",
+                "description": "which motions: those beside which the machine may also stay without impacts, or all stable z = 1"
+            }
         },
         "additionalProperties": false
     });
@@ -144,6 +149,20 @@ pub struct Search {
     pub seed: Option<u64>,
     /// Zones that the search may compute.
     pub evaluations: Option<u64>,
+    /// Which motions are searched.
+    pub zone: Motions,
+}
+
+/// Which motions are searched.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+pub enum Motions {
+    /// Those beside which the machine may also stay without impacts.
+    #[default]
+    #[serde(rename = "hysteresis")]
+    Hysteresis,
+    /// All stable ones with one impact a drive period.
+    #[serde(rename = "z = 1")]
+    SingleImpact,
 }
 
 /// A bound of each figure.
@@ -158,7 +177,17 @@ fn requirements_schema() -> serde_json::Value {
         });
         let value = match figure {
             Figure::RunUp => {
-                json!({ "anyOf": [{ "type": "boolean" }, number], "description": figure.meaning() })
+                let positive = json!({ "type": "number", "exclusiveMinimum": 0 });
+                let ways = json!({
+                    "type": "object",
+                    "properties": {
+                        "ways": { "type": "array", "items": { "enum": Way::ALL }, "minItems": 1 },
+                        "ramp_rate": positive, "force": positive,
+                        "least": number, "most": number, "at": { "enum": ["tolerances", "drawing"] }
+                    },
+                    "additionalProperties": false
+                });
+                json!({ "anyOf": [{ "type": "boolean" }, number, ways], "description": figure.meaning() })
             }
             Figure::Certainty | Figure::Share => {
                 let share = json!({ "type": "string", "pattern": "%\\s*$" });
@@ -207,7 +236,7 @@ mod tests {
                     evaluations = 200\noutput = \"there\"\nformat = \"json\"\n[fix]\nstop.stiffness = 7\n\
                     [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n[vary]\nclearance = 3\n\
                     [tolerance]\nclearance = 0.1\n[objective]\nmaximise = \"velocity\"\n[require]\n\
-                    velocity = 3\n[search]\nseed = 1\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
+                    velocity = 3\n[search]\nseed = 1\nzone = \"z = 1\"\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
         toml::from_str::<TaskSpec>(file)?;
         let written: toml::Table = toml::from_str(file)?;
         let schema = TaskSpec::schema();

@@ -9,11 +9,11 @@ use softstop_dynamics::{Along, BranchPoint, Orbit, Zone};
 
 use super::figure::Curve;
 
-/// The z = 1 motions of a zone: those above g0, and those below, from g0 down.
+/// The z = 1 motions of a zone, and those below it where it begins at g0.
 pub(super) struct Motions {
     above: Vec<BranchPoint>,
     below: Vec<BranchPoint>,
-    /// Frequency in rad/s at which the period doubles below g0.
+    /// Frequency in rad/s at which the period doubles.
     pub(super) flip: Option<f64>,
 }
 
@@ -25,7 +25,14 @@ const BETWEEN: u32 = 8;
 
 impl Motions {
     pub(super) fn of(zone: &Zone) -> Self {
-        let (below, flip) = below(zone).unwrap_or_default();
+        let (below, flip) = match zone.is_hysteresis() {
+            true => below(zone).unwrap_or_default(),
+            false => {
+                let mut ends = [&zone.low, &zone.high].into_iter();
+                let flip = ends.find(|end| end.is(Test::Flip));
+                (Vec::new(), flip.map(|end| end.frequency))
+            }
+        };
         Self {
             above: zone.branch.clone(),
             below,
@@ -71,7 +78,7 @@ impl Motions {
         curves(machine, pieces, name, stroke)
     }
 
-    /// The unstable motions above g0.
+    /// The unstable motions of the zone's branch.
     pub(super) fn unstable(&self, machine: &Machine, name: &str, stroke: Stroke) -> Vec<Curve> {
         let pieces = self.above.chunk_by(|a, b| is_lost(a) && is_lost(b));
         curves(machine, pieces, name, stroke)

@@ -105,6 +105,8 @@ fn units(machine: &Machine) -> BTreeMap<&'static str, &'static str> {
     let all = [
         ("velocity", Dimension::Velocity),
         ("frequency", Dimension::Frequency),
+        ("force", Dimension::Force),
+        ("length", Dimension::Length),
     ];
     all.into_iter()
         .map(|(name, dimension)| (name, machine.unit(dimension)))

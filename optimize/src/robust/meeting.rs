@@ -125,12 +125,15 @@ impl Search<'_> {
         Some(scene.excitation.frequency - above)
     }
 
-    /// Where hysteresis is lost in a direction.
+    /// Where hysteresis is lost in a direction; none if the nominal machine has none.
     pub fn meet_free(&self, direction: &[f64]) -> Option<Meeting> {
         let above = |share: f64| {
             let at: Vec<f64> = direction.iter().map(|part| share * part).collect();
             self.above_free(&at)
         };
+        if above(0.0)? <= 0.0 {
+            return None;
+        }
         let (mut low, mut high) = (0.0, 0.0);
         while above(high)? > 0.0 {
             if high >= self.farthest {

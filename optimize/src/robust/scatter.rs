@@ -5,7 +5,7 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, place};
 use softstop_dynamics::spread::{Fate, Guide, Model, Spread, critical_normal, free_normal};
 use softstop_dynamics::watch::{Watcher, unwatched};
-use softstop_dynamics::zone::{ZoneError, hysteresis_soon};
+use softstop_dynamics::zone::{ZoneError, ZoneKind, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 
 use super::Tolerances;
@@ -18,10 +18,10 @@ use super::worst::nominal_slopes;
 pub struct Sensitivities {
     /// Of the before-impact velocity, in m/s.
     pub velocity: Vec<f64>,
-    /// Of the margin s_SN - w to the fold, in rad/s.
-    pub to_fold: Vec<f64>,
-    /// Of the margin w - g0, in rad/s.
-    pub to_free: Vec<f64>,
+    /// Of the margin s_SN - w to the fold, in rad/s, if the zone ends there.
+    pub to_fold: Option<Vec<f64>>,
+    /// Of the margin w - g0, in rad/s, if there is a g0.
+    pub to_free: Option<Vec<f64>>,
 }
 
 /// The shares of all coordinates in what a linear figure may change at most.
@@ -40,11 +40,18 @@ pub fn sensitivities(
     zone: &Zone,
 ) -> Result<Sensitivities, ZoneError> {
     let centre = vec![0.0; spread.dimensions()];
-    let fold = critical_normal(spread, &centre, (Test::Fold, &zone.fold))?;
+    let fold = match zone.high.is(Test::Fold) {
+        true => Some(critical_normal(
+            spread,
+            &centre,
+            (Test::Fold, &zone.high.point),
+        )?),
+        false => None,
+    };
     Ok(Sensitivities {
         velocity: nominal_slopes(spread, nominal, &unwatched)?,
-        to_fold: fold.iter().map(|part| -part).collect(),
-        to_free: free_normal(spread, &centre)?,
+        to_fold: fold.map(|normal| normal.iter().map(|part| -part).collect()),
+        to_free: free_normal(spread, &centre).ok(),
     })
 }
 
@@ -54,18 +61,18 @@ pub fn sensitivities(
 pub struct Scatter {
     /// For the before-impact velocity.
     pub velocity: Vec<Index>,
-    /// For the place (w - g0) / (s_SN - g0) in the zone of each machine.
+    /// For the place in the zone of each machine.
     pub place: Vec<Index>,
 }
 
 /// Whose scatter that of the velocity and of the place in the zone is; none if a machine between the bounds loses the
-/// motion or has no zone. Its ends are polynomials in the coordinates, fitted to exact ones.
+/// motion or has no zone of this kind. Its ends are polynomials in the coordinates, fitted to exact ones.
 ///
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from; [`OrbitError::Stopped`].
 pub fn scatter(
     spread: &dyn Spread,
-    nominal: &Orbit,
+    (nominal, kind): (&Orbit, ZoneKind),
     effort: Effort,
     watcher: Watcher<'_>,
 ) -> Result<Option<Scatter>, OrbitError> {
@@ -76,9 +83,9 @@ pub fn scatter(
     let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
     let guide = Guide::new(spread, nominal, &known)?;
     let scenes: Vec<_> = known.iter().map(|at| spread.scene(at)).collect();
-    let zones = hysteresis_soon(&scenes, watcher).into_iter();
+    let zones = find_zones(kind, &scenes, watcher).into_iter();
     let ends: Result<Vec<_>, _> = zones
-        .map(|zone| zone.map(|zone| [zone.frequency_g0, zone.frequency_sn]))
+        .map(|zone| zone.map(|zone| [zone.low.frequency, zone.high.frequency]))
         .collect();
     if watcher(0, 0).is_break() {
         return Err(OrbitError::Stopped);
@@ -87,8 +94,8 @@ pub fn scatter(
         return Ok(None);
     };
     let outputs = |at: &[f64]| {
-        let [free, fold] = ends.at(at);
-        let share = (spread.scene(at).excitation.frequency - free) / (fold - free);
+        let [low, high] = ends.at(at);
+        let share = (spread.scene(at).excitation.frequency - low) / (high - low);
         match guide.fate(at) {
             Fate::Kept(settled) => Some([settled.velocity, share]),
             Fate::Lost { .. } => None,

@@ -33,7 +33,7 @@ fn along_the_frequency_it_is_the_border_of_the_zone() -> Outcome {
         for norm in [Norm::Box, Norm::Ball] {
             let found = nearest(&tolerances, &nominal, norm, 12.0, &unwatched)?;
             let fold = of(&found, &Manifold::Motion(Loss::Fold))?;
-            let share = (zone.frequency_sn / frequency - 1.0) / 0.02;
+            let share = (zone.high.frequency / frequency - 1.0) / 0.02;
             assert_relative_eq!(fold.distance, share, max_relative = 1e-8);
             assert_eq!(fold.normal, [1.0]);
             let free = of(&found, &Manifold::Hysteresis)?;

@@ -35,7 +35,7 @@ fn points_fill_every_layer_of_every_coordinate_once() {
 #[test]
 fn a_machine_is_lost_if_its_drive_is_faster_than_the_fold() -> Outcome {
     for mut machine in machines()? {
-        let fold = zone::hysteresis(&machine.scene)?.frequency_sn;
+        let fold = zone::hysteresis(&machine.scene)?.high.frequency;
         Parameter::Frequency.set(&mut machine.scene, 0.99 * fold);
         let (tolerances, nominal) = spread(&machine, &[(Parameter::Frequency, 2.0)], 1.0)?;
         let some = Settings {

@@ -15,7 +15,7 @@ use crate::continuation::{
     BranchPoint, Follower, Graze, LastArc, Special, SpecialKind, Test, grazing,
 };
 use crate::orbit::OrbitError;
-use crate::zone::{Frequencies, ZoneError, grazing_frequencies};
+use crate::zone::{EndKind, Frequencies, ZoneEnd, ZoneError, grazing_frequencies};
 
 /// What a border is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,6 +101,18 @@ impl Border {
                 .map(|parameter| by(parameter) / own)
                 .collect(),
         })
+    }
+
+    /// The border at an end of a zone of the scene.
+    ///
+    /// # Errors
+    /// [`ZoneError`] if the end is none that has a normal.
+    pub fn end(scene: &Scene, end: &ZoneEnd, parameters: &[Parameter]) -> Result<Self, ZoneError> {
+        match &end.kind {
+            EndKind::Free => Self::free(scene, true, parameters),
+            EndKind::Special(kind) => Ok(Self::of(scene, 1, (*kind, &end.point), parameters)?),
+            EndKind::Other(_) => Err(none(parameters).into()),
+        }
     }
 
     /// The border at a special point of a branch of z = p/n over the frequency; the frequency of the scene's drive plays no

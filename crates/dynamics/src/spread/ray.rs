@@ -1,11 +1,9 @@
 //! The z = 1 motion on a straight way out from the nominal machine.
 
-use crate::continuation::{
-    BranchPoint, End, Face, Family, Follower, Heading, Limits, SpecialKind, Test,
-};
+use crate::continuation::{BranchPoint, End, Family, Follower, Heading, Limits, Test};
 use crate::orbit::{Orbit, OrbitError};
 use crate::watch::stop_if;
-use crate::zone::Loss;
+use crate::zone::{Loss, first_end};
 use softstop::internals::Scales;
 use softstop::{MotionError, Scene};
 
@@ -95,22 +93,12 @@ fn by_branch<F: Family>(
     let branch = follower.branch(0.0, nominal.state(), &limits, |point| {
         stop_if(!point.is_stable())
     })?;
-    let ends_motion = |kind: &SpecialKind| match kind {
-        SpecialKind::Critical(_) => true,
-        SpecialKind::Grazing(graze) => graze.face == Face::Clearance,
-    };
-    let mut points = branch.points.iter().filter(|point| point.parameter > 0.0);
-    let end = points.find_map(|point| match branch.special_at(point) {
-        Some(special) if ends_motion(&special.kind) => Some((point, Loss::at(&special.kind))),
-        None if point.impacts.is_empty() => Some((point, Loss::Grazing)),
-        None if point.impacts.len() > 1 => Some((point, Loss::AnotherImpact)),
-        _ => None,
-    });
-    if let Some((point, loss)) = end {
+    let points = branch.points.iter().filter(|point| point.parameter > 0.0);
+    if let Some((point, kind)) = first_end(&branch, points) {
         return Ok(Reached {
             share: point.parameter,
             point: point.clone(),
-            loss: Some(loss),
+            loss: kind.loss(),
         });
     }
     let last = branch.points.last().ok_or(OrbitError::NotIsolated)?;

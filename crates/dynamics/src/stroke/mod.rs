@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::orbit::Orbit;
 use record::Recorder;
-use softstop::{Clock, MotionError, Stop};
+use softstop::{Clock, MotionError, Scene, Start, Stop};
 
 /// Figures of one period of a periodic motion, in SI units; of z = 1 it is one drive period, one stroke.
 ///
@@ -78,6 +78,35 @@ impl Losses {
     /// All together, in J.
     pub fn total(&self) -> f64 {
         self.free_damping + self.contact_damping + self.impacts + self.strip + self.stop
+    }
+}
+
+/// What some drive periods from a state do.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Passed {
+    /// The state after them.
+    pub end: Start,
+    /// Largest force of contact in N while the stop is touched.
+    pub stop_force: f64,
+    /// Largest position in m.
+    pub highest: f64,
+}
+
+impl Passed {
+    /// Those of a scene, from drive angle phi on.
+    ///
+    /// # Errors
+    /// [`MotionError`] if its motion cannot be computed.
+    pub fn of(scene: &Scene, start: Start, periods: u64) -> Result<Self, MotionError> {
+        let mut motion = scene.motion(start)?;
+        let mut seen = Recorder::new(scene, start.position);
+        motion.advance(Clock::at_cycle(periods), &mut seen)?;
+        motion.tell_arc(&mut seen);
+        Ok(Self {
+            end: motion.state(),
+            stop_force: seen.stop_force,
+            highest: seen.highest,
+        })
     }
 }
 

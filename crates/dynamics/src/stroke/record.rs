@@ -9,6 +9,7 @@ use softstop::{Arc, Crossing, CrossingKind, Observer, PhaseKind, Scene, Start};
 pub(super) struct Recorder<'a> {
     scene: &'a Scene,
     pub lowest: f64,
+    pub highest: f64,
     pub strips: u64,
     pub contact_force: f64,
     pub stop_force: f64,
@@ -24,6 +25,7 @@ impl<'a> Recorder<'a> {
         Self {
             scene,
             lowest: position,
+            highest: position,
             strips: 0,
             contact_force: 0.0,
             stop_force: 0.0,
@@ -33,6 +35,11 @@ impl<'a> Recorder<'a> {
             power: 0.0,
             losses: Losses::default(),
         }
+    }
+
+    fn reach(&mut self, position: f64) {
+        self.lowest = self.lowest.min(position);
+        self.highest = self.highest.max(position);
     }
 
     /// Force of the drive in N.
@@ -90,8 +97,9 @@ impl Observer for Recorder<'_> {
             _ => &mut losses.stop,
         } += lasting.law;
         for back in [true, false] {
-            let turns = turns(arc.course, elapsed, back).map(|turn| turn.position);
-            self.lowest = turns.fold(self.lowest, f64::min);
+            for turn in turns(arc.course, elapsed, back) {
+                self.reach(turn.position);
+            }
         }
         let power = |elapsed| self.drive(arc, elapsed) * arc.at(elapsed).velocity;
         self.power = self.power.max(self.peak(arc, elapsed, power));
@@ -99,7 +107,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
-        self.lowest = self.lowest.min(crossing.position);
+        self.reach(crossing.position);
         self.strips += u64::from(crossing.pierces());
         self.losses.impacts += crossing.lost_energy(self.scene.mass);
         if let CrossingKind::Rebound { .. } = crossing.kind {

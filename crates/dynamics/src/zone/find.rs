@@ -1,8 +1,11 @@
-//! The stable z = 1 motion of a scene at the frequency of its drive.
+//! The stable z = 1 motion of a scene at the frequency of its drive, and the zones of scenes.
 
-use super::Frequencies;
+use super::hysteresis::hysteresis_soon;
+use super::places::{Zone, ZoneKind};
+use super::single_impact::single_impact;
 use super::stretch::Stretch;
 use super::stretches::all_stretches;
+use super::{Frequencies, ZoneError};
 use crate::continuation::Follower;
 use crate::orbit::{self, Orbit, OrbitError};
 use crate::watch::{Watcher, unwatched};
@@ -47,6 +50,21 @@ pub fn find_among(
         (Ok(here), Some(other)) if other.is_harder(&here) => Ok(other),
         (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
         (here, _) => here,
+    }
+}
+
+/// The zones of a kind of some scenes; the frequency of their drives plays no part.
+///
+/// # Errors
+/// Each as [`hysteresis_soon`] or [`single_impact`].
+pub fn find_zones(
+    kind: ZoneKind,
+    scenes: &[Scene],
+    watcher: Watcher<'_>,
+) -> Vec<Result<Zone, ZoneError>> {
+    match kind {
+        ZoneKind::Hysteresis => hysteresis_soon(scenes, watcher),
+        ZoneKind::SingleImpact { between } => single_impact(scenes, between, watcher),
     }
 }
 

@@ -2,44 +2,23 @@
 
 use rayon::prelude::*;
 
+use super::end::{EndKind, ZoneEnd};
+use super::places::{AT_FOLD, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
-use crate::continuation::{BranchPoint, Follower, Heading, Test};
+use crate::continuation::{BranchPoint, Follower, Heading, SpecialKind, Test};
 use crate::orbit::{Orbit, OrbitError, find_soon, find_watched};
 use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::Scene;
 use softstop::internals::budget::Fork;
 
-/// The hysteresis zone of one machine, with its branch of z = 1 motions.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Zone {
-    /// The machine; the frequency of its drive plays no part.
-    pub scene: Scene,
-    /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the
-    /// stop.
-    pub frequency_g0_below: Option<f64>,
-    /// Grazing frequency g0 in rad/s, above resonance: s = 0.
-    pub frequency_g0: f64,
-    /// Frequency of the fold s_SN in rad/s: s = 1.
-    pub frequency_sn: f64,
-    /// Before-impact velocity at the fold in m/s.
-    pub velocity_sn: f64,
-    /// The orbit there.
-    pub fold: BranchPoint,
-    /// The branch from g0 on, through all its folds, in order of arclength.
-    pub branch: Vec<BranchPoint>,
-}
-
-/// Points after which a branch without a fold is given up.
-const LONGEST_BRANCH: usize = 2000;
+/// Points after which a branch is given up.
+pub(super) const LONGEST_BRANCH: usize = 2000;
 /// Before-impact velocity, in units of that at g0, below which an unstable branch is left: it ends
 /// in grazing.
 const WEAKEST: f64 = 0.2;
 /// 1 - tr + det below which an unstable branch is left: its multiplier grows without bound only where
 /// it ends in grazing.
 const STEEPEST: f64 = -4.0;
-/// Largest 1 - tr + det that a located fold may show.
-const AT_FOLD: f64 = 1e-7;
 /// Frequency in units of g0 beyond which no fold is looked for.
 const FARTHEST: f64 = 8.0;
 
@@ -107,31 +86,51 @@ fn from_start(
         frequency: frequency_g0.into(),
     })?;
     let follower = Follower::new(&family, 1);
-    let mut branch =
-        follower.follow(&start, frequency_g0, Heading::Up, LONGEST_BRANCH, |point| {
-            let flipped = !point.is_stable() && point.fold_test() > 0.0;
-            let weak = point.before_impact_velocity() < WEAKEST * start.before_impact_velocity();
-            let outside =
-                point.parameter < frequency_g0 || point.parameter > FARTHEST * frequency_g0;
-            let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
-            stop_if(flipped || outside || ends_in_grazing || watcher(0, 0).is_break())
-        })?;
-    OrbitError::ask(watcher)?;
-    insert_folds(&follower, &mut branch);
-    let fold = branch
-        .iter()
-        .filter(|point| point.fold_test().abs() < AT_FOLD)
-        .max_by(|a, b| a.parameter.total_cmp(&b.parameter))
-        .ok_or_else(|| no_fold(frequency_g0, &branch))?;
+    let range = (frequency_g0, FARTHEST * frequency_g0);
+    let branch = upward(&follower, &start, range, watcher)?;
+    let fold = highest_fold(&branch).ok_or_else(|| no_fold(frequency_g0, &branch))?;
     Ok(Zone {
+        kind: ZoneKind::Hysteresis,
         scene: scene.clone(),
         frequency_g0_below,
         frequency_g0,
-        frequency_sn: fold.parameter,
-        velocity_sn: fold.before_impact_velocity(),
-        fold: fold.clone(),
+        low: ZoneEnd {
+            frequency: frequency_g0,
+            point: branch[0].clone(),
+            kind: EndKind::Free,
+        },
+        high: fold,
         branch,
     })
+}
+
+/// The branch from a z = 1 motion at the lower of two frequencies on, through all its folds, in order of arclength.
+pub(super) fn upward(
+    follower: &Follower<'_, Frequencies<'_>>,
+    start: &Orbit,
+    (lowest, highest): (f64, f64),
+    watcher: Watcher<'_>,
+) -> Result<Vec<BranchPoint>, OrbitError> {
+    let mut branch = follower.follow(start, lowest, Heading::Up, LONGEST_BRANCH, |point| {
+        let flipped = !point.is_stable() && point.fold_test() > 0.0;
+        let weak = point.before_impact_velocity() < WEAKEST * start.before_impact_velocity();
+        let outside = point.parameter < lowest || point.parameter > highest;
+        let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
+        stop_if(flipped || outside || ends_in_grazing || watcher(0, 0).is_break())
+    })?;
+    OrbitError::ask(watcher)?;
+    insert_folds(follower, &mut branch);
+    Ok(branch)
+}
+
+/// The fold at the highest frequency; none if the branch has none.
+pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
+    let folds = branch
+        .iter()
+        .filter(|point| point.fold_test().abs() < AT_FOLD);
+    let highest = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter))?;
+    let kind = EndKind::Special(SpecialKind::Critical(Test::Fold));
+    Some(ZoneEnd::at(highest, kind))
 }
 
 /// Adds the folds to a branch, between the neighbours where 1 - tr + det changes its sign; where it leaps over zero, in
@@ -165,71 +164,5 @@ fn no_fold(from: f64, branch: &[BranchPoint]) -> ZoneError {
         from: from.into(),
         to: last.into(),
         end,
-    }
-}
-
-impl Zone {
-    /// The machine at a place s of the zone.
-    pub fn scene_at(&self, share: f64) -> Scene {
-        self.scene.at_frequency(self.frequency_at(share))
-    }
-
-    /// The frequency in rad/s at a place s: g0 + s (s_SN - g0).
-    pub fn frequency_at(&self, share: f64) -> f64 {
-        self.frequency_g0 + share * (self.frequency_sn - self.frequency_g0)
-    }
-
-    /// The z = 1 orbit at a place s of the zone, as [`Zone::point_at`] has it.
-    ///
-    /// # Errors
-    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
-    pub fn orbit_at(&self, share: f64) -> Result<Orbit, ZoneError> {
-        self.orbit(&self.point_at(share)?)
-    }
-
-    /// The whole orbit at a point of the branch.
-    ///
-    /// # Errors
-    /// [`ZoneError::Orbit`] if the orbit is lost.
-    pub fn orbit(&self, point: &BranchPoint) -> Result<Orbit, ZoneError> {
-        let family = Frequencies(&self.scene);
-        Ok(Follower::new(&family, 1).orbit(point)?)
-    }
-
-    /// The z = 1 motion of the highest before-impact velocity at a place s of the zone, on the stable
-    /// side of the folds; s = 1 is the last fold itself.
-    ///
-    /// # Errors
-    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
-    pub fn point_at(&self, share: f64) -> Result<BranchPoint, ZoneError> {
-        if !(0.0..=1.0).contains(&share) {
-            return Err(ZoneError::Outside { share });
-        }
-        let family = Frequencies(&self.scene);
-        let follower = Follower::new(&family, 1);
-        let target = self.frequency_at(share);
-        let mut best: Option<BranchPoint> = None;
-        for pair in self.branch.windows(2) {
-            let (from, to) = (&pair[0], &pair[1]);
-            if from.fold_test() < -AT_FOLD || to.fold_test() < -AT_FOLD {
-                continue;
-            }
-            let point = match (from.parameter - target, to.parameter - target) {
-                (0.0, _) => from.clone(),
-                (_, 0.0) => to.clone(),
-                (a, b) if a * b < 0.0 => follower.between(from, to, target)?,
-                _ => continue,
-            };
-            let stronger =
-                |best: &BranchPoint| point.before_impact_velocity() > best.before_impact_velocity();
-            if best.as_ref().is_none_or(stronger) {
-                best = Some(point);
-            }
-        }
-        let lost = OrbitError::NotFound {
-            frequency: target,
-            clearance: self.scene.clearance,
-        };
-        Ok(best.ok_or(lost)?)
     }
 }

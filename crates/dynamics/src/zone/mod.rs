@@ -3,19 +3,26 @@
 //! section 3); and all stretches of stable z = 1, wherever they are. In the scene's own units, with any stop.
 
 mod bounds;
+mod end;
 mod find;
 mod grazing;
 mod hysteresis;
 mod loss;
+mod places;
+mod single_impact;
 mod stretch;
 mod stretches;
 
 pub use bounds::Bounds;
-pub use find::{find, find_among, find_watched};
+pub(crate) use end::first_end;
+pub use end::{EndKind, Loss, ZoneEnd};
+pub use find::{find, find_among, find_watched, find_zones};
 pub use grazing::{free_amplitude, grazing_frequencies};
-pub use hysteresis::{Zone, hysteresis, hysteresis_soon, hysteresis_watched};
+pub use hysteresis::{hysteresis, hysteresis_soon, hysteresis_watched};
 pub use loss::{end_along, loss_of_stability};
-pub use stretch::{Loss, Stretch, StretchEnd};
+pub use places::{Zone, ZoneKind};
+pub use single_impact::single_impact;
+pub use stretch::{Stretch, StretchEnd};
 pub use stretches::{stretches, stretches_watched};
 
 use std::fmt::{self, Display, Formatter};
@@ -66,8 +73,16 @@ pub enum ZoneError {
         /// Why no farther.
         end: BranchEnd,
     },
+    /// There is no stable z = 1 motion at the frequencies at which it is looked for.
+    #[error("no stable z = 1 motion found between {from} and {to}")]
+    NoMotion {
+        /// The lowest frequency.
+        from: Stated,
+        /// The highest.
+        to: Stated,
+    },
     /// A place outside the zone was asked for.
-    #[error("s = {share}: must lie in [0, 1], from g0 to s_SN")]
+    #[error("s = {share}: must lie in [0, 1], from end to end of the zone")]
     Outside {
         /// The share that was asked for.
         share: f64,
@@ -83,7 +98,7 @@ impl ZoneError {
     pub fn stated(mut self, machine: &Machine) -> Self {
         let (one, other) = match &mut self {
             Self::NoOrbit { frequency } | Self::Flip { frequency } => (Some(frequency), None),
-            Self::NoFold { from, to, .. } => (Some(from), Some(to)),
+            Self::NoFold { from, to, .. } | Self::NoMotion { from, to } => (Some(from), Some(to)),
             _ => (None, None),
         };
         for frequency in one.into_iter().chain(other) {

@@ -1,11 +1,10 @@
 //! A stretch of frequencies with a stable z = 1 motion, and what ends it.
 
-use nalgebra::Vector4;
+use nalgebra::{Vector2, Vector4};
 
+use super::end::Loss;
 use super::{Frequencies, Zone};
-use crate::continuation::{
-    Border, Branch, BranchPoint, End, Face, Family, Follower, SpecialKind, Test,
-};
+use crate::continuation::{Branch, BranchPoint, End, Family, Follower};
 use crate::orbit::OrbitError;
 use softstop::Scene;
 use softstop::internals::highest;
@@ -15,34 +14,6 @@ use softstop::internals::highest;
 const ASIDE: f64 = 0.2;
 /// Share by which rounding may change a before-impact velocity or a state.
 const SAME: f64 = 1e-6;
-
-/// Why a stretch ends.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Loss {
-    /// The motion meets an unstable one and vanishes.
-    Fold,
-    /// It doubles its period.
-    Flip,
-    /// Its multipliers leave the unit circle as a complex pair.
-    NeimarkSacker,
-    /// Its impact dies: it grazes the clearance.
-    Grazing,
-    /// Another impact comes up: a turning point reaches the clearance.
-    AnotherImpact,
-    /// It grazes a surface beyond the clearance, where the force jumps: a border collision.
-    Inner(Face),
-    /// Another border collision.
-    Border(Border),
-    /// It is followed no farther than here.
-    Range,
-    /// The branch has more points than are followed.
-    Budget,
-    /// It is too unstable to be followed.
-    Unstable,
-    /// No step is short enough to follow it.
-    Lost(OrbitError),
-}
 
 /// One end of a stretch.
 #[derive(Debug, Clone)]
@@ -111,7 +82,7 @@ impl Stretch {
     /// [`OrbitError`] if the stretch is lost.
     pub fn contains(&self, scene: &Scene, point: &BranchPoint) -> Result<bool, OrbitError> {
         let own = self.point_at(scene, point.parameter)?;
-        Ok(own.is_some_and(|own| is_same(&own, point, scene)))
+        Ok(own.is_some_and(|own| is_same(&own, point.state(), scene)))
     }
 
     /// True if it is a part of a hysteresis zone.
@@ -125,10 +96,10 @@ impl Stretch {
     }
 }
 
-/// True if the states of two points at one frequency differ by no more than rounding.
-pub(super) fn is_same(one: &BranchPoint, other: &BranchPoint, scene: &Scene) -> bool {
-    let size = other.state().norm().max(scene.scales().length);
-    (one.state() - other.state()).norm() < SAME * size
+/// True if a point is at a state of the same frequency but for rounding.
+pub(super) fn is_same(one: &BranchPoint, other: Vector2<f64>, scene: &Scene) -> bool {
+    let size = other.norm().max(scene.scales().length);
+    (one.state() - other).norm() < SAME * size
 }
 
 /// Units of positions, velocities and frequencies.
@@ -280,41 +251,6 @@ impl StretchEnd {
             frequency: point.parameter,
             velocity: point.before_impact_velocity(),
             loss,
-        }
-    }
-}
-
-impl Loss {
-    /// At a special point.
-    pub(crate) fn at(kind: &SpecialKind) -> Self {
-        match kind {
-            SpecialKind::Critical(test) => Self::from(*test),
-            SpecialKind::Grazing(graze) => match graze.face {
-                Face::Clearance if graze.impacts == 0 => Self::Grazing,
-                Face::Clearance => Self::AnotherImpact,
-                face => Self::Inner(face),
-            },
-        }
-    }
-
-    /// Where a branch ends otherwise; at a grazing its special point says which.
-    pub(crate) fn of(end: &End) -> Self {
-        match end {
-            End::Points => Self::Budget,
-            End::Border(border) => Self::Border(*border),
-            End::Unstable => Self::Unstable,
-            End::Lost(error) => Self::Lost(error.clone()),
-            _ => Self::Range,
-        }
-    }
-}
-
-impl From<Test> for Loss {
-    fn from(test: Test) -> Self {
-        match test {
-            Test::Fold => Self::Fold,
-            Test::Flip => Self::Flip,
-            Test::NeimarkSacker => Self::NeimarkSacker,
         }
     }
 }

@@ -14,7 +14,7 @@ use softstop::Scene;
 const LOOKED_AT: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
 /// Frequencies in the same units up to which they are followed: farther up, but no farther down, where branches wind from
 /// resonance to resonance and more of them are not looked for.
-const FOLLOWED: (f64, f64) = (0.25, 8.0);
+pub(super) const FOLLOWED: (f64, f64) = (0.25, 8.0);
 /// Points of a branch in each direction.
 const POINTS: usize = 20_000;
 
@@ -119,7 +119,7 @@ fn is_beside(
     let [from, to] = [&pair[0], &pair[1]];
     let is_inside = (from.parameter < point.parameter) != (to.parameter < point.parameter);
     let own = || follower.between(from, to, point.parameter);
-    is_inside && own().is_ok_and(|own| !is_same(&own, point, scene))
+    is_inside && own().is_ok_and(|own| !is_same(&own, point.state(), scene))
 }
 
 fn limits(scene: &Scene) -> Limits {

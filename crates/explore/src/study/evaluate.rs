@@ -175,9 +175,9 @@ impl Look<'_> {
             Own::Trace => Some(self.orbit()?.trace()),
             Own::Determinant => Some(self.orbit()?.determinant()),
             Own::G0 => Some(grazing_frequencies(self.scene()).ok()?.1),
-            Own::Sn => Some(self.zone.as_ref()?.frequency_sn),
+            Own::Sn => Some(self.zone.as_ref()?.high.frequency),
             Own::Pd => self.flip().filter(|flip| flip.is_finite()),
-            Own::AtSn => Some(self.zone.as_ref()?.velocity_sn),
+            Own::AtSn => Some(self.zone.as_ref()?.high.point.before_impact_velocity()),
         }
     }
 
@@ -191,7 +191,7 @@ impl Look<'_> {
                 Some(place.min(1.0 - place))
             }
             Figure::FrequencyG0 => Some(frequency - grazing_frequencies(self.scene()).ok()?.1),
-            Figure::FrequencySn => Some(self.zone.as_ref()?.frequency_sn - frequency),
+            Figure::FrequencySn => Some(self.zone.as_ref()?.high.frequency - frequency),
             Figure::FrequencyPd => Some(frequency - self.flip()?),
             Figure::ClearanceG0 => {
                 let scene = self.scene();
@@ -271,6 +271,6 @@ impl Look<'_> {
     fn place(&self) -> Option<f64> {
         let zone = self.zone.as_ref()?;
         let frequency = self.scene().excitation.frequency;
-        Some((frequency - zone.frequency_g0) / (zone.frequency_sn - zone.frequency_g0))
+        Some((frequency - zone.frequency_g0) / (zone.high.frequency - zone.frequency_g0))
     }
 }

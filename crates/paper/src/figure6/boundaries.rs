@@ -47,7 +47,7 @@ pub(super) fn ends(machine: &Ratios, clearances: &[f64]) -> Result<Vec<Ends>> {
 fn ends_of(machine: &Ratios) -> Result<Ends> {
     let at_g0 = grazing(machine)?;
     let fold = match hysteresis(&machine.scene()?) {
-        Ok(zone) => Some(zone.fold),
+        Ok(zone) => Some(zone.high.point),
         Err(ZoneError::NoFold { .. } | ZoneError::Flip { .. }) => None,
         Err(error) => return Err(error.into()),
     };
@@ -114,7 +114,9 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
     let velocity = |clearance: f64| {
         let scene = machine.at_clearance(clearance).scene().ok();
         let zone = scene.and_then(|scene| hysteresis(&scene).ok());
-        zone.map_or(f64::NEG_INFINITY, |zone| zone.velocity_sn)
+        zone.map_or(f64::NEG_INFINITY, |zone| {
+            zone.high.point.before_impact_velocity()
+        })
     };
     let low = ends.get(best.wrapping_sub(1))?.clearance;
     let high = ends.get(best + 1)?.clearance;

@@ -125,8 +125,8 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
 fn zones(clearance: f64) -> Result<[f64; 3]> {
     let scene = |ratios: Ratios| ratios.at_clearance(clearance).scene();
     let unloaded = hysteresis(&scene(Ratios::unloaded())?)?;
-    let loaded = hysteresis(&scene(Ratios::loaded())?)?.frequency_sn;
-    Ok([unloaded.frequency_g0, loaded, unloaded.frequency_sn])
+    let loaded = hysteresis(&scene(Ratios::loaded())?)?.high.frequency;
+    Ok([unloaded.frequency_g0, loaded, unloaded.high.frequency])
 }
 
 fn etas([grazing, loaded, unloaded]: [f64; 3], count: usize) -> Vec<f64> {

@@ -36,8 +36,12 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
         shares.named("share of starts"),
         integrity.named("integrity"),
     ]);
+    let axis = match design.zone.is_hysteresis() {
+        true => "place s in the zone: 0 at g₀, 1 at s_SN",
+        false => "place s in the range of stable z = 1",
+    };
     let panel = Panel {
-        x: Axis::new("place s in the zone: 0 at g₀, 1 at s_SN").range((0.0, 1.0)),
+        x: Axis::new(axis).range((0.0, 1.0)),
         y: Axis::new("share, integrity").range((0.0, 1.02)),
         layers: layers.collect(),
         ..Panel::default()

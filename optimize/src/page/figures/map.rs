@@ -7,7 +7,8 @@ use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::around;
 use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
-use softstop_dynamics::zone;
+use softstop_dynamics::continuation::Test;
+use softstop_dynamics::{Zone, zone};
 
 use super::{half_width, velocity};
 use crate::design::{Design, Problem, space};
@@ -62,14 +63,14 @@ fn map(
         machine.scene
     };
     let scenes: Vec<Scene> = (0..CELLS.1).map(at).collect();
-    let zones = zone::hysteresis_soon(&scenes, &interrupt::watch);
+    let zones = zone::find_zones(problem.zone, &scenes, &interrupt::watch);
     let rows = zones.into_par_iter().map(|zone| {
         let zone = zone.ok()?;
         let motions = Motions::of(&zone);
         Some((
             [
-                Some(zone.frequency_g0),
-                Some(zone.frequency_sn),
+                Some(zone.frequency_g0).filter(|it| *it > 0.0 && it.is_finite()),
+                zone.high.is(Test::Fold).then_some(zone.high.frequency),
                 motions.flip,
             ],
             motions,
@@ -138,12 +139,17 @@ fn map(
     let name = format!("map-{number}");
     let boundaries = lines(&format!("{name}-boundaries"), "boundary", [x, y], &curves);
     let units = [Parameter::Frequency, parameter].map(|it| machine.unit_of(it));
-    let caption = caption(&shade, place, widths, units);
+    let caption = caption((&shade, &design.zone), place, widths, units);
     Figure::new(Section::Place, size, title, [panel], caption)
         .with([Sheet::new(name, [x, y, &shade], rows), boundaries])
 }
 
-fn caption(shade: &str, place: (f64, f64), widths: [f64; 2], units: [&str; 2]) -> String {
+fn caption(
+    (shade, zone): (&str, &Zone),
+    place: (f64, f64),
+    widths: [f64; 2],
+    units: [&str; 2],
+) -> String {
     let widths = widths.into_iter().zip(units).filter(|it| it.0 > 0.0);
     let widths = widths.map(|(width, unit)| format!("±{}", quantity(width, unit)));
     let widths = widths.collect::<Vec<String>>().join(" and ");
@@ -151,9 +157,12 @@ fn caption(shade: &str, place: (f64, f64), widths: [f64; 2], units: [&str; 2]) -
         "" => String::new(),
         widths => format!(" The box about it is its tolerance, {widths}."),
     };
+    let place_of = match zone.is_hysteresis() {
+        true => ", in the hysteresis zone (from g₀ to s_SN) and below it",
+        false => "",
+    };
     format!(
-        "Colour: {shade} of the stable motion with one impact a period, in the hysteresis zone (from g₀ to s_SN) and below it; \
-         no colour: no such motion. The design stands at {} and {}.{tolerance}",
+        "Colour: {shade} of the stable motion with one impact a period{place_of}; no colour: no such motion. The design stands at {} and {}.{tolerance}",
         quantity(place.0, units[0]),
         quantity(place.1, units[1])
     )

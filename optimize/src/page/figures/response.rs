@@ -13,6 +13,7 @@ use crate::optimize::study::Study;
 use crate::page::branches::Motions;
 use crate::page::figure::{BESIDE, BOUND, DESIGN, Figure, Section, UNSTABLE, WIDE, bounds, lines};
 use crate::page::words::quantity;
+use crate::placed;
 use crate::robust::{self, Tolerance, Tolerances};
 
 /// Half the size of the marks of designs and references.
@@ -34,7 +35,7 @@ pub fn response(
     let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
     let motions = Motions::of(&design.zone);
     let corners = study.map_or_else(Vec::new, |it| corners(machine, it));
-    let bands = bands(&corners);
+    let bands = bands(problem, &corners);
     let mut curves = motions.unstable(machine, "design, unstable", UNSTABLE);
     for it in references {
         if let Ok(zone) = zone::hysteresis_watched(&it.machine.scene, &interrupt::watch) {
@@ -62,11 +63,13 @@ pub fn response(
         let band = band.iter().map(|[x, low, high]| (*x, [*low, *high]));
         Layer::band(band, style::OPTIMUM, BAND).named("within the tolerances")
     }));
-    let mut ends = vec![
-        ("g₀", own(design.zone.frequency_g0)),
-        ("s_SN", own(design.zone.frequency_sn)),
+    let ends = [
+        ("g₀", placed::grazing(design)),
+        ("s_SN", placed::fold(design)),
+        ("s_PD", motions.flip),
     ];
-    ends.extend(motions.flip.map(|flip| ("s_PD", own(flip))));
+    let ends = ends.map(|(name, at)| Some((name, own(at?))));
+    let ends: Vec<(&str, f64)> = ends.into_iter().flatten().collect();
     layers.extend(bounds(&ends, BOUND));
     layers.extend(curves.iter().map(|it| it.layer()));
     for it in references {
@@ -141,9 +144,9 @@ const ACROSS: usize = 240;
 
 /// Frequency with the least and greatest velocity of some machines, where all of them have a stable motion, in the first
 /// one's own units; in pieces where one of them has none.
-fn bands(machines: &[Machine]) -> Vec<Vec<[f64; 3]>> {
+fn bands(problem: &Problem, machines: &[Machine]) -> Vec<Vec<[f64; 3]>> {
     let scenes: Vec<Scene> = machines.iter().map(|it| it.scene.clone()).collect();
-    let zones = zone::hysteresis_soon(&scenes, &interrupt::watch);
+    let zones = zone::find_zones(problem.zone, &scenes, &interrupt::watch);
     let zones: Result<Vec<Zone>, _> = zones.into_iter().collect();
     let (Ok(zones), Some(machine)) = (zones, machines.first()) else {
         return Vec::new();

@@ -1,0 +1,127 @@
+//! A range of frequencies with a stable z = 1 motion, and its places.
+
+use super::end::ZoneEnd;
+use super::{Frequencies, ZoneError};
+use crate::continuation::{BranchPoint, Follower};
+use crate::orbit::{Orbit, OrbitError};
+use softstop::Scene;
+
+/// Largest 1 - tr + det that a located fold may show.
+pub(super) const AT_FOLD: f64 = 1e-7;
+
+/// Which motions a zone holds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum ZoneKind {
+    /// Those that coexist with the motion without impacts: from g0 to the fold s_SN ([`hysteresis`](super::hysteresis)).
+    #[default]
+    Hysteresis,
+    /// All stable ones on the branch of the hardest one between two frequencies in rad/s
+    /// ([`single_impact`](super::single_impact)).
+    SingleImpact {
+        /// Lowest and highest frequency at which the motion is looked for.
+        between: (f64, f64),
+    },
+}
+
+/// A range of frequencies with a stable z = 1 motion of one machine, and the branch of that motion.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Zone {
+    /// Which motions it holds.
+    pub kind: ZoneKind,
+    /// The machine; the frequency of its drive plays no part.
+    pub scene: Scene,
+    /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the
+    /// stop.
+    pub frequency_g0_below: Option<f64>,
+    /// Grazing frequency g0 in rad/s, above resonance: above it the motion without impacts does not reach the clearance.
+    /// 0 if it never does, infinite without a clearance.
+    pub frequency_g0: f64,
+    /// The lower end, s = 0: of a hysteresis zone g0.
+    pub low: ZoneEnd,
+    /// The upper end, s = 1: of a hysteresis zone the fold s_SN.
+    pub high: ZoneEnd,
+    /// The branch from the lower end on, through all its folds, in order of arclength.
+    pub branch: Vec<BranchPoint>,
+}
+
+impl Zone {
+    /// True if it holds only motions that coexist with the motion without impacts.
+    pub fn is_hysteresis(&self) -> bool {
+        self.kind == ZoneKind::Hysteresis
+    }
+
+    /// The machine at a place s of the zone.
+    pub fn scene_at(&self, share: f64) -> Scene {
+        self.scene.at_frequency(self.frequency_at(share))
+    }
+
+    /// The frequency in rad/s at a place s.
+    pub fn frequency_at(&self, share: f64) -> f64 {
+        self.low.frequency + share * self.width()
+    }
+
+    /// The place of a frequency in rad/s.
+    pub fn place_of(&self, frequency: f64) -> f64 {
+        (frequency - self.low.frequency) / self.width()
+    }
+
+    /// From end to end in rad/s.
+    pub fn width(&self) -> f64 {
+        self.high.frequency - self.low.frequency
+    }
+
+    /// The z = 1 orbit at a place s of the zone, as [`Zone::point_at`] has it.
+    ///
+    /// # Errors
+    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
+    pub fn orbit_at(&self, share: f64) -> Result<Orbit, ZoneError> {
+        self.orbit(&self.point_at(share)?)
+    }
+
+    /// The whole orbit at a point of the branch.
+    ///
+    /// # Errors
+    /// [`ZoneError::Orbit`] if the orbit is lost.
+    pub fn orbit(&self, point: &BranchPoint) -> Result<Orbit, ZoneError> {
+        let family = Frequencies(&self.scene);
+        Ok(Follower::new(&family, 1).orbit(point)?)
+    }
+
+    /// The z = 1 motion of the highest before-impact velocity at a place s of the zone, on the stable
+    /// side of the folds; s = 1 is the last fold itself.
+    ///
+    /// # Errors
+    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
+    pub fn point_at(&self, share: f64) -> Result<BranchPoint, ZoneError> {
+        if !(0.0..=1.0).contains(&share) {
+            return Err(ZoneError::Outside { share });
+        }
+        let family = Frequencies(&self.scene);
+        let follower = Follower::new(&family, 1);
+        let target = self.frequency_at(share);
+        let mut best: Option<BranchPoint> = None;
+        for pair in self.branch.windows(2) {
+            let (from, to) = (&pair[0], &pair[1]);
+            if from.fold_test() < -AT_FOLD || to.fold_test() < -AT_FOLD {
+                continue;
+            }
+            let point = match (from.parameter - target, to.parameter - target) {
+                (0.0, _) => from.clone(),
+                (_, 0.0) => to.clone(),
+                (a, b) if a * b < 0.0 => follower.between(from, to, target)?,
+                _ => continue,
+            };
+            let stronger =
+                |best: &BranchPoint| point.before_impact_velocity() > best.before_impact_velocity();
+            if best.as_ref().is_none_or(stronger) {
+                best = Some(point);
+            }
+        }
+        let lost = OrbitError::NotFound {
+            frequency: target,
+            clearance: self.scene.clearance,
+        };
+        Ok(best.ok_or(lost)?)
+    }
+}

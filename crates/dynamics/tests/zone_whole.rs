@@ -1,0 +1,139 @@
+//! Zones of all stable z = 1 motions on a branch, against the search over all frequencies and against differences.
+
+use softstop::{Excitation, Parameter, Ratios, Scene, Stop};
+use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::slopes::Border;
+use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::zone::{
+    EndKind, Loss, hysteresis, loss_of_stability, single_impact, stretches,
+};
+use softstop_dynamics::{Zone, zone};
+use softstop_testing::assert_near;
+use softstop_testing::tolerance::DIFFERENCED;
+
+/// All frequencies, in rad/s.
+const ALL: (f64, f64) = (f64::MIN_POSITIVE, f64::INFINITY);
+
+fn whole(scene: &Scene) -> Zone {
+    let mut zones = single_impact(std::slice::from_ref(scene), ALL, &unwatched);
+    zones.remove(0).expect("a zone")
+}
+
+/// A ram of 1.2 t on springs above a pile; a negative clearance presses it on.
+fn pile_driver(clearance: f64) -> Scene {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.mass = 1200.0;
+    scene.stiffness = 3e6;
+    scene.damping = 8000.0;
+    scene.clearance = clearance;
+    scene.contact_damping = 3e4;
+    scene.excitation = Excitation {
+        amplitude: 9e4,
+        frequency: 75.0,
+        phase: 0.0,
+    };
+    scene.stop = Stop::Preloaded {
+        stiffness: 1.2e7,
+        preload: 6e4,
+    };
+    scene
+}
+
+#[test]
+fn it_holds_the_hysteresis_zone() {
+    for ratios in [Ratios::unloaded(), Ratios::loaded()] {
+        let scene = ratios.scene().expect("valid");
+        let (part, whole) = (hysteresis(&scene).expect("a zone"), whole(&scene));
+        assert_near(whole.high.frequency, part.high.frequency, 1e-12);
+        assert_near(whole.frequency_g0, part.frequency_g0, 1e-12);
+        let orbit = part.orbit_at(0.5).expect("an orbit");
+        let flip = loss_of_stability(&orbit, Heading::Down, Test::Flip).expect("followed");
+        let flip = flip.expect("a flip").parameter;
+        assert!(whole.low.is(Test::Flip) && flip < part.frequency_g0);
+        assert_near(whole.low.frequency, flip, 1e-9);
+        for share in [0.1, 0.5, 0.9, 1.0] {
+            let place = whole.place_of(part.frequency_at(share)).min(1.0);
+            let [one, other] = [part.point_at(share), whole.point_at(place)];
+            let [one, other] = [one, other].map(|it| it.expect("on the branch"));
+            let size = one.before_impact_velocity();
+            assert_near(other.before_impact_velocity(), size, 1e-6 * size);
+        }
+    }
+}
+
+/// Below g0, without g0, and with a flip at its upper end.
+#[test]
+fn its_ends_are_those_of_the_search_over_all_frequencies() {
+    for (clearance, is_hysteresis) in [(0.012, true), (0.004, false), (0.0, false), (-0.02, false)]
+    {
+        let scene = pile_driver(clearance);
+        assert_eq!(zone::hysteresis(&scene).is_ok(), is_hysteresis);
+        let whole = whole(&scene);
+        let all = stretches(&scene).expect("a scene");
+        let hardest = all.iter().max_by(|a, b| {
+            let [a, b] = [a, b].map(|it| it.hardest.before_impact_velocity());
+            a.total_cmp(&b)
+        });
+        let hardest = hardest.expect("a stretch");
+        for (own, other) in [(&whole.low, &hardest.low), (&whole.high, &hardest.high)] {
+            assert_near(own.frequency, other.frequency, 1e-7 * other.frequency);
+            assert_eq!(own.kind.loss(), Some(other.loss.clone()), "{clearance}");
+        }
+        assert_eq!(whole.frequency_g0.is_finite(), clearance > 0.0);
+    }
+}
+
+#[test]
+fn its_ends_have_normals() {
+    let scene = pile_driver(0.004);
+    let zone = whole(&scene);
+    let parameters = [
+        Parameter::Suspension,
+        Parameter::Clearance,
+        Parameter::StopStiffness,
+        Parameter::Damping,
+    ];
+    assert_eq!(zone.low.kind.loss(), Some(Loss::AnotherImpact));
+    assert!(zone.high.is(Test::Flip));
+    let ends: [fn(&Zone) -> f64; 2] = [|zone| zone.low.frequency, |zone| zone.high.frequency];
+    for (end, frequency) in [&zone.low, &zone.high].into_iter().zip(ends) {
+        let border = Border::end(&scene, end, &parameters).expect("a normal");
+        for (parameter, normal) in parameters.iter().zip(&border.normal) {
+            let value = parameter.get(&scene).expect("it has");
+            let width = 1e-3 * value;
+            let beside = |by: f64| {
+                let mut scene = scene.clone();
+                parameter.set(&mut scene, value + by);
+                frequency(&whole(&scene))
+            };
+            let found = (beside(width) - beside(-width)) / (2.0 * width);
+            let size = frequency(&zone) / value;
+            assert!(
+                (found + normal).abs() < DIFFERENCED * size,
+                "{parameter:?} {:?}: {found} {normal}",
+                end.kind
+            );
+        }
+    }
+}
+
+#[test]
+fn one_frequency_is_enough_to_look_for_it() {
+    let scene = pile_driver(0.004);
+    let at = 75.0;
+    let zones = single_impact(std::slice::from_ref(&scene), (at, at), &unwatched);
+    let found = zones.into_iter().next().expect("one").expect("a zone");
+    assert_near(found.low.frequency, whole(&scene).low.frequency, 1e-6);
+    assert!(!matches!(found.low.kind, EndKind::Free));
+    let none = single_impact(std::slice::from_ref(&scene), (400.0, 410.0), &unwatched);
+    let words = none
+        .into_iter()
+        .next()
+        .expect("one")
+        .expect_err("none")
+        .to_string();
+    assert!(
+        words.contains("no stable z = 1 motion found between"),
+        "{words}"
+    );
+}
