@@ -209,6 +209,7 @@ fn tried(requirement: &Requirement, orbit: &Orbit, effort: Effort) -> Result<Met
         starts,
         within: None,
         violating: None,
+        interval: None,
     })
 }
 

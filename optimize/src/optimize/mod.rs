@@ -75,12 +75,14 @@ A machine's file may hold a task (docs/tutorials/press.md takes a press from fil
     [tolerance]                              half-widths, or shares of the value
     clearance = 3e-4
     stop.stiffness = \"5 %\"
+    damping = { half_width = \"20 %\", distribution = \"normal\", cpk = 1.33 }
     [objective]                              maximise or minimise: velocity, impact_energy, impact_power,
     maximise = \"velocity\"                  stroke_work, drive_force, drive_power, stop_force
     [require]                                a bound on its good side, or { least = 1, most = 2 }
     margin_sn = 0.5                          (softstop schema task lists all that can be required)
     stop_force = 5e5
     run_up = true
+    violating = \"0.27 %\"                     of machines with normal tolerances, at most
     [search]
     evaluations = 2000
     [report]                                 title, author and date above the report
@@ -166,7 +168,7 @@ const FILES: [(&str, &str); 6] = [
 
 /// Searches, prints and writes the files.
 pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
-    let job = Job::new(arguments)?;
+    let mut job = Job::new(arguments)?;
     can_be_packed(&job.problem.machine)?;
     let mut export = Export::open(&job.output, &FILES)?;
     export.refuse_folders_called(".csv")?;
@@ -179,6 +181,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         }
         outcome => outcome?,
     };
+    job.problem.deviations = outcome.deviations;
     let looked = match outcome.go_on(|outcome| Looked::new(&job, outcome, true))? {
         Some(looked) => looked,
         None => Looked::new(&job, &outcome, false)?,

@@ -9,6 +9,7 @@ use toml::{Table, Value};
 use super::objective::{known, lacks};
 use super::toml_leaves::number;
 use crate::design::figure::{Figure, Sense};
+use crate::design::problem::VIOLATING;
 use crate::design::requirement::{Requirement, Scope};
 
 /// `{ least = 10, most = 12, at = "drawing" }`.
@@ -39,10 +40,15 @@ pub(super) struct Required {
     pub margin: Option<f64>,
     /// How many times as wide as the tolerances the box is that must hold.
     pub reserve: f64,
+    /// Share of the machines with normal tolerances that may violate a requirement.
+    pub violating: f64,
 }
 
 /// The key of the reserve.
 pub(super) const RESERVE: &str = "tolerance_reserve";
+/// The key of the share that may violate a requirement, and the least such share.
+pub(super) const SHARE: &str = "violating";
+const LEAST_SHARE: f64 = 1e-5;
 
 /// Reads `[require]`.
 pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Required, Failure> {
@@ -53,6 +59,18 @@ pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Required,
             reserve.ok_or_else(|| {
                 Failure::usage(format!(
                     "require.{RESERVE} = {value}: must be a number in [1, 10]"
+                ))
+            })?
+        }
+    };
+    let violating = match table.get(SHARE) {
+        None => VIOLATING,
+        Some(value) => {
+            let share = number(value).or_else(|| percent(value));
+            let share = share.filter(|it| (LEAST_SHARE..=0.5).contains(it));
+            share.ok_or_else(|| {
+                Failure::usage(format!(
+                    "require.{SHARE} = {value}: must be a share from 0.00001 to 0.5, or \"0.27 %\""
                 ))
             })?
         }
@@ -75,7 +93,10 @@ pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Required,
                 }
                 (bounds.least, bounds.most)
             }
-            (value, sense) => match (number(value).or_else(|| percent(figure, value)), sense) {
+            (value, sense) => match (
+                number(value).or_else(|| percent(value).filter(|_| is_share(figure))),
+                sense,
+            ) {
                 (Some(least), Sense::Least) => (Some(least), None),
                 (Some(most), Sense::Most) => (None, Some(most)),
                 (None, _) => return Err(wrong(what)),
@@ -99,7 +120,10 @@ pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Required,
             scope,
         })
     };
-    let figures = table.iter().filter(|(name, _)| *name != RESERVE);
+    let others = [RESERVE, SHARE];
+    let figures = table
+        .iter()
+        .filter(|(name, _)| !others.contains(&name.as_str()));
     let all: Result<Vec<Requirement>, Failure> = figures.map(one).collect();
     let mut all = all?;
     for requirement in &all {
@@ -119,14 +143,19 @@ pub(super) fn requirements(machine: &Machine, table: &Table) -> Result<Required,
             figures: all,
             margin: share.and_then(|it| it.least),
             reserve,
+            violating,
         }),
     }
 }
 
+/// True for a figure that may be stated in per cent.
+fn is_share(figure: Figure) -> bool {
+    matches!(figure, Figure::Certainty | Figure::Share)
+}
+
 /// A share as text, `"50 %"`.
-fn percent(figure: Figure, value: &Value) -> Option<f64> {
-    let is_share = matches!(figure, Figure::Certainty | Figure::Share);
-    let text = value.as_str().filter(|_| is_share)?;
+fn percent(value: &Value) -> Option<f64> {
+    let text = value.as_str()?;
     let share: f64 = text.trim().strip_suffix('%')?.trim().parse().ok()?;
     Some(share / 100.0)
 }
