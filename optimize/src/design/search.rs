@@ -14,7 +14,7 @@ use softstop_dynamics::watch::Kept;
 
 use super::ascent::{ascend, ascend_from};
 pub use super::check_trials::Resolution;
-use super::check_trials::check_trials;
+use super::check_trials::{Passed, check_trials};
 use super::conflict::stated;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
@@ -216,10 +216,10 @@ impl<'a> Search<'a> {
                 finalists.push(robust);
             }
         }
-        let mut passing: Vec<(Robust, Option<Resolution>)> = Vec::new();
+        let mut passing: Vec<Passed> = Vec::new();
         for finalist in finalists {
             let improved = improve_catalogue(problem, finalist);
-            let least = passing.iter().map(|(it, _)| self.score(&it.candidate));
+            let least = passing.iter().map(|it| self.score(&it.robust.candidate));
             if self.score(&improved.candidate) <= least.fold(0.0, f64::max) {
                 continue;
             }
@@ -228,13 +228,14 @@ impl<'a> Search<'a> {
                 Err(error) => drop(failed.get_or_insert(error)),
             }
         }
-        let score = |(it, _): &(Robust, _)| self.score(&it.candidate);
+        let score = |it: &Passed| self.score(&it.robust.candidate);
         passing.sort_by(|a, b| score(b).total_cmp(&score(a)));
         let mut passing = passing.into_iter();
-        let Some((best, resolution)) = passing.next() else {
+        let Some(passed) = passing.next() else {
             return Err(self.no_design(failed.unwrap_or_else(|| Infeasible::unknown("stopped"))));
         };
-        let tried = passing.map(|(it, _)| it.candidate);
+        let best = &passed.robust;
+        let others = passing.map(|it| it.robust.candidate);
         let rivals = self.robust.iter();
         let rivals = rivals.filter(|it| {
             let score = self.score(&it.candidate);
@@ -242,13 +243,12 @@ impl<'a> Search<'a> {
                 && problem.passes(&it.candidate.design, &best.known.tried, FULL)
         });
         let rivals = rivals.map(|it| it.candidate.clone());
-        let others: Vec<Candidate> = tried.chain(rivals).collect();
+        let others: Vec<Candidate> = others.chain(rivals).collect();
         let incumbent = self.survey.incumbent;
         incumbent.update(&best.candidate, Rank::Trials);
         Ok(Found {
-            resolution,
             ascents: self.ascents,
-            ..Found::new(problem, best, &others)
+            ..Found::passed(problem, passed, &others)
         })
     }
 

@@ -11,7 +11,7 @@ use super::outcome::{Interrupted, Outcome, PLACES};
 use super::progress::Best;
 use super::task::Job;
 use crate::design::judge::{Met, Within};
-use crate::design::search::SearchError;
+use crate::design::search::{Found, SearchError};
 use crate::design::solution::{Beside, Solution};
 use crate::design::trial::{ANGLES, STARTS};
 use crate::design::{Design, Problem};
@@ -56,11 +56,11 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         fronts,
     } = solution;
     let problem = &job.problem.with_deviations(deviations);
-    let mut met = met(problem, &found.design);
+    let mut met = met(problem, &found);
     if interrupt::requested() {
         interrupt::save();
         interrupted = Some(Interrupted::Report);
-        met = self::met(problem, &found.design);
+        met = self::met(problem, &found);
     }
     let met = met?;
     // Of an unfinished search nothing is written that is not as asked.
@@ -107,7 +107,8 @@ fn erosion(design: &Design) -> Option<ErosionProfile> {
 }
 
 /// What a design has of all that is required, in its own machine and in the worst within the tolerances.
-fn met(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
+fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure> {
+    let design = &found.design;
     let motion = design.judged().map_err(anyhow::Error::from)?;
     let mut met = Vec::from_iter(problem.share(&motion));
     let worst = problem.worst_of_required(design);
@@ -125,6 +126,9 @@ fn met(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
         });
         Met { within, ..met }
     }));
-    met.extend(problem.tried(design).map_err(anyhow::Error::from)?);
+    met.extend(match found.tried.is_empty() {
+        true => problem.tried(design).map_err(anyhow::Error::from)?,
+        false => found.tried.clone(),
+    });
     Ok(met)
 }
