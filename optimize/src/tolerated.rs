@@ -10,7 +10,7 @@ use softstop_console::table::sections;
 
 use softstop_explore::zone::lost_by;
 
-use crate::optimize::study::{Study, Without};
+use crate::optimize::study::{Statistics, Study, Without};
 use crate::robust::{Index, Manifold, Nearest, Tolerance};
 
 /// The machines within the tolerances of a design.
@@ -38,6 +38,20 @@ fn machines<'a>() -> [Column<&'a Study>; 6] {
         "worst" [Velocity] Six, "least within the tolerances" => it.slowest();
         "factor" [None] Six, "factor by which all tolerances may grow" => it.nearest_box.first().map(|it| it.distance);
         "normal_distance" [None] Six, "normal distance in units of the tolerances" => it.nearest_ball.first().map(|it| it.distance);
+    }
+}
+
+type Counted<'a> = (&'a Study, &'a Statistics);
+
+/// Of machines with normal tolerances.
+fn counted<'a>() -> [Column<Counted<'a>>; 6] {
+    columns! { Counted<'a>, it;
+        "rejected" [None] Plain, "machines that lose the motion or violate a requirement" => it.0.verdict.rejected;
+        "share_rejected" [None] Six, "their share" => it.0.verdict.rejected as f64 / it.0.verdict.machines as f64;
+        "interval_low" [None] Six, "lower end of its 95 % interval" => it.0.verdict.share_rejected()[0];
+        "interval_high" [None] Six, "upper end" => it.0.verdict.share_rejected()[1];
+        "share_allowed" [None] Six, "share that may" => it.1.allowed;
+        "deviations" [None] Six, "standard deviations of normal tolerances within which none does" => it.1.deviations;
     }
 }
 
@@ -127,8 +141,10 @@ impl Tolerated {
     pub(crate) fn of(machine: &Machine, study: &Study) -> Self {
         let all = 0..study.tolerances.len();
         let without = study.without.as_ref();
+        let statistics = study.statistics.as_ref();
+        let statistics = statistics.map(|it| Record::of(&counted(), &(study, it)));
         Self {
-            machines: Record::of(&machines(), &study),
+            machines: Record::of(&machines(), &study).and(statistics.unwrap_or_default()),
             manifolds: study
                 .nearest_box
                 .iter()
@@ -145,7 +161,7 @@ impl Tolerated {
     /// The text for people.
     pub(crate) fn text(&self, units: &Units) -> String {
         let mut machines = self.machines.text(units);
-        if self.machines.number("lost") > 0.0 {
+        if self.machines.number("lost") > 0.0 && self.machines.cell("share_allowed").is_none() {
             machines += "Warning: not all machines within the tolerances keep the motion.\n";
         }
         let without = self.without.as_ref().map(|it| it.text(units));

@@ -107,10 +107,7 @@ fn task(seed: u64) -> Problem {
             (Parameter::Damping, 0.1),
             (Parameter::Frequency, 0.003),
         ]
-        .map(|(parameter, share)| Tolerance {
-            parameter,
-            width: Width::Share(share),
-        })
+        .map(|(parameter, share)| Tolerance::new(parameter, Width::Share(share)))
         .to_vec(),
         false => Vec::new(),
     };
@@ -172,6 +169,7 @@ fn nothing_contradicts(
         let beside = Beside {
             relaxed: true,
             fronts: seed.is_multiple_of(with_fronts),
+            ..Beside::default()
         };
         let solution = match Solution::of(&problem, settings, beside, (&Unwatched, None)) {
             Err(SearchError::NoDesign { .. }) => continue,
@@ -200,14 +198,8 @@ fn hammer(scope: Scope) -> Problem {
     let machine = Machine::from_toml(HAMMER).expect("a hammer");
     let range = |low, high| Interval { low, high };
     let catalogue = vec![3e4, 4.5e4, 6e4, 9e4, 1.2e5, 1.8e5];
-    let own = |parameter, width| Tolerance {
-        parameter,
-        width: Width::Own(width),
-    };
-    let share = |parameter, share| Tolerance {
-        parameter,
-        width: Width::Share(share),
-    };
+    let own = |parameter, width| Tolerance::new(parameter, Width::Own(width));
+    let share = |parameter, share| Tolerance::new(parameter, Width::Share(share));
     let most = |figure, most| Requirement {
         scope,
         ..Requirement::new(figure, None, Some(most))
@@ -259,7 +251,7 @@ fn the_best_hammer_of_the_drawing_is_found() -> Outcome {
     let problem = hammer(Scope::Drawing);
     let beside = Beside {
         relaxed: true,
-        fronts: false,
+        ..Beside::default()
     };
     let solution = Solution::of(&problem, SETTINGS, beside, (&Unwatched, None))?;
     let design = &solution.found.design;
@@ -367,7 +359,7 @@ fn no_other_search_finds_better_designs() -> Outcome {
         let value = |evaluations| {
             let beside = Beside {
                 relaxed: true,
-                fronts: false,
+                ..Beside::default()
             };
             let settings = Settings { evaluations };
             let found = Solution::of(&problem, settings, beside, (&Unwatched, None));

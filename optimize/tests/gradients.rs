@@ -105,10 +105,7 @@ fn problem(machine: Machine) -> Problem {
 
 /// What cannot be made exactly; with that of the speed the box reaches beyond the fold.
 fn tolerances() -> Vec<Tolerance> {
-    let share = |(parameter, share)| Tolerance {
-        parameter,
-        width: Width::Share(share),
-    };
+    let share = |(parameter, share)| Tolerance::new(parameter, Width::Share(share));
     [
         (Parameter::Clearance, 0.005),
         (Parameter::Damping, 0.02),

@@ -13,6 +13,7 @@ use softstop_optimize::design::problem::{Objective, Tolerance, Width};
 use softstop_optimize::design::requirement::{Requirement, Scope};
 use softstop_optimize::design::search::{Settings, Unwatched, search};
 use softstop_optimize::design::space::{Axis, Interval};
+use softstop_optimize::robust::Distribution;
 
 use crate::{Outcome, SOFTSTOP};
 
@@ -183,6 +184,7 @@ fn designs_of_a_front_keep_their_tolerances() -> Outcome {
     let share = |parameter, share| Tolerance {
         parameter,
         width: Width::Share(share),
+        distribution: Distribution::Box,
     };
     let problem = Problem {
         margin: 0.0,

@@ -1,5 +1,6 @@
 //! Tolerances: what the machines of a box do, against what is known of them.
 
+mod distribution;
 mod indices;
 mod nearest;
 mod verify;
@@ -7,7 +8,7 @@ mod worst;
 
 use softstop::{Machine, Parameter};
 use softstop_dynamics::{Orbit, orbit};
-use softstop_optimize::robust::{Tolerance, Tolerances};
+use softstop_optimize::robust::{Distribution, Tolerance, Tolerances};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -52,6 +53,7 @@ fn spread(
         Ok(Tolerance {
             parameter: *parameter,
             half_width,
+            distribution: Distribution::Box,
         })
     };
     let all: Result<Vec<Tolerance>, &str> = percent.iter().map(tolerance).collect();

@@ -37,10 +37,7 @@ const CLEARANCE: Interval = Interval {
 
 /// Its hardest impact below a frequency just above that fold.
 fn above_a_fold(width: f64) -> Result<Problem, Box<dyn std::error::Error>> {
-    let share = |parameter, share: f64| Tolerance {
-        parameter,
-        width: Width::Share(share * width),
-    };
+    let share = |parameter, share: f64| Tolerance::new(parameter, Width::Share(share * width));
     Ok(Problem {
         frequency: Interval {
             low: 1.2,

@@ -170,13 +170,13 @@ impl Corners<'_> {
     fn without_width(&self, frequency: f64, sign: f64) -> f64 {
         let mut tolerances = self.problem.tolerances.iter();
         let speed = tolerances.find(|it| it.parameter == Parameter::Frequency);
-        let sign = sign * self.problem.reserve;
-        match speed.map(|it| it.width) {
-            Some(Width::Own(width)) => {
-                frequency - sign * self.machine.to_si(Dimension::Frequency, width)
-            }
-            Some(Width::Share(share)) => frequency / (1.0 + sign * share),
-            None => frequency,
+        let Some(speed) = speed else {
+            return frequency;
+        };
+        let sign = sign * self.problem.widening(speed);
+        match speed.width {
+            Width::Own(width) => frequency - sign * self.machine.to_si(Dimension::Frequency, width),
+            Width::Share(share) => frequency / (1.0 + sign * share),
         }
     }
 }

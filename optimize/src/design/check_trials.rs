@@ -10,6 +10,7 @@ use super::ascent::ascend_from;
 use super::certain::certain;
 use super::coordinates::{Candidate, Coordinates};
 use super::critical::CriticalMachines;
+use super::judge::Met;
 use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::robustify::{Robust, look};
@@ -54,18 +55,30 @@ const RESOLUTION: Resolution = Resolution {
     place: 1.0 / (PLACES << HALVINGS) as f64,
 };
 
-/// The best design that passes its trials: this one if it does, otherwise one that is sought from it, with how fine that
-/// was.
+/// A design that passes its trials.
+pub(super) struct Passed {
+    pub robust: Robust,
+    /// What it has of what is tried.
+    pub tried: Vec<Met>,
+    /// How fine it was looked for, if it was sought.
+    pub resolution: Option<Resolution>,
+}
+
+/// The best design that passes its trials: this one if it does, otherwise one that is sought from it.
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
-pub(super) fn check_trials(
-    problem: &Problem,
-    mut held: Robust,
-) -> Result<(Robust, Option<Resolution>), Infeasible> {
-    let lack = problem.lack_of_trials(&held.candidate.design, &mut held.known);
-    let Some(lack) = lack else {
-        return Ok((held, None));
+pub(super) fn check_trials(problem: &Problem, mut held: Robust) -> Result<Passed, Infeasible> {
+    let passed = problem.pass_trials(&held.candidate.design, &mut held.known);
+    let lack = match passed {
+        Ok(tried) => {
+            return Ok(Passed {
+                robust: held,
+                tried,
+                resolution: None,
+            });
+        }
+        Err(lack) => lack,
     };
     let mut from = held.candidate;
     for round in 0..ROUNDS {
@@ -85,10 +98,13 @@ pub(super) fn check_trials(
         if seen.lack.is_some() {
             continue;
         }
-        let lack = problem.lack_of_trials(&candidate.design, &mut held.known);
-        if lack.is_none() {
+        if let Ok(tried) = problem.pass_trials(&candidate.design, &mut held.known) {
             let known = held.known;
-            return Ok((Robust { candidate, known }, Some(RESOLUTION)));
+            return Ok(Passed {
+                robust: Robust { candidate, known },
+                tried,
+                resolution: Some(RESOLUTION),
+            });
         }
     }
     Err(lack)

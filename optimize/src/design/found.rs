@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::ascent::ascend_from;
-use super::check_trials::{Resolution, check_trials};
+use super::check_trials::{Passed, Resolution, check_trials};
 use super::constraint::Limit;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
 use super::improve_catalogue::improve_catalogue;
+use super::judge::Met;
 use super::multipliers::limits;
 use super::robustify::{Robust, enforce_tolerance_box};
 use super::{Design, Problem};
@@ -32,6 +33,8 @@ pub struct Found {
     pub limits: Vec<Limit>,
     /// Others, far from it and nearly as good: a small change of the task can make one of them the best.
     pub rivals: Vec<Design>,
+    /// What it has of what is tried; nothing of a search that was stopped.
+    pub tried: Vec<Met>,
     /// How fine it was looked for, if trials were in the way.
     pub resolution: Option<Resolution>,
     /// What it took.
@@ -68,8 +71,18 @@ impl Found {
             known: best.known,
             limits,
             rivals,
+            tried: Vec::new(),
             resolution: None,
             ascents: Ascents::default(),
+        }
+    }
+
+    /// [`Found::new`] of a design that passes its trials.
+    pub(super) fn passed(problem: &Problem, passed: Passed, others: &[Candidate]) -> Self {
+        Self {
+            tried: passed.tried,
+            resolution: passed.resolution,
+            ..Self::new(problem, passed.robust, others)
         }
     }
 
@@ -115,10 +128,10 @@ impl Found {
             return false;
         };
         let improved = improve_catalogue(problem, &robust);
-        let Ok((best, resolution)) = check_trials(problem, improved) else {
+        let Ok(passed) = check_trials(problem, improved) else {
             return false;
         };
-        if !is_better(&best) {
+        if !is_better(&passed.robust) {
             return false;
         }
         let rivals = std::mem::take(&mut self.rivals);
@@ -130,9 +143,8 @@ impl Found {
         });
         let others: Vec<Candidate> = others.collect();
         *self = Self {
-            resolution,
             ascents: self.ascents,
-            ..Self::new(problem, best, &others)
+            ..Self::passed(problem, passed, &others)
         };
         true
     }

@@ -117,8 +117,8 @@ pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded>
     let above: Vec<Tried> = above;
     let passing = above.into_par_iter().map(|it| it.candidate);
     let passing = passing.filter(|it| {
-        let trials = problem.lack_of_trials(&it.design, &mut CriticalMachines::default());
-        trials.is_none()
+        let trials = problem.pass_trials(&it.design, &mut CriticalMachines::default());
+        trials.is_ok()
     });
     let passing: Vec<Candidate> = passing.collect();
     let better = passing

@@ -172,6 +172,8 @@ pub struct Met {
     pub within: Option<Within>,
     /// Share of the machines within the tolerances that violate it, if they were looked at.
     pub violating: Option<f64>,
+    /// The 95 % interval of that share, if the machines are drawn from normal tolerances.
+    pub interval: Option<[f64; 2]>,
 }
 
 /// The worst machine within the tolerances.
@@ -213,6 +215,9 @@ impl Met {
     pub fn note(&self, machine: &Machine) -> String {
         if self.value.is_infinite() {
             return self.requirement.figure.unbounded().to_owned();
+        }
+        if let Some([low, high]) = self.interval {
+            return format!("share that violates it: 95 % interval {low:.3e} to {high:.3e}");
         }
         let Some(of) = &self.starts else {
             return String::new();
@@ -268,6 +273,7 @@ impl Problem {
             starts: None,
             within: None,
             violating: None,
+            interval: None,
         })
         .collect()
     }
@@ -282,6 +288,7 @@ impl Problem {
             starts: None,
             within: None,
             violating: None,
+            interval: None,
         })
     }
 }

@@ -37,6 +37,7 @@ pub mod reach;
 pub mod requirement;
 mod robustify;
 pub mod search;
+mod share;
 pub mod slope;
 pub mod slsqp;
 pub mod solution;

@@ -9,7 +9,10 @@ use super::figure::{Figure, Sense};
 use super::requirement::{Requirement, Scope};
 use super::slope::Slope;
 use super::space::{Axis, Interval};
-use crate::robust::{self, Tolerances};
+use crate::robust::{self, Distribution, Tolerances};
+
+/// The share that lies outside three standard deviations.
+pub const VIOLATING: f64 = 0.0027;
 
 /// What is searched, and where. All values are in the machine's own units.
 #[derive(Debug, Clone)]
@@ -30,6 +33,10 @@ pub struct Problem {
     pub tolerances: Vec<Tolerance>,
     /// How many times as wide as the tolerances the box is that a design keeps.
     pub reserve: f64,
+    /// Half-width of that box along normal tolerances, in standard deviations.
+    pub deviations: f64,
+    /// Share of the machines with normal tolerances that may lose the motion or violate a requirement.
+    pub violating: f64,
     /// What is sought.
     pub objective: Objective,
     /// What else is sought: a front trades it for the first.
@@ -62,9 +69,25 @@ pub struct Tolerance {
     pub parameter: Parameter,
     /// How far on either side.
     pub width: Width,
+    /// How the values of the machines lie that are built.
+    pub distribution: Distribution,
 }
 
 impl Tolerance {
+    /// One whose values may lie anywhere within it.
+    pub const fn new(parameter: Parameter, width: Width) -> Self {
+        Self {
+            parameter,
+            width,
+            distribution: Distribution::Box,
+        }
+    }
+
+    /// True if it has a width, and values lie normally within.
+    pub fn is_normal(&self) -> bool {
+        !self.is_exact() && matches!(self.distribution, Distribution::Normal(_))
+    }
+
     /// True if its width is zero.
     pub fn is_exact(&self) -> bool {
         matches!(self.width, Width::Own(0.0) | Width::Share(0.0))
@@ -195,6 +218,8 @@ impl Problem {
             links: Vec::new(),
             tolerances: Vec::new(),
             reserve: 1.0,
+            deviations: 3.0,
+            violating: VIOLATING,
             objective: Objective::default(),
             traded: Vec::new(),
             requirements: Vec::new(),
@@ -222,6 +247,15 @@ impl Problem {
         }
     }
 
+    /// The problem with a box that reaches over so many standard deviations of normal tolerances.
+    #[must_use]
+    pub fn with_deviations(&self, deviations: f64) -> Self {
+        Self {
+            deviations,
+            ..self.clone()
+        }
+    }
+
     /// The problem with tolerances as they are stated, without reserve.
     pub fn as_built(&self) -> Self {
         Self {
@@ -230,10 +264,15 @@ impl Problem {
         }
     }
 
+    /// How many times as wide as a tolerance the box is that a design keeps.
+    pub fn widening(&self, tolerance: &Tolerance) -> f64 {
+        self.reserve * tolerance.distribution.over(self.deviations).1
+    }
+
     /// The box of tolerances, with its reserve, about a machine whose drive runs at its frequency; none if all of it is exact.
     pub fn spread(&self, machine: &Machine) -> Option<Tolerances> {
         let half_width = |it: &Tolerance| {
-            let width = self.reserve * it.width.around(machine.value(it.parameter)?);
+            let width = self.widening(it) * it.width.around(machine.value(it.parameter)?);
             let half_width = match it.parameter {
                 Parameter::Preload if machine.preload_deflection.is_some() => width,
                 parameter => machine.to_si(parameter.about().dimension, width),
@@ -241,6 +280,7 @@ impl Problem {
             (half_width > 0.0).then_some(robust::Tolerance {
                 parameter: it.parameter,
                 half_width,
+                distribution: it.distribution.over(self.deviations).0,
             })
         };
         let all: Vec<_> = self.tolerances.iter().filter_map(half_width).collect();
@@ -256,6 +296,11 @@ impl Problem {
     /// How many of the tolerances are not zero.
     pub(super) fn tolerances_in_use(&self) -> usize {
         self.tolerances.iter().filter(|it| !it.is_exact()).count()
+    }
+
+    /// True if the values of something lie normally about the design.
+    pub fn has_normal_tolerances(&self) -> bool {
+        self.tolerances.iter().any(Tolerance::is_normal)
     }
 
     /// True if nothing is asked of a motion but its velocity and its place in the zone.

@@ -15,7 +15,7 @@ use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};
 pub use super::check_trials::Resolution;
-use super::check_trials::check_trials;
+use super::check_trials::{Passed, check_trials};
 use super::conflict::stated;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
@@ -75,6 +75,21 @@ pub enum SearchError {
     /// The survey and the ascents from it cost more than they may.
     #[error("over its budget")]
     OverBudget,
+}
+
+impl SearchError {
+    /// Nothing within the bounds of a problem is feasible.
+    pub(super) fn no_design(problem: &Problem, place: String, reason: String) -> Self {
+        let zone = match problem.zone {
+            ZoneKind::Hysteresis => "in a hysteresis zone ",
+            ZoneKind::SingleImpact { .. } => "",
+        };
+        Self::NoDesign {
+            zone,
+            place,
+            reason,
+        }
+    }
 }
 
 /// The feasible design that is best by the problem's objective. What is known of the search is recalled.
@@ -219,10 +234,10 @@ impl<'a> Search<'a> {
                 finalists.push(robust);
             }
         }
-        let mut passing: Vec<(Robust, Option<Resolution>)> = Vec::new();
+        let mut passing: Vec<Passed> = Vec::new();
         for finalist in finalists {
             let improved = improve_catalogue(problem, finalist);
-            let least = passing.iter().map(|(it, _)| self.score(&it.candidate));
+            let least = passing.iter().map(|it| self.score(&it.robust.candidate));
             if self.score(&improved.candidate) <= least.fold(0.0, f64::max) {
                 continue;
             }
@@ -231,13 +246,14 @@ impl<'a> Search<'a> {
                 Err(error) => drop(failed.get_or_insert(error)),
             }
         }
-        let score = |(it, _): &(Robust, _)| self.score(&it.candidate);
+        let score = |it: &Passed| self.score(&it.robust.candidate);
         passing.sort_by(|a, b| score(b).total_cmp(&score(a)));
         let mut passing = passing.into_iter();
-        let Some((best, resolution)) = passing.next() else {
+        let Some(passed) = passing.next() else {
             return Err(self.no_design(failed.unwrap_or_else(|| Infeasible::unknown("stopped"))));
         };
-        let tried = passing.map(|(it, _)| it.candidate);
+        let best = &passed.robust;
+        let others = passing.map(|it| it.robust.candidate);
         let rivals = self.robust.iter();
         let rivals = rivals.filter(|it| {
             let score = self.score(&it.candidate);
@@ -245,13 +261,12 @@ impl<'a> Search<'a> {
                 && problem.passes(&it.candidate.design, &best.known.tried, FULL)
         });
         let rivals = rivals.map(|it| it.candidate.clone());
-        let others: Vec<Candidate> = tried.chain(rivals).collect();
+        let others: Vec<Candidate> = others.chain(rivals).collect();
         let incumbent = self.survey.incumbent;
         incumbent.update(&best.candidate, Rank::Trials);
         Ok(Found {
-            resolution,
             ascents: self.ascents,
-            ..Found::new(problem, best, &others)
+            ..Found::passed(problem, passed, &others)
         })
     }
 
@@ -333,17 +348,11 @@ impl<'a> Search<'a> {
         let values = problem.axes.iter().zip(values);
         let all = values.map(|(axis, value)| stated(&problem.machine, axis.parameter, value));
         let all = all.collect::<Vec<_>>().join(", ");
-        SearchError::NoDesign {
-            zone: match problem.zone {
-                ZoneKind::Hysteresis => "in a hysteresis zone ",
-                ZoneKind::SingleImpact { .. } => "",
-            },
-            place: match problem.axes.is_empty() {
-                true => String::new(),
-                false => format!(", at {all}"),
-            },
-            reason: infeasible.reason,
-        }
+        let place = match problem.axes.is_empty() {
+            true => String::new(),
+            false => format!(", at {all}"),
+        };
+        SearchError::no_design(problem, place, infeasible.reason)
     }
 }
 

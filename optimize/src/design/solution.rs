@@ -9,7 +9,8 @@ use super::figure::Figure;
 use super::front::{Front, Traded, front};
 use super::pareto::Pareto;
 use super::requirement::Scope;
-use super::search::{Found, SearchError, Settings, Unwatched, Watch, search, search_from};
+use super::search::{Found, SearchError, Settings, Unwatched, Watch, search_from};
+use super::share::search_with_share;
 use super::{Design, Problem};
 
 /// What is traded for what is sought.
@@ -31,6 +32,8 @@ pub struct Beside {
     pub relaxed: bool,
     /// What more of one good costs of another.
     pub fronts: bool,
+    /// Machines by which the share is judged that violates a requirement, if there are normal tolerances.
+    pub machines: usize,
 }
 
 /// The design of a task and what stands beside it.
@@ -38,6 +41,8 @@ pub struct Beside {
 pub struct Solution {
     /// The design.
     pub found: Found,
+    /// Standard deviations of normal tolerances that it keeps.
+    pub deviations: f64,
     /// The best design if nothing has a tolerance and nothing is tried.
     pub relaxed: Option<Design>,
     /// What more of one good costs of another, where it costs something.
@@ -64,14 +69,16 @@ impl Solution {
     /// Searches, looks beside, and goes on from what is better there.
     ///
     /// # Errors
-    /// As [`search`].
+    /// As [`search`](super::search::search).
     pub fn of(
         problem: &Problem,
         settings: Settings,
         beside: Beside,
         (watch, kept): (&dyn Watch, Kept<'_>),
     ) -> Result<Self, SearchError> {
-        let mut found = search(problem, settings, watch, kept)?;
+        let (mut found, deviations) =
+            search_with_share(problem, (settings, beside.machines), (watch, kept))?;
+        let problem = &problem.with_deviations(deviations);
         let relaxed_problem = problem.relaxed();
         let mut relaxed = None;
         if beside.relaxed && !interrupt::requested() {
@@ -113,6 +120,7 @@ impl Solution {
         Ok(Self {
             pareto,
             found,
+            deviations,
             relaxed: relaxed.map(|it| it.design),
             fronts,
         })

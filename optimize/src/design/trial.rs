@@ -106,50 +106,44 @@ impl Problem {
         Ok(each?.into_iter().min_by(order))
     }
 
-    /// What a design lacks of the requirements that take many motions; the corner of the tolerances that lacks most is taken
-    /// note of.
-    pub(super) fn lack_of_trials(
+    /// What a design that meets the requirements which take many motions has of them, at the corners of the tolerances too.
+    ///
+    /// # Errors
+    /// [`Infeasible`] with what it lacks; the corner that lacks most is taken note of.
+    pub(super) fn pass_trials(
         &self,
         design: &Design,
         known: &mut CriticalMachines,
-    ) -> Option<Infeasible> {
-        if !self.has_trials() {
-            return None;
-        }
-        let own: Result<Vec<Met>, SurveyError> = self
+    ) -> Result<Vec<Met>, Infeasible> {
+        let own = self
             .trials()
-            .map(|it| self.tried_of(it, &design.orbit, FULL))
-            .collect();
-        let own = match own {
-            Ok(own) => own,
-            Err(error) => return Some(Infeasible::unknown(error)),
-        };
+            .map(|it| self.tried_of(it, &design.orbit, FULL));
+        let own: Result<Vec<Met>, SurveyError> = own.collect();
+        let mut own = own.map_err(Infeasible::unknown)?;
         let failed = own.iter().filter(|it| !it.is_met());
         known.failed.extend(failed.map(|it| it.requirement.figure));
         if !own.iter().all(Met::is_met) {
-            return Some(Infeasible {
+            return Err(Infeasible {
                 gap: violation(&own),
                 reason: conflict(&design.machine, &own),
             });
         }
         let corners = self.corners(design);
-        for requirement in self.trials() {
-            let within = match self.tried_within(requirement, &corners) {
-                Ok(within) => within,
-                Err(error) => return Some(Infeasible::unknown(error)),
-            };
-            let violated = within.filter(|it| !requirement.is_met(it.worst));
-            if let Some(Within { worst, at }) = violated {
-                let gap = requirement.violation(worst);
-                known.tried.push(at);
+        for met in &mut own {
+            let requirement = &met.requirement;
+            let within = self.tried_within(requirement, &corners);
+            met.within = within.map_err(Infeasible::unknown)?;
+            let mut within = met.within.iter();
+            if let Some(Within { worst, at }) = within.find(|it| !requirement.is_met(it.worst)) {
+                known.tried.push(at.clone());
                 known.failed.push(requirement.figure);
-                return Some(Infeasible {
-                    gap,
-                    reason: violated_within(&design.machine, requirement, worst),
+                return Err(Infeasible {
+                    gap: requirement.violation(*worst),
+                    reason: violated_within(&design.machine, requirement, *worst),
                 });
             }
         }
-        None
+        Ok(own)
     }
 
     /// Whether a design meets the requirements that take many motions, in its own machine and in some within the tolerances:
@@ -211,6 +205,7 @@ impl Problem {
             starts,
             within: None,
             violating: None,
+            interval: None,
         })
     }
 

@@ -2,12 +2,14 @@
 
 use softstop_console::failure::Failure;
 
+use crate::design::Problem;
 use crate::design::judge::{Met, Within};
-use crate::design::{Design, Problem};
+use crate::design::search::Found;
 use crate::robust::Worst;
 
 /// What a design has of all that is required, in its own machine and in the worst within the tolerances.
-pub(super) fn met(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
+pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure> {
+    let design = &found.design;
     let motion = design.judged().map_err(anyhow::Error::from)?;
     let mut met = Vec::from_iter(problem.share(&motion));
     let worst = problem.worst_of_required(design);
@@ -25,6 +27,9 @@ pub(super) fn met(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failur
         });
         Met { within, ..met }
     }));
-    met.extend(problem.tried(design).map_err(anyhow::Error::from)?);
+    met.extend(match found.tried.is_empty() {
+        true => problem.tried(design).map_err(anyhow::Error::from)?,
+        false => found.tried.clone(),
+    });
     Ok(met)
 }

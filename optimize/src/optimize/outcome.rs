@@ -54,6 +54,8 @@ impl Interrupted {
 pub struct Outcome {
     /// The best design.
     pub design: Design,
+    /// Standard deviations of normal tolerances that it keeps.
+    pub deviations: f64,
     /// All that holds it back.
     pub limits: Vec<Limit>,
     /// The best design if nothing has a tolerance and nothing is tried.
@@ -98,12 +100,16 @@ impl Outcome {
         Ok(None)
     }
 
-    /// Takes note of the share of the machines within the tolerances that violate each requirement.
-    pub(super) fn note_violating(&mut self, shares: impl Iterator<Item = (Requirement, f64)>) {
-        for (requirement, share) in shares {
+    /// Takes note of the share of the machines within the tolerances that violate each requirement, and of its interval.
+    pub(super) fn note_violating(
+        &mut self,
+        shares: impl Iterator<Item = (Requirement, f64, Option<[f64; 2]>)>,
+    ) {
+        for (requirement, share, interval) in shares {
             let mut met = self.met.iter_mut();
             if let Some(met) = met.find(|it| it.requirement == requirement) {
                 met.violating = Some(share);
+                met.interval = interval;
             }
         }
     }

@@ -10,7 +10,7 @@ use super::task::Job;
 use crate::design::Problem;
 use crate::design::judge::Met;
 use crate::design::pareto::{Alternative, Pareto};
-use crate::robust::{Settings, verify};
+use crate::robust::{FITTED, Settings, verify};
 
 /// Machines within the tolerances of each design at least.
 const FEWEST_MACHINES: usize = 1 << 12;
@@ -43,7 +43,7 @@ impl CheckedFront {
         let all = pareto.points.par_iter().enumerate();
         let all = all.map(|(index, it)| {
             let design = &it.found.design;
-            let met = met(problem, design).ok()?;
+            let met = met(problem, &it.found).ok()?;
             let is_whole = met.iter().all(Met::is_met) && problem.has_box(design).is_ok();
             (is_whole || index == 0).then_some(met)
         });
@@ -71,14 +71,14 @@ impl CheckedFront {
             machines,
             ..Settings::default()
         };
-        let required = problem.requirements.iter().copied();
-        let required: Vec<_> = required.filter(|it| it.is_of_each_motion()).collect();
+        let required = problem.required_of_each();
         let progress = Progress::new((machines * points.len()) as u64, "machines of the front");
         let share = |point: &Alternative| {
             let design = &point.found.design;
             let spread = problem.spread(&design.machine)?;
             let watcher = progress.watcher();
-            let verdict = verify(&spread, &design.orbit, (settings, &required), &watcher).ok()?;
+            let drawn = spread.over(FITTED);
+            let verdict = verify(&drawn, &design.orbit, (settings, &required), &watcher).ok()?;
             let most = verdict.violating.iter().copied().max();
             let most = most.unwrap_or(0).max(verdict.lost);
             Some(most as f64 / verdict.machines as f64)

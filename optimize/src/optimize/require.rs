@@ -9,6 +9,7 @@ use toml::{Table, Value};
 use super::objective::{Goal, known, lacks};
 use super::toml_leaves::number;
 use crate::design::figure::{Figure, Sense};
+use crate::design::problem::VIOLATING;
 use crate::design::requirement::{Requirement, Scope};
 
 /// `{ least = 10, most = 12, at = "drawing" }`.
@@ -41,10 +42,15 @@ pub(super) struct Required {
     pub reserve: f64,
     /// How the machine may be run up.
     pub run_up: run_up::Settings,
+    /// Share of the machines with normal tolerances that may violate a requirement.
+    pub violating: f64,
 }
 
 /// The key of the reserve.
 pub(super) const RESERVE: &str = "tolerance_reserve";
+/// The key of the share that may violate a requirement, and the least such share.
+pub(super) const SHARE: &str = "violating";
+const LEAST_SHARE: f64 = 1e-5;
 
 /// Reads `[require]`.
 pub(super) fn requirements(
@@ -64,6 +70,18 @@ pub(super) fn requirements(
         }
     };
     let run_up = ways(machine, table.get(Figure::RunUp.name()))?;
+    let violating = match table.get(SHARE) {
+        None => VIOLATING,
+        Some(value) => {
+            let share = number(value).or_else(|| percent(value));
+            let share = share.filter(|it| (LEAST_SHARE..=0.5).contains(it));
+            share.ok_or_else(|| {
+                Failure::usage(format!(
+                    "require.{SHARE} = {value}: must be a share from 0.00001 to 0.5, or \"0.27 %\""
+                ))
+            })?
+        }
+    };
     let one = |(name, value): (&String, &Value)| {
         let figure = known("require.", name)?;
         let wrong = |what: &str| Failure::usage(format!("require.{name} = {value}: {what}"));
@@ -92,7 +110,10 @@ pub(super) fn requirements(
                 }
                 (bounds.least, bounds.most)
             }
-            (value, sense) => match (number(value).or_else(|| percent(figure, value)), sense) {
+            (value, sense) => match (
+                number(value).or_else(|| percent(value).filter(|_| is_share(figure))),
+                sense,
+            ) {
                 (Some(least), Sense::Least) => (Some(least), None),
                 (Some(most), Sense::Most) => (None, Some(most)),
                 (None, _) => return Err(wrong(what)),
@@ -122,7 +143,10 @@ pub(super) fn requirements(
             scope,
         })
     };
-    let figures = table.iter().filter(|(name, _)| *name != RESERVE);
+    let others = [RESERVE, SHARE];
+    let figures = table
+        .iter()
+        .filter(|(name, _)| !others.contains(&name.as_str()));
     let all: Result<Vec<Requirement>, Failure> = figures.map(one).collect();
     let mut all = all?;
     for requirement in &all {
@@ -141,6 +165,7 @@ pub(super) fn requirements(
             margin: share.and_then(|it| it.least),
             reserve,
             run_up,
+            violating,
         }),
     }
 }
@@ -191,10 +216,14 @@ fn ways(machine: &Machine, value: Option<&Value>) -> Result<run_up::Settings, Fa
     })
 }
 
+/// True for a figure that may be stated in per cent.
+fn is_share(figure: Figure) -> bool {
+    matches!(figure, Figure::Certainty | Figure::Share)
+}
+
 /// A share as text, `"50 %"`.
-fn percent(figure: Figure, value: &Value) -> Option<f64> {
-    let is_share = matches!(figure, Figure::Certainty | Figure::Share);
-    let text = value.as_str().filter(|_| is_share)?;
+fn percent(value: &Value) -> Option<f64> {
+    let text = value.as_str()?;
     let share: f64 = text.trim().strip_suffix('%')?.trim().parse().ok()?;
     Some(share / 100.0)
 }

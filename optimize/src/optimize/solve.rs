@@ -29,6 +29,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let beside = Beside {
         relaxed: job.samples > 0 && job.problem.has_tolerances(),
         fronts: job.report,
+        machines: job.samples,
     };
     let outcome = Solution::of(&job.problem, job.settings, beside, (&best, Some(keep)));
     let evaluations = best.evaluations();
@@ -41,6 +42,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
             interrupted = Some(Interrupted::Search);
             Solution {
                 found: *found,
+                deviations: job.problem.deviations,
                 relaxed: None,
                 fronts: Vec::new(),
                 pareto: None,
@@ -52,20 +54,21 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     };
     let Solution {
         found,
+        deviations,
         relaxed,
         fronts,
         pareto,
     } = solution;
-    let mut met = met(&job.problem, &found.design);
+    let problem = &job.problem.with_deviations(deviations);
+    let mut met = met(problem, &found);
     if interrupt::requested() {
         interrupt::save();
         interrupted = Some(Interrupted::Report);
-        met = self::met(&job.problem, &found.design);
+        met = self::met(problem, &found);
     }
     let met = met?;
     // Of an unfinished search nothing is written that is not as asked.
-    let is_whole =
-        |design: &Design| met.iter().all(Met::is_met) && job.problem.has_box(design).is_ok();
+    let is_whole = |design: &Design| met.iter().all(Met::is_met) && problem.has_box(design).is_ok();
     if interrupted == Some(Interrupted::Search) && !is_whole(&found.design) {
         return Err(Failure::Interrupted);
     }
@@ -93,6 +96,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     Ok(Outcome {
         met,
         design: found.design,
+        deviations,
         erosion,
         run_up,
         fronts,

@@ -4,6 +4,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_dynamics::Orbit;
+use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::OrbitError;
 
 use super::outcome::Outcome;
@@ -13,8 +14,8 @@ use crate::design::figure::{Figure, Sense};
 use crate::design::problem::Problem;
 use crate::design::requirement::Requirement;
 use crate::robust::{
-    Effort, Manifold, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance, Tolerances,
-    Verdict, Worst, nearest, scatter, sensitivities, verify, worst,
+    EVEN, Effort, FITTED, Manifold, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance,
+    Tolerances, Verdict, Worst, nearest, scatter, sensitivities, verify, worst,
 };
 
 /// A design's machines within its tolerances.
@@ -38,8 +39,19 @@ pub struct Study {
     pub sensitivities: Sensitivities,
     /// Whose scatter it is.
     pub scatter: Option<Scatter>,
+    /// What was asked of the machines with normal tolerances, if there are any.
+    pub statistics: Option<Statistics>,
     /// What the task without tolerances leads to.
     pub without: Option<Without>,
+}
+
+/// What was asked of machines with normal tolerances.
+#[derive(Debug, Clone, Copy)]
+pub struct Statistics {
+    /// Share of them that may lose the motion or violate a requirement.
+    pub allowed: f64,
+    /// Standard deviations over which the design keeps all of them.
+    pub deviations: f64,
 }
 
 /// The best design if nothing has a tolerance and nothing is tried, and what becomes of it with them.
@@ -57,12 +69,14 @@ pub struct Without {
 }
 
 impl Study {
-    /// The share of the machines that violate each requirement.
-    pub(super) fn violating(&self) -> impl Iterator<Item = (Requirement, f64)> {
-        let machines = self.verdict.machines as f64;
-        let shares = self.verdict.violating.iter();
-        let shares = shares.map(move |count| *count as f64 / machines);
-        self.required.iter().copied().zip(shares)
+    /// The share of the machines that violate each requirement, with its 95 % interval if they are drawn from normal tolerances.
+    pub(super) fn violating(&self) -> impl Iterator<Item = (Requirement, f64, Option<[f64; 2]>)> {
+        let pairs = self.required.iter().zip(&self.verdict.violating);
+        pairs.map(|(requirement, count)| {
+            let machines = self.verdict.machines;
+            let interval = self.statistics.map(|_| wilson(*count, machines));
+            (*requirement, *count as f64 / machines as f64, interval)
+        })
     }
 
     /// The slowest impact in m/s that was found between the bounds: by steps down from the design, or seen.
@@ -96,9 +110,9 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
         machines: job.samples,
         ..Settings::default()
     };
-    let required = problem.requirements.iter().copied();
-    let required: Vec<Requirement> = required.filter(Requirement::is_of_each_motion).collect();
-    let verdict = verify(&spread, nominal, (settings, &required), &progress.watcher());
+    let required = problem.required_of_each();
+    let drawn = spread.over(FITTED);
+    let verdict = verify(&drawn, nominal, (settings, &required), &progress.watcher());
     let verdict = verdict.map_err(stopped)?;
     drop(progress);
     let distances = |norm| {
@@ -118,8 +132,13 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
         nearest_box: distances(Norm::Box)?,
         nearest_ball: distances(Norm::Ball)?,
         sensitivities,
-        scatter: scatter(&spread, (nominal, problem.zone), Effort::default(), watcher)
-            .map_err(stopped)?,
+        scatter: scatter(
+            &spread.over(EVEN),
+            (nominal, problem.zone),
+            Effort::default(),
+            watcher,
+        )
+        .map_err(stopped)?,
         without: outcome
             .relaxed
             .as_ref()
@@ -128,6 +147,10 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
             .map_err(stopped)?
             .flatten(),
         tolerances: spread.all().to_vec(),
+        statistics: problem.has_normal_tolerances().then_some(Statistics {
+            allowed: problem.violating,
+            deviations: problem.deviations,
+        }),
     };
     match interrupt::requested() {
         true => Err(Failure::Interrupted),
@@ -151,7 +174,8 @@ fn without(problem: &Problem, design: &Design) -> Result<Option<Without>, OrbitE
         machines: FEWER,
         ..Settings::default()
     };
-    let verdict = verify(&spread, &design.orbit, (settings, &[]), &interrupt::watch)?;
+    let drawn = spread.over(FITTED);
+    let verdict = verify(&drawn, &design.orbit, (settings, &[]), &interrupt::watch)?;
     // Steps down end wherever the motion is lost.
     let seen = verdict.slowest.as_ref().map(|(_, it)| it.velocity);
     let slowest = match verdict.lost {

@@ -12,12 +12,13 @@ use softstop_console::machine::Regime;
 use softstop_console::output::Format;
 use softstop_console::range::require;
 use softstop_console::scene_file;
+use softstop_dynamics::basin::wilson;
 use softstop_dynamics::zone::ZoneKind;
 use toml::Table;
 
 use super::cost::cost;
 use super::objective::{Goal, objectives};
-use super::require::{RESERVE, Required, requirements};
+use super::require::{RESERVE, Required, SHARE, requirements};
 use super::task_spec::{Motions, Search, TaskSpec};
 use super::title::{Source, Title};
 use super::tolerance::tolerances;
@@ -29,6 +30,7 @@ use crate::design::problem::{Objective, Tolerance};
 use crate::design::requirement::Scope;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
 use crate::design::space::Axis;
+use crate::robust::normal_quantile;
 
 const MARGIN: f64 = 0.25;
 /// Zones to compute at most, unless that is said.
@@ -67,11 +69,13 @@ impl Job {
             margin: share,
             reserve,
             run_up,
+            violating,
         } = requirements(&machine, &task.objective, &task.require)?;
         let Sought { objectives, cost } = Sought::new(&machine, &task.objective)?;
         let (objective, traded) = (objectives[0], objectives[1..].to_vec());
         let is_exact = tolerances.iter().all(Tolerance::is_exact);
         has_tolerances(is_exact, &objective, &task.require)?;
+        let deviations = deviations(&tolerances, &task.require, (violating, arguments.samples))?;
         let says_where = !is_exact || requirements.iter().any(|it| it.figure.is_margin());
         let usual = if says_where { 0.0 } else { MARGIN };
         let margin = arguments.margin.or(share).unwrap_or(usual);
@@ -89,8 +93,9 @@ impl Job {
         for tolerance in &tolerances {
             let axis = axes.iter().find(|it| it.parameter == tolerance.parameter);
             let highest = axis.map(|it| it.range.high);
+            let (_, factor) = tolerance.distribution.over(deviations);
             let reserved = Tolerance {
-                width: tolerance.width.times(reserve),
+                width: tolerance.width.times(reserve * factor),
                 ..*tolerance
             };
             leaves_machines(&machine, &reserved, highest)?;
@@ -135,6 +140,8 @@ impl Job {
                 links,
                 tolerances,
                 reserve,
+                deviations,
+                violating,
                 objective,
                 traded,
                 requirements,
@@ -185,6 +192,30 @@ fn has_tolerances(is_exact: bool, objective: &Objective, require: &Table) -> Res
         ))),
         None => Ok(()),
     }
+}
+
+/// Standard deviations of normal tolerances that a design keeps to begin with: so many that the share outside them may violate
+/// requirements.
+///
+/// # Errors
+/// [`Failure::Usage`] where a share is stated and nothing has a normal tolerance, or the machines are too few to show it.
+fn deviations(
+    tolerances: &[Tolerance],
+    require: &Table,
+    (violating, samples): (f64, usize),
+) -> Result<f64, Failure> {
+    let is_normal = tolerances.iter().any(Tolerance::is_normal);
+    if !is_normal && require.contains_key(SHARE) {
+        return Err(Failure::usage(format!(
+            "require.{SHARE}: plays no part without a normal tolerance; within boxes all machines are as required"
+        )));
+    }
+    if is_normal && wilson(0, samples)[1] > violating {
+        return Err(Failure::usage(format!(
+            "samples = {samples}: are too few to show that a share of {violating} at most violates a requirement"
+        )));
+    }
+    Ok(normal_quantile(1.0 - 0.5 * violating))
 }
 
 impl Job {

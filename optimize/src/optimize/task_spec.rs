@@ -15,7 +15,7 @@ use softstop_dynamics::run_up::Way;
 use toml::Table;
 
 use super::objective::{Goal, MAX_OBJECTIVES, is_traded};
-use super::require::RESERVE;
+use super::require::{RESERVE, SHARE};
 use super::title::Title;
 use crate::design::figure::Figure;
 use crate::design::search::LEAST_EVALUATIONS;
@@ -71,7 +71,8 @@ task! {
     /// What is searched instead of the usual parameters: `clearance = [2, 22]`, `{ values = [5, 7, 9] }` of a
     /// catalogue, `{ follows = "stop.stiffness", factor = 10 }`; a number is held.
     vary: Table, json!({ "type": "object" });
-    /// Half-widths of what cannot be made exactly: `clearance = 0.1` or `"2 %"`.
+    /// Half-widths of what cannot be made exactly: `clearance = 0.1` or `"2 %"`; of a normal distribution
+    /// `{ half_width = 0.1, distribution = "normal", cpk = 1.33 }` or `{ sigma = 0.03 }`.
     tolerance: Table, json!({ "type": "object" });
     /// What is sought: `maximise` or `minimise` a figure, or lists of them for a front of designs.
     objective: Goal, json!({
@@ -203,6 +204,13 @@ fn requirements_schema() -> serde_json::Value {
         json!({
             "type": "number", "minimum": 1, "maximum": 10,
             "description": "how many times as wide as the tolerances the box is that must hold"
+        }),
+    );
+    figures.insert(
+        SHARE.to_owned(),
+        json!({
+            "anyOf": [{ "type": "number", "minimum": 1e-5, "maximum": 0.5 }, { "type": "string", "pattern": "%\\s*$" }],
+            "description": "share of the machines with normal tolerances that may lose the motion or violate a requirement"
         }),
     );
     json!({ "type": "object", "properties": figures, "additionalProperties": false })

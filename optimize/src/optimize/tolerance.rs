@@ -1,20 +1,89 @@
 //! What of a design cannot be made exactly: the table `[tolerance]`.
 
+use serde::Deserialize;
 use softstop::Machine;
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
 use super::toml_leaves::{leaves, number};
 use crate::design::problem::{Tolerance, Width};
+use crate::robust::Distribution;
 
-/// `[tolerance]`: half-widths in the machine's own units, or shares of the value such as `"2 %"`.
+/// Standard deviations in the half-width of a tolerance for each 1 of the process capability Cpk, of a centred process.
+const DEVIATIONS: f64 = 3.0;
+
+/// `{ half_width = 1e-4, distribution = "normal", cpk = 1.33 }` or `{ sigma = 3e-5 }`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stated {
+    half_width: Option<Value>,
+    sigma: Option<Value>,
+    distribution: Option<Shape>,
+    cpk: Option<f64>,
+}
+
+/// How values lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Shape {
+    /// Anywhere within the tolerance.
+    Box,
+    /// Normally.
+    Normal,
+}
+
+impl Stated {
+    /// The width as it is stated, and what it is the half of.
+    fn read(self) -> Option<(Value, Distribution)> {
+        match self {
+            Self {
+                half_width: None,
+                sigma: Some(sigma),
+                distribution: None | Some(Shape::Normal),
+                cpk: None,
+            } => Some((sigma, Distribution::Normal(1.0))),
+            Self {
+                half_width: Some(half_width),
+                sigma: None,
+                distribution: Some(Shape::Normal),
+                cpk,
+            } => {
+                let cpk = Some(cpk.unwrap_or(1.0)).filter(|cpk| (0.1..=10.0).contains(cpk))?;
+                Some((half_width, Distribution::Normal(DEVIATIONS * cpk)))
+            }
+            Self {
+                half_width: Some(half_width),
+                sigma: None,
+                distribution: None | Some(Shape::Box),
+                cpk: None,
+            } => Some((half_width, Distribution::Box)),
+            _ => None,
+        }
+    }
+}
+
+/// `[tolerance]`: half-widths in the machine's own units, or shares of the value such as `"2 %"`, of boxes or of normal
+/// distributions.
 pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Tolerance>, Failure> {
     let mut found: Vec<Tolerance> = Vec::new();
     for (name, value) in leaves(table) {
         let stated = machine.stated(&name);
         let (parameter, unit) =
             stated.map_err(|error| Failure::usage(format!("tolerance.{error}")))?;
-        let width = match value {
+        let wrong = |what: &str| Failure::usage(format!("tolerance.{name} = {value}: {what}"));
+        let (stated, distribution) = match value {
+            Value::Table(words) => {
+                let stated = words.clone().try_into::<Stated>().ok();
+                stated.and_then(Stated::read).ok_or_else(|| {
+                    wrong(
+                        "must be { half_width = NUMBER, distribution = \"normal\", cpk = NUMBER }, Cpk from 0.1 to 10 and 1 \
+                         if it is not stated, { half_width = NUMBER } or { sigma = NUMBER }",
+                    )
+                })?
+            }
+            value => (value.clone(), Distribution::Box),
+        };
+        let width = match &stated {
             Value::String(share) => {
                 let share = share.trim().strip_suffix('%').map(str::trim);
                 let share = share.and_then(|share| share.parse().ok());
@@ -23,14 +92,16 @@ pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Toleran
             value => number(value).map(|width| Width::Own(width * unit)),
         };
         let width = width.filter(Width::is_allowed).ok_or_else(|| {
-            Failure::usage(format!(
-                "tolerance.{name} = {value}: must be a half-width, finite and >= 0, or a share such as \"2 %\", below 100 %"
-            ))
+            wrong("must be a half-width, finite and >= 0, or a share such as \"2 %\", below 100 %")
         })?;
         if found.iter().any(|other| other.parameter == parameter) {
             return Err(Failure::usage(format!("tolerance.{name}: is given twice")));
         }
-        found.push(Tolerance { parameter, width });
+        found.push(Tolerance {
+            parameter,
+            width,
+            distribution,
+        });
     }
     Ok(found)
 }

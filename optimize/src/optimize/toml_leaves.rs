@@ -3,10 +3,18 @@
 use toml::{Table, Value};
 
 /// Keys of a table that says something of one parameter.
-const WORDS: [&str; 5] = ["values", "follows", "factor", "least", "most"];
+const WORDS: [&str; 7] = [
+    "values",
+    "follows",
+    "factor",
+    "least",
+    "most",
+    "half_width",
+    "sigma",
+];
 
-/// What a table says of each parameter, by the dotted names of the parameters; `{ values = … }` and `{ follows = … }` are
-/// said of one.
+/// What a table says of each parameter, by the dotted names of the parameters; `{ values = … }`, `{ follows = … }` and
+/// `{ half_width = … }` are said of one.
 pub(super) fn leaves(table: &Table) -> Vec<(String, &Value)> {
     let says = |value: &Table| WORDS.iter().any(|key| value.contains_key(*key));
     let mut all = Vec::new();

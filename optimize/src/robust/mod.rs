@@ -6,6 +6,7 @@
 //! tolerance it is.
 
 mod corners;
+mod distribution;
 mod indices;
 mod meeting;
 mod nearest;
@@ -16,6 +17,7 @@ mod screen;
 mod verify;
 mod worst;
 
+pub use distribution::{Distribution, EVEN, FITTED, normal_quantile};
 pub use indices::{Effort, Estimate, Index, indices};
 pub use meeting::{Manifold, Norm};
 pub use nearest::{Nearest, nearest};
@@ -44,6 +46,8 @@ pub struct Tolerance {
     pub parameter: Parameter,
     /// By so much to either side, in SI units: in m for a preload that is stated as a deflection.
     pub half_width: f64,
+    /// How the values of the machines lie that are built.
+    pub distribution: Distribution,
 }
 
 /// A machine with its tolerances. What is linked stays so: a preload stated as a deflection follows the stiffness.
@@ -114,6 +118,18 @@ impl Tolerances {
         &self.tolerances
     }
 
+    /// The same with normal tolerances of so many standard deviations to either side.
+    #[must_use]
+    pub fn over(&self, deviations: f64) -> Self {
+        let mut all = self.clone();
+        for tolerance in &mut all.tolerances {
+            let (distribution, factor) = tolerance.distribution.over(deviations);
+            tolerance.half_width *= factor;
+            tolerance.distribution = distribution;
+        }
+        all
+    }
+
     /// The machine at some coordinates.
     pub fn machine(&self, at: &[f64]) -> Machine {
         let mut machine = self.machine.clone();
@@ -135,5 +151,12 @@ impl Spread for Tolerances {
 
     fn scene(&self, at: &[f64]) -> Scene {
         self.machine(at).scene
+    }
+
+    fn draw(&self, even: &[f64]) -> Vec<f64> {
+        let pairs = self.tolerances.iter().zip(even);
+        pairs
+            .map(|(it, even)| it.distribution.draw(*even))
+            .collect()
     }
 }

@@ -1,7 +1,7 @@
 //! Whether machines are as required: by polynomials fitted to some of them where these leave no doubt, else by the motion.
 
 use rayon::prelude::*;
-use softstop_dynamics::spread::{Fate, Guide, Model, Spread};
+use softstop_dynamics::spread::{Fate, Guide, Model, Spread, is_inside};
 use softstop_dynamics::{Orbit, Stroke};
 
 use super::Tolerances;
@@ -14,7 +14,7 @@ const RESERVE: f64 = 10.0;
 pub(super) struct Screen<'a> {
     spread: &'a Tolerances,
     required: &'a [Requirement],
-    /// For two requirements each, with their largest misfits; none if machines that are known lose the motion.
+    /// For two requirements each, with their largest misfits; none if too few of the machines that are known keep the motion.
     models: Option<Vec<(Model, [f64; 2])>>,
 }
 
@@ -32,9 +32,12 @@ impl<'a> Screen<'a> {
         };
         if !required.is_empty() {
             let values = places.par_iter();
-            let values = values.map(|at| screen.values(at, &guide.fate(at)));
-            let values: Option<Vec<Vec<f64>>> = values.collect();
-            screen.models = values.and_then(|values| models(places, &values, required.len()));
+            let values = values.filter_map(|at| {
+                let values = screen.values(at, &guide.fate(at))?;
+                Some((at.clone(), values))
+            });
+            let (kept, values): (Vec<Vec<f64>>, Vec<Vec<f64>>) = values.unzip();
+            screen.models = models(&kept, &values, required.len());
         }
         screen
     }
@@ -71,11 +74,12 @@ impl<'a> Screen<'a> {
             return self.required.is_empty();
         };
         let mut pairs = models.iter().zip(self.required.chunks(2));
-        pairs.all(|((model, misfit), required)| {
-            let values = model.at(at);
-            let mut all = required.iter().zip(values).zip(misfit);
-            all.all(|((it, value), misfit)| it.margin(value) > RESERVE * misfit)
-        })
+        is_inside(at)
+            && pairs.all(|((model, misfit), required)| {
+                let values = model.at(at);
+                let mut all = required.iter().zip(values).zip(misfit);
+                all.all(|((it, value), misfit)| it.margin(value) > RESERVE * misfit)
+            })
     }
 }
 

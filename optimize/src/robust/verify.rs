@@ -1,4 +1,4 @@
-//! Machines of a box, one by one: how many lose the z = 1 motion, how many are not as required, and how hard the others
+//! Machines that are built, one by one: how many lose the z = 1 motion, how many are not as required, and how hard the others
 //! strike.
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -74,6 +74,8 @@ pub struct Verdict {
     pub examples: Vec<LostMachine>,
     /// Machines that violate each requirement, those that are lost among them.
     pub violating: Vec<usize>,
+    /// Machines that are lost or violate any of them.
+    pub rejected: usize,
     /// Where the slowest impact was, if all are not lost.
     pub slowest: Option<(Vec<f64>, Settled)>,
     /// Where the largest multiplier was.
@@ -139,8 +141,9 @@ impl Verdict {
     }
 }
 
-/// Looks at machines all over a box, about the z = 1 motion of its nominal machine, and whether each is as required, by what
-/// its motion tells by itself. The watcher is told how many are done; the verdict does not depend on the number of threads.
+/// Looks at machines as they are built, about the z = 1 motion of the nominal one, and whether each is as required, by what its
+/// motion tells by itself. A box is filled evenly; normal tolerances should reach over [`FITTED`](super::FITTED) standard
+/// deviations. The watcher is told how many are done; the verdict does not depend on the number of threads.
 ///
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from.
@@ -162,6 +165,7 @@ pub fn verify(
         lost: 0,
         examples: Vec::new(),
         violating: vec![0; required.len()],
+        rejected: 0,
         slowest: None,
         least_stable: None,
         velocities: Vec::new(),
@@ -173,7 +177,7 @@ pub fn verify(
         let rows = blocks(machines.start as u64..machines.end as u64, ROW);
         let fates = rows.map(|row| {
             let fate = |index| {
-                let at = place(index as usize, dimensions);
+                let at = drawn(spread, index as usize);
                 let fate = guide.fate(&at);
                 let violated = screen.violated(&at, &fate);
                 (fate, violated)
@@ -188,7 +192,9 @@ pub fn verify(
             break;
         };
         for (index, (fate, violated)) in machines.zip(fates.into_iter().flatten()) {
-            verdict.take(index, dimensions, fate);
+            let is_lost = matches!(fate, Fate::Lost { .. });
+            verdict.rejected += usize::from(is_lost || violated.contains(&true));
+            verdict.take(index, spread, fate);
             for (count, is_violated) in verdict.violating.iter_mut().zip(violated) {
                 *count += usize::from(is_violated);
             }
@@ -202,13 +208,18 @@ pub fn verify(
     Ok(verdict)
 }
 
+/// The coordinates of a machine that is drawn.
+fn drawn(spread: &dyn Spread, index: usize) -> Vec<f64> {
+    spread.draw(&place(index, spread.dimensions()))
+}
+
 impl Verdict {
-    fn take(&mut self, index: usize, dimensions: usize, fate: Fate) {
+    fn take(&mut self, index: usize, spread: &dyn Spread, fate: Fate) {
         if index.is_multiple_of(BLOCK) {
             self.sequences.push(Vec::new());
         }
         self.machines += 1;
-        let here = || place(index, dimensions);
+        let here = || drawn(spread, index);
         match fate {
             Fate::Lost { share, loss } => {
                 self.lost += 1;

@@ -9,7 +9,7 @@ use softstop_dynamics::spread::Spread;
 use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
-use softstop_optimize::robust::{Settings, Tolerance, Tolerances, verify};
+use softstop_optimize::robust::{Distribution, Settings, Tolerance, Tolerances, verify};
 
 use super::{Outcome, machines, press, shop, spread};
 
@@ -175,6 +175,7 @@ fn tolerances_of_nothing_or_of_what_is_not_there_are_refused() -> Outcome {
         let tolerance = Tolerance {
             parameter,
             half_width,
+            distribution: Distribution::Box,
         };
         Tolerances::new(&machine, &[tolerance]).err()
     };

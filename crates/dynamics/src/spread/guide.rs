@@ -38,6 +38,11 @@ pub enum Fate {
     },
 }
 
+/// True if coordinates lie between the bounds, where polynomials hold.
+pub fn is_inside(at: &[f64]) -> bool {
+    at.iter().all(|at| at.abs() <= 1.0)
+}
+
 impl<'a> Guide<'a> {
     /// Looks at machines at some places between the bounds; [`Model::wanted`] says how many serve best. To the first of
     /// them the motion is followed; what those tell leads to the others.
@@ -83,10 +88,13 @@ impl<'a> Guide<'a> {
     }
 
     /// What becomes of the nominal motion at some coordinates: by Newton's method from where the motion should be, and
-    /// where that is in any doubt, by following it there.
+    /// where that is in any doubt or outside the bounds, by following it there.
     pub fn fate(&self, at: &[f64]) -> Fate {
-        let guess = Vector2::from(self.states.at(at));
-        if let Some(settled) = Settled::near(&self.spread.scene(at), guess, self.reach) {
+        let settled = || {
+            let guess = Vector2::from(self.states.at(at));
+            Settled::near(&self.spread.scene(at), guess, self.reach)
+        };
+        if let Some(settled) = is_inside(at).then(settled).flatten() {
             return Fate::Kept(settled);
         }
         match along(self.spread, self.nominal, at, 1.0) {

@@ -12,7 +12,7 @@ mod model;
 mod normal;
 mod ray;
 
-pub use guide::{Fate, Guide};
+pub use guide::{Fate, Guide, is_inside};
 pub use look::Settled;
 pub use model::Model;
 pub use normal::{critical_normal, free_normal, in_coordinates, varied};
@@ -30,6 +30,12 @@ pub trait Spread: Debug + Sync {
     /// The machine at some coordinates, its drive included: the nominal one at 0; between -1 and 1 in each lie those that
     /// are within the bounds. It need not be valid.
     fn scene(&self, at: &[f64]) -> Scene;
+
+    /// The coordinates of a machine that is built, from ones that are spread evenly between -1 and 1: these, unless the
+    /// spread says otherwise.
+    fn draw(&self, even: &[f64]) -> Vec<f64> {
+        even.to_vec()
+    }
 }
 
 /// The same machines with bounds so many times as wide.

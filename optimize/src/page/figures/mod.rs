@@ -55,5 +55,8 @@ fn half_width(problem: &Problem, design: &Design, parameter: Parameter) -> f64 {
     let tolerance = tolerances.find(|it| it.parameter == parameter);
     let value = design.machine.value(parameter);
     let width = tolerance.zip(value);
-    width.map_or(0.0, |(tolerance, value)| tolerance.width.around(value))
+    let problem = problem.as_built();
+    width.map_or(0.0, |(it, value)| {
+        problem.widening(it) * it.width.around(value)
+    })
 }
