@@ -23,7 +23,7 @@ impl Best {
     pub(super) fn new(problem: &Problem, evaluations: u64, budget: u64) -> Self {
         let objective = problem.objective;
         Self {
-            progress: Progress::new(evaluations, "zones"),
+            progress: Progress::at_most(evaluations, "zones"),
             best: Mutex::new(None),
             evaluations: AtomicU64::new(0),
             budget,
