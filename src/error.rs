@@ -96,6 +96,16 @@ pub enum MachineError {
         /// The keys that there are.
         known: String,
     },
+    /// A table that no file has.
+    #[error("{}[{table}]: unknown table (did you mean [{meant}]?)", at(Some(*line)))]
+    UnknownTable {
+        /// The line of a key in it.
+        line: usize,
+        /// Its name.
+        table: String,
+        /// What it may mean.
+        meant: &'static str,
+    },
     /// A key that this machine does not have.
     #[error("{key}: this machine has no such parameter; it has {has}")]
     Lacks {

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::internals::Detuning;
-use softstop::{Clock, Perturbation, Scene, Sensitivity, Simulation, Start};
+use softstop::{Clock, Perturbation, Ratios, Scene, Sensitivity, Simulation, Start, Stop};
 use softstop_testing::{Meets, cases, is_near, machines, start_below};
 
 /// Position, velocity, acceleration, contact force, energies, and time and velocity of the last impact.
@@ -153,5 +153,28 @@ proptest! {
         let size = 1.0 + exact.norm();
         prop_assume!(error < 1e-2 * size);
         assert!((found - exact).norm() <= 1e-6 * size + 3.0 * error, "{found} {exact} {:?}", meets.crossings);
+    }
+}
+
+#[test]
+fn power_laws_answer_to_the_drives_frequency_in_closed_form() {
+    for exponent in [1.5, 2.0, 1.3] {
+        for dissipation in [0.0, 0.1] {
+            let mut scene = Ratios::unloaded().scene().expect("the paper's machine");
+            scene.stop = Stop::Hertz {
+                stiffness: 150.0,
+                exponent,
+                dissipation,
+            };
+            let start = Start::new(6.9, 9.5);
+            let (_, exact) = turned(&scene, start, 1.0);
+            let state = |change: f64| turned(&detuned(&scene, change), start, 1.0).0;
+            let found = (state(1e-5) - state(-1e-5)) / 2e-5;
+            let exact = exact.expect("in closed form");
+            assert!(
+                (found - exact).norm() <= 1e-6 * exact.norm(),
+                "{found} {exact}"
+            );
+        }
     }
 }

@@ -93,6 +93,26 @@ fn agrees(optimum: f64, grid: f64, slack: f64) {
     );
 }
 
+/// Over seven decades of the clearance, and twelve of the stiffness besides, the search finds what it finds in the usual ones, or better.
+#[test]
+fn ranges_of_decades_are_searched() -> Outcome {
+    let usual = solve(&problem(0.25), 400)?;
+    let wide = |low, high| Interval { low, high };
+    for stiffness in [Interval::held(7.0), wide(1.0, 1e12)] {
+        let axes = axes(stiffness, wide(1e-3, 1e4));
+        let found = solve(
+            &Problem {
+                axes,
+                ..problem(0.25)
+            },
+            1200,
+        )?;
+        let [found, usual] = [&found, &usual].map(Design::before_impact_velocity);
+        assert!(found >= usual * (1.0 - 1e-6), "{found} {usual}");
+    }
+    Ok(())
+}
+
 #[test]
 fn best_clearance_of_the_papers_stop() -> Outcome {
     let problem = problem(0.25);

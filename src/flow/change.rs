@@ -5,12 +5,32 @@ use nalgebra::{Matrix2, Vector2};
 use crate::budget;
 
 use super::course::{Course, Form};
+use super::linearized::Linearized;
 use super::response::Responses;
 use super::segment::Segment;
-use super::series::{
-    Series, ZERO, convolve, derivative, integral_of_product, power, product, value,
-};
-use super::taylor::DEGREE;
+use super::series::{Series, derivative, integral_of_product, product, value};
+
+/// Derivatives of the state along a course.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Transition {
+    /// By the state at departure.
+    pub matrix: Matrix2<f64>,
+    /// Integral of the damping coefficient over time and mass.
+    pub damping: f64,
+    /// By the drive's frequency, the state at departure held; none where it is not asked for or has no closed form.
+    pub by_frequency: Option<Vector2<f64>>,
+}
+
+impl Transition {
+    /// Along a course that is held.
+    pub fn held(course: &Course) -> Self {
+        Self {
+            matrix: Matrix2::new(1.0, 0.0, 0.0, 0.0),
+            damping: 0.0,
+            by_frequency: (!course.is_chattering()).then(Vector2::zeros),
+        }
+    }
+}
 
 /// A small change of a motion: of position and velocity at departure, and of the constant push per
 /// mass from there on.
@@ -30,7 +50,7 @@ impl Course {
             Form::Segment(segment) if segment.is_still() => (by.position, 0.0),
             Form::Segment(segment) => {
                 let sigma = segment.parameter_at(elapsed);
-                let (position, velocity) = segment.changed(by);
+                let [position, velocity] = segment.changed(by);
                 (value(&position, sigma), value(&velocity, sigma))
             }
             Form::Particular { .. } | Form::Responses => {
@@ -45,27 +65,42 @@ impl Course {
         }
     }
 
-    /// The change of the state that a change `by` at departure and one of the drive's frequency bring, per rad/s of
-    /// the latter; the departure is `since` seconds after the instant at which the drive's angle is held. None but in
-    /// closed form. `transition` is d(state)/d(state at departure) after `elapsed`.
-    pub(crate) fn detuned(
-        &self,
-        (elapsed, transition): (f64, &Matrix2<f64>),
-        since: f64,
-        by: Vector2<f64>,
-    ) -> Option<Vector2<f64>> {
-        match self.form {
-            Form::Held => Some(Vector2::new(by.x, 0.0)),
-            Form::Particular { particular, .. } => {
+    /// How the state after `elapsed` changes with that at departure and, if that is `since` seconds after the instant at
+    /// which the drive's angle is held, with the drive's frequency.
+    pub(crate) fn transition(&self, elapsed: f64, since: Option<f64>) -> Transition {
+        if let Form::Segment(step) = &self.form {
+            let force = since.and_then(|since| self.detuning_force(step, since));
+            return step.transition(elapsed, force.as_ref());
+        }
+        let matrix = self.flow.transition(elapsed);
+        let by_frequency = match (&self.form, since) {
+            (Form::Particular { particular, .. }, Some(since)) => {
                 let answer =
                     |elapsed: f64, drive| particular.detuned(&self.flow, since + elapsed, drive);
-                Some(
-                    answer(elapsed, self.drive_at(elapsed))
-                        + transition * (by - answer(0.0, self.departure.drive)),
-                )
+                let start = answer(0.0, self.departure.drive);
+                Some(answer(elapsed, self.drive_at(elapsed)) - matrix * start)
             }
             _ => None,
+        };
+        Transition {
+            matrix,
+            damping: self.flow.damping() * elapsed,
+            by_frequency,
         }
+    }
+
+    /// The force -A t sin(angle) per mass and d(time)/d(sigma) along a step under its drive and a constant push: by sigma,
+    /// that push changes by -A sin(angle) w d(time)/d(sigma). None in slow motion, whose changes are those by a constant
+    /// push.
+    fn detuning_force(&self, step: &Segment, since: f64) -> Option<Series> {
+        let push = &self.departure.push;
+        if step.creep.is_some() || !push.is_linear() || push.rate() != 0.0 {
+            return None;
+        }
+        let mut time = step.times();
+        time[0] += since;
+        let force = product(&time, &derivative(&step.push));
+        Some(force.map(|coefficient| coefficient / self.flow.frequency))
     }
 
     /// The change of the work of the push per mass up to `elapsed`; `law` is the part of the constant
@@ -114,91 +149,51 @@ impl Course {
 }
 
 impl Segment {
-    /// d(state)/d(state at the start) after `elapsed`, and the integral of damping over mass: the
-    /// equation y'' + damping y' + stiffness y = 0 along the motion, in sigma.
-    pub fn transition(&self, elapsed: f64) -> (Matrix2<f64>, f64) {
+    /// How the state changes with that at the start and under a force per mass and d(time)/d(sigma).
+    fn transition(&self, elapsed: f64, force: Option<&Series>) -> Transition {
         budget::charge(budget::TANGENT);
         let sigma = self.parameter_at(elapsed);
-        let column = |position: f64, velocity: f64| {
-            let by = Change {
-                position,
-                velocity,
-                push: 0.0,
-            };
-            let (y, u) = self.changed(by);
-            (value(&y, sigma), value(&u, sigma))
-        };
-        let (first, second) = (column(1.0, 0.0), column(0.0, 1.0));
-        let matrix = Matrix2::new(first.0, second.0, first.1, second.1);
-        (matrix, self.damping_integral(sigma))
+        let law = Linearized::of(self);
+        let columns = self.changes(&law, force);
+        let [first, second, forced] =
+            columns.map(|[y, u]| Vector2::new(value(&y, sigma), value(&u, sigma)));
+        Transition {
+            matrix: Matrix2::from_columns(&[first, second]),
+            damping: law.damping_integral(self.time_at(sigma), sigma),
+            by_frequency: force.map(|_| forced),
+        }
     }
 
-    /// Changes of position and velocity as series in sigma: y'' + damping y' + stiffness y = push along
-    /// the motion.
-    pub(super) fn changed(&self, by: Change) -> (Series, Series) {
-        if let Some(creep) = &self.creep {
-            let start = by.position + creep.echo * by.velocity;
-            let position: Series =
-                std::array::from_fn(|k| start * creep.memory[k] + by.push * creep.answer[k]);
-            return (position, derivative(&position));
+    /// Changes of position and velocity as series in sigma.
+    fn changed(&self, by: Change) -> [Series; 2] {
+        let law = Linearized::of(self);
+        let [first, second, pushed] = self.changes(&law, Some(&law.rate));
+        [0, 1].map(|of| {
+            std::array::from_fn(|k| {
+                by.position * first[of][k] + by.velocity * second[of][k] + by.push * pushed[of][k]
+            })
+        })
+    }
+
+    /// Position and velocity, as series in sigma, from (1, 0), from (0, 1), and from (0, 0) under a force, if there is one,
+    /// per mass and d(time)/d(sigma): in slow motion a constant push.
+    pub(super) fn changes(&self, law: &Linearized, force: Option<&Series>) -> [[Series; 2]; 3] {
+        match &self.creep {
+            Some(creep) => {
+                let echo = creep.memory.map(|memory| creep.echo * memory);
+                [creep.memory, echo, creep.answer].map(|y| [y, derivative(&y)])
+            }
+            None => law.solve(force),
         }
-        let rate = self.rate();
-        let damping = product(&rate, &self.damping());
-        let stiffness = product(&rate, &self.stiffness());
-        let (mut y, mut u) = (ZERO, ZERO);
-        (y[0], u[0]) = (by.position, by.velocity);
-        for k in 0..DEGREE {
-            let next = (k + 1) as f64;
-            y[k + 1] = convolve(&rate, &u, k) / next;
-            let resisting = convolve(&damping, &u, k) + convolve(&stiffness, &y, k);
-            u[k + 1] = (by.push * rate[k] - resisting) / next;
-        }
-        (y, u)
     }
 
     fn changed_supply(&self, elapsed: f64, by: Change, law: f64) -> f64 {
-        let (_, changed) = self.changed(by);
+        let [_, changed] = self.changed(by);
         let rate = self.rate();
         let mut push = self.push;
         push[0] -= law;
         let to = self.parameter_at(elapsed);
         let travel = integral_of_product(&rate, &self.velocity(), to);
         integral_of_product(&product(&rate, &push), &changed, to) + by.push * travel
-    }
-
-    /// 2 a + kappa lambda d^n.
-    pub fn damping(&self) -> Series {
-        let factor = self.hertz.rate() * self.hertz.dissipation;
-        let mut damping = self.power().map(|w| factor * w);
-        damping[0] += self.damping;
-        damping
-    }
-
-    /// Its integral over time.
-    pub(super) fn damping_integral(&self, sigma: f64) -> f64 {
-        product(&self.rate(), &self.damping())
-            .iter()
-            .enumerate()
-            .rev()
-            .fold(0.0, |sum, (k, c)| sigma * (c / (k + 1) as f64 + sum))
-    }
-
-    /// b + kappa n d^(n-1) (1 + lambda v).
-    pub(super) fn stiffness(&self) -> Series {
-        let mut sum = ZERO;
-        if self.is_pressed {
-            let n = self.hertz.exponent;
-            let factor = self.hertz.rate() * n;
-            let steepness = match &self.stretch {
-                Some(stretch) => power(&stretch.root, stretch.index * (n - 1.0)),
-                None => power(&self.depth, n - 1.0),
-            };
-            let damped = product(&steepness, &self.velocity());
-            sum = std::array::from_fn(|k| {
-                factor * (steepness[k] + self.hertz.dissipation * damped[k])
-            });
-        }
-        sum[0] += self.stiffness;
-        sum
     }
 }

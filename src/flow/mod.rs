@@ -17,6 +17,7 @@ mod doubled;
 mod expansion;
 mod gauss;
 mod hertz;
+mod linearized;
 mod modes;
 mod node;
 mod pairs;
@@ -37,7 +38,7 @@ mod taylor;
 mod variation;
 
 pub(crate) use answers::{Answer, Forces, Source};
-pub(crate) use change::Change;
+pub(crate) use change::{Change, Transition};
 pub(crate) use chatter::{Chatter, Pressing};
 pub use course::Course;
 pub(crate) use gauss::gauss_nodes;

@@ -120,16 +120,21 @@ impl Segment {
         }
     }
 
-    /// d(time)/d(sigma).
-    pub(super) fn rate(&self) -> Series {
+    /// Time since departure in s.
+    pub(super) fn times(&self) -> Series {
         match &self.stretch {
-            Some(stretch) => derivative(&stretch.time),
+            Some(stretch) => stretch.time,
             None => {
-                let mut one = ZERO;
-                one[0] = 1.0;
-                one
+                let mut sigma = ZERO;
+                sigma[1] = 1.0;
+                sigma
             }
         }
+    }
+
+    /// d(time)/d(sigma).
+    pub(super) fn rate(&self) -> Series {
+        derivative(&self.times())
     }
 
     /// d^n, where the power law acts.

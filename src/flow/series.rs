@@ -1,6 +1,6 @@
 //! Truncated power series.
 
-use super::taylor::DEGREE;
+use super::taylor::{DEGREE, RECIPROCALS};
 
 /// Coefficients, constant first.
 pub(super) type Series = [f64; DEGREE + 1];
@@ -149,7 +149,14 @@ pub(super) fn power(base: &Series, exponent: f64) -> Series {
 
 /// The product of two series.
 pub(super) fn product(a: &Series, b: &Series) -> Series {
-    std::array::from_fn(|k| convolve(a, b, k))
+    let turned = Turned::of(a);
+    std::array::from_fn(|k| turned.times(b, k))
+}
+
+/// Integral of a series from 0 to `to`.
+pub(super) fn integral(series: &Series, to: f64) -> f64 {
+    let terms = series.iter().zip(&RECIPROCALS[1..]).rev();
+    terms.fold(0.0, |sum, (c, share)| to * (c * share + sum))
 }
 
 /// Integral of the whole product of two series from 0 to `to`.

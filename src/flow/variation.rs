@@ -4,9 +4,9 @@
 use nalgebra::{Matrix3x2, Vector3};
 
 use super::answers::{Answer, Answers};
-use super::change::Change;
 use super::course::{Course, Form};
 use super::gauss::gauss_nodes;
+use super::linearized::Linearized;
 use super::segment::Segment;
 use super::series::{Series, ZERO, convolve, product, value};
 
@@ -36,15 +36,12 @@ impl Course {
     /// With Y the transition from the start and J the row of its work, d(end) = (Y, J) d(start) + the integral of
     /// (Y, J) Y(s)^-1 (0, f(s)) - (0, J(s) Y(s)^-1 (0, f(s))).
     fn answers_of_step(&self, step: &Segment, to: f64, logarithm: bool) -> Answers {
-        let rate = step.rate();
+        let law = Linearized::of(step);
+        let rate = law.rate;
         let (cos, sin) = self.turning(&rate);
         let against = product(&rate, &cos);
-        let columns = [(1.0, 0.0), (0.0, 1.0)].map(|(position, velocity)| {
-            let (y, u) = step.changed(Change {
-                position,
-                velocity,
-                push: 0.0,
-            });
+        let [first, second, _] = step.changes(&law, None);
+        let columns = [first, second].map(|[y, u]| {
             let work = product(&against, &u);
             let work = std::array::from_fn(|k| match k {
                 0 => 0.0,

@@ -122,15 +122,22 @@ fn known(places: &[Place], language: Language) -> Result<(), MachineError> {
         keys.iter()
             .any(|key| *key == place.key || key.starts_with(&inner))
     };
-    match places.iter().find(|place| !is_known(place)) {
-        None => Ok(()),
-        Some(place) => Err(MachineError::UnknownKey {
-            line: Some(place.line),
-            key: place.key.clone(),
-            meant: keys::meant(&place.key, &keys),
-            known: keys.join(", "),
-        }),
+    let Some(place) = places.iter().find(|place| !is_known(place)) else {
+        return Ok(());
+    };
+    if let Some((table, meant)) = keys::meant_table(&place.key, &keys) {
+        return Err(MachineError::UnknownTable {
+            line: place.line,
+            table: table.to_owned(),
+            meant,
+        });
     }
+    Err(MachineError::UnknownKey {
+        line: Some(place.line),
+        key: place.key.clone(),
+        meant: keys::meant(&place.key, &keys),
+        known: keys.join(", "),
+    })
 }
 
 /// Refuses what is no number in a number's place.

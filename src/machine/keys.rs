@@ -62,9 +62,20 @@ pub(super) fn meant(key: &str, keys: &[&'static str]) -> Option<&'static str> {
     if let Some(parameter) = called {
         return Some(parameter.name());
     }
-    let table = key.split('.').next().filter(|table| *table != key);
-    let table = table.and_then(|table| nearest(table, &TASK));
-    table.or_else(|| nearest(key, keys))
+    meant_table(key, keys)
+        .map(|(_, meant)| meant)
+        .or_else(|| nearest(key, keys))
+}
+
+/// The table of a key, if none of these keys is in it, and that of [`TASK`] that it may mean.
+pub(super) fn meant_table<'a>(
+    key: &'a str,
+    keys: &[&'static str],
+) -> Option<(&'a str, &'static str)> {
+    let (table, _) = key.split_once('.')?;
+    let is_table = |key: &&str| key.split_once('.').is_some_and(|(own, _)| own == table);
+    let meant = nearest(table, &TASK).filter(|_| !keys.iter().any(is_table))?;
+    Some((table, meant))
 }
 
 /// Letters of a misspelt name at most; no name has a third of that.

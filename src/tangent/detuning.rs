@@ -6,7 +6,7 @@ use super::{Tangent, saltation};
 use crate::integrator::{Arc, Crossing, Motion, Observer};
 
 /// Watches a motion from time 0 and gathers d(state)/d(w), the state at time 0 held: x' of the variational
-/// equation x'' + 2 a x' + b x = -A t sin(w t + phi), with the saltation matrices of the crossings.
+/// equation x'' + 2 a x' + b x = -A t sin(w t + phi), linearized along a power law, with the saltation matrices of the crossings.
 #[derive(Debug, Clone)]
 pub struct Detuning {
     /// d(state)/d(state at time 0), gathered on the same way.
@@ -33,9 +33,11 @@ impl Detuning {
         let rate = if arc.course.is_held() {
             Vector2::zeros()
         } else {
-            let push = arc.course.push(motion.elapsed());
-            let acceleration = flow.acceleration(state.position, state.velocity, push);
-            Vector2::new(state.velocity, acceleration)
+            let (x, v) = (state.position, state.velocity);
+            let hertz = arc.phase.and_then(|phase| phase.hertz);
+            let press = hertz.map_or(0.0, |hertz| hertz.force(x, v) / hertz.mass);
+            let push = arc.course.push(motion.elapsed()) - press;
+            Vector2::new(v, flow.acceleration(x, v, push))
         };
         Some(self.change? - rate * (motion.clock().time(motion.now()) / flow.frequency))
     }
@@ -43,9 +45,9 @@ impl Detuning {
 
 impl Observer for Detuning {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let transition = self.tangent.along(arc, elapsed);
-        let detuned = |by| arc.course.detuned((elapsed, &transition), arc.begin(), by);
-        self.change = self.change.and_then(detuned);
+        let transition = self.tangent.along(arc, elapsed, Some(arc.begin()));
+        let change = self.change.zip(transition.by_frequency);
+        self.change = change.map(|(change, by)| transition.matrix * change + by);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {

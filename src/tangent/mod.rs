@@ -12,6 +12,7 @@ pub use sensitivity::{Perturbation, Sensitivity};
 
 use nalgebra::Matrix2;
 
+use crate::flow::Transition;
 use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
 
 /// Watches a motion and gathers d(state now) / d(state at the start).
@@ -39,29 +40,25 @@ impl Default for Tangent {
 }
 
 impl Tangent {
-    /// Goes along an arc: its transition.
-    fn along(&mut self, arc: &Arc<'_>, elapsed: f64) -> Matrix2<f64> {
-        let (transition, damping) = match (arc.phase, arc.course.segment()) {
-            (Some(_), Some(segment)) => segment.transition(elapsed),
-            (Some(phase), None) => (
-                phase.flow.transition(elapsed),
-                phase.flow.damping() * elapsed,
-            ),
-            (None, _) => {
+    /// Goes along an arc: its transition, from so many seconds after the instant at which the drive's angle is held.
+    fn along(&mut self, arc: &Arc<'_>, elapsed: f64, since: Option<f64>) -> Transition {
+        let transition = match arc.phase {
+            Some(_) => arc.course.transition(elapsed, since),
+            None => {
                 self.determinant = 0.0;
-                (Matrix2::new(1.0, 0.0, 0.0, 0.0), 0.0)
+                Transition::held(arc.course)
             }
         };
-        self.damping_integral += damping;
-        self.determinant *= (-damping).exp();
-        self.matrix = transition * self.matrix;
+        self.damping_integral += transition.damping;
+        self.determinant *= (-transition.damping).exp();
+        self.matrix = transition.matrix * self.matrix;
         transition
     }
 }
 
 impl Observer for Tangent {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.along(arc, elapsed);
+        self.along(arc, elapsed, None);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {

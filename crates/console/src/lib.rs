@@ -19,6 +19,7 @@ pub mod names;
 pub mod number;
 pub mod older;
 pub mod output;
+mod position;
 
 pub mod progress;
 pub mod range;

@@ -29,6 +29,8 @@ pub struct Progress {
     shown: AtomicU64,
     /// What was done before.
     before: AtomicU64,
+    /// The rest goes on as what is done.
+    is_even: bool,
 }
 
 impl Progress {
@@ -37,6 +39,15 @@ impl Progress {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
         let style = format!("{{spinner}} {{bar:36}} {{pos}}/{{len}} {what}, {{eta}} left{{msg}}");
         Self::of(bar, what, &style)
+    }
+
+    /// So many things called `what` at most, among other work that is not counted: how long the rest takes nobody knows.
+    pub fn at_most(total: u64, what: &str) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
+        let style = format!("{{spinner}} {{bar:36}} {{pos}}/{{len}} {what}{{msg}}");
+        let mut progress = Self::of(bar, what, &style);
+        progress.is_even = false;
+        progress
     }
 
     /// A count of things called `what`, nobody knows how many.
@@ -56,6 +67,7 @@ impl Progress {
             is_terminal: io::stderr().is_terminal(),
             shown: AtomicU64::new(0),
             before: AtomicU64::new(0),
+            is_even: true,
         }
     }
 
@@ -84,7 +96,10 @@ impl Progress {
         let all = self.bar.length();
         let all = all.map_or_else(String::new, |all| format!(" of {all}"));
         let (done, seconds) = (self.bar.position(), self.begin.elapsed().as_secs());
-        let left = self.left().map(|left| format!(", {left:.0} s left"));
+        let left = self
+            .left()
+            .filter(|_| self.is_even)
+            .map(|left| format!(", {left:.0} s left"));
         let left = left.unwrap_or_default();
         let _ = writeln!(
             io::stderr(),

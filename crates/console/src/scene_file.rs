@@ -20,15 +20,16 @@ pub fn read(path: &Path) -> Result<Machine, Failure> {
     let text = text(path)?;
     let mut machine = Machine::from_toml(&text).map_err(wrong)?;
     if let Some(check) = TASKS.get() {
-        check(&machine, &text).map_err(|failure| failure.in_file(path))?;
+        check(&machine, path, &text)?;
     }
     let stem = || Some(file_stem(&path.file_stem()?.to_string_lossy()));
     machine.name = machine.name.or_else(stem);
     Ok(machine)
 }
 
-/// A check of what a file of this machine and text says is to be done with the machine ([`Machine::TASK`]).
-pub type Check = fn(&Machine, &str) -> Result<(), Failure>;
+/// A check of what a file of this machine, at its place and with its text, says is to be done with the machine
+/// ([`Machine::TASK`]).
+pub type Check = fn(&Machine, &Path, &str) -> Result<(), Failure>;
 
 static TASKS: OnceLock<Check> = OnceLock::new();
 
@@ -79,6 +80,13 @@ pub fn text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// [`Failure::Usage`] naming the file and, for unknown keys and wrong values, line and key.
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
-    toml::from_str(&text(path)?)
-        .map_err(|error| Failure::usage(format!("{}: {error}", path.display())))
+    parse(path, &text(path)?)
+}
+
+/// The layer that the text of a TOML file describes.
+///
+/// # Errors
+/// As [`read_toml`].
+pub fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, Failure> {
+    toml::from_str(text).map_err(|error| Failure::of_toml(path, text, &error))
 }

@@ -59,6 +59,12 @@ impl Machine {
         self.laws.is_some()
     }
 
+    /// True if those that settle are leapt over there: of power laws that is not proven.
+    pub fn leaps(&self) -> bool {
+        let laws = self.laws.as_ref();
+        laws.is_some_and(|laws| !laws.iter().any(Constants::presses))
+    }
+
     /// Its phases, shared; lowered anew when they are first asked for, as few motions in lanes do.
     pub fn shared_phases(&self) -> Arc<Phases> {
         let lowered = || Arc::new(self.scene.phases());

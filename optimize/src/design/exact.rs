@@ -150,8 +150,7 @@ fn directions(problem: &Problem, at: &At<'_>) -> Vec<Vec<f64>> {
     let values = Space(&problem.axes).values(at.unit);
     let aside = |axis: usize, by: f64| {
         let mut values = values.clone();
-        let range = problem.axes[axis].range;
-        values[axis] += by * (range.high - range.low);
+        values[axis] += by * problem.axes[axis].rate(values[axis]);
         let scene = problem.machine_at(&values).scene;
         Parameter::ALL.map(|parameter| parameter.get(&scene).unwrap_or(0.0))
     };

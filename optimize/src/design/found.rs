@@ -154,6 +154,6 @@ impl Found {
 pub(super) fn is_another(problem: &Problem, one: &Design, other: &Design) -> bool {
     problem.axes.iter().any(|axis| {
         let [one, other] = [one, other].map(|it| it.machine.value(axis.parameter).unwrap_or(0.0));
-        (one - other).abs() > APART * (axis.range.high - axis.range.low)
+        axis.apart(one, other) > APART
     })
 }

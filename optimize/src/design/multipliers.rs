@@ -48,7 +48,7 @@ fn catalogue_ends(problem: &Problem, unit: &[f64]) -> Vec<Limit> {
     let axes = problem.axes.iter().zip(values);
     let axes = axes.filter(|(axis, _)| !axis.catalogue.is_empty());
     let end = |(axis, value): (&Axis, f64)| {
-        let end = axis.range.end_at(value)?;
+        let end = axis.end_at(value)?;
         Some(Limit::Axis(axis.parameter, end))
     };
     axes.filter_map(end).collect()

@@ -13,8 +13,10 @@ pub enum End {
     Upper,
 }
 
-/// Distance from an end of an interval, as a share of it, that is none.
+/// Distance from an end of a range, as a share of it, that is none.
 const AT_END: f64 = 1e-9;
+/// Upper end of a range in units of the lower one from which on it is searched by the logarithm.
+const DECADES: f64 = 1e3;
 
 /// A closed interval; a value that is held has both ends equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,16 +49,6 @@ impl Interval {
             self.high
         } else {
             (self.low + unit * (self.high - self.low)).clamp(self.low, self.high)
-        }
-    }
-
-    /// Which end a value stands at to rounding, if the interval has two.
-    pub fn end_at(&self, value: f64) -> Option<End> {
-        let near = |end: f64| (value - end).abs() <= AT_END * (self.high - self.low);
-        match self.is_held() {
-            true => None,
-            false if near(self.low) => Some(End::Lower),
-            false => near(self.high).then_some(End::Upper),
         }
     }
 }
@@ -108,8 +100,43 @@ impl Axis {
         }
     }
 
+    /// The logarithm of the upper end over the lower one, where the range spans decades.
+    fn decades(&self) -> Option<f64> {
+        let Interval { low, high } = self.range;
+        let is_wide = self.catalogue.is_empty() && low > 0.0 && high.is_finite();
+        (is_wide && high > DECADES * low).then(|| (high / low).ln())
+    }
+
+    /// d(value)/d(coordinate) at a value.
+    pub fn rate(&self, value: f64) -> f64 {
+        let width = self.range.high - self.range.low;
+        self.decades().map_or(width, |decades| decades * value)
+    }
+
+    /// How far apart two values are, as a share of the range.
+    pub fn apart(&self, one: f64, other: f64) -> f64 {
+        match self.decades() {
+            Some(decades) => (one / other).ln().abs() / decades,
+            None => (one - other).abs() / (self.range.high - self.range.low),
+        }
+    }
+
+    /// Which end a value stands at to rounding, if there are two.
+    pub fn end_at(&self, value: f64) -> Option<End> {
+        let Interval { low, high } = self.range;
+        let near = |end: f64| self.apart(value, end) <= AT_END;
+        match self.range.is_held() {
+            true => None,
+            false if near(low) => Some(End::Lower),
+            false => near(high).then_some(End::Upper),
+        }
+    }
+
     /// The value at a coordinate in [0, 1]: in a catalogue, each has an equal part of it.
     fn at(&self, unit: f64) -> f64 {
+        if let Some(decades) = self.decades().filter(|_| (0.0..1.0).contains(&unit)) {
+            return self.range.low * (unit * decades).exp();
+        }
         let part = (unit.clamp(0.0, 1.0) * self.catalogue.len() as f64) as usize;
         let last = self.catalogue.len().saturating_sub(1);
         let listed = self.catalogue.get(part.min(last)).copied();
@@ -162,9 +189,22 @@ mod tests {
             [7.0, 0.3],
             "outside the cube: pulled in"
         );
-        assert_eq!(range.end_at(0.3), Some(End::Upper));
-        assert_eq!(range.end_at(0.2), None);
-        assert_eq!(Interval::held(2.0).end_at(2.0), None);
+        assert_eq!(axes[1].end_at(0.3), Some(End::Upper));
+        assert_eq!(axes[1].end_at(0.2), None);
+        assert_eq!(axes[0].end_at(7.0), None);
+    }
+
+    #[test]
+    fn ranges_of_decades_are_logarithmic() {
+        let (low, high) = (1.0, 1e12);
+        let axis = Axis::new(Parameter::StopStiffness, Interval { low, high });
+        let values = [0.0, 0.25, 1.0].map(|unit| axis.at(unit));
+        assert!((values[1] / 1e3 - 1.0).abs() < 1e-12);
+        assert_eq!([values[0], values[2]], [low, high]);
+        assert_eq!(axis.end_at(10.0), None);
+        let step = 1e-6;
+        let found = (axis.at(0.25 + step) - axis.at(0.25 - step)) / (2.0 * step);
+        assert!((found / axis.rate(values[1]) - 1.0).abs() < 1e-9);
     }
 
     #[test]

@@ -37,10 +37,10 @@ impl Rows {
         };
         let half = 1.0 / (2.0 * CHANGE);
         let aside = |axis: usize| {
-            let range = problem.axes[axis].range;
+            let rate = problem.axes[axis].rate(values[axis]);
             let aside = |by: f64| {
                 let mut values = values.clone();
-                values[axis] += by * (range.high - range.low);
+                values[axis] += by * rate;
                 machine(&values, frequency, coordinates)
             };
             Some(difference(&aside(-CHANGE)?, &aside(CHANGE)?, half))

@@ -25,7 +25,7 @@ impl Best {
     pub(super) fn new(problem: &Problem, evaluations: u64, budget: u64) -> Self {
         let objective = problem.objective;
         Self {
-            zones: Mutex::new(Some(Progress::new(evaluations, "zones"))),
+            zones: Mutex::new(Some(Progress::at_most(evaluations, "zones"))),
             front: OnceLock::new(),
             best: Mutex::new(None),
             evaluations: AtomicU64::new(0),

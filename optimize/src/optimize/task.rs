@@ -59,10 +59,15 @@ pub(super) struct Job {
 impl Job {
     /// Joins command line, file and defaults.
     pub(super) fn new(arguments: &OptimizeArguments) -> Result<Self, Failure> {
-        let task = task(arguments)?;
+        let (task, file) = task(arguments)?;
+        let located = |failure: Failure| match &file {
+            Some((path, text)) => failure.in_text(path, text),
+            None => failure,
+        };
         let place = place(arguments, &task);
         let machine = machine(arguments, &task, place.clone())?;
         let sources = Source::all(arguments, place.as_deref())?;
+        of_machine(&machine, &task).map_err(located)?;
         let tolerances = tolerances(&machine, &task.tolerance)?;
         let Required {
             figures: requirements,
@@ -74,8 +79,9 @@ impl Job {
         let Sought { objectives, cost } = Sought::new(&machine, &task.objective)?;
         let (objective, traded) = (objectives[0], objectives[1..].to_vec());
         let is_exact = tolerances.iter().all(Tolerance::is_exact);
-        has_tolerances(is_exact, &objective, &task.require)?;
-        let deviations = deviations(&tolerances, &task.require, (violating, arguments.samples))?;
+        has_tolerances(is_exact, &objective, &task.require).map_err(located)?;
+        let deviations = deviations(&tolerances, &task.require, (violating, arguments.samples))
+            .map_err(located)?;
         let says_where = !is_exact || requirements.iter().any(|it| it.figure.is_margin());
         let usual = if says_where { 0.0 } else { MARGIN };
         let margin = arguments.margin.or(share).unwrap_or(usual);
@@ -98,7 +104,7 @@ impl Job {
                 width: tolerance.width.times(reserve * factor),
                 ..*tolerance
             };
-            leaves_machines(&machine, &reserved, highest)?;
+            leaves_machines(&machine, &reserved, highest).map_err(located)?;
         }
         for axis in &axes {
             has_effect(&machine, axis)?;
@@ -228,14 +234,20 @@ impl Job {
 /// Refuses a task beside a machine in its file that no search could take up.
 ///
 /// # Errors
-/// [`Failure::Usage`] naming the key, its value and what is allowed.
-pub(super) fn check(machine: &Machine, text: &str) -> Result<(), Failure> {
-    let task = TaskSpec::beside_machine(text)?.unwrap_or_default();
+/// [`Failure::Usage`] naming file, line, column, the key, its value and what is allowed.
+pub(super) fn check(machine: &Machine, path: &Path, text: &str) -> Result<(), Failure> {
+    let task = TaskSpec::beside_machine(path, text)?.unwrap_or_default();
+    of_machine(machine, &task).map_err(|failure| failure.in_text(path, text))
+}
+
+/// Refuses a task that no search of a machine could take up.
+fn of_machine(machine: &Machine, task: &TaskSpec) -> Result<(), Failure> {
     tolerances(machine, &task.tolerance)?;
     requirements(machine, &task.objective, &task.require)?;
     Sought::new(machine, &task.objective)?;
-    searched(machine, &[variables(&task.vary)?], false)?;
-    Ok(())
+    let searched = searched(machine, &[variables(&task.vary)?], false)?;
+    let mut axes = searched.axes.iter();
+    axes.try_for_each(|axis| has_effect(machine, axis))
 }
 
 /// What the command line says of searched values, over what the task says.
@@ -294,22 +306,29 @@ fn has_effect(machine: &Machine, axis: &Axis) -> Result<(), Failure> {
     }
 }
 
-/// The task of `--config`, or the one that stands beside the machine in its file.
-fn task(arguments: &OptimizeArguments) -> Result<TaskSpec, Failure> {
+/// A file and its text.
+type Text = (PathBuf, String);
+
+/// The task of `--config`, or the one that stands beside the machine in its file; with that file.
+fn task(arguments: &OptimizeArguments) -> Result<(TaskSpec, Option<Text>), Failure> {
     let machine = arguments.machine.machine.as_ref();
     let file = machine.filter(|path| Regime::called(path).is_none());
     let beside = |path: &PathBuf| {
-        let task = TaskSpec::beside_machine(&scene_file::text(path)?);
-        task.map_err(|error| error.in_file(path))
+        let text = scene_file::text(path)?;
+        let task = TaskSpec::beside_machine(path, &text)?;
+        Ok(task.map(|task| (task, (path.clone(), text))))
     };
-    let beside = file.map(beside).transpose()?.flatten();
+    let beside: Result<_, Failure> = file.map(beside).transpose();
+    let beside = beside?.flatten();
     match (&arguments.config, beside) {
         (Some(path), Some(_)) => Err(Failure::usage(format!(
             "--config {}: the machine's file has a task of its own; only one of the two can be given",
             path.display()
         ))),
-        (Some(path), None) => read(path),
-        (None, beside) => Ok(beside.unwrap_or_default()),
+        (Some(path), None) => read(path).map(|(task, text)| (task, Some((path.clone(), text)))),
+        (None, beside) => Ok(beside
+            .map(|(task, file)| (task, Some(file)))
+            .unwrap_or_default()),
     }
 }
 
@@ -336,12 +355,13 @@ fn machine(
     arguments.machine.machine_over(place, &task.set)
 }
 
-/// The task of a file, older words rewritten.
+/// The task of a file, older words rewritten, and its text.
 ///
 /// # Errors
 /// [`Failure::Usage`] naming the file, and line and key of what is wrong in it.
-fn read(path: &Path) -> Result<TaskSpec, Failure> {
-    let mut task: TaskSpec = scene_file::read_toml(path)?;
-    older::rewrite(&mut task).map_err(|error| error.in_file(path))?;
-    Ok(task)
+fn read(path: &Path) -> Result<(TaskSpec, String), Failure> {
+    let text = scene_file::text(path)?;
+    let mut task: TaskSpec = scene_file::parse(path, &text)?;
+    older::rewrite(&mut task).map_err(|error| error.in_text(path, &text))?;
+    Ok((task, text))
 }

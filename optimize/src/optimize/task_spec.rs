@@ -1,6 +1,6 @@
 //! The task of `softstop optimize` as a TOML file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use serde_json::json;
@@ -12,7 +12,8 @@ use softstop_console::older::PaperRatios;
 use softstop_console::output::Format;
 use softstop_console::schema;
 use softstop_dynamics::run_up::Way;
-use toml::Table;
+use toml::de::{DeTable, DeValue, Deserializer, Error};
+use toml::{Spanned, Table};
 
 use super::objective::{Goal, MAX_OBJECTIVES, is_traded};
 use super::require::{RESERVE, SHARE};
@@ -220,15 +221,21 @@ impl TaskSpec {
     /// The task that stands in a machine's file; none if it says nothing of one.
     ///
     /// # Errors
-    /// [`Failure::Usage`] naming the key.
-    pub(super) fn beside_machine(text: &str) -> Result<Option<Self>, Failure> {
-        let usage = |error: toml::de::Error| Failure::usage(error.to_string());
-        let mut file: Table = toml::from_str(text).map_err(usage)?;
-        file.retain(|key, value| {
-            Machine::TASK.contains(&key) && value.as_table().is_none_or(|table| !table.is_empty())
-        });
-        let is_any = !file.is_empty();
-        let task = file.try_into().map_err(usage)?;
+    /// [`Failure::Usage`] with file, line and column.
+    pub(super) fn beside_machine(path: &Path, text: &str) -> Result<Option<Self>, Failure> {
+        let usage = |error: Error| Failure::of_toml(path, text, &error);
+        let mut file = DeTable::parse(text).map_err(usage)?;
+        let mut own = DeTable::new();
+        for name in Machine::TASK {
+            if let Some((key, value)) = file.get_mut().remove_entry(name)
+                && !matches!(value.get_ref(), DeValue::Table(table) if table.is_empty())
+            {
+                own.insert(key, value);
+            }
+        }
+        let is_any = !own.is_empty();
+        let own = Spanned::new(file.span(), own);
+        let task = Self::deserialize(Deserializer::from(own)).map_err(usage)?;
         Ok(Some(task).filter(|_| is_any))
     }
 }

@@ -64,6 +64,11 @@ impl<'a> Fleet<'a> {
         self.machine[0].is_for_lanes()
     }
 
+    /// True if long motions that settle cost as little as short ones.
+    pub(crate) fn leaps(&self) -> bool {
+        self.machine[0].leaps()
+    }
+
     pub(crate) fn done(&self) -> u64 {
         self.done.load(Ordering::Relaxed)
     }

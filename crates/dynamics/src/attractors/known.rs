@@ -26,6 +26,13 @@ pub(crate) struct Known {
     size: f64,
 }
 
+impl Known {
+    /// Its states after each drive period, from drive angle phi.
+    pub(crate) fn states(&self) -> &[Start] {
+        &self.states
+    }
+}
+
 /// All of them.
 pub(crate) struct Book<'a> {
     scene: &'a Scene,

@@ -81,8 +81,9 @@ pub fn attractors(
     let run = options.transient + search.logged() as u64;
     search.fleet.planned = run * (options.starts + PILOT) as u64 + search.patience();
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
-    let stays = search.members.iter().flat_map(|member| &member.voyage.log);
-    let region = options.region.or_else(|| Region::about(scene, stays));
+    let region = options
+        .region
+        .or_else(|| Region::about(scene, search.stays()));
     let region = region.unwrap_or_else(|| Region::far(scene));
     search.launch(region.starts(options.starts, options.seed), true)?;
     search.watch()?;
@@ -105,12 +106,11 @@ pub(crate) fn stays(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Start>, S
     let mut search = Search::new(scene, &options, watcher)?;
     search.fleet.planned = (options.transient + search.logged() as u64) * PILOT as u64;
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
-    let stays = search.members.iter().flat_map(|member| &member.voyage.log);
     let go_on = |_, _| stop_if(search.fleet.note(0).is_err());
     let own = orbit::find_watched(scene, &go_on).ok();
     search.fleet.note(0)?;
     let own = own.map(|orbit| Start::new(orbit.position, orbit.velocity));
-    Ok(stays.copied().chain(own).collect())
+    Ok(search.stays().copied().chain(own).collect())
 }
 
 /// What the motion from one start settles on.
@@ -182,6 +182,16 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// Where motions stay: at the orbits at which they have arrived, or where they were last.
+    fn stays(&self) -> impl Iterator<Item = &Start> + Clone {
+        self.members
+            .iter()
+            .flat_map(|member| match member.standing {
+                Standing::Arrived(orbit) => self.book.orbits[orbit].states(),
+                _ => &member.voyage.log,
+            })
+    }
+
     /// Lets motions settle from starts and looks at them.
     fn launch(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), SurveyError> {
         let first = self.members.len();
@@ -193,7 +203,7 @@ impl<'a> Search<'a> {
         }));
         let (transient, logged) = (self.options.transient, self.logged() as u64);
         let early = transient / FIRST_LOOK;
-        if self.fleet.is_fast() && early < FIRST_LOOK * logged {
+        if self.fleet.leaps() && early < FIRST_LOOK * logged {
             return self.carry_on(first.., transient + logged);
         }
         self.carry_on(first.., early + logged)?;

@@ -1,0 +1,55 @@
+//! Where in a TOML file that stands which is wrong.
+
+use std::path::Path;
+
+use toml::de::{DeTable, DeValue, Error};
+
+use crate::failure::Failure;
+
+impl Failure {
+    /// The same, a usage failure with file, line and column of the key that its message begins with, or of the innermost
+    /// table that the key is in; with the file alone where there is none.
+    #[must_use]
+    pub fn in_text(self, path: &Path, text: &str) -> Self {
+        let Self::Usage(message) = &self else {
+            return self;
+        };
+        let key = message.split([' ', ':']).next().unwrap_or_default();
+        let table = DeTable::parse(text).ok();
+        match table.and_then(|table| start_of(key, table.get_ref())) {
+            Some(start) => Self::at(path, text, start, message),
+            None => self.in_file(path),
+        }
+    }
+
+    /// What the reader of a TOML file says, with file, line and column.
+    pub fn of_toml(path: &Path, text: &str, error: &Error) -> Self {
+        match error.span() {
+            Some(span) => Self::at(path, text, span.start, error.message()),
+            None => Self::usage(error.message()).in_file(path),
+        }
+    }
+
+    fn at(path: &Path, text: &str, start: usize, message: &str) -> Self {
+        let before = &text[..start];
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|it| *it != '\n').count() + 1;
+        Self::usage(format!("{}:{line}:{column}: {message}", path.display()))
+    }
+}
+
+/// Where a dotted key begins, or the innermost table of those that it is in.
+fn start_of(key: &str, table: &DeTable<'_>) -> Option<usize> {
+    table.iter().find_map(|(name, value)| {
+        let rest = key.strip_prefix(name.get_ref().as_ref())?;
+        let rest = match rest.strip_prefix('.') {
+            None if rest.is_empty() => "",
+            rest => rest?,
+        };
+        let inner = match value.get_ref() {
+            DeValue::Table(inner) => start_of(rest, inner),
+            _ => None,
+        };
+        Some(inner.unwrap_or(name.span().start))
+    })
+}
