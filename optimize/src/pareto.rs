@@ -11,6 +11,7 @@ use softstop_console::table::aligned;
 
 use crate::design::Problem;
 use crate::design::figure::{Figure, Sense};
+use crate::design::judge::Met;
 use crate::design::pareto::{Alternative, Pareto, Tally};
 use crate::design::problem::Objective;
 use crate::optimize::pareto::CheckedFront;
@@ -84,7 +85,7 @@ impl FrontReport {
         Self {
             objectives: sought.collect(),
             tally: *tally,
-            machines: front.violating.as_ref().map(|it| it.0),
+            machines: front.machines,
             nearest: nearest + 1,
             units: columns.iter().map(|it| (it.name, it.unit)).collect(),
             shown: columns
@@ -106,8 +107,8 @@ impl FrontReport {
     pub(crate) fn text(&self) -> String {
         let machines = self.machines.map_or_else(String::new, |machines| {
             format!(
-                "violating: of {machines} machines within the tolerances of each design, the largest share that violates one \
-                 requirement or loses the motion.\n"
+                "violating: the share of {machines} machines within the tolerances of each design that lose the motion or violate a \
+                 requirement.\n"
             )
         });
         let first = self.words.first().map_or("", String::as_str);
@@ -202,17 +203,19 @@ fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
         };
         figure(*it, false, points.iter().map(value).collect())
     });
-    let trials = front.met.first().into_iter().flatten().enumerate();
+    let trials = points.first().map_or(&[][..], |it| &it.met).iter();
+    let trials = trials.enumerate();
     let trials = trials.filter(|(_, it)| it.requirement.figure.is_trial());
     let trials = trials.map(|(index, it)| {
-        let values = front.met.iter().map(|met| met[index].judged());
+        let values = points.iter().map(|point| point.met.get(index));
+        let values = values.map(|it| it.map_or(f64::NAN, Met::judged));
         figure(it.requirement.figure, false, values.collect())
     });
-    let violating = front.violating.iter().map(|(_, shares)| Column {
+    let violating = front.machines.map(|_| Column {
         name: "violating",
         unit: "",
         is_shown: true,
-        values: own(shares.iter().copied()),
+        values: points.iter().map(|it| it.violating).collect(),
     });
     let parameters = parameters.into_iter().map(parameter);
     let all = sought.chain(parameters).chain(others).chain(trials);

@@ -72,13 +72,15 @@ fn searched(design: &Design) -> &'static str {
 
 /// Whether the machine strikes by itself.
 fn starting(design: &Design) -> &'static str {
-    match design.orbit.scene.excitation.frequency > design.zone.frequency_g0 {
+    let (zone, frequency) = (&design.zone, design.orbit.scene.excitation.frequency);
+    let is_below = zone.frequency_g0_below.is_some_and(|g0| frequency < g0);
+    match frequency > zone.frequency_g0 || is_below {
         true => {
-            "Starting: above g0 the machine may as well stay without impacts; a push or a run-up has to bring it into its \
+            "Starting: the machine may as well stay without impacts; a push or a run-up has to bring it into its \
              motion."
         }
         false => {
-            "Starting: below g0 there is no motion without impacts, so the machine strikes however it is started; whether it \
+            "Starting: there is no motion without impacts, so the machine strikes however it is started; whether it \
              settles on one impact a period, run-up and certainty tell."
         }
     }

@@ -47,7 +47,7 @@ type Counted<'a> = (&'a Study, &'a Statistics);
 fn counted<'a>() -> [Column<Counted<'a>>; 6] {
     columns! { Counted<'a>, it;
         "rejected" [None] Plain, "machines that lose the motion or violate a requirement" => it.0.verdict.rejected;
-        "share_rejected" [None] Six, "their share" => it.0.verdict.rejected as f64 / it.0.verdict.machines as f64;
+        "share_rejected" [None] Six, "their share" => it.0.verdict.rejected_share();
         "interval_low" [None] Six, "lower end of its 95 % interval" => it.0.verdict.share_rejected()[0];
         "interval_high" [None] Six, "upper end" => it.0.verdict.share_rejected()[1];
         "share_allowed" [None] Six, "share that may" => it.1.allowed;

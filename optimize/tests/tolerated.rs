@@ -61,6 +61,7 @@ fn lost(problem: &Problem, design: &Design) -> Result<usize, Box<dyn std::error:
     let some = robust::Settings {
         machines: 4096,
         enough: usize::MAX,
+        first: 0,
     };
     Ok(verify(&spread, &design.orbit, (some, &[]), &unwatched)?.lost)
 }

@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue, Error};
 use crate::failure::Failure;
 
 impl Failure {
-    /// The same, a usage failure with file, line and column of the key that its message begins with, or of the innermost
+    /// The failure, of usage with file, line and column of the key that its message begins with, or of the innermost
     /// table that the key is in; with the file alone where there is none.
     #[must_use]
     pub fn in_text(self, path: &Path, text: &str) -> Self {

@@ -59,8 +59,8 @@ impl Way {
     pub const fn name(self) -> &'static str {
         match self {
             Self::SwitchedOn => "switching the drive on at its working frequency",
-            Self::FrequencyRaised => "raising the frequency slowly from below",
-            Self::FrequencyLowered => "lowering the frequency slowly from above",
+            Self::FrequencyRaised => "raising the frequency from below",
+            Self::FrequencyLowered => "lowering the frequency from above",
             Self::ClearanceOpened => "opening the clearance slowly from a small one",
             Self::AmplitudeRaised => "raising the drive's amplitude slowly from rest",
             Self::AmplitudeLowered => "lowering the drive's amplitude slowly from a larger one",
@@ -133,7 +133,8 @@ const RETURN: f64 = 1e-2;
 pub struct Settings {
     /// Those that are tried.
     pub ways: Vec<Way>,
-    /// Change of the drive's frequency in rad/s from each drive period to the next; none for a slow one.
+    /// Change of the drive's frequency in rad/s from each drive period to the next; none for a slow one, which is what a
+    /// still slower rate is taken for.
     pub ramp: Option<f64>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,
@@ -160,11 +161,11 @@ impl Settings {
 
     /// Values of a parameter on the way, and drive periods of each.
     fn steps(&self, parameter: Parameter, (low, high): (f64, f64)) -> (usize, u64) {
-        match self.ramp {
-            Some(rate) if parameter == Parameter::Frequency => {
-                (((high - low) / rate).ceil() as usize + 1, 1)
-            }
-            _ => (STEPS, PERIODS),
+        let slow = (STEPS, PERIODS);
+        let periods = self.ramp.map(|rate| ((high - low) / rate).ceil() + 1.0);
+        match periods.filter(|_| parameter == Parameter::Frequency) {
+            Some(periods) if periods < (STEPS as u64 * PERIODS) as f64 => (periods as usize, 1),
+            _ => slow,
         }
     }
 }
@@ -270,7 +271,7 @@ impl Display for RunUp {
                 write!(f, "the motion is reached by {first}")?;
                 works.try_for_each(|way| write!(f, ", or by {way}"))?;
             }
-            None => f.write_str("no way that was tried reaches the motion for sure")?,
+            None => f.write_str("no way that was tried reaches the motion for sure as asked")?,
         }
         let mut some = self
             .ways

@@ -4,6 +4,7 @@ use softstop_console::interrupt;
 
 use super::Design;
 use super::figure::{Figure, Sense};
+use super::judge::Met;
 use super::problem::{Objective, Problem};
 use super::requirement::{Requirement, Scope};
 use super::search::Found;
@@ -16,6 +17,10 @@ pub struct Alternative {
     pub found: Found,
     /// What is sought, in SI units; of the worst machine within the tolerances, if that counts.
     pub values: Vec<f64>,
+    /// What it has of the requirements, if it was judged anew.
+    pub met: Vec<Met>,
+    /// Share of the machines within its tolerances that lose the motion or violate a requirement, if they were looked at.
+    pub violating: Option<f64>,
 }
 
 impl Objective {
@@ -87,6 +92,11 @@ impl Alternative {
         let values: Vec<f64> = values.collect::<Option<_>>()?;
         let mut found = found.clone();
         found.design.value = values[0];
-        Some(Self { found, values })
+        Some(Self {
+            found,
+            values,
+            met: Vec::new(),
+            violating: None,
+        })
     }
 }

@@ -7,7 +7,7 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::{Orbit, Stroke};
 
-use super::expression::Expression;
+use super::expression::{Expression, chained};
 use super::figure::Figure;
 use super::slope::Slope;
 
@@ -132,7 +132,7 @@ impl Cost {
         for ((term, unit), outer) in self.0.terms.iter().zip(outer) {
             let inner = term.by(slopes, orbit, &rates)?;
             for (total, inner) in total.iter_mut().zip(inner) {
-                *total += outer * inner / unit;
+                *total += chained(outer, inner / unit);
             }
         }
         Some(total)

@@ -116,6 +116,7 @@ impl<'a> Linearization<'a> {
             Figure::FrequencySn if motion.zone.high.is(Test::Fold) => {
                 minus(&self.high, &self.frequency)
             }
+            Figure::FrequencyPd if motion.is_flip_above() => minus(&self.high, &self.frequency),
             Figure::FrequencyPd => {
                 let flip = loss_of_stability(motion.orbit, Heading::Down, Test::Flip).ok()??;
                 let scene = &motion.orbit.scene;

@@ -65,11 +65,10 @@ impl<'a> Judged<'a> {
             // At the fold itself there is no way down the stable branch to a flip.
             Figure::FrequencyPd | Figure::ClearancePd if self.is_at_fold() => f64::NAN,
             Figure::FrequencyPd => {
-                let flip = loss_of_stability(self.orbit, Heading::Down, Test::Flip);
-                match flip {
-                    Ok(Some(flip)) => frequency - flip.parameter,
-                    Ok(None) => f64::INFINITY,
-                    Err(_) => f64::NAN,
+                let below = self.above_flip(frequency);
+                match self.zone.high.is(Test::Flip) {
+                    true => below.min(self.zone.high.frequency - frequency),
+                    false => below,
                 }
             }
             Figure::ClearanceG0 => {
@@ -82,8 +81,25 @@ impl<'a> Judged<'a> {
         }
     }
 
+    /// Distance in rad/s from the flip below, infinite if there is none.
+    fn above_flip(&self, frequency: f64) -> f64 {
+        match loss_of_stability(self.orbit, Heading::Down, Test::Flip) {
+            Ok(Some(flip)) => frequency - flip.parameter,
+            Ok(None) => f64::INFINITY,
+            Err(_) => f64::NAN,
+        }
+    }
+
+    /// True if the nearer flip is the upper end of the zone.
+    pub(super) fn is_flip_above(&self) -> bool {
+        let frequency = self.orbit.scene.excitation.frequency;
+        self.zone.high.is(Test::Flip)
+            && self.zone.high.frequency - frequency < self.above_flip(frequency)
+    }
+
     fn is_at_fold(&self) -> bool {
-        !self.orbit.is_stable() || self.place > 1.0 - AT_FOLD
+        let is_at_end = self.zone.high.is(Test::Fold) && self.place > 1.0 - AT_FOLD;
+        is_at_end || !self.orbit.is_stable()
     }
 
     /// Distance in m to the clearance at which the fold comes down to the motion's frequency, or up to which there is a

@@ -41,13 +41,14 @@ impl Pareto {
     ) -> Result<Self, SearchError> {
         let objectives = problem.objectives();
         let (points, tally) = search_pareto(problem, &objectives, first, (settings, watch))?;
-        let found = Self {
+        let mut found = Self {
             objectives,
             points,
             nearest: 0,
             tally,
         };
-        Ok(found.filtered())
+        found.filter();
+        Ok(found)
     }
 
     /// With another best design by the first objective.
@@ -57,23 +58,23 @@ impl Pareto {
         if let (Some(point), Some(first)) = (point, self.points.first_mut()) {
             *first = point;
         }
-        self.filtered()
+        self.filter();
+        self
     }
 
     /// Without the designs that are not as asked.
-    #[must_use]
-    pub fn kept(mut self, is_kept: &[bool]) -> Self {
+    pub fn keep(&mut self, is_kept: &[bool]) {
         let mut is_kept = is_kept.iter();
         let count = self.points.len();
         self.points.retain(|_| is_kept.next() == Some(&true));
         let failed = count - self.points.len();
         self.tally.failed += failed;
         self.tally.solved -= failed;
-        self.filtered()
+        self.filter();
     }
 
     /// Without those that others dominate.
-    fn filtered(mut self) -> Self {
+    fn filter(&mut self) {
         let all = self.points.iter().map(|it| it.graded(&self.objectives));
         let all: Vec<Vec<f64>> = all.collect();
         let NonDominated { members, nearest } = non_dominated(&all);
@@ -83,6 +84,5 @@ impl Pareto {
             .collect();
         self.nearest = nearest;
         self.tally.dominated = self.tally.solved.saturating_sub(self.points.len());
-        self
     }
 }

@@ -10,7 +10,7 @@ use super::alternative::Alternative;
 use super::non_dominated::{NonDominated, non_dominated};
 use super::posed::{Posed, Ranges, levels};
 use super::problem::{Objective, Problem};
-use super::search::{Found, LEAST_EVALUATIONS, SearchError, Settings, Watch, search_from};
+use super::search::{Found, LEAST_EVALUATIONS, Quiet, SearchError, Settings, Watch, search_from};
 
 /// Problems of two objectives, and those of them that are solved at once.
 const PROBLEMS: usize = 14;
@@ -43,16 +43,6 @@ struct Solved {
     problem: Problem,
     posed: Posed,
     alternative: Alternative,
-}
-
-/// A watch of one of many searches: it can be stopped, and tells nothing.
-struct Quiet<'a>(&'a dyn Watch);
-
-impl Watch for Quiet<'_> {
-    fn evaluated(&self, _: Option<f64>) {}
-    fn stop(&self) -> bool {
-        self.0.stop()
-    }
 }
 
 /// The designs of a front from the best one by the first objective on, some of which others may dominate, and what became of
@@ -131,6 +121,10 @@ impl ParetoSearch<'_> {
             let found = match search_from(&problem, self.settings, &starts, (&quiet, None)) {
                 Ok(found) => found,
                 Err(SearchError::Stopped(_)) => break,
+                Err(SearchError::NoDesign { .. }) => {
+                    self.fail(alone(index));
+                    continue;
+                }
                 Err(error) => return Err(error),
             };
             self.keep(problem, alone(index), &found);
@@ -234,7 +228,7 @@ impl ParetoSearch<'_> {
                         .iter()
                         .any(|it| self.keeps(&it.alternative, &posed)) =>
                 {
-                    self.tally.implied += 1;
+                    self.tally.failed += 1;
                 }
                 Err(_) => self.fail(posed),
             }

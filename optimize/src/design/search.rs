@@ -27,7 +27,7 @@ use super::nearest_miss::nearest_miss;
 use super::robustify::{Robust, enforce_tolerance_box};
 use super::space::Space;
 use super::survey::{Point, Survey};
-pub use super::survey::{Unwatched, Watch};
+pub use super::survey::{Quiet, Unwatched, Watch};
 use super::trial::FULL;
 use super::{Infeasible, Problem};
 

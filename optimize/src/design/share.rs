@@ -2,8 +2,8 @@
 //! the motion or violate a requirement than may.
 //!
 //! The search keeps a whole box. What share of the machines that leaves is counted on some thousand of them and judged by the
-//! upper end of its interval. If that is too large the box is made wider, and if it need not be so small, narrower: by regula
-//! falsi on the normal quantile of the share, which is in proportion to the width where one linear bound is violated.
+//! upper end of its interval. If that is too large the box is made wider, and if it need not be so small, narrower: in proportion
+//! to the normal quantile of the share, as the width is where one linear bound is violated, within a bracket.
 
 use softstop_console::interrupt;
 use softstop_dynamics::basin::wilson;
@@ -13,12 +13,14 @@ use super::Design;
 use super::conflict::short;
 use super::problem::{Problem, Tolerance};
 use super::requirement::{Requirement, Scope};
-use super::search::{Found, SearchError, Settings, Unwatched, Watch, search, search_from};
+use super::search::{Found, Quiet, SearchError, Settings, Watch, search, search_from};
 use crate::robust::{self, FITTED, Verdict, normal_quantile, verify};
 
 /// Boxes that are tried at most, and the widest in standard deviations.
 const ROUNDS: usize = 16;
 const WIDEST: f64 = 8.0;
+/// Where the machines that decide begin: they are others than those of the report.
+const OTHERS: usize = 1 << 26;
 /// Part of the machines that is counted first, and the share of what is allowed below which it decides.
 const PART: usize = 16;
 const FAR: f64 = 0.8;
@@ -45,7 +47,7 @@ impl Problem {
 
     /// The upper end of the share of the machines that lose the motion or violate a requirement, on a part of them where that
     /// decides; 1 where it cannot be counted.
-    fn rejected(&self, design: &Design, machines: usize) -> f64 {
+    pub(super) fn rejected(&self, design: &Design, machines: usize) -> f64 {
         let Some(spread) = self.spread(&design.machine) else {
             return 1.0;
         };
@@ -53,6 +55,7 @@ impl Problem {
         let count = |machines| {
             let settings = robust::Settings {
                 machines,
+                first: OTHERS,
                 ..robust::Settings::default()
             };
             let (nominal, watcher) = (&design.orbit, &interrupt::watch);
@@ -68,6 +71,11 @@ impl Problem {
 }
 
 impl Verdict {
+    /// Share of the machines that lose the motion or violate a requirement.
+    pub fn rejected_share(&self) -> f64 {
+        self.rejected as f64 / self.machines as f64
+    }
+
     /// The 95 % interval of the share of the machines that lose the motion or violate a requirement.
     pub fn share_rejected(&self) -> [f64; 2] {
         wilson(self.rejected, self.machines)
@@ -104,6 +112,7 @@ pub(super) fn search_with_share(
             Ok(found) => {
                 let share = problem
                     .with_deviations(deviations)
+                    .as_built()
                     .rejected(&found.design, machines);
                 if interrupt::requested() {
                     break;
@@ -138,7 +147,7 @@ pub(super) fn search_with_share(
             false => too_few.midpoint(enough),
         };
         let tried = problem.with_deviations(deviations);
-        outcome = search_from(&tried, settings, &starts, (&Unwatched, None));
+        outcome = search_from(&tried, settings, &starts, (&Quiet(watch), None));
     }
     let failure = match lack.filter(|_| starts.is_empty()) {
         _ if interrupt::requested() => SearchError::Stopped(None),

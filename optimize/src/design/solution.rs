@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use softstop_console::interrupt;
 use softstop_dynamics::watch::Kept;
 
+use super::coordinates::Candidate;
 use super::figure::Figure;
 use super::front::{Front, Traded, front};
 use super::pareto::Pareto;
@@ -85,14 +86,31 @@ impl Solution {
             let starts = [found.start()];
             relaxed = search_from(&relaxed_problem, settings, &starts, (&Unwatched, None)).ok();
         }
+        // Another design has another share of machines that violate a requirement, in a box of the same width.
+        let is_rejected = |found: &Found| {
+            problem.has_normal_tolerances()
+                && problem.as_built().rejected(&found.design, beside.machines) > problem.violating
+        };
+        let go_on = |found: &mut Found, better: &Candidate| {
+            let before = problem.has_normal_tolerances().then(|| found.clone());
+            let is_better = found.go_on_from(problem, better);
+            match before {
+                Some(before) if is_better && is_rejected(found) => {
+                    *found = before;
+                    false
+                }
+                _ => is_better,
+            }
+        };
         if let Some(relaxed) = &relaxed {
-            found.go_on_from(problem, &relaxed.candidate());
+            go_on(&mut found, &relaxed.candidate());
         }
         let pareto = match problem.traded.is_empty() {
             true => None,
             false => Some(Pareto::search(problem, &found, (settings, watch))?),
         };
-        if let Some(best) = pareto.as_ref().and_then(|it| it.points.first()) {
+        let best = pareto.as_ref().and_then(|it| it.points.first());
+        if let Some(best) = best.filter(|it| !is_rejected(&it.found)) {
             found.take_design(problem, &best.found);
         }
         let mut fronts = Vec::new();
@@ -108,12 +126,19 @@ impl Solution {
             });
             let better = best.and_then(|it| it.better.clone());
             fronts = traded.into_iter().map(|it| it.front).collect();
-            if !better.is_some_and(|better| found.go_on_from(problem, &better)) {
+            if !better.is_some_and(|better| go_on(&mut found, &better)) {
                 break;
             }
         }
         if let Some(relaxed) = &mut relaxed {
             relaxed.go_on_from(&relaxed_problem, &found.candidate());
+        }
+        for front in &mut fronts {
+            let points = std::mem::take(&mut front.points);
+            let points = points.into_iter();
+            front.points = points
+                .filter(|it| !front.beats_design(problem, *it))
+                .collect();
         }
         fronts.retain(|it| it.points.len() > 2 || it.left_out > 0);
         let pareto = pareto.map(|it| it.with(problem, &found));

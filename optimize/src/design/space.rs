@@ -104,7 +104,7 @@ impl Axis {
     fn decades(&self) -> Option<f64> {
         let Interval { low, high } = self.range;
         let is_wide = self.catalogue.is_empty() && low > 0.0 && high.is_finite();
-        (is_wide && high > DECADES * low).then(|| (high / low).ln())
+        (is_wide && high > DECADES * low).then(|| high.ln() - low.ln())
     }
 
     /// d(value)/d(coordinate) at a value.

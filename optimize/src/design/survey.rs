@@ -30,6 +30,21 @@ pub trait Watch: Sync {
     }
 }
 
+/// Watches one of many searches: it can be stopped and has a budget, and tells nothing.
+pub struct Quiet<'a>(pub &'a dyn Watch);
+
+impl Watch for Quiet<'_> {
+    fn evaluated(&self, _: Option<f64>) {}
+
+    fn stop(&self) -> bool {
+        self.0.stop()
+    }
+
+    fn budget(&self) -> u64 {
+        self.0.budget()
+    }
+}
+
 /// Watches nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct Unwatched;

@@ -94,7 +94,8 @@ A machine's file may hold a task (docs/tutorials/press.md takes a press from fil
                                              \"hysteresis\": beside rest, it has to be started
     [report]                                 title, author and date above the report
     author = \"A. Engineer\"
-With tolerances, all machines within them stay in the zone, and a million of them are looked at (--samples).
+With tolerances, all machines within them keep the motion and the requirements (of normal ones all but a share), and a million
+of them are looked at (--samples).
 
 Files, whole or not at all: report.html (for people, one page), design.json (what --format json prints),
 design.toml (the machine, for every command), design.fmu (FMI 2.0 co-simulation, starting in the design's

@@ -117,6 +117,9 @@ fn sought(
                 "cannot be traded: it takes many motions, or is infinite where nothing bounds it; it goes to [require]",
             ));
         }
+        true if figure == Figure::Share && sense == Sense::Most => {
+            return Err(wrong("a margin can only be maximised"));
+        }
         false if !is_sought(figure) => {
             return Err(wrong(
                 "must be velocity, impact_energy, impact_power, stroke_work, drive_force, drive_power, stop_force or cost; \

@@ -9,22 +9,19 @@ use super::met::met;
 use super::task::Job;
 use crate::design::Problem;
 use crate::design::judge::Met;
-use crate::design::pareto::{Alternative, Pareto};
-use crate::robust::{FITTED, Settings, verify};
+use crate::design::pareto::Pareto;
+use crate::robust::{FITTED, Settings, Verdict, verify};
 
 /// Machines within the tolerances of each design at least.
 const FEWEST_MACHINES: usize = 1 << 12;
 
-/// A front, and what its designs have of all that is required.
+/// A front whose designs were judged anew.
 #[derive(Debug)]
 pub struct CheckedFront {
     /// The designs, all as required.
     pub pareto: Pareto,
-    /// What each has of the requirements; none of an interrupted run.
-    pub met: Vec<Vec<Met>>,
-    /// Machines within the tolerances that were looked at about each, and the largest share of them that violates one requirement
-    /// or loses the motion; none if all is exact or they were not looked at.
-    pub violating: Option<(usize, Vec<f64>)>,
+    /// Machines within the tolerances that were looked at about each; none if all is exact or they were not looked at.
+    pub machines: Option<usize>,
 }
 
 impl CheckedFront {
@@ -32,37 +29,38 @@ impl CheckedFront {
     pub(super) const fn found(pareto: Pareto) -> Self {
         Self {
             pareto,
-            met: Vec::new(),
-            violating: None,
+            machines: None,
         }
     }
 
-    /// Looks at the designs of a front anew, and leaves out what is not as required. The first is the design of the report,
-    /// which states what is met.
-    pub(super) fn new(problem: &Problem, pareto: Pareto) -> Self {
-        let all = pareto.points.par_iter().enumerate();
-        let all = all.map(|(index, it)| {
-            let design = &it.found.design;
-            let met = met(problem, &it.found).ok()?;
-            let is_whole = met.iter().all(Met::is_met) && problem.has_box(design).is_ok();
-            (is_whole || index == 0).then_some(met)
+    /// Judges the designs of a front anew, and leaves out what is not as required. The first is the design of the report, which
+    /// states what is met.
+    pub(super) fn new(problem: &Problem, mut pareto: Pareto) -> Self {
+        let all = pareto.points.par_iter_mut().enumerate();
+        let is_kept = all.map(|(index, it)| {
+            let Ok(met) = met(problem, &it.found) else {
+                return false;
+            };
+            let has_box = || problem.has_box(&it.found.design).is_ok();
+            let is_whole = met.iter().all(Met::is_met) && has_box();
+            it.met = met;
+            is_whole || index == 0
         });
-        let all: Vec<Option<Vec<Met>>> = all.collect();
-        if interrupt::requested() {
-            return Self::found(pareto);
-        }
-        let is_kept: Vec<bool> = all.iter().map(Option::is_some).collect();
-        Self {
-            met: all.into_iter().flatten().collect(),
-            pareto: pareto.kept(&is_kept),
-            violating: None,
+        let is_kept: Vec<bool> = is_kept.collect();
+        match interrupt::requested() {
+            true => Self::found(pareto),
+            false => {
+                pareto.keep(&is_kept);
+                Self::found(pareto)
+            }
         }
     }
 
-    /// Looks at machines all over the tolerances of each design: together as many as about the design of the report.
+    /// Looks at machines all over the tolerances of each design, together as many as about the design of the report; leaves out
+    /// designs of which too many with normal tolerances violate a requirement.
     pub(super) fn look_at_machines(&mut self, job: &Job) -> Result<(), Failure> {
         let problem = job.problem.as_built();
-        let points = &self.pareto.points;
+        let points = &mut self.pareto.points;
         if job.samples == 0 || !problem.has_tolerances() || points.is_empty() {
             return Ok(());
         }
@@ -73,24 +71,24 @@ impl CheckedFront {
         };
         let required = problem.required_of_each();
         let progress = Progress::new((machines * points.len()) as u64, "machines of the front");
-        let share = |point: &Alternative| {
+        let mut is_kept = Vec::new();
+        for (index, point) in points.iter_mut().enumerate() {
             let design = &point.found.design;
-            let spread = problem.spread(&design.machine)?;
-            let watcher = progress.watcher();
-            let drawn = spread.over(FITTED);
-            let verdict = verify(&drawn, &design.orbit, (settings, &required), &watcher).ok()?;
-            let most = verdict.violating.iter().copied().max();
-            let most = most.unwrap_or(0).max(verdict.lost);
-            Some(most as f64 / verdict.machines as f64)
-        };
-        let shares = points.iter().map(|it| share(it).unwrap_or(f64::NAN));
-        let shares: Vec<f64> = shares.collect();
-        match interrupt::requested() {
-            true => Err(Failure::Interrupted),
-            false => {
-                self.violating = Some((machines, shares));
-                Ok(())
-            }
+            let verdict = problem.spread(&design.machine).and_then(|spread| {
+                let drawn = spread.over(FITTED);
+                let watcher = &progress.watcher();
+                verify(&drawn, &design.orbit, (settings, &required), watcher).ok()
+            });
+            point.violating = verdict.as_ref().map(Verdict::rejected_share);
+            let most = verdict.map_or(1.0, |verdict| verdict.share_rejected()[1]);
+            is_kept
+                .push(index == 0 || !problem.has_normal_tolerances() || most <= problem.violating);
         }
+        if interrupt::requested() {
+            return Err(Failure::Interrupted);
+        }
+        self.machines = Some(machines);
+        self.pareto.keep(&is_kept);
+        Ok(())
     }
 }

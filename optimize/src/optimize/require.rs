@@ -204,6 +204,12 @@ fn ways(machine: &Machine, value: Option<&Value>) -> Result<run_up::Settings, Fa
     if ways.is_empty() {
         return Err(usage(".ways: must name a way"));
     }
+    if let Some(twice) = (1..ways.len()).find(|index| ways[..*index].contains(&ways[*index])) {
+        return Err(usage(&format!(
+            ".ways: {} is given twice",
+            ways[twice].name()
+        )));
+    }
     let (ramp, most_force) = (
         positive("ramp_rate", words.ramp_rate, Dimension::Frequency)?,
         positive("force", words.force, Dimension::Force)?,

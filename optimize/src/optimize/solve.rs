@@ -73,7 +73,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         return Err(Failure::Interrupted);
     }
     let pareto = pareto.map(|it| match interrupted {
-        None => CheckedFront::new(&job.problem, it),
+        None => CheckedFront::new(problem, it),
         Some(_) => CheckedFront::found(it),
     });
     let design = &found.design;

@@ -26,6 +26,7 @@ use super::vary::{Searched, held, searched, variables};
 use super::{OptimizeArguments, older};
 use crate::design::Problem;
 use crate::design::cost::Cost;
+use crate::design::figure::Figure;
 use crate::design::problem::{Objective, Tolerance};
 use crate::design::requirement::Scope;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
@@ -80,8 +81,7 @@ impl Job {
         let (objective, traded) = (objectives[0], objectives[1..].to_vec());
         let is_exact = tolerances.iter().all(Tolerance::is_exact);
         has_tolerances(is_exact, &objective, &task.require).map_err(located)?;
-        let deviations = deviations(&tolerances, &task.require, (violating, arguments.samples))
-            .map_err(located)?;
+        let deviations = deviations(&tolerances, &task.require, (violating, arguments.samples))?;
         let says_where = !is_exact || requirements.iter().any(|it| it.figure.is_margin());
         let usual = if says_where { 0.0 } else { MARGIN };
         let margin = arguments.margin.or(share).unwrap_or(usual);
@@ -218,7 +218,7 @@ fn deviations(
     }
     if is_normal && wilson(0, samples)[1] > violating {
         return Err(Failure::usage(format!(
-            "samples = {samples}: are too few to show that a share of {violating} at most violates a requirement"
+            "--samples {samples}: are too few to show that a share of {violating} at most violates a requirement"
         )));
     }
     Ok(normal_quantile(1.0 - 0.5 * violating))
@@ -244,7 +244,16 @@ pub(super) fn check(machine: &Machine, path: &Path, text: &str) -> Result<(), Fa
 fn of_machine(machine: &Machine, task: &TaskSpec) -> Result<(), Failure> {
     tolerances(machine, &task.tolerance)?;
     requirements(machine, &task.objective, &task.require)?;
-    Sought::new(machine, &task.objective)?;
+    let sought = Sought::new(machine, &task.objective)?;
+    let may_lack = |it: &Objective| matches!(it.figure, Figure::FrequencyG0 | Figure::FrequencySn);
+    if task.search.zone == Motions::SingleImpact
+        && let Some(it) = sought.objectives.iter().find(|it| may_lack(it))
+    {
+        return Err(Failure::usage(format!(
+            "objective: {}: cannot be traded with search.zone = \"z = 1\": not all motions have a value; it goes to [require]",
+            it.figure.name()
+        )));
+    }
     let searched = searched(machine, &[variables(&task.vary)?], false)?;
     let mut axes = searched.axes.iter();
     axes.try_for_each(|axis| has_effect(machine, axis))

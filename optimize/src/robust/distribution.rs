@@ -11,7 +11,7 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// The same over so many standard deviations to either side, and how many times as wide that is.
+    /// The distribution over so many standard deviations to either side, and how many times as wide that is.
     #[must_use]
     pub fn over(self, deviations: f64) -> (Self, f64) {
         match self {

@@ -118,7 +118,7 @@ impl Tolerances {
         &self.tolerances
     }
 
-    /// The same with normal tolerances of so many standard deviations to either side.
+    /// The box with normal tolerances of so many standard deviations to either side.
     #[must_use]
     pub fn over(&self, deviations: f64) -> Self {
         let mut all = self.clone();

@@ -37,7 +37,11 @@ impl<'a> Screen<'a> {
                 Some((at.clone(), values))
             });
             let (kept, values): (Vec<Vec<f64>>, Vec<Vec<f64>>) = values.unzip();
-            screen.models = models(&kept, &values, required.len());
+            // Polynomials of a few survivors tell nothing of what lies between them.
+            let is_enough = 2 * kept.len() > places.len();
+            screen.models = is_enough
+                .then(|| models(&kept, &values, required.len()))
+                .flatten();
         }
         screen
     }

@@ -28,6 +28,8 @@ pub struct Settings {
     pub machines: usize,
     /// With so many lost it is enough: each of them has to be followed.
     pub enough: usize,
+    /// The first of the points that are drawn, a multiple of 65,536: others give an independent count.
+    pub first: usize,
 }
 
 impl Default for Settings {
@@ -36,6 +38,7 @@ impl Default for Settings {
         Self {
             machines: 16 * BLOCK,
             enough: 1000,
+            first: 0,
         }
     }
 }
@@ -155,7 +158,7 @@ pub fn verify(
 ) -> Result<Verdict, OrbitError> {
     let dimensions = spread.dimensions();
     // A sequence of their own: the first that the machines do not use.
-    let first = settings.machines.next_multiple_of(BLOCK);
+    let first = settings.first + settings.machines.next_multiple_of(BLOCK);
     let known = first..first + Model::wanted(dimensions);
     let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
     let guide = Guide::new(spread, nominal, &known)?;
@@ -177,7 +180,7 @@ pub fn verify(
         let rows = blocks(machines.start as u64..machines.end as u64, ROW);
         let fates = rows.map(|row| {
             let fate = |index| {
-                let at = drawn(spread, index as usize);
+                let at = drawn(spread, settings.first + index as usize);
                 let fate = guide.fate(&at);
                 let violated = screen.violated(&at, &fate);
                 (fate, violated)
@@ -194,7 +197,7 @@ pub fn verify(
         for (index, (fate, violated)) in machines.zip(fates.into_iter().flatten()) {
             let is_lost = matches!(fate, Fate::Lost { .. });
             verdict.rejected += usize::from(is_lost || violated.contains(&true));
-            verdict.take(index, spread, fate);
+            verdict.take(settings.first + index, spread, fate);
             for (count, is_violated) in verdict.violating.iter_mut().zip(violated) {
                 *count += usize::from(is_violated);
             }

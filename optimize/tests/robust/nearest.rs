@@ -75,6 +75,7 @@ fn no_machine_within_is_lost_and_some_are_just_outside() -> Outcome {
     let few = |machines| Settings {
         machines,
         enough: 1,
+        first: 0,
     };
     for machine in machines()? {
         for percent in [TWO.to_vec(), shop(&machine)] {

@@ -16,6 +16,7 @@ use super::{Outcome, machines, press, shop, spread};
 const FEW: Settings = Settings {
     machines: 4096,
     enough: usize::MAX,
+    first: 0,
 };
 
 #[test]
@@ -141,6 +142,7 @@ fn enough_lost_machines_or_a_watcher_end_it() -> Outcome {
     let settings = Settings {
         machines: 4 * BLOCK,
         enough: 10,
+        first: 0,
     };
     let verdict = verify(&tolerances, &nominal, (settings, &[]), &unwatched)?;
     assert!(verdict.lost >= 10 && verdict.machines < BLOCK);

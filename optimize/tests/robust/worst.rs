@@ -57,6 +57,7 @@ fn no_machine_strikes_less_than_the_worst() -> Outcome {
     let few = Settings {
         machines: 4096,
         enough: 1,
+        first: 0,
     };
     for machine in machines()? {
         for factor in [1.0, 3.0] {

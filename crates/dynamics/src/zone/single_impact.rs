@@ -191,7 +191,7 @@ fn ended(
     followed_to_end(follower, points, heading, range)
 }
 
-/// The same by a look at every special point, from the last point on, or from the first one if there is nothing to see
+/// The end by a look at every special point, from the last point on, or from the first one if there is nothing to see
 /// from the last.
 fn followed_to_end(
     follower: &Follower<'_, Frequencies<'_>>,

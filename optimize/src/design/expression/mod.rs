@@ -6,6 +6,7 @@ mod step;
 use super::slope::Slope;
 use parser::Parser;
 use step::Step;
+pub(super) use step::chained;
 
 /// Characters of an expression at most.
 const MAX_LENGTH: usize = 1000;
@@ -120,6 +121,19 @@ mod tests {
     }
 
     #[test]
+    fn what_has_no_value_has_none_of_its_maximum() -> Result<(), String> {
+        for text in ["max(ln(-1), 3)", "max(3, ln(-1))", "min(3, x)", "min(x, 3)"] {
+            assert!(
+                Expression::parse(text)?.at(&[f64::NAN]).value.is_nan(),
+                "{text}"
+            );
+        }
+        let power = Expression::parse("x^0")?.at(&[0.0]);
+        assert_eq!((power.value, power.by[0]), (1.0, 0.0));
+        Ok(())
+    }
+
+    #[test]
     fn what_is_no_expression_is_refused() {
         for (text, says) in [
             ("", "ends where a number, a name or a bracket"),
@@ -137,7 +151,9 @@ mod tests {
             let error = Expression::parse(text).expect_err(text);
             assert!(error.contains(says), "{error}");
         }
-        assert!(Expression::parse(&"(".repeat(1000)).is_err());
+        let nested = |depth| "(".repeat(depth) + "1" + &")".repeat(depth);
+        assert!(Expression::parse(&nested(99)).is_ok());
+        assert!(Expression::parse(&nested(450)).is_err());
         assert!(Expression::parse(&"x+".repeat(501)).is_err());
     }
 }

@@ -25,7 +25,12 @@ pub struct Parser<'a> {
     rest: &'a str,
     steps: Vec<Step>,
     names: Vec<String>,
+    /// Brackets that are open.
+    depth: usize,
 }
+
+/// Brackets within brackets at most.
+const DEEPEST: usize = 100;
 
 impl<'a> Parser<'a> {
     /// The steps of an expression and the names in it.
@@ -37,6 +42,7 @@ impl<'a> Parser<'a> {
             rest: text.trim_start(),
             steps: Vec::new(),
             names: Vec::new(),
+            depth: 0,
         };
         parser.sum()?;
         match parser.rest {
@@ -71,6 +77,12 @@ impl<'a> Parser<'a> {
     }
 
     fn sum(&mut self) -> Result<(), String> {
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return Err(format!(
+                "has more than {DEEPEST} brackets within each other"
+            ));
+        }
         self.product()?;
         while let Some(sign) = self.sign(&['+', '-']) {
             self.product()?;
@@ -81,6 +93,7 @@ impl<'a> Parser<'a> {
                 Binary::Minus
             }));
         }
+        self.depth -= 1;
         Ok(())
     }
 

@@ -55,6 +55,7 @@ impl Binary {
     pub fn at(self, first: &Slope, second: &Slope) -> Slope {
         let (x, y) = (first.value, second.value);
         let pick = |is_first: bool| match is_first {
+            _ if x.is_nan() || y.is_nan() => (f64::NAN, f64::NAN, f64::NAN),
             true => (x, 1.0, 0.0),
             false => (y, 0.0, 1.0),
         };
@@ -63,7 +64,7 @@ impl Binary {
             Self::Minus => (x - y, 1.0, -1.0),
             Self::Times => (x * y, y, x),
             Self::Over => (x / y, y.recip(), -x / (y * y)),
-            Self::Power => (x.powf(y), y * x.powf(y - 1.0), x.powf(y) * x.ln()),
+            Self::Power => (x.powf(y), chained(x.powf(y - 1.0), y), x.powf(y) * x.ln()),
             Self::Max => pick(x >= y),
             Self::Min => pick(x <= y),
         };
@@ -78,6 +79,6 @@ impl Binary {
 }
 
 /// A product of derivatives; 0 if the inner one is, whatever the outer.
-fn chained(outer: f64, inner: f64) -> f64 {
+pub fn chained(outer: f64, inner: f64) -> f64 {
     if inner == 0.0 { 0.0 } else { outer * inner }
 }
