@@ -17,6 +17,7 @@ pub mod title;
 mod tolerance;
 mod toml_leaves;
 mod vary;
+mod ways;
 
 use std::path::PathBuf;
 
