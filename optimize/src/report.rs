@@ -130,7 +130,7 @@ impl OptimizeReport {
                 .pareto
                 .as_ref()
                 .map(|it| FrontReport::new(problem, it)),
-            tolerances: study.map(|it| Tolerated::of(machine, it)),
+            tolerances: study.map(|it| Tolerated::of(problem, design, it)),
             run_up: ways.collect(),
             left_out: left_out(design),
             search: SearchReport::new(problem, evaluations, found),

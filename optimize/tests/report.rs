@@ -157,6 +157,7 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
     for told in [
         "follows stop.stiffness",
         "kinetic energy before the impact",
+        "Kinetic energy before the impact: without tolerances ",
         "sought",
     ] {
         assert!(written.text.contains(told), "{told}");
