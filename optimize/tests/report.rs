@@ -302,6 +302,24 @@ fn files_in_place_of_older_ones_are_told() -> Outcome {
     Ok(())
 }
 
+/// Nothing is ever in contact with a rigid stop, so its damping there changes nothing; the clearance does.
+#[test]
+fn what_is_searched_without_effect_is_named() -> Outcome {
+    let machine = "../docs/scenes/rigid.toml";
+    let line = [machine, "--no-report", "--vary", "clearance=5:20"];
+    let idle = ["--vary", "contact.damping=0:1"];
+    let written = optimize(&[&line[..], &idle].concat())?;
+    assert_eq!(
+        written.report["without_effect"],
+        serde_json::json!(["contact.damping"])
+    );
+    let told = "Without effect on what is sought and required of the motion: contact.damping.";
+    assert!(written.text.contains(told));
+    let written = optimize(&line)?;
+    assert!(written.report.get("without_effect").is_none());
+    Ok(())
+}
+
 /// With a margin of 0.1 a design of another ridge is nearly as good as the best.
 #[test]
 fn a_distant_design_that_is_nearly_as_good_is_told() -> Outcome {
