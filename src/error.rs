@@ -85,7 +85,12 @@ pub enum MachineError {
     #[error("{0}")]
     Syntax(String),
     /// A key that no machine has.
-    #[error("{}{key}: unknown key{}; known are {known}", at(*line), did_you_mean(*meant))]
+    #[error(
+        "{}{key}: unknown key{}{}; known are {known}",
+        at(*line),
+        did_you_mean(*meant),
+        of_turns(key, *meant)
+    )]
     UnknownKey {
         /// Its line in the file.
         line: Option<usize>,
@@ -149,9 +154,9 @@ pub enum MachineError {
     /// A key that is set twice.
     #[error("{0}: is set twice")]
     Twice(&'static str),
-    /// A key that every machine must state.
-    #[error("missing key `{0}`")]
-    Missing(&'static str),
+    /// A key that every machine must state, and what it is for.
+    #[error("missing key `{0}`: {1}")]
+    Missing(&'static str, &'static str),
     /// A key in SI units in a file of ratios.
     #[error("{0}: must stand in [ratios]; only name, description and [initial] stand beside it")]
     BesideRatios(String),
@@ -177,6 +182,16 @@ pub fn plain(value: f64) -> String {
 
 fn at(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))
+}
+
+/// How revolutions per minute are stated, if a key in Hz is meant by one that speaks of them.
+fn of_turns(key: &str, meant: Option<&str>) -> &'static str {
+    match meant {
+        Some(meant) if key.ends_with("rpm") && meant.ends_with("_hz") => {
+            ": revolutions per minute over 60"
+        }
+        _ => "",
+    }
 }
 
 /// What a misspelt name may mean, in words; nothing if that is none.

@@ -54,6 +54,9 @@ pub struct OptimizeReport {
     comparison: Vec<Record>,
     /// What holds the design back.
     limits: Vec<Limit>,
+    /// Keys of what was searched and changes nothing of what is sought and required of the motion.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    without_effect: Vec<&'static str>,
     /// What was required, and what the design has of it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     requirements: Vec<Record>,
@@ -113,6 +116,8 @@ impl OptimizeReport {
         let met = found.met.iter().map(|it| verdict::required(machine, it));
         let rivals = found.rivals.iter().map(|it| verdict::rival(problem, it));
         let fronts = found.fronts.iter().map(|it| verdict::traded(problem, it));
+        let idle = found.without_effect.iter();
+        let idle = idle.map(|it| machine.name(*it));
         let ways = found.run_up.iter();
         let ways = ways.flat_map(|all| all.ways.iter().map(move |it| (machine, all, it)));
         let ways = ways.map(|it| Record::of(&started::columns(), &it));
@@ -123,6 +128,7 @@ impl OptimizeReport {
             reference: references.iter().map(reference).collect(),
             comparison: comparison(problem, design, references),
             limits,
+            without_effect: idle.collect(),
             requirements: met.collect(),
             rivals: rivals.collect(),
             fronts: fronts.collect(),
@@ -130,7 +136,7 @@ impl OptimizeReport {
                 .pareto
                 .as_ref()
                 .map(|it| FrontReport::new(problem, it)),
-            tolerances: study.map(|it| Tolerated::of(machine, it)),
+            tolerances: study.map(|it| Tolerated::of(problem, design, it)),
             run_up: ways.collect(),
             left_out: left_out(design),
             search: SearchReport::new(problem, evaluations, found),
@@ -161,6 +167,11 @@ impl OptimizeReport {
         if !self.limits.is_empty() {
             let limits: Vec<&str> = self.limits.iter().map(|it| it.words.as_str()).collect();
             text += &format!("Held back by: {}.\n", limits.join("; "));
+        }
+        if !self.without_effect.is_empty() {
+            let all = self.without_effect.join(", ");
+            text +=
+                &format!("Without effect on what is sought and required of the motion: {all}.\n");
         }
         text
     }

@@ -10,7 +10,10 @@ use softstop_console::table::sections;
 
 use softstop_explore::zone::lost_by;
 
+use crate::design::figure::Figure;
+use crate::design::{Design, Problem};
 use crate::optimize::study::{Statistics, Study, Without};
+use crate::page::capital;
 use crate::robust::{Index, Manifold, Nearest, Tolerance};
 
 /// The machines within the tolerances of a design.
@@ -115,8 +118,10 @@ fn withouts() -> [Column<Without>; 4] {
     }
 }
 
-/// What the tolerances cost: nominal and worst of the best design without them and of the one with them.
-fn price(machine: &Machine, study: &Study, without: &Without) -> String {
+/// What the tolerances cost: what is sought, and the velocity in the worst machine, of the best design without them and of the
+/// one with them.
+fn price(problem: &Problem, design: &Design, study: &Study, without: &Without) -> String {
+    let machine = &design.machine;
     let unit = machine.unit(Dimension::Velocity);
     let own = |velocity| Six.format(machine.to_own(Dimension::Velocity, velocity));
     let slowest = own(without.slowest);
@@ -127,8 +132,22 @@ fn price(machine: &Machine, study: &Study, without: &Without) -> String {
             without.machines
         ),
     };
+    let figure = problem.objective.figure;
+    let sought = [&without.design.orbit, &design.orbit]
+        .map(|orbit| problem.value_of_motion(figure, orbit))
+        .map(|value| value.map(|it| machine.to_own(figure.dimension(), it)));
+    let sought = match sought {
+        [Some(without), Some(robust)] if figure != Figure::Velocity => format!(
+            "{}: without tolerances {} {unit}, robust design {} {unit}. ",
+            capital(figure.meaning()),
+            Six.format(without),
+            Six.format(robust),
+            unit = machine.unit(figure.dimension()),
+        ),
+        _ => String::new(),
+    };
     let told = format!(
-        "Without tolerances {} {unit} nominal, {worst}; robust design {} nominal, {} worst",
+        "{sought}Without tolerances {} {unit} nominal, {worst}; robust design {} nominal, {} worst",
         own(without.design.before_impact_velocity()),
         own(study.nominal),
         own(study.slowest()),
@@ -138,7 +157,7 @@ fn price(machine: &Machine, study: &Study, without: &Without) -> String {
 
 impl Tolerated {
     /// Those of a study.
-    pub(crate) fn of(machine: &Machine, study: &Study) -> Self {
+    pub(crate) fn of(problem: &Problem, design: &Design, study: &Study) -> Self {
         let all = 0..study.tolerances.len();
         let without = study.without.as_ref();
         let statistics = study.statistics.as_ref();
@@ -151,10 +170,10 @@ impl Tolerated {
                 .map(|it| Record::of(&manifolds(), &it))
                 .collect(),
             parameters: all
-                .map(|index| Record::of(&parameters(), &(machine, study, index)))
+                .map(|index| Record::of(&parameters(), &(&design.machine, study, index)))
                 .collect(),
             without: without.map(|it| Record::of(&withouts(), it)),
-            price: without.map(|it| price(machine, study, it)),
+            price: without.map(|it| price(problem, design, study, it)),
         }
     }
 

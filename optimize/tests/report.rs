@@ -6,7 +6,7 @@ use std::path::Path;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use serde_json::Value;
-use softstop_testing::Program;
+use softstop_testing::{Program, files};
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
@@ -157,6 +157,7 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
     for told in [
         "follows stop.stiffness",
         "kinetic energy before the impact",
+        "Kinetic energy before the impact: without tolerances ",
         "sought",
     ] {
         assert!(written.text.contains(told), "{told}");
@@ -282,22 +283,40 @@ fn preloads_of_ratio_machines_are_of_one_kind_in_a_row() -> Outcome {
 }
 
 /// An older result is not taken for a new one.
+/// A report and its tables do not stay beside the design of a later run without them; a file that no run has written does.
 #[test]
-fn files_in_place_of_older_ones_are_told() -> Outcome {
+fn files_in_place_of_older_ones_and_removed_ones_are_told() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().to_str().ok_or("path")?;
-    let line = [
-        "optimize",
-        "--vary",
-        "stop.stiffness=7",
-        "--vary",
-        "clearance=9:11",
-    ];
-    let few = ["--evaluations", "100", "--no-report", "--output", path];
-    let line = [&line[..], &few].concat();
-    let texts = [SOFTSTOP.text(&line), SOFTSTOP.text(&line)];
-    let older = texts.map(|text| text.matches(", in place of an older one)").count());
+    let line = "optimize --vary stop.stiffness=7 --vary clearance=9:11 --evaluations 100 --output";
+    let line = Vec::from_iter(line.split(' ').chain([path]));
+    let own = folder.path().join("own.csv");
+    let (first, tables) = (SOFTSTOP.text(&line), files(folder.path()).len());
+    fs::write(&own, "1,2\n")?;
+    let second = SOFTSTOP.text(&[&line[..], &["--no-report"]].concat());
+    let older = [first, second.clone()].map(|it| it.matches(", in place of an older one)").count());
     assert_eq!(older, [0, 5]);
+    assert_eq!(second.matches(" (of an earlier run)").count(), tables - 5);
+    assert_eq!(files(folder.path()).len(), 5 + 1);
+    assert!(own.exists());
+    Ok(())
+}
+
+/// Nothing is ever in contact with a rigid stop, so its damping there changes nothing; the clearance does.
+#[test]
+fn what_is_searched_without_effect_is_named() -> Outcome {
+    let machine = "../docs/scenes/rigid.toml";
+    let line = [machine, "--no-report", "--vary", "clearance=5:20"];
+    let idle = ["--vary", "contact.damping=0:1"];
+    let written = optimize(&[&line[..], &idle].concat())?;
+    assert_eq!(
+        written.report["without_effect"],
+        serde_json::json!(["contact.damping"])
+    );
+    let told = "Without effect on what is sought and required of the motion: contact.damping.";
+    assert!(written.text.contains(told));
+    let written = optimize(&line)?;
+    assert!(written.report.get("without_effect").is_none());
     Ok(())
 }
 

@@ -258,13 +258,17 @@ fn initial(table: &mut DeTable<'_>) -> Result<Option<Initial>, Trouble> {
     }
 }
 
+/// Why a machine has a damping in contact.
+const DAMPER: &str =
+    "the damper while bodies touch; a rigid stop without a strip does not use it, 0 will do";
+
 /// `contact.damping` is the field `contact_damping` of a scene.
 fn contact(table: &mut DeTable<'_>) -> Result<(), Trouble> {
     let damping = inner(table, "contact").and_then(|contact| contact.remove_entry("damping"));
     table.remove("contact");
     match (damping, table.contains_key("contact_damping")) {
         (Some(_), true) => Err(MachineError::Both("contact.damping", "contact_damping").into()),
-        (None, false) => Err(MachineError::Missing("contact.damping").into()),
+        (None, false) => Err(MachineError::Missing("contact.damping", DAMPER).into()),
         (None, true) => Ok(()),
         (Some((key, damping)), false) => {
             table.insert(Spanned::new(key.span(), "contact_damping".into()), damping);

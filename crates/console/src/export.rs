@@ -45,11 +45,11 @@
 
 use std::borrow::Borrow;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::path::Path;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
-use serde::Serialize;
+use anyhow::{Context, anyhow};
+use serde::{Deserialize, Serialize};
 
 use crate::column::{Cell, Column};
 use crate::failure::Failure;
@@ -95,6 +95,13 @@ pub fn csv<T>(
 struct Filed<'a, R> {
     #[serde(flatten)]
     report: &'a R,
+    files: BTreeMap<String, String>,
+}
+
+/// What an earlier run has said of its files.
+#[derive(Default, Deserialize)]
+struct Earlier {
+    #[serde(default)]
     files: BTreeMap<String, String>,
 }
 
@@ -210,7 +217,8 @@ impl Export {
         self.file(chart, svg.as_bytes())
     }
 
-    /// Writes the JSON into the file whose name says so, if there is one, puts all files in place and prints.
+    /// Writes the JSON into the file whose name says so, if there is one, puts all files in place, takes away what only an
+    /// earlier run has written and prints.
     pub fn finish(self, report: &impl Report, format: Format) -> Result<(), Failure> {
         let place = |(kind, name): &(String, String)| {
             (kind.clone(), self.folder.place(name).display().to_string())
@@ -225,15 +233,44 @@ impl Export {
             text += &format!("Written: {path} ({kind}{older})\n");
         }
         let json = output::json(&Filed { report, files })?;
-        if let Some((kind, _)) = self.files.iter().find(|file| file.1.ends_with(".json")) {
+        let stale = self.stale();
+        if let Some((kind, _)) = self.json() {
             self.file(kind, json.as_bytes())?;
         }
         let names: Vec<&str> = self.files.iter().map(|(_, name)| name.as_str()).collect();
         self.folder.commit(&names)?;
+        for path in stale {
+            let place = path.display();
+            fs::remove_file(&path).with_context(|| format!("cannot remove {place}"))?;
+            text += &format!("Removed: {place} (of an earlier run)\n");
+        }
         output::print(match format {
             Format::Json => &json,
             Format::Text => &text,
         })
+    }
+
+    /// Kind and name of the file that holds the JSON.
+    fn json(&self) -> Option<&(String, String)> {
+        self.files.iter().find(|file| file.1.ends_with(".json"))
+    }
+
+    /// The files in the folder that the JSON of an earlier run there names, and that there will be no more.
+    fn stale(&self) -> Vec<PathBuf> {
+        let text = self.json().map(|(_, name)| self.folder.place(name));
+        let text = text.and_then(|path| fs::read_to_string(path).ok());
+        let earlier: Option<Earlier> = text.and_then(|text| serde_json::from_str(&text).ok());
+        let stale = |(kind, path): (String, String)| {
+            let name = Path::new(&path).file_name()?.to_str()?;
+            let (_, ending) = name.rsplit_once('.')?;
+            let is_kind = kind.rsplit('_').next() == Some(ending);
+            let is_written = self.files.iter().any(|(_, other)| other == name);
+            let place = self.folder.place(name);
+            let is_file = fs::symlink_metadata(&place).is_ok_and(|it| it.is_file());
+            (is_kind && !is_written && is_file).then_some(place)
+        };
+        let files = earlier.unwrap_or_default().files;
+        files.into_iter().filter_map(stale).collect()
     }
 
     /// The name of the file of a kind.

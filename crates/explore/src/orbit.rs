@@ -6,7 +6,7 @@ use serde::Serialize;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::find_watched;
 
-use softstop::{Machine, Parameter};
+use softstop::{Machine, Parameter, Scene, Stop};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column::Units;
@@ -61,6 +61,9 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
         .budget
         .limit(find)?
         .map_err(|error| match error {
+            OrbitError::NotFound { .. } if is_free(&machine.scene) => {
+                anyhow!("stop.model = \"none\": the machine has no stop, so no motion of it has an impact")
+            }
             OrbitError::NotFound { clearance, .. } => anyhow!(
                 "no stable z = 1 motion found at {} = {}, clearance = {clearance}",
                 machine.name(Parameter::Frequency),
@@ -79,6 +82,11 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
         machine: &machine,
     };
     export::print(&report, arguments.format)
+}
+
+/// True if nothing stands in the way of the mass.
+fn is_free(scene: &Scene) -> bool {
+    scene.stop == Stop::None && scene.piercing.is_none() && scene.wall().is_none()
 }
 
 /// What `softstop orbit` reports.

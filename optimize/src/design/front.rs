@@ -11,6 +11,7 @@ use super::check_trials::nearby;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
 use super::figure::{Figure, Sense};
+use super::non_dominated::non_dominated;
 use super::problem::Problem;
 use super::requirement::{Requirement, Scope};
 use super::robustify::enforce;
@@ -132,9 +133,7 @@ pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded>
     // At a bound of the problem itself rounding makes no point better.
     tried.retain(|it| !beats(problem, figure, it.place, own));
     let left_out = others.len() + 1 - tried.len();
-    let mut best = undominated(problem, figure, &tried);
-    best.sort_by(|a, b| a.place.0.total_cmp(&b.place.0));
-    best.dedup_by(|a, b| a.place == b.place);
+    let best = undominated(problem, figure, &tried);
     let front = Front {
         figure,
         design: own,
@@ -162,13 +161,18 @@ fn beats(problem: &Problem, figure: Figure, one: (f64, f64), other: (f64, f64)) 
     is_better && score(one.1) > score(other.1)
 }
 
-/// Those that no other one beats in both quantities.
+/// Those that no other one is as good as in both quantities and better in one, in rising order of the figure.
 fn undominated<'a>(problem: &Problem, figure: Figure, tried: &'a [Tried]) -> Vec<&'a Tried> {
-    let is_beaten = |it: &&Tried| {
-        let mut all = tried.iter();
-        all.any(|other| beats(problem, figure, other.place, it.place))
+    let sign = match figure.sense() {
+        Sense::Least => 1.0,
+        Sense::Most => -1.0,
     };
-    tried.iter().filter(|it| !is_beaten(it)).collect()
+    let places = tried.iter().map(|it| it.place);
+    let goods = places.map(|(value, sought)| vec![sign * value, problem.objective.score(sought)]);
+    let members = non_dominated(&Vec::from_iter(goods)).members;
+    let mut best: Vec<&Tried> = members.into_iter().map(|index| &tried[index]).collect();
+    best.sort_by(|a, b| a.place.0.total_cmp(&b.place.0));
+    best
 }
 
 /// A design on the way, and the task that it solves.

@@ -45,6 +45,7 @@ pub mod space;
 mod survey;
 pub mod trial;
 mod within;
+mod without_effect;
 
 use std::slice;
 

@@ -17,6 +17,7 @@ pub mod title;
 mod tolerance;
 mod toml_leaves;
 mod vary;
+mod ways;
 
 use std::path::PathBuf;
 
@@ -100,7 +101,8 @@ of them are looked at (--samples).
 Files, whole or not at all: report.html (for people, one page), design.json (what --format json prints),
 design.toml (the machine, for every command), design.fmu (FMI 2.0 co-simulation, starting in the design's
 motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report; of a front pareto.csv and
-pareto.svg, and the design with the best of the figure that is named first in the others.
+pareto.svg, and the design with the best of the figure that is named first in the others. Files that only an
+earlier run has written there are removed.
 Ctrl-C writes the best design so far, marked as such and without its report; a second one ends at once.";
 
 /// Has the tasks checked that stand in machine files, by every command.

@@ -1,6 +1,7 @@
 //! What came of a search, and what was looked at of the design beside it.
 
 use serde::Serialize;
+use softstop::Parameter;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_dynamics::basin::ErosionProfile;
@@ -58,6 +59,8 @@ pub struct Outcome {
     pub deviations: f64,
     /// All that holds it back.
     pub limits: Vec<Limit>,
+    /// Searched parameters that change nothing of what is sought and required.
+    pub without_effect: Vec<Parameter>,
     /// The best design if nothing has a tolerance and nothing is tried.
     pub relaxed: Option<Design>,
     /// Others nearly as good, far from it.

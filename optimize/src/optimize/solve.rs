@@ -95,6 +95,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     };
     Ok(Outcome {
         met,
+        without_effect: found.without_effect(problem),
         design: found.design,
         deviations,
         erosion,

@@ -1,0 +1,59 @@
+//! How a machine may be run up: what `require.run_up = { ... }` says besides bounds.
+
+use serde::Deserialize;
+use softstop::{Dimension, Machine};
+use softstop_console::failure::Failure;
+use softstop_dynamics::run_up::{self, Way};
+use toml::Value;
+
+/// What `run_up = { ... }` says of the ways.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Ways {
+    ways: Option<Vec<Way>>,
+    ramp_rate: Option<f64>,
+    force: Option<f64>,
+}
+
+/// Its keys.
+pub(super) const WAYS: [&str; 3] = ["ways", "ramp_rate", "force"];
+
+/// How a machine may be run up: a ramp's rate is a change of the frequency each drive period.
+pub(super) fn ways(machine: &Machine, value: Option<&Value>) -> Result<run_up::Settings, Failure> {
+    let usual = run_up::Settings::default();
+    let Some(Value::Table(words)) = value else {
+        return Ok(usual);
+    };
+    let usage = |what: &str| Failure::usage(format!("require.run_up{what}"));
+    let words: Ways = words
+        .clone()
+        .try_into()
+        .map_err(|error: toml::de::Error| usage(&format!(": {}", error.message())))?;
+    let positive = |key: &str, value: Option<f64>, dimension| {
+        let Some(value) = value else { return Ok(None) };
+        match value > 0.0 && value.is_finite() {
+            true => Ok(Some(machine.to_si(dimension, value))),
+            false => Err(usage(&format!(".{key} = {value}: must be positive"))),
+        }
+    };
+    let ways = words.ways.unwrap_or(usual.ways);
+    if ways.is_empty() {
+        return Err(usage(".ways: must name a way"));
+    }
+    if let Some(twice) = (1..ways.len()).find(|index| ways[..*index].contains(&ways[*index])) {
+        return Err(usage(&format!(
+            ".ways: {} is given twice",
+            ways[twice].name()
+        )));
+    }
+    let (ramp, most_force) = (
+        positive("ramp_rate", words.ramp_rate, Dimension::Frequency)?,
+        positive("force", words.force, Dimension::Force)?,
+    );
+    Ok(run_up::Settings {
+        ways,
+        ramp,
+        most_force,
+        with_peaks: false,
+    })
+}
