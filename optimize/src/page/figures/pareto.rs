@@ -1,8 +1,9 @@
 //! The designs of a front: each pair of what is sought.
 
-use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
+use softstop_draw::{Align, Axis, Layer, Mark, Panel, Stroke, style};
 
 use crate::design::Problem;
+use crate::design::figure::Sense;
 use crate::design::pareto::Pareto;
 use crate::design::problem::Objective;
 use crate::page::figure::{Figure, HALF, Section, WIDE};
@@ -61,8 +62,16 @@ fn panel(problem: &Problem, front: &Pareto, axes: [usize; 2]) -> Panel {
     let first = Layer::marks(at(0), Mark::Triangle, style::OPTIMUM).sized(8.0);
     let nearest = Layer::marks(at(front.nearest), Mark::Diamond, style::OPTIMUM).sized(7.0);
     let line = (front.objectives.len() == 2).then(|| Layer::line(all.clone(), LINED));
+    // On the side of the designs that are dominated.
+    let [x, y] = axes.map(|axis| front.objectives[axis].sense);
+    let (align, right) = match x {
+        Sense::Most => (Align::Left, 7.0),
+        Sense::Least => (Align::Right, -7.0),
+    };
+    let down = if y == Sense::Least { 15.0 } else { -6.0 };
     let labels = all.iter().enumerate();
-    let labels = labels.map(|(index, at)| Layer::label(*at, (index + 1).to_string()));
+    let labels = labels
+        .map(|(index, at)| Layer::text(*at, align, (index + 1).to_string()).moved(right, down));
     let layers = line.into_iter().chain([
         marks.named("front"),
         first.named("this design"),
