@@ -1,6 +1,6 @@
 //! The designs of a front: each pair of what is sought.
 
-use softstop_draw::{Align, Axis, Layer, Mark, Panel, Stroke, style};
+use softstop_draw::{Align, Axis, Layer, Mark, Panel, Stroke, around, style};
 
 use crate::design::Problem;
 use crate::design::figure::Sense;
@@ -12,6 +12,9 @@ use crate::pareto::told;
 const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
 /// Height of a row of panels.
 const ROW: f64 = 400.0;
+/// Room about the designs, as a share of their range, and the share of it within which one number stands for all.
+const ROOM: f64 = 0.1;
+const CLOSE: f64 = 0.04;
 
 /// The picture.
 pub fn pareto(problem: &Problem, front: &Pareto) -> Figure {
@@ -69,17 +72,30 @@ fn panel(problem: &Problem, front: &Pareto, axes: [usize; 2]) -> Panel {
         Sense::Least => (Align::Right, -7.0),
     };
     let down = if y == Sense::Least { 15.0 } else { -6.0 };
-    let labels = all.iter().enumerate();
-    let labels = labels
-        .map(|(index, at)| Layer::text(*at, align, (index + 1).to_string()).moved(right, down));
+    let ranges = [
+        around(all.iter().map(|at| at.0), ROOM),
+        around(all.iter().map(|at| at.1), ROOM),
+    ];
+    let is_near =
+        |one: f64, other: f64, (low, high): (f64, f64)| (one - other).abs() < CLOSE * (high - low);
+    let mut numbered: Vec<usize> = Vec::new();
+    for (index, at) in all.iter().enumerate() {
+        let mut others = numbered.iter().map(|other| all[*other]);
+        if !others.any(|it| is_near(it.0, at.0, ranges[0]) && is_near(it.1, at.1, ranges[1])) {
+            numbered.push(index);
+        }
+    }
+    let labels = numbered
+        .into_iter()
+        .map(|index| Layer::text(all[index], align, (index + 1).to_string()).moved(right, down));
     let layers = line.into_iter().chain([
         marks.named("front"),
         first.named("this design"),
         nearest.named("nearest to the best of each"),
     ]);
     Panel {
-        x: axis(axes[0]),
-        y: axis(axes[1]),
+        x: axis(axes[0]).range(ranges[0]),
+        y: axis(axes[1]).range(ranges[1]),
         layers: layers.chain(labels).collect(),
         ..Panel::default()
     }
