@@ -7,7 +7,7 @@ use softstop_dynamics::run_up::{self, Way};
 use toml::{Table, Value};
 
 use super::objective::{Goal, known, lacks};
-use super::toml_leaves::number;
+use super::toml_leaves::{number, percent};
 use super::ways::{WAYS, ways};
 use crate::design::figure::{Figure, Sense};
 use crate::design::problem::VIOLATING;
@@ -174,13 +174,6 @@ pub(super) fn requirements(
 /// True for a figure that may be stated in per cent.
 fn is_share(figure: Figure) -> bool {
     matches!(figure, Figure::Certainty | Figure::Share)
-}
-
-/// A share as text, `"50 %"`.
-fn percent(value: &Value) -> Option<f64> {
-    let text = value.as_str()?;
-    let share: f64 = text.trim().strip_suffix('%')?.trim().parse().ok()?;
-    Some(share / 100.0)
 }
 
 /// Where bounds of a figure can lie.

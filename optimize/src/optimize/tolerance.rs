@@ -5,7 +5,7 @@ use softstop::Machine;
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
-use super::toml_leaves::{leaves, number};
+use super::toml_leaves::{leaves, number, percent};
 use crate::design::problem::{Tolerance, Width};
 use crate::robust::Distribution;
 
@@ -83,14 +83,8 @@ pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Toleran
             }
             value => (value.clone(), Distribution::Box),
         };
-        let width = match &stated {
-            Value::String(share) => {
-                let share = share.trim().strip_suffix('%').map(str::trim);
-                let share = share.and_then(|share| share.parse().ok());
-                share.map(|share: f64| Width::Share(share / 100.0))
-            }
-            value => number(value).map(|width| Width::Own(width * unit)),
-        };
+        let share = percent(&stated).map(Width::Share);
+        let width = share.or_else(|| Some(Width::Own(number(&stated)? * unit)));
         let width = width.filter(Width::is_allowed).ok_or_else(|| {
             wrong("must be a half-width, finite and >= 0, or a share such as \"2 %\", below 100 %")
         })?;

@@ -35,3 +35,10 @@ pub(super) fn number(value: &Value) -> Option<f64> {
     let whole = || value.as_integer().map(|integer| integer as f64);
     value.as_float().or_else(whole)
 }
+
+/// A share as text, `"50 %"`.
+pub(super) fn percent(value: &Value) -> Option<f64> {
+    let text = value.as_str()?;
+    let share: f64 = text.trim().strip_suffix('%')?.trim().parse().ok()?;
+    Some(share / 100.0)
+}
