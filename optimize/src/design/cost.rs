@@ -138,3 +138,16 @@ impl Cost {
         Some(total)
     }
 }
+
+/// The value of a figure that a motion tells by itself, or of what its design costs, in SI units; none if there is none.
+pub fn value_of_motion(
+    (figure, cost): (Figure, Option<&Cost>),
+    orbit: &Orbit,
+    stroke: &Stroke,
+) -> Option<f64> {
+    let value = match figure {
+        Figure::Cost => cost?.value(orbit, stroke),
+        _ => figure.of_motion(orbit, stroke)?,
+    };
+    value.is_finite().then_some(value)
+}

@@ -10,6 +10,7 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{end_along, find_zones, free_amplitude, loss_of_stability};
 use softstop_dynamics::{Along, Orbit, Stroke, Zone};
 
+use super::cost::value_of_motion;
 use super::figure::Figure;
 use super::problem::Problem;
 use super::requirement::Requirement;
@@ -255,10 +256,11 @@ impl Problem {
     /// The value of a figure of a motion, as [`Judged::value`], or its cost.
     pub fn value(&self, motion: &Judged<'_>, figure: Figure) -> f64 {
         match figure {
-            Figure::Cost => self
-                .cost
-                .as_ref()
-                .map_or(f64::NAN, |cost| cost.value(motion.orbit, &motion.stroke)),
+            Figure::Cost => {
+                let cost = self.cost.as_ref();
+                let value = value_of_motion((figure, cost), motion.orbit, &motion.stroke);
+                value.unwrap_or(f64::NAN)
+            }
             _ => motion.value(figure),
         }
     }
@@ -272,12 +274,11 @@ impl Problem {
 
     /// The value of a figure that a motion tells by itself, or of its cost, in SI units; none if there is none.
     pub fn value_of_motion(&self, figure: Figure, orbit: &Orbit) -> Option<f64> {
-        let stroke = Stroke::of(orbit).ok()?;
-        let value = match figure {
-            Figure::Cost => self.cost.as_ref()?.value(orbit, &stroke),
-            _ => figure.of_motion(orbit, &stroke)?,
-        };
-        value.is_finite().then_some(value)
+        value_of_motion(
+            (figure, self.cost.as_ref()),
+            orbit,
+            &Stroke::of(orbit).ok()?,
+        )
     }
 
     /// The requirements that one motion tells, and what it has of them.

@@ -37,7 +37,7 @@ use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::spread::Spread;
 use softstop_dynamics::{Orbit, Stroke};
 
-use crate::design::cost::Cost;
+use crate::design::cost::{Cost, value_of_motion};
 
 /// How far a parameter may lie from its design value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,11 +100,7 @@ impl Tolerances {
         orbit: &Orbit,
         stroke: &Stroke,
     ) -> Option<f64> {
-        let value = match figure {
-            Figure::Cost => self.cost.as_ref()?.value(orbit, stroke),
-            _ => figure.of_motion(orbit, stroke)?,
-        };
-        value.is_finite().then_some(value)
+        value_of_motion((figure, self.cost.as_ref()), orbit, stroke)
     }
 
     /// The derivatives of a figure of a motion by the parameters of its slopes; none if it has no exact ones.
