@@ -52,7 +52,7 @@ pub struct FrontReport {
     shown: Vec<&'static str>,
     /// The designs, the best by the first objective first.
     points: Vec<Record>,
-    /// The same with units in the heads.
+    /// The designs as a sheet, with units in the heads.
     #[serde(skip)]
     pub(crate) sheet: Sheet,
     /// What was sought, in words.
