@@ -258,6 +258,8 @@ impl Export {
     /// The files in the folder that the JSON of an earlier run there names, and that there will be no more.
     fn stale(&self) -> Vec<PathBuf> {
         let text = self.json().map(|(_, name)| self.folder.place(name));
+        // A pipe in its place would never be read to its end.
+        let text = text.filter(|path| path.is_file());
         let text = text.and_then(|path| fs::read_to_string(path).ok());
         let earlier: Option<Earlier> = text.and_then(|text| serde_json::from_str(&text).ok());
         let stale = |(kind, path): (String, String)| {
