@@ -333,3 +333,18 @@ fn a_distant_design_that_is_nearly_as_good_is_told() -> Outcome {
     assert!(written.text.contains("Nearly as good"));
     Ok(())
 }
+
+/// Nothing can be moved: the design is the machine itself, with its whole report.
+#[test]
+fn a_machine_without_anything_to_search_is_reported() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().to_str().ok_or("path")?;
+    let held = ["clearance=10", "stop.stiffness=7", "eta=1.15"];
+    let mut line = vec!["optimize", "unloaded", "--output", path];
+    line.extend(held.iter().flat_map(|one| ["--vary", one]));
+    let report = SOFTSTOP.json(&line);
+    let velocity = report["design"]["before_impact_velocity"].as_f64();
+    assert!((velocity.ok_or("no velocity")? - 6.494_627_429_363).abs() < 1e-9);
+    assert!(folder.path().join("report.html").exists());
+    Ok(())
+}

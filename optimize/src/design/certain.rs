@@ -78,6 +78,11 @@ pub(super) fn certain(
     let within = |at: &[f64], _: &mut ()| known(at).map_or(0.0, |it| it.within);
     let constraints: [&dyn Func<()>; 2] = [&enough, &within];
     let start = coordinates.start(from.design.place);
+    if start.is_empty() {
+        // Nothing can be moved; the crate would read beyond its arrays.
+        known(&start);
+        return best.into_inner();
+    }
     let stop = StopTols {
         xtol_abs: vec![LAST; start.len()],
         ..StopTols::default()
