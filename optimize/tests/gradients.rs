@@ -26,6 +26,7 @@ const FIGURES: [Figure; 12] = [
     Figure::MaxPosition,
     Figure::Stroke,
     Figure::StopForce,
+    Figure::StopDeflection,
     Figure::Cost,
     Figure::FrequencyG0,
     Figure::FrequencySn,

@@ -64,6 +64,7 @@ figures! {
     MaxPosition "max_position", Length, Most, false, "largest position X_m";
     Stroke "stroke", Length, Most, false, "largest less smallest position";
     StopForce "stop_force", Force, Most, false, "peak force of contact";
+    StopDeflection "stop_deflection", Length, Most, false, "largest deflection of the stop";
     CutThrough "cut_through", Length, Least, false, "depth of X_m beyond the end of the strip";
     RigidGap "rigid_gap", Length, Least, false, "distance from X_m to the rigid stop behind";
     Multiplier "largest_multiplier", Number, Most, false, "largest multiplier |mu|";
@@ -111,6 +112,7 @@ impl Figure {
             Self::MaxPosition => stroke.highest,
             Self::Stroke => stroke.length,
             Self::StopForce => stroke.stop_force,
+            Self::StopDeflection => (stroke.highest - orbit.scene.stop_position()).max(0.0),
             Self::CutThrough => stroke.beyond_strip.unwrap_or(f64::NAN),
             Self::RigidGap => stroke.before_wall.unwrap_or(f64::NAN),
             Self::Multiplier => {

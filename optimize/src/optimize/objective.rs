@@ -4,7 +4,7 @@ use std::slice;
 
 use serde::Deserialize;
 use softstop::internals::{did_you_mean, nearest};
-use softstop::{Machine, Parameter};
+use softstop::{Machine, Parameter, Stop};
 use softstop_console::failure::Failure;
 
 use crate::design::figure::{Figure, Sense};
@@ -180,6 +180,9 @@ pub(super) fn lacks(machine: &Machine, goal: &Goal, figure: Figure) -> Option<St
             if scene.piercing.is_none() =>
         {
             Some("strip (piercing.thickness)")
+        }
+        Figure::StopDeflection if matches!(scene.stop, Stop::None | Stop::Rigid { .. }) => {
+            Some("soft stop (stop.model)")
         }
         Figure::RigidGap if scene.rigid.is_none() => Some("rigid stop behind (rigid.travel)"),
         Figure::DriveForce

@@ -61,6 +61,15 @@ pub(crate) fn rates(
             let by = plus(slopes.max_position.by.clone(), Parameter::Clearance, -1.0);
             Some(plus(by, Parameter::Thickness, -1.0))
         }
+        Figure::StopDeflection if slopes.max_position.value > scene.stop_position() => {
+            let face = [
+                Parameter::Clearance,
+                Parameter::Thickness,
+                Parameter::Travel,
+            ];
+            let by = slopes.max_position.by.clone();
+            Some(face.into_iter().fold(by, |by, part| plus(by, part, -1.0)))
+        }
         Figure::Cost => {
             let rates = |figure| rates((figure, None), slopes, (orbit, stroke));
             cost?.rates(slopes, (orbit, stroke), rates)

@@ -55,6 +55,7 @@ const FIGURES: &[Figure] = &[
     Figure::MaxPosition,
     Figure::Stroke,
     Figure::StopForce,
+    Figure::StopDeflection,
     Figure::CutThrough,
     Figure::RigidGap,
     Figure::Multiplier,
