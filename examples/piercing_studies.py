@@ -1,4 +1,5 @@
-"""Studies of piercing-machine.ssp, the paper's machine B with drive and feeder: tables (CSV) and a picture (SVG) each.
+"""Studies of piercing-machine.ssp, the paper's machine B with drive and feeder: tables (CSV), and a picture (SVG) of
+the latter two.
 
     python examples/piercing_studies.py strips     strips fail in runs, at every drive angle, and by chance
     python examples/piercing_studies.py run-up     which torque passes the resonance and lands in z = 1; how a motor jumps
@@ -147,7 +148,7 @@ def strips(run, ask, frequencies, angles, seeds):
     chances = run(strips_by_chance, [(*case, chance, seeds) for case in cases for chance in PROBABILITIES])
     counts = [{"drive": drive} | {fate: sum(it["drive"] == drive and it["fate"] == fate for it in rows) for fate in FATES}
               for drive in DRIVES]
-    return {"strips": rows, "strips-chance": chances, "strips-drives": counts}, piercing_charts.strips(rows, chances, low, high)
+    return {"strips": rows, "strips-chance": chances, "strips-drives": counts}, None
 
 
 def lead_voltage(system, *polynomial):
@@ -178,7 +179,7 @@ def from_rest(package, share, rise):
         speed, impacts = means(system, MEASURED)
     is_single = abs(impacts - 1.0) * speed * MEASURED / math.tau <= 1.0
     landed = is_single and abs(speed / machine.speed - 1.0) < SAME_SPEED
-    return {"torque (N m)": torque, "rise (s)": rise, "speed (rad/s)": speed, "impacts per turn": impacts,
+    return {"torque (N m)": torque, "torque / mean torque": share, "rise (s)": rise, "speed (rad/s)": speed, "impacts per turn": impacts,
             "end": PASSES if impacts == 0.0 else LANDS if landed else OTHER}
 
 
@@ -201,7 +202,7 @@ def run_up(run, _, torques, rises, plateaus, plateau):
 
     rows = run(from_rest, [(share, rise) for share in between(TORQUES, torques) for rise in between(RISES, rises)])
     (levels,) = run(up_and_down, [(plateaus, plateau)])
-    return {"run-up": rows, "run-up-voltage": levels}, piercing_charts.run_up(rows, levels, TORQUES, RISES)
+    return {"run-up": rows, "run-up-voltage": levels}, piercing_charts.run_up(rows, levels)
 
 
 def end_of_run(package, coupling, step):
@@ -246,7 +247,8 @@ def study(name, ssp, folder, softstop, details):
             ask, **details)
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{name}.svg").write_text(picture, encoding="utf-8")
+    if picture:
+        (folder / f"{name}.svg").write_text(picture, encoding="utf-8")
     for table, rows in tables.items():
         with open(folder / f"{table}.csv", "w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, rows[0], lineterminator="\n")
