@@ -9,16 +9,16 @@ from pathlib import Path
 SETS = ["sse4_2", "avx", "avx2", "fma", "avx512f", "avx512dq", "neon", "asimd"]
 HEAD = [
     "solver",
-    "version",
-    "setting",
-    "tolerance",
+    "softstop safe is faster by",
+    "softstop batch is faster by",
     "periods/s",
     "spread",
     "error: median, largest",
     "impact counts wrong",
+    "tolerance",
     "motions",
-    "softstop safe is faster by",
-    "softstop batch is faster by",
+    "version",
+    "setting",
 ]
 
 
@@ -108,9 +108,9 @@ def lead(lines, rival="heyoka-batch"):
 
 
 def _cells(line):
-    first = [line["solver"], line.get("version", ""), line.get("setting", "")]
+    last = [line.get("version", ""), line.get("setting", "")]
     if "periods_per_second" not in line:
-        return [*first, "", f"{line['status']}: {line['reason']}"[:100], *[""] * 6]
+        return [line["solver"], "", "", f"{line['status']}: {line['reason']}"[:100], *[""] * 5, *last]
     rate = line["periods_per_second"]
     spread = ""
     if "slowest" in line:
@@ -121,14 +121,15 @@ def _cells(line):
     wrong = f"{line['impact_counts_wrong']} of {line['compared']}" if "compared" in line else ""
     motions = f"{line['motions']} x {line['periods']} periods" if "motions" in line else ""
     return [
-        *first,
-        f"{line['tolerance']:.1e}" if line.get("tolerance") else "",
+        line["solver"],
+        *(_figure(line[key]) if line.get(key) else "" for key in ("safe_ratio", "batch_ratio")),
         _figure(rate),
         spread,
         error,
         wrong,
+        f"{line['tolerance']:.1e}" if line.get("tolerance") else "",
         motions,
-        *(_figure(line[key]) if line.get(key) else "" for key in ("safe_ratio", "batch_ratio")),
+        *last,
     ]
 
 
