@@ -245,10 +245,12 @@ impl PlacedPanel<'_> {
                 line += 1.0;
             }
             taken.push((left, wide, line));
-            match fits {
-                true => canvas.text((left, line), letters, Align::Left, text),
-                false => canvas.text((x - away, line), letters, Align::Right, text),
-            }
+            let (place, align) = match fits {
+                true => ((left, line), Align::Left),
+                false => ((x - away, line), Align::Right),
+            };
+            canvas.plate(place, letters, align, text);
+            canvas.text(place, letters, align, text);
         }
     }
 }

@@ -18,9 +18,10 @@ const BOLD: f64 = 1.13;
 const SCALE: f32 = 2.0;
 
 impl Chart {
-    /// As an SVG document.
+    /// As an SVG document, on a dark screen dark.
     pub fn svg(&self) -> String {
-        self.drawn(true).svg(str::to_owned)
+        let document = self.drawn(true).svg(str::to_owned);
+        document.replacen('>', &format!(">\n  {}", style::DARK), 1)
     }
 
     /// As PNG, with two pixels for each of the chart's.
@@ -111,10 +112,12 @@ impl Chart {
 
     /// Title and subtitle in lines of this width.
     fn headings(&self, wide: f64) -> Vec<Line> {
-        let title = (self.letters + 6, true, self.title.clone());
-        let subtitle = lines(std::slice::from_ref(&self.subtitle), self.letters - 1, wide);
-        let title = Some(title).filter(|it| !it.2.is_empty());
-        title.into_iter().chain(subtitle).collect()
+        let of = |text: &String, letters, wide| lines(std::slice::from_ref(text), letters, wide);
+        let title = of(&self.title, self.letters + 6, wide / BOLD);
+        let title = title.into_iter().map(|line| (line.0, true, line.2));
+        title
+            .chain(of(&self.subtitle, self.letters - 1, wide))
+            .collect()
     }
 
     /// Notes in lines of this width.

@@ -138,6 +138,9 @@ pub(crate) fn themed(elements: &str) -> String {
     THEME.into_iter().fold(elements, replace)
 }
 
+/// In a document on a dark screen light and dark change places, and colours keep their hue.
+pub(crate) const DARK: &str = "<style>@media screen and (prefers-color-scheme: dark) { svg { filter: invert(.88) hue-rotate(180deg) } }</style>";
+
 /// The letters.
 pub(crate) const FONTS: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
 

@@ -252,7 +252,7 @@ fn chart(curves: &[Curve]) -> Chart {
         let legend = title.starts_with("(c)");
         Panel {
             title: title.to_owned(),
-            size: (540.0, 350.0),
+            size: (540.0, 270.0),
             x: Axis::new("place in the hysteresis zone: 0 at g₀, 1 at s_SN").range((-0.02, 1.02)),
             y: Axis::new(name).range(SHARES),
             legend: legend.then_some(Legend::Inside(Corner::TopRight)),
@@ -263,7 +263,8 @@ fn chart(curves: &[Curve]) -> Chart {
     let title = "How certainly z = 1 establishes itself in its hysteresis zone";
     Chart {
         subtitle: "bands: 95 % intervals".to_owned(),
-        ..Chart::new(title, panels).in_columns(2)
+        legend: Legend::Below,
+        ..Chart::new(title, panels).in_columns(1)
     }
 }
 

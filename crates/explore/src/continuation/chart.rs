@@ -2,7 +2,7 @@
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_draw::style::{self, bifurcation};
-use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Stroke};
+use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Stroke};
 use softstop_dynamics::continuation::{Curve, SpecialKind, Test};
 use softstop_dynamics::{Branch, BranchPoint};
 
@@ -56,7 +56,7 @@ pub fn branches(machine: &Machine, parameter: Parameter, branches: &[Branch]) ->
         layers: lines.chain(specials).collect(),
         ..Panel::default()
     };
-    Chart::new("Periodic motions: stable solid, unstable dashed", [panel]).svg()
+    chart("Periodic motions: stable solid, unstable dashed", panel)
 }
 
 /// Curves of special points in the plane of two parameters, as an SVG document.
@@ -73,7 +73,14 @@ pub fn curves(machine: &Machine, parameters: [Parameter; 2], curves: &[Curve]) -
         layers: lines.collect(),
         ..Panel::default()
     };
-    Chart::new("Bifurcations of periodic motions", [panel]).svg()
+    chart("Bifurcations of periodic motions", panel)
+}
+
+fn chart(title: &str, panel: Panel) -> String {
+    let legend = Legend::Below;
+    let size = (600.0, 420.0);
+    let chart = Chart::new(title, [Panel { size, ..panel }]);
+    Chart { legend, ..chart }.svg()
 }
 
 /// A line for each impact of a piece, the hardest first.

@@ -1,7 +1,7 @@
 //! Pictures: the error of models over what they cost, and their regimes over drive frequency.
 
 use softstop::{Machine, Parameter};
-use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, Stroke, around, style};
+use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Sign, Stroke, around, style};
 use softstop_dynamics::Regime;
 use softstop_dynamics::motion::MotionClass;
 
@@ -14,7 +14,7 @@ use softstop_console::arguments::{title, title_over_frequency};
 /// Height of the strips beyond the scale, in decades.
 const STRIP: f64 = 0.5;
 /// Width of the panels of regimes, and height of a row.
-const ROW: (f64, f64) = (760.0, 26.0);
+const ROW: (f64, f64) = (430.0, 26.0);
 
 /// Models with both axes logarithmic, as an SVG document: what has no error stands in a strip below the scale, what
 /// has no value in one above it.
@@ -68,10 +68,11 @@ pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &S
         layers.push(Layer::marks([place(entry)], mark, color));
         layers.push(Layer::label(place(entry), format!("{}{note}", entry.name)));
     }
-    let quantity = arguments.quantity.name().replace('_', " ");
+    let quantity = arguments.quantity.name().replace("before_", "before-");
+    let quantity = quantity.replace('_', " ");
     let across = Axis::new("evaluations of the law of force per drive period");
     let panel = Panel {
-        size: (800.0, 480.0),
+        size: (600.0, 430.0),
         x: across
             .log()
             .range(ends(((cheap - 0.15).floor().min(1.0), dear + 0.4))),
@@ -122,7 +123,9 @@ pub(super) fn regimes(machine: &Machine, structure: &Structure) -> String {
     });
     let head = title_over_frequency(machine);
     let head = format!("Regimes of the models of {head}");
-    Chart::new(head, panels).in_columns(1).svg()
+    let chart = Chart::new(head, panels).in_columns(1);
+    let legend = Legend::Below;
+    Chart { legend, ..chart }.svg()
 }
 
 fn class(regime: Option<Regime>) -> MotionClass {

@@ -45,7 +45,7 @@ pub(super) fn svg(machine: &Machine, survey: &Survey) -> Result<String, MotionEr
         let panel = |[x, y]: [Axis; 2], row, title: String, layers| Panel {
             title,
             at: (column, row),
-            size: (300.0, 260.0),
+            size: (190.0, 180.0),
             x,
             y,
             layers,

@@ -42,10 +42,10 @@ impl Drawing {
                 layers.extend(faces.iter().map(|face| Layer::horizontal(*face, FACE, "")));
             }
             layers.push(self.line((0, row)));
+            let time = if row == 3 { &names[0].name } else { "" };
             Panel {
-                at: (0, row - 1),
-                size: (620.0, 200.0),
-                x: names[0].clone().range(end),
+                size: (560.0, 160.0),
+                x: Axis::new(time).range(end),
                 y: names[row].clone(),
                 layers,
                 ..Panel::default()
@@ -53,20 +53,17 @@ impl Drawing {
         });
         let faces = faces.iter().map(|face| Layer::vertical(*face, FACE, ""));
         let plane = Panel {
-            at: (1, 0),
-            span: (1, 3),
-            size: (560.0, 600.0),
+            size: (560.0, 400.0),
             x: names[1].clone(),
             y: names[2].clone(),
             layers: faces.chain([self.line((1, 2))]).collect(),
             ..Panel::default()
         };
         let chart = Chart {
-            legend: Legend::Below,
-            shares_x: true,
+            legend: Legend::Above,
             ..Chart::new(title, series.chain([plane]))
         };
-        chart.svg()
+        chart.in_columns(1).svg()
     }
 
     fn line(&self, (across, up): (usize, usize)) -> Layer {

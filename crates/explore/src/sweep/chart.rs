@@ -23,7 +23,7 @@ const WAYS: [(&str, &str); 3] = [
 ];
 
 /// Size of a panel, and the least and the largest radius of a dot.
-const SIZE: (f64, f64) = (1080.0, 360.0);
+const SIZE: (f64, f64) = (640.0, 290.0);
 const DOT: (f64, f64) = (0.9, 2.0);
 /// Share of the panel between two values that a dot fills.
 const FILLS: f64 = 0.45;
@@ -54,15 +54,15 @@ impl<'a> SweepChart<'a> {
         let mut velocities = self.panel(velocity, |step| step.velocities.clone());
         let highest = velocities.y.ends[1].unwrap_or(1.0);
         velocities.layers.extend(self.arrows(SEEN * highest));
-        let title = format!(
-            "Motions swept along the {}: {} drive periods at each of {} values",
-            self.plan.parameter.about().meaning,
-            self.plan.periods,
-            self.plan.steps
-        );
-        let chart = Chart::new(title, [positions, velocities]).in_columns(1);
-        let legend = Legend::Below;
-        Chart { legend, ..chart }.svg()
+        let Plan { periods, steps, .. } = self.plan;
+        let meaning = self.plan.parameter.about().meaning;
+        let title = format!("Motions swept along the {meaning}");
+        let chart = Chart {
+            subtitle: format!("{periods} drive periods at each of {steps} values"),
+            legend: Legend::Below,
+            ..Chart::new(title, [positions, velocities])
+        };
+        chart.in_columns(1).svg()
     }
 
     /// One of the panels, with its dots.

@@ -5,6 +5,8 @@ use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Sign, power_of_ten, style
 use super::{Atlas, Map};
 use crate::methods::Verdict;
 
+/// Maps beside each other.
+const COLUMNS: usize = 3;
 /// Width of a map in pixels, about, and height of the strip of the exact method.
 const MAP: f64 = 168.0;
 const STRIP: f64 = 18.0;
@@ -17,6 +19,7 @@ pub(super) fn svg(atlas: &Atlas) -> String {
     let periods = view.periods;
     let plural = if periods == 1.0 { "" } else { "s" };
     let rows = atlas.maps.chunk_by(|a, b| a.family.row() == b.family.row());
+    let rows = rows.flat_map(|maps| maps.chunks(COLUMNS));
     let maps = rows.clone().enumerate().flat_map(|(row, maps)| {
         let column = move |(column, own)| Panel {
             at: (column, row),
@@ -25,7 +28,7 @@ pub(super) fn svg(atlas: &Atlas) -> String {
         maps.iter().enumerate().map(column)
     });
     let exact = Panel {
-        at: (0, rows.clone().count()),
+        at: (0, rows.count()),
         ..exact(atlas)
     };
     let chart = Chart {
@@ -34,7 +37,7 @@ pub(super) fn svg(atlas: &Atlas) -> String {
              drive period{plural}. Errors up to {percent} % of the motion pass."
         ),
         legend: Legend::Below,
-        letters: 12,
+        letters: 13,
         shares_y: true,
         ..Chart::new(&view.title, maps.chain([exact]))
     };

@@ -21,7 +21,7 @@ pub(super) struct Picture<'a> {
 }
 
 /// Diagrams in a row.
-const ACROSS: usize = 4;
+const ACROSS: usize = 2;
 const GRAZING: Stroke = Stroke::dashed(style::INK, 1.2, (5.0, 4.0));
 const FOLD: Stroke = Stroke::solid(style::INK, 2.0);
 /// Radius of a dot of the diagrams.
@@ -32,19 +32,18 @@ type Bend = fn(&Folds) -> Option<f64>;
 
 impl Picture<'_> {
     pub(super) fn chart(&self) -> Chart {
+        // What is linear, the first, grows without regard to the clearance.
+        let points = self.drawn[1..].iter().flat_map(Swept::points).flatten();
+        let top = 1.05 * points.map(|point| point.1).fold(0.0, f64::max);
         let rows = self.drawn.chunks(ACROSS).enumerate();
         let diagrams = rows.flat_map(|(row, diagrams)| {
-            // What is linear grows without regard to the clearance.
-            let highest = diagrams[usize::from(row == 0)..].iter();
-            let points = highest.flat_map(|swept| swept.points()).flatten();
-            let top = 1.08 * points.map(|point| point.1).fold(0.0, f64::max);
             let diagrams = diagrams.iter().enumerate();
             diagrams.map(move |(column, swept)| diagram(swept, (column, row), top))
         });
         let panels = diagrams.chain([self.map(), self.widths(), self.orders()]);
         let explanation = format!(
-            "clearance ρ = {CLEARANCE}, β₁ = 0.02, contact damping for a restitution of {RESTITUTION}; dashed: \
-             grazing of the impact-less motion, g₀"
+            "before-impact velocity X′₋ over η: clearance ρ = {CLEARANCE}, β₁ = 0.02, contact damping for a \
+             restitution of {RESTITUTION}; dashed: grazing of the impact-less motion, g₀"
         );
         Chart {
             subtitle: explanation,
@@ -54,6 +53,11 @@ impl Picture<'_> {
                 panels,
             )
         }
+    }
+
+    /// Rows of diagrams.
+    const fn rows(&self) -> usize {
+        self.drawn.len().div_ceil(ACROSS)
     }
 
     /// On the way up; a dot where the way down ends in another motion.
@@ -102,9 +106,9 @@ impl Picture<'_> {
         let decades = (10f64.powf(DECADES.0), 10f64.powf(DECADES.1));
         Panel {
             title: "Motions on rising η".to_owned(),
-            at: (0, 2),
-            span: (2, 2),
-            size: (680.0, 420.0),
+            at: (0, self.rows()),
+            span: (ACROSS, 1),
+            size: (600.0, 380.0),
             x: Axis::new("η").range(RANGE),
             y: Axis::new("k₂/k₁").range(decades).log(),
             layers,
@@ -136,9 +140,9 @@ impl Picture<'_> {
         });
         Panel {
             title: "Widths above the resonance".to_owned(),
-            at: (2, 2),
-            span: (2, 1),
-            size: (680.0, 176.0),
+            at: (0, self.rows() + 1),
+            span: (ACROSS, 1),
+            size: (600.0, 176.0),
             x: Axis::new("k₂/k₁").range((1.0, 10f64.powf(DECADES.1))).log(),
             y: Axis::new("width in η").log(),
             layers: layers.collect(),
@@ -168,9 +172,9 @@ impl Picture<'_> {
         let orders = (2..=highest).map(|order| (order as f64, order.to_string()));
         Panel {
             title: format!("Motions z = 1/n found at clearance ρ = {NARROW}"),
-            at: (2, 3),
-            span: (2, 1),
-            size: (680.0, 158.0),
+            at: (0, self.rows() + 2),
+            span: (ACROSS, 1),
+            size: (600.0, 158.0),
             x: Axis::new("η").range(subharmonics::RANGE),
             y: Axis::new("n of z = 1/n")
                 .range((1.4, highest as f64 + 0.6))
@@ -189,14 +193,9 @@ fn diagram(swept: &Swept, at: (usize, usize), top: f64) -> Panel {
     Panel {
         title: swept.law.name(),
         at,
-        size: (306.0, 208.0),
-        x: Axis::new(if at.1 > 0 { "η" } else { "" }).range(RANGE),
-        y: Axis::new(if at.0 > 0 {
-            ""
-        } else {
-            "before-impact velocity X′₋"
-        })
-        .range((0.0, top)),
+        size: (270.0, 160.0),
+        x: Axis::new("").range(RANGE),
+        y: Axis::new(if at.0 > 0 { "" } else { "X′₋" }).range((0.0, top)),
         layers: grazes().into_iter().chain([down, up]).collect(),
         ..Panel::default()
     }

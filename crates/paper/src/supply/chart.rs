@@ -1,6 +1,6 @@
 //! How many z = 1 motions outlast an interrupted supply, and how many miss no stroke.
 
-use softstop_draw::{Align, Axis, Chart, Layer, Panel, Sign, Stroke, style};
+use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Sign, Stroke, style};
 use softstop_dynamics::basin::wilson;
 
 use super::{Outcome, READINGS, RUNS, of_run};
@@ -31,7 +31,7 @@ pub(super) fn chart(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f6
         let keys = keys.map(|(stroke, name)| Layer::key(Sign::Line(stroke), name));
         Panel {
             title: name.replace("rho", "ρ"),
-            size: (560.0, 360.0),
+            size: (540.0, 280.0),
             x: Axis::new("drive frequency η = ω/Ω").range((grazing - room, right + room)),
             y: Axis::new("share of motions").range((0.0, 1.02)),
             layers: curves.chain(marks).chain(keys).collect(),
@@ -39,24 +39,26 @@ pub(super) fn chart(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f6
         }
     });
     let title = format!("z = 1 under an interrupted supply of strips, ρ = {clearance}");
-    let explanation = "strips come and fail in runs of a mean length; bands: 95 % intervals";
+    let explanation = "strips come and fail in runs of a mean length; bands: 95 % intervals where some end";
     Chart {
         subtitle: explanation.to_owned(),
-        ..Chart::new(title, panels).in_columns(2)
+        legend: Legend::Below,
+        ..Chart::new(title, panels).in_columns(1)
     }
 }
 
 /// How many are z = 1 in the end, and how many have missed no stroke.
-fn curves(outcomes: Vec<&Outcome>, color: &'static str, mean: f64) -> [Layer; 3] {
+fn curves(outcomes: Vec<&Outcome>, color: &'static str, mean: f64) -> Vec<Layer> {
     let share =
         |it: &Outcome, lost: usize| (it.eta, (it.motions - lost) as f64 / it.motions as f64);
-    let sure = outcomes.iter();
-    let sure = sure.map(|it| (it.eta, wilson(it.motions - it.ended, it.motions)));
+    let interval = |it: &&Outcome| (it.eta, wilson(it.motions - it.ended, it.motions));
+    let open = outcomes.split(|it| it.ended == 0 || it.ended == it.motions);
+    let bands = open.map(|it| Layer::band(it.iter().map(interval), color, 0.2));
     let stay = outcomes.iter().map(|it| share(it, it.ended));
     let struck = outcomes.iter().map(|it| share(it, it.missed));
-    [
-        Layer::band(sure, color, 0.2),
+    let lines = [
         Layer::line(stay, Stroke::solid(color, 2.2)).named(format!("runs of {mean} periods")),
         Layer::line(struck, Stroke::dashed(color, 1.6, DOTS)),
-    ]
+    ];
+    bands.chain(lines).collect()
 }
