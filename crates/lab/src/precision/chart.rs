@@ -1,12 +1,14 @@
 //! The work-precision diagram: what each method's accuracy costs.
 
 use softstop_draw::style::{self, method};
-use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, Stroke, around};
+use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Sign, Stroke, around};
 
-use crate::precision::family::Look;
+use crate::precision::family::{Look, short_name};
 use crate::precision::measure::Row;
 use crate::precision::report::SceneReport;
 
+/// What ignores events.
+const BLIND: Stroke = Stroke::dashed(method::BLIND, 1.2, (5.0, 4.0));
 /// Half the size of marks.
 const MARK: f64 = 4.5;
 /// Errors below and above which they are drawn at the edge.
@@ -42,17 +44,21 @@ pub(super) fn svg(report: &SceneReport, looks: impl Iterator<Item = Look>) -> St
     let mut curves: Vec<Curve<'_>> = curves.collect();
     let points = curves.iter().flat_map(|curve| curve.points(|_| true));
     let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
-    let wrong = Layer::key(
-        Sign::Mark(Mark::Hollow, style::INK),
-        "wrong number of impacts",
-    );
-    let mut layers: Vec<Layer> = curves.iter().flat_map(Curve::keys).chain([wrong]).collect();
+    let keys = [
+        (Sign::Line(BLIND), "events ignored"),
+        (
+            Sign::Mark(Mark::Hollow, style::INK),
+            "wrong number of impacts",
+        ),
+    ];
+    let mut layers: Vec<Layer> = keys.map(|(sign, name)| Layer::key(sign, name)).into();
+    layers.extend(curves.iter().filter_map(Curve::label));
     // What ignores events lies below, the exact method on top.
     curves.sort_by_key(|curve| (curve.look.scheme == 0, !curve.look.blind));
     layers.extend(curves.iter().flat_map(Curve::layers));
-    let across = "worst error of end, impact times and before-impact velocities";
+    let across = "worst error of end, impact times and velocities";
     let panel = Panel {
-        size: (640.0, 456.0),
+        size: (500.0, 440.0),
         x: Axis::new(across).log().range(decades(&x)),
         y: Axis::new("time of a run (s)").log().range(decades(&y)),
         layers,
@@ -61,7 +67,7 @@ pub(super) fn svg(report: &SceneReport, looks: impl Iterator<Item = Look>) -> St
     let (title, periods) = (&report.title, report.periods);
     let chart = Chart {
         subtitle: format!("{title}, {periods} drive periods; lower left is better"),
-        letters: 13,
+        legend: Legend::Below,
         ..Chart::new(&report.scene, [panel])
     };
     chart.svg()
@@ -82,27 +88,17 @@ impl Curve<'_> {
 
     fn stroke(&self) -> Stroke {
         match self.look.blind {
-            true => Stroke::dashed(method::BLIND, 1.2, (5.0, 4.0)),
+            true => BLIND,
             false => Stroke::solid(self.look().0, 1.6),
         }
     }
 
-    fn name(&self) -> String {
-        let name = self.rows.first().map_or("", |row| row.method.as_str());
-        let failed = self.rows.iter().filter(|row| row.status == "failed");
-        match failed.count() {
-            0 => name.to_owned(),
-            failed => format!("{name} ({failed} of {} failed)", self.rows.len()),
-        }
-    }
-
-    /// Its entry of the legend: a mark, on a line if there are several runs.
-    fn keys(&self) -> impl Iterator<Item = Layer> {
-        let (color, mark) = self.look();
-        let line = (self.rows.len() > 1).then_some(Sign::Line(self.stroke()));
-        let signs = line.into_iter().chain([Sign::Mark(mark, color)]);
-        let name = self.name();
-        signs.map(move |sign| Layer::key(sign, name.clone()))
+    /// The scheme's name where it is most accurate.
+    fn label(&self) -> Option<Layer> {
+        let name = short_name(&self.rows.first()?.method);
+        let points = self.points(|_| !self.look.blind).into_iter();
+        let best = points.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(Layer::label(best, name))
     }
 
     /// Error and time of the runs that have both.

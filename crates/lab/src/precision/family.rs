@@ -33,6 +33,13 @@ const FINEST: i32 = 22;
 /// Coarsest step is a drive period over 2 to this.
 const COARSEST: i32 = 4;
 
+/// A method's name without its crate, and without the events of which it locates all.
+pub fn short_name(method: &str) -> &str {
+    let name = method.trim_start_matches("differential-equations ");
+    let name = name.trim_start_matches("diffsol ");
+    name.trim_end_matches(", events located")
+}
+
 /// All methods that are made for a scene, the exact one first; every other setting of the others if it has to be quick.
 pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
     let every = if quick { 2 } else { 1 };

@@ -4,6 +4,7 @@
 use super::case::Case;
 use super::computer::Machine;
 use super::errors::Scale;
+use super::family::short_name;
 use super::lead::{self, Lead, Quantity, TARGETS};
 use super::measure::Row;
 use super::truth::Truth;
@@ -218,7 +219,7 @@ fn failures(rows: &[Row]) -> String {
 fn summary(report: &PrecisionReport) -> String {
     let accuracies: Vec<String> = TARGETS.map(|target| format!("{target:.0e}")).into();
     let mut text = format!(
-        "Lead at equal accuracy\n\n| scene | exact: time, worst error | by | {} |\n",
+        "Lead at equal accuracy\n\n| scene | exact: time, worst error | error | {} |\n",
         accuracies.join(" | ")
     );
     text += &format!("|---|---|---|{}\n", "---|".repeat(TARGETS.len()));
@@ -234,7 +235,7 @@ fn summary_line(chart: &SceneReport, quantity: Quantity) -> String {
     let leads = chart.lead.at.iter();
     let own = leads.filter(|lead| lead.quantity == quantity);
     let cells = own.map(|lead| match &lead.next {
-        Some(next) => format!("{} {}", ratio(lead), next.method),
+        Some(next) => format!("{} {}", ratio(lead), short_name(&next.method)),
         None => "none gets there".to_owned(),
     });
     let exact = chart.rows.first();
@@ -244,7 +245,10 @@ fn summary_line(chart: &SceneReport, quantity: Quantity) -> String {
         chart.scene,
         figure(time),
         figure(worst),
-        name(quantity),
+        match quantity {
+            Quantity::End => "end",
+            Quantity::Worst => "worst",
+        },
         cells.collect::<Vec<_>>().join(" | ")
     )
 }
