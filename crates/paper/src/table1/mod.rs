@@ -1,9 +1,9 @@
 //! `softstop-lab table1`: the paper's Table 1, found anew.
 
 pub(crate) mod figure;
+mod markdown;
 pub(crate) mod matching;
 pub mod paper;
-mod picture;
 pub mod report;
 mod swept;
 
@@ -16,7 +16,7 @@ use softstop_dynamics::Along;
 use softstop_dynamics::transitions::{Explorer, Rules, Transition};
 use softstop_dynamics::watch::{Kept, Memory};
 
-pub use picture::picture;
+pub use markdown::markdown;
 use report::TableReport;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -30,7 +30,7 @@ Examples:
   softstop-lab table1                       the 19 rows, beside the paper's figures
   softstop-lab table1 --format csv          for a spreadsheet
   softstop-lab table1 --format json         for programs
-  softstop-lab table1 --output out          and as out/table1.csv, .json and .svg
+  softstop-lab table1 --output out          and as out/table1.csv, .json and .md
   softstop-lab table1 --lifetime 5000       chaos has to last longer to count
   softstop-lab table1 --output out --resume goes on after Ctrl-C, or a kill
 
@@ -72,7 +72,7 @@ pub struct TableArguments {
     /// Whether it goes on with an earlier one.
     #[command(flatten)]
     pub keep: KeepArguments,
-    /// Folder for table1.csv, table1.json and table1.svg, and for what is done until they stand [default: no files]
+    /// Folder for table1.csv, table1.json and table1.md, and for what is done until they stand [default: no files]
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// How to print the table
@@ -83,7 +83,7 @@ pub struct TableArguments {
 /// The paper's frequency interval.
 pub const RANGE: (f64, f64) = (0.8, 1.8);
 
-const NAMES: [&str; 3] = ["table1.csv", "table1.json", "table1.svg"];
+const NAMES: [&str; 3] = ["table1.csv", "table1.json", "table1.md"];
 
 /// Finds the rows and prints them.
 ///
@@ -105,7 +105,7 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
     if let Some(folder) = folder {
         folder.stage(NAMES[0], &output::csv(&report.rows)?)?;
         folder.stage(NAMES[1], output::json(&report)?.as_bytes())?;
-        folder.stage(NAMES[2], picture(&report).svg().as_bytes())?;
+        folder.stage(NAMES[2], markdown(&report).as_bytes())?;
         folder.commit(&NAMES)?;
     }
     if let Some(keep) = keep {
