@@ -19,6 +19,7 @@ use crate::optimize::pareto::CheckedFront;
 /// A quantity of all designs, in the machine's own units.
 struct Column {
     name: &'static str,
+    meaning: &'static str,
     unit: &'static str,
     /// Whether the text has it.
     is_shown: bool,
@@ -48,6 +49,8 @@ pub struct FrontReport {
     nearest: usize,
     /// The units of the designs' values by their names.
     units: BTreeMap<&'static str, &'static str>,
+    /// What these values are, by their names.
+    meanings: BTreeMap<&'static str, &'static str>,
     /// What people read of them: what is sought, and what was searched.
     shown: Vec<&'static str>,
     /// The designs, the best by the first objective first.
@@ -88,6 +91,7 @@ impl FrontReport {
             machines: front.machines,
             nearest: nearest + 1,
             units: columns.iter().map(|it| (it.name, it.unit)).collect(),
+            meanings: columns.iter().map(|it| (it.name, it.meaning)).collect(),
             shown: columns
                 .iter()
                 .filter(|it| it.is_shown)
@@ -164,6 +168,7 @@ fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
     let objectives = &front.pareto.objectives;
     let figure = |figure: Figure, is_shown: bool, values: Vec<f64>| Column {
         name: figure.name(),
+        meaning: figure.meaning(),
         unit: machine.unit(figure.dimension()),
         is_shown,
         values: own(values
@@ -185,6 +190,7 @@ fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
         let value = |it: &Alternative| it.found.design.machine.value(parameter);
         Column {
             name: machine.name(parameter),
+            meaning: machine.meaning_of(parameter).0,
             unit: machine.unit_of(parameter),
             is_shown: is_searched(parameter),
             values: points.iter().map(value).collect(),
@@ -213,6 +219,7 @@ fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
     });
     let violating = front.machines.map(|_| Column {
         name: "violating",
+        meaning: "share of machines that lose the motion or violate a requirement",
         unit: "",
         is_shown: true,
         values: points.iter().map(|it| it.violating).collect(),

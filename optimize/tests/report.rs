@@ -135,7 +135,7 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
     assert_eq!(page.matches("class=\"requirement\"").count(), 2);
     assert_eq!(count(page, "section")?, 11);
     let (pictures, sources) = (
-        count(page, "svg")?,
+        count(page, "svg")? - page.matches("class=\"narrow\"").count(),
         page.matches("class=\"source\"").count(),
     );
     assert_eq!((count(page, "figure")?, sources), (pictures + 2, 2));
@@ -278,6 +278,27 @@ fn preloads_of_ratio_machines_are_of_one_kind_in_a_row() -> Outcome {
             written.report["design"]["at_limits"][0],
             "stop.stiffness: lower bound"
         );
+    }
+    Ok(())
+}
+
+/// Where a range spans decades, so does the axis of its map, whose rows are a constant factor apart.
+#[test]
+fn maps_of_decades_are_logarithmic() -> Outcome {
+    let line = ["unloaded", "--vary", "stop.stiffness=1:2000", "--vary"];
+    let written = optimize(&[&line[..], &["clearance=10"]].concat())?;
+    let map = table(written.folder.path(), "map-1.csv")?;
+    let stiffness = map[1..].iter().map(|row| row[1].parse::<f64>());
+    let mut stiffness = stiffness.collect::<Result<Vec<_>, _>>()?;
+    stiffness.dedup();
+    assert_eq!(stiffness.len(), 40);
+    for pair in stiffness.windows(2) {
+        let rows = (pair[1] / pair[0]).ln() / 2000f64.ln();
+        assert!((rows * 40.0 - 1.0).abs() < 1e-9, "{pair:?}");
+    }
+    let picture = fs::read_to_string(written.folder.path().join("map-1.svg"))?;
+    for power in ["10⁰", "10¹", "10²", "10³"] {
+        assert!(picture.contains(&format!(">{power}</text>")), "{power}");
     }
     Ok(())
 }

@@ -160,6 +160,13 @@ impl Export {
         Ok(())
     }
 
+    /// Writes a picture of which nothing was known before as an SVG file of its name.
+    pub fn picture(&mut self, name: &str, svg: &str) -> Result<(), Failure> {
+        let kind = format!("{name}_svg");
+        self.files.push((kind.clone(), format!("{name}.svg")));
+        self.file(&kind, svg.as_bytes())
+    }
+
     /// There will be no file of a kind.
     pub fn forgo(&mut self, kind: &str) {
         self.files.retain(|(other, _)| other != kind);

@@ -107,6 +107,11 @@ impl Axis {
         (is_wide && high > DECADES * low).then(|| high.ln() - low.ln())
     }
 
+    /// Whether the range spans decades, so that it is searched by the logarithm.
+    pub fn is_log(&self) -> bool {
+        self.decades().is_some()
+    }
+
     /// d(value)/d(coordinate) at a value.
     pub fn rate(&self, value: f64) -> f64 {
         let width = self.range.high - self.range.low;
@@ -202,6 +207,7 @@ mod tests {
         assert!((values[1] / 1e3 - 1.0).abs() < 1e-12);
         assert_eq!([values[0], values[2]], [low, high]);
         assert_eq!(axis.end_at(10.0), None);
+        assert!(axis.is_log());
         let step = 1e-6;
         let found = (axis.at(0.25 + step) - axis.at(0.25 - step)) / (2.0 * step);
         assert!((found / axis.rate(values[1]) - 1.0).abs() < 1e-9);

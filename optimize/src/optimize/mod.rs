@@ -183,7 +183,9 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let mut job = Job::new(arguments)?;
     can_be_packed(&job.problem.machine)?;
     let mut export = Export::open(&job.output, &FILES)?;
-    export.refuse_folders_called(".csv")?;
+    for ending in [".csv", ".svg"] {
+        export.refuse_folders_called(ending)?;
+    }
     let library = library()?;
     let keep = Keep::open(&job.output, "optimize", &job.identity(), arguments.keep)?;
     let mut outcome = match solve(&job, &keep) {
@@ -231,6 +233,12 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
             let page = html(&report).map_err(anyhow::Error::from)?;
             export.file("html", page.as_bytes())?;
             export.sheets(&report.sheets())?;
+            for figure in &looked.figures {
+                // What has no data of its own stands in the page alone.
+                if let Some(sheet) = figure.sheets.first() {
+                    export.picture(&sheet.name, &figure.document(name))?;
+                }
+            }
         }
         true => export.forgo("html"),
     }

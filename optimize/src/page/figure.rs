@@ -81,6 +81,20 @@ impl Figure {
         self
     }
 
+    /// Whether it takes a whole line of the page.
+    pub(super) fn is_wide(&self) -> bool {
+        self.chart.page.is_some_and(|(width, _)| width == WIDE.0)
+    }
+
+    /// For narrow screens: the panels of a wide picture below each other; none of a sketch, which has no axes.
+    pub(super) fn narrow(&self) -> Option<Chart> {
+        let (width, height) = HALF;
+        let page = Some((width, height * self.chart.panels.len() as f64));
+        let chart = self.chart.clone();
+        let has_axes = chart.panels.iter().all(|it| !it.x.name.is_empty());
+        (self.is_wide() && has_axes).then(|| Chart { page, ..chart }.in_columns(1))
+    }
+
     /// As an SVG document about a machine of this name, with its caption.
     pub fn document(&self, machine: &str) -> String {
         let page = self.chart.page;

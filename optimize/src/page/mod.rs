@@ -18,7 +18,7 @@ use softstop_console::number::NumberStyle::Percent;
 use softstop_draw::style;
 
 use crate::report::OptimizeReport;
-use figure::{Figure, Section, WIDE};
+use figure::{Figure, Section};
 
 /// A margin that is less, in units of the value, is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -80,6 +80,7 @@ pub fn html(report: &OptimizeReport) -> Result<String, Error> {
 struct Picture {
     title: String,
     svg: String,
+    narrow: Option<String>,
     caption: String,
     is_wide: bool,
 }
@@ -89,8 +90,9 @@ fn sections(figures: &[Figure]) -> Vec<(&'static str, &'static str, Vec<Picture>
     let picture = |it: &Figure| Picture {
         title: it.chart.title.clone(),
         svg: it.chart.inline(words::plain),
+        narrow: it.narrow().map(|chart| chart.inline(words::plain)),
         caption: it.caption.clone(),
-        is_wide: it.chart.page.is_some_and(|(width, _)| width == WIDE.0),
+        is_wide: it.is_wide(),
     };
     let pictures = |section| {
         let figures = figures.iter().filter(|it| it.section == section);

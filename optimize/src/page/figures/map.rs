@@ -56,7 +56,10 @@ fn map(
 ) -> Figure {
     let (machine, parameter) = (&design.machine, axis.parameter);
     let up = (axis.range.low, axis.range.high);
-    let value = middles(up, CELLS.1);
+    let value = |row| match axis.is_log() {
+        true => middles((up.0.ln(), up.1.ln()), CELLS.1)(row).exp(),
+        false => middles(up, CELLS.1)(row),
+    };
     let at = |row: usize| {
         let mut machine = machine.clone();
         machine.set(parameter, value(row));
@@ -126,9 +129,14 @@ fn map(
     }
     let mark = Layer::marks([place], Mark::Diamond, style::OPTIMUM);
     layers.push(mark.sized(MARK).named("design"));
+    let upwards = Axis::new(y).range(up);
     let panel = Panel {
         x: Axis::new(x).range(across),
-        y: Axis::new(y).range(up),
+        y: if axis.is_log() {
+            upwards.log()
+        } else {
+            upwards
+        },
         layers,
         ..Panel::default()
     };
