@@ -5,6 +5,7 @@
 //! The commands that look at one machine are in `softstop-explore`; here are the search ([`design`]), its
 //! command ([`optimize`]) and [`report`], and machines as FMUs ([`fmu`]).
 
+mod cases;
 mod comparison;
 pub mod design;
 pub mod fmu;

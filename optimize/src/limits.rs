@@ -3,11 +3,11 @@
 use serde::Serialize;
 use softstop::Parameter;
 
-use crate::design::Problem;
 use crate::design::conflict::bound;
-use crate::design::constraint::Limit as Active;
+use crate::design::constraint::{ActiveLimit, Limit as Active};
 use crate::design::figure::Figure;
 use crate::design::space::End;
+use crate::design::{Design, Problem};
 use crate::optimize::outcome::Outcome;
 use crate::zone_end::end_name;
 
@@ -32,21 +32,37 @@ impl Limit {
 /// All that holds a design back.
 pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<Limit> {
     let limits = found.limits.iter();
-    limits.filter_map(|it| limit(problem, found, it)).collect()
+    let cases = problem.in_cases();
+    let named = limits.filter_map(
+        |ActiveLimit {
+             limit: active,
+             case,
+         }| {
+            let Some(index) = *case else {
+                return limit(problem, &found.design, active);
+            };
+            let found = limit(&cases[index], found.design.cases.get(index)?, active)?;
+            let name = &problem.cases[index].name;
+            Some(Limit {
+                key: format!("{} in case {name}", found.key),
+                words: format!("{} in case {name}", found.words),
+            })
+        },
+    );
+    named.collect()
 }
 
-fn limit(problem: &Problem, found: &Outcome, limit: &Active) -> Option<Limit> {
+fn limit(problem: &Problem, design: &Design, limit: &Active) -> Option<Limit> {
     let at_end = |parameter: Parameter, end: End| {
         let end = match end {
             End::Lower => "lower",
             End::Upper => "upper",
         };
-        let machine = &found.design.machine;
+        let machine = &design.machine;
         let (key, meaning) = (machine.name(parameter), machine.meaning_of(parameter).0);
         let words = format!("the {end} bound of the {meaning}");
         Limit::new(format!("{key}: {end} bound"), words)
     };
-    let design = &found.design;
     let side = |end| {
         end_name(match end {
             End::Lower => &design.zone.low,

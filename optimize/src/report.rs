@@ -27,7 +27,7 @@ use crate::page::figure::Figure;
 use crate::pareto::FrontReport;
 use crate::searched::SearchReport;
 use crate::tolerated::Tolerated;
-use crate::{placed, started, verdict};
+use crate::{cases, placed, started, verdict};
 
 /// A motion and its machine, in the machine's own units.
 #[derive(Debug, Serialize)]
@@ -60,6 +60,9 @@ pub struct OptimizeReport {
     /// What was required, and what the design has of it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     requirements: Vec<Record>,
+    /// The design in the drawing's operating point and in each case, if there are any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    cases: Vec<Record>,
     /// Designs far from this one in the box and nearly as good.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     rivals: Vec<Record>,
@@ -113,7 +116,8 @@ impl OptimizeReport {
         };
         let reference = |it: &Reference| (it.name, one(&it.machine, &it.orbit, gain(design, it)));
         let place = Record::of(&placed::columns(), &(problem, design, &limits));
-        let met = found.met.iter().map(|it| verdict::required(machine, it));
+        let met = found.met.iter();
+        let met = met.map(|it| verdict::required(problem, machine, it));
         let rivals = found.rivals.iter().map(|it| verdict::rival(problem, it));
         let fronts = found.fronts.iter().map(|it| verdict::traded(problem, it));
         let idle = found.without_effect.iter();
@@ -130,6 +134,7 @@ impl OptimizeReport {
             limits,
             without_effect: idle.collect(),
             requirements: met.collect(),
+            cases: cases::records(problem, design, study),
             rivals: rivals.collect(),
             fronts: fronts.collect(),
             pareto: found
@@ -157,8 +162,10 @@ impl OptimizeReport {
             Sheet::of_records("requirements", &self.requirements),
             Sheet::of_records("sensitivities", parameters),
         ];
+        let cases = Sheet::of_records("cases", &self.cases);
+        let cases = (!self.cases.is_empty()).then_some(cases);
         let figures = self.figures.iter().flat_map(|it| it.sheets.clone());
-        tables.into_iter().chain(figures).collect()
+        tables.into_iter().chain(cases).chain(figures).collect()
     }
 
     /// Where the design stands, and what holds it back.
@@ -183,6 +190,7 @@ impl Report for OptimizeReport {
         let tolerances = self.tolerances.as_ref().map(|it| it.text(&units));
         let tables = sections([
             ("What was required", below(&self.requirements, &units)),
+            ("In each case", below(&self.cases, &units)),
             ("How to run the machine up", below(&self.run_up, &units)),
             (
                 "Nearly as good, but far from it: a small change of the task may lead there",
@@ -210,8 +218,8 @@ fn head(problem: &Problem) -> String {
         .as_deref()
         .unwrap_or("the given machine");
     let what = match problem.objective == Objective::default() {
-        true => "Hardest impact".to_owned(),
-        false => problem.objective.words(),
+        true => format!("Hardest impact{}", problem.over_cases()),
+        false => problem.words(),
     };
     let margin = match problem.margin {
         0.0 => String::new(),
@@ -226,8 +234,8 @@ fn objective<'a>() -> [Column<Sought<'a>>; 5] {
     columns! { Sought<'a>, it;
         "figure" [None], "what is sought" => it.0.objective.figure.name();
         "meaning" [None], "what it is" => it.0.objective.figure.meaning();
-        "words" [None], "what is sought of it" => it.0.objective.words();
-        "value" [None], "what the design has" => it.0.machine.to_own(it.0.objective.figure.dimension(), it.1.value);
+        "words" [None], "what is sought of it" => it.0.words();
+        "value" [None], "what the design has" => it.0.machine.to_own(it.0.objective.figure.dimension(), it.0.sought_of(it.1));
         "unit" [None], "its unit" => it.0.machine.unit(it.0.objective.figure.dimension());
     }
 }

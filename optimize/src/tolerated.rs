@@ -133,17 +133,22 @@ fn price(problem: &Problem, design: &Design, study: &Study, without: &Without) -
         ),
     };
     let figure = problem.objective.figure;
-    let sought = [&without.design.orbit, &design.orbit]
-        .map(|orbit| problem.value_of_motion(figure, orbit))
+    let sought = [&without.design, design]
+        .map(|design| problem.nominal_of(figure, design))
         .map(|value| value.map(|it| machine.to_own(figure.dimension(), it)));
     let sought = match sought {
-        [Some(without), Some(robust)] if figure != Figure::Velocity => format!(
-            "{}: without tolerances {} {unit}, robust design {} {unit}. ",
-            capital(figure.meaning()),
-            Six.format(without),
-            Six.format(robust),
-            unit = machine.unit(figure.dimension()),
-        ),
+        [Some(without), Some(robust)]
+            if figure != Figure::Velocity || !problem.over_cases().is_empty() =>
+        {
+            format!(
+                "{}{}: without tolerances {} {unit}, robust design {} {unit}. ",
+                capital(figure.meaning()),
+                problem.over_cases(),
+                Six.format(without),
+                Six.format(robust),
+                unit = machine.unit(figure.dimension()),
+            )
+        }
         _ => String::new(),
     };
     let told = format!(
@@ -162,6 +167,12 @@ impl Tolerated {
         let without = study.without.as_ref();
         let statistics = study.statistics.as_ref();
         let statistics = statistics.map(|it| Record::of(&counted(), &(study, it)));
+        let statistics = statistics.or_else(|| {
+            let rejected = study.verdict.rejected;
+            let words = "machines that lose the motion or violate a requirement in any case";
+            let record = || Record::default().with("rejected", words, rejected);
+            (!problem.cases.is_empty()).then(record)
+        });
         Self {
             machines: Record::of(&machines(), &study).and(statistics.unwrap_or_default()),
             manifolds: study

@@ -6,6 +6,7 @@ use softstop_console::column::{Column, Told};
 use softstop_console::columns;
 use softstop_console::record::Record;
 
+use crate::design::case::DRAWING;
 use crate::design::conflict::bound;
 use crate::design::figure::Figure;
 use crate::design::front::Front;
@@ -29,9 +30,14 @@ fn columns<'a>() -> [Column<Required<'a>>; 10] {
     }
 }
 
-/// A requirement and what a design of this machine has of it.
-pub(crate) fn required(machine: &Machine, met: &Met) -> Record {
-    Record::of(&columns(), &(machine, met))
+/// A requirement and what a design of this machine has of it; in which operating point, if there are cases.
+pub(crate) fn required(problem: &Problem, machine: &Machine, met: &Met) -> Record {
+    let own = Record::of(&columns(), &(machine, met));
+    let case = met.case.map_or(DRAWING, |index| &problem.cases[index].name);
+    match problem.cases.is_empty() {
+        true => own,
+        false => Record::default().with("case", "", case).and(own),
+    }
 }
 
 /// A value of a requirement in the machine's own units; none where nothing bounds it.
@@ -49,7 +55,9 @@ pub(crate) fn rival(problem: &Problem, design: &Design) -> Record {
         record.with(it.name(), &label, design.machine.value(it))
     });
     let figure = problem.objective.figure;
-    let value = design.machine.to_own(figure.dimension(), design.value);
+    let value = design
+        .machine
+        .to_own(figure.dimension(), problem.sought_of(design));
     head.with(figure.name(), figure.meaning(), value)
 }
 

@@ -4,7 +4,7 @@
 use argmin::core::CostFunction;
 use softstop::{Machine, Parameter};
 use softstop_dynamics::watch::unwatched;
-use softstop_optimize::design::constraint::Limit;
+use softstop_optimize::design::constraint::{ActiveLimit, Limit};
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::problem::{Link, Objective, Tolerance, Width};
 use softstop_optimize::design::requirement::{Requirement, Scope};
@@ -278,6 +278,7 @@ fn no_hammer_within_the_tolerances_violates_what_is_required() -> Outcome {
         let share = own.2.value / bound;
         assert!((share - 1.0).abs() < 1e-6, "{figure:?}: {share}");
         let limit = Limit::Required(figure, Sense::Most);
+        let limit = ActiveLimit { limit, case: None };
         assert!(found.limits.contains(&limit), "{:?}", found.limits);
     }
     Ok(())

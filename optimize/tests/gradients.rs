@@ -153,7 +153,7 @@ fn values(problem: &Problem, known: &CriticalMachines, coordinates: &[f64]) -> O
 }
 
 fn all(found: &Local) -> impl Iterator<Item = &Slope> {
-    let first = [&found.objective].into_iter();
+    let first = [&found.scores[0].own].into_iter();
     first.chain(found.constraints.iter().map(|it| &it.slope))
 }
 

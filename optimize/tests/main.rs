@@ -2,6 +2,7 @@
 
 mod basin;
 mod best;
+mod cases;
 mod command_line;
 mod continuation;
 mod fidelity;

@@ -35,7 +35,7 @@ struct Place {
 
 impl Machine {
     /// Tables of a machine file that say what `softstop optimize` is to do with the machine; they play no part in it.
-    pub const TASK: [&str; 6] = keys::TASK;
+    pub const TASK: [&str; 7] = keys::TASK;
 
     /// Reads the text of a machine file: SI units, or a table `[ratios]`.
     ///

@@ -33,11 +33,12 @@ pub(super) const FURTHER: [&str; 10] = [
 ];
 
 /// Tables of a file that are no part of the machine: what `softstop optimize` is to do with it.
-pub(super) const TASK: [&str; 6] = [
+pub(super) const TASK: [&str; 7] = [
     "vary",
     "tolerance",
     "objective",
     "require",
+    "case",
     "search",
     "report",
 ];

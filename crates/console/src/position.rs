@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
 use crate::failure::Failure;
@@ -46,10 +47,20 @@ fn start_of(key: &str, table: &DeTable<'_>) -> Option<usize> {
             None if rest.is_empty() => "",
             rest => rest?,
         };
-        let inner = match value.get_ref() {
-            DeValue::Table(inner) => start_of(rest, inner),
-            _ => None,
-        };
-        Some(inner.unwrap_or(name.span().start))
+        Some(start_in(rest, value).unwrap_or(name.span().start))
     })
+}
+
+/// Where the rest of a dotted key begins in a value; the tables of a list are counted from 1.
+fn start_in(key: &str, value: &Spanned<DeValue<'_>>) -> Option<usize> {
+    match value.get_ref() {
+        DeValue::Table(inner) => start_of(key, inner),
+        DeValue::Array(all) => {
+            let (number, rest) = key.split_once('.').unwrap_or((key, ""));
+            let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+            let table = all.get(index)?;
+            Some(start_in(rest, table).unwrap_or(table.span().start))
+        }
+        _ => None,
+    }
 }

@@ -50,8 +50,11 @@ pub fn machine() -> Value {
     ]);
     let start = older(&si["initial"], "initial");
     let damping = older(&si["contact"]["properties"]["damping"], "contact.damping");
-    let task = json!({ "type": "object", "description": "For softstop optimize; `softstop schema task` tells more." });
-    si.extend(Machine::TASK.map(|table| (table.to_owned(), task.clone())));
+    let task = |name: &str| {
+        let kind = if name == "case" { "array" } else { "object" };
+        json!({ "type": kind, "description": "For softstop optimize; `softstop schema task` tells more." })
+    };
+    si.extend(Machine::TASK.map(|table| (table.to_owned(), task(table))));
     si.insert("start".to_owned(), start);
     si.insert("contact_damping".to_owned(), damping);
     let own = ["name", "description", "initial", "start", "ratios"];

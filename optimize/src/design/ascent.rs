@@ -1,17 +1,18 @@
 //! The ascent from a point of the search to the best design that derivatives lead to: a nonlinear program over the axes and
 //! the place in the zone, for [`Slsqp`] or another solver of `argmin`. Where the worst machine within the tolerances counts,
-//! one more coordinate is a level below the scores of all machines that are known.
+//! one more coordinate of each operating point is a level below the scores of all its machines that are known.
 
 use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor, Gradient, Jacobian, Operator};
 
+use super::Design;
 use super::coordinates::{Candidate, Coordinates};
 use super::critical::CriticalMachines;
 use super::local::{Local, local};
 use super::problem::Problem;
 use super::requirement::Scope;
-use super::slope::Slope;
+use super::slope::{Slope, unit_row};
 use super::slsqp::Slsqp;
 use super::space::Space;
 
@@ -25,7 +26,8 @@ const MAX_RUNS: usize = 8;
 const LEAST_GAIN: f64 = 1e-8;
 /// By how much each constraint is to be met, in its own unit: more than the solver leaves open.
 const SLACK: f64 = 1e-10;
-/// The highest level, in units of the score at the start.
+/// The lowest and the highest level, in units of the score at the start.
+const LOWEST_LEVEL: f64 = 1e-6;
 const HIGHEST_LEVEL: f64 = 1e6;
 /// Cost, and value of every constraint, where there is no motion: far above every cost, which is about -1.
 const NOWHERE: f64 = 1e3;
@@ -73,12 +75,13 @@ pub(super) fn ascend_from(
 }
 
 /// A nonlinear program: minus the score of the motion at a place of the zone of a machine, in units of the score at the
-/// start, or minus the level, and constraints that hold where they are not positive.
+/// start, or minus the mean of the levels, and constraints that hold where they are not positive.
 struct Program<'a> {
     problem: &'a Problem,
     known: &'a CriticalMachines,
     coordinates: Coordinates,
-    has_level: bool,
+    /// The weights of the operating points, each of which has a level; none if the own machines count.
+    weights: Vec<f64>,
     score: f64,
     constraints: usize,
     /// The last point, for all that a solver asks of it.
@@ -96,25 +99,28 @@ impl<'a> Program<'a> {
     ) -> Option<(Self, Vec<f64>)> {
         let coordinates = Coordinates::new(problem, unit);
         let mut start = coordinates.start(place);
-        let has_level = problem.objective.scope == Scope::Tolerances && !start.is_empty();
-        start.extend(has_level.then_some(1.0));
+        let has_levels = problem.objective.scope == Scope::Tolerances && !start.is_empty();
+        let weights = problem.weights().filter(|it| has_levels && *it > 0.0);
+        let weights: Vec<f64> = weights.collect();
+        let own = start.len();
+        start.resize(own + weights.len(), 1.0);
         let mut program = Self {
             problem,
             known,
             coordinates,
-            has_level,
+            weights,
             score: 1.0,
             constraints: 0,
             last: RefCell::default(),
             best: RefCell::default(),
         };
-        let first = program.compute(&start);
+        let first = program.compute(&start[..own]);
         let (score, constraints) = first.as_ref().map(|first| {
-            let score = first.score().abs().max(f64::MIN_POSITIVE);
-            let levels = usize::from(has_level) * (1 + first.scores.len());
+            let score = first.score(&problem.objective).value;
+            let score = score.abs().max(f64::MIN_POSITIVE);
+            let levels = program.scores(first).count();
             (score, first.constraints.len() + levels)
         })?;
-        let own = start.len() - usize::from(has_level);
         program.last = RefCell::new((start[..own].to_vec(), first));
         (program.score, program.constraints) = (score, constraints);
         Some((program, start))
@@ -132,21 +138,40 @@ impl<'a> Program<'a> {
         let best = self.best.borrow();
         let Candidate { unit, design } = best.as_ref()?;
         let mut start = Coordinates::new(self.problem, unit).start(design.place);
-        let level = self.problem.score(design) / self.score;
-        start.extend(self.has_level.then_some(level));
+        let levels = [design].into_iter().chain(&design.cases);
+        let levels = levels.zip(self.problem.weights());
+        let levels = levels.filter(|(_, weight)| *weight > 0.0);
+        let level = |it: &Design| self.problem.objective.score(it.value) / self.score;
+        let levels = levels.map(|(design, _)| level(design));
+        start.extend(levels.take(self.weights.len()));
         Some(start)
     }
 
     fn bounds(&self) -> Vec<(f64, f64)> {
         let mut bounds = self.coordinates.bounds(self.problem);
-        bounds.extend(self.has_level.then_some((0.0, HIGHEST_LEVEL)));
+        bounds.resize(
+            bounds.len() + self.weights.len(),
+            (LOWEST_LEVEL, HIGHEST_LEVEL),
+        );
         bounds
     }
 
-    /// The scores that the level lies below.
-    fn scores<'b>(&self, of: &'b Local) -> impl Iterator<Item = &'b Slope> {
-        let all = [&of.objective].into_iter().chain(&of.scores);
-        all.take(if self.has_level { usize::MAX } else { 0 })
+    /// The scores that each level lies below, with its index.
+    fn scores<'b>(&self, of: &'b Local) -> impl Iterator<Item = (usize, &'b Slope)> {
+        let points = of.scores.iter().take(self.weights.len()).enumerate();
+        points.flat_map(|(index, it)| it.all().map(move |score| (index, score)))
+    }
+
+    /// Where the levels begin among the coordinates.
+    fn levels_at(&self, at: &[f64]) -> usize {
+        at.len() - self.weights.len()
+    }
+
+    /// The score of the mean of the levels, with its derivatives by them.
+    fn mean_level(&self, at: &[f64]) -> Slope {
+        let levels = self.weights.iter().zip(&at[self.levels_at(at)..]);
+        let levels: Vec<_> = levels.map(|(weight, level)| (*weight, *level)).collect();
+        self.problem.objective.mean_of(&levels)
     }
 
     /// Computes what is sought and required at a point, and takes note of its design.
@@ -167,7 +192,7 @@ impl<'a> Program<'a> {
 
     /// Computes a point once for all that a solver asks of it.
     fn with<T>(&self, at: &[f64], take: impl FnOnce(Option<&Local>) -> T) -> T {
-        let at = &at[..at.len() - usize::from(self.has_level)];
+        let at = &at[..self.levels_at(at)];
         let is_last = self.last.borrow().0 == at;
         if !is_last {
             self.last.replace((at.to_vec(), self.compute(at)));
@@ -181,9 +206,9 @@ impl CostFunction for Program<'_> {
     type Output = f64;
 
     fn cost(&self, at: &Vec<f64>) -> Result<f64, Error> {
-        let cost = |it: &Local| match self.has_level {
-            true => -at[at.len() - 1],
-            false => -it.objective.value / self.score,
+        let cost = |it: &Local| match self.weights.is_empty() {
+            true => -it.objective(&self.problem.objective).value / self.score,
+            false => -self.mean_level(at).value,
         };
         Ok(self.with(at, |found| found.map_or(NOWHERE, cost)))
     }
@@ -195,15 +220,13 @@ impl Gradient for Program<'_> {
 
     fn gradient(&self, at: &Vec<f64>) -> Result<Vec<f64>, Error> {
         let nowhere = || vec![0.0; at.len()];
-        let gradient = |it: &Local| match self.has_level {
-            true => {
-                let mut gradient = nowhere();
-                if let Some(by_level) = gradient.last_mut() {
-                    *by_level = -1.0;
-                }
+        let gradient = |it: &Local| match self.weights.is_empty() {
+            true => scaled(&it.objective(&self.problem.objective), -1.0 / self.score),
+            false => {
+                let mut gradient = vec![0.0; self.levels_at(at)];
+                gradient.extend(scaled(&self.mean_level(at), -1.0));
                 gradient
             }
-            false => scaled(&it.objective, -1.0 / self.score, None),
         };
         Ok(self.with(at, |found| found.map_or_else(nowhere, gradient)))
     }
@@ -216,7 +239,9 @@ impl Operator for Program<'_> {
     fn apply(&self, at: &Vec<f64>) -> Result<Vec<f64>, Error> {
         let values = |it: &Local| {
             let constraints = it.constraints.iter().map(|one| SLACK - one.slope.value);
-            let above = |score: &Slope| at[at.len() - 1] - score.value / self.score;
+            let first = self.levels_at(at);
+            let above =
+                |(index, score): (usize, &Slope)| at[first + index] - score.value / self.score;
             constraints.chain(self.scores(it).map(above)).collect()
         };
         Ok(self.with(at, |found| {
@@ -230,12 +255,16 @@ impl Jacobian for Program<'_> {
     type Jacobian = Vec<Vec<f64>>;
 
     fn jacobian(&self, at: &Vec<f64>) -> Result<Vec<Vec<f64>>, Error> {
-        let level = |by: f64| self.has_level.then_some(by);
+        let by_levels = |row: Vec<f64>, own: Option<usize>| {
+            let levels = unit_row(self.weights.len(), own);
+            row.into_iter().chain(levels).collect()
+        };
         let rows = |it: &Local| {
             let constraints = it.constraints.iter();
-            let constraints = constraints.map(|one| scaled(&one.slope, -1.0, level(0.0)));
+            let constraints = constraints.map(|one| by_levels(scaled(&one.slope, -1.0), None));
             let scores = self.scores(it);
-            let scores = scores.map(|one| scaled(one, -1.0 / self.score, level(1.0)));
+            let scores =
+                scores.map(|(index, one)| by_levels(scaled(one, -1.0 / self.score), Some(index)));
             constraints.chain(scores).collect()
         };
         let nowhere = || vec![vec![0.0; at.len()]; self.constraints];
@@ -243,12 +272,7 @@ impl Jacobian for Program<'_> {
     }
 }
 
-/// Derivatives times a factor, and that by the level.
-fn scaled(slope: &Slope, factor: f64, by_level: Option<f64>) -> Vec<f64> {
-    slope
-        .by
-        .iter()
-        .map(|by| factor * by)
-        .chain(by_level)
-        .collect()
+/// Derivatives times a factor.
+fn scaled(slope: &Slope, factor: f64) -> Vec<f64> {
+    slope.by.iter().map(|by| factor * by).collect()
 }

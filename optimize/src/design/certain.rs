@@ -7,7 +7,6 @@ use cobyla::{Func, RhoBeg, StopTols, minimize};
 
 use super::coordinates::{Candidate, Coordinates};
 use super::critical::CriticalMachines;
-use super::judge::violation;
 use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 
@@ -34,29 +33,27 @@ pub(super) fn certain(
     (share, known): (f64, &CriticalMachines),
 ) -> Option<Candidate> {
     let coordinates = Coordinates::new(problem, &from.unit);
-    let unit = problem.objective.score(from.design.value);
+    let unit = problem.score(&from.design);
     let best: RefCell<Option<Candidate>> = RefCell::default();
     let last: RefCell<Option<(Vec<f64>, Sample)>> = RefCell::default();
     let look = |at: &[f64]| -> Option<Sample> {
         let unit_cube = coordinates.unit(at);
         let here = OperatingPoint::find(problem, &coordinates.at(&unit_cube, at))?;
-        let motion = here.judged()?;
-        let value = problem.sought(&motion)?;
-        let outside = here.outside(problem)? + violation(&problem.met(&motion));
+        let design = here.sought(problem)?;
+        let (score, outside) = (problem.score(&design), here.violation(problem)?);
         let known = Sample {
-            score: problem.objective.score(value) / unit,
-            share: problem.least_certainty((here.machine(), &here.orbit), &known.tried)? - share,
+            score: score / unit,
+            share: problem.least_certainty(&here, known)? - share,
             within: -outside,
         };
         let mut best = best.borrow_mut();
-        let score = |it: &Candidate| problem.objective.score(it.design.value);
         let is_better = best
             .as_ref()
-            .is_none_or(|best| score(best) < problem.objective.score(value));
+            .is_none_or(|best| problem.score(&best.design) < score);
         if known.share >= 0.0 && outside == 0.0 && is_better {
             *best = Some(Candidate {
                 unit: unit_cube.clone(),
-                design: here.design(value),
+                design,
             });
         }
         Some(known)

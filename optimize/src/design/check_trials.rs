@@ -16,6 +16,7 @@ use super::problem::Problem;
 use super::robustify::{Robust, look};
 use super::space::Space;
 use super::trial::FULL;
+use super::zoned::Zoned;
 use super::{Design, Infeasible};
 
 /// Zones of the lattice, at most.
@@ -185,13 +186,12 @@ impl Trials<'_> {
     /// Whether a design keeps what is known of its box, and passes.
     fn passes(&self, it: &Candidate) -> bool {
         let design = &it.design;
-        let here = OperatingPoint::on(design.machine.clone(), &design.zone, design.place);
-        here.is_some_and(|here| self.known.value(self.problem, &here).is_some())
-            && self.is_passed(design)
+        let here = OperatingPoint::of(design);
+        self.known.design(self.problem, &here).is_some() && self.is_passed(design)
     }
 
     fn is_passed(&self, design: &Design) -> bool {
-        self.problem.passes(design, &self.known.tried, FULL)
+        self.problem.passes(design, self.known, FULL)
     }
 
     /// The best of some zones that is better than one that is known.
@@ -221,15 +221,10 @@ impl Trials<'_> {
     /// The best motion along the zone of a point of the unit cube that passes and is better than that.
     fn along(&self, unit: &[f64], least: f64) -> Option<Design> {
         let problem = self.problem;
-        let machine = problem.machine_at(&Space(&problem.axes).values(unit));
-        machine.validate().ok()?;
-        let zone = problem.zone_of(&machine).ok()?;
-        let window = problem.window(&machine, &zone).ok()?;
-        let design = |place: f64| {
-            let here = OperatingPoint::on(machine.clone(), &zone, place)?;
-            let value = self.known.value(problem, &here)?;
-            Some(here.design(value))
-        };
+        let cases = problem.in_cases();
+        let zoned = Zoned::find(problem, &cases, &Space(&problem.axes).values(unit))?;
+        let window = zoned.window().ok()?;
+        let design = |place: f64| self.known.design(problem, &zoned.at(place)?);
         let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));
         let sampled: Vec<Option<Design>> = places.map(design).collect();
         let pairs = sampled.windows(2);

@@ -23,11 +23,27 @@ pub enum Limit {
     Loss,
 }
 
+/// What holds a design back in the drawing's operating point or in a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct ActiveLimit {
+    /// What.
+    pub limit: Limit,
+    /// The index of the case, if it is one.
+    pub case: Option<usize>,
+}
+
+impl From<Limit> for ActiveLimit {
+    /// In the drawing's operating point.
+    fn from(limit: Limit) -> Self {
+        Self { limit, case: None }
+    }
+}
+
 /// A constraint, met where it is not negative, in units of its bound.
 #[derive(Debug, Clone)]
 pub struct Constraint {
     /// What it keeps.
-    pub limit: Limit,
+    pub limit: ActiveLimit,
     /// Its value.
     pub slope: Slope,
 }

@@ -5,6 +5,7 @@
 use softstop::Parameter;
 use softstop_dynamics::slopes;
 
+use super::Design;
 use super::constraint::Limit;
 use super::differences::differences;
 use super::exact::Linearization;
@@ -47,6 +48,8 @@ pub struct CriticalMachines {
     pub tried: Vec<Vec<f64>>,
     /// Trials that better designs have failed.
     pub failed: Vec<Figure>,
+    /// Those of the first cases.
+    pub cases: Vec<CriticalMachines>,
 }
 
 /// Distance between coordinates of the box that is none.
@@ -69,8 +72,43 @@ impl CriticalMachines {
         is_new
     }
 
-    /// What is sought of a motion that is as required in the drawing's machine and in all of these; none if it is not.
-    pub(super) fn value(&self, problem: &Problem, here: &OperatingPoint) -> Option<f64> {
+    /// Those of a case.
+    pub(super) fn in_case(&self, index: usize) -> Self {
+        self.cases.get(index).cloned().unwrap_or_default()
+    }
+
+    /// Those of a case, to add to.
+    pub(super) fn in_case_mut(&mut self, index: usize) -> &mut Self {
+        if self.cases.len() <= index {
+            self.cases.resize_with(index + 1, Self::default);
+        }
+        &mut self.cases[index]
+    }
+
+    /// Trials that better designs have failed, each with the index of the case, if it was one.
+    pub(super) fn all_failed(&self) -> impl Iterator<Item = (Figure, Option<usize>)> {
+        let own = self.failed.iter().map(|it| (*it, None));
+        let cases = self.cases.iter().enumerate();
+        let cases =
+            cases.flat_map(|(index, known)| known.failed.iter().map(move |it| (*it, Some(index))));
+        own.chain(cases)
+    }
+
+    /// The design of a motion that is as required in the drawing's machine and in all of these, in every case; none if it is
+    /// not.
+    pub(super) fn design(&self, problem: &Problem, here: &OperatingPoint) -> Option<Design> {
+        let own = here.design(self.value(problem, here)?);
+        let cases = problem.in_cases();
+        let cases = cases.iter().zip(&here.cases).enumerate();
+        let cases = cases.map(|(index, (case, point))| self.in_case(index).design(case, point));
+        Some(Design {
+            cases: cases.collect::<Option<_>>()?,
+            ..own
+        })
+    }
+
+    /// What is sought of a motion that is as required in the own machine of an operating point and in all of these.
+    fn value(&self, problem: &Problem, here: &OperatingPoint) -> Option<f64> {
         let motion = here.judged()?;
         let is_met = problem.met(&motion).iter().all(Met::is_met);
         let mut value = problem.sought(&motion).filter(|_| is_met)?;

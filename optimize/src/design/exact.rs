@@ -35,11 +35,12 @@ pub(super) struct Linearization<'a> {
 const CHANGE: f64 = 1e-2;
 
 impl<'a> Linearization<'a> {
-    /// None where the motion has no derivatives.
+    /// Of a drawing's motion, or of a case's, with the derivatives of the drawing's frequency by the coordinates. None where the
+    /// motion has no derivatives.
     pub(super) fn of(
         problem: &'a Problem,
         at: &'a At<'a>,
-        point: &'a OperatingPoint,
+        (point, given): (&'a OperatingPoint, Option<&[f64]>),
     ) -> Option<Self> {
         let mut parameters: Vec<Parameter> = Parameter::ALL.to_vec();
         let all = directions(problem, at);
@@ -69,20 +70,24 @@ impl<'a> Linearization<'a> {
         high.truncate(directions.len());
         let width = point.zone.width();
         let share = point.place;
-        let mut place: Vec<f64> = Vec::new();
-        let mut frequency: Vec<f64> = Vec::new();
-        for (low, high) in low.iter().zip(&high) {
-            let moved = low + share * (high - low);
-            let is_placed = at.place.is_some();
-            frequency.push(if is_placed { moved } else { 0.0 });
-            place.push(if is_placed { 0.0 } else { -moved / width });
-        }
+        let ends = low.iter().zip(&high);
+        // How the frequency of this place changes.
+        let mut moved: Vec<f64> = ends.map(|(low, high)| low + share * (high - low)).collect();
+        let mut frequency = match at.place {
+            Some(_) => moved.clone(),
+            None => vec![0.0; moved.len()],
+        };
         if at.place.is_some() {
             directions.push(vec![0.0; parameters.len()]);
             high.push(0.0);
+            moved.push(0.0);
             frequency.push(width);
-            place.push(1.0);
         }
+        if let Some(given) = given {
+            given.clone_into(&mut frequency);
+        }
+        let pairs = frequency.iter().zip(&moved);
+        let place = pairs.map(|(own, moved)| (own - moved) / width).collect();
         for (row, frequency) in directions.iter_mut().zip(&frequency) {
             row.push(*frequency);
         }

@@ -4,12 +4,13 @@ use serde::Serialize;
 
 use super::ascent::ascend_from;
 use super::check_trials::{Passed, Resolution, check_trials};
-use super::constraint::Limit;
+use super::constraint::ActiveLimit;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
 use super::improve_catalogue::improve_catalogue;
 use super::judge::Met;
 use super::multipliers::limits;
+use super::operating_point::OperatingPoint;
 use super::robustify::{Robust, enforce_tolerance_box};
 use super::{Design, Problem};
 
@@ -30,7 +31,7 @@ pub struct Found {
     /// Machines within its tolerances that it has to keep within bounds.
     pub known: CriticalMachines,
     /// All that holds it back.
-    pub limits: Vec<Limit>,
+    pub limits: Vec<ActiveLimit>,
     /// Others, far from it and nearly as good: a small change of the task can make one of them the best.
     pub rivals: Vec<Design>,
     /// What it has of what is tried; nothing of a search that was stopped.
@@ -112,9 +113,8 @@ impl Found {
     /// Goes on from a design of a problem like this one: true if that has led to a better design.
     pub fn go_on_from(&mut self, problem: &Problem, from: &Candidate) -> bool {
         let mut start = from.clone();
-        let sought = start.design.judged().ok();
-        if let Some(value) = sought.and_then(|motion| problem.sought(&motion)) {
-            start.design.value = value;
+        if let Some(design) = OperatingPoint::of(&start.design).sought(problem) {
+            start.design = design;
         }
         let place = (&start.unit[..], start.design.place);
         let top = ascend_from(problem, &CriticalMachines::default(), place);

@@ -194,7 +194,7 @@ fn tried(
     known: &CriticalMachines,
 ) -> Option<Tried> {
     let held = enforce(problem, candidate, known.clone()).ok()?;
-    let is_moved = !problem.passes(&held.candidate.design, &known.tried, ROUGH);
+    let is_moved = !problem.passes(&held.candidate.design, known, ROUGH);
     let candidate = match is_moved {
         true => {
             let moved = nearby(problem, &held.candidate, &held.known)?;
@@ -211,18 +211,32 @@ fn tried(
     })
 }
 
-/// Value of a figure, of the worst machine within the tolerances if that is bounded, and of what is sought.
+/// Value of a figure, of the worst machine within the tolerances if that is bounded and of the worst case, and of what is sought.
 fn place(problem: &Problem, figure: Figure, at: &Candidate) -> Option<(f64, f64)> {
-    let within = problem.worst_of_required(&at.design);
+    let mut worst = value(problem, figure, &at.design)?;
+    let cases = problem.in_cases();
+    for (case, design) in cases.iter().zip(&at.design.cases) {
+        let own = value(case, figure, design)?;
+        worst = match figure.sense() {
+            Sense::Least => worst.min(own),
+            Sense::Most => worst.max(own),
+        };
+    }
+    Some((worst, problem.sought_of(&at.design)))
+}
+
+/// Value of a figure in one operating point.
+fn value(problem: &Problem, figure: Figure, design: &Design) -> Option<f64> {
+    let within = problem.worst_of_required(design);
     let within = within
         .iter()
         .find(|(of, side, _)| (*of, *side) == (figure, figure.sense()));
     let value = match (within, figure) {
         (Some((.., worst)), _) => worst.value,
-        (None, Figure::Certainty) => certainty(&at.design.orbit).ok()?,
-        (None, _) => problem.value(&at.design.judged().ok()?, figure),
+        (None, Figure::Certainty) => certainty(&design.orbit).ok()?,
+        (None, _) => problem.value(&design.judged().ok()?, figure),
     };
-    value.is_finite().then_some((value, at.design.value))
+    Some(value).filter(|it| it.is_finite())
 }
 
 /// Over the margin M from both ends of the zone.
@@ -289,8 +303,8 @@ fn both_ways(
             let Some(candidate) = ascend_from(&problem, known, place) else {
                 break;
             };
-            let gain = (candidate.design.value - from.design.value).abs();
-            if gain <= FREE * from.design.value.abs() {
+            let [before, after] = [&from, &candidate].map(|it| problem.sought_of(&it.design));
+            if (after - before).abs() <= FREE * before.abs() {
                 break;
             }
             from = candidate;

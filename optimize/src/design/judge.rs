@@ -181,6 +181,8 @@ const AT_FOLD: f64 = 1e-6;
 pub struct Met {
     /// What is required.
     pub requirement: Requirement,
+    /// The index of the case in which it is, if it is one.
+    pub case: Option<usize>,
     /// What the motion has.
     pub value: f64,
     /// The starts that tell it, if it takes many.
@@ -203,6 +205,26 @@ pub struct Within {
 }
 
 impl Met {
+    /// A requirement of which nothing is known.
+    pub(super) fn of(requirement: Requirement) -> Self {
+        Self {
+            requirement,
+            case: None,
+            value: f64::NAN,
+            starts: None,
+            within: None,
+            violating: None,
+            interval: None,
+        }
+    }
+
+    /// The same, of the case of this index.
+    #[must_use]
+    pub fn in_case(self, index: usize) -> Self {
+        let case = Some(index);
+        Self { case, ..self }
+    }
+
     /// By what it is judged: of a share that is counted, the lower end of its interval.
     pub fn judged(&self) -> f64 {
         match (&self.starts, self.requirement.figure) {
@@ -285,12 +307,8 @@ impl Problem {
     pub fn met(&self, motion: &Judged<'_>) -> Vec<Met> {
         let all = self.requirements.iter().filter(|it| !it.figure.is_trial());
         all.map(|requirement| Met {
-            requirement: *requirement,
             value: self.value(motion, requirement.figure),
-            starts: None,
-            within: None,
-            violating: None,
-            interval: None,
+            ..Met::of(*requirement)
         })
         .collect()
     }
@@ -300,12 +318,8 @@ impl Problem {
         let value = motion.value(Figure::Share);
         let is_at_bound = (value - self.margin).abs() < ROUNDING;
         (self.margin > 0.0).then_some(Met {
-            requirement: Requirement::new(Figure::Share, Some(self.margin), None),
             value: if is_at_bound { self.margin } else { value },
-            starts: None,
-            within: None,
-            violating: None,
-            interval: None,
+            ..Met::of(Requirement::new(Figure::Share, Some(self.margin), None))
         })
     }
 }

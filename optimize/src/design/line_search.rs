@@ -4,14 +4,15 @@ use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
-use softstop::Machine;
-use softstop_dynamics::{BranchPoint, Orbit, Zone};
+use softstop::Parameter;
+use softstop_dynamics::BranchPoint;
 
 use super::conflict::{conflict, short};
 use super::judge::{Judged, violation};
 use super::problem::Problem;
 use super::space::Interval;
-use super::{DISTANT, Infeasible};
+use super::zoned::Zoned;
+use super::{DISTANT, Design, Infeasible};
 
 /// Places that are looked at before the best one is refined.
 const SAMPLES: usize = 9;
@@ -21,20 +22,15 @@ const REFINEMENTS: u64 = 60;
 /// Accuracy of a best place inside the window: the velocity is flat there.
 const TOLERANCE: f64 = 1e-8;
 
-/// The stable motion in the window of places that is best by the problem's objective and meets its requirements.
+/// The stable motion that is best by the problem's objective and meets its requirements, in all cases, of the places that
+/// margin, frequency bounds and tolerances leave.
 ///
 /// # Errors
 /// [`Infeasible`] if none of the motions looked at is found, stable and as required.
-pub fn best(
-    problem: &Problem,
-    machine: &Machine,
-    zone: &Zone,
-    window: Interval,
-) -> Result<Best, Infeasible> {
+pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
+    let window = zoned.window()?;
     let line = Line {
-        problem,
-        machine,
-        zone,
+        zoned,
         best: RefCell::new(None),
         reason: RefCell::default(),
     };
@@ -61,22 +57,9 @@ fn samples(window: Interval) -> [f64; SAMPLES] {
     std::array::from_fn(|index| window.at(index as f64 / (SAMPLES - 1) as f64))
 }
 
-/// The best motion along a zone.
-#[derive(Debug, Clone)]
-pub struct Best {
-    /// Its place.
-    pub place: f64,
-    /// The motion.
-    pub orbit: Orbit,
-    /// What is sought, in SI units.
-    pub value: f64,
-}
-
 /// The motions along a zone and the best that was met.
-struct Line<'zone> {
-    problem: &'zone Problem,
-    machine: &'zone Machine,
-    zone: &'zone Zone,
+struct Line<'a> {
+    zoned: &'a Zoned<'a>,
     best: RefCell<Option<Met>>,
     /// The least gap to feasible ones, and why.
     reason: RefCell<(f64, String)>,
@@ -87,13 +70,15 @@ struct Met {
     place: f64,
     point: BranchPoint,
     value: f64,
+    cases: Vec<Design>,
     cost: f64,
 }
 
 impl Line<'_> {
     /// Minus the score of the stable motion that is as required; for others a finite grade above all of those.
     fn cost_at(&self, place: f64) -> f64 {
-        let point = match self.zone.point_at(place) {
+        let Zoned { problem, zone, .. } = self.zoned;
+        let point = match zone.point_at(place) {
             Ok(point) => point,
             Err(error) => return self.fails(DISTANT, || error.to_string()),
         };
@@ -104,52 +89,47 @@ impl Line<'_> {
                 "the z = 1 motion is not stable there".to_owned()
             });
         }
-        let value = match self.problem.is_plain() {
-            true => Ok(velocity),
+        let judged = match problem.is_plain() {
+            true => Ok((velocity, Vec::new())),
             false => self.judged(place, &point),
         };
-        let value = match value {
-            Ok(value) => value,
+        let (value, cases) = match judged {
+            Ok(judged) => judged,
             Err(Infeasible { gap, reason }) => return self.fails(gap, || reason),
         };
-        let cost = -self.problem.objective.score(value);
+        let values = [value].into_iter().chain(cases.iter().map(|it| it.value));
+        let cost = -problem.objective.score(problem.mean(values));
         let mut best = self.best.borrow_mut();
         if best.as_ref().is_none_or(|known| cost < known.cost) {
             *best = Some(Met {
                 place,
                 point,
                 value,
+                cases,
                 cost,
             });
         }
         cost
     }
 
-    /// What is sought, of a motion that is as required.
-    fn judged(&self, place: f64, point: &BranchPoint) -> Result<f64, Infeasible> {
-        let orbit = self.zone.orbit(point).map_err(Infeasible::unknown)?;
-        let motion = Judged::new(self.machine, self.zone, place, &orbit);
-        let motion = motion.map_err(Infeasible::unknown)?;
-        let met = self.problem.met(&motion);
-        match violation(&met) {
-            0.0 => self.problem.sought(&motion).ok_or_else(|| {
-                let figure = self.problem.objective.figure;
-                let name = figure.name();
-                Infeasible::unknown(match self.problem.value(&motion, figure) {
-                    value if value.is_finite() => {
-                        format!(
-                            "{name} is {}: what is sought must be positive",
-                            short(value)
-                        )
-                    }
-                    _ => format!("{name} has no value"),
-                })
-            }),
-            gap => Err(Infeasible {
-                gap,
-                reason: conflict(self.machine, &met),
-            }),
-        }
+    /// What is sought, of a motion that is as required, and its design in each case.
+    fn judged(&self, place: f64, point: &BranchPoint) -> Result<(f64, Vec<Design>), Infeasible> {
+        let Zoned {
+            problem,
+            machine,
+            zone,
+            cases,
+        } = self.zoned;
+        let orbit = zone.orbit(point).map_err(Infeasible::unknown)?;
+        let motion = Judged::new(machine, zone, place, &orbit);
+        let value = sought(problem, &motion.map_err(Infeasible::unknown)?)?;
+        let frequency = zone.frequency_at(place);
+        let in_case = |(case, stated): (&Zoned<'_>, _)| {
+            let design = design_at(case, case.place_of(frequency));
+            design.map_err(|lack| lack.in_case(stated))
+        };
+        let cases = cases.iter().zip(&problem.cases).map(in_case);
+        Ok((value, cases.collect::<Result<_, _>>()?))
     }
 
     /// Notes why a motion is none to take.
@@ -180,18 +160,58 @@ impl Line<'_> {
             .run();
     }
 
-    fn result(&self) -> Result<Best, Infeasible> {
+    fn result(&self) -> Result<Design, Infeasible> {
         let Some(best) = self.best.take() else {
             let (gap, reason) = self.reason.take();
             return Err(Infeasible { gap, reason });
         };
-        let orbit = self.zone.orbit(&best.point);
-        let orbit = orbit.map_err(Infeasible::unknown)?;
-        Ok(Best {
+        let Zoned { machine, zone, .. } = self.zoned;
+        let orbit = zone.orbit(&best.point).map_err(Infeasible::unknown)?;
+        let mut machine = machine.clone();
+        Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(best.place));
+        Ok(Design {
+            machine,
             place: best.place,
+            zone: zone.clone(),
             orbit,
             value: best.value,
+            cases: best.cases,
         })
+    }
+}
+
+/// The design of a case at a place of its zone, if it is as required.
+fn design_at(case: &Zoned<'_>, place: f64) -> Result<Design, Infeasible> {
+    let point = case.at(place).ok_or_else(|| Infeasible {
+        gap: (-place).max(place - 1.0).clamp(0.0, DISTANT),
+        reason: "there is no stable z = 1 motion of its zone at this frequency".to_owned(),
+    })?;
+    let motion = point.judged();
+    let motion = motion.ok_or_else(|| Infeasible::unknown("its motion cannot be computed"))?;
+    Ok(point.design(sought(case.problem, &motion)?))
+}
+
+/// What is sought, of a motion that is as required.
+fn sought(problem: &Problem, motion: &Judged<'_>) -> Result<f64, Infeasible> {
+    let met = problem.met(motion);
+    match violation(&met) {
+        0.0 => problem.sought(motion).ok_or_else(|| {
+            let figure = problem.objective.figure;
+            let name = figure.name();
+            Infeasible::unknown(match problem.value(motion, figure) {
+                value if value.is_finite() => {
+                    format!(
+                        "{name} is {}: what is sought must be positive",
+                        short(value)
+                    )
+                }
+                _ => format!("{name} has no value"),
+            })
+        }),
+        gap => Err(Infeasible {
+            gap,
+            reason: conflict(motion.machine, &met),
+        }),
     }
 }
 

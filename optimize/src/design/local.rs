@@ -10,43 +10,115 @@ use super::exact::Linearization;
 use super::figure::{Figure, Sense};
 use super::judge::Judged;
 use super::operating_point::{At, OperatingPoint};
-use super::problem::Problem;
+use super::problem::{Objective, Problem};
 use super::reach::inside;
 use super::requirement::Requirement;
 use super::slope::Slope;
 use super::space::End;
 
-/// What is known at a point: what is sought as a score, and constraints.
+/// What is known at a point: what is sought as scores, and constraints.
 #[derive(Debug, Clone)]
 pub struct Local {
-    /// The score of the drawing's machine.
-    pub objective: Slope,
-    /// The scores of the machines that are known as the worst within the tolerances, if the worst counts.
-    pub scores: Vec<Slope>,
+    /// The scores of the drawing, and of each case that has a weight.
+    pub scores: Vec<Scores>,
     /// The constraints.
     pub constraints: Vec<Constraint>,
     /// The design there, if it is as required.
     pub design: Option<Design>,
 }
 
-impl Local {
+/// The scores of one operating point.
+#[derive(Debug, Clone)]
+pub struct Scores {
+    /// Its weight.
+    pub weight: f64,
+    /// The score of its own machine.
+    pub own: Slope,
+    /// The scores of the machines that are known as the worst within the tolerances, if the worst counts.
+    pub worst: Vec<Slope>,
+}
+
+impl Scores {
+    /// All of them.
+    pub fn all(&self) -> impl Iterator<Item = &Slope> {
+        [&self.own].into_iter().chain(&self.worst)
+    }
+
     /// The score that counts: the worst.
-    pub fn score(&self) -> f64 {
-        let scores = self.scores.iter().map(|it| it.value);
-        scores.fold(self.objective.value, f64::min)
+    pub fn least(&self) -> &Slope {
+        let worst = self.worst.iter();
+        worst.fold(&self.own, |least, it| match it.value < least.value {
+            true => it,
+            false => least,
+        })
+    }
+}
+
+impl Local {
+    /// The score of the weighted mean of what the own machines have.
+    pub fn objective(&self, objective: &Objective) -> Slope {
+        let scores = self.scores.iter();
+        let own: Vec<_> = scores.map(|it| (it.weight, it.own.clone())).collect();
+        objective.mean(&own)
+    }
+
+    /// The score of the weighted mean of what the worst machines have, which counts, with its derivatives by the scores of these.
+    pub fn score(&self, objective: &Objective) -> Slope {
+        let scores = self.scores.iter();
+        let least: Vec<_> = scores.map(|it| (it.weight, it.least().value)).collect();
+        objective.mean_of(&least)
     }
 }
 
 /// What is known at a point, with what is known of the machines within the tolerances; none if there is no stable motion.
 pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option<Local> {
     let here = OperatingPoint::find(problem, at)?;
+    let exact = Linearization::of(problem, at, (&here, None));
+    let mut all = of_point(problem, at, (&here, exact.as_ref()), known)?;
+    let cases = problem.in_cases();
+    for (index, (case, point)) in cases.iter().zip(&here.cases).enumerate() {
+        let given = exact.as_ref().map(|it| &it.frequency[..]);
+        let exact = given.and_then(|given| Linearization::of(case, at, (point, Some(given))));
+        let own = of_point(case, at, (point, exact.as_ref()), &known.in_case(index))?;
+        all.add(own, (index, problem.cases[index].weight));
+    }
+    Some(all)
+}
+
+impl Local {
+    /// Adds what is known of a case.
+    fn add(&mut self, other: Self, (index, weight): (usize, f64)) {
+        let scores = other.scores.into_iter();
+        let scores = scores.filter(|_| weight > 0.0);
+        self.scores.extend(scores.map(|it| Scores { weight, ..it }));
+        for mut constraint in other.constraints {
+            constraint.limit.case = Some(index);
+            self.constraints.push(constraint);
+        }
+        let both = self.design.take().zip(other.design);
+        self.design = both.map(|(mut design, case)| {
+            design.cases.push(case);
+            design
+        });
+    }
+}
+
+/// What is known of one operating point, without its cases.
+fn of_point(
+    problem: &Problem,
+    at: &At<'_>,
+    (here, exact): (&OperatingPoint, Option<&Linearization<'_>>),
+    known: &CriticalMachines,
+) -> Option<Local> {
     let motion = here.judged()?;
-    let exact = Linearization::of(problem, at, &here);
-    let slopes = slopes(problem, at, exact.as_ref(), (&here, &motion))?;
+    let slopes = slopes(problem, at, exact, (here, &motion))?;
     let (frequency, figures) = slopes.split_last()?;
     let (sought, required) = figures.split_first()?;
     let mut constraints = Vec::new();
-    let mut keep = |limit, slope| constraints.push(Constraint { limit, slope });
+    let mut keep = |limit: Limit, slope| {
+        let limit = limit.into();
+        constraints.push(Constraint { limit, slope });
+    };
     for (it, slope) in single(problem).zip(required) {
         for (side, bound) in it.sides() {
             let sign = if side == Sense::Least { 1.0 } else { -1.0 };
@@ -73,7 +145,7 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option
     }
     let edges = here.box_window(problem)?;
     if let Some(edges) = &edges {
-        let exact = exact.as_ref()?;
+        let exact = exact?;
         let none = || Slope::free(exact.frequency.len());
         let inside = |edge| inside(exact, edge);
         if let Some(edge) = &edges.low {
@@ -84,7 +156,7 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option
             keep(Limit::Tolerances(End::Upper), slope);
         }
     }
-    let critical = known.slopes(exact.as_ref())?;
+    let critical = known.slopes(exact)?;
     let reserves = critical.reserves.into_iter();
     let reserves = reserves.map(|slope| (Limit::Loss, slope));
     let mut is_kept = true;
@@ -96,25 +168,27 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option
     // What rounding puts beyond a bound is at it elsewhere; here nobody is led there.
     let mut required = constraints.iter().take(2 * single(problem).count());
     let is_met =
-        required.all(|it| !matches!(it.limit, Limit::Required(..)) || it.slope.value >= 0.0);
-    let found = Local {
-        objective: problem.objective.slope(sought.clone()),
-        scores: critical.scores,
-        constraints,
-        design: None,
+        required.all(|it| !matches!(it.limit.limit, Limit::Required(..)) || it.slope.value >= 0.0);
+    let scores = Scores {
+        weight: 1.0,
+        own: problem.objective.slope(sought.clone()),
+        worst: critical.scores,
     };
-    let score = found.score();
+    let score = scores.least().value;
     let is_good = is_met
         && is_kept
         && here.is_within(problem, edges.as_ref())
         && score > 0.0
         && score.is_finite();
-    let value = match found.scores.is_empty() {
+    let value = match scores.worst.is_empty() {
         true => sought.value,
         false => problem.objective.value_of(score),
     };
-    let design = is_good.then(|| here.design(value));
-    Some(Local { design, ..found })
+    Some(Local {
+        scores: vec![scores],
+        constraints,
+        design: is_good.then(|| here.design(value)),
+    })
 }
 
 /// How far outside a bound the solver may leave what it holds.
@@ -128,10 +202,10 @@ fn single(problem: &Problem) -> impl Iterator<Item = &Requirement> {
         .filter(|it| !it.figure.is_trial())
 }
 
-/// The figures of a point: what is sought, what is required, and the share of the zone if the frequency is held.
+/// The figures of a point: what is sought, what is required, and the share of the zone if the frequency is given.
 fn figures(problem: &Problem) -> Vec<Figure> {
     let required = single(problem).map(|it| it.figure);
-    let share = problem.frequency.is_held().then_some(Figure::Share);
+    let share = problem.has_given_frequency().then_some(Figure::Share);
     let all = [problem.objective.figure]
         .into_iter()
         .chain(required)

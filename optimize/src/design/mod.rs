@@ -8,6 +8,8 @@
 mod alternative;
 mod ascent;
 mod box_window;
+pub mod case;
+mod cases;
 mod certain;
 mod check_trials;
 pub mod conflict;
@@ -46,17 +48,20 @@ mod survey;
 pub mod trial;
 mod within;
 mod without_effect;
+mod zoned;
 
 use std::slice;
 
 use box_window::BoxWindow;
+use case::Case;
 use judge::{Judged, Met};
 use rayon::prelude::*;
 use softstop::internals::budget::Fork;
-use softstop::{Dimension, Machine, MotionError, Parameter, Scene};
+use softstop::{Dimension, Machine, MotionError, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::zone::{ZoneError, ZoneKind};
 use softstop_dynamics::{Orbit, Zone, zone};
+use zoned::Zoned;
 
 pub use problem::Problem;
 pub use softstop_dynamics::figure;
@@ -75,6 +80,8 @@ pub struct Design {
     pub orbit: Orbit,
     /// What was sought, in SI units; of the worst machine within the tolerances, if that is what counts.
     pub value: f64,
+    /// The same design in each case.
+    pub cases: Vec<Design>,
 }
 
 impl Design {
@@ -115,12 +122,20 @@ impl Infeasible {
             reason: error.to_string(),
         }
     }
+
+    /// The same, told of a case.
+    fn in_case(self, case: &Case) -> Self {
+        Self {
+            reason: format!("in case {}: {}", case.name, self.reason),
+            ..self
+        }
+    }
 }
 
 impl Problem {
     /// The score of a design: the higher the better.
     fn score(&self, design: &Design) -> f64 {
-        self.objective.score(design.value)
+        self.objective.score(self.sought_of(design))
     }
 
     /// The best frequency at these values of the axes.
@@ -128,12 +143,16 @@ impl Problem {
     /// # Errors
     /// [`Infeasible`] if there is no zone, or none of it is allowed and stable.
     pub fn at(&self, values: &[f64]) -> Result<Design, Infeasible> {
-        let machine = self.machine_at(values);
-        let zone = match self.zone {
-            ZoneKind::Hysteresis => zone::hysteresis_watched(&machine.scene, &interrupt::watch),
-            ZoneKind::SingleImpact { .. } => self.zone_of(&machine),
+        let zoned = |problem| {
+            let machine = Self::machine_at(problem, values);
+            let zone = match self.zone {
+                ZoneKind::Hysteresis => zone::hysteresis_watched(&machine.scene, &interrupt::watch),
+                ZoneKind::SingleImpact { .. } => problem.zone_of(&machine),
+            };
+            Zoned::new(problem, machine, zone)
         };
-        self.best_of(machine, zone)
+        let cases = self.in_cases();
+        self.best_of(zoned(self), cases.iter().map(zoned))
     }
 
     /// The zone of a machine, on the way of a search.
@@ -144,41 +163,45 @@ impl Problem {
 
     /// The best frequencies at many points, with zones of less accuracy: on the way of a search.
     fn at_batch(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
-        let machines: Vec<Machine> = points.iter().map(|at| self.machine_at(at)).collect();
-        let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
-        let zones = zone::find_zones(self.zone, &scenes, &interrupt::watch);
-        let pairs: Vec<_> = machines.into_iter().zip(zones).collect();
+        let cases = self.in_cases();
+        let own = self.zoned(points);
+        let mut others: Vec<_> = cases
+            .iter()
+            .map(|case| case.zoned(points).into_iter())
+            .collect();
+        let with_cases = |own| {
+            let cases = others.iter_mut().filter_map(Iterator::next);
+            (own, cases.collect::<Vec<_>>())
+        };
+        let all: Vec<_> = own.into_iter().map(with_cases).collect();
         let fork = Fork::default();
-        let designs = pairs.into_par_iter();
-        let designs = designs.map(|(machine, zone)| fork.part(|| self.best_of(machine, zone)));
+        let designs = all.into_par_iter();
+        let designs = designs.map(|(own, cases)| fork.part(|| self.best_of(own, cases)));
         let designs = designs.collect();
         fork.join();
         designs
     }
 
-    fn best_of(
+    /// The machines at many points with their zones, without cases.
+    fn zoned(&self, points: &[Vec<f64>]) -> Vec<Result<Zoned<'_>, Infeasible>> {
+        let machines: Vec<Machine> = points.iter().map(|at| self.machine_at(at)).collect();
+        let scenes: Vec<Scene> = machines.iter().map(|of| of.scene.clone()).collect();
+        let zones = zone::find_zones(self.zone, &scenes, &interrupt::watch);
+        let pairs = machines.into_iter().zip(zones);
+        pairs
+            .map(|(machine, zone)| Zoned::new(self, machine, zone))
+            .collect()
+    }
+
+    fn best_of<'a>(
         &self,
-        mut machine: Machine,
-        zone: Result<Zone, ZoneError>,
+        own: Result<Zoned<'a>, Infeasible>,
+        cases: impl IntoIterator<Item = Result<Zoned<'a>, Infeasible>>,
     ) -> Result<Design, Infeasible> {
-        let zone = zone.map_err(|error| Infeasible {
-            gap: distance_from_zones(&machine.scene, &error),
-            reason: error.to_string(),
-        })?;
-        let window = self.window(&machine, &zone)?;
-        let line_search::Best {
-            place,
-            orbit,
-            value,
-        } = line_search::best(self, &machine, &zone, window)?;
-        Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
-        Ok(Design {
-            machine,
-            place,
-            zone,
-            orbit,
-            value,
-        })
+        let own = own?;
+        let cases = cases.into_iter().zip(&self.cases);
+        let cases = cases.map(|(it, stated)| it.map_err(|lack| lack.in_case(stated)));
+        line_search::best(&own.with_cases(cases.collect::<Result<_, _>>()?))
     }
 
     /// Whether the drawing's machine is as required, and stands where margin, frequency bounds and the zones of the machines
@@ -189,7 +212,9 @@ impl Problem {
         let window = self.window(&design.machine, &design.zone);
         let contains =
             |it: Interval| (it.low - ROUNDING..=it.high + ROUNDING).contains(&design.place);
-        is_met && window.is_ok_and(contains)
+        let cases = self.in_cases();
+        let mut cases = cases.iter().zip(&design.cases);
+        is_met && window.is_ok_and(contains) && cases.all(|(case, design)| case.is_allowed(design))
     }
 
     /// What ends the motion inside the zone where the tolerances of a design touch that, in words.

@@ -2,12 +2,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::constraint::Limit;
+use super::constraint::{ActiveLimit, Limit};
 use super::coordinates::{Candidate, Coordinates};
 use super::critical::CriticalMachines;
 use super::figure::Sense;
 use super::local::{Local, local};
 use super::problem::Problem;
+use super::slope::{Slope, unit_row};
 use super::space::{Axis, End, Space};
 
 /// Value of a constraint, in its own unit, and distance from an end of a coordinate, at which a design stands there.
@@ -18,22 +19,25 @@ const IDLE: f64 = 1e-6;
 const RESIDUE: f64 = 1e-2;
 
 /// All that holds a design back.
-pub(super) fn limits(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> Vec<Limit> {
+pub(super) fn limits(
+    problem: &Problem,
+    it: &Candidate,
+    known: &CriticalMachines,
+) -> Vec<ActiveLimit> {
     let coordinates = Coordinates::new(problem, &it.unit);
     let start = coordinates.start(it.design.place);
     let at = coordinates.at(&it.unit, &start);
-    let mut limits: Vec<Limit> = catalogue_ends(problem, &it.unit);
+    let ends = catalogue_ends(problem, &it.unit).into_iter();
+    let mut limits: Vec<ActiveLimit> = ends.map(Limit::into).collect();
     if let Some(found) = local(problem, &at, known) {
         let candidates = candidates(problem, &coordinates, &start, &found);
-        limits.extend(held_by(&found, candidates));
+        limits.extend(held_by(problem, &found, candidates));
     }
-    limits.extend(
-        known
-            .failed
-            .iter()
-            .map(|it| Limit::Required(*it, Sense::Least)),
-    );
-    let mut all: Vec<Limit> = Vec::new();
+    limits.extend(known.all_failed().map(|(figure, case)| ActiveLimit {
+        limit: Limit::Required(figure, Sense::Least),
+        case,
+    }));
+    let mut all: Vec<ActiveLimit> = Vec::new();
     for limit in limits {
         if !all.contains(&limit) {
             all.push(limit);
@@ -60,10 +64,10 @@ fn candidates(
     coordinates: &Coordinates,
     start: &[f64],
     found: &Local,
-) -> Vec<(Limit, Vec<f64>)> {
+) -> Vec<(ActiveLimit, Vec<f64>)> {
     let active = found.constraints.iter();
     let active = active.filter(|it| it.slope.value <= AT_LIMIT);
-    let mut all: Vec<(Limit, Vec<f64>)> =
+    let mut all: Vec<(ActiveLimit, Vec<f64>)> =
         active.map(|it| (it.limit, it.slope.by.clone())).collect();
     let bounds = coordinates.bounds(problem).into_iter();
     let parameters = coordinates.parameters(problem);
@@ -77,7 +81,7 @@ fn candidates(
                 };
                 let mut by = vec![0.0; start.len()];
                 by[index] = inwards;
-                all.push((limit, by));
+                all.push((limit.into(), by));
             }
         }
     }
@@ -85,24 +89,39 @@ fn candidates(
 }
 
 /// Those of them that hold the score back.
-fn held_by(found: &Local, candidates: Vec<(Limit, Vec<f64>)>) -> Vec<Limit> {
-    let least = found.score();
-    let scores = [&found.objective].into_iter().chain(&found.scores);
-    let scores = scores.filter(|it| it.value - least <= AT_LIMIT * least.abs());
-    // One weight for each score, of sum 1, so that the weighted gradient is what the constraints hold.
-    let scores: Vec<Vec<f64>> = scores
-        .map(|it| it.by.iter().map(|by| by / least).chain([1.0]).collect())
-        .collect();
+fn held_by(
+    problem: &Problem,
+    found: &Local,
+    candidates: Vec<(ActiveLimit, Vec<f64>)>,
+) -> Vec<ActiveLimit> {
+    let Slope {
+        value: whole,
+        by: rates,
+    } = found.score(&problem.objective);
+    let points = rates.len();
+    let row = |by: &[f64], factor: f64, point: Option<usize>| {
+        let by = by.iter().map(|by| by * factor);
+        by.chain(unit_row(points, point)).collect::<Vec<f64>>()
+    };
+    // One weight for each score, of sum 1 in each operating point, so that the weighted gradient is what the constraints hold.
+    let mut scores: Vec<Vec<f64>> = Vec::new();
+    let mut gradient = DVector::zeros(found.scores[0].own.by.len());
+    for (point, (it, rate)) in found.scores.iter().zip(&rates).enumerate() {
+        let least = it.least().value;
+        let active = it.all();
+        let active = active.filter(|it| it.value - least <= AT_LIMIT * least.abs());
+        let first = scores.len();
+        scores.extend(active.map(|it| row(&it.by, rate / whole, Some(point))));
+        gradient += DVector::from_column_slice(&scores[first][..gradient.len()]);
+    }
     let size = scores[0].len();
-    let rows = candidates.iter();
-    let rows = rows.map(|(_, by)| by.iter().copied().chain([0.0]).collect::<Vec<f64>>());
+    let rows = candidates.iter().map(|(_, by)| row(by, 1.0, None));
     let columns: Vec<Vec<f64>> = scores.iter().cloned().chain(rows).collect();
     let matrix = DMatrix::from_fn(size, columns.len(), |row, column| columns[column][row]);
     let mut target = DVector::zeros(size);
-    target[size - 1] = 1.0;
+    target.rows_mut(size - points, points).fill(1.0);
     let (multipliers, residue) = non_negative_least_squares(&matrix, &target);
-    let gradient: f64 = scores[0][..size - 1].iter().map(|by| by * by).sum();
-    let is_told = residue <= RESIDUE * gradient.sqrt().max(f64::MIN_POSITIVE);
+    let is_told = residue <= RESIDUE * gradient.norm().max(f64::MIN_POSITIVE);
     let multipliers = multipliers.iter().skip(scores.len());
     let pairs = candidates.into_iter().zip(multipliers);
     let held = pairs.filter(|(_, multiplier)| !is_told || **multiplier > IDLE);

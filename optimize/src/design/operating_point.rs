@@ -1,13 +1,12 @@
 //! The motion at a point of the search.
 
-use softstop::{Dimension, Machine, Parameter};
+use softstop::{Machine, Parameter};
 use softstop_dynamics::{Orbit, Zone};
 
 use super::Design;
 use super::box_window::BoxWindow;
-use super::judge::Judged;
+use super::judge::{Judged, violation};
 use super::problem::Problem;
-use super::space::Space;
 
 /// A point of the search: the cube's coordinates, those of them that are moved, and the place in the zone, if the
 /// frequency is not held.
@@ -25,30 +24,29 @@ pub struct At<'a> {
 const ROUNDING: f64 = 1e-12;
 
 /// The stable motion of a point.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct OperatingPoint {
     machine: Machine,
     pub(super) zone: Zone,
     pub(super) place: f64,
     pub(super) orbit: Orbit,
+    /// That of each case.
+    pub(super) cases: Vec<OperatingPoint>,
 }
 
 impl OperatingPoint {
-    /// None if there is no stable motion.
-    pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
-        let values = Space(&problem.axes).values(at.unit);
-        let machine = problem.machine_at(&values);
-        machine.validate().ok()?;
-        let zone = problem.zone_of(&machine).ok()?;
-        let held = || {
-            let frequency = machine.to_si(Dimension::Frequency, problem.frequency.low);
-            zone.place_of(frequency)
-        };
-        let place = at.place.unwrap_or_else(held);
-        Self::on(machine, &zone, place)
+    /// The motion of a design.
+    pub(super) fn of(design: &Design) -> Self {
+        Self {
+            machine: design.machine.clone(),
+            zone: design.zone.clone(),
+            place: design.place,
+            orbit: design.orbit.clone(),
+            cases: design.cases.iter().map(Self::of).collect(),
+        }
     }
 
-    /// The motion at a place of a machine's zone.
+    /// The motion at a place of a machine's zone, without cases.
     pub(super) fn on(mut machine: Machine, zone: &Zone, place: f64) -> Option<Self> {
         let point = zone.point_at(place).ok()?;
         let orbit = zone.orbit(&point).ok()?;
@@ -61,7 +59,17 @@ impl OperatingPoint {
             zone: zone.clone(),
             place,
             orbit,
+            cases: Vec::new(),
         })
+    }
+
+    pub(super) fn with_cases(self, cases: Vec<Self>) -> Self {
+        Self { cases, ..self }
+    }
+
+    /// The frequency of its drive in rad/s.
+    pub(super) fn frequency(&self) -> f64 {
+        self.zone.frequency_at(self.place)
     }
 
     pub(super) fn judged(&self) -> Option<Judged<'_>> {
@@ -74,11 +82,17 @@ impl OperatingPoint {
         window.is_ok_and(|it| (it.low - ROUNDING..=it.high + ROUNDING).contains(&self.place))
     }
 
-    /// How far the place is outside of what margin, bounds of the frequency and tolerances allow; none if they allow none.
-    pub(super) fn outside(&self, problem: &Problem) -> Option<f64> {
+    /// How far the place is outside of what margin, bounds of the frequency and tolerances allow, and its motion from what is
+    /// required of it, in all cases; none if they allow no place.
+    pub(super) fn violation(&self, problem: &Problem) -> Option<f64> {
         let window = problem.window(&self.machine, &self.zone).ok()?;
         let away = (window.low - self.place).max(self.place - window.high);
-        Some(if away > ROUNDING { away } else { 0.0 })
+        let outside = if away > ROUNDING { away } else { 0.0 };
+        let own = outside + violation(&problem.met(&self.judged()?));
+        let cases = problem.in_cases();
+        let others = cases.iter().zip(&self.cases);
+        let others = others.map(|(case, point)| point.violation(case));
+        Some(own + others.sum::<Option<f64>>()?)
     }
 
     /// Where the tolerances stay inside the zone; none of that if all is exact.
@@ -91,7 +105,7 @@ impl OperatingPoint {
         &self.machine
     }
 
-    /// The same as a design.
+    /// The same as a design that has this of what is sought, without cases.
     pub(super) fn design(&self, value: f64) -> Design {
         Design {
             machine: self.machine.clone(),
@@ -99,6 +113,19 @@ impl OperatingPoint {
             zone: self.zone.clone(),
             orbit: self.orbit.clone(),
             value,
+            cases: Vec::new(),
         }
+    }
+
+    /// The same as a design by what each of its motions has of what is sought; none if one has no such figure.
+    pub(super) fn sought(&self, problem: &Problem) -> Option<Design> {
+        let value = problem.sought(&self.judged()?)?;
+        let cases = problem.in_cases();
+        let cases = cases.iter().zip(&self.cases);
+        let cases = cases.map(|(case, point)| point.sought(case));
+        Some(Design {
+            cases: cases.collect::<Option<_>>()?,
+            ..self.design(value)
+        })
     }
 }

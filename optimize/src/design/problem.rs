@@ -4,6 +4,7 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::run_up;
 use softstop_dynamics::zone::ZoneKind;
 
+use super::case::Case;
 use super::cost::Cost;
 use super::figure::{Figure, Sense};
 use super::requirement::{Requirement, Scope};
@@ -47,6 +48,12 @@ pub struct Problem {
     pub cost: Option<Cost>,
     /// How the machine may be run up.
     pub run_up: run_up::Settings,
+    /// Further operating points, in which all that is required must hold too.
+    pub cases: Vec<Case>,
+    /// What a case changes of the machine, if this is the problem of one.
+    pub changes: Vec<(Parameter, f64)>,
+    /// The problem of the drawing, if this is that of a case at the drawing's frequency.
+    pub drawing: Option<Box<Problem>>,
 }
 
 /// A parameter that follows another one, in the machine's own units.
@@ -211,10 +218,7 @@ impl Problem {
             zone: ZoneKind::Hysteresis,
             margin: 0.0,
             axes,
-            frequency: Interval {
-                low: f64::MIN_POSITIVE,
-                high: f64::INFINITY,
-            },
+            frequency: Interval::ANY,
             links: Vec::new(),
             tolerances: Vec::new(),
             reserve: 1.0,
@@ -225,6 +229,9 @@ impl Problem {
             requirements: Vec::new(),
             cost: None,
             run_up: run_up::Settings::default(),
+            cases: Vec::new(),
+            changes: Vec::new(),
+            drawing: None,
         }
     }
 
@@ -233,6 +240,9 @@ impl Problem {
         let mut machine = self.machine.clone();
         for (axis, value) in self.axes.iter().zip(values) {
             machine.set(axis.parameter, *value);
+        }
+        for (parameter, value) in &self.changes {
+            machine.set(*parameter, *value);
         }
         self.link(&mut machine);
         machine
@@ -305,6 +315,7 @@ impl Problem {
 
     /// True if nothing is asked of a motion but its velocity and its place in the zone.
     pub fn is_plain(&self) -> bool {
-        self.objective == Objective::default() && self.requirements.is_empty()
+        let asks_more = !self.requirements.is_empty() || !self.cases.is_empty();
+        self.objective == Objective::default() && !asks_more
     }
 }

@@ -102,8 +102,26 @@ pub(super) struct Look {
     pub lack: Option<Infeasible>,
 }
 
-/// Looks all around, takes note of what was not known, and sets what is sought to that of the worst machine, if that counts.
+/// Looks all around in every case, takes note of what was not known, and sets what is sought to that of the worst machine, if
+/// that counts.
 pub(super) fn look(problem: &Problem, design: &mut Design, known: &mut CriticalMachines) -> Look {
+    let mut seen = look_at_point(problem, design, known);
+    let cases = problem.in_cases();
+    let cases = cases.iter().zip(&mut design.cases).enumerate();
+    for (index, (case, design)) in cases {
+        let other = look_at_point(case, design, known.in_case_mut(index));
+        seen.is_new |= other.is_new;
+        let lack = other.lack.map(|it| it.in_case(&problem.cases[index]));
+        let is_worse = |it: &Infeasible| seen.lack.as_ref().is_none_or(|known| it.gap > known.gap);
+        if let Some(lack) = lack.filter(is_worse) {
+            seen.lack = Some(lack);
+        }
+    }
+    seen
+}
+
+/// Looks all around the operating point of a design, without its cases.
+fn look_at_point(problem: &Problem, design: &mut Design, known: &mut CriticalMachines) -> Look {
     let kept = Look {
         is_new: false,
         lack: None,
@@ -137,9 +155,10 @@ pub(super) fn look(problem: &Problem, design: &mut Design, known: &mut CriticalM
         let is_new = !is_own && known.note(*target, &found.at);
         match target {
             Target::Objective => {
-                let claimed = problem.score(design);
+                let score = |design: &Design| problem.objective.score(design.value);
+                let claimed = score(design);
                 design.value = problem.objective.worse(design.value, found.value);
-                let loss = claimed - problem.score(design);
+                let loss = claimed - score(design);
                 seen.is_new |= is_new && loss > GAIN * claimed.abs();
             }
             Target::Bound(figure, _) => {
@@ -188,7 +207,7 @@ impl Problem {
     }
 
     /// The machines within the tolerances that are worst in each figure that is required of all of them, by the side that is
-    /// good; none if nothing is, or where they cannot be computed.
+    /// good, without cases; none if nothing is, or where they cannot be computed.
     pub fn worst_of_required(&self, design: &Design) -> Vec<(Figure, Sense, Worst)> {
         let Some(spread) = self.spread(&design.machine) else {
             return Vec::new();

@@ -258,7 +258,7 @@ impl<'a> Search<'a> {
         let rivals = rivals.filter(|it| {
             let score = self.score(&it.candidate);
             (RIVAL * self.score(&best.candidate)..=self.score(&best.candidate)).contains(&score)
-                && problem.passes(&it.candidate.design, &best.known.tried, FULL)
+                && problem.passes(&it.candidate.design, &best.known, FULL)
         });
         let rivals = rivals.map(|it| it.candidate.clone());
         let others: Vec<Candidate> = others.chain(rivals).collect();

@@ -14,7 +14,7 @@ use super::conflict::short;
 use super::problem::{Problem, Tolerance};
 use super::requirement::{Requirement, Scope};
 use super::search::{Found, Quiet, SearchError, Settings, Watch, search, search_from};
-use crate::robust::{self, FITTED, Verdict, normal_quantile, verify};
+use crate::robust::{self, Verdict, normal_quantile, verify_in_cases};
 
 /// Boxes that are tried at most, and the widest in standard deviations.
 const ROUNDS: usize = 16;
@@ -48,18 +48,17 @@ impl Problem {
     /// The upper end of the share of the machines that lose the motion or violate a requirement, on a part of them where that
     /// decides; 1 where it cannot be counted.
     pub(super) fn rejected(&self, design: &Design, machines: usize) -> f64 {
-        let Some(spread) = self.spread(&design.machine) else {
+        let Some(drawn) = self.drawn(design) else {
             return 1.0;
         };
-        let (spread, required) = (spread.over(FITTED), self.required_of_each());
+        let required = self.required_of_each();
         let count = |machines| {
             let settings = robust::Settings {
                 machines,
                 first: OTHERS,
                 ..robust::Settings::default()
             };
-            let (nominal, watcher) = (&design.orbit, &interrupt::watch);
-            let verdict = verify(&spread, nominal, (settings, &required), watcher);
+            let verdict = verify_in_cases(&drawn, (settings, &required), &interrupt::watch);
             verdict.map_or([1.0; 2], |verdict| verdict.share_rejected())
         };
         let [low, high] = count(machines / PART);

@@ -9,6 +9,11 @@ pub struct Slope {
     pub by: Vec<f64>,
 }
 
+/// Zeros, with a one at an index.
+pub(super) fn unit_row(count: usize, one: Option<usize>) -> impl Iterator<Item = f64> {
+    (0..count).map(move |index| if one == Some(index) { 1.0 } else { 0.0 })
+}
+
 impl Slope {
     /// What always holds.
     pub(super) fn free(coordinates: usize) -> Self {

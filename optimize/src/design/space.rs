@@ -28,6 +28,12 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// No bounds of a positive value.
+    pub const ANY: Self = Self {
+        low: f64::MIN_POSITIVE,
+        high: f64::INFINITY,
+    };
+
     /// A single value.
     pub const fn held(value: f64) -> Self {
         Self {

@@ -170,7 +170,8 @@ impl<'a> Survey<'a> {
         let outcomes = self.problem.at_batch(&values).into_iter();
         let found = outcomes.zip(units).map(|(outcome, unit)| {
             let cost = cost(self.problem, &outcome);
-            let value = outcome.as_ref().ok().map(|design| design.value);
+            let value = outcome.as_ref().ok();
+            let value = value.map(|design| self.problem.sought_of(design));
             if let Ok(design) = outcome {
                 let unit = unit.clone();
                 self.incumbent

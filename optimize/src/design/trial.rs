@@ -13,6 +13,7 @@ use super::conflict::{conflict, violated_within};
 use super::critical::CriticalMachines;
 use super::figure::Figure;
 use super::judge::{Met, Within, violation};
+use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::requirement::{Requirement, Scope};
 use super::{Design, Infeasible};
@@ -49,7 +50,7 @@ impl Problem {
         self.requirements.iter().filter(|it| it.figure.is_trial())
     }
 
-    /// What a design has of the requirements that take many motions, at the corners of the tolerances too.
+    /// What a design has of the requirements that take many motions, at the corners of the tolerances and in all cases too.
     ///
     /// # Errors
     /// [`SurveyError`] if a motion cannot be computed, or somebody asked to stop.
@@ -57,12 +58,18 @@ impl Problem {
         let corners = self.corners(design);
         let tried = self.trials().map(|requirement| {
             let own = self.tried_of(requirement, &design.orbit, FULL)?;
-            Ok(Met {
+            Ok::<Met, SurveyError>(Met {
                 within: self.tried_within(requirement, &corners)?,
                 ..own
             })
         });
-        tried.collect()
+        let mut tried = tried.collect::<Result<Vec<Met>, SurveyError>>()?;
+        let cases = self.in_cases();
+        for (index, (case, design)) in cases.iter().zip(&design.cases).enumerate() {
+            let other = case.tried(design)?.into_iter();
+            tried.extend(other.map(|it| it.in_case(index)));
+        }
+        Ok(tried)
     }
 
     /// The motions at corners of the tolerances; none where the motion is lost.
@@ -106,11 +113,27 @@ impl Problem {
         Ok(each?.into_iter().min_by(order))
     }
 
-    /// What a design that meets the requirements which take many motions has of them, at the corners of the tolerances too.
+    /// What a design that meets the requirements which take many motions has of them, at the corners of the tolerances and in
+    /// all cases too.
     ///
     /// # Errors
     /// [`Infeasible`] with what it lacks; the corner that lacks most is taken note of.
     pub(super) fn pass_trials(
+        &self,
+        design: &Design,
+        known: &mut CriticalMachines,
+    ) -> Result<Vec<Met>, Infeasible> {
+        let mut all = self.pass_trials_at_point(design, known)?;
+        let cases = self.in_cases();
+        for (index, (case, design)) in cases.iter().zip(&design.cases).enumerate() {
+            let passed = case.pass_trials_at_point(design, known.in_case_mut(index));
+            let passed = passed.map_err(|lack| lack.in_case(&self.cases[index]))?;
+            all.extend(passed.into_iter().map(|it| it.in_case(index)));
+        }
+        Ok(all)
+    }
+
+    fn pass_trials_at_point(
         &self,
         design: &Design,
         known: &mut CriticalMachines,
@@ -146,9 +169,19 @@ impl Problem {
         Ok(own)
     }
 
-    /// Whether a design meets the requirements that take many motions, in its own machine and in some within the tolerances:
-    /// those that were met last first, which most likely fail.
-    pub(super) fn passes(&self, design: &Design, others: &[Vec<f64>], effort: Effort) -> bool {
+    /// Whether a design meets the requirements that take many motions, in its own machine and in those within the tolerances that
+    /// are known, in all cases.
+    pub(super) fn passes(&self, design: &Design, known: &CriticalMachines, effort: Effort) -> bool {
+        let cases = self.in_cases();
+        let mut cases = cases.iter().zip(&design.cases).enumerate();
+        self.passes_at_point(design, &known.tried, effort)
+            && cases.all(|(index, (case, design))| {
+                case.passes_at_point(design, &known.in_case(index).tried, effort)
+            })
+    }
+
+    /// The machines within the tolerances that were met last come first: they most likely fail.
+    fn passes_at_point(&self, design: &Design, others: &[Vec<f64>], effort: Effort) -> bool {
         let spread = self.spread(&design.machine);
         let neighbours = spread.as_ref().map(|it| Neighbours::new(it, &design.orbit));
         let at = |neighbours: &Neighbours, at: &[f64]| {
@@ -163,13 +196,24 @@ impl Problem {
                 .all(|it| self.is_passed(it, &design.orbit, effort))
     }
 
-    /// The least share of starts that lead to the motion of a design, of its own machine or of some within the tolerances, by
-    /// the lower end of its interval; none if a motion is lost.
+    /// The least share of starts that lead to the motion of a design, of its own machine or of those within the tolerances that
+    /// are known, in all cases, by the lower end of its interval; none if a motion is lost.
     pub(super) fn least_certainty(
         &self,
-        (machine, orbit): (&softstop::Machine, &Orbit),
-        others: &[Vec<f64>],
+        here: &OperatingPoint,
+        known: &CriticalMachines,
     ) -> Option<f64> {
+        let own = self.least_certainty_at_point(here, &known.tried);
+        let cases = self.in_cases();
+        let cases = cases.iter().zip(&here.cases).enumerate();
+        let cases = cases.map(|(index, (case, point))| {
+            case.least_certainty_at_point(point, &known.in_case(index).tried)
+        });
+        cases.fold(own, |least, it| Some(least?.min(it?)))
+    }
+
+    fn least_certainty_at_point(&self, here: &OperatingPoint, others: &[Vec<f64>]) -> Option<f64> {
+        let (machine, orbit) = (here.machine(), &here.orbit);
         let of = |orbit: &Orbit| {
             let found = Establishment::of(orbit, STARTS, &interrupt::watch).ok()?;
             Some(found.interval[0])
@@ -200,12 +244,9 @@ impl Problem {
     ) -> Result<Met, SurveyError> {
         let (value, starts) = value(requirement, orbit, (effort, &self.run_up))?;
         Ok(Met {
-            requirement: *requirement,
             value,
             starts,
-            within: None,
-            violating: None,
-            interval: None,
+            ..Met::of(*requirement)
         })
     }
 

@@ -3,7 +3,7 @@
 use softstop::Parameter;
 
 use super::coordinates::Coordinates;
-use super::local::local;
+use super::local::{Local, Scores, local};
 use super::problem::Problem;
 use super::search::Found;
 
@@ -22,18 +22,20 @@ impl Found {
             let unit = coordinates.unit(at);
             local(problem, &coordinates.at(&unit, at), &self.known)
         };
-        let here = look(&start).filter(|_| self.known.failed.is_empty());
+        let has_failed = self.known.all_failed().next().is_some();
+        let here = look(&start).filter(|_| !has_failed);
         let Some(here) = here else { return Vec::new() };
-        let score = here.score();
+        let score_of = |it: &Local| it.score(&problem.objective).value;
+        let score = score_of(&here);
         let is_idle = |index: usize| {
-            let mut scores = [&here.objective].into_iter().chain(&here.scores);
+            let mut scores = here.scores.iter().flat_map(Scores::all);
             let mut required = here.constraints.iter();
             let mut aside = start.clone();
             aside[index] += if aside[index] < 0.5 { STEP } else { -STEP };
             scores.all(|it| it.by[index].abs() <= ROUNDING * it.value.abs())
                 && required.all(|it| it.slope.by[index].abs() <= ROUNDING)
                 && look(&aside)
-                    .is_some_and(|it| (it.score() - score).abs() <= ROUNDING * score.abs())
+                    .is_some_and(|it| (score_of(&it) - score).abs() <= ROUNDING * score.abs())
         };
         let parameters = coordinates.parameters(problem).into_iter().enumerate();
         let idle = parameters.filter(|(index, _)| is_idle(*index));

@@ -2,14 +2,29 @@
 
 use softstop_console::failure::Failure;
 
-use crate::design::Problem;
 use crate::design::judge::{Met, Within};
 use crate::design::search::Found;
+use crate::design::{Design, Problem};
 use crate::robust::Worst;
 
-/// What a design has of all that is required, in its own machine and in the worst within the tolerances.
+/// What a design has of all that is required, in its own machine and in the worst within the tolerances, in all cases.
 pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure> {
     let design = &found.design;
+    let mut met = of_motion(problem, design)?;
+    let cases = problem.in_cases();
+    for (index, (case, design)) in cases.iter().zip(&design.cases).enumerate() {
+        let of_case = of_motion(case, design)?.into_iter();
+        met.extend(of_case.map(|it| it.in_case(index)));
+    }
+    met.extend(match found.tried.is_empty() {
+        true => problem.tried(design).map_err(anyhow::Error::from)?,
+        false => found.tried.clone(),
+    });
+    Ok(met)
+}
+
+/// What one motion tells, without cases.
+fn of_motion(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
     let motion = design.judged().map_err(anyhow::Error::from)?;
     let mut met = Vec::from_iter(problem.share(&motion));
     let worst = problem.worst_of_required(design);
@@ -27,9 +42,5 @@ pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure>
         });
         Met { within, ..met }
     }));
-    met.extend(match found.tried.is_empty() {
-        true => problem.tried(design).map_err(anyhow::Error::from)?,
-        false => found.tried.clone(),
-    });
     Ok(met)
 }

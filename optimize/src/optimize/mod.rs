@@ -1,5 +1,6 @@
 //! `softstop optimize`: the hardest impact inside the hysteresis zone, or of all stable z = 1 motions.
 
+mod cases;
 mod cost;
 mod met;
 mod objective;
@@ -89,6 +90,10 @@ A machine's file may hold a task (docs/tutorials/press.md takes a press from fil
     stop_force = 5e5
     run_up = true                            or { ways = [\"frequency_raised\"], ramp_rate = 0.2, force = 5e5 }
     violating = \"0.27 %\"                     of machines with normal tolerances, at most
+    [[case]]                                 a further operating point, in which all of this holds too
+    name = \"worn strip\"
+    weight = 0.5                             of what is sought, 1 in the drawing and by default, 0: it only has to hold
+    piercing.friction = 2e6                  what is other than in the drawing
     [search]
     evaluations = 2000
     zone = \"z = 1\"                           stable z = 1 below g0 too, where the machine strikes by itself;
@@ -323,7 +328,7 @@ fn design_name(machine: &Machine) -> String {
 fn named(problem: &Problem, outcome: &Outcome) -> Machine {
     let design = &outcome.design;
     let interrupted = outcome.interrupted.map(|it| format!(" ({})", it.words()));
-    let words = problem.objective.words();
+    let words = problem.words();
     let zone = match problem.zone {
         ZoneKind::Hysteresis => "inside its hysteresis zone",
         ZoneKind::SingleImpact { .. } => "of stable z = 1",

@@ -9,7 +9,7 @@ use softstop_dynamics::run_up::RunUp;
 
 use super::pareto::CheckedFront;
 use crate::design::Design;
-use crate::design::constraint::Limit;
+use crate::design::constraint::ActiveLimit;
 use crate::design::front::Front;
 use crate::design::judge::Met;
 use crate::design::requirement::Requirement;
@@ -50,6 +50,16 @@ impl Interrupted {
     }
 }
 
+/// The share of the machines that violate a requirement.
+pub(super) struct Violating {
+    pub requirement: Requirement,
+    /// The index of the case, if it is one.
+    pub case: Option<usize>,
+    pub share: f64,
+    /// Its 95 % interval if the machines are drawn from normal tolerances.
+    pub interval: Option<[f64; 2]>,
+}
+
 /// What came of a search.
 #[derive(Debug)]
 pub struct Outcome {
@@ -58,7 +68,7 @@ pub struct Outcome {
     /// Standard deviations of normal tolerances that it keeps.
     pub deviations: f64,
     /// All that holds it back.
-    pub limits: Vec<Limit>,
+    pub limits: Vec<ActiveLimit>,
     /// Searched parameters that change nothing of what is sought and required.
     pub without_effect: Vec<Parameter>,
     /// The best design if nothing has a tolerance and nothing is tried.
@@ -104,15 +114,13 @@ impl Outcome {
     }
 
     /// Takes note of the share of the machines within the tolerances that violate each requirement, and of its interval.
-    pub(super) fn note_violating(
-        &mut self,
-        shares: impl Iterator<Item = (Requirement, f64, Option<[f64; 2]>)>,
-    ) {
-        for (requirement, share, interval) in shares {
+    pub(super) fn note_violating(&mut self, shares: impl Iterator<Item = Violating>) {
+        for it in shares {
             let mut met = self.met.iter_mut();
-            if let Some(met) = met.find(|it| it.requirement == requirement) {
-                met.violating = Some(share);
-                met.interval = interval;
+            let is_own = |met: &&mut Met| met.requirement == it.requirement && met.case == it.case;
+            if let Some(met) = met.find(is_own) {
+                met.violating = Some(it.share);
+                met.interval = it.interval;
             }
         }
     }

@@ -18,6 +18,7 @@ pub(super) struct Best {
     evaluations: AtomicU64,
     budget: u64,
     objective: Objective,
+    words: String,
     unit: &'static str,
 }
 
@@ -31,6 +32,7 @@ impl Best {
             evaluations: AtomicU64::new(0),
             budget,
             objective,
+            words: problem.words(),
             unit: problem.machine.unit(objective.figure.dimension()),
         }
     }
@@ -53,7 +55,7 @@ impl Watch for Best {
         let score = |value| self.objective.score(value);
         if best.is_none_or(|best| score(value) > score(best)) {
             *best = Some(value);
-            let (what, unit) = (self.objective.words(), self.unit);
+            let (what, unit) = (&self.words, self.unit);
             zones.say(format!("{what} {value:.4} {unit}").trim_end());
         }
     }

@@ -7,7 +7,7 @@ use softstop_dynamics::Orbit;
 use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::OrbitError;
 
-use super::outcome::Outcome;
+use super::outcome::{Outcome, Violating};
 use super::task::Job;
 use crate::design::Design;
 use crate::design::figure::{Figure, Sense};
@@ -15,7 +15,7 @@ use crate::design::problem::Problem;
 use crate::design::requirement::Requirement;
 use crate::robust::{
     EVEN, Effort, FITTED, Manifold, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance,
-    Tolerances, Verdict, Worst, nearest, scatter, sensitivities, verify, worst,
+    Tolerances, Verdict, Worst, nearest, scatter, sensitivities, verify, verify_in_cases, worst,
 };
 
 /// A design's machines within its tolerances.
@@ -33,6 +33,8 @@ pub struct Study {
     pub worst: Worst,
     /// Where the motion is lost as all tolerances grow, the nearest manifold first.
     pub nearest_box: Vec<Nearest>,
+    /// The factor by which all tolerances may grow in each case until the motion is lost, if that is looked for so far.
+    pub factors: Vec<Option<f64>>,
     /// The same by the normal distance.
     pub nearest_ball: Vec<Nearest>,
     /// How velocity and margins change with each tolerance.
@@ -69,14 +71,22 @@ pub struct Without {
 }
 
 impl Study {
-    /// The share of the machines that violate each requirement, with its 95 % interval if they are drawn from normal tolerances.
-    pub(super) fn violating(&self) -> impl Iterator<Item = (Requirement, f64, Option<[f64; 2]>)> {
-        let pairs = self.required.iter().zip(&self.verdict.violating);
-        pairs.map(|(requirement, count)| {
-            let machines = self.verdict.machines;
-            let interval = self.statistics.map(|_| wilson(*count, machines));
-            (*requirement, *count as f64 / machines as f64, interval)
-        })
+    /// The share of the machines that violate each requirement, in the drawing's operating point and in each case.
+    pub(super) fn violating(&self) -> impl Iterator<Item = Violating> {
+        let cases = self.verdict.cases.iter().enumerate();
+        let cases = cases.map(|(index, it)| (Some(index), &it.violating));
+        let all = [(None, &self.verdict.violating)].into_iter().chain(cases);
+        let counts = all.flat_map(|(case, counts)| counts.iter().map(move |it| (case, *it)));
+        let machines = self.verdict.machines;
+        let required = self.required.iter().cycle();
+        required
+            .zip(counts)
+            .map(move |(requirement, (case, count))| Violating {
+                case,
+                requirement: *requirement,
+                share: count as f64 / machines as f64,
+                interval: self.statistics.map(|_| wilson(count, machines)),
+            })
     }
 
     /// The slowest impact in m/s that was found between the bounds: by steps down from the design, or seen.
@@ -111,17 +121,28 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
         ..Settings::default()
     };
     let required = problem.required_of_each();
-    let drawn = spread.over(FITTED);
-    let verdict = verify(&drawn, nominal, (settings, &required), &progress.watcher());
+    let Some(drawn) = problem.drawn(design) else {
+        return Ok(None);
+    };
+    let verdict = verify_in_cases(&drawn, (settings, &required), &progress.watcher());
     let verdict = verdict.map_err(stopped)?;
     drop(progress);
-    let distances = |norm| {
-        let mut found = nearest(&spread, nominal, norm, FARTHEST, watcher).map_err(stopped)?;
+    let distances = |(spread, nominal): (&Tolerances, &Orbit), norm| {
+        let mut found = nearest(spread, nominal, norm, FARTHEST, watcher).map_err(stopped)?;
         let is_loss =
             |it: &Nearest| it.manifold != Manifold::Hysteresis || design.zone.is_hysteresis();
         found.retain(is_loss);
         Ok::<_, Failure>(found)
     };
+    let cases = problem.in_cases();
+    let factors = cases.iter().zip(&design.cases).map(|(case, it)| {
+        let Some(spread) = case.spread(&it.machine) else {
+            return Ok(None);
+        };
+        let nearest = distances((&spread, &it.orbit), Norm::Box)?;
+        Ok::<_, Failure>(nearest.first().map(|it| it.distance))
+    });
+    let factors = factors.collect::<Result<_, _>>()?;
     let sensitivities =
         sensitivities(&spread, nominal, &design.zone).map_err(anyhow::Error::from)?;
     let study = Study {
@@ -129,8 +150,9 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
         verdict,
         worst: slowest(&spread, nominal).map_err(stopped)?,
         required,
-        nearest_box: distances(Norm::Box)?,
-        nearest_ball: distances(Norm::Ball)?,
+        nearest_box: distances((&spread, nominal), Norm::Box)?,
+        factors,
+        nearest_ball: distances((&spread, nominal), Norm::Ball)?,
         sensitivities,
         scatter: scatter(
             &spread.over(EVEN),

@@ -16,6 +16,7 @@ use softstop_dynamics::basin::wilson;
 use softstop_dynamics::zone::ZoneKind;
 use toml::Table;
 
+use super::cases::{self, cases};
 use super::cost::cost;
 use super::objective::{Goal, objectives};
 use super::require::{RESERVE, Required, SHARE, requirements};
@@ -91,11 +92,14 @@ impl Job {
             margin,
             "in [0, 0.5]",
         )?;
+        let searched = searched_by(arguments, &task, &machine)?;
+        let cases = cases(&machine, &task.case)?;
+        cases::check((&machine, &cases), &searched, &tolerances).map_err(located)?;
         let Searched {
             axes,
             frequency,
             links,
-        } = searched_by(arguments, &task, &machine)?;
+        } = searched;
         for tolerance in &tolerances {
             let axis = axes.iter().find(|it| it.parameter == tolerance.parameter);
             let highest = axis.map(|it| it.range.high);
@@ -105,6 +109,9 @@ impl Job {
                 ..*tolerance
             };
             leaves_machines(&machine, &reserved, highest).map_err(located)?;
+            for value in cases.iter().filter_map(|it| it.value(tolerance.parameter)) {
+                leaves_machines(&machine, &reserved, Some(value)).map_err(located)?;
+            }
         }
         for axis in &axes {
             has_effect(&machine, axis)?;
@@ -153,6 +160,9 @@ impl Job {
                 requirements,
                 cost,
                 run_up,
+                cases,
+                changes: Vec::new(),
+                drawing: None,
             },
             settings: Settings { evaluations },
             samples: arguments.samples,
@@ -245,6 +255,12 @@ fn of_machine(machine: &Machine, task: &TaskSpec) -> Result<(), Failure> {
     tolerances(machine, &task.tolerance)?;
     requirements(machine, &task.objective, &task.require)?;
     let sought = Sought::new(machine, &task.objective)?;
+    cases(machine, &task.case)?;
+    if !task.case.is_empty() && sought.objectives.len() > 1 {
+        return Err(Failure::usage(
+            "case: cannot be combined with a front of designs (lists under [objective])",
+        ));
+    }
     let may_lack = |it: &Objective| matches!(it.figure, Figure::FrequencyG0 | Figure::FrequencySn);
     if task.search.zone == Motions::SingleImpact
         && let Some(it) = sought.objectives.iter().find(|it| may_lack(it))

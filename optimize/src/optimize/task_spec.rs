@@ -92,6 +92,15 @@ task! {
     });
     /// What must hold: a number, or `{ least = 10, most = 12 }`, for each figure.
     require: Table, requirements_schema();
+    /// Operating points beside the drawing's, in which all that is required holds too: a `name`, the `weight` of what is sought,
+    /// and parameters with other values, `piercing.friction = 2e6`.
+    case: Vec<Table>, json!({
+        "type": "array",
+        "items": {
+            "type": "object",
+            "properties": { "name": { "type": "string" }, "weight": { "type": "number", "minimum": 0, "default": 1 } }
+        }
+    });
     /// How to search.
     search: Search, json!({
         "type": "object",
@@ -251,7 +260,7 @@ mod tests {
                     evaluations = 200\noutput = \"there\"\nformat = \"json\"\n[fix]\nstop.stiffness = 7\n\
                     [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n[vary]\nclearance = 3\n\
                     [tolerance]\nclearance = 0.1\n[objective]\nmaximise = \"velocity\"\n[require]\n\
-                    velocity = 3\n[search]\nseed = 1\nzone = \"z = 1\"\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
+                    velocity = 3\n[[case]]\nname = \"worn\"\ndamping = 0.02\n[search]\nseed = 1\nzone = \"z = 1\"\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
         toml::from_str::<TaskSpec>(file)?;
         let written: toml::Table = toml::from_str(file)?;
         let schema = TaskSpec::schema();

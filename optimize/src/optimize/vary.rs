@@ -17,11 +17,6 @@ const USUAL: [(Parameter, [f64; 2]); 2] = [
     (Parameter::StopStiffness, [1.0, 30.0]),
     (Parameter::Clearance, [2.0, 22.0]),
 ];
-/// No bound: the zone itself and the margin limit the frequency.
-const ANY: Interval = Interval {
-    low: f64::MIN_POSITIVE,
-    high: f64::INFINITY,
-};
 
 /// What is said of one parameter, by a key of the machine's file or a letter.
 #[derive(Debug, Clone, PartialEq)]
@@ -175,7 +170,8 @@ pub(super) fn searched(
     let mut axes: Vec<Axis> = usual
         .filter_map(|(it, range)| usual_axis(machine, it, range))
         .collect();
-    let mut frequency = ANY;
+    // Without a bound the zone itself and the margin limit the frequency.
+    let mut frequency = Interval::ANY;
     for (index, axis) in said.iter().enumerate() {
         let is_same = |it: &Axis| it.parameter == axis.parameter;
         if said[..index].iter().any(is_same) {

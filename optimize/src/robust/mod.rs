@@ -22,7 +22,7 @@ pub use indices::{Effort, Estimate, Index, indices};
 pub use meeting::{Manifold, Norm};
 pub use nearest::{Nearest, nearest};
 pub use scatter::{Scatter, Sensitivities, scatter, sensitivities, shares};
-pub use verify::{Bin, LostMachine, Settings, Verdict, verify};
+pub use verify::{Bin, CaseVerdict, LostMachine, Settings, Verdict, verify, verify_in_cases};
 pub use worst::{Worst, worst};
 
 pub(crate) use corners::corners;

@@ -1,6 +1,7 @@
 //! Whether machines are as required: by polynomials fitted to some of them where these leave no doubt, else by the motion.
 
 use rayon::prelude::*;
+use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::spread::{Fate, Guide, Model, Spread, is_inside};
 use softstop_dynamics::{Orbit, Stroke};
 
@@ -13,27 +14,31 @@ const RESERVE: f64 = 10.0;
 /// Judges the machines of a spread.
 pub(super) struct Screen<'a> {
     spread: &'a Tolerances,
+    guide: Guide<'a>,
     required: &'a [Requirement],
     /// For two requirements each, with their largest misfits; none if too few of the machines that are known keep the motion.
     models: Option<Vec<(Model, [f64; 2])>>,
 }
 
 impl<'a> Screen<'a> {
-    /// From machines at some places of the box.
+    /// About the motion of the nominal machine, from machines at some places of the box.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if the nominal motion is not one to start from.
     pub fn new(
-        spread: &'a Tolerances,
-        guide: &Guide<'_>,
+        (spread, nominal): (&'a Tolerances, &'a Orbit),
         (places, required): (&[Vec<f64>], &'a [Requirement]),
-    ) -> Self {
+    ) -> Result<Self, OrbitError> {
         let mut screen = Self {
             spread,
+            guide: Guide::new(spread, nominal, places)?,
             required,
             models: None,
         };
         if !required.is_empty() {
             let values = places.par_iter();
             let values = values.filter_map(|at| {
-                let values = screen.values(at, &guide.fate(at))?;
+                let values = screen.values(at, &screen.guide.fate(at))?;
                 Some((at.clone(), values))
             });
             let (kept, values): (Vec<Vec<f64>>, Vec<Vec<f64>>) = values.unzip();
@@ -43,7 +48,14 @@ impl<'a> Screen<'a> {
                 .then(|| models(&kept, &values, required.len()))
                 .flatten();
         }
-        screen
+        Ok(screen)
+    }
+
+    /// What becomes of a machine, and whether it violates each requirement.
+    pub fn judge(&self, at: &[f64]) -> (Fate, Vec<bool>) {
+        let fate = self.guide.fate(at);
+        let violated = self.violated(at, &fate);
+        (fate, violated)
     }
 
     /// The figures of a machine in the order of the requirements; none if it has lost the motion, or one has no value.
@@ -58,8 +70,7 @@ impl<'a> Screen<'a> {
         self.required.iter().map(value).collect()
     }
 
-    /// Whether a machine violates each requirement.
-    pub fn violated(&self, at: &[f64], fate: &Fate) -> Vec<bool> {
+    fn violated(&self, at: &[f64], fate: &Fate) -> Vec<bool> {
         if matches!(fate, Fate::Kept(_)) && self.is_clear(at) {
             return vec![false; self.required.len()];
         }

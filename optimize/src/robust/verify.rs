@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, blocks, place};
-use softstop_dynamics::spread::{Fate, Guide, Model, Settled, Spread};
+use softstop_dynamics::spread::{Fate, Model, Settled, Spread};
 use softstop_dynamics::watch::Watcher;
 use softstop_dynamics::zone::Loss;
 
@@ -26,7 +26,7 @@ const TOLD: usize = 8;
 pub struct Settings {
     /// As many.
     pub machines: usize,
-    /// With so many lost it is enough: each of them has to be followed.
+    /// With so many lost, in all cases together, it is enough: each of them has to be followed.
     pub enough: usize,
     /// The first of the points that are drawn, a multiple of 65,536: others give an independent count.
     pub first: usize,
@@ -77,8 +77,10 @@ pub struct Verdict {
     pub examples: Vec<LostMachine>,
     /// Machines that violate each requirement, those that are lost among them.
     pub violating: Vec<usize>,
-    /// Machines that are lost or violate any of them.
+    /// Machines that are lost or violate any of them, in any case.
     pub rejected: usize,
+    /// What the same machines have shown in each case.
+    pub cases: Vec<CaseVerdict>,
     /// Where the slowest impact was, if all are not lost.
     pub slowest: Option<(Vec<f64>, Settled)>,
     /// Where the largest multiplier was.
@@ -87,6 +89,33 @@ pub struct Verdict {
     velocities: Vec<f64>,
     /// The same of each sequence of points.
     sequences: Vec<Vec<f64>>,
+}
+
+/// What the machines have shown in a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseVerdict {
+    /// Those without a stable z = 1 motion that goes on from the nominal one.
+    pub lost: usize,
+    /// Machines that violate each requirement, those that are lost among them.
+    pub violating: Vec<usize>,
+    /// The slowest impact in m/s of those that are not lost; infinite if all are.
+    pub slowest: f64,
+}
+
+impl CaseVerdict {
+    fn take(&mut self, (fate, violated): (Fate, Vec<bool>)) {
+        match fate {
+            Fate::Lost { .. } => self.lost += 1,
+            Fate::Kept(settled) => self.slowest = self.slowest.min(settled.velocity),
+        }
+        count(&mut self.violating, &violated);
+    }
+}
+
+fn count(violating: &mut [usize], violated: &[bool]) {
+    for (count, is_violated) in violating.iter_mut().zip(violated) {
+        *count += usize::from(*is_violated);
+    }
 }
 
 impl Verdict {
@@ -156,34 +185,55 @@ pub fn verify(
     (settings, required): (Settings, &[Requirement]),
     watcher: Watcher<'_>,
 ) -> Result<Verdict, OrbitError> {
+    verify_in_cases(&[(spread.clone(), nominal)], (settings, required), watcher)
+}
+
+/// [`verify`] with further cases of each machine that is drawn, at the same coordinates of their tolerances; the first is that of
+/// the drawing.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_in_cases(
+    points: &[(Tolerances, &Orbit)],
+    (settings, required): (Settings, &[Requirement]),
+    watcher: Watcher<'_>,
+) -> Result<Verdict, OrbitError> {
+    let spread = &points[0].0;
     let dimensions = spread.dimensions();
     // A sequence of their own: the first that the machines do not use.
     let first = settings.first + settings.machines.next_multiple_of(BLOCK);
     let known = first..first + Model::wanted(dimensions);
     let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
-    let guide = Guide::new(spread, nominal, &known)?;
-    let screen = Screen::new(spread, &guide, (&known, required));
+    let screen = |(spread, nominal)| Screen::new((spread, nominal), (&known, required));
+    let screens = points
+        .iter()
+        .map(|(spread, nominal)| screen((spread, *nominal)));
+    let screens: Vec<Screen<'_>> = screens.collect::<Result<_, _>>()?;
+    let case = CaseVerdict {
+        lost: 0,
+        violating: vec![0; required.len()],
+        slowest: f64::INFINITY,
+    };
     let mut verdict = Verdict {
         machines: 0,
         lost: 0,
         examples: Vec::new(),
         violating: vec![0; required.len()],
         rejected: 0,
+        cases: vec![case; points.len() - 1],
         slowest: None,
         least_stable: None,
         velocities: Vec::new(),
         sequences: Vec::new(),
     };
     let done = AtomicU64::new(0);
-    while verdict.machines < settings.machines && verdict.lost < settings.enough {
+    while verdict.machines < settings.machines && verdict.all_lost() < settings.enough {
         let machines = verdict.machines..(verdict.machines + GROUP).min(settings.machines);
         let rows = blocks(machines.start as u64..machines.end as u64, ROW);
         let fates = rows.map(|row| {
             let fate = |index| {
                 let at = drawn(spread, settings.first + index as usize);
-                let fate = guide.fate(&at);
-                let violated = screen.violated(&at, &fate);
-                (fate, violated)
+                screens.iter().map(|it| it.judge(&at)).collect::<Vec<_>>()
             };
             let fates: Vec<_> = row.clone().map(fate).collect();
             let looked = row.end - row.start;
@@ -194,12 +244,18 @@ pub fn verify(
         let Some(fates) = fates.collect::<Option<Vec<_>>>() else {
             break;
         };
-        for (index, (fate, violated)) in machines.zip(fates.into_iter().flatten()) {
-            let is_lost = matches!(fate, Fate::Lost { .. });
-            verdict.rejected += usize::from(is_lost || violated.contains(&true));
-            verdict.take(settings.first + index, spread, fate);
-            for (count, is_violated) in verdict.violating.iter_mut().zip(violated) {
-                *count += usize::from(is_violated);
+        for (index, judged) in machines.zip(fates.into_iter().flatten()) {
+            let is_rejected = |(fate, violated): &(Fate, Vec<bool>)| {
+                matches!(fate, Fate::Lost { .. }) || violated.contains(&true)
+            };
+            verdict.rejected += usize::from(judged.iter().any(is_rejected));
+            let mut judged = judged.into_iter();
+            if let Some((fate, violated)) = judged.next() {
+                verdict.take(settings.first + index, spread, fate);
+                count(&mut verdict.violating, &violated);
+            }
+            for (case, judged) in verdict.cases.iter_mut().zip(judged) {
+                case.take(judged);
             }
         }
     }
@@ -217,6 +273,11 @@ fn drawn(spread: &dyn Spread, index: usize) -> Vec<f64> {
 }
 
 impl Verdict {
+    /// Machines that lose the motion, counted in each case.
+    fn all_lost(&self) -> usize {
+        self.lost + self.cases.iter().map(|it| it.lost).sum::<usize>()
+    }
+
     fn take(&mut self, index: usize, spread: &dyn Spread, fate: Fate) {
         if index.is_multiple_of(BLOCK) {
             self.sequences.push(Vec::new());

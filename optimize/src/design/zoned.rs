@@ -1,0 +1,109 @@
+//! A machine of the search with its zone, and the same machine in each case with that of its own.
+
+use softstop::{Dimension, Machine};
+use softstop_dynamics::Zone;
+use softstop_dynamics::zone::ZoneError;
+
+use super::operating_point::{At, OperatingPoint};
+use super::problem::Problem;
+use super::space::{Interval, Space};
+use super::{Infeasible, distance_from_zones, finite_or};
+
+/// A machine with its zone.
+pub(super) struct Zoned<'a> {
+    pub problem: &'a Problem,
+    pub machine: Machine,
+    pub zone: Zone,
+    /// The machine in each case.
+    pub cases: Vec<Zoned<'a>>,
+}
+
+impl OperatingPoint {
+    /// None if there is no stable motion.
+    pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
+        let cases = problem.in_cases();
+        let zoned = Zoned::find(problem, &cases, &Space(&problem.axes).values(at.unit))?;
+        let given = match &problem.drawing {
+            Some(drawing) => Self::find(drawing, at)?.frequency(),
+            None => f64::NAN,
+        };
+        let place = at.place.filter(|_| !problem.has_given_frequency());
+        zoned.at(place.unwrap_or_else(|| zoned.place_of(given)))
+    }
+}
+
+impl<'a> Zoned<'a> {
+    /// A machine with what was found as its zone, without its cases.
+    pub fn new(
+        problem: &'a Problem,
+        machine: Machine,
+        zone: Result<Zone, ZoneError>,
+    ) -> Result<Self, Infeasible> {
+        let zone = zone.map_err(|error| Infeasible {
+            gap: distance_from_zones(&machine.scene, &error),
+            reason: error.to_string(),
+        })?;
+        Ok(Self {
+            problem,
+            machine,
+            zone,
+            cases: Vec::new(),
+        })
+    }
+
+    /// The machine with these values of the axes, with its cases; none if one has no zone.
+    pub fn find(problem: &'a Problem, cases: &'a [Problem], values: &[f64]) -> Option<Self> {
+        let machine = problem.machine_at(values);
+        machine.validate().ok()?;
+        let zone = problem.zone_of(&machine);
+        let own = Self::new(problem, machine, zone).ok()?;
+        let cases = cases.iter().map(|case| Self::find(case, &[], values));
+        own.with_cases(cases.collect::<Option<_>>()?).into()
+    }
+
+    pub fn with_cases(self, cases: Vec<Self>) -> Self {
+        Self { cases, ..self }
+    }
+
+    /// Its place if the drive of the drawing runs at a frequency in rad/s.
+    pub fn place_of(&self, frequency: f64) -> f64 {
+        let held = self.problem.frequency;
+        self.zone.place_of(match held.is_held() {
+            true => self.machine.to_si(Dimension::Frequency, held.low),
+            false => frequency,
+        })
+    }
+
+    /// The motion at a place, and that of each case at the same frequency or its own; none if one is not stable.
+    pub fn at(&self, place: f64) -> Option<OperatingPoint> {
+        let own = OperatingPoint::on(self.machine.clone(), &self.zone, place)?;
+        let frequency = own.frequency();
+        let cases = self.cases.iter();
+        let cases = cases.map(|case| case.at(case.place_of(frequency)));
+        Some(own.with_cases(cases.collect::<Option<_>>()?))
+    }
+
+    /// The places that margin, frequency bounds and tolerances leave of the zone and of those of its cases.
+    pub fn window(&self) -> Result<Interval, Infeasible> {
+        let mut window = self.problem.window(&self.machine, &self.zone)?;
+        for (case, stated) in self.cases.iter().zip(&self.problem.cases) {
+            let own = case.window().map_err(|lack| lack.in_case(stated))?;
+            if case.problem.drawing.is_none() {
+                continue;
+            }
+            let [low, high] =
+                [own.low, own.high].map(|place| self.zone.place_of(case.zone.frequency_at(place)));
+            window.low = window.low.max(low);
+            window.high = window.high.min(high);
+            if window.low > window.high {
+                return Err(Infeasible {
+                    gap: finite_or(window.low - window.high, super::DISTANT),
+                    reason: "there is no frequency that bounds, margin and tolerances allow in the drawing too"
+                        .to_owned(),
+                }
+                .in_case(stated));
+            }
+        }
+        Ok(window)
+    }
+}

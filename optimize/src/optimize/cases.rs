@@ -1,0 +1,150 @@
+//! Operating points beside that of the drawing: the tables `[[case]]`.
+
+use std::iter::zip;
+
+use softstop::{Machine, Parameter};
+use softstop_console::failure::Failure;
+use toml::{Table, Value};
+
+use super::toml_leaves::{leaves, number};
+use super::vary::Searched;
+use crate::design::case::{Case, DRAWING};
+use crate::design::problem::{Tolerance, Width};
+
+/// Keys of a case that are no parameters.
+const NAME: &str = "name";
+const WEIGHT: &str = "weight";
+
+/// Reads the cases of a task.
+pub(super) fn cases(machine: &Machine, tables: &[Table]) -> Result<Vec<Case>, Failure> {
+    let mut all: Vec<Case> = Vec::new();
+    for (index, table) in tables.iter().enumerate() {
+        let case = case(machine, table, index + 1)?;
+        if all.iter().any(|it| it.name == case.name) {
+            return Err(wrong(
+                index + 1,
+                NAME,
+                format!("= {:?}: is the name of another case", case.name),
+            ));
+        }
+        all.push(case);
+    }
+    Ok(all)
+}
+
+/// A failure at a key of a case by its number.
+fn wrong(number: usize, key: &str, what: impl AsRef<str>) -> Failure {
+    Failure::usage(format!("case.{number}.{key} {}", what.as_ref()))
+}
+
+fn case(machine: &Machine, table: &Table, index: usize) -> Result<Case, Failure> {
+    let mut case = Case {
+        name: (index).to_string(),
+        weight: 1.0,
+        changes: Vec::new(),
+    };
+    for (key, value) in leaves(table) {
+        let wrong = |what: &str| wrong(index, &key, format!("= {value}: {what}"));
+        let is_name = |name: &&str| {
+            !name.trim().is_empty() && !name.contains(char::is_control) && *name != DRAWING
+        };
+        match &*key {
+            NAME => {
+                let name = value.as_str().filter(is_name);
+                let what = "must be a name in one line, and not that of the drawing";
+                let name = name.ok_or_else(|| wrong(what))?;
+                name.clone_into(&mut case.name);
+            }
+            WEIGHT => {
+                let weight = number(value).filter(|it| *it >= 0.0 && it.is_finite());
+                let what =
+                    "must be a number >= 0; 0 asks for all that is required and counts nothing";
+                case.weight = weight.ok_or_else(|| wrong(what))?;
+            }
+            _ => case
+                .changes
+                .push(change(machine, &case, (&key, value), index)?),
+        }
+    }
+    let mut changed = machine.clone();
+    for (parameter, value) in &case.changes {
+        changed.set(*parameter, *value);
+    }
+    let changed = changed.validate();
+    changed.map_err(|error| Failure::usage(format!("case.{index}.{error}")))?;
+    Ok(case)
+}
+
+/// What a key of a case changes, in the machine's own units.
+fn change(
+    machine: &Machine,
+    case: &Case,
+    (key, value): (&str, &Value),
+    index: usize,
+) -> Result<(Parameter, f64), Failure> {
+    let wrong = |what: &str| wrong(index, key, format!("= {value}: {what}"));
+    let stated = machine.stated(key);
+    let (parameter, unit) =
+        stated.map_err(|error| Failure::usage(format!("case.{index}.{error}")))?;
+    let own = number(value).ok_or_else(|| wrong("must be a number"))? * unit;
+    let name = machine.name(parameter);
+    let checked = parameter.about().allowed.check(name, own);
+    checked.map_err(|error| Failure::usage(format!("case.{index}.{error}")))?;
+    match parameter {
+        Parameter::Phase => Err(wrong("has no effect: it shifts the drive in time alone")),
+        _ if case.value(parameter).is_some() => Err(wrong("is given twice")),
+        _ => Ok((parameter, own)),
+    }
+}
+
+/// Refuses cases that change what is searched, or nothing.
+pub(super) fn check(
+    (machine, cases): (&Machine, &[Case]),
+    searched: &Searched,
+    tolerances: &[Tolerance],
+) -> Result<(), Failure> {
+    for (case, index) in zip(cases, 1..) {
+        for (parameter, value) in &case.changes {
+            let name = machine.name(*parameter);
+            let wrong = |what: &str| Err(wrong(index, name, format!("= {value}: {what}")));
+            let is_own = |it: Parameter| it == *parameter;
+            let mut axes = searched.axes.iter().filter(|it| !it.range.is_held());
+            if axes.any(|it| is_own(it.parameter)) {
+                return wrong("is searched; a case changes only what is not");
+            }
+            if *parameter == Parameter::Frequency && !searched.frequency.is_held() {
+                return wrong(
+                    "is searched, and each case runs at the frequency of the drawing; a case has its own where [vary] holds that",
+                );
+            }
+            if let Some(link) = searched.links.iter().find(|it| is_own(it.parameter)) {
+                return wrong(&format!("follows {}", machine.name(link.follows)));
+            }
+            let is_share =
+                |it: &&Tolerance| is_own(it.parameter) && matches!(it.width, Width::Share(_));
+            let has_share = tolerances
+                .iter()
+                .filter(|it| !it.is_exact())
+                .any(|it| is_share(&it));
+            if has_share && (*value == 0.0 || machine.value(*parameter) == Some(0.0)) {
+                return wrong("has a tolerance that is a share of it, and of 0 there is none");
+            }
+        }
+        let drawn = |parameter: Parameter| {
+            let mut axes = searched.axes.iter();
+            let held = axes
+                .find(|it| it.parameter == parameter)
+                .map(|it| it.range.low);
+            let frequency = (parameter == Parameter::Frequency).then_some(searched.frequency.low);
+            frequency.or(held).or(machine.value(parameter))
+        };
+        let mut changes = case.changes.iter();
+        if changes.all(|(parameter, value)| drawn(*parameter) == Some(*value)) {
+            return Err(Failure::usage(format!(
+                "case.{index}: changes nothing of the machine; \"{}\" needs a parameter with another value",
+                case.name
+            )));
+        }
+    }
+    Ok(())
+}

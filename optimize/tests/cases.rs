@@ -1,0 +1,442 @@
+//! Designs for several operating points, against what each of them has by plain calls.
+
+use std::slice;
+
+use approx::assert_relative_eq;
+use softstop::{Machine, Parameter};
+use softstop_dynamics::figure::{Figure, Sense};
+use softstop_dynamics::zone::{ZoneKind, hysteresis};
+use softstop_dynamics::{Orbit, Zone};
+use softstop_optimize::design::case::Case;
+use softstop_optimize::design::constraint::{ActiveLimit, Limit};
+use softstop_optimize::design::critical::CriticalMachines;
+use softstop_optimize::design::judge::Met;
+use softstop_optimize::design::local::local;
+use softstop_optimize::design::operating_point::At;
+use softstop_optimize::design::problem::{Objective, Tolerance, Width};
+use softstop_optimize::design::requirement::{Requirement, Scope};
+use softstop_optimize::design::search::{Found, SearchError, Settings, Unwatched, search};
+use softstop_optimize::design::space::{Axis, Interval};
+use softstop_optimize::design::{Design, Problem};
+use softstop_optimize::robust::{self, FITTED, verify, verify_in_cases, worst};
+use softstop_testing::{docs, words};
+
+use crate::{Outcome, SOFTSTOP};
+
+const SETTINGS: Settings = Settings { evaluations: 300 };
+const MARGIN: f64 = 0.2;
+
+/// The paper's machine with its stop, over the clearance.
+fn drawing() -> Problem {
+    let machine = Machine::named("unloaded").expect("the paper's machine");
+    let clearance = Interval {
+        low: 2.0,
+        high: 22.0,
+    };
+    let axes = vec![
+        Axis::new(Parameter::StopStiffness, Interval::held(7.0)),
+        Axis::new(Parameter::Clearance, clearance),
+    ];
+    Problem {
+        margin: MARGIN,
+        ..Problem::of(machine, axes)
+    }
+}
+
+/// A case in which a parameter is so many times the drawing's.
+fn case(problem: &Problem, (parameter, factor): (Parameter, f64), weight: f64) -> Case {
+    let value = problem.machine.value(parameter).expect("a value");
+    Case {
+        name: format!("{factor} times"),
+        weight,
+        changes: vec![(parameter, factor * value)],
+    }
+}
+
+/// With 20 % more damping beside the drawing.
+fn damped(weight: f64) -> Problem {
+    let problem = drawing();
+    let cases = vec![case(&problem, (Parameter::Damping, 1.2), weight)];
+    Problem { cases, ..problem }
+}
+
+fn solve(problem: &Problem) -> Result<Found, SearchError> {
+    search(problem, SETTINGS, &Unwatched, None)
+}
+
+#[test]
+fn a_case_like_the_drawing_changes_nothing() -> Outcome {
+    let alone = drawing();
+    let cases = vec![case(&alone, (Parameter::Damping, 1.0), 0.5)];
+    let both = Problem {
+        cases,
+        ..alone.clone()
+    };
+    let [one, other] = [solve(&alone)?.design, solve(&both)?.design];
+    assert_relative_eq!(both.sought_of(&other), one.value, max_relative = 1e-9);
+    assert_eq!(other.cases[0].value.to_bits(), other.value.to_bits());
+    Ok(())
+}
+
+/// The mean is not above that of the best of each alone, and none of the designs that are best alone has a higher one.
+#[test]
+fn the_mean_is_the_best_mean() -> Outcome {
+    for weight in [0.0, 0.5, 3.0] {
+        let both = damped(weight);
+        let design = solve(&both)?.design;
+        let mut bound = solve(&drawing())?.design.value;
+        let in_case = both.in_cases().remove(0);
+        let machine = in_case.machine_at(&[7.0, 10.0]);
+        let alone = Problem {
+            machine,
+            ..drawing()
+        };
+        bound = (bound + weight * solve(&alone)?.design.value) / (1.0 + weight);
+        let mean = both.sought_of(&design);
+        let own = (design.value + weight * design.cases[0].value) / (1.0 + weight);
+        assert_relative_eq!(mean, own, max_relative = 1e-14);
+        assert!(mean <= bound * (1.0 + 1e-9), "{mean} {bound}");
+        let frequency = |it: &Design| it.orbit.scene.excitation.frequency;
+        assert_relative_eq!(
+            frequency(&design),
+            frequency(&design.cases[0]),
+            max_relative = 1e-14
+        );
+        for it in slice::from_ref(&design).iter().chain(&design.cases) {
+            let inside = MARGIN - 1e-9..=1.0 - MARGIN + 1e-9;
+            assert!(inside.contains(&it.place), "{}", it.place);
+        }
+    }
+    Ok(())
+}
+
+/// The zone of a machine with its clearance, and its velocity at a frequency.
+fn zone(machine: &Machine, clearance: f64) -> Option<Zone> {
+    let mut scene = machine.scene.clone();
+    scene.clearance = clearance;
+    hysteresis(&scene).ok()
+}
+
+fn velocity(zone: &Zone, frequency: f64) -> Option<f64> {
+    let orbit = zone.orbit_at(zone.place_of(frequency)).ok();
+    let orbit = orbit.filter(Orbit::is_stable)?;
+    Some(orbit.before_impact_velocity())
+}
+
+/// The highest mean at a clearance, with frequencies from a grid over what the margins of all zones leave.
+fn on_grid(machines: &[(Machine, f64)], clearance: f64, places: usize) -> Option<f64> {
+    let zones = machines.iter().map(|(machine, _)| zone(machine, clearance));
+    let zones: Vec<Zone> = zones.collect::<Option<_>>()?;
+    let ends = |share: f64| zones.iter().map(move |it| it.frequency_at(share));
+    let low = ends(MARGIN).fold(0.0, f64::max);
+    let high = ends(1.0 - MARGIN).fold(f64::INFINITY, f64::min);
+    let sum: f64 = machines.iter().map(|it| it.1).sum();
+    let mean = |index: usize| {
+        let frequency = low + (high - low) * index as f64 / (places - 1) as f64;
+        let parts = zones.iter().zip(machines);
+        let parts = parts.map(|(zone, (_, weight))| Some(weight * velocity(zone, frequency)?));
+        Some(parts.sum::<Option<f64>>()? / sum)
+    };
+    (0..places)
+        .filter(|_| low <= high)
+        .filter_map(mean)
+        .reduce(f64::max)
+}
+
+/// Over clearance and frequency, all over the range and closely about the optimum.
+#[test]
+fn no_point_of_a_grid_is_better() -> Outcome {
+    let problem = Problem {
+        cases: vec![
+            case(&drawing(), (Parameter::Damping, 1.2), 0.5),
+            case(&drawing(), (Parameter::Preload, 0.9), 2.0),
+        ],
+        ..drawing()
+    };
+    let design = solve(&problem)?.design;
+    let found = problem.sought_of(&design);
+    let machines = [&problem].into_iter().cloned().chain(problem.in_cases());
+    let machines = machines.map(|it| it.machine_at(&[7.0, 10.0]));
+    let machines: Vec<(Machine, f64)> = machines.zip([1.0, 0.5, 2.0]).collect();
+    let best = |low: f64, high: f64, count: usize, places: usize| {
+        let clearances = (0..=count).map(|it| low + (high - low) * it as f64 / count as f64);
+        let best = clearances.filter_map(|it| on_grid(&machines, it, places));
+        best.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let coarse = best(2.0, 22.0, 100, 7);
+    assert!(coarse <= found * (1.0 + 1e-9), "{coarse} {found}");
+    let near = design.machine.scene.clearance;
+    let fine = best(near - 0.02, near + 0.02, 80, 21);
+    assert!(fine <= found * (1.0 + 1e-9), "{fine} {found}");
+    assert!(fine >= found * (1.0 - 1e-6), "{fine} {found}");
+    Ok(())
+}
+
+/// A bound of the force that the drawing alone keeps unasked holds the design back in the case with less damping.
+#[test]
+fn what_binds_in_a_case_alone_binds() -> Outcome {
+    let unasked = solve(&drawing())?.design;
+    let figure = Figure::StopForce;
+    let most = drawing().value(&unasked.judged()?, figure);
+    let problem = Problem {
+        requirements: vec![Requirement::new(figure, None, Some(most))],
+        cases: vec![case(&drawing(), (Parameter::Damping, 0.8), 0.0)],
+        ..drawing()
+    };
+    let found = solve(&problem)?;
+    let case = &problem.in_cases()[0];
+    let force = |problem: &Problem, design: &Design| -> Outcome<f64> {
+        Ok(problem.value(&design.judged()?, figure))
+    };
+    assert_relative_eq!(
+        force(case, &found.design.cases[0])?,
+        most,
+        max_relative = 1e-6
+    );
+    assert!(force(&problem, &found.design)? < 0.999 * most);
+    assert!(found.design.value < 0.999 * unasked.value);
+    let limit = ActiveLimit {
+        limit: Limit::Required(figure, Sense::Most),
+        case: Some(0),
+    };
+    assert!(found.limits.contains(&limit), "{:?}", found.limits);
+    Ok(())
+}
+
+/// The press of the guide with tolerances and two cases, over stiffness and clearance of its stop.
+fn press(objective: Objective) -> Outcome<Problem> {
+    let machine = Machine::from_toml(&std::fs::read_to_string(docs("press/press.toml"))?)?;
+    let axis = |(parameter, low, high)| Axis::new(parameter, Interval { low, high });
+    let axes = [
+        (Parameter::StopStiffness, 5e6, 8e7),
+        (Parameter::Clearance, 5e-3, 40e-3),
+    ];
+    let share = |(parameter, share)| Tolerance::new(parameter, Width::Share(share));
+    let tolerances = [
+        (Parameter::StopStiffness, 0.03),
+        (Parameter::Damping, 0.1),
+        (Parameter::Frequency, 0.003),
+    ];
+    let problem = Problem {
+        tolerances: tolerances.map(share).to_vec(),
+        requirements: vec![Requirement::new(Figure::StopForce, None, Some(5e5))],
+        objective,
+        frequency: Interval {
+            low: 10.0,
+            high: 40.0,
+        },
+        ..Problem::of(machine, axes.map(axis).to_vec())
+    };
+    let cases = vec![
+        case(&problem, (Parameter::Damping, 1.2), 0.5),
+        case(&problem, (Parameter::PiercingFriction, 0.9), 1.0),
+    ];
+    Ok(Problem { cases, ..problem })
+}
+
+/// Scores and constraints of all operating points have the derivatives of differences.
+#[test]
+fn derivatives_are_those_of_differences() -> Outcome {
+    for sense in [Sense::Least, Sense::Most] {
+        let objective = Objective {
+            figure: Figure::ImpactEnergy,
+            sense,
+            scope: Scope::Drawing,
+        };
+        // A bound of 0 would have a unit that changes.
+        let problem = Problem {
+            margin: 0.1,
+            ..press(objective)?
+        };
+        let look = |at: &[f64; 3]| {
+            let at = At {
+                unit: &at[..2],
+                moved: &[0, 1],
+                place: Some(at[2]),
+            };
+            local(&problem, &at, &CriticalMachines::default())
+        };
+        let all = |at: &[f64; 3]| {
+            let found = look(at)?;
+            let objective = found.objective(&problem.objective);
+            let constraints = found.constraints.into_iter().map(|it| it.slope);
+            Some(
+                [objective]
+                    .into_iter()
+                    .chain(constraints)
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let here = [0.15, 0.35, 0.45];
+        let exact = all(&here).ok_or("a motion")?;
+        assert_eq!(look(&here).ok_or("a motion")?.scores.len(), 3);
+        assert!(exact.len() > 12, "{}", exact.len());
+        for index in 0..3 {
+            let aside = |by: f64| {
+                let mut at = here;
+                at[index] += by;
+                all(&at).ok_or("a motion beside")
+            };
+            let [far_below, below, above, far_above] =
+                [aside(-2e-4)?, aside(-1e-4)?, aside(1e-4)?, aside(2e-4)?];
+            for (row, slope) in exact.iter().enumerate() {
+                let wide = (far_above[row].value - far_below[row].value) / 4e-4;
+                let narrow = (above[row].value - below[row].value) / 2e-4;
+                let found = (4.0 * narrow - wide) / 3.0;
+                let slack = 1e-6 * (1.0 + found.abs()) + (wide - narrow).abs();
+                assert!(
+                    (slope.by[index] - found).abs() < slack,
+                    "{row} by {index}: {} {found}",
+                    slope.by[index]
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Of the worst machines: each case has that of its own, the mean is theirs, and no machine of any case loses the motion or
+/// violates the bound; each is counted as by itself.
+#[test]
+fn tolerances_hold_in_every_case() -> Outcome {
+    let objective = Objective {
+        scope: Scope::Tolerances,
+        ..Objective::default()
+    };
+    let problem = press(objective)?;
+    let found = search(&problem, Settings { evaluations: 100 }, &Unwatched, None)?;
+    let design = &found.design;
+    let problems = [&problem].into_iter().cloned().chain(problem.in_cases());
+    let problems: Vec<Problem> = problems.collect();
+    let points = slice::from_ref(design).iter().chain(&design.cases);
+    let points: Vec<(&Problem, &Design)> = problems.iter().zip(points).collect();
+    let settings = robust::Settings {
+        machines: 1 << 12,
+        ..robust::Settings::default()
+    };
+    let settings = (settings, &problem.requirements[..]);
+    let unwatched = &softstop_dynamics::watch::unwatched;
+    let drawn = problem.drawn(design).ok_or("tolerances")?;
+    let together = verify_in_cases(&drawn, settings, unwatched)?;
+    assert_eq!((together.machines, together.rejected), (1 << 12, 0));
+    for (index, (problem, design)) in points.iter().enumerate() {
+        let spread = problem.spread(&design.machine).ok_or("tolerances")?;
+        let figures = [
+            (Figure::Velocity, Sense::Least),
+            (Figure::StopForce, Sense::Most),
+        ];
+        let found = worst(&spread, &design.orbit, &figures, unwatched)?;
+        assert_relative_eq!(found[0].value, design.value, max_relative = 1e-9);
+        assert!(found[1].value <= 5e5 * (1.0 + 1e-9));
+        let alone = verify(&spread.over(FITTED), &design.orbit, settings, unwatched)?;
+        assert_eq!((alone.lost, alone.rejected), (0, 0));
+        if let Some(case) = index.checked_sub(1) {
+            let case = &together.cases[case];
+            let slowest = alone.slowest.ok_or("machines")?.1.velocity;
+            assert_eq!(case.slowest.to_bits(), slowest.to_bits());
+        }
+    }
+    let mean = (points[0].1.value + 0.5 * points[1].1.value + points[2].1.value) / 2.5;
+    assert_relative_eq!(problem.sought_of(design), mean, max_relative = 1e-14);
+    // Without levels of each case the mean of the worst would not be the best: that of the drawings has less of it.
+    let mut nominal = problem.clone();
+    nominal.objective.scope = Scope::Drawing;
+    let other = search(&nominal, Settings { evaluations: 100 }, &Unwatched, None)?.design;
+    let mut least = Vec::new();
+    let others = slice::from_ref(&other).iter().chain(&other.cases);
+    for (problem, design) in problems.iter().zip(others) {
+        let spread = problem.spread(&design.machine).ok_or("tolerances")?;
+        let figures = [(Figure::Velocity, Sense::Least)];
+        least.push(worst(&spread, &design.orbit, &figures, unwatched)?[0].value);
+    }
+    let other = (least[0] + 0.5 * least[1] + least[2]) / 2.5;
+    assert!(other <= mean * (1.0 + 1e-6), "{other} {mean}");
+    Ok(())
+}
+
+/// Where the frequency is held a case may run at another one; among all motions of z = 1 too.
+#[test]
+fn a_case_has_a_frequency_of_its_own() -> Outcome {
+    for kind in [
+        ZoneKind::Hysteresis,
+        ZoneKind::SingleImpact {
+            between: (1.15, 1.15),
+        },
+    ] {
+        let mut problem = Problem {
+            zone: kind,
+            frequency: Interval::held(1.15),
+            ..drawing()
+        };
+        problem.cases = vec![Case {
+            name: "slow".to_owned(),
+            weight: 1.0,
+            changes: vec![(Parameter::Frequency, 1.12)],
+        }];
+        let found = solve(&problem)?.design;
+        let case = &found.cases[0];
+        assert_relative_eq!(case.frequency(), 1.12, max_relative = 1e-12);
+        assert_relative_eq!(found.frequency(), 1.15, max_relative = 1e-12);
+        let zone = zone(&case.machine, case.machine.scene.clearance).ok_or("a zone")?;
+        let alone = velocity(&zone, case.orbit.scene.excitation.frequency).ok_or("a motion")?;
+        assert_relative_eq!(alone, case.before_impact_velocity(), max_relative = 1e-9);
+    }
+    Ok(())
+}
+
+/// Trials are made in every case, and told with it.
+#[test]
+fn trials_are_made_in_every_case() -> Outcome {
+    let mut problem = damped(1.0);
+    problem.requirements = vec![Requirement::new(Figure::Certainty, Some(0.5), None)];
+    let found = solve(&problem)?;
+    let cases: Vec<Option<usize>> = found.tried.iter().map(|it| it.case).collect();
+    assert_eq!(cases, [None, Some(0)]);
+    assert!(found.tried.iter().all(Met::is_met));
+    Ok(())
+}
+
+/// What a user reads of them, in every form; without them there is none of it.
+#[test]
+fn reports_tell_every_case() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let task = "machine = \"unloaded\"\n[vary]\nstop.stiffness = 7\nclearance = [2, 22]\n[tolerance]\nclearance = 0.02\n\
+                [require]\nstop_force = 150\n[[case]]\nname = \"more <damping>\"\nweight = 0.5\ndamping = 0.06\n\
+                [[case]]\nweight = 0\nstop.preload = 80\n";
+    std::fs::write(path("task.toml"), task)?;
+    let line = format!(
+        "optimize --evaluations 100 --samples 4096 --config {} --output {}",
+        path("task.toml"),
+        path("out")
+    );
+    let text = SOFTSTOP.text(&words(&line));
+    for told in [
+        "Hardest impact, weighted mean of 2 operating points",
+        "In each case",
+        "more <damping>",
+        "in any case           0",
+    ] {
+        assert!(text.contains(told), "{told}: {text}");
+    }
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name));
+    let json: serde_json::Value = serde_json::from_str(&read("design.json")?)?;
+    let cases = json["cases"].as_array().ok_or("cases")?;
+    let names: Vec<&str> = cases.iter().filter_map(|it| it["case"].as_str()).collect();
+    assert_eq!(names, ["drawing", "more <damping>", "2"]);
+    let value = |index: usize| cases[index]["value"].as_f64().ok_or("a value");
+    let mean = (value(0)? + 0.5 * value(1)?) / 1.5;
+    let sought = json["objective"]["value"].as_f64().ok_or("a value")?;
+    assert_relative_eq!(sought, mean, max_relative = 1e-14);
+    let requirements = json["requirements"].as_array().ok_or("requirements")?;
+    assert_eq!(requirements.len(), 3);
+    for it in requirements {
+        assert_eq!((&it["met"], &it["violating"]), (&true.into(), &0.0.into()));
+    }
+    assert_eq!(json["tolerances"]["machines"]["rejected"], 0);
+    assert!(read("cases.csv")?.starts_with("case,changes,weight"));
+    assert!(read("requirements.csv")?.starts_with("case,name,"));
+    let page = read("report.html")?;
+    assert!(page.contains("more &lt;damping&gt;") && page.contains("id=\"cases\""));
+    Ok(())
+}
