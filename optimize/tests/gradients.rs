@@ -17,7 +17,7 @@ use softstop_optimize::design::space::{Axis, Interval};
 use softstop_testing::random::cases;
 
 /// What is looked at: the figures that have exact derivatives.
-const FIGURES: [Figure; 12] = [
+const FIGURES: &[Figure] = &[
     Figure::Velocity,
     Figure::ImpactEnergy,
     Figure::ImpactPower,
@@ -95,7 +95,7 @@ fn problem(machine: Machine) -> Problem {
         _ => 1.0,
     };
     let requirement = |figure| Requirement::new(figure, Some(unit(figure)), None);
-    let requirements = FIGURES.map(requirement).to_vec();
+    let requirements = FIGURES.iter().copied().map(requirement).collect();
     let cost = cost(&machine).expect("a cost");
     Problem {
         requirements,
