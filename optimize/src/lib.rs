@@ -22,6 +22,7 @@ mod tolerated;
 mod verdict;
 mod zone_end;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -116,6 +117,11 @@ pub enum Files {
 /// Reads the command line, does what it says and turns the outcome into an exit code.
 pub fn main() -> ExitCode {
     softstop_console::main(|line: CommandLine| run(line.command))
+}
+
+/// Runs the program with the words of a command line, its name first, and returns its exit code.
+pub fn main_of(line: Vec<OsString>) -> u8 {
+    softstop_console::main_of(line, |line: CommandLine| run(line.command))
 }
 
 /// Carries out one subcommand.

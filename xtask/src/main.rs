@@ -11,6 +11,7 @@ mod python;
 mod run;
 mod system;
 mod targets;
+mod wheel;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -55,6 +56,10 @@ enum Task {
     Fmpy,
     /// Build the FMU of daily work and run the tests with other importers only
     Importers,
+    /// Write the Python package as a wheel into target/wheels
+    Wheel,
+    /// Build that wheel and the program and run the package's tests only
+    Python,
     /// Build the program and run the tests of its pages in a headless Chromium only
     Pages,
     /// Test the pages of the guide with all that they show, and build it as a book with mdBook
@@ -99,10 +104,13 @@ fn run_task(task: &Task) -> Result<()> {
                 .args(["test", "--release", "--workspace", "--no-fail-fast"])
                 // Criterion asks for other features of shared crates: they would be built again.
                 .args(["--exclude", "softstop-benches"])
+                // A Python loads it, and not every one has a library to link it with.
+                .args(["--exclude", "softstop-python"])
                 .env("SOFTSTOP_FMU", &package))?;
             test_with_fmpy(&package)?;
             test_with_importers(&package)?;
             test_pages()?;
+            test_wheel()?;
             stage("the library for Windows under Wine");
             portable::compare_under_wine()?;
             stage("all passed");
@@ -113,6 +121,14 @@ fn run_task(task: &Task) -> Result<()> {
             test_with_fmpy(&build()?)
         }
         Task::Importers => test_with_importers(&build()?),
+        Task::Wheel => {
+            println!("written: {}", wheel::write()?.display());
+            Ok(())
+        }
+        Task::Python => {
+            build_program()?;
+            test_wheel()
+        }
         Task::Pages => {
             build_program()?;
             test_pages()
@@ -140,7 +156,9 @@ fn check() -> Result<()> {
     stage("lints");
     cargo("clippy --release --workspace --all-targets -- -D warnings")?;
     stage("unit tests");
-    cargo("test --release --workspace --exclude softstop-benches --lib --quiet")?;
+    cargo(
+        "test --release --workspace --exclude softstop-benches --exclude softstop-python --lib --quiet",
+    )?;
     stage("quick rooms");
     let quick = "lanes console fmi explore units testing".split(' ');
     let packages: String = quick.map(|room| format!(" -p softstop-{room}")).collect();
@@ -166,6 +184,11 @@ fn test_with_fmpy(package: &Path) -> Result<()> {
 fn test_pages() -> Result<()> {
     stage("pages in a headless Chromium");
     python::test_pages()
+}
+
+fn test_wheel() -> Result<()> {
+    stage("the Python package");
+    wheel::test()
 }
 
 fn test_with_importers(package: &Path) -> Result<()> {

@@ -44,6 +44,7 @@
 //! ```
 
 use std::borrow::Borrow;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -62,11 +63,45 @@ pub trait Report: Serialize {
     fn text(&self) -> String;
 }
 
+/// A report that was returned instead of printed.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Returned {
+    /// For people, without the paths of files.
+    pub text: String,
+    /// One JSON object.
+    pub json: String,
+}
+
+thread_local! {
+    /// Where reports go instead of being printed, while somebody on this thread asks for them.
+    static RETURNED: RefCell<Option<Returned>> = const { RefCell::new(None) };
+}
+
+/// Runs a command on this thread and returns its report instead of printing it; an empty one if it prints none.
+///
+/// # Errors
+/// Those of the command.
+pub fn returned(command: impl FnOnce() -> Result<(), Failure>) -> Result<Returned, Failure> {
+    RETURNED.set(Some(Returned::default()));
+    let done = command();
+    let returned = RETURNED.take().unwrap_or_default();
+    done.map(|()| returned)
+}
+
 /// Prints a report that has no files.
 pub fn print(report: &impl Report, format: Format) -> Result<(), Failure> {
+    show(report.text(), "", output::json(report)?, format)
+}
+
+/// Prints a report, or returns it to whoever asks for it.
+fn show(text: String, files: &str, json: String, format: Format) -> Result<(), Failure> {
+    if RETURNED.with_borrow(Option::is_some) {
+        RETURNED.set(Some(Returned { text, json }));
+        return Ok(());
+    }
     output::print(&match format {
-        Format::Json => output::json(report)?,
-        Format::Text => report.text(),
+        Format::Json => json,
+        Format::Text => text + files,
     })
 }
 
@@ -231,7 +266,7 @@ impl Export {
             (kind.clone(), self.folder.place(name).display().to_string())
         };
         let files: BTreeMap<_, _> = self.files.iter().map(place).collect();
-        let mut text = report.text() + "\n";
+        let mut text = "\n".to_owned();
         for (kind, path) in &files {
             let older = match Path::new(path).exists() {
                 true => ", in place of an older one",
@@ -251,10 +286,7 @@ impl Export {
             fs::remove_file(&path).with_context(|| format!("cannot remove {place}"))?;
             text += &format!("Removed: {place} (of an earlier run)\n");
         }
-        output::print(match format {
-            Format::Json => &json,
-            Format::Text => &text,
-        })
+        show(report.text(), &text, json, format)
     }
 
     /// Kind and name of the file that holds the JSON.

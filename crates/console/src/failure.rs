@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::path::Path;
-use std::process::ExitCode;
 
 use softstop::{MotionError, SceneError};
 
@@ -37,13 +36,13 @@ impl Failure {
     }
 
     /// 2 for bad usage (as clap does), 1 for a failed run, 128 and the number of the signal for a run that one ended.
-    pub fn exit_code(&self) -> ExitCode {
-        ExitCode::from(match self {
+    pub fn exit_code(&self) -> u8 {
+        match self {
             Self::Usage(_) => 2,
             Self::Run(_) => 1,
             Self::Interrupted => interrupt::exit_code(),
             Self::Unread => signals::exit_code(signals::PIPE),
-        })
+        }
     }
 }
 

@@ -118,6 +118,17 @@ fn receive(signal: i32) {
     std::process::exit(exit_code().into());
 }
 
+/// Asks the run to end, as a signal does, but never ends the process; for programs that call this one as a library.
+pub fn request() {
+    let _ = REQUESTED.compare_exchange(0, signals::INTERRUPT, Ordering::SeqCst, Ordering::SeqCst);
+}
+
+/// Takes [`request`] back, once the run has ended.
+pub fn clear() {
+    REQUESTED.store(0, Ordering::SeqCst);
+    SAVING.store(false, Ordering::SeqCst);
+}
+
 /// 128 and the number of the signal that asked the run to end.
 pub fn exit_code() -> u8 {
     signals::exit_code(REQUESTED.load(Ordering::SeqCst))

@@ -33,6 +33,8 @@ pub mod signals;
 pub mod table;
 pub mod units;
 
+use std::env;
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -43,8 +45,16 @@ use failure::Failure;
 
 /// Reads the command line, does what it says, says what went wrong and turns the outcome into an exit code.
 pub fn main<C: Parser>(run: impl FnOnce(C) -> Result<(), Failure>) -> ExitCode {
+    ExitCode::from(main_of(env::args_os(), run))
+}
+
+/// Runs a program with the words of a command line, its name first, and returns its exit code.
+pub fn main_of<C: Parser>(
+    line: impl IntoIterator<Item = OsString>,
+    run: impl FnOnce(C) -> Result<(), Failure>,
+) -> u8 {
     interrupt::install();
-    let outcome = match C::try_parse() {
+    let outcome = match C::try_parse_from(line) {
         Ok(command) => run(command),
         Err(told) => match told.kind() {
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => output::written(told.print()),
@@ -55,7 +65,7 @@ pub fn main<C: Parser>(run: impl FnOnce(C) -> Result<(), Failure>) -> ExitCode {
         },
     };
     match outcome {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => {
             if !matches!(failure, Failure::Unread) {
                 say(&format!("{failure}\n"));

@@ -35,8 +35,7 @@ pub fn listen(receive: impl Fn(i32) + Send + 'static) -> io::Result<()> {
 }
 
 /// The number of SIGINT.
-#[cfg(not(unix))]
-const INTERRUPT: i32 = 2;
+pub(crate) const INTERRUPT: i32 = 2;
 
 /// The exit code of a program that a signal ends, as shells have it.
 pub fn exit_code(signal: i32) -> u8 {

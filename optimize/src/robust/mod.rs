@@ -29,7 +29,7 @@ pub(crate) use corners::corners;
 pub(crate) use meeting::is_loss;
 pub(crate) use nearest::first_losses;
 pub(crate) use neighbours::Neighbours;
-pub(crate) use rates::rates;
+pub use rates::rates;
 
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
 use softstop_dynamics::figure::Figure;

@@ -14,7 +14,7 @@ const SAME: f64 = 1e-9;
 
 /// The derivatives of a figure of a motion, or of its cost, by the parameters of its slopes; none if it is not among those
 /// that have exact ones.
-pub(crate) fn rates(
+pub fn rates(
     (figure, cost): (Figure, Option<&Cost>),
     slopes: &Slopes,
     (orbit, stroke): (&Orbit, &Stroke),

@@ -39,7 +39,8 @@ pub(super) fn chart(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f6
         }
     });
     let title = format!("z = 1 under an interrupted supply of strips, ρ = {clearance}");
-    let explanation = "strips come and fail in runs of a mean length; bands: 95 % intervals where some end";
+    let explanation =
+        "strips come and fail in runs of a mean length; bands: 95 % intervals where some end";
     Chart {
         subtitle: explanation.to_owned(),
         legend: Legend::Below,

@@ -1,0 +1,88 @@
+//! A machine as Python has it.
+
+use pyo3::prelude::*;
+use softstop::Machine as Stated;
+
+use crate::command::json_to_toml;
+use crate::errors::{MachineError, of_machine};
+
+/// A machine that cannot change.
+#[pyclass(frozen, eq, module = "softstop._softstop")]
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machine {
+    pub(crate) stated: Stated,
+}
+
+#[pymethods]
+impl Machine {
+    /// The machine of a file's text, in TOML.
+    #[staticmethod]
+    fn from_toml(text: &str) -> PyResult<Self> {
+        let stated = Stated::from_toml(text).map_err(|error| of_machine(&error))?;
+        Ok(Self { stated })
+    }
+
+    /// The machine of a file's content as JSON.
+    #[staticmethod]
+    fn from_json(text: &str) -> PyResult<Self> {
+        Self::from_toml(&json_to_toml(text)?)
+    }
+
+    /// The paper's `unloaded` or `loaded` machine.
+    #[staticmethod]
+    fn named(name: &str) -> PyResult<Self> {
+        let stated = Stated::named(name);
+        let stated = stated
+            .ok_or_else(|| MachineError::new_err(format!("{name}: no machine is called so")))?;
+        Ok(Self { stated })
+    }
+
+    /// Another machine, with keys of its file set to values, both as in the file.
+    fn replaced(&self, changes: Vec<(String, String)>) -> PyResult<Self> {
+        let mut stated = self.stated.clone();
+        let changes = changes
+            .iter()
+            .map(|(key, value)| (key.as_str(), value.as_str()));
+        stated.apply(changes).map_err(|error| of_machine(&error))?;
+        Ok(Self { stated })
+    }
+
+    /// The text of its file.
+    fn to_toml(&self) -> String {
+        self.stated.to_toml()
+    }
+
+    /// The numbers that it has: key, value, unit, meaning.
+    fn parameters(&self) -> Vec<(&'static str, f64, &'static str, &'static str)> {
+        let machine = &self.stated;
+        let each = machine.parameters().filter_map(|parameter| {
+            let (meaning, _) = machine.meaning_of(parameter);
+            let value = machine.value(parameter)?;
+            Some((
+                machine.name(parameter),
+                value,
+                machine.unit_of(parameter),
+                meaning,
+            ))
+        });
+        each.collect()
+    }
+
+    /// Its name, if it has one.
+    #[getter]
+    fn name(&self) -> Option<String> {
+        self.stated.name.clone()
+    }
+
+    /// State at time 0: position in m and velocity in m/s.
+    #[getter]
+    fn start(&self) -> (f64, f64) {
+        (self.stated.start.position, self.stated.start.velocity)
+    }
+
+    /// The drive period in s.
+    #[getter]
+    fn period(&self) -> f64 {
+        self.stated.scene.period()
+    }
+}

@@ -1,0 +1,59 @@
+"""Exact dynamics and optimal design of impact oscillators with soft, preloaded and rigid stops.
+
+>>> import numpy as np, softstop as ss
+>>> machine = ss.Machine.unloaded(frequency=1.15, clearance=10)
+>>> round(ss.orbit(machine).before_impact_velocity, 6)
+6.494627
+>>> batch = ss.simulate(machine, eta=np.linspace(0.95, 1.4, 1000), start=(0, 14), periods=200)
+>>> batch.counts.shape
+(1000,)
+
+Machines (`Machine`, `read`) are immutable. `simulate` follows one motion or, where a value is an array, many at once on all
+processors. `orbit`, `motions`, `zone`, `continue_`, `sweep`, `basin`, `study`, `fidelity` and `optimize` are the commands of the
+program `softstop`, which this package installs, too: their results hold the numbers that the program prints.
+"""
+
+from ._batch import Motions, simulate
+from ._commands import (
+    basin,
+    continue_,
+    fidelity,
+    motions,
+    optimize,
+    orbit,
+    study,
+    sweep,
+    zone,
+)
+from ._machine import Drive, Hertz, KelvinVoigt, Machine, PiecewiseLinear, Preloaded, Rigid, read
+from ._motion import Motion
+from ._result import Design, Result, Table
+from ._softstop import MachineError, SoftstopError
+
+__all__ = [
+    "Design",
+    "Drive",
+    "Hertz",
+    "KelvinVoigt",
+    "Machine",
+    "MachineError",
+    "Motion",
+    "Motions",
+    "PiecewiseLinear",
+    "Preloaded",
+    "Result",
+    "Rigid",
+    "SoftstopError",
+    "Table",
+    "basin",
+    "continue_",
+    "fidelity",
+    "motions",
+    "optimize",
+    "orbit",
+    "read",
+    "simulate",
+    "study",
+    "sweep",
+    "zone",
+]

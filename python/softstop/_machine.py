@@ -1,0 +1,305 @@
+"""Machines: immutable, in the units and by the keys of their files."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar
+
+from . import _softstop
+
+Value = float | str
+
+
+class _Part:
+    """A table of a machine's file."""
+
+    model: ClassVar[str | None] = None
+
+    def table(self) -> dict[str, Any]:
+        """The table; what is None is left out."""
+        pairs = {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
+        named = {} if self.model is None else {"model": self.model}
+        return named | {key: value for key, value in pairs.items() if value is not None}
+
+
+@dataclass(frozen=True)
+class Drive(_Part):
+    """The drive F0 cos(w t + phi): amplitude in N, frequency in rad/s or frequency_hz in Hz, phase in rad."""
+
+    amplitude: float
+    frequency: float | None = None
+    frequency_hz: float | None = None
+    phase: float | None = None
+
+
+@dataclass(frozen=True)
+class KelvinVoigt(_Part):
+    """A linear stop: stiffness in N/m; it lets go at the "clearance", or at "zeroForce"."""
+
+    stiffness: float
+    release: str | None = None
+    model: ClassVar[str | None] = "kelvinVoigt"
+
+
+@dataclass(frozen=True)
+class PiecewiseLinear(_Part):
+    """A chain of slopes: pairs (from in m, stiffness in N/m), for loading and, with a loss, for unloading."""
+
+    loading: Sequence[tuple[float, float]]
+    unloading: Sequence[tuple[float, float]] = ()
+    model: ClassVar[str | None] = "piecewiseLinear"
+
+    def table(self) -> dict[str, Any]:
+        def slopes(pairs: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
+            return [{"from": start, "stiffness": stiffness} for start, stiffness in pairs]
+
+        return {"model": self.model, "loading": slopes(self.loading), "unloading": slopes(self.unloading)}
+
+
+@dataclass(frozen=True)
+class Hertz(_Part):
+    """Hertz, or Hunt and Crossley: stiffness in N/m^exponent, dissipation in s/m."""
+
+    stiffness: float
+    exponent: float | None = None
+    dissipation: float | None = None
+    model: ClassVar[str | None] = "hertz"
+
+
+@dataclass(frozen=True)
+class Preloaded(_Part):
+    """A stop that is pressed before it is touched: stiffness in N/m, preload in N or preload_deflection in m."""
+
+    stiffness: float
+    preload: float | None = None
+    preload_deflection: float | None = None
+    model: ClassVar[str | None] = "preloaded"
+
+
+@dataclass(frozen=True)
+class Rigid(_Part):
+    """A rigid stop: Newton's coefficient of restitution, 0 to 1."""
+
+    restitution: float
+    model: ClassVar[str | None] = "rigid"
+
+
+@dataclass(frozen=True)
+class Strip(_Part):
+    """A strip to pierce: stiffness k2 and friction k3 in N/m, thickness and travel behind it in m."""
+
+    stiffness: float
+    friction: float
+    thickness: float
+    travel: float
+
+
+def _tables(value: Any) -> Any:
+    """Parts as tables, keys with dots as tables in tables, numbers of NumPy as Python's."""
+    if isinstance(value, _Part):
+        value = value.table()
+    if isinstance(value, Mapping):
+        table: dict[str, Any] = {}
+        for key, inner in value.items():
+            *path, last = str(key).split(".")
+            place = table
+            for name in path:
+                place = place.setdefault(name, {})
+                if not isinstance(place, dict):
+                    raise _softstop.MachineError(f"{key}: {name} is a value, not a table")
+            inner = _tables(inner)
+            known = place.get(last)
+            place[last] = known | inner if isinstance(known, dict) and isinstance(inner, dict) else inner
+        return table
+    if isinstance(value, (str, bool, int, float)):
+        return value
+    if hasattr(value, "item") and getattr(value, "ndim", 0) == 0:
+        return value.item()
+    if isinstance(value, Sequence):
+        return [_tables(inner) for inner in value]
+    raise _softstop.MachineError(f"{value!r}: must be a number, a word, or a table of them")
+
+
+def _word(value: Any) -> str:
+    """A value as on the command line."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (bool, list, tuple, dict)) or value is None:
+        raise _softstop.MachineError(f"{value!r}: must be a number or a word")
+    return repr(float(value))
+
+
+class Machine:
+    """A machine: mass on a suspension, drive, stop, strip.
+
+    Parameters
+    ----------
+    mass : float
+        In kg. All keys are those of a machine's file (`softstop schema`), in SI units.
+    stiffness, damping : float
+        Of the suspension in N/m and N s/m.
+    clearance : float
+        Position in m at which bodies touch.
+    contact_damping : float
+        All damping while bodies touch in N s/m.
+    drive : Drive
+        The force.
+    stop : KelvinVoigt, PiecewiseLinear, Hertz, Preloaded, Rigid or None
+        The law of the stop.
+    strip : Strip, optional
+        What is pierced.
+    rigid : mapping, optional
+        A rigid stop behind the other: travel in m and restitution.
+    start : (float, float), optional
+        Position in m and velocity in m/s at time 0.
+    name : str, optional
+        Its name.
+
+    Raises
+    ------
+    MachineError
+        With the parameter (`key`), its value and the allowed range.
+
+    Examples
+    --------
+    >>> press = Machine(mass=120, stiffness=2.4e6, damping=680, clearance=0.02, contact_damping=3060,
+    ...                 drive=Drive(9e3, frequency_hz=24), stop=Preloaded(1.7e7, preload_deflection=0.02))
+    >>> press["excitation.frequency_hz"]
+    24.0
+    >>> press.replace(clearance=0.01)["clearance"]
+    0.01
+    """
+
+    __slots__ = ("_inner",)
+    _inner: _softstop.Machine
+
+    def __init__(
+        self,
+        *,
+        mass: float,
+        stiffness: float,
+        damping: float,
+        clearance: float,
+        contact_damping: float,
+        drive: Drive,
+        stop: KelvinVoigt | PiecewiseLinear | Hertz | Preloaded | Rigid | None,
+        strip: Strip | None = None,
+        rigid: Mapping[str, float] | None = None,
+        start: tuple[float, float] | None = None,
+        name: str | None = None,
+    ) -> None:
+        table = {
+            "name": name,
+            "mass": mass,
+            "stiffness": stiffness,
+            "damping": damping,
+            "clearance": clearance,
+            "contact": {"damping": contact_damping},
+            "excitation": drive,
+            "stop": {"model": "none"} if stop is None else stop,
+            "piercing": strip,
+            "rigid": rigid,
+            "initial": None if start is None else {"position": start[0], "velocity": start[1]},
+        }
+        self._inner = _of_table({key: value for key, value in table.items() if value is not None})
+
+    @classmethod
+    def _of(cls, inner: _softstop.Machine) -> Machine:
+        machine = object.__new__(cls)
+        machine._inner = inner
+        return machine
+
+    @classmethod
+    def unloaded(cls, **changes: Value) -> Machine:
+        """The paper's machine without a strip (Peterka 2003), in ratios, with changes as of `replace`."""
+        return cls._of(_softstop.Machine.named("unloaded")).replace(**changes)
+
+    @classmethod
+    def loaded(cls, **changes: Value) -> Machine:
+        """The paper's machine that pierces, in ratios, with changes as of `replace`."""
+        return cls._of(_softstop.Machine.named("loaded")).replace(**changes)
+
+    @classmethod
+    def from_toml(cls, text: str) -> Machine:
+        """The machine of a file's text; tables of a task in it play no part."""
+        return cls._of(_softstop.Machine.from_toml(text))
+
+    @classmethod
+    def from_dict(cls, table: Mapping[str, Any]) -> Machine:
+        """The machine of a file's content."""
+        return cls._of(_of_table(table))
+
+    def replace(self, changes: Mapping[str, Value] | None = None, /, **named: Value) -> Machine:
+        """Another machine with other values, by their keys, older names or letters.
+
+        Keys with dots go into a mapping, or have two underscores: `stop__stiffness=7` is `stop.stiffness`.
+        """
+        pairs = dict(changes or {}) | {key.replace("__", "."): value for key, value in named.items()}
+        return Machine._of(self._inner.replaced([(key, _word(value)) for key, value in pairs.items()]))
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The numbers that it has, by key, in its own units."""
+        return {key: value for key, value, _, _ in self._inner.parameters()}
+
+    @property
+    def name(self) -> str | None:
+        """Its name, if it has one."""
+        return self._inner.name
+
+    @property
+    def start(self) -> tuple[float, float]:
+        """Position and velocity at time 0."""
+        return self._inner.start
+
+    @property
+    def period(self) -> float:
+        """The drive period in s."""
+        return self._inner.period
+
+    def to_toml(self) -> str:
+        """The text of its file, complete; `from_toml` makes the same machine of it."""
+        return self._inner.to_toml()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes its file."""
+        pathlib.Path(path).write_text(self.to_toml(), encoding="utf-8")
+
+    def __getitem__(self, key: str) -> float:
+        return self.parameters[key]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Machine) and self._inner == other._inner
+
+    def __hash__(self) -> int:
+        return hash(self.to_toml())
+
+    def __repr__(self) -> str:
+        pairs = ", ".join(f"{key}={value:g}" for key, value in self.parameters.items())
+        return f"<Machine {self.name or ''}: {pairs}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        rows = "".join(
+            f"<tr><td>{escape(meaning)}</td><td><code>{escape(key)}</code></td>"
+            f"<td style='text-align:right'>{value:.7g}</td><td>{escape(unit)}</td></tr>"
+            for key, value, unit, meaning in self._inner.parameters()
+        )
+        return f"<table><caption>{escape(self.name or 'machine')}</caption>{rows}</table>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Machine.from_toml, (self.to_toml(),)
+
+
+def _of_table(table: Mapping[str, Any]) -> _softstop.Machine:
+    return _softstop.Machine.from_json(json.dumps(_tables(table)))
+
+
+def read(path: str | os.PathLike[str]) -> Machine:
+    """The machine of a TOML file."""
+    return Machine.from_toml(pathlib.Path(path).read_text(encoding="utf-8"))
