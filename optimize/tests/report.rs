@@ -139,6 +139,8 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
         page.matches("class=\"source\"").count(),
     );
     assert_eq!((count(page, "figure")?, sources), (pictures + 2, 2));
+    // Response, motion and portrait are drawn for narrow screens, too.
+    assert_eq!(page.matches("class=\"narrow\"").count(), 3);
     for told in [
         "<h1>press &lt;1&gt; &amp; co</h1>",
         "s<sub>SN</sub>",
