@@ -184,7 +184,7 @@ fn nothing_contradicts(
 
 #[test]
 fn nothing_beside_a_design_contradicts_it() -> Outcome {
-    nothing_contradicts(0..20, Settings { evaluations: 200 }, 5)
+    nothing_contradicts(0..10, Settings { evaluations: 200 }, 5)
 }
 
 #[test]

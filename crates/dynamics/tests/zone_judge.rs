@@ -18,7 +18,7 @@ use softstop_lanes::{Job, Machine, Watch};
 use softstop_testing::random::{self, log_uniform};
 
 /// Machines of the test that runs every day, and after how many progress is shown.
-const MACHINES: u32 = 2000;
+const MACHINES: u32 = 500;
 const REPORTED: u32 = 250;
 /// Frequencies of a machine; starts at each, and how long they run.
 const FREQUENCIES: usize = 3;
