@@ -37,10 +37,14 @@ pub(crate) trait Equations {
         false
     }
 
-    /// True if nothing that breaks a derivative lies between two places side by side.
-    fn is_smooth(&self, from: &Self::Point, to: &Self::Point) -> bool {
-        let _ = (from, to);
-        true
+    /// The residual alone at a place beside another one, and whether nothing that breaks a derivative lies between them.
+    fn beside(
+        &self,
+        here: &Self::Point,
+        at: &DVector<f64>,
+    ) -> Result<(DVector<f64>, bool), OrbitError> {
+        let _ = here;
+        Ok((self.evaluate(at)?.residual, true))
     }
 }
 
@@ -171,8 +175,8 @@ pub(super) fn correct_with<E: Equations>(
 /// orbit may magnify, and forget again, more than its monodromy matrix tells.
 fn noise<E: Equations>(equations: &E, at: &DVector<f64>, here: &Evaluation<E::Point>) -> f64 {
     let change = |digits: &f64| {
-        let there = equations.evaluate(&(at * (1.0 + digits * f64::EPSILON)));
-        there.map_or(0.0, |there| (there.residual - &here.residual).norm())
+        let there = equations.beside(&here.point, &(at * (1.0 + digits * f64::EPSILON)));
+        there.map_or(0.0, |(there, _)| (there - &here.residual).norm())
     };
     LAST_DIGITS.iter().map(change).fold(0.0, f64::max)
 }
@@ -240,20 +244,16 @@ pub(super) fn slopes_at<E: Equations>(
         let beside = |shift: f64| {
             let mut at = at.clone();
             at[unknown] += shift;
-            let found = equations.evaluate(&at)?;
-            Ok::<_, OrbitError>((
-                equations.is_smooth(&here.point, &found.point),
-                found.residual,
-            ))
+            equations.beside(&here.point, &at)
         };
         let one_sided = |there: DVector<f64>, shift: f64| (there - &here.residual) / shift;
         let ahead = beside(width);
         columns.push(match (ahead, care) {
-            (Ok((true, ahead)), Care::Quick) => one_sided(ahead, width),
+            (Ok((ahead, true)), Care::Quick) => one_sided(ahead, width),
             (ahead, _) => match (ahead, beside(-width)) {
-                (Ok((a, ahead)), Ok((b, behind))) if a == b => (ahead - behind) / (2.0 * width),
-                (Ok((true, ahead)), _) | (Ok((_, ahead)), Err(_)) => one_sided(ahead, width),
-                (_, Ok((_, behind))) => one_sided(behind, -width),
+                (Ok((ahead, a)), Ok((behind, b))) if a == b => (ahead - behind) / (2.0 * width),
+                (Ok((ahead, true)), _) | (Ok((ahead, _)), Err(_)) => one_sided(ahead, width),
+                (_, Ok((behind, _))) => one_sided(behind, -width),
                 (Err(error), Err(_)) => return Err(error),
             },
         });

@@ -1,12 +1,14 @@
 //! What lies on one step of a branch: special points, ends.
 
+use std::cell::RefCell;
+
 use nalgebra::DVector;
 
 use super::Family;
-use super::arclength::Node;
+use super::arclength::{Equations, Node};
 use super::follower::{Follower, WIDTH};
 use super::graze::Approach;
-use super::locate::{is_beside, locate, on_step};
+use super::locate::{Cubic, is_beside, locate};
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::round::Round;
 use super::test::Test;
@@ -96,14 +98,14 @@ impl<F: Family> Follower<'_, F> {
         if a.trace() > 0.0 || begins.min(ends) <= 0.0 {
             return Ok(Vec::new());
         }
-        let at = |share| on_step(&self.shooting, (from, to), share);
         let turns_over = a.m12 * b.m12 < 0.0 || a.m21 * b.m21 < 0.0;
+        if !turns_over && begins.min(ends) > SHALLOW {
+            return Ok(Vec::new());
+        }
+        let cubic = Cubic::between(&self.shooting, (from, to))?;
         let dips = || -> Result<bool, OrbitError> {
-            if begins.min(ends) > SHALLOW {
-                return Ok(false);
-            }
-            let falls = (begins - value(&at(NEARBY)?)) / NEARBY;
-            let rises = (ends - value(&at(1.0 - NEARBY)?)) / NEARBY;
+            let falls = (begins - value(&cubic.node(NEARBY)?)) / NEARBY;
+            let rises = (ends - value(&cubic.node(1.0 - NEARBY)?)) / NEARBY;
             // begins - falls s = ends - rises (1 - s)
             let meet = (begins - ends + rises) / (falls + rises);
             Ok(falls > 0.0 && rises > 0.0 && begins < falls * meet)
@@ -111,12 +113,9 @@ impl<F: Family> Follower<'_, F> {
         if !turns_over && !dips()? {
             return Ok(Vec::new());
         }
-        let depth = |share| at(share).map_or(f64::NEG_INFINITY, |node| -value(&node));
-        let (share, deepest) = highest(0.0, 1.0, DIP, depth);
-        if deepest <= 0.0 {
+        let Some((share, middle)) = beyond(&cubic, [begins, ends], value) else {
             return Ok(Vec::new());
-        }
-        let middle = at(share)?;
+        };
         let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
         let flips = halves.map(|(from, to, begins, ends)| {
             let (node, own) = locate(&self.shooting, (from, to), WIDTH, value)?;
@@ -163,7 +162,9 @@ impl<F: Family> Follower<'_, F> {
         let off = |at: &DVector<f64>| (origin - at).norm() / way.norm();
         (0.0..=1.0).contains(&share)
             && off(&(&from.at + share * &way)) < CLOSED
-            && on_step(&self.shooting, (from, to), share).is_ok_and(|node| off(&node.at) < SAME)
+            && Cubic::between(&self.shooting, (from, to))
+                .and_then(|cubic| cubic.node(share))
+                .is_ok_and(|node| off(&node.at) < SAME)
     }
 
     /// The flip at which an orbit becomes one of half as many periods, if it does on a step: half a round
@@ -189,4 +190,44 @@ impl<F: Family> Follower<'_, F> {
         let near = follower.point(parameter, self.shooting.state(&at)).ok()?;
         follower.critical(&near, Test::Flip).ok()
     }
+}
+
+/// A place on a step, as a share of its way, at which a test is negative that is positive at both ends: by golden section,
+/// until one is found or the lowest value lies farther above zero than its neighbours above it.
+fn beyond<E: Equations>(
+    cubic: &Cubic<'_, E>,
+    [begins, ends]: [f64; 2],
+    value: impl Fn(&Node<E::Point>) -> f64,
+) -> Option<(f64, Node<E::Point>)> {
+    let known = RefCell::new(vec![(0.0, begins), (1.0, ends)]);
+    let found = RefCell::new(None);
+    let is_decided = |known: &[(f64, f64)]| {
+        let lowest = (0..known.len()).min_by(|a, b| known[*a].1.total_cmp(&known[*b].1));
+        let sides = lowest.map(|at| {
+            (
+                known.get(at.wrapping_sub(1)),
+                known.get(at + 1),
+                known[at].1,
+            )
+        });
+        matches!(sides, Some((Some(a), Some(b), low)) if a.1.max(b.1) < 2.0 * low)
+    };
+    let depth = |share: f64| {
+        let mut known = known.borrow_mut();
+        if found.borrow().is_some() || is_decided(&known) {
+            return f64::NEG_INFINITY;
+        }
+        let Ok(node) = cubic.node(share) else {
+            return f64::NEG_INFINITY;
+        };
+        let value = value(&node);
+        let place = known.partition_point(|(at, _)| *at < share);
+        known.insert(place, (share, value));
+        if value < 0.0 {
+            found.replace(Some((share, node)));
+        }
+        -value
+    };
+    highest(0.0, 1.0, DIP, depth);
+    found.into_inner()
 }

@@ -57,16 +57,16 @@ impl<'a, F: Family> Follower<'a, F> {
 
     /// The same for another number of drive periods.
     pub(super) fn over(&self, periods: u64) -> Self {
-        let follower = Self::new(self.shooting.family, periods).with_steps(self.largest);
-        follower.with_turn(self.shooting.turn)
+        Self {
+            shooting: self.shooting.seen_at(self.shooting.turn, periods),
+            largest: self.largest,
+        }
     }
 
     /// The same with its section so many drive periods after drive angle phi.
     pub(super) fn with_turn(&self, turn: f64) -> Self {
-        let mut shooting = Shooting::new(self.shooting.family, self.shooting.periods);
-        shooting.turn = turn.rem_euclid(shooting.periods as f64);
         Self {
-            shooting,
+            shooting: self.shooting.seen_at(turn, self.shooting.periods),
             largest: self.largest,
         }
     }
@@ -184,13 +184,10 @@ impl<'a, F: Family> Follower<'a, F> {
     /// # Errors
     /// [`OrbitError`] if it does not settle.
     pub fn critical(&self, near: &BranchPoint, test: Test) -> Result<BranchPoint, OrbitError> {
-        let critical = Critical {
-            shooting: Shooting::<F, 1>::new(self.shooting.family, self.shooting.periods),
-            test,
-        };
-        let guess = critical.shooting.scaled(near.state(), [near.parameter]);
         let plain = self.with_turn(0.0);
-        plain.point_at(&correct(&critical, &guess, None)?)
+        let guess = plain.shooting.scaled(near.state(), [near.parameter]);
+        let shooting = plain.shooting.seen_at(0.0, plain.shooting.periods);
+        plain.point_at(&correct(&Critical { shooting, test }, &guess, None)?)
     }
 
     /// The full orbit at a point.

@@ -44,7 +44,8 @@ impl Approach {
         let scene = shooting.scene(&node.at)?;
         let round = &node.here.point;
         let total = round.sequence.crossings();
-        let nearby = nearby(&scene, shooting.periods, round.start)?;
+        let machine = (&scene, shooting.phases(&scene));
+        let nearby = nearby(machine, shooting.periods, round.start)?;
         let taken = round.slowest.map_or(0, |touch| nearby.taken(touch.time));
         Ok(Self {
             dying: round.slowest,

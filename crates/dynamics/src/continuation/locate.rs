@@ -1,10 +1,10 @@
 //! Special points between two solutions of a curve.
 
-use nalgebra::DVector;
+use std::cell::RefCell;
 
-use super::arclength::{
-    Care, Equations, Node, bordered, correct, correct_with, slopes_at, solved, tangent,
-};
+use nalgebra::{DMatrix, DVector};
+
+use super::arclength::{Care, Equations, Node, bordered, correct_with, slopes_at, solved, tangent};
 use crate::orbit::OrbitError;
 use softstop::internals::narrow;
 
@@ -27,9 +27,9 @@ pub(crate) fn locate<E: Equations>(
     let ends = ((0.0, known[0].1), (1.0, known[1].1));
     narrow(ends.0, ends.1, width / way.norm(), |share| {
         let straight = known.len() == ENDS && equations.is_steep(&from.here.point);
-        let bent = straight.then(|| cubic(equations, (from, to), share));
+        let bent = straight.then(|| Cubic::between(equations, (from, to)));
         let guess = match bent {
-            Some(Ok(bent)) => bent,
+            Some(Ok(bent)) => bent.at(share),
             _ => interpolated(&known, share),
         };
         let node = correct_with(equations, &guess, Some(&chord), &mut slopes, Care::Full)?;
@@ -70,7 +70,8 @@ pub(crate) fn zero<E: Equations>(
         (0.0, test(&from.here.point)),
         (along(&to.at), test(&to.here.point)),
     ];
-    let mut at = cubic(equations, (from, to), vanishes(&values) / along(&to.at))?;
+    let cubic = Cubic::between(equations, (from, to))?;
+    let mut at = cubic.at(vanishes(&values) / along(&to.at));
     for _ in 0..ROUNDS {
         let here = equations.evaluate(&at)?;
         let (place, size) = (along(&at), here.residual.norm());
@@ -112,33 +113,49 @@ fn vanishes(values: &[(f64, f64)]) -> f64 {
     parts.map(|(index, (place, _))| place * weight(index)).sum()
 }
 
-/// The node at this share of the way from one neighbour to another.
-pub(super) fn on_step<E: Equations>(
-    equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
-    share: f64,
-) -> Result<Node<E::Point>, OrbitError> {
-    let chord = (&to.at - &from.at).normalize();
-    correct(
-        equations,
-        &cubic(equations, (from, to), share)?,
-        Some(&chord),
-    )
+/// The cubic between two neighbours along the directions of their curve.
+pub(super) struct Cubic<'a, E: Equations> {
+    equations: &'a E,
+    from: &'a DVector<f64>,
+    way: DVector<f64>,
+    /// Unit directions at both ends.
+    directions: [DVector<f64>; 2],
+    /// Slopes at the node found last.
+    slopes: RefCell<Option<DMatrix<f64>>>,
 }
 
-/// The point at this share of the way on the cubic between two nodes along their directions.
-fn cubic<E: Equations>(
-    equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
-    share: f64,
-) -> Result<DVector<f64>, OrbitError> {
-    let way = &to.at - &from.at;
-    let (begins, _) = tangent(equations, from, &way)?;
-    let (ends, _) = tangent(equations, to, &way)?;
-    let far = way.norm() * (1.0 + (&ends - &begins).norm_squared() / 24.0);
-    let (left, smooth) = (1.0 - share, share * share * (3.0 - 2.0 * share));
-    let bend = (begins * left - ends * share) * (far * share * left);
-    Ok(&from.at + way * smooth + bend)
+impl<'a, E: Equations> Cubic<'a, E> {
+    pub fn between(
+        equations: &'a E,
+        (from, to): (&'a Node<E::Point>, &Node<E::Point>),
+    ) -> Result<Self, OrbitError> {
+        let way = &to.at - &from.at;
+        let (begins, slopes) = tangent(equations, from, &way)?;
+        let (ends, _) = tangent(equations, to, &way)?;
+        Ok(Self {
+            equations,
+            from: &from.at,
+            way,
+            directions: [begins, ends],
+            slopes: RefCell::new(Some(slopes)),
+        })
+    }
+
+    /// The point at this share of the way.
+    pub fn at(&self, share: f64) -> DVector<f64> {
+        let [begins, ends] = &self.directions;
+        let far = self.way.norm() * (1.0 + (ends - begins).norm_squared() / 24.0);
+        let (left, smooth) = (1.0 - share, share * share * (3.0 - 2.0 * share));
+        let bend = (begins * left - ends * share) * (far * share * left);
+        self.from + &self.way * smooth + bend
+    }
+
+    /// The node of the curve at this share of the way.
+    pub fn node(&self, share: f64) -> Result<Node<E::Point>, OrbitError> {
+        let (guess, chord) = (self.at(share), self.way.normalize());
+        let slopes = &mut *self.slopes.borrow_mut();
+        correct_with(self.equations, &guess, Some(&chord), slopes, Care::Full)
+    }
 }
 
 /// Nodes that a guess between nodes is drawn through, and the shares of the way that they are apart at least.

@@ -1,10 +1,13 @@
 //! Where an orbit comes near to grazing.
 
+use std::sync::Arc as Shared;
+
 use nalgebra::Vector2;
 
 use super::face::{Face, Touch};
 use super::round::carry_on;
 use crate::orbit::turn::turns;
+use softstop::internals::{Motion, Phases};
 use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene};
 
 /// An orbit seen from close by.
@@ -44,11 +47,11 @@ impl Nearby {
 
 /// How an orbit comes near to surfaces.
 pub(crate) fn nearby(
-    scene: &Scene,
+    (scene, phases): (&Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
 ) -> Result<Nearby, MotionError> {
-    let mut motion = scene.motion(state.into())?;
+    let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), state.into())?;
     let mut turns = Turns {
         clock: *motion.clock(),
         faces: Face::ALL

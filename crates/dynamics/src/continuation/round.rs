@@ -34,47 +34,38 @@ pub(crate) struct Round {
 }
 
 impl Round {
-    /// The round of a valid scene, with its phases, from a state.
+    /// The round of a valid scene, with its phases, from a state, with its derivative by the drive's frequency if that is
+    /// wanted.
     pub fn of(
-        (scene, phases): (&Scene, Shared<Phases>),
+        machine: (&Scene, Shared<Phases>),
         periods: u64,
         state: Vector2<f64>,
+        by_frequency: bool,
     ) -> Result<Self, MotionError> {
-        let start = before_wall(scene, state);
-        let at_wall = scene.wall().is_some_and(|wall| wall.position == start.x);
-        let begin = Start::from(start);
-        begin.validate()?;
-        let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
-        let mut watch = Watch {
-            scene,
-            clock: *motion.clock(),
-            detuning: Detuning::default(),
-            impacts: Vec::new(),
-            sequence: Sequence::default(),
-            slowest: None,
-            margin: f64::INFINITY,
-            periods: periods as f64,
-            is_held: false,
-            touched: None,
-            row: None,
+        let mut detuning = Detuning::default();
+        let (seen, by_frequency) = if by_frequency {
+            let (seen, motion) = seen(machine, periods, state, &mut detuning)?;
+            (seen, detuning.at_drive_angle(&motion))
+        } else {
+            (
+                seen(machine, periods, state, &mut detuning.tangent)?.0,
+                None,
+            )
         };
-        let mut ends = Vec::with_capacity(periods as usize);
-        for period in 1..=periods {
-            carry_on(&mut motion, Clock::at_cycle(period), &mut watch)?;
-            let Start { position, velocity } = motion.state();
-            ends.push(Vector2::new(position, velocity));
-        }
-        motion.tell_arc(&mut watch);
-        watch.sequence.impacts = watch.impacts.len();
+        let Seen { start, ends, watch } = seen;
+        let at_wall = watch
+            .scene
+            .wall()
+            .is_some_and(|wall| wall.position == start.x);
         Ok(Self {
             start,
             ends,
             // Whatever comes to rest at a rigid stop goes on alike.
             monodromy: match at_wall && watch.margin == 0.0 {
                 true => Monodromy::ZERO,
-                false => Monodromy::from(&watch.detuning.tangent),
+                false => Monodromy::from(&detuning.tangent),
             },
-            by_frequency: watch.detuning.at_drive_angle(&motion),
+            by_frequency,
             impacts: watch.impacts,
             sequence: watch.sequence,
             slowest: watch.slowest,
@@ -86,6 +77,60 @@ impl Round {
     pub fn end(&self) -> Vector2<f64> {
         self.ends[self.ends.len() - 1]
     }
+}
+
+/// The state in the end of a round, and how often it crosses what, without any derivative.
+pub(crate) fn image(
+    machine: (&Scene, Shared<Phases>),
+    periods: u64,
+    state: Vector2<f64>,
+) -> Result<(Vector2<f64>, Sequence), MotionError> {
+    let (Seen { ends, watch, .. }, _) = seen(machine, periods, state, &mut ())?;
+    Ok((ends[ends.len() - 1], watch.sequence))
+}
+
+/// What is seen of a round.
+struct Seen<'a> {
+    start: Vector2<f64>,
+    ends: Vec<Vector2<f64>>,
+    watch: Watch<'a>,
+}
+
+/// Follows a round, which another observer watches, too, to the motion at its end.
+fn seen<'a>(
+    (scene, phases): (&'a Scene, Shared<Phases>),
+    periods: u64,
+    state: Vector2<f64>,
+    other: &mut impl Observer,
+) -> Result<(Seen<'a>, Motion), MotionError> {
+    let start = before_wall(scene, state);
+    let begin = Start::from(start);
+    begin.validate()?;
+    let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
+    let mut watch = Watch {
+        scene,
+        clock: *motion.clock(),
+        impacts: Vec::new(),
+        sequence: Sequence::default(),
+        slowest: None,
+        margin: f64::INFINITY,
+        periods: periods as f64,
+        is_held: false,
+        touched: None,
+        row: None,
+    };
+    let mut ends = Vec::with_capacity(periods as usize);
+    for period in 1..=periods {
+        carry_on(
+            &mut motion,
+            Clock::at_cycle(period),
+            &mut (&mut watch, &mut *other),
+        )?;
+        ends.push(motion.state().into());
+    }
+    motion.tell_arc(&mut (&mut watch, other));
+    watch.sequence.impacts = watch.impacts.len();
+    Ok((Seen { start, ends, watch }, motion))
 }
 
 /// Distance and speed, in the scene's scales, within which a mass rests at a rigid stop.
@@ -129,7 +174,6 @@ pub(crate) fn carry_on(
 struct Watch<'a> {
     scene: &'a Scene,
     clock: Clock,
-    detuning: Detuning,
     impacts: Vec<f64>,
     sequence: Sequence,
     slowest: Option<Touch>,
@@ -153,8 +197,7 @@ struct Row {
 }
 
 impl Observer for Watch<'_> {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.detuning.arc(arc, elapsed);
+    fn arc(&mut self, arc: &Arc<'_>, _: f64) {
         let was_held = std::mem::replace(&mut self.is_held, arc.course.is_held());
         if self.is_held && arc.start == Clock::at_cycle(0) {
             self.margin = 0.0;
@@ -163,7 +206,6 @@ impl Observer for Watch<'_> {
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
-        self.detuning.crossing(crossing);
         let Instant { cycles, offset } = crossing.instant;
         let time = cycles + offset / self.clock.period();
         self.margin = self.margin.min(time).min(self.periods - time);

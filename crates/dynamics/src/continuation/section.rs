@@ -5,6 +5,8 @@
 //! at a rigid wall it jumps from before the impact to after it, and at rest it does not change at all. No short step of
 //! a smooth curve leads over that. Seen in the middle of the longest flight the same branch is smooth.
 
+use std::sync::Arc as Shared;
+
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
@@ -12,6 +14,7 @@ use super::arclength::{Node, correct, tangent};
 use super::follower::{Follower, Turned, keeps_sense};
 use super::point::BranchPoint;
 use super::round::{Round, before_wall, carry_on};
+use softstop::internals::{Motion, Phases};
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene};
 
 /// Drive periods between the section and a crossing within which the crossing may stand in the way.
@@ -74,7 +77,8 @@ impl<'a, F: Family> Follower<'a, F> {
     ) -> Result<DVector<f64>, MotionError> {
         let whole = self.shooting.periods as f64;
         let scene = self.shooting.scene(at)?;
-        let state = after(&scene, self.shooting.state(at), periods.rem_euclid(whole))?;
+        let machine = (&scene, self.shooting.phases(&scene));
+        let state = after(machine, self.shooting.state(at), periods.rem_euclid(whole))?;
         Ok(self.shooting.scaled(state, self.shooting.parameters(at)))
     }
 
@@ -90,8 +94,13 @@ impl<'a, F: Family> Follower<'a, F> {
 }
 
 /// The state so many drive periods after time 0.
-fn after(scene: &Scene, state: Vector2<f64>, periods: f64) -> Result<Vector2<f64>, MotionError> {
-    let mut motion = scene.motion(before_wall(scene, state).into())?;
+fn after(
+    (scene, phases): (&Scene, Shared<Phases>),
+    state: Vector2<f64>,
+    periods: f64,
+) -> Result<Vector2<f64>, MotionError> {
+    let begin = before_wall(scene, state).into();
+    let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
     for period in 1..=periods as u64 {
         carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
     }

@@ -2,13 +2,14 @@
 
 use std::cell::RefCell;
 use std::f64::consts::TAU;
+use std::rc::Rc;
 use std::sync::Arc as Shared;
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{DIFFERENCE, Equations, Evaluation};
-use super::round::Round;
+use super::round::{Round, image};
 use super::test::Test;
 use crate::orbit::OrbitError;
 use softstop::internals::Phases;
@@ -23,8 +24,8 @@ pub(crate) struct Shooting<'a, F, const N: usize> {
     /// Drive periods from drive angle phi to the section.
     pub turn: f64,
     scales: DVector<f64>,
-    /// The phases at the last place, where all places differ by the drive's frequency alone.
-    lowered: RefCell<Option<Shared<Phases>>>,
+    /// The phases at the last place.
+    lowered: Rc<RefCell<Option<Shared<Phases>>>>,
 }
 
 impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
@@ -36,7 +37,18 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
             periods,
             turn: 0.0,
             scales: DVector::from_iterator(2 + N, scales),
-            lowered: RefCell::default(),
+            lowered: Rc::default(),
+        }
+    }
+
+    /// The same orbits over another number of drive periods, seen so many of them after drive angle phi.
+    pub fn seen_at(&self, turn: f64, periods: u64) -> Self {
+        Self {
+            family: self.family,
+            periods,
+            turn: turn.rem_euclid(periods as f64),
+            scales: self.scales.clone(),
+            lowered: self.lowered.clone(),
         }
     }
 
@@ -60,20 +72,30 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         Ok(scene)
     }
 
-    /// What happens from a state of a scene on.
-    fn round(&self, scene: &Scene, state: Vector2<f64>) -> Result<Round, MotionError> {
-        let phases = match self.lowered.take() {
-            Some(mut phases) => {
-                Shared::make_mut(&mut phases).tune(scene.excitation.frequency);
+    /// The phases of a scene of the family.
+    pub fn phases(&self, scene: &Scene) -> Shared<Phases> {
+        let known = self.lowered.take().filter(|_| self.is_by_frequency());
+        let phases = known.map_or_else(
+            || scene.phases().into(),
+            |mut phases| {
+                if phases.frequency != scene.excitation.frequency {
+                    Shared::make_mut(&mut phases).tune(scene.excitation.frequency);
+                }
                 phases
-            }
-            None => scene.phases().into(),
-        };
-        let round = Round::of((scene, phases.clone()), self.periods, state);
-        if self.family.by_frequency().iter().all(Option::is_some) {
-            self.lowered.replace(Some(phases));
-        }
-        round
+            },
+        );
+        self.lowered.replace(Some(phases.clone()));
+        phases
+    }
+
+    /// True if all machines of the family differ by the drive's frequency alone.
+    fn is_by_frequency(&self) -> bool {
+        self.family.by_frequency().iter().all(Option::is_some)
+    }
+
+    fn residual(&self, state: Vector2<f64>, end: Vector2<f64>) -> DVector<f64> {
+        let gap = end - state;
+        DVector::from_vec(vec![gap.x / self.scales[0], gap.y / self.scales[1]])
     }
 
     /// Typical size of the velocity in m/s.
@@ -96,13 +118,20 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
         let state = self.state(at);
         let scene = self.scene(at)?;
-        let round = self.round(&scene, state)?;
-        let gap = round.end() - state;
+        let machine = (&scene, self.phases(&scene));
+        let round = Round::of(machine, self.periods, state, self.is_by_frequency())?;
         Ok(Evaluation {
-            residual: DVector::from_vec(vec![gap.x / self.scales[0], gap.y / self.scales[1]]),
+            residual: self.residual(state, round.end()),
             tolerance: round_off(&scene, &state, &round.monodromy, self.family.state_scales()),
             point: round,
         })
+    }
+
+    fn beside(&self, here: &Round, at: &DVector<f64>) -> Result<(DVector<f64>, bool), OrbitError> {
+        let state = self.state(at);
+        let scene = self.scene(at)?;
+        let (end, sequence) = image((&scene, self.phases(&scene)), self.periods, state)?;
+        Ok((self.residual(state, end), sequence == here.sequence))
     }
 
     /// The exact Jacobian of the map, and the slopes.
@@ -132,10 +161,6 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
             .slowest
             .is_some_and(|touch| touch.amount < SLOW * speed);
         !grazes && here.monodromy.trace().abs() > UNSTABLE
-    }
-
-    fn is_smooth(&self, from: &Round, to: &Round) -> bool {
-        from.sequence == to.sequence
     }
 
     fn exact_slopes(&self, here: &Evaluation<Round>) -> Option<DMatrix<f64>> {

@@ -65,6 +65,25 @@ impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
         Ok((scene, Vector2::new(position, 0.0)))
     }
 
+    /// How far a motion from a touch is from it after its periods, scaled, and what an observer has seen on the way.
+    fn around<O: Observer + Default>(
+        &self,
+        scene: &Scene,
+        touch: Vector2<f64>,
+    ) -> Result<(DVector<f64>, O), OrbitError> {
+        let mut motion = scene.motion(touch.into())?;
+        let until = Clock::at_cycle(self.periods);
+        let mut watch = LastArc::new(*motion.clock(), self.crossings, until, O::default());
+        // What comes after the last crossing of the orbit is not looked at: without the touch the mass may
+        // bounce without end.
+        motion.advance(until, &mut watch)?;
+        motion.tell_arc(&mut watch);
+        let drift = watch.found.ok_or(LOST)? - touch;
+        let [length, speed] = self.family.state_scales();
+        let residual = DVector::from_vec(vec![drift.x / length, drift.y / speed]);
+        Ok((residual, watch.seen))
+    }
+
     /// The state of a grazing orbit at time 0 of its family's scene.
     pub fn state(&self, node: &Node<Contact>) -> Result<Vector2<f64>, OrbitError> {
         let parameters = self.parameters(&node.at);
@@ -92,23 +111,18 @@ impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Contact>, OrbitError> {
         let (scene, touch) = self.scene(at)?;
-        let mut motion = scene.motion(touch.into())?;
-        let until = Clock::at_cycle(self.periods);
-        let mut watch = LastArc::new(*motion.clock(), self.crossings, until, Seen::default());
-        // What comes after the last crossing of the orbit is not looked at: without the touch the mass may
-        // bounce without end.
-        motion.advance(until, &mut watch)?;
-        motion.tell_arc(&mut watch);
-        let end = watch.found.ok_or(LOST)?;
-        let Seen { tangent, impacts } = watch.seen;
+        let (residual, Seen { tangent, impacts }) = self.around(&scene, touch)?;
         let monodromy = Monodromy::from(&tangent);
-        let drift = end - touch;
-        let [length, speed] = self.family.state_scales();
         Ok(Evaluation {
-            residual: DVector::from_vec(vec![drift.x / length, drift.y / speed]),
-            tolerance: round_off(&scene, &touch, &monodromy, [length, speed]),
+            residual,
+            tolerance: round_off(&scene, &touch, &monodromy, self.family.state_scales()),
             point: Contact { monodromy, impacts },
         })
+    }
+
+    fn beside(&self, _: &Contact, at: &DVector<f64>) -> Result<(DVector<f64>, bool), OrbitError> {
+        let (scene, touch) = self.scene(at)?;
+        Ok((self.around::<()>(&scene, touch)?.0, true))
     }
 
     fn jacobian(&self, _: &Evaluation<Contact>, slopes: &DMatrix<f64>) -> DMatrix<f64> {

@@ -107,12 +107,12 @@ impl<'a, E: Equations> Walker<'a, E> {
         })
     }
 
-    /// Where the curve may be after a step: on a quick way, and where Newton's method settles from nearby alone, on the
-    /// cubic through the last two nodes and along their directions.
+    /// Where the curve may be after a step: on the cubic through the last two nodes and along their directions. The plane
+    /// across the direction here, in which Newton's method goes on, stands a step away, but where the curve is followed in
+    /// few long steps or is steep.
     fn guess(&self) -> DVector<f64> {
         let straight = &self.node.at + self.step * &self.direction;
-        let bends = self.care == Care::Quick || self.equations.is_steep(&self.node.here.point);
-        let Some((last, before)) = self.last.as_ref().filter(|_| bends) else {
+        let Some((last, before)) = &self.last else {
             return straight;
         };
         let (way, turn) = (&self.node.at - last, &self.direction - before);
@@ -120,7 +120,14 @@ impl<'a, E: Equations> Walker<'a, E> {
         let mean = way / far;
         let (ahead, share) = (&self.direction - mean, self.step / far);
         let cubic = 2.0 * &ahead - &turn;
-        straight + self.step * share * ((&ahead + &cubic) + share * cubic)
+        let bend = self.step * share * ((&ahead + &cubic) + share * cubic);
+        let leans = self.care == Care::Quick || self.equations.is_steep(&self.node.here.point);
+        let along = if leans {
+            0.0
+        } else {
+            bend.dot(&self.direction)
+        };
+        straight + bend - along * &self.direction
     }
 
     /// Goes there.
