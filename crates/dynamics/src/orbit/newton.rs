@@ -5,8 +5,9 @@ use nalgebra::{Matrix2, Vector2};
 use super::{OrbitError, Passage, StroboscopicMap};
 use softstop::MotionError;
 
-/// Newton steps before giving up.
+/// Newton steps before giving up; and how many in a row may fail to halve the least residual so far.
 const NEWTON_STEPS: usize = 30;
+const PATIENCE: usize = 12;
 /// Share of the residual that rounding may leave below which no step makes it smaller.
 pub(crate) const NOTHING_LEFT: f64 = 0.01;
 
@@ -35,7 +36,15 @@ pub(super) fn fixed_point_unless(
     let scales = map.scales();
     let size = |residual: &Vector2<f64>| scales.state(residual).norm();
     let mut residual = passage.end - state;
+    let (mut least, mut idle) = (f64::INFINITY, 0);
     for _ in 0..NEWTON_STEPS {
+        (least, idle) = match size(&residual) < 0.5 * least {
+            true => (size(&residual), 0),
+            false => (least, idle + 1),
+        };
+        if idle > PATIENCE {
+            break;
+        }
         let matrix = Matrix2::identity() - passage.monodromy.matrix;
         let Some(step) = matrix.lu().solve(&residual) else {
             break;

@@ -15,7 +15,10 @@ const SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
 /// Directions of the starts in the plane (w x, x').
 const DIRECTIONS: usize = 16;
 /// Distance, in scales of the motion, that a state may move within a period and yet lie near an orbit.
-const RETURNS: f64 = 0.2;
+pub(super) const RETURNS: f64 = 0.2;
+
+/// Drive periods after which it is kept where motions are.
+const KEPT: [u64; 3] = [2, 12, 60];
 
 /// A state that may lie near an orbit.
 #[derive(Debug, Clone, Copy)]
@@ -49,91 +52,149 @@ impl Distance {
     }
 }
 
-/// For each scene: of each motion the state that moves least within a period with one impact, where it moves little,
-/// the least first; then where all motions are after each of these numbers of periods, in ascending order, as if they
-/// did not move.
-pub(super) fn returning(
-    machines: &[Machine],
-    scenes: &[&Scene],
-    settling: &[u64],
-    watcher: Watcher<'_>,
-) -> Vec<[Vec<Candidate>; 2]> {
-    let jobs: Vec<Job> = scenes
-        .iter()
-        .enumerate()
-        .flat_map(|(machine, scene)| {
-            starts(scene).map(move |start| Job {
-                machine,
-                start,
-                periods: settling[settling.len() - 1],
-            })
-        })
-        .collect();
-    let distances: Vec<Distance> = scenes.iter().map(|scene| Distance::of(scene)).collect();
-    let count = jobs.len();
-    let mut returns = Returns {
-        distances: jobs.iter().map(|job| distances[job.machine]).collect(),
-        settling,
-        last: jobs.iter().map(|job| job.start.into()).collect(),
-        impacts: vec![0; count],
-        least: vec![None; count],
-        settled: vec![vec![None; count]; settling.len()],
-    };
-    // The caller asks the watcher itself.
-    let _ = follow(machines, &jobs, &mut returns, || watcher(0, 0));
-    let each = count / scenes.len().max(1);
-    let of_scene = |index: usize| {
-        let jobs = index * each..(index + 1) * each;
-        let least = returns.least[jobs.clone()].iter().flatten();
-        let mut least: Vec<Candidate> = least.copied().collect();
-        least.sort_by(|a, b| a.moves.total_cmp(&b.moves));
-        let settled = returns.settled.iter();
-        let settled = settled.flat_map(|after| after[jobs.clone()].iter().flatten());
-        [least, settled.copied().collect()]
-    };
-    (0..scenes.len()).map(of_scene).collect()
-}
-
-/// Keeps of each motion the state that moves least within a period with one impact, and the states after some numbers
-/// of periods.
-struct Returns<'a> {
-    distances: Vec<Distance>,
-    settling: &'a [u64],
-    last: Vec<Vector2<f64>>,
+/// A motion from one start.
+#[derive(Debug, Clone)]
+pub(super) struct Trial {
+    machine: usize,
+    /// The last period.
+    pub last: Candidate,
     /// Impacts in the present period.
-    impacts: Vec<u64>,
-    least: Vec<Option<Candidate>>,
-    /// After each of the numbers of periods, of each job.
-    settled: Vec<Vec<Option<Candidate>>>,
+    impacts: u64,
+    /// The state that moved least within a period with one impact, where it moved little.
+    least: Option<Candidate>,
+    /// After each of the [`KEPT`] numbers of periods.
+    settled: Vec<(u64, Candidate)>,
+    /// True as long as it is followed on.
+    pub is_open: bool,
 }
 
-impl Watch for Returns<'_> {
+/// Motions of some machines from starts all around, followed together.
+pub(super) struct Trials {
+    all: Vec<Trial>,
+    /// Of each machine.
+    distances: Vec<Distance>,
+    /// Drive periods that they were followed.
+    cycle: u64,
+}
+
+impl Trials {
+    pub(super) fn new<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Self {
+        let (mut all, mut distances) = (Vec::new(), Vec::new());
+        for (machine, scene) in scenes.enumerate() {
+            distances.push(Distance::of(scene));
+            all.extend(starts(scene).map(|start| Trial {
+                machine,
+                last: Candidate::unmoved(start.into()),
+                impacts: 0,
+                least: None,
+                settled: Vec::new(),
+                is_open: true,
+            }));
+        }
+        Self {
+            all,
+            distances,
+            cycle: 0,
+        }
+    }
+
+    /// Those of a machine.
+    pub(super) fn of(&mut self, machine: usize) -> &mut [Trial] {
+        let each = self.all.len() / self.distances.len();
+        &mut self.all[machine * each..(machine + 1) * each]
+    }
+
+    /// Follows those that are open up to a number of drive periods in all.
+    pub(super) fn follow(&mut self, machines: &[Machine], until: u64, watcher: Watcher<'_>) {
+        let mut open: Vec<&mut Trial> = self.all.iter_mut().filter(|it| it.is_open).collect();
+        let job = |trial: &&mut Trial| Job {
+            machine: trial.machine,
+            start: trial.last.state.into(),
+            periods: until - self.cycle,
+        };
+        let jobs: Vec<Job> = open.iter().map(job).collect();
+        let mut returns = Returns {
+            trials: &mut open,
+            distances: &self.distances,
+            since: self.cycle,
+        };
+        // The caller asks the watcher itself.
+        let _ = follow(machines, &jobs, &mut returns, || watcher(0, 0));
+        self.cycle = until;
+    }
+}
+
+impl Candidate {
+    /// A state of which no period is known.
+    fn unmoved(state: Vector2<f64>) -> Self {
+        Self {
+            moves: 0.0,
+            state,
+            before: state,
+        }
+    }
+}
+
+/// Of some motions the states that move least within a period with one impact, where they move little, the least first.
+pub(super) fn least(trials: &[Trial]) -> Vec<Candidate> {
+    let mut least: Vec<Candidate> = trials.iter().filter_map(|it| it.least).collect();
+    least.sort_by(|a, b| a.moves.total_cmp(&b.moves));
+    least
+}
+
+/// Where some motions were after each of these numbers of periods, as if they did not move.
+pub(super) fn settled(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
+    let of = |after: u64| {
+        trials
+            .iter()
+            .flat_map(move |it| it.settled.iter().filter(move |at| at.0 == after))
+    };
+    after
+        .iter()
+        .flat_map(|after| of(*after))
+        .map(|(_, candidate)| *candidate)
+        .collect()
+}
+
+/// Keeps of each motion what becomes a candidate.
+struct Returns<'a, 'b> {
+    trials: &'a mut [&'b mut Trial],
+    distances: &'a [Distance],
+    /// Drive periods before.
+    since: u64,
+}
+
+impl Watch for Returns<'_, '_> {
     const IMPACTS: bool = true;
     const PERIODS: bool = true;
 
     fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
-        self.impacts[job] += 1;
+        self.trials[job].impacts += 1;
     }
 
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
-        let state = state.into();
-        let before = std::mem::replace(&mut self.last[job], state);
-        let candidate = |moves| {
-            Some(Candidate {
-                moves,
-                state,
-                before,
-            })
+        let trial = &mut *self.trials[job];
+        let (state, before) = (state.into(), trial.last.state);
+        let moves = self.distances[trial.machine].between(state, before);
+        trial.last = Candidate {
+            moves,
+            state,
+            before,
         };
-        if let Some(place) = self.settling.iter().position(|after| *after == cycle) {
-            self.settled[place][job] = candidate(0.0);
+        let cycle = self.since + cycle;
+        if KEPT.contains(&cycle) {
+            let moves = 0.0;
+            trial.settled.push((
+                cycle,
+                Candidate {
+                    moves,
+                    ..trial.last
+                },
+            ));
         }
-        let impacts = std::mem::take(&mut self.impacts[job]);
-        if impacts == 1 {
-            let moves = self.distances[job].between(state, before);
-            if moves < self.least[job].map_or(RETURNS, |least| least.moves) {
-                self.least[job] = candidate(moves);
-            }
+        let impacts = std::mem::take(&mut trial.impacts);
+        if impacts == 1 && moves < trial.least.map_or(RETURNS, |least| least.moves) {
+            trial.least = Some(trial.last);
         }
     }
 }

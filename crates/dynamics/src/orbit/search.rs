@@ -6,16 +6,17 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::newton::fixed_point_unless;
 use super::periodic::STEEP;
-use super::returning::{Candidate, Distance, returning};
+use super::returning::{Candidate, Distance, RETURNS, Trial, Trials, least, settled};
 use super::scan::{FAINTEST, all_single};
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::watch::{Watcher, unwatched};
-use softstop::Scene;
+use softstop::{MotionError, Scene};
 use softstop_lanes::Machine;
 
-/// Drive periods after which Newton's method may take over: few, which finds motions with small basins, and more;
-/// and far more if neither finds any.
-const SETTLING: [&[u64]; 2] = [&[2, 12], &[60]];
+/// Drive periods after which Newton's method takes over from where motions have moved least, and those after which it
+/// then takes over from all, unless what is looked for is found: few, which finds motions with small basins, and more; and
+/// far more if neither finds any.
+const STAGES: [(u64, &[u64]); 3] = [(4, &[]), (12, &[2, 12]), (60, &[60])];
 /// Distance, in scales of the motion, within which a state stands for a stable motion, and for an unstable one, which a
 /// stable one may be near to.
 const SAME: f64 = 0.02;
@@ -68,82 +69,43 @@ pub(crate) fn find_soon(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Or
 }
 
 /// The best of all motions that the first groups of states lead to; further groups are tried only as long as there is
-/// none. The motions of all scenes are followed together.
+/// none. The motions of all scenes are followed together, and those no farther that lead to a stable one that was met.
 fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<Orbit, OrbitError>> {
     let none = |scene: &Scene| OrbitError::NotFound {
         frequency: scene.excitation.frequency,
         clearance: scene.clearance,
     };
     let mut found: Vec<_> = scenes.iter().map(|scene| Err(none(scene))).collect();
-    let mut open: Vec<usize> = (0..scenes.len()).collect();
-    for settling in SETTLING {
-        let mut machines = Vec::with_capacity(open.len());
-        open.retain(|&index| match Machine::new(&scenes[index]) {
-            Ok(machine) => {
+    let (mut machines, mut searches) = (Vec::new(), Vec::new());
+    for (index, scene) in scenes.iter().enumerate() {
+        let machine = Machine::new(scene).map_err(OrbitError::from);
+        match machine.and_then(|machine| Ok((machine, Met::new(scene)?))) {
+            Ok((machine, met)) => {
                 machines.push(machine);
-                true
+                searches.push((index, met));
             }
-            Err(error) => {
-                found[index] = Err(error.into());
-                false
+            Err(error) => found[index] = Err(error),
+        }
+    }
+    let mut trials = Trials::new(searches.iter().map(|(_, met)| met.scene));
+    for (until, after) in STAGES {
+        trials.follow(&machines, until, watcher);
+        for (machine, (index, met)) in searches.iter_mut().enumerate() {
+            let trials = trials.of(machine);
+            if !trials.iter().any(|trial| trial.is_open) {
+                continue;
             }
-        });
-        let all: Vec<&Scene> = open.iter().map(|&index| &scenes[index]).collect();
-        let mut candidates = returning(&machines, &all, settling, watcher).into_iter();
-        open.retain(|&index| {
-            let best = candidates
-                .next()
-                .map(|of| best(&scenes[index], of, groups, watcher));
-            let best = best.unwrap_or(Ok(None)).transpose();
-            let is_open = best.is_none();
-            if let Some(best) = best {
-                found[index] = best;
+            let hardest = met.search(trials, after, groups, watcher).transpose();
+            let is_over = hardest.is_some();
+            if let Some(hardest) = hardest {
+                found[*index] = hardest;
             }
-            is_open
-        });
+            for trial in trials {
+                trial.is_open &= !is_over && !met.attracts(&trial.last);
+            }
+        }
     }
     found
-}
-
-/// The hardest of the stable z = 1 motions that states lead to.
-fn best(
-    scene: &Scene,
-    candidates: [Vec<Candidate>; 2],
-    groups: usize,
-    watcher: Watcher<'_>,
-) -> Result<Option<Orbit>, OrbitError> {
-    OrbitError::ask(watcher)?;
-    let mut met = Met {
-        scene,
-        map: StroboscopicMap::new(scene, 1)?,
-        distance: Distance::of(scene),
-        all: Vec::new(),
-        stable: Vec::new(),
-    };
-    let mut tried: Vec<Vector2<f64>> = Vec::new();
-    let faintest = FAINTEST * scene.motion_scales().speed();
-    let is_single =
-        |orbit: &Orbit| orbit.impacts.len() == 1 && orbit.before_impact_velocity() > faintest;
-    for (group, candidates) in candidates.into_iter().enumerate() {
-        if group >= groups && met.stable.iter().any(is_single) {
-            break;
-        }
-        for candidate in candidates {
-            OrbitError::ask(watcher)?;
-            let Candidate { moves, state, .. } = candidate;
-            let stands =
-                |other: &Vector2<f64>| met.distance.between(*other, state) < STANDS_FOR * moves;
-            if !met.is_near(state) && !tried.iter().any(stands) && !met.leads_to(&candidate) {
-                tried.push(state);
-                met.look(state);
-            }
-        }
-    }
-    let single = met.stable.into_iter().filter(is_single);
-    Ok(single.max_by(|a, b| {
-        let [a, b] = [a, b].map(Orbit::before_impact_velocity);
-        a.total_cmp(&b)
-    }))
 }
 
 /// The motions of one drive period that were met.
@@ -151,9 +113,13 @@ struct Met<'a> {
     scene: &'a Scene,
     map: StroboscopicMap,
     distance: Distance,
+    /// The slowest impact that is more than grazing, in m/s.
+    faintest: f64,
     /// All of them.
     all: Vec<Fixed>,
     stable: Vec<Orbit>,
+    /// States from which Newton's method has set out.
+    tried: Vec<Vector2<f64>>,
 }
 
 /// A fixed point of the map.
@@ -163,38 +129,107 @@ struct Fixed {
     lead: Option<Matrix2<f64>>,
     /// Distance within which another state stands for it.
     reach: f64,
+    is_stable: bool,
 }
 
 impl Fixed {
     fn new(state: Vector2<f64>, monodromy: Monodromy) -> Self {
+        let is_stable = monodromy.is_stable();
         Self {
             state,
             lead: monodromy.resolvent(),
-            reach: if monodromy.is_stable() {
-                SAME
-            } else {
-                SAME_UNSTABLE
-            },
+            reach: if is_stable { SAME } else { SAME_UNSTABLE },
+            is_stable,
         }
     }
 }
 
-impl Met<'_> {
+impl<'a> Met<'a> {
+    fn new(scene: &'a Scene) -> Result<Self, MotionError> {
+        Ok(Self {
+            scene,
+            map: StroboscopicMap::new(scene, 1)?,
+            distance: Distance::of(scene),
+            faintest: FAINTEST * scene.motion_scales().speed(),
+            all: Vec::new(),
+            stable: Vec::new(),
+            tried: Vec::new(),
+        })
+    }
+
+    /// Looks at where motions have moved least, and then at where they are after some numbers of periods; the hardest
+    /// stable z = 1 motion met so far if there is one and all is looked at.
+    fn search(
+        &mut self,
+        trials: &[Trial],
+        after: &[u64],
+        groups: usize,
+        watcher: Watcher<'_>,
+    ) -> Result<Option<Orbit>, OrbitError> {
+        self.look_at(least(trials), watcher)?;
+        if after.is_empty() {
+            return Ok(None);
+        }
+        if groups > 1 || self.singles().next().is_none() {
+            self.look_at(settled(trials, after), watcher)?;
+        }
+        self.tried.clear();
+        let velocity = |orbit: &&Orbit| orbit.before_impact_velocity();
+        let hardest = self
+            .singles()
+            .max_by(|a, b| velocity(a).total_cmp(&velocity(b)));
+        Ok(hardest.cloned())
+    }
+
+    /// The stable motions with one impact.
+    fn singles(&self) -> impl Iterator<Item = &Orbit> {
+        let is_single = |orbit: &&Orbit| {
+            orbit.impacts.len() == 1 && orbit.before_impact_velocity() > self.faintest
+        };
+        self.stable.iter().filter(is_single)
+    }
+
+    /// Follows Newton's method from each candidate that no other one stands for.
+    fn look_at(
+        &mut self,
+        candidates: Vec<Candidate>,
+        watcher: Watcher<'_>,
+    ) -> Result<(), OrbitError> {
+        for candidate in candidates {
+            OrbitError::ask(watcher)?;
+            let Candidate { moves, state, .. } = candidate;
+            let stands =
+                |other: &Vector2<f64>| self.distance.between(*other, state) < STANDS_FOR * moves;
+            if !self.is_near(state)
+                && !self.tried.iter().any(stands)
+                && !self.all.iter().any(|fixed| self.leads(fixed, &candidate))
+            {
+                self.tried.push(state);
+                self.look(state);
+            }
+        }
+        Ok(())
+    }
+
     fn is_near(&self, state: Vector2<f64>) -> bool {
         let mut all = self.all.iter();
         all.any(|other| self.distance.between(other.state, state) < other.reach)
     }
 
-    /// True if a candidate has moved as the Jacobian of one of them has it near that one.
-    fn leads_to(&self, candidate: &Candidate) -> bool {
+    /// True if a candidate has moved as the Jacobian of a fixed point has it near that one.
+    fn leads(&self, to: &Fixed, candidate: &Candidate) -> bool {
         let moved = candidate.state - candidate.before;
-        self.all.iter().any(|other| {
-            let off = |lead| {
-                let there = candidate.before + lead * moved;
-                self.distance.between(there, other.state)
-            };
-            other.lead.is_some_and(|lead| off(lead) < other.reach)
-        })
+        let off = |lead| {
+            self.distance
+                .between(candidate.before + lead * moved, to.state)
+        };
+        to.lead.is_some_and(|lead| off(lead) < to.reach)
+    }
+
+    /// True if a motion that moves little settles on a stable one that was met, as its Jacobian has it.
+    fn attracts(&self, last: &Candidate) -> bool {
+        let mut stable = self.all.iter().filter(|fixed| fixed.is_stable);
+        last.moves < RETURNS && stable.any(|fixed| self.leads(fixed, last))
     }
 
     /// Newton's method from a state, unless it comes near a motion that was met.
