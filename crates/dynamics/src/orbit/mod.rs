@@ -7,6 +7,7 @@ mod contact;
 mod deflation;
 mod exponents;
 mod guess;
+mod hardest;
 mod legs;
 mod map;
 mod monodromy;
@@ -22,6 +23,7 @@ mod smallest;
 pub(crate) mod turn;
 
 pub use exponents::Exponents;
+pub(crate) use hardest::hardest_single;
 pub use map::{Passage, StroboscopicMap};
 pub use monodromy::Monodromy;
 pub(crate) use newton::NOTHING_LEFT;

@@ -13,8 +13,8 @@ use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
 /// Times in a drive period, and velocities, each so many times the one before.
-const TIMES: usize = 20;
-const RATIO: f64 = 1.25;
+pub(super) const TIMES: usize = 20;
+pub(super) const RATIO: f64 = 1.25;
 /// Every so many of both are looked at first; and how near to zero, in units of its change there, the residual must come
 /// in a cell of them for the others to be, and in one of these for Newton's method to begin there.
 const COARSE: usize = 2;
@@ -31,7 +31,7 @@ const UTMOST: f64 = 2000.0;
 /// Difference of times, in units of the period, and of velocities, in units of themselves, within which impacts are
 /// the same, and within which Newton's method leads from one to the other.
 const SAME: f64 = 1e-6;
-const NEAR: f64 = 1e-3;
+pub(super) const NEAR: f64 = 1e-3;
 
 /// Residual in units of the velocity, or of the motion's speed if that is higher, up to which a miss is a near one; and
 /// difference from another one, as above, within which it is none of its own.
@@ -83,7 +83,8 @@ fn scan<'a>(scene: &'a Scene, watcher: Watcher<'_>) -> Result<Option<Singles<'a>
     let Some(mut singles) = Singles::new(scene) else {
         return Ok(None);
     };
-    for guess in guesses(scene, &singles.legs, singles.period, watcher)? {
+    let lattice = (singles.period, &speeds(scene)[..]);
+    for guess in guesses(&singles.legs, lattice, watcher)? {
         singles.look(guess, watcher)?;
     }
     singles.found.sort_by(|a, b| {
@@ -94,20 +95,20 @@ fn scan<'a>(scene: &'a Scene, watcher: Watcher<'_>) -> Result<Option<Singles<'a>
 }
 
 /// What guesses led to.
-struct Singles<'a> {
-    legs: Legs<'a>,
-    period: f64,
+pub(super) struct Singles<'a> {
+    pub(super) legs: Legs<'a>,
+    pub(super) period: f64,
     /// The motion's speed.
     unit: f64,
     /// Motions.
-    found: Vec<Orbit>,
+    pub(super) found: Vec<Orbit>,
     /// Impacts that Newton's method came near to fitting at, and settled nowhere.
     missed: Vec<(f64, f64)>,
 }
 
 impl<'a> Singles<'a> {
     /// None if the scene has no stop.
-    fn new(scene: &'a Scene) -> Option<Self> {
+    pub(super) fn new(scene: &'a Scene) -> Option<Self> {
         Some(Self {
             legs: Legs::new(scene, 1)?,
             period: scene.clock().period(),
@@ -129,12 +130,8 @@ impl<'a> Singles<'a> {
         let mut next = settled.map_err(|failed| self.miss(failed.nearest));
         while let Ok(orbit) = next {
             OrbitError::ask(watcher)?;
-            if let Some(orbit) = orbit {
-                let known = self.found.iter().any(|known| same(known, &orbit, period));
-                if !self.is_real(&orbit) || known || self.found.len() == MOST {
-                    break;
-                }
-                self.found.push(orbit);
+            if orbit.is_some_and(|orbit| !self.keep(orbit)) {
+                break;
             }
             let apart = self.legs.settle_apart(guess, &self.impacts());
             next = apart.map(Some).map_err(drop);
@@ -142,12 +139,25 @@ impl<'a> Singles<'a> {
         Ok(())
     }
 
+    /// Keeps a motion that does more than graze and is not known; false if it does not, or there are too many.
+    pub(super) fn keep(&mut self, orbit: Orbit) -> bool {
+        let is_known = self
+            .found
+            .iter()
+            .any(|known| same(known, &orbit, self.period));
+        let is_kept = self.is_real(&orbit) && !is_known && self.found.len() < MOST;
+        if is_kept {
+            self.found.push(orbit);
+        }
+        is_kept
+    }
+
     /// True if an orbit does more than graze.
     fn is_real(&self, orbit: &Orbit) -> bool {
         orbit.before_impact_velocity() > FAINTEST * self.unit
     }
 
-    fn impacts(&self) -> Vec<(f64, f64)> {
+    pub(super) fn impacts(&self) -> Vec<(f64, f64)> {
         self.found.iter().map(impact).collect()
     }
 
@@ -169,30 +179,32 @@ fn impact(orbit: &Orbit) -> (f64, f64) {
 }
 
 /// How far apart two impacts are, each a time and a velocity.
-fn apart((t, v): (f64, f64), (u, w): (f64, f64), period: f64) -> f64 {
-    let between = (t - u).rem_euclid(period);
-    let times = between.min(period - between) / period;
-    times.max((v - w).abs() / v.max(w))
+pub(super) fn apart((t, v): (f64, f64), (u, w): (f64, f64), period: f64) -> f64 {
+    between(t, u, period).max((v - w).abs() / v.max(w))
+}
+
+/// How far apart two times are, as a share of the period.
+pub(super) fn between(one: f64, other: f64, period: f64) -> f64 {
+    let between = (one - other).rem_euclid(period);
+    between.min(period - between) / period
 }
 
 /// The middles of the cells in which the residual may vanish. Coarse cells are looked at first, and those divided that it
 /// comes near to zero in.
-fn guesses(
-    scene: &Scene,
+pub(super) fn guesses(
     legs: &Legs<'_>,
-    period: f64,
+    (period, speeds): (f64, &[f64]),
     watcher: Watcher<'_>,
 ) -> Result<Vec<(f64, f64)>, OrbitError> {
-    let speeds = speeds(scene);
     let width = period / TIMES as f64;
     let mut lattice = Lattice {
         legs,
         width,
         known: vec![None; TIMES * speeds.len()],
-        speeds: &speeds,
+        speeds,
         watcher,
     };
-    let last = speeds.len() - 1;
+    let last = speeds.len().saturating_sub(1);
     let mut guesses = Vec::new();
     for column in (0..TIMES).step_by(COARSE) {
         for row in (0..last).step_by(COARSE) {
@@ -269,7 +281,7 @@ fn may_vanish(corners: &[Option<[f64; 2]>; 4], slack: f64) -> bool {
 }
 
 /// Before-impact velocities in m/s, in rising order.
-fn speeds(scene: &Scene) -> Vec<f64> {
+pub(super) fn speeds(scene: &Scene) -> Vec<f64> {
     let scales = scene.motion_scales();
     let unit = scales.speed();
     let damping = scene.damping.min(scene.contact_damping);

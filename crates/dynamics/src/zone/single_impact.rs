@@ -5,21 +5,21 @@ use rayon::prelude::*;
 use super::end::{EndKind, Loss, ZoneEnd, first_end};
 use super::hysteresis::{LONGEST_BRANCH, highest_fold, upward};
 use super::places::{Zone, ZoneKind};
-use super::stretch::is_same;
 use super::stretches::FOLLOWED;
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading, Limits, SpecialKind, Test};
-use crate::orbit::{Orbit, OrbitError, find_soon};
+use crate::orbit::{Orbit, OrbitError, hardest_single};
 use crate::watch::{Watcher, stop_if};
 use softstop::Scene;
 use softstop::internals::budget::Fork;
 
-/// Machines whose motions are followed together.
-const TOGETHER: usize = 8;
 /// Frequencies beside g0 at which motions are looked for.
 const STARTS: usize = 6;
 /// Highest frequency, in units of the natural one, at which they are looked for.
 const HIGHEST: f64 = 4.0;
+
+/// Share by which rounding may change a before-impact velocity.
+const SAME: f64 = 1e-6;
 
 /// The ranges of stable z = 1 of some scenes; the frequency of their drives plays no part. Each reaches both ways from the
 /// hardest of the z = 1 motions at g0 and at some frequencies between two, in rad/s, until the motion loses its stability
@@ -33,48 +33,39 @@ pub fn single_impact(
     watcher: Watcher<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
-    let chunks = scenes.par_chunks(TOGETHER);
-    let zones = chunks.flat_map_iter(|scenes| fork.part(|| together(scenes, between, watcher)));
+    let zones = scenes.par_iter();
+    let zones = zones.map(|scene| fork.part(|| of_scene(scene, between, watcher)));
     let zones = zones.collect();
     fork.join();
     zones
 }
 
-/// Zones of a few machines.
-fn together(
-    scenes: &[Scene],
-    between: (f64, f64),
-    watcher: Watcher<'_>,
-) -> Vec<Result<Zone, ZoneError>> {
-    let frequencies: Vec<Vec<f64>> = scenes.iter().map(|it| starts(it, between)).collect();
-    let all = scenes.iter().zip(&frequencies);
-    let all =
-        all.flat_map(|(scene, all)| all.iter().map(|frequency| scene.at_frequency(*frequency)));
-    let all: Vec<Scene> = all.collect();
-    let mut found = find_soon(&all, watcher).into_iter();
-    let zones = scenes.iter().zip(&frequencies).map(|(scene, frequencies)| {
-        let starts: Vec<_> = found.by_ref().take(frequencies.len()).collect();
-        scene.validate()?;
-        let mut zones: Vec<Zone> = Vec::new();
-        for start in starts.into_iter().flatten() {
-            if !zones.iter().any(|zone| contains(zone, &start)) {
-                zones.extend(about(scene, &start, between, watcher).ok().flatten());
-            }
-            OrbitError::ask(watcher)?;
+/// The range of one scene.
+fn of_scene(scene: &Scene, between: (f64, f64), watcher: Watcher<'_>) -> Result<Zone, ZoneError> {
+    scene.validate()?;
+    let mut zones: Vec<Zone> = Vec::new();
+    for frequency in starts(scene, between) {
+        let known = zones
+            .iter()
+            .filter_map(|zone| zone.point_at(zone.place_of(frequency)).ok());
+        let known = known.map(|point| point.before_impact_velocity());
+        let least = (1.0 + SAME) * known.fold(0.0, f64::max);
+        if let Some(start) = hardest_single(&scene.at_frequency(frequency), least, watcher)? {
+            zones.extend(about(scene, &start, between, watcher).ok().flatten());
         }
-        let hardest = zones.into_iter().filter_map(|zone| {
-            let velocity = hardest_between(&zone, between)?;
-            Some((zone, velocity))
-        });
-        let best = hardest.max_by(|a, b| a.1.total_cmp(&b.1));
-        let (from, to) = between;
-        let none = ZoneError::NoMotion {
-            from: from.into(),
-            to: to.into(),
-        };
-        best.map(|(zone, _)| zone).ok_or(none)
+        OrbitError::ask(watcher)?;
+    }
+    let hardest = zones.into_iter().filter_map(|zone| {
+        let velocity = hardest_between(&zone, between)?;
+        Some((zone, velocity))
     });
-    zones.collect()
+    let best = hardest.max_by(|a, b| a.1.total_cmp(&b.1));
+    let (from, to) = between;
+    let none = ZoneError::NoMotion {
+        from: from.into(),
+        to: to.into(),
+    };
+    best.map(|(zone, _)| zone).ok_or(none)
 }
 
 /// The highest velocity at the points of a zone between two frequencies, and at these; none if it lies outside.
@@ -85,12 +76,6 @@ fn hardest_between(zone: &Zone, (low, high): (f64, f64)) -> Option<f64> {
     let all = inside.chain(at_ends.iter().flatten());
     all.map(BranchPoint::before_impact_velocity)
         .max_by(f64::total_cmp)
-}
-
-/// True if a stable motion is the one that a zone has at its frequency.
-fn contains(zone: &Zone, orbit: &Orbit) -> bool {
-    let own = zone.point_at(zone.place_of(orbit.scene.excitation.frequency));
-    own.is_ok_and(|own| is_same(&own, orbit.state(), &zone.scene))
 }
 
 /// The frequencies at which a scene's motions are looked for: g0, and some evenly spaced in ratio.
