@@ -1,6 +1,6 @@
 //! The stable z = 1 motion of a scene at the frequency of its drive, and the zones of scenes.
 
-use super::hysteresis::hysteresis_soon;
+use super::hysteresis::{Upper, zones_of};
 use super::places::{Zone, ZoneKind};
 use super::single_impact::single_impact;
 use super::stretch::Stretch;
@@ -53,17 +53,18 @@ pub fn find_among(
     }
 }
 
-/// The zones of a kind of some scenes; the frequency of their drives plays no part.
+/// The zones of a kind of some scenes; the frequency of their drives plays no part. Of [`ZoneKind::Hysteresis`] the grazing of
+/// a surface beyond the clearance, as of a rigid stop behind the other, may end one above as well as a fold.
 ///
 /// # Errors
-/// Each as [`hysteresis_soon`] or [`single_impact`].
+/// Each as [`hysteresis_soon`](super::hysteresis_soon) or [`single_impact`].
 pub fn find_zones(
     kind: ZoneKind,
     scenes: &[Scene],
     watcher: Watcher<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     match kind {
-        ZoneKind::Hysteresis => hysteresis_soon(scenes, watcher),
+        ZoneKind::Hysteresis => zones_of(scenes, Upper::FoldOrGrazing, watcher),
         ZoneKind::SingleImpact { between } => single_impact(scenes, between, watcher),
     }
 }

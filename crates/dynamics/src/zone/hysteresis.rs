@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::end::{EndKind, ZoneEnd};
+use super::followed_end::{LONGEST_BRANCH, ended};
 use super::places::{AT_FOLD, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading, SpecialKind, Test};
@@ -11,8 +12,6 @@ use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::Scene;
 use softstop::internals::budget::Fork;
 
-/// Points after which a branch is given up.
-pub(super) const LONGEST_BRANCH: usize = 2000;
 /// Before-impact velocity, in units of that at g0, below which an unstable branch is left: it ends
 /// in grazing.
 const WEAKEST: f64 = 0.2;
@@ -40,7 +39,16 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
 pub fn hysteresis_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
     let start = find_watched(&scene.at_frequency(grazing.1), watcher);
-    from_start(scene, grazing, start.ok(), watcher)
+    from_start(scene, grazing, (start.ok(), Upper::Fold), watcher)
+}
+
+/// What may end a zone above.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Upper {
+    /// A fold.
+    Fold,
+    /// A fold, or where none comes first the grazing of a surface beyond the clearance, as of a rigid stop behind the other.
+    FoldOrGrazing,
 }
 
 /// The same of many machines at once, in groups of some on all cores, in a fraction of the work: the z = 1 motion at g0 is the hardest of
@@ -49,16 +57,25 @@ pub fn hysteresis_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Zone, Z
 /// # Errors
 /// Each as [`hysteresis_watched`].
 pub fn hysteresis_soon(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
+    zones_of(scenes, Upper::Fold, watcher)
+}
+
+/// The zones of [`hysteresis_soon`], or those that something else may end, too.
+pub(super) fn zones_of(
+    scenes: &[Scene],
+    upper: Upper,
+    watcher: Watcher<'_>,
+) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
     let chunks = scenes.par_chunks(TOGETHER);
-    let zones = chunks.flat_map_iter(|scenes| fork.part(|| together(scenes, watcher)));
+    let zones = chunks.flat_map_iter(|scenes| fork.part(|| together(scenes, upper, watcher)));
     let zones = zones.collect();
     fork.join();
     zones
 }
 
 /// Zones of a few machines.
-fn together(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
+fn together(scenes: &[Scene], upper: Upper, watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
     let grazing: Vec<_> = scenes.iter().map(grazing_frequencies).collect();
     let with_grazing = scenes.iter().zip(&grazing);
     let at_grazing: Vec<Scene> = with_grazing
@@ -68,7 +85,7 @@ fn together(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneErro
     let zones = scenes.iter().zip(grazing).map(|(scene, grazing)| {
         let grazing = grazing?;
         let start = starts.next().and_then(Result::ok);
-        from_start(scene, grazing, start, watcher)
+        from_start(scene, grazing, (start, upper), watcher)
     });
     zones.collect()
 }
@@ -77,7 +94,7 @@ fn together(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneErro
 fn from_start(
     scene: &Scene,
     (frequency_g0_below, frequency_g0): (Option<f64>, f64),
-    start: Option<Orbit>,
+    (start, upper): (Option<Orbit>, Upper),
     watcher: Watcher<'_>,
 ) -> Result<Zone, ZoneError> {
     OrbitError::ask(watcher)?;
@@ -87,8 +104,15 @@ fn from_start(
     })?;
     let follower = Follower::new(&family, 1);
     let range = (frequency_g0, FARTHEST * frequency_g0);
-    let branch = upward(&follower, &start, range, watcher)?;
-    let fold = highest_fold(&branch).ok_or_else(|| no_fold(frequency_g0, &branch))?;
+    let mut branch = upward(&follower, &start, range, watcher)?;
+    let high = match highest_fold(&branch).ok_or_else(|| no_fold(frequency_g0, &branch)) {
+        Ok(fold) => fold,
+        Err(ZoneError::NoFold {
+            end: BranchEnd::Regime,
+            ..
+        }) if upper == Upper::FoldOrGrazing => ended(&follower, &mut branch, Heading::Up, range)?,
+        Err(none) => return Err(none),
+    };
     Ok(Zone {
         kind: ZoneKind::Hysteresis,
         scene: scene.clone(),
@@ -99,7 +123,7 @@ fn from_start(
             point: branch[0].clone(),
             kind: EndKind::Free,
         },
-        high: fold,
+        high,
         branch,
     })
 }

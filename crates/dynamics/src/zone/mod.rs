@@ -5,6 +5,7 @@
 mod bounds;
 mod end;
 mod find;
+mod followed_end;
 mod grazing;
 mod hysteresis;
 mod loss;

@@ -1,0 +1,94 @@
+//! Where the stable motions of a branch end.
+
+use super::Frequencies;
+use super::end::{EndKind, Loss, ZoneEnd, first_end};
+use crate::continuation::{BranchPoint, Follower, Heading, Limits, SpecialKind, Test};
+use crate::orbit::OrbitError;
+use crate::watch::stop_if;
+
+/// Points after which a branch is given up.
+pub(super) const LONGEST_BRANCH: usize = 2000;
+
+/// Where stable motions end that were followed from the first of these points on; the last point is then there.
+pub(super) fn ended(
+    follower: &Follower<'_, Frequencies<'_>>,
+    points: &mut Vec<BranchPoint>,
+    heading: Heading,
+    range: (f64, f64),
+) -> Result<ZoneEnd, OrbitError> {
+    let is_beyond =
+        |point: &BranchPoint| !point.is_stable() || !(range.0..=range.1).contains(&point.parameter);
+    let first = points.iter().position(is_beyond).unwrap_or(points.len());
+    let beyond = points.drain(first..).next();
+    if let (Some(before), Some(beyond)) = (points.last(), beyond) {
+        let (point, kind) = match Test::ALL
+            .into_iter()
+            .find(|test| test.value(&beyond.monodromy) <= 0.0)
+        {
+            Some(test) => {
+                let kind = EndKind::Special(SpecialKind::Critical(test));
+                (follower.critical_between(before, &beyond, test), kind)
+            }
+            None => {
+                let bound = beyond.parameter.clamp(range.0, range.1);
+                (
+                    follower.between(before, &beyond, bound),
+                    EndKind::Other(Loss::Range),
+                )
+            }
+        };
+        if let Ok(point) = point {
+            points.push(point.clone());
+            return Ok(ZoneEnd::at(&point, kind));
+        }
+    }
+    followed_to_end(follower, points, heading, range)
+}
+
+/// The end by a look at every special point, from the last point on, or from the first one if there is nothing to see
+/// from the last.
+fn followed_to_end(
+    follower: &Follower<'_, Frequencies<'_>>,
+    points: &mut Vec<BranchPoint>,
+    heading: Heading,
+    range: (f64, f64),
+) -> Result<ZoneEnd, OrbitError> {
+    let last = points.len().checked_sub(1).ok_or(OrbitError::NotIsolated)?;
+    let from = |index: usize| {
+        let start = &points[index];
+        let limits = Limits {
+            range: match heading {
+                Heading::Up => (start.parameter, range.1),
+                Heading::Down => (range.0, start.parameter),
+            },
+            points: LONGEST_BRANCH,
+        };
+        let branch = follower.branch(start.parameter, start.state(), &limits, |point| {
+            stop_if(!point.is_stable() || point.impacts.len() != 1)
+        });
+        branch.map(|branch| (index, branch))
+    };
+    let (index, mut branch) = from(last).or_else(|_| from(0))?;
+    points.truncate(index + 1);
+    let start = points[index].parameter;
+    if heading == Heading::Down {
+        branch.points.reverse();
+    }
+    let further = branch
+        .points
+        .iter()
+        .filter(|point| point.parameter != start);
+    if let Some((point, kind)) = first_end(&branch, further.clone()) {
+        let until = further.take_while(|it| it.parameter != point.parameter);
+        points.extend(until.chain([point]).cloned());
+        return Ok(ZoneEnd::at(point, kind));
+    }
+    points.extend(further.filter(|point| point.is_stable()).cloned());
+    let end = match heading {
+        Heading::Up => &branch.ends.1,
+        Heading::Down => &branch.ends.0,
+    };
+    let kind = EndKind::Other(Loss::of(end));
+    let last = points.last().ok_or(OrbitError::NotIsolated)?;
+    Ok(ZoneEnd::at(last, kind))
+}
