@@ -32,14 +32,15 @@ pub(super) fn cases(machine: &Machine, tables: &[Table]) -> Result<Vec<Case>, Fa
     Ok(all)
 }
 
-/// A failure at a key of a case by its number.
-fn wrong(number: usize, key: &str, what: impl AsRef<str>) -> Failure {
-    Failure::usage(format!("case.{number}.{key} {}", what.as_ref()))
+/// A failure at a key of a case, counted from 1.
+fn wrong(index: usize, key: &str, what: impl AsRef<str>) -> Failure {
+    Failure::usage(format!("case.{index}.{key} {}", what.as_ref()))
 }
 
+/// Reads a case, counted from 1.
 fn case(machine: &Machine, table: &Table, index: usize) -> Result<Case, Failure> {
     let mut case = Case {
-        name: (index).to_string(),
+        name: index.to_string(),
         weight: 1.0,
         changes: Vec::new(),
     };
@@ -75,7 +76,7 @@ fn case(machine: &Machine, table: &Table, index: usize) -> Result<Case, Failure>
     Ok(case)
 }
 
-/// What a key of a case changes, in the machine's own units.
+/// What a key of a case, counted from 1, changes, in the machine's own units.
 fn change(
     machine: &Machine,
     case: &Case,
@@ -120,13 +121,10 @@ pub(super) fn check(
             if let Some(link) = searched.links.iter().find(|it| is_own(it.parameter)) {
                 return wrong(&format!("follows {}", machine.name(link.follows)));
             }
-            let is_share =
-                |it: &&Tolerance| is_own(it.parameter) && matches!(it.width, Width::Share(_));
-            let has_share = tolerances
-                .iter()
-                .filter(|it| !it.is_exact())
-                .any(|it| is_share(&it));
-            if has_share && (*value == 0.0 || machine.value(*parameter) == Some(0.0)) {
+            let is_share = |it: &Tolerance| !it.is_exact() && matches!(it.width, Width::Share(_));
+            let mut own = tolerances.iter().filter(|it| is_own(it.parameter));
+            let is_zero = *value == 0.0 || machine.value(*parameter) == Some(0.0);
+            if is_zero && own.any(is_share) {
                 return wrong("has a tolerance that is a share of it, and of 0 there is none");
             }
         }
