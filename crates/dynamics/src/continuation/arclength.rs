@@ -85,10 +85,10 @@ pub(crate) fn correct<E: Equations>(
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
 ) -> Result<Node<E::Point>, OrbitError> {
-    correct_with(equations, guess, normal, &mut None, Care::Full)
+    correct_with(equations, guess, normal, &mut None, Accuracy::Full)
 }
 
-/// The same where the last unknown is given: its slopes play no part.
+/// Newton's method where the last unknown is given: its slopes play no part.
 pub(crate) fn correct_at<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
@@ -96,12 +96,12 @@ pub(crate) fn correct_at<E: Equations>(
     let unknowns = guess.len();
     let normal = DVector::from_fn(unknowns, |row, _| f64::from(u8::from(row + 1 == unknowns)));
     let mut none = Some(DMatrix::zeros(unknowns - 1, unknowns - E::EXACT));
-    correct_with(equations, guess, Some(&normal), &mut none, Care::Given)
+    correct_with(equations, guess, Some(&normal), &mut none, Accuracy::Given)
 }
 
-/// How carefully solutions are computed.
+/// How accurately solutions are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Care {
+pub(super) enum Accuracy {
     /// To the last digit, with central differences.
     Full,
     /// To nine digits, with one-sided differences, and known from the place one Newton step before.
@@ -113,13 +113,13 @@ pub(super) enum Care {
 /// Residual that a quick solution may leave.
 const QUICK: f64 = 1e-9;
 
-/// The same with the slopes of a place nearby, if there are any, as long as they serve; it leaves the last ones.
+/// Newton's method with the slopes of a place nearby, if there are any, as long as they serve; it leaves the last ones.
 pub(super) fn correct_with<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
     slopes: &mut Option<DMatrix<f64>>,
-    care: Care,
+    accuracy: Accuracy,
 ) -> Result<Node<E::Point>, OrbitError> {
     let mut at = guess.clone();
     let mut last = f64::INFINITY;
@@ -139,7 +139,7 @@ pub(super) fn correct_with<E: Equations>(
         }
         let kept = slopes
             .take()
-            .filter(|_| care == Care::Given || size <= STALE * last);
+            .filter(|_| accuracy == Accuracy::Given || size <= STALE * last);
         let shrinks = size / std::mem::replace(&mut last, size);
         let exact = equations.exact_slopes(&here);
         // Newton's method squares the residual, with slopes that are none it shrinks at the same rate.
@@ -151,7 +151,7 @@ pub(super) fn correct_with<E: Equations>(
             };
         let known = match exact.or(kept) {
             Some(known) => known,
-            None => slopes_at(equations, &at, &here, care)?,
+            None => slopes_at(equations, &at, &here, accuracy)?,
         };
         let mut right = here.residual.clone();
         let mut matrix = -equations.jacobian(&here, slopes.insert(known));
@@ -164,7 +164,7 @@ pub(super) fn correct_with<E: Equations>(
             _ if fits => return Err(OrbitError::NotIsolated),
             _ => return Err(OrbitError::Diverged { residual: size }),
         }
-        if care == Care::Quick && round > 0 && next <= QUICK {
+        if accuracy == Accuracy::Quick && round > 0 && next <= QUICK {
             return Ok(Node { at, here });
         }
     }
@@ -208,16 +208,16 @@ pub(crate) fn tangent<E: Equations>(
     node: &Node<E::Point>,
     along: &DVector<f64>,
 ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-    tangent_with(equations, node, along, Care::Full)
+    tangent_with(equations, node, along, Accuracy::Full)
 }
 
 pub(super) fn tangent_with<E: Equations>(
     equations: &E,
     node: &Node<E::Point>,
     along: &DVector<f64>,
-    care: Care,
+    accuracy: Accuracy,
 ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-    let slopes = slopes_at(equations, &node.at, &node.here, care)?;
+    let slopes = slopes_at(equations, &node.at, &node.here, accuracy)?;
     let matrix = bordered(&equations.jacobian(&node.here, &slopes), along);
     let mut right = DVector::zeros(node.at.len());
     right[node.at.len() - 1] = 1.0;
@@ -233,7 +233,7 @@ pub(super) fn slopes_at<E: Equations>(
     equations: &E,
     at: &DVector<f64>,
     here: &Evaluation<E::Point>,
-    care: Care,
+    accuracy: Accuracy,
 ) -> Result<DMatrix<f64>, OrbitError> {
     if let Some(exact) = equations.exact_slopes(here) {
         return Ok(exact);
@@ -248,8 +248,8 @@ pub(super) fn slopes_at<E: Equations>(
         };
         let one_sided = |there: DVector<f64>, shift: f64| (there - &here.residual) / shift;
         let ahead = beside(width);
-        columns.push(match (ahead, care) {
-            (Ok((ahead, true)), Care::Quick) => one_sided(ahead, width),
+        columns.push(match (ahead, accuracy) {
+            (Ok((ahead, true)), Accuracy::Quick) => one_sided(ahead, width),
             (ahead, _) => match (ahead, beside(-width)) {
                 (Ok((ahead, a)), Ok((behind, b))) if a == b => (ahead - behind) / (2.0 * width),
                 (Ok((ahead, true)), _) | (Ok((ahead, _)), Err(_)) => one_sided(ahead, width),

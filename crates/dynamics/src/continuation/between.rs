@@ -6,8 +6,8 @@ use super::Family;
 use super::arclength::Node;
 use super::follower::{Follower, WIDTH};
 use super::locate::{locate, zero};
+use super::period_map::PeriodMap;
 use super::point::BranchPoint;
-use super::round::Round;
 use super::test::Test;
 use super::way::Limits;
 use crate::orbit::OrbitError;
@@ -54,7 +54,7 @@ impl<F: Family> Follower<'_, F> {
         &self,
         from: &BranchPoint,
         to: &BranchPoint,
-        find: impl Fn(&Self, (&Node<Round>, &Node<Round>)) -> Result<BranchPoint, OrbitError>,
+        find: impl Fn(&Self, (&Node<PeriodMap>, &Node<PeriodMap>)) -> Result<BranchPoint, OrbitError>,
     ) -> Result<BranchPoint, OrbitError> {
         let ends = (self.node_at(from)?, self.node_at(to)?);
         match self.clear_of(&ends.0).or_else(|| self.clear_of(&ends.1)) {
@@ -65,12 +65,12 @@ impl<F: Family> Follower<'_, F> {
 
     fn zero_between(
         &self,
-        ends: (&Node<Round>, &Node<Round>),
+        ends: (&Node<PeriodMap>, &Node<PeriodMap>),
         test: Test,
     ) -> Result<BranchPoint, OrbitError> {
-        let value = |round: &Round| test.value(&round.monodromy);
+        let value = |round: &PeriodMap| test.value(&round.monodromy);
         let node = zero(&self.shooting, ends, WIDTH, value).or_else(|_| {
-            let value = |node: &Node<Round>| value(&node.here.point);
+            let value = |node: &Node<PeriodMap>| value(&node.here.point);
             locate(&self.shooting, ends, WIDTH, value).map(|(node, _)| node)
         })?;
         self.point_at(&node)
@@ -78,10 +78,11 @@ impl<F: Family> Follower<'_, F> {
 
     fn locate_between(
         &self,
-        ends: (&Node<Round>, &Node<Round>),
+        ends: (&Node<PeriodMap>, &Node<PeriodMap>),
         test: impl Fn(&BranchPoint) -> f64,
     ) -> Result<BranchPoint, OrbitError> {
-        let value = |node: &Node<Round>| self.point_at(node).map_or(f64::NAN, |point| test(&point));
+        let value =
+            |node: &Node<PeriodMap>| self.point_at(node).map_or(f64::NAN, |point| test(&point));
         let (node, _) = locate(&self.shooting, ends, WIDTH, value)?;
         self.point_at(&node)
     }

@@ -6,14 +6,14 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::Node;
-use super::caution::SHORT;
-use super::follower::{Follower, Heading, Turned, WIDTH};
-use super::graze::Approach;
+use super::follower::{Follower, Heading, SectionChange, WIDTH};
+use super::grazing_test::GrazingTest;
 use super::locate::locate;
+use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
-use super::round::Round;
+use super::step_control::SHORT;
+use super::stepper::Stepper;
 use super::test::Test;
-use super::walker::Walker;
 use super::way::{End, Limits, Way};
 use crate::orbit::OrbitError;
 
@@ -96,7 +96,7 @@ impl<'a, F: Family> Follower<'a, F> {
     }
 
     /// The drive periods after which an orbit really repeats.
-    fn minimal_period(&self, node: &Node<Round>) -> u64 {
+    fn minimal_period(&self, node: &Node<PeriodMap>) -> u64 {
         let periods = self.shooting.periods;
         let returns = |after: &u64| {
             let way = node.here.point.ends[*after as usize - 1] - self.shooting.state(&node.at);
@@ -112,7 +112,7 @@ impl<'a, F: Family> Follower<'a, F> {
     /// and parameter.
     pub(super) fn branch_along(
         &self,
-        start: Node<Round>,
+        start: Node<PeriodMap>,
         along: &DVector<f64>,
         limits: &Limits,
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
@@ -123,7 +123,12 @@ impl<'a, F: Family> Follower<'a, F> {
         Ok(branch)
     }
 
-    fn joined(&self, start: &Node<Round>, mut down: Way, up: Way) -> Result<Branch, OrbitError> {
+    fn joined(
+        &self,
+        start: &Node<PeriodMap>,
+        mut down: Way,
+        up: Way,
+    ) -> Result<Branch, OrbitError> {
         down.points.reverse();
         down.specials.reverse();
         down.points.push(self.point_at(start)?);
@@ -139,7 +144,7 @@ impl<'a, F: Family> Follower<'a, F> {
 
     fn way(
         &self,
-        start: Node<Round>,
+        start: Node<PeriodMap>,
         along: &DVector<f64>,
         limits: &Limits,
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
@@ -147,7 +152,7 @@ impl<'a, F: Family> Follower<'a, F> {
         let mut way = Way::none();
         let origin = self.point_at(&start)?;
         let mut next = Some(self.set_out(start, along.clone()));
-        while let Some(Turned {
+        while let Some(SectionChange {
             follower,
             node,
             along,
@@ -162,37 +167,37 @@ impl<'a, F: Family> Follower<'a, F> {
     fn go_on(
         &self,
         way: &mut Way,
-        (start, along): (Node<Round>, &DVector<f64>),
+        (start, along): (Node<PeriodMap>, &DVector<f64>),
         origin: &BranchPoint,
         limits: &Limits,
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
-    ) -> Result<Option<Turned<'a, F>>, OrbitError> {
+    ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
         let origin = self.place(origin)?;
-        let mut approach = Approach::of(&self.shooting, &start)?;
-        let mut walker = Walker::new(&self.shooting, start, along, self.largest)?;
+        let mut grazing_test = GrazingTest::of(&self.shooting, &start)?;
+        let mut stepper = Stepper::new(&self.shooting, start, along, self.largest)?;
         let mut crawled = 0;
         // Since the last corner, if one was passed.
         let mut goes_on = true;
         while way.points.len() < limits.points {
             if crawled > LONGEST_CRAWL {
-                self.give_up(way, &walker, &approach, limits, UNSTABLE);
+                self.give_up(way, &stepper, &grazing_test, limits, UNSTABLE);
                 return Ok(None);
             }
-            let stride = walker.attempt().and_then(|stride| {
-                let ahead = Approach::of(&self.shooting, &stride.node)?;
-                if !self.may_take(&walker, &stride, (&approach, &ahead)) {
+            let step = stepper.attempt().and_then(|step| {
+                let ahead = GrazingTest::of(&self.shooting, &step.node)?;
+                if !self.may_take(&stepper, &step, (&grazing_test, &ahead)) {
                     return Err(UNSTABLE);
                 }
-                let specials = self.specials_between(&walker.node, &stride.node)?;
-                let step = (&walker.node, &stride.node);
-                let end = self.record(way, step, specials, &origin, limits)?;
-                Ok((stride, ahead, end))
+                let specials = self.specials_between(&stepper.node, &step.node)?;
+                let ends = (&stepper.node, &step.node);
+                let end = self.record(way, ends, specials, &origin, limits)?;
+                Ok((step, ahead, end))
             });
-            match stride {
-                Ok((stride, ahead, end)) => {
-                    crawled = if walker.step < SHORT { crawled + 1 } else { 0 };
-                    walker.take(stride);
-                    (approach, goes_on) = (ahead, true);
+            match step {
+                Ok((step, ahead, end)) => {
+                    crawled = if stepper.step < SHORT { crawled + 1 } else { 0 };
+                    stepper.take(step);
+                    (grazing_test, goes_on) = (ahead, true);
                     let stopped = way
                         .points
                         .last()
@@ -203,42 +208,42 @@ impl<'a, F: Family> Follower<'a, F> {
                     }
                 }
                 Err(error) => {
-                    if watch(&self.point_at(&walker.node)?).is_break() {
+                    if watch(&self.point_at(&stepper.node)?).is_break() {
                         way.end = End::Stopped;
                         return Ok(None);
                     }
                     if way.turned_at != Some(way.points.len())
-                        && let Some(turned) = self.turned(&walker.node, &walker.direction)
+                        && let Some(turned) = self.turned(&stepper.node, &stepper.direction)
                     {
                         way.turned_at = Some(way.points.len());
                         return Ok(Some(turned));
                     }
-                    if way.grazes(self.graze_ahead(&walker, &approach)) {
+                    if way.grazes(self.graze_ahead(&stepper, &grazing_test)) {
                         return Ok(None);
                     }
-                    if walker.shorten() {
+                    if stepper.shorten() {
                         continue;
                     }
-                    let Some((node, along)) = self.beyond_corner(&walker).filter(|_| goes_on)
+                    let Some((node, along)) = self.beyond_corner(&stepper).filter(|_| goes_on)
                     else {
-                        self.give_up(way, &walker, &approach, limits, error);
+                        self.give_up(way, &stepper, &grazing_test, limits, error);
                         return Ok(None);
                     };
-                    let step = (&walker.node, &node);
+                    let step = (&stepper.node, &node);
                     let beyond = self
                         .specials_of_corner(step.0, step.1)
                         .and_then(|specials| {
-                            let ahead = Approach::of(&self.shooting, &node)?;
+                            let ahead = GrazingTest::of(&self.shooting, &node)?;
                             let end = self.record(way, step, specials, &origin, limits)?;
                             let mut next =
-                                Walker::new(&self.shooting, node.clone(), &along, self.largest)?;
+                                Stepper::new(&self.shooting, node.clone(), &along, self.largest)?;
                             next.step = AFTER_CORNER;
                             Ok((end, ahead, next))
                         });
                     let (end, ahead, next) = match beyond {
                         Ok(beyond) => beyond,
                         Err(error) => {
-                            self.give_up(way, &walker, &approach, limits, error);
+                            self.give_up(way, &stepper, &grazing_test, limits, error);
                             return Ok(None);
                         }
                     };
@@ -246,7 +251,7 @@ impl<'a, F: Family> Follower<'a, F> {
                         way.end = end;
                         return Ok(None);
                     }
-                    (approach, walker, goes_on) = (ahead, next, false);
+                    (grazing_test, stepper, goes_on) = (ahead, next, false);
                 }
             }
         }
@@ -258,7 +263,7 @@ impl<'a, F: Family> Follower<'a, F> {
     fn record(
         &self,
         way: &mut Way,
-        (from, to): (&Node<Round>, &Node<Round>),
+        (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
         mut specials: Vec<Special>,
         origin: &DVector<f64>,
         limits: &Limits,
@@ -269,7 +274,7 @@ impl<'a, F: Family> Follower<'a, F> {
         let (to, end) = match (bound, merged) {
             (Some((_, true)), _) => return Ok(Some(End::Range)),
             (Some((bound, false)), _) => {
-                let test = |node: &Node<Round>| self.shooting.parameters(&node.at)[0] - bound;
+                let test = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
                 let (node, _) = locate(&self.shooting, (from, to), WIDTH, test)?;
                 (node, Some(End::Range))
             }

@@ -7,11 +7,11 @@ use nalgebra::DVector;
 use super::Family;
 use super::arclength::{Equations, Node, correct, tangent};
 use super::follower::{Follower, keeps_sense};
+use super::period_map::PeriodMap;
 use super::point::{Special, SpecialKind};
-use super::round::Round;
 use super::shooting::Shooting;
+use super::stepper::Stepper;
 use super::test::Test;
-use super::walker::Walker;
 use crate::orbit::OrbitError;
 
 /// Scaled distances beyond a corner at which the branch is taken up.
@@ -25,24 +25,24 @@ impl<F: Family> Follower<'_, F> {
     /// their index tells, and no other branch comes as near.
     pub(super) fn beyond_corner(
         &self,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-    ) -> Option<(Node<Round>, DVector<f64>)> {
-        let node = &walker.node;
+        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+    ) -> Option<(Node<PeriodMap>, DVector<f64>)> {
+        let node = &stepper.node;
         BEYOND.into_iter().find_map(|reach| {
-            let at = &node.at + reach * &walker.direction;
+            let at = &node.at + reach * &stepper.direction;
             let here = self.shooting.evaluate(&at).ok()?;
             let sequence = here.point.sequence;
             if sequence == node.here.point.sequence {
                 return None;
             }
             let guess = Node { at, here };
-            let (along, _) = tangent(&self.shooting, &guess, &walker.direction).ok()?;
+            let (along, _) = tangent(&self.shooting, &guess, &stepper.direction).ok()?;
             [along.clone(), -along].into_iter().find_map(|along| {
                 let ahead = &node.at + reach * &along;
                 let found = correct(&self.shooting, &ahead, Some(&along)).ok()?;
                 let near = (&found.at - &node.at).norm() < NEAR * reach;
                 let goes_on = keeps_sense(
-                    (&walker.direction, &node.here.point.monodromy),
+                    (&stepper.direction, &node.here.point.monodromy),
                     (&along, &found.here.point.monodromy),
                 );
                 let is_beyond = found.here.point.sequence == sequence;
@@ -54,8 +54,8 @@ impl<F: Family> Follower<'_, F> {
     /// What is special about a corner between two nodes: the touch, and the tests that jump through zero.
     pub(super) fn specials_of_corner(
         &self,
-        from: &Node<Round>,
-        to: &Node<Round>,
+        from: &Node<PeriodMap>,
+        to: &Node<PeriodMap>,
     ) -> Result<Vec<Special>, OrbitError> {
         let (a, b) = (&from.here.point.monodromy, &to.here.point.monodromy);
         let mut found = Vec::new();

@@ -7,13 +7,13 @@ use nalgebra::DVector;
 use super::Family;
 use super::arclength::{Equations, Node, correct};
 use super::follower::WIDTH;
+use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
 use super::locate::locate;
+use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, SpecialKind};
-use super::round::Round;
 use super::sequence::Sequence;
 use super::shooting::{Critical, Shooting};
-use super::touching::{Contact, Touching};
-use super::walker::Walker;
+use super::stepper::Stepper;
 use crate::orbit::{Monodromy, OrbitError};
 
 /// The part of the plane of two parameters in which a curve is followed.
@@ -105,7 +105,7 @@ pub fn curve<F: Family<2>>(
             face,
             ..
         }) => {
-            let touching = Touching {
+            let touching = GrazingOrbit {
                 family,
                 periods,
                 crossings,
@@ -129,7 +129,7 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
         self.shooting.parameters(at)
     }
 
-    fn describe(&self, node: &Node<Round>) -> Result<CurvePoint, OrbitError> {
+    fn describe(&self, node: &Node<PeriodMap>) -> Result<CurvePoint, OrbitError> {
         let state = self.shooting.state(&node.at);
         let round = &node.here.point;
         Ok(CurvePoint {
@@ -141,21 +141,21 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
         })
     }
 
-    fn sequence(&self, point: &Round) -> Sequence {
+    fn sequence(&self, point: &PeriodMap) -> Sequence {
         point.sequence
     }
 }
 
-impl<F: Family<2>> Codimension for Touching<'_, F, 2> {
+impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        Touching::parameters(self, at)
+        GrazingOrbit::parameters(self, at)
     }
 
-    fn describe(&self, node: &Node<Contact>) -> Result<CurvePoint, OrbitError> {
+    fn describe(&self, node: &Node<GrazingPoint>) -> Result<CurvePoint, OrbitError> {
         let state = self.state(node)?;
         let contact = &node.here.point;
         Ok(CurvePoint {
-            parameters: Touching::parameters(self, &node.at),
+            parameters: GrazingOrbit::parameters(self, &node.at),
             position: state.x,
             velocity: state.y,
             impacts: contact.impacts.clone(),
@@ -163,7 +163,7 @@ impl<F: Family<2>> Codimension for Touching<'_, F, 2> {
         })
     }
 
-    fn sequence(&self, point: &Contact) -> Sequence {
+    fn sequence(&self, point: &GrazingPoint) -> Sequence {
         Sequence {
             impacts: point.impacts.len(),
             ..Sequence::default()
@@ -214,24 +214,24 @@ fn way<E: Codimension>(
 ) -> Result<(Vec<CurvePoint>, CurveEnd), OrbitError> {
     let origin = start.at.clone();
     let sequence = equations.sequence(&start.here.point);
-    let mut walker = Walker::new(equations, start, along, region.step)?;
+    let mut stepper = Stepper::new(equations, start, along, region.step)?;
     let mut points = Vec::new();
     while points.len() < region.points {
-        let last = walker.node.clone();
-        let next = walker.attempt().map_err(CurveEnd::Lost);
-        let next = next.and_then(|stride| {
-            if equations.sequence(&stride.node.here.point) != sequence {
+        let last = stepper.node.clone();
+        let next = stepper.attempt().map_err(CurveEnd::Lost);
+        let next = next.and_then(|step| {
+            if equations.sequence(&step.node.here.point) != sequence {
                 return Err(CurveEnd::Grazing);
             }
-            let end = within(equations, (&last, &stride.node), region);
-            Ok((stride, end.map_err(CurveEnd::Lost)?))
+            let end = within(equations, (&last, &step.node), region);
+            Ok((step, end.map_err(CurveEnd::Lost)?))
         });
-        let (stride, (node, leaves)) = match next {
+        let (step, (node, leaves)) = match next {
             Ok(next) => next,
-            Err(_) if walker.shorten() => continue,
+            Err(_) if stepper.shorten() => continue,
             Err(cause) => return Ok((points, cause)),
         };
-        walker.take(stride);
+        stepper.take(step);
         let step = &node.at - &last.at;
         let share = step.dot(&(&origin - &last.at)) / step.norm_squared();
         let off = (&origin - &last.at) - share * &step;

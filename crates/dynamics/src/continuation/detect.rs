@@ -7,10 +7,10 @@ use nalgebra::DVector;
 use super::Family;
 use super::arclength::{Equations, Node};
 use super::follower::{Follower, WIDTH};
-use super::graze::Approach;
+use super::grazing_test::GrazingTest;
 use super::locate::{Cubic, is_beside, locate};
+use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
-use super::round::Round;
 use super::test::Test;
 use super::way::Limits;
 use crate::orbit::OrbitError;
@@ -35,7 +35,7 @@ impl<F: Family> Follower<'_, F> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
     pub(super) fn bound_passed(
         &self,
-        (from, to): (&Node<Round>, &Node<Round>),
+        (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
         limits: &Limits,
     ) -> Option<(f64, bool)> {
         let (low, high) = limits.range;
@@ -46,7 +46,11 @@ impl<F: Family> Follower<'_, F> {
     }
 
     /// The orbit at the end of the range that a node has reached to within `AT_BOUND`.
-    pub(super) fn bound_at(&self, node: &Node<Round>, limits: &Limits) -> Option<Node<Round>> {
+    pub(super) fn bound_at(
+        &self,
+        node: &Node<PeriodMap>,
+        limits: &Limits,
+    ) -> Option<Node<PeriodMap>> {
         let (low, high) = limits.range;
         let state = self.shooting.state(&node.at);
         let reached = |bound: &f64| {
@@ -55,21 +59,21 @@ impl<F: Family> Follower<'_, F> {
         };
         let bound = [low, high].into_iter().find(reached)?;
         let found = self.start(bound, state).ok()?;
-        let events = |node: &Node<Round>| node.here.point.sequence.events();
+        let events = |node: &Node<PeriodMap>| node.here.point.sequence.events();
         (events(&found) == events(node)).then_some(found)
     }
 
     /// The special points of a step, in their order.
     pub(super) fn specials_between(
         &self,
-        from: &Node<Round>,
-        to: &Node<Round>,
+        from: &Node<PeriodMap>,
+        to: &Node<PeriodMap>,
     ) -> Result<Vec<Special>, OrbitError> {
         let mut found = Vec::new();
         let (a, b) = (&from.here.point, &to.here.point);
         for test in Test::ALL {
             if test.passes(&a.monodromy, &b.monodromy) {
-                let value = |node: &Node<Round>| test.value(&node.here.point.monodromy);
+                let value = |node: &Node<PeriodMap>| test.value(&node.here.point.monodromy);
                 let (node, share) = locate(&self.shooting, (from, to), WIDTH, value)?;
                 let point = self.point_at(&node)?;
                 let kind = SpecialKind::Critical(test);
@@ -89,10 +93,10 @@ impl<F: Family> Follower<'_, F> {
     /// first and rises at last, so steeply that its tangents meet below zero.
     fn flips_there_and_back(
         &self,
-        from: &Node<Round>,
-        to: &Node<Round>,
+        from: &Node<PeriodMap>,
+        to: &Node<PeriodMap>,
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
-        let value = |node: &Node<Round>| Test::Flip.value(&node.here.point.monodromy);
+        let value = |node: &Node<PeriodMap>| Test::Flip.value(&node.here.point.monodromy);
         let [a, b] = [from, to].map(|node| &node.here.point.monodromy);
         let (begins, ends) = (value(from), value(to));
         if a.trace() > 0.0 || begins.min(ends) <= 0.0 {
@@ -113,7 +117,7 @@ impl<F: Family> Follower<'_, F> {
         if !turns_over && !dips()? {
             return Ok(Vec::new());
         }
-        let Some((share, middle)) = beyond(&cubic, [begins, ends], value) else {
+        let Some((share, middle)) = beyond(&cubic, value) else {
             return Ok(Vec::new());
         };
         let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
@@ -129,12 +133,12 @@ impl<F: Family> Follower<'_, F> {
     /// The grazing of a stop without a jump of its force, where the branch goes on.
     pub(super) fn graze_between(
         &self,
-        from: &Node<Round>,
-        to: &Node<Round>,
+        from: &Node<PeriodMap>,
+        to: &Node<PeriodMap>,
     ) -> Result<Option<(f64, Special)>, OrbitError> {
         let way = &to.at - &from.at;
         for node in [from, to] {
-            for special in Approach::of(&self.shooting, node)?.grazes(&self.shooting) {
+            for special in GrazingTest::of(&self.shooting, node)?.grazes(&self.shooting) {
                 let at = self.place(&special.point)?;
                 let share = (&at - &from.at).dot(&way) / way.norm_squared();
                 if !(0.0..=1.0).contains(&share) || !is_beside((&from.at, &way), &at) {
@@ -153,8 +157,8 @@ impl<F: Family> Follower<'_, F> {
     /// True if a step passes the start of the branch: near enough, and no other piece that lies beside it.
     pub(super) fn closes(
         &self,
-        from: &Node<Round>,
-        to: &Node<Round>,
+        from: &Node<PeriodMap>,
+        to: &Node<PeriodMap>,
         origin: &DVector<f64>,
     ) -> bool {
         let way = &to.at - &from.at;
@@ -169,12 +173,16 @@ impl<F: Family> Follower<'_, F> {
 
     /// The flip at which an orbit becomes one of half as many periods, if it does on a step: half a round
     /// leads to the other side of it.
-    pub(super) fn merging(&self, from: &Node<Round>, to: &Node<Round>) -> Option<BranchPoint> {
+    pub(super) fn merging(
+        &self,
+        from: &Node<PeriodMap>,
+        to: &Node<PeriodMap>,
+    ) -> Option<BranchPoint> {
         let periods = self.shooting.periods;
         if !periods.is_multiple_of(2) {
             return None;
         }
-        let asymmetry = |node: &Node<Round>| {
+        let asymmetry = |node: &Node<PeriodMap>| {
             let half = node.here.point.ends[periods as usize / 2 - 1];
             self.shooting
                 .scaled(half - self.shooting.state(&node.at), [0.0])
@@ -192,41 +200,23 @@ impl<F: Family> Follower<'_, F> {
     }
 }
 
-/// A place on a step, as a share of its way, at which a test is negative that is positive at both ends: by golden section,
-/// until one is found or the lowest value lies farther above zero than its neighbours above it.
+/// A place on a step, as a share of its way, at which a test is negative that is positive at both ends: by golden section
+/// until one is found.
 fn beyond<E: Equations>(
     cubic: &Cubic<'_, E>,
-    [begins, ends]: [f64; 2],
     value: impl Fn(&Node<E::Point>) -> f64,
 ) -> Option<(f64, Node<E::Point>)> {
-    let known = RefCell::new(vec![(0.0, begins), (1.0, ends)]);
     let found = RefCell::new(None);
-    let is_decided = |known: &[(f64, f64)]| {
-        let lowest = (0..known.len()).min_by(|a, b| known[*a].1.total_cmp(&known[*b].1));
-        let sides = lowest.map(|at| {
-            (
-                known.get(at.wrapping_sub(1)),
-                known.get(at + 1),
-                known[at].1,
-            )
-        });
-        matches!(sides, Some((Some(a), Some(b), low)) if a.1.max(b.1) < 2.0 * low)
-    };
     let depth = |share: f64| {
-        let mut known = known.borrow_mut();
-        if found.borrow().is_some() || is_decided(&known) {
-            return f64::NEG_INFINITY;
-        }
-        let Ok(node) = cubic.node(share) else {
-            return f64::NEG_INFINITY;
+        let node = match found.borrow().is_some() {
+            true => None,
+            false => cubic.node(share).ok(),
         };
-        let value = value(&node);
-        let place = known.partition_point(|(at, _)| *at < share);
-        known.insert(place, (share, value));
-        if value < 0.0 {
-            found.replace(Some((share, node)));
+        let depth = node.as_ref().map_or(f64::NEG_INFINITY, |node| -value(node));
+        if depth > 0.0 {
+            found.replace(node.map(|node| (share, node)));
         }
-        -value
+        depth
     };
     highest(0.0, 1.0, DIP, depth);
     found.into_inner()

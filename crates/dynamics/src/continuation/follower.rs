@@ -6,11 +6,11 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct, correct_at};
+use super::period_map::PeriodMap;
 use super::point::BranchPoint;
-use super::round::Round;
 use super::shooting::{Critical, Shooting};
+use super::stepper::{CurveStep, LARGEST_STEP, Stepper};
 use super::test::Test;
-use super::walker::{LARGEST_STEP, Stride, Walker};
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
 /// Scaled distance along a branch to which special points are located.
@@ -33,9 +33,9 @@ pub struct Follower<'a, F> {
 }
 
 /// A branch seen at another section: a node of it, and the direction in which it goes on.
-pub(super) struct Turned<'a, F> {
+pub(super) struct SectionChange<'a, F> {
     pub follower: Follower<'a, F>,
-    pub node: Node<Round>,
+    pub node: Node<PeriodMap>,
     pub along: DVector<f64>,
 }
 
@@ -83,7 +83,7 @@ impl<'a, F: Family> Follower<'a, F> {
         &self,
         parameter: f64,
         state: Vector2<f64>,
-    ) -> Result<Node<Round>, OrbitError> {
+    ) -> Result<Node<PeriodMap>, OrbitError> {
         let guess = self.shooting.scaled(state, [parameter]);
         correct_at(&self.shooting, &guess)
     }
@@ -114,7 +114,7 @@ impl<'a, F: Family> Follower<'a, F> {
         let mut points = vec![self.point_at(&node)?];
         let mut turned_at = 0;
         let mut next = Some(self.set_out(node, Self::direction(heading)));
-        while let Some(Turned {
+        while let Some(SectionChange {
             follower,
             node,
             along,
@@ -131,8 +131,12 @@ impl<'a, F: Family> Follower<'a, F> {
     }
 
     /// The beginning of a branch, seen at this section.
-    pub(super) fn set_out(&self, node: Node<Round>, along: DVector<f64>) -> Turned<'a, F> {
-        Turned {
+    pub(super) fn set_out(
+        &self,
+        node: Node<PeriodMap>,
+        along: DVector<f64>,
+    ) -> SectionChange<'a, F> {
+        SectionChange {
             follower: self.with_turn(self.shooting.turn),
             node,
             along,
@@ -142,21 +146,21 @@ impl<'a, F: Family> Follower<'a, F> {
     /// Follows a branch as long as this section serves; then how it goes on, if it does.
     fn follow_on(
         &self,
-        (node, along): (Node<Round>, &DVector<f64>),
+        (node, along): (Node<PeriodMap>, &DVector<f64>),
         limit: usize,
         (points, turned_at): (&mut Vec<BranchPoint>, &mut usize),
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
-    ) -> Result<Option<Turned<'a, F>>, OrbitError> {
+    ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
         let sequence = node.here.point.sequence;
-        let mut walker = Walker::new(&self.shooting, node, along, self.largest)?.quick();
+        let mut stepper = Stepper::new(&self.shooting, node, along, self.largest)?.quick();
         while points.len() < limit {
-            match walker.attempt() {
-                Ok(stride)
-                    if stride.node.here.point.sequence.goes_on(&sequence)
-                        && is_same_piece(&walker, &stride) =>
+            match stepper.attempt() {
+                Ok(step)
+                    if step.node.here.point.sequence.goes_on(&sequence)
+                        && is_same_piece(&stepper, &step) =>
                 {
-                    walker.take(stride);
-                    let point = self.point_at(&walker.node)?;
+                    stepper.take(step);
+                    let point = self.point_at(&stepper.node)?;
                     let ends = watch(&point).is_break();
                     points.push(point);
                     if ends {
@@ -165,12 +169,12 @@ impl<'a, F: Family> Follower<'a, F> {
                 }
                 _ => {
                     if *turned_at != points.len()
-                        && let Some(turned) = self.turned(&walker.node, &walker.direction)
+                        && let Some(turned) = self.turned(&stepper.node, &stepper.direction)
                     {
                         *turned_at = points.len();
                         return Ok(Some(turned));
                     }
-                    if !walker.shorten() {
+                    if !stepper.shorten() {
                         break;
                     }
                 }
@@ -205,7 +209,7 @@ impl<'a, F: Family> Follower<'a, F> {
     ///
     /// # Errors
     /// [`OrbitError`] if it cannot be carried there.
-    pub(super) fn point_at(&self, node: &Node<Round>) -> Result<BranchPoint, OrbitError> {
+    pub(super) fn point_at(&self, node: &Node<PeriodMap>) -> Result<BranchPoint, OrbitError> {
         if self.shooting.turn != 0.0 {
             let at = self.carried(&node.at, -self.shooting.turn)?;
             let plain = self.with_turn(0.0);
@@ -226,7 +230,7 @@ impl<'a, F: Family> Follower<'a, F> {
         })
     }
 
-    pub(super) fn node_at(&self, point: &BranchPoint) -> Result<Node<Round>, OrbitError> {
+    pub(super) fn node_at(&self, point: &BranchPoint) -> Result<Node<PeriodMap>, OrbitError> {
         let at = self.place(point)?;
         let here = self.shooting.evaluate(&at)?;
         Ok(Node { at, here })
@@ -236,11 +240,11 @@ impl<'a, F: Family> Follower<'a, F> {
 /// True if a step has not leapt to another piece of the branch: no test of the monodromy matrix changes much, and it goes
 /// on in the same sense.
 fn is_same_piece<F: Family>(
-    walker: &Walker<'_, Shooting<'_, F, 1>>,
-    stride: &Stride<Round>,
+    stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+    step: &CurveStep<PeriodMap>,
 ) -> bool {
-    let [from, to] = [&walker.node, &stride.node].map(|node| &node.here.point.monodromy);
-    Test::change_little(from, to) && keeps_sense((&walker.direction, from), (&stride.direction, to))
+    let [from, to] = [&stepper.node, &step.node].map(|node| &node.here.point.monodromy);
+    Test::change_little(from, to) && keeps_sense((&stepper.direction, from), (&step.direction, to))
 }
 
 /// Sense that rounding may leave where there is none.

@@ -4,7 +4,9 @@ use std::cell::RefCell;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arclength::{Care, Equations, Node, bordered, correct_with, slopes_at, solved, tangent};
+use super::arclength::{
+    Accuracy, Equations, Node, bordered, correct_with, slopes_at, solved, tangent,
+};
 use crate::orbit::OrbitError;
 use softstop::internals::narrow;
 
@@ -32,7 +34,7 @@ pub(crate) fn locate<E: Equations>(
             Some(Ok(bent)) => bent.at(share),
             _ => interpolated(&known, share),
         };
-        let node = correct_with(equations, &guess, Some(&chord), &mut slopes, Care::Full)?;
+        let node = correct_with(equations, &guess, Some(&chord), &mut slopes, Accuracy::Full)?;
         if !is_beside((&from.at, &way), &node.at) {
             return Err(OrbitError::Diverged { residual: f64::NAN });
         }
@@ -83,7 +85,7 @@ pub(crate) fn zero<E: Equations>(
                 (0.0..=along(&to.at)).contains(&place) && is_beside((&from.at, &way), &at);
             return is_between.then_some(Node { at, here }).ok_or(lost(size));
         }
-        let slopes = slopes_at(equations, &at, &here, Care::Full)?;
+        let slopes = slopes_at(equations, &at, &here, Accuracy::Full)?;
         let matrix = bordered(&equations.jacobian(&here, &slopes), &chord);
         let step = solved(matrix, &(-here.residual).push(onward));
         at += step.ok_or(lost(size))?;
@@ -154,7 +156,7 @@ impl<'a, E: Equations> Cubic<'a, E> {
     pub fn node(&self, share: f64) -> Result<Node<E::Point>, OrbitError> {
         let (guess, chord) = (self.at(share), self.way.normalize());
         let slopes = &mut *self.slopes.borrow_mut();
-        correct_with(self.equations, &guess, Some(&chord), slopes, Care::Full)
+        correct_with(self.equations, &guess, Some(&chord), slopes, Accuracy::Full)
     }
 }
 

@@ -11,9 +11,9 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Node, correct, tangent};
-use super::follower::{Follower, Turned, keeps_sense};
+use super::follower::{Follower, SectionChange, keeps_sense};
+use super::period_map::{PeriodMap, before_wall, carry_on};
 use super::point::BranchPoint;
-use super::round::{Round, before_wall, carry_on};
 use softstop::internals::{Motion, Phases};
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene};
 
@@ -31,9 +31,9 @@ impl<'a, F: Family> Follower<'a, F> {
     /// The same branch seen where no crossing stands in the way; none if this section is as good as any.
     pub(super) fn turned(
         &self,
-        node: &Node<Round>,
+        node: &Node<PeriodMap>,
         direction: &DVector<f64>,
-    ) -> Option<Turned<'a, F>> {
+    ) -> Option<SectionChange<'a, F>> {
         let follower = self.clear_of(node)?;
         let by = follower.shooting.turn - self.shooting.turn;
         let carried = |at: &DVector<f64>| self.carried(at, by);
@@ -50,7 +50,7 @@ impl<'a, F: Family> Follower<'a, F> {
         if !keeps_sense((direction, before), (&along, after)) {
             along.neg_mut();
         }
-        Some(Turned {
+        Some(SectionChange {
             follower,
             node: seen,
             along,
@@ -58,7 +58,7 @@ impl<'a, F: Family> Follower<'a, F> {
     }
 
     /// With the section in the middle of the orbit's longest flight; none if no crossing is near the present one.
-    pub(super) fn clear_of(&self, node: &Node<Round>) -> Option<Self> {
+    pub(super) fn clear_of(&self, node: &Node<PeriodMap>) -> Option<Self> {
         let margin = node.here.point.margin;
         if margin > NEAR {
             return None;

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{DIFFERENCE, Equations, Evaluation};
-use super::round::{Round, image};
+use super::period_map::{PeriodMap, image};
 use super::test::Test;
 use crate::orbit::OrbitError;
 use softstop::internals::Phases;
@@ -112,14 +112,14 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
 }
 
 impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
-    type Point = Round;
+    type Point = PeriodMap;
     const EXACT: usize = 2;
 
-    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<PeriodMap>, OrbitError> {
         let state = self.state(at);
         let scene = self.scene(at)?;
         let machine = (&scene, self.phases(&scene));
-        let round = Round::of(machine, self.periods, state, self.is_by_frequency())?;
+        let round = PeriodMap::of(machine, self.periods, state, self.is_by_frequency())?;
         Ok(Evaluation {
             residual: self.residual(state, round.end()),
             tolerance: round_off(&scene, &state, &round.monodromy, self.family.state_scales()),
@@ -127,7 +127,11 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         })
     }
 
-    fn beside(&self, here: &Round, at: &DVector<f64>) -> Result<(DVector<f64>, bool), OrbitError> {
+    fn beside(
+        &self,
+        here: &PeriodMap,
+        at: &DVector<f64>,
+    ) -> Result<(DVector<f64>, bool), OrbitError> {
         let state = self.state(at);
         let scene = self.scene(at)?;
         let (end, sequence) = image((&scene, self.phases(&scene)), self.periods, state)?;
@@ -135,7 +139,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     }
 
     /// The exact Jacobian of the map, and the slopes.
-    fn jacobian(&self, here: &Evaluation<Round>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+    fn jacobian(&self, here: &Evaluation<PeriodMap>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         let (m, ratio) = (&here.point.monodromy, self.scales[1] / self.scales[0]);
         let own = Matrix2::new(m.m11 - 1.0, m.m12 * ratio, m.m21 / ratio, m.m22 - 1.0);
         DMatrix::from_fn(2, 2 + N, |row, column| match column {
@@ -146,7 +150,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
 
     /// Near grazing the map bends within the square of the speed of the touch, or of what its Jacobian's reciprocal
     /// measures.
-    fn width(&self, here: &Evaluation<Round>) -> f64 {
+    fn width(&self, here: &Evaluation<PeriodMap>) -> f64 {
         let size = self.growth(&here.point.monodromy);
         let speed = self.velocity_scale();
         let touch = here.point.slowest.map_or(1.0, |touch| touch.amount / speed);
@@ -155,7 +159,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     }
 
     /// Small changes of the state grow a hundredfold and more, though it grazes nothing.
-    fn is_steep(&self, here: &Round) -> bool {
+    fn is_steep(&self, here: &PeriodMap) -> bool {
         let speed = self.velocity_scale();
         let grazes = here
             .slowest
@@ -163,7 +167,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         !grazes && here.monodromy.trace().abs() > UNSTABLE
     }
 
-    fn exact_slopes(&self, here: &Evaluation<Round>) -> Option<DMatrix<f64>> {
+    fn exact_slopes(&self, here: &Evaluation<PeriodMap>) -> Option<DMatrix<f64>> {
         let change = here.point.by_frequency?;
         let change = change.component_div(&self.scales.fixed_rows::<2>(0));
         let mut slopes = DMatrix::zeros(2, N);
@@ -203,10 +207,10 @@ pub(crate) struct Critical<'a, F, const N: usize> {
 }
 
 impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
-    type Point = Round;
+    type Point = PeriodMap;
     const EXACT: usize = 0;
 
-    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Round>, OrbitError> {
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<PeriodMap>, OrbitError> {
         let orbit = self.shooting.evaluate(at)?;
         let value = self.test.value(&orbit.point.monodromy);
         Ok(Evaluation {
@@ -216,7 +220,7 @@ impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
         })
     }
 
-    fn jacobian(&self, _: &Evaluation<Round>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+    fn jacobian(&self, _: &Evaluation<PeriodMap>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         slopes.clone()
     }
 }

@@ -8,8 +8,8 @@ use super::Family;
 use super::arclength::{Node, correct};
 use super::branch::Branch;
 use super::follower::Follower;
+use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
-use super::round::Round;
 use super::test::Test;
 use super::way::Limits;
 use crate::orbit::OrbitError;
@@ -83,7 +83,7 @@ impl<F: Family> Follower<'_, F> {
     }
 
     /// Scaled distance between the states at half a round and at its start.
-    fn half_round(&self, node: &Node<Round>) -> f64 {
+    fn half_round(&self, node: &Node<PeriodMap>) -> f64 {
         let half = node.here.point.ends[self.shooting.periods as usize / 2 - 1];
         let way = half - self.shooting.state(&node.at);
         self.shooting.scaled(way, [0.0]).norm()

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2x3, Vector2, Vector3};
 
-use super::legs::Legs;
+use super::multi_segment_shooting::MultiSegmentShooting;
 use super::{Orbit, OrbitError};
 use softstop::Scene;
 
@@ -57,8 +57,10 @@ impl Beside<'_> {
 
     fn residual(&self, at: Vector3<f64>) -> Option<Vector2<f64>> {
         let scene = self.scene(at);
-        let legs = Legs::new(&scene, 1)?;
-        legs.gap(at.x * legs.span(), at.y.exp()).map(Vector2::from)
+        let shooting = MultiSegmentShooting::new(&scene, 1)?;
+        shooting
+            .gap(at.x * shooting.span(), at.y.exp())
+            .map(Vector2::from)
     }
 
     fn jacobian(&self, at: Vector3<f64>) -> Option<Matrix2x3<f64>> {

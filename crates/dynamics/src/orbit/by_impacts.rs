@@ -2,7 +2,7 @@
 
 use softstop::Scene;
 
-use super::legs::Legs;
+use super::multi_segment_shooting::MultiSegmentShooting;
 use super::periodic::SAME;
 use super::{Orbit, OrbitError};
 
@@ -23,8 +23,8 @@ impl Orbit {
         if impacts.is_empty() {
             return Err(none);
         }
-        let legs = Legs::new(scene, periods.max(1)).ok_or(none)?;
-        let orbit = legs.settle(impacts)?;
+        let shooting = MultiSegmentShooting::new(scene, periods.max(1)).ok_or(none)?;
+        let orbit = shooting.settle(impacts)?;
         let all = orbit.timed_impacts();
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let share = all.len() as u64 * part;

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::contact::Passing;
-use super::legs::{Attempt, Legs, Unknowns};
+use super::multi_segment_shooting::{Attempt, MultiSegmentShooting, Unknowns};
 use super::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 use softstop::internals::{Flow, Motion, Outlook, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Tangent, Touch};
@@ -11,7 +11,7 @@ use softstop::{Clock, Instant, Tangent, Touch};
 /// Share of the drive period by which an impact found by its crossing may differ from the one looked for.
 const EARLY: f64 = 1e-4;
 
-impl Legs<'_> {
+impl MultiSegmentShooting<'_> {
     /// The orbit through impacts that fit.
     pub(super) fn orbit(&self, at: &Unknowns, attempt: &Attempt) -> Result<Orbit, OrbitError> {
         self.check(at, attempt)?;

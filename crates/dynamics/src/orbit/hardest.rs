@@ -27,7 +27,7 @@ pub(crate) fn hardest_single(
     };
     let mut speeds = speeds(scene);
     speeds.retain(|speed| RATIO * speed > least);
-    let mut guesses = guesses(&singles.legs, (singles.period, &speeds), watcher)?;
+    let mut guesses = guesses(&singles.shooting, (singles.period, &speeds), watcher)?;
     guesses.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut hardest: Option<Orbit> = None;
     for guess in guesses {
@@ -65,13 +65,13 @@ impl Singles<'_> {
             has_left.set(leaves(at));
             has_left.get() || is_near(at)
         };
-        let settled = self.legs.settle_unless(&[guess], ends);
+        let settled = self.shooting.settle_unless(&[guess], ends);
         let is_new = match settled {
             Err(_) => return Ok(()),
             Ok(None) => !has_left.get(),
             Ok(Some(orbit)) => self.keep(orbit),
         };
-        if is_new && let Ok(orbit) = self.legs.settle_apart(guess, &self.impacts()) {
+        if is_new && let Ok(orbit) = self.shooting.settle_apart(guess, &self.impacts()) {
             self.keep(orbit);
         }
         Ok(())

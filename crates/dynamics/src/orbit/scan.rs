@@ -1,12 +1,12 @@
 //! All motions with one impact per drive period, stable or not: every impact that such a motion may have is looked at.
 //!
 //! A motion of z = 1 is known from the time t and the before-impact velocity v of its impact. What the next impact is
-//! off by ([`Legs`]) is smooth in both, so a lattice over one drive period and all velocities that the drive can keep
+//! off by ([`MultiSegmentShooting`]) is smooth in both, so a lattice over one drive period and all velocities that the drive can keep
 //! up shows the cells in which it may vanish, and Newton's method from there finds where it does. How small the basin
 //! of a motion is plays no part.
 
 use super::beside::beside_frequency;
-use super::legs::{Legs, Nearest};
+use super::multi_segment_shooting::{MultiSegmentShooting, Nearest};
 use super::{Orbit, OrbitError};
 use crate::extremes::extremes;
 use crate::watch::{Watcher, unwatched};
@@ -84,7 +84,7 @@ fn scan<'a>(scene: &'a Scene, watcher: Watcher<'_>) -> Result<Option<Singles<'a>
         return Ok(None);
     };
     let lattice = (singles.period, &speeds(scene)[..]);
-    for guess in guesses(&singles.legs, lattice, watcher)? {
+    for guess in guesses(&singles.shooting, lattice, watcher)? {
         singles.look(guess, watcher)?;
     }
     singles.found.sort_by(|a, b| {
@@ -96,7 +96,7 @@ fn scan<'a>(scene: &'a Scene, watcher: Watcher<'_>) -> Result<Option<Singles<'a>
 
 /// What guesses led to.
 pub(super) struct Singles<'a> {
-    pub(super) legs: Legs<'a>,
+    pub(super) shooting: MultiSegmentShooting<'a>,
     pub(super) period: f64,
     /// The motion's speed.
     unit: f64,
@@ -110,7 +110,7 @@ impl<'a> Singles<'a> {
     /// None if the scene has no stop.
     pub(super) fn new(scene: &'a Scene) -> Option<Self> {
         Some(Self {
-            legs: Legs::new(scene, 1)?,
+            shooting: MultiSegmentShooting::new(scene, 1)?,
             period: scene.clock().period(),
             unit: scene.motion_scales().speed(),
             found: Vec::new(),
@@ -126,14 +126,14 @@ impl<'a> Singles<'a> {
             let near = |other| apart(other, (at[0], at[1]), period) < NEAR;
             impacts.iter().copied().any(near)
         };
-        let settled = self.legs.settle_unless(&[guess], known);
+        let settled = self.shooting.settle_unless(&[guess], known);
         let mut next = settled.map_err(|failed| self.miss(failed.nearest));
         while let Ok(orbit) = next {
             OrbitError::ask(watcher)?;
             if orbit.is_some_and(|orbit| !self.keep(orbit)) {
                 break;
             }
-            let apart = self.legs.settle_apart(guess, &self.impacts());
+            let apart = self.shooting.settle_apart(guess, &self.impacts());
             next = apart.map(Some).map_err(drop);
         }
         Ok(())
@@ -192,13 +192,13 @@ pub(super) fn between(one: f64, other: f64, period: f64) -> f64 {
 /// The middles of the cells in which the residual may vanish. Coarse cells are looked at first, and those divided that it
 /// comes near to zero in.
 pub(super) fn guesses(
-    legs: &Legs<'_>,
+    shooting: &MultiSegmentShooting<'_>,
     (period, speeds): (f64, &[f64]),
     watcher: Watcher<'_>,
 ) -> Result<Vec<(f64, f64)>, OrbitError> {
     let width = period / TIMES as f64;
     let mut lattice = Lattice {
-        legs,
+        shooting,
         width,
         known: vec![None; TIMES * speeds.len()],
         speeds,
@@ -229,7 +229,7 @@ pub(super) fn guesses(
 
 /// What impacts at times and velocities are off by, computed where it is asked for.
 struct Lattice<'a> {
-    legs: &'a Legs<'a>,
+    shooting: &'a MultiSegmentShooting<'a>,
     /// Between two times, in s.
     width: f64,
     speeds: &'a [f64],
@@ -255,7 +255,7 @@ impl Lattice<'_> {
                 None => {
                     OrbitError::ask(self.watcher)?;
                     let time = column as f64 * self.width;
-                    *self.known[place].insert(self.legs.gap(time, self.speeds[row]))
+                    *self.known[place].insert(self.shooting.gap(time, self.speeds[row]))
                 }
             };
         }

@@ -6,8 +6,8 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::newton::fixed_point_unless;
 use super::periodic::STEEP;
-use super::returning::{Candidate, Distance, RETURNS, Trial, Trials, least, settled};
 use super::scan::{FAINTEST, all_single};
+use super::trials::{Candidate, Distance, RETURNS, Trial, Trials, least, settled};
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::watch::{Watcher, unwatched};
 use softstop::{MotionError, Scene};
@@ -37,7 +37,7 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
     find_watched(scene, &unwatched)
 }
 
-/// The same, as long as a watcher, which is not told how much is done, lets it go on.
+/// The motion that [`find`] finds, as long as a watcher, which is not told how much is done, lets the search go on.
 ///
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
@@ -59,7 +59,7 @@ impl Orbit {
     }
 }
 
-/// The same of many scenes at once, from those motions that come back near to where they were, and only if they lead to
+/// The motion that [`find`] finds of each of many scenes at once, from those motions that come back near to where they were, and only if they lead to
 /// none, from all.
 ///
 /// # Errors
@@ -79,51 +79,53 @@ fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<O
     let (mut machines, mut searches) = (Vec::new(), Vec::new());
     for (index, scene) in scenes.iter().enumerate() {
         let machine = Machine::new(scene).map_err(OrbitError::from);
-        match machine.and_then(|machine| Ok((machine, Met::new(scene)?))) {
-            Ok((machine, met)) => {
+        match machine.and_then(|machine| Ok((machine, FixedPoints::new(scene)?))) {
+            Ok((machine, fixed_points)) => {
                 machines.push(machine);
-                searches.push((index, met));
+                searches.push((index, fixed_points));
             }
             Err(error) => found[index] = Err(error),
         }
     }
-    let mut trials = Trials::new(searches.iter().map(|(_, met)| met.scene));
+    let mut trials = Trials::new(searches.iter().map(|(_, fixed_points)| fixed_points.scene));
     for (until, after) in STAGES {
         trials.follow(&machines, until, watcher);
-        for (machine, (index, met)) in searches.iter_mut().enumerate() {
+        for (machine, (index, fixed_points)) in searches.iter_mut().enumerate() {
             let trials = trials.of(machine);
             if !trials.iter().any(|trial| trial.is_open) {
                 continue;
             }
-            let hardest = met.search(trials, after, groups, watcher).transpose();
+            let hardest = fixed_points
+                .search(trials, after, groups, watcher)
+                .transpose();
             let is_over = hardest.is_some();
             if let Some(hardest) = hardest {
                 found[*index] = hardest;
             }
             for trial in trials {
-                trial.is_open &= !is_over && !met.attracts(&trial.last);
+                trial.is_open &= !is_over && !fixed_points.attracts(&trial.last);
             }
         }
     }
     found
 }
 
-/// The motions of one drive period that were met.
-struct Met<'a> {
+/// The fixed points of the map over one drive period that the search has met.
+struct FixedPoints<'a> {
     scene: &'a Scene,
     map: StroboscopicMap,
     distance: Distance,
     /// The slowest impact that is more than grazing, in m/s.
     faintest: f64,
     /// All of them.
-    all: Vec<Fixed>,
+    all: Vec<FixedPoint>,
     stable: Vec<Orbit>,
     /// States from which Newton's method has set out.
     tried: Vec<Vector2<f64>>,
 }
 
 /// A fixed point of the map.
-struct Fixed {
+struct FixedPoint {
     state: Vector2<f64>,
     /// What leads to it from a state, times what that moves: Newton's method with the Jacobian of the fixed point.
     lead: Option<Matrix2<f64>>,
@@ -132,7 +134,7 @@ struct Fixed {
     is_stable: bool,
 }
 
-impl Fixed {
+impl FixedPoint {
     fn new(state: Vector2<f64>, monodromy: Monodromy) -> Self {
         let is_stable = monodromy.is_stable();
         Self {
@@ -144,7 +146,7 @@ impl Fixed {
     }
 }
 
-impl<'a> Met<'a> {
+impl<'a> FixedPoints<'a> {
     fn new(scene: &'a Scene) -> Result<Self, MotionError> {
         Ok(Self {
             scene,
@@ -217,7 +219,7 @@ impl<'a> Met<'a> {
     }
 
     /// True if a candidate has moved as the Jacobian of a fixed point has it near that one.
-    fn leads(&self, to: &Fixed, candidate: &Candidate) -> bool {
+    fn leads(&self, to: &FixedPoint, candidate: &Candidate) -> bool {
         let moved = candidate.state - candidate.before;
         let off = |lead| {
             self.distance
@@ -239,7 +241,7 @@ impl<'a> Met<'a> {
         let orbit = match found {
             Ok(None) => return,
             Ok(Some((state, passage))) if steepness(&passage) <= STEEP => {
-                self.all.push(Fixed::new(state, passage.monodromy));
+                self.all.push(FixedPoint::new(state, passage.monodromy));
                 if !passage.monodromy.is_stable() {
                     return;
                 }
@@ -251,7 +253,8 @@ impl<'a> Met<'a> {
             Err(_) => Orbit::by_guesses(self.scene, state, 1, 1),
         };
         if let Some(orbit) = orbit.filter(|orbit| orbit.periods == 1) {
-            self.all.push(Fixed::new(orbit.state(), orbit.monodromy));
+            self.all
+                .push(FixedPoint::new(orbit.state(), orbit.monodromy));
             self.stable.extend(orbit.is_stable().then_some(orbit));
         }
     }

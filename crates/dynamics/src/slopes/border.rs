@@ -10,7 +10,7 @@ use nalgebra::{Matrix2, Vector2};
 use softstop::internals::{Influence, Motion};
 use softstop::{Clock, Parameter, Scene, SceneError, Start};
 
-use super::round::{Round, lowered, none};
+use super::variation::{Variation, lowered, none};
 use crate::continuation::{
     BranchPoint, Follower, Graze, LastArc, Special, SpecialKind, Test, grazing,
 };
@@ -227,8 +227,8 @@ fn fold(
     point: &BranchPoint,
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
-    let round = Round::of(scene, point.state(), periods, parameters)?;
-    let a = round.monodromy.matrix - Matrix2::identity();
+    let variation = Variation::of(scene, point.state(), periods, parameters)?;
+    let a = variation.monodromy.matrix - Matrix2::identity();
     let candidates = [Vector2::new(a.m21, -a.m11), Vector2::new(a.m22, -a.m12)];
     let speed = scene.scales().rate;
     let size = |w: &Vector2<f64>| w.x.hypot(w.y * speed);
@@ -238,7 +238,7 @@ fn fold(
     } else {
         second
     };
-    let forced = round.columns[2..].iter();
+    let forced = variation.columns[2..].iter();
     Ok(forced.map(|column| null.dot(&column.xy())).collect())
 }
 
@@ -249,8 +249,8 @@ fn test_rates(
     (test, point): (Test, &BranchPoint),
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
-    let round = Round::of(scene, point.state(), periods, parameters)?;
-    let rates = round.stability_rates(scene, periods)?.into_iter();
+    let variation = Variation::of(scene, point.state(), periods, parameters)?;
+    let rates = variation.stability_rates(scene, periods)?.into_iter();
     let rate = |[trace, determinant]: [f64; 2]| match test {
         Test::NeimarkSacker => determinant,
         Test::Fold | Test::Flip => trace + determinant,

@@ -19,8 +19,8 @@
 mod border;
 mod figure;
 mod peak;
-mod round;
 mod stability;
+mod variation;
 mod watch;
 
 pub use border::{Border, BorderKind};
@@ -30,7 +30,7 @@ pub use stability::{Stability, stability};
 use softstop::Parameter;
 
 use crate::orbit::{Orbit, OrbitError};
-use round::Round;
+use variation::Variation;
 
 /// The figures of a periodic motion with their derivatives.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,15 +60,15 @@ pub struct Slopes {
 /// [`OrbitError::Motion`] with [`MotionError::NoDerivative`](softstop::MotionError) or [`SceneError::Lacks`](softstop::SceneError)
 /// where there is no derivative, or no parameter; [`OrbitError::NotIsolated`] at a fold.
 pub fn of(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError> {
-    let round = Round::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
-    let starts = round.starts()?;
+    let variation = Variation::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
+    let starts = variation.starts()?;
     let figure = |found: &watch::Row| Figure {
         value: found.value,
-        by: round.along(found, &starts),
+        by: variation.along(found, &starts),
     };
-    let missing = || round.none();
-    let watched = &round.watched;
-    let (position, velocity) = round.state(&starts);
+    let missing = || variation.none();
+    let watched = &variation.watched;
+    let (position, velocity) = variation.state(&starts);
     Ok(Slopes {
         parameters: parameters.to_vec(),
         position,
@@ -84,6 +84,6 @@ pub fn of(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError>
         max_position: watched.highest.as_ref().map(figure).ok_or_else(missing)?,
         min_position: watched.lowest.as_ref().map(figure).ok_or_else(missing)?,
         peak_force: watched.force.as_ref().map(figure),
-        supplied: figure(&round.supplied),
+        supplied: figure(&variation.supplied),
     })
 }

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use softstop::{Parameter, Scene};
 
 use super::figure::Figure;
-use super::round::{Round, none};
+use super::variation::{Variation, none};
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
 /// Shares of a parameter over which the monodromy matrix is differenced: the next where the orbit beside crosses something
@@ -55,8 +55,8 @@ impl Stability {
 /// As [`of`](super::of); [`NoDerivative`](softstop::MotionError::NoDerivative) also where motions beside cross something
 /// else, however near.
 pub fn stability(orbit: &Orbit, parameters: &[Parameter]) -> Result<Stability, OrbitError> {
-    let round = Round::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
-    let rates = round.stability_rates(&orbit.scene, orbit.periods)?;
+    let variation = Variation::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
+    let rates = variation.stability_rates(&orbit.scene, orbit.periods)?;
     let figure = |value: f64, which: usize| Figure {
         value,
         by: rates.iter().map(|rates| rates[which]).collect(),
@@ -67,7 +67,7 @@ pub fn stability(orbit: &Orbit, parameters: &[Parameter]) -> Result<Stability, O
     })
 }
 
-impl Round {
+impl Variation {
     /// Derivatives of trace and determinant along the orbit, by each parameter.
     pub(super) fn stability_rates(
         &self,

@@ -57,7 +57,7 @@ pub fn find_among(
 /// a surface beyond the clearance, as of a rigid stop behind the other, may end one above as well as a fold.
 ///
 /// # Errors
-/// Each as [`hysteresis_soon`](super::hysteresis_soon) or [`single_impact`].
+/// Each as [`hysteresis_batch`](super::hysteresis_batch) or [`single_impact`].
 pub fn find_zones(
     kind: ZoneKind,
     scenes: &[Scene],

@@ -56,11 +56,11 @@ pub(super) enum Upper {
 ///
 /// # Errors
 /// Each as [`hysteresis_watched`].
-pub fn hysteresis_soon(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
+pub fn hysteresis_batch(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
     zones_of(scenes, Upper::Fold, watcher)
 }
 
-/// The zones of [`hysteresis_soon`], or those that something else may end, too.
+/// The zones of [`hysteresis_batch`], or those that something else may end, too.
 pub(super) fn zones_of(
     scenes: &[Scene],
     upper: Upper,

@@ -19,7 +19,7 @@ pub(crate) use end::first_end;
 pub use end::{EndKind, Loss, ZoneEnd};
 pub use find::{find, find_among, find_watched, find_zones};
 pub use grazing::{free_amplitude, grazing_frequencies};
-pub use hysteresis::{hysteresis, hysteresis_soon, hysteresis_watched};
+pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_watched};
 pub use loss::{end_along, loss_of_stability};
 pub use places::{Zone, ZoneKind};
 pub use single_impact::single_impact;

@@ -12,7 +12,7 @@ use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::settled::Seen;
 use softstop_dynamics::zone::{
-    free_amplitude, grazing_frequencies, hysteresis_soon, loss_of_stability,
+    free_amplitude, grazing_frequencies, hysteresis_batch, loss_of_stability,
 };
 use softstop_dynamics::{Exponents, MotionKind, Orbit, Regime, StroboscopicMap, Stroke, Zone};
 
@@ -101,7 +101,7 @@ impl Study {
         let zones = match wanted(Output::is_of_zone) {
             true => {
                 let scenes = machines.iter().map(|machine| machine.scene.clone());
-                hysteresis_soon(&scenes.collect::<Vec<_>>(), &interrupt::watch)
+                hysteresis_batch(&scenes.collect::<Vec<_>>(), &interrupt::watch)
             }
             false => Vec::new(),
         };

@@ -10,7 +10,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::median::median;
 use softstop_console::progress::Progress;
-use softstop_dynamics::zone::hysteresis_soon;
+use softstop_dynamics::zone::hysteresis_batch;
 
 /// Machines between two looks at whether to stop.
 const BLOCK: usize = 256;
@@ -87,7 +87,7 @@ impl Grid {
             let begin = Instant::now();
             found = 0;
             for block in scenes.chunks(BLOCK) {
-                let zones = one.install(|| hysteresis_soon(block, &interrupt::watch));
+                let zones = one.install(|| hysteresis_batch(block, &interrupt::watch));
                 found += zones.iter().filter(|zone| zone.is_ok()).count();
                 progress.steps(0)?;
             }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arclength::{Care, Equations, Node, correct_with, tangent, tangent_with};
+use super::arclength::{Accuracy, Equations, Node, correct_with, tangent, tangent_with};
 use crate::orbit::OrbitError;
 
 /// First, smallest and largest arclength steps.
@@ -28,28 +28,28 @@ const QUICK_GROWTH: (f64, f64) = (0.5, 2.5);
 const DOUBTFUL: f64 = 1e-3;
 
 /// Goes along a curve with adaptive steps.
-pub(crate) struct Walker<'a, E: Equations> {
+pub(crate) struct Stepper<'a, E: Equations> {
     equations: &'a E,
     pub node: Node<E::Point>,
     pub direction: DVector<f64>,
     slopes: DMatrix<f64>,
     /// The last node and the direction there.
     last: Option<(DVector<f64>, DVector<f64>)>,
-    care: Care,
+    accuracy: Accuracy,
     is_renewed: bool,
     pub step: f64,
     largest: f64,
 }
 
 /// A step that can be taken.
-pub(crate) struct Stride<P> {
+pub(crate) struct CurveStep<P> {
     pub node: Node<P>,
     pub direction: DVector<f64>,
     slopes: DMatrix<f64>,
     growth: f64,
 }
 
-impl<'a, E: Equations> Walker<'a, E> {
+impl<'a, E: Equations> Stepper<'a, E> {
     /// From a node on the side of `along`, with steps of at most `largest`.
     pub fn new(
         equations: &'a E,
@@ -61,7 +61,7 @@ impl<'a, E: Equations> Walker<'a, E> {
         Ok(Self {
             equations,
             last: None,
-            care: Care::Full,
+            accuracy: Accuracy::Full,
             is_renewed: false,
             node,
             direction,
@@ -75,7 +75,7 @@ impl<'a, E: Equations> Walker<'a, E> {
     pub fn quick(self) -> Self {
         let (step, largest) = QUICK_STEPS;
         Self {
-            care: Care::Quick,
+            accuracy: Accuracy::Quick,
             step,
             largest,
             ..self
@@ -83,23 +83,23 @@ impl<'a, E: Equations> Walker<'a, E> {
     }
 
     /// The next node at the present length of step.
-    pub fn attempt(&self) -> Result<Stride<E::Point>, OrbitError> {
+    pub fn attempt(&self) -> Result<CurveStep<E::Point>, OrbitError> {
         let guess = self.guess();
         let mut slopes = Some(self.slopes.clone());
         let (equations, across) = (self.equations, Some(&self.direction));
-        let node = correct_with(equations, &guess, across, &mut slopes, self.care)?;
-        let (direction, slopes) = tangent_with(equations, &node, &self.direction, self.care)?;
+        let node = correct_with(equations, &guess, across, &mut slopes, self.accuracy)?;
+        let (direction, slopes) = tangent_with(equations, &node, &self.direction, self.accuracy)?;
         let turn = direction.dot(&self.direction);
         let leaps = (&node.at - &self.node.at).norm() > LONGEST_CHORD * self.step;
-        let (largest, growth) = match self.care {
-            Care::Quick => (QUICK_TURN, quick_growth(turn, (&node.at - guess).norm())),
+        let (largest, growth) = match self.accuracy {
+            Accuracy::Quick => (QUICK_TURN, quick_growth(turn, (&node.at - guess).norm())),
             _ if turn > GENTLE_TURN => (LARGEST_TURN, GROWTH),
             _ => (LARGEST_TURN, 1.0),
         };
         if turn <= largest || leaps {
             return Err(OrbitError::Diverged { residual: 0.0 });
         }
-        Ok(Stride {
+        Ok(CurveStep {
             node,
             direction,
             slopes,
@@ -121,7 +121,8 @@ impl<'a, E: Equations> Walker<'a, E> {
         let (ahead, share) = (&self.direction - mean, self.step / far);
         let cubic = 2.0 * &ahead - &turn;
         let bend = self.step * share * ((&ahead + &cubic) + share * cubic);
-        let leans = self.care == Care::Quick || self.equations.is_steep(&self.node.here.point);
+        let leans =
+            self.accuracy == Accuracy::Quick || self.equations.is_steep(&self.node.here.point);
         let along = if leans {
             0.0
         } else {
@@ -131,19 +132,19 @@ impl<'a, E: Equations> Walker<'a, E> {
     }
 
     /// Goes there.
-    pub fn take(&mut self, stride: Stride<E::Point>) {
-        let last = std::mem::replace(&mut self.node, stride.node);
-        let before = std::mem::replace(&mut self.direction, stride.direction);
+    pub fn take(&mut self, step: CurveStep<E::Point>) {
+        let last = std::mem::replace(&mut self.node, step.node);
+        let before = std::mem::replace(&mut self.direction, step.direction);
         self.last = Some((last.at, before));
-        self.slopes = stride.slopes;
+        self.slopes = step.slopes;
         self.is_renewed = false;
-        self.step = (stride.growth * self.step).min(self.largest);
+        self.step = (step.growth * self.step).min(self.largest);
     }
 
     /// Shortens the step; false if it is the shortest already. A quick node, whose direction is that of the place one
     /// Newton step before, perhaps beyond a corner, is looked at anew.
     pub fn shorten(&mut self) -> bool {
-        if self.care == Care::Quick && self.step < DOUBTFUL && !self.is_renewed {
+        if self.accuracy == Accuracy::Quick && self.step < DOUBTFUL && !self.is_renewed {
             self.is_renewed = true;
             self.renew().unwrap_or_default();
             return true;
@@ -156,7 +157,13 @@ impl<'a, E: Equations> Walker<'a, E> {
     /// The node and the direction there to the last digit.
     fn renew(&mut self) -> Result<(), OrbitError> {
         let across = Some(&self.direction);
-        let node = correct_with(self.equations, &self.node.at, across, &mut None, Care::Full)?;
+        let node = correct_with(
+            self.equations,
+            &self.node.at,
+            across,
+            &mut None,
+            Accuracy::Full,
+        )?;
         let (direction, slopes) = tangent(self.equations, &node, &self.direction)?;
         (self.node, self.direction, self.slopes, self.last) = (node, direction, slopes, None);
         Ok(())

@@ -5,20 +5,20 @@ use std::sync::Arc as Shared;
 use nalgebra::Vector2;
 
 use super::face::{Face, Touch};
-use super::round::carry_on;
+use super::period_map::carry_on;
 use crate::orbit::turn::turns;
 use softstop::internals::{Motion, Phases};
 use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene};
 
 /// An orbit seen from close by.
-pub(crate) struct Nearby {
+pub(crate) struct CloseApproaches {
     /// The turning point that comes nearest to the surface ahead of it, if any turns before one.
     pub turn: Option<Touch>,
     /// Times in s, positions and kinds of all crossings, in order.
     crossings: Vec<(f64, f64, CrossingKind)>,
 }
 
-impl Nearby {
+impl CloseApproaches {
     /// How many crossings go with one, at a time, if it dies: a rebound with the rest right after it, all up to the way
     /// back through a surface otherwise.
     pub fn taken(&self, time: f64) -> usize {
@@ -46,11 +46,11 @@ impl Nearby {
 }
 
 /// How an orbit comes near to surfaces.
-pub(crate) fn nearby(
+pub(crate) fn close_approaches(
     (scene, phases): (&Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
-) -> Result<Nearby, MotionError> {
+) -> Result<CloseApproaches, MotionError> {
     let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), state.into())?;
     let mut turns = Turns {
         clock: *motion.clock(),
@@ -65,7 +65,7 @@ pub(crate) fn nearby(
         carry_on(&mut motion, Clock::at_cycle(period), &mut turns)?;
     }
     motion.tell_arc(&mut turns);
-    Ok(Nearby {
+    Ok(CloseApproaches {
         turn: turns.nearest,
         crossings: turns.crossings,
     })

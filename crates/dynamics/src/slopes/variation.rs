@@ -13,7 +13,7 @@ use crate::orbit::{Monodromy, OrbitError};
 const SINGULAR: f64 = 1e-11;
 
 /// A motion from time 0 over some drive periods.
-pub(super) struct Round {
+pub(super) struct Variation {
     pub parameters: Vec<Parameter>,
     pub start: Vector2<f64>,
     frequency: f64,
@@ -42,7 +42,7 @@ pub(super) fn none(parameters: &[Parameter]) -> OrbitError {
     MotionError::NoDerivative { name }.into()
 }
 
-impl Round {
+impl Variation {
     pub fn of(
         scene: &Scene,
         start: Vector2<f64>,

@@ -1,4 +1,4 @@
-//! One round of an orbit: everything that its followers look at.
+//! The map over the drive periods of an orbit, with everything that a continuation looks at.
 
 use std::sync::Arc as Shared;
 
@@ -12,9 +12,9 @@ use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
 };
 
-/// What happens from time 0 over a number of drive periods.
+/// The image of a state after a number of drive periods from time 0, its derivatives, and what happens on the way.
 #[derive(Debug, Clone)]
-pub(crate) struct Round {
+pub(crate) struct PeriodMap {
     /// Where it begins: the state, or the face of a rigid stop for a state beyond it.
     pub start: Vector2<f64>,
     /// States after each drive period.
@@ -33,8 +33,8 @@ pub(crate) struct Round {
     pub margin: f64,
 }
 
-impl Round {
-    /// The round of a valid scene, with its phases, from a state, with its derivative by the drive's frequency if that is
+impl PeriodMap {
+    /// The map of a valid scene, with its phases, from a state; with its derivative by the drive's frequency if that is
     /// wanted.
     pub fn of(
         machine: (&Scene, Shared<Phases>),
@@ -43,33 +43,33 @@ impl Round {
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
         let mut detuning = Detuning::default();
-        let (seen, by_frequency) = if by_frequency {
-            let (seen, motion) = seen(machine, periods, state, &mut detuning)?;
-            (seen, detuning.at_drive_angle(&motion))
+        let (followed, by_frequency) = if by_frequency {
+            let (followed, motion) = follow(machine, periods, state, &mut detuning)?;
+            (followed, detuning.at_drive_angle(&motion))
         } else {
-            (
-                seen(machine, periods, state, &mut detuning.tangent)?.0,
-                None,
-            )
+            let (followed, _) = follow(machine, periods, state, &mut detuning.tangent)?;
+            (followed, None)
         };
-        let Seen { start, ends, watch } = seen;
-        let at_wall = watch
-            .scene
-            .wall()
-            .is_some_and(|wall| wall.position == start.x);
+        let Followed {
+            start,
+            ends,
+            monitor,
+        } = followed;
+        let wall = monitor.scene.wall();
+        let at_wall = wall.is_some_and(|wall| wall.position == start.x);
         Ok(Self {
             start,
             ends,
             // Whatever comes to rest at a rigid stop goes on alike.
-            monodromy: match at_wall && watch.margin == 0.0 {
+            monodromy: match at_wall && monitor.margin == 0.0 {
                 true => Monodromy::ZERO,
                 false => Monodromy::from(&detuning.tangent),
             },
             by_frequency,
-            impacts: watch.impacts,
-            sequence: watch.sequence,
-            slowest: watch.slowest,
-            margin: watch.margin,
+            impacts: monitor.impacts,
+            sequence: monitor.sequence,
+            slowest: monitor.slowest,
+            margin: monitor.margin,
         })
     }
 
@@ -79,35 +79,35 @@ impl Round {
     }
 }
 
-/// The state in the end of a round, and how often it crosses what, without any derivative.
+/// The image alone of a state, and how often the motion crosses what, without any derivative.
 pub(crate) fn image(
     machine: (&Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Sequence), MotionError> {
-    let (Seen { ends, watch, .. }, _) = seen(machine, periods, state, &mut ())?;
-    Ok((ends[ends.len() - 1], watch.sequence))
+    let (Followed { ends, monitor, .. }, _) = follow(machine, periods, state, &mut ())?;
+    Ok((ends[ends.len() - 1], monitor.sequence))
 }
 
-/// What is seen of a round.
-struct Seen<'a> {
+/// A motion from a state over the periods.
+struct Followed<'a> {
     start: Vector2<f64>,
     ends: Vec<Vector2<f64>>,
-    watch: Watch<'a>,
+    monitor: Monitor<'a>,
 }
 
-/// Follows a round, which another observer watches, too, to the motion at its end.
-fn seen<'a>(
+/// Follows a motion over the periods, which another observer watches, too.
+fn follow<'a>(
     (scene, phases): (&'a Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
     other: &mut impl Observer,
-) -> Result<(Seen<'a>, Motion), MotionError> {
+) -> Result<(Followed<'a>, Motion), MotionError> {
     let start = before_wall(scene, state);
     let begin = Start::from(start);
     begin.validate()?;
     let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
-    let mut watch = Watch {
+    let mut monitor = Monitor {
         scene,
         clock: *motion.clock(),
         impacts: Vec::new(),
@@ -124,13 +124,20 @@ fn seen<'a>(
         carry_on(
             &mut motion,
             Clock::at_cycle(period),
-            &mut (&mut watch, &mut *other),
+            &mut (&mut monitor, &mut *other),
         )?;
         ends.push(motion.state().into());
     }
-    motion.tell_arc(&mut (&mut watch, other));
-    watch.sequence.impacts = watch.impacts.len();
-    Ok((Seen { start, ends, watch }, motion))
+    motion.tell_arc(&mut (&mut monitor, other));
+    monitor.sequence.impacts = monitor.impacts.len();
+    Ok((
+        Followed {
+            start,
+            ends,
+            monitor,
+        },
+        motion,
+    ))
 }
 
 /// Distance and speed, in the scene's scales, within which a mass rests at a rigid stop.
@@ -171,7 +178,7 @@ pub(crate) fn carry_on(
     })
 }
 
-struct Watch<'a> {
+struct Monitor<'a> {
     scene: &'a Scene,
     clock: Clock,
     impacts: Vec<f64>,
@@ -196,7 +203,7 @@ struct Row {
     impacts: usize,
 }
 
-impl Observer for Watch<'_> {
+impl Observer for Monitor<'_> {
     fn arc(&mut self, arc: &Arc<'_>, _: f64) {
         let was_held = std::mem::replace(&mut self.is_held, arc.course.is_held());
         if self.is_held && arc.start == Clock::at_cycle(0) {
@@ -223,7 +230,7 @@ impl Observer for Watch<'_> {
     }
 }
 
-impl Watch<'_> {
+impl Monitor<'_> {
     fn turns(&mut self) {
         self.sequence.reversals += 1;
         if let Some((_, turned)) = &mut self.touched {

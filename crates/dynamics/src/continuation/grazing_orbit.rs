@@ -12,14 +12,14 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node};
 use super::face::Face;
-use super::round::carry_on;
+use super::period_map::carry_on;
 use super::shooting::round_off;
 use crate::orbit::{Monodromy, OrbitError};
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene, Tangent};
 
 /// Grazing orbits of a family, in unknowns: drive angle of the touch, scaled parameters.
 #[derive(Debug)]
-pub(crate) struct Touching<'a, F, const N: usize> {
+pub(crate) struct GrazingOrbit<'a, F, const N: usize> {
     pub family: &'a F,
     pub periods: u64,
     /// Crossings of the orbit, the touch left out.
@@ -30,7 +30,7 @@ pub(crate) struct Touching<'a, F, const N: usize> {
 
 /// A grazing orbit.
 #[derive(Debug, Clone)]
-pub(crate) struct Contact {
+pub(crate) struct GrazingPoint {
     /// Jacobian of the map as if the stop were not there, from touch to touch.
     pub monodromy: Monodromy,
     /// Before-impact velocities in m/s, that of the touch left out.
@@ -42,7 +42,7 @@ const LOST: OrbitError = OrbitError::Diverged {
     residual: f64::INFINITY,
 };
 
-impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
+impl<F: Family<N>, const N: usize> GrazingOrbit<'_, F, N> {
     pub fn scaled(&self, angle: f64, parameters: [f64; N]) -> DVector<f64> {
         let spans = self.family.parameter_scales();
         let scaled = parameters
@@ -85,7 +85,7 @@ impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
     }
 
     /// The state of a grazing orbit at time 0 of its family's scene.
-    pub fn state(&self, node: &Node<Contact>) -> Result<Vector2<f64>, OrbitError> {
+    pub fn state(&self, node: &Node<GrazingPoint>) -> Result<Vector2<f64>, OrbitError> {
         let parameters = self.parameters(&node.at);
         let phase = self.family.scene(parameters)?.excitation.phase;
         let (scene, touch) = self.scene(&node.at)?;
@@ -105,27 +105,31 @@ impl<F: Family<N>, const N: usize> Touching<'_, F, N> {
     }
 }
 
-impl<F: Family<N>, const N: usize> Equations for Touching<'_, F, N> {
-    type Point = Contact;
+impl<F: Family<N>, const N: usize> Equations for GrazingOrbit<'_, F, N> {
+    type Point = GrazingPoint;
     const EXACT: usize = 0;
 
-    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Contact>, OrbitError> {
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<GrazingPoint>, OrbitError> {
         let (scene, touch) = self.scene(at)?;
         let (residual, Seen { tangent, impacts }) = self.around(&scene, touch)?;
         let monodromy = Monodromy::from(&tangent);
         Ok(Evaluation {
             residual,
             tolerance: round_off(&scene, &touch, &monodromy, self.family.state_scales()),
-            point: Contact { monodromy, impacts },
+            point: GrazingPoint { monodromy, impacts },
         })
     }
 
-    fn beside(&self, _: &Contact, at: &DVector<f64>) -> Result<(DVector<f64>, bool), OrbitError> {
+    fn beside(
+        &self,
+        _: &GrazingPoint,
+        at: &DVector<f64>,
+    ) -> Result<(DVector<f64>, bool), OrbitError> {
         let (scene, touch) = self.scene(at)?;
         Ok((self.around::<()>(&scene, touch)?.0, true))
     }
 
-    fn jacobian(&self, _: &Evaluation<Contact>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+    fn jacobian(&self, _: &Evaluation<GrazingPoint>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         slopes.clone()
     }
 }

@@ -3,12 +3,12 @@
 use super::Family;
 use super::arclength::{DIFFERENCE, Equations, Node, correct};
 use super::follower::{Follower, keeps_sense};
-use super::graze::Approach;
+use super::grazing_test::GrazingTest;
+use super::period_map::PeriodMap;
 use super::point::{Special, SpecialKind};
-use super::round::Round;
 use super::shooting::Shooting;
+use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
-use super::walker::{Stride, Walker};
 use super::way::{Border, End, Limits, Way};
 use crate::orbit::OrbitError;
 
@@ -38,15 +38,15 @@ impl<F: Family> Follower<'_, F> {
     pub(super) fn give_up(
         &self,
         way: &mut Way,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        approach: &Approach,
+        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        grazing_test: &GrazingTest,
         limits: &Limits,
         error: OrbitError,
     ) {
-        if way.grazes(self.graze_within(AHEAD, walker, approach)) {
+        if way.grazes(self.graze_within(AHEAD, stepper, grazing_test)) {
             return;
         }
-        if let Some(node) = self.bound_at(&walker.node, limits) {
+        if let Some(node) = self.bound_at(&stepper.node, limits) {
             way.end = match self.point_at(&node) {
                 Ok(point) => {
                     way.points.push(point);
@@ -56,10 +56,10 @@ impl<F: Family> Follower<'_, F> {
             };
             return;
         }
-        let dies = approach.dies_within(NEAR).then_some(Border::Surface);
-        way.end = match self.border_ahead(walker, &error).or(dies) {
+        let dies = grazing_test.dies_within(NEAR).then_some(Border::Surface);
+        way.end = match self.border_ahead(stepper, &error).or(dies) {
             Some(border) => End::Border(border),
-            None if self.shooting.growth(&walker.node.here.point.monodromy) * DIFFERENCE > 1.0 => {
+            None if self.shooting.growth(&stepper.node.here.point.monodromy) * DIFFERENCE > 1.0 => {
                 End::Unstable
             }
             None => End::Lost(error),
@@ -70,12 +70,12 @@ impl<F: Family> Follower<'_, F> {
     /// beyond which no orbit goes on. A mass that slips ever less along the branch comes to be held for good.
     fn border_ahead(
         &self,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
+        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
         error: &OrbitError,
     ) -> Option<Border> {
-        let node = &walker.node;
+        let node = &stepper.node;
         let border = |reach: f64| {
-            let there = &node.at + reach * &walker.direction;
+            let there = &node.at + reach * &stepper.direction;
             let beyond = self.shooting.evaluate(&there).ok()?;
             node.here.point.sequence.border(&beyond.point.sequence)
         };
@@ -92,18 +92,18 @@ impl<F: Family> Follower<'_, F> {
     /// True if nothing can be missed on a step.
     pub(super) fn may_take(
         &self,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        stride: &Stride<Round>,
-        (now, ahead): (&Approach, &Approach),
+        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        step: &CurveStep<PeriodMap>,
+        (now, ahead): (&GrazingTest, &GrazingTest),
     ) -> bool {
-        let (from, to) = (&walker.node.here.point, &stride.node.here.point);
+        let (from, to) = (&stepper.node.here.point, &step.node.here.point);
         let same = from.sequence.agrees(&to.sequence)
             && self.shooting.growth(&to.monodromy) < WILD
             && keeps_sense(
-                (&walker.direction, &from.monodromy),
-                (&stride.direction, &to.monodromy),
+                (&stepper.direction, &from.monodromy),
+                (&step.direction, &to.monodromy),
             );
-        if walker.step < SHORT {
+        if stepper.step < SHORT {
             return same;
         }
         Test::change_little(&from.monodromy, &to.monodromy)
@@ -115,36 +115,36 @@ impl<F: Family> Follower<'_, F> {
     /// a multiplier grows without bounds: from a stable orbit on, the branch folds or flips before, on shorter steps.
     pub(super) fn graze_ahead(
         &self,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        approach: &Approach,
+        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        grazing_test: &GrazingTest,
     ) -> Option<Special> {
-        if walker.step > CLOSE {
+        if stepper.step > CLOSE {
             return None;
         }
-        let round = &walker.node.here.point;
+        let round = &stepper.node.here.point;
         let never_rests = round.sequence.rests == 0 && round.sequence.holds == 0;
         let turns_unstable = never_rests && round.monodromy.is_stable();
         let ends = |special: &Special| match special.kind {
             SpecialKind::Grazing(graze) => {
-                let goes_on = approach.is_gentle(graze.face)
+                let goes_on = grazing_test.is_gentle(graze.face)
                     || graze.dies && turns_unstable
-                    || self.folds_before(special, walker);
+                    || self.folds_before(special, stepper);
                 !goes_on
             }
             SpecialKind::Critical(_) => false,
         };
-        self.graze_within(2.0 * walker.step, walker, approach)
+        self.graze_within(2.0 * stepper.step, stepper, grazing_test)
             .filter(ends)
     }
 
     /// True if the branch turns back between a node and a grazing: right before it multipliers grow without bounds.
-    fn folds_before(&self, special: &Special, walker: &Walker<'_, Shooting<'_, F, 1>>) -> bool {
+    fn folds_before(&self, special: &Special, stepper: &Stepper<'_, Shooting<'_, F, 1>>) -> bool {
         let Ok(at) = self.place(&special.point) else {
             return false;
         };
-        let (from, way) = (&walker.node.here.point, at - &walker.node.at);
+        let (from, way) = (&stepper.node.here.point, at - &stepper.node.at);
         let turns = |share: &f64| {
-            let guess = &walker.node.at + *share * &way;
+            let guess = &stepper.node.at + *share * &way;
             let found = correct(&self.shooting, &guess, Some(&way.normalize()));
             found.is_ok_and(|Node { here, .. }| {
                 from.sequence == here.point.sequence
@@ -158,17 +158,17 @@ impl<F: Family> Follower<'_, F> {
     fn graze_within(
         &self,
         reach: f64,
-        walker: &Walker<'_, Shooting<'_, F, 1>>,
-        approach: &Approach,
+        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        grazing_test: &GrazingTest,
     ) -> Option<Special> {
         let is_ahead = |special: &&Special| {
             let Ok(at) = self.place(&special.point) else {
                 return false;
             };
-            let way = at - &walker.node.at;
-            way.norm() < reach && way.dot(&walker.direction) > 0.5 * way.norm()
+            let way = at - &stepper.node.at;
+            way.norm() < reach && way.dot(&stepper.direction) > 0.5 * way.norm()
         };
-        let mut grazes = approach.grazes(&self.shooting).iter();
+        let mut grazes = grazing_test.grazes(&self.shooting).iter();
         grazes.find(is_ahead).cloned()
     }
 }

@@ -7,18 +7,18 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Node, correct};
+use super::close_approaches::close_approaches;
 use super::face::{Face, Touch};
-use super::near::nearby;
+use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
+use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
-use super::round::Round;
 use super::shooting::Shooting;
-use super::touching::{Contact, Touching};
 use crate::orbit::OrbitError;
 use softstop::MotionError;
 
 /// An orbit's slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
-pub(crate) struct Approach {
+pub(crate) struct GrazingTest {
     dying: Option<Touch>,
     rising: Option<Touch>,
     /// Crossings of the orbit, and those that a dying impact takes along.
@@ -35,22 +35,24 @@ pub(crate) struct Approach {
     grazes: OnceCell<Vec<Special>>,
 }
 
-impl Approach {
+impl GrazingTest {
     /// That of an orbit.
     pub fn of<F: Family>(
         shooting: &Shooting<'_, F, 1>,
-        node: &Node<Round>,
+        node: &Node<PeriodMap>,
     ) -> Result<Self, MotionError> {
         let scene = shooting.scene(&node.at)?;
         let round = &node.here.point;
         let total = round.sequence.crossings();
         let machine = (&scene, shooting.phases(&scene));
-        let nearby = nearby(machine, shooting.periods, round.start)?;
-        let taken = round.slowest.map_or(0, |touch| nearby.taken(touch.time));
+        let close_approaches = close_approaches(machine, shooting.periods, round.start)?;
+        let taken = round
+            .slowest
+            .map_or(0, |touch| close_approaches.taken(touch.time));
         Ok(Self {
             dying: round.slowest,
             gentle: Face::ALL.map(|face| face.is_gentle(&scene)),
-            rising: nearby.turn,
+            rising: close_approaches.turn,
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
             drive: (scene.excitation.phase, scene.excitation.frequency),
@@ -134,7 +136,7 @@ pub(crate) fn grazing<F: Family>(
     phase: f64,
     parameter: f64,
 ) -> Result<Special, OrbitError> {
-    let touching = Touching {
+    let touching = GrazingOrbit {
         family,
         periods,
         crossings: near.crossings,
@@ -144,7 +146,7 @@ pub(crate) fn grazing<F: Family>(
     let node = correct(&touching, &guess, None)?;
     let [parameter] = touching.parameters(&node.at);
     let state = touching.state(&node)?;
-    let Contact { monodromy, impacts } = node.here.point;
+    let GrazingPoint { monodromy, impacts } = node.here.point;
     let graze = Graze {
         angle: phase + (node.at[0] - phase).rem_euclid(TAU * periods as f64),
         impacts: impacts.len(),

@@ -1,4 +1,4 @@
-//! Motions from starts all around, followed together until they come back near to where they were.
+//! Motions from starts all around the plane of states, followed together: they show where periodic motions may be.
 
 use std::f64::consts::TAU;
 
@@ -68,7 +68,7 @@ pub(super) struct Trial {
     pub is_open: bool,
 }
 
-/// Motions of some machines from starts all around, followed together.
+/// Motions of some machines from starts all around, followed together: trials of a search.
 pub(super) struct Trials {
     all: Vec<Trial>,
     /// Of each machine.
@@ -113,13 +113,13 @@ impl Trials {
             periods: until - self.cycle,
         };
         let jobs: Vec<Job> = open.iter().map(job).collect();
-        let mut returns = Returns {
+        let mut recorder = Recorder {
             trials: &mut open,
             distances: &self.distances,
             since: self.cycle,
         };
         // The caller asks the watcher itself.
-        let _ = follow(machines, &jobs, &mut returns, || watcher(0, 0));
+        let _ = follow(machines, &jobs, &mut recorder, || watcher(0, 0));
         self.cycle = until;
     }
 }
@@ -156,15 +156,15 @@ pub(super) fn settled(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
         .collect()
 }
 
-/// Keeps of each motion what becomes a candidate.
-struct Returns<'a, 'b> {
+/// Keeps of each trial what becomes a candidate.
+struct Recorder<'a, 'b> {
     trials: &'a mut [&'b mut Trial],
     distances: &'a [Distance],
     /// Drive periods before.
     since: u64,
 }
 
-impl Watch for Returns<'_, '_> {
+impl Watch for Recorder<'_, '_> {
     const IMPACTS: bool = true;
     const PERIODS: bool = true;
 

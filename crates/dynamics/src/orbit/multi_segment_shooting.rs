@@ -34,7 +34,7 @@ const LARGEST_SHIFT: f64 = 0.1;
 pub(super) type Unknowns = DVector<f64>;
 
 /// The impacts of a periodic motion to be.
-pub(super) struct Legs<'a> {
+pub(super) struct MultiSegmentShooting<'a> {
     pub(super) scene: &'a Scene,
     scales: Scales,
     pub(super) face: Face,
@@ -81,7 +81,7 @@ impl From<Failed> for OrbitError {
     }
 }
 
-impl<'a> Legs<'a> {
+impl<'a> MultiSegmentShooting<'a> {
     /// None if the scene has no stop.
     pub(super) fn new(scene: &'a Scene, periods: u64) -> Option<Self> {
         let face = Face::new(Shared::new(scene.phases()), scene.clock())?;
