@@ -119,15 +119,6 @@ impl Width {
         }
     }
 
-    /// So many times as wide.
-    #[must_use]
-    pub fn times(self, factor: f64) -> Self {
-        match self {
-            Self::Own(width) => Self::Own(factor * width),
-            Self::Share(share) => Self::Share(factor * share),
-        }
-    }
-
     /// Around a value, in the units of the value.
     pub fn around(&self, value: f64) -> f64 {
         match self {

@@ -10,6 +10,7 @@
 //! function of every solver of `argmin` that needs no derivatives.
 
 use rayon::prelude::*;
+use softstop::internals::plain;
 use softstop_dynamics::watch::Kept;
 use softstop_dynamics::zone::ZoneKind;
 
@@ -25,7 +26,7 @@ use super::improve_catalogue::improve_catalogue;
 use super::incumbent::{Incumbent, Rank};
 use super::nearest_miss::nearest_miss;
 use super::robustify::{Robust, enforce_tolerance_box};
-use super::space::Space;
+use super::space::{Axis, Interval, Space};
 use super::survey::{Point, Survey};
 pub use super::survey::{Quiet, Unwatched, Watch};
 use super::trial::FULL;
@@ -57,13 +58,11 @@ pub struct Settings {
 /// Why a search has no design to show.
 #[derive(Debug, thiserror::Error)]
 pub enum SearchError {
-    /// Nothing within the bounds is feasible.
-    #[error(
-        "no stable z = 1 motion {zone}is as the task asks within the bounds; nearest try{place}: {reason}"
-    )]
+    /// Nothing that was met within the bounds is feasible.
+    #[error("{found}; nearest try{place}: {reason}")]
     NoDesign {
-        /// Where it was looked for, in words.
-        zone: &'static str,
+        /// What was looked for and where, in words.
+        found: String,
         /// The least infeasible point: names and values.
         place: String,
         /// What is wrong there.
@@ -78,18 +77,45 @@ pub enum SearchError {
 }
 
 impl SearchError {
-    /// Nothing within the bounds of a problem is feasible.
-    pub(super) fn no_design(problem: &Problem, place: String, reason: String) -> Self {
+    /// Nothing feasible was met of a problem whose survey saw so many machines, if it was that which met nothing: where these
+    /// lie decades apart, more is not said than that.
+    pub(super) fn no_design(
+        problem: &Problem,
+        surveyed: Option<usize>,
+        (place, reason): (String, String),
+    ) -> Self {
         let zone = match problem.zone {
             ZoneKind::Hysteresis => "in a hysteresis zone ",
             ZoneKind::SingleImpact { .. } => "",
         };
+        let sought = format!("stable z = 1 motion {zone}");
+        let found = match surveyed.zip(widest(problem)) {
+            Some((surveyed, widest)) => format!(
+                "found no {sought}that is as the task asks; the survey saw {surveyed} machines on a logarithmic lattice: narrow {widest}"
+            ),
+            None => format!("no {sought}is as the task asks within the bounds"),
+        };
         Self::NoDesign {
-            zone,
+            found,
             place,
             reason,
         }
     }
+}
+
+/// The axes that are searched by their logarithms, the widest first; none if there are none.
+fn widest(problem: &Problem) -> Option<String> {
+    let axes = problem.axes.iter();
+    let wide = axes.filter_map(|axis| Some((axis, axis.decades()?)));
+    let mut wide: Vec<(&Axis, f64)> = wide.collect();
+    wide.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let stated = |(axis, _): &(&Axis, f64)| {
+        let Interval { low, high } = axis.range;
+        let name = problem.machine.name(axis.parameter);
+        format!("{name} = [{}, {}]", plain(low), plain(high))
+    };
+    let stated: Vec<String> = wide.iter().map(stated).collect();
+    (!stated.is_empty()).then(|| stated.join(", "))
 }
 
 /// The feasible design that is best by the problem's objective. What is known of the search is recalled.
@@ -137,8 +163,9 @@ pub fn search_from(
 /// A search after its survey and its ascents.
 struct Search<'a> {
     survey: &'a Survey<'a>,
-    /// The best point of the survey.
+    /// The best point of the survey, and how many it has.
     nearest: Point,
+    surveyed: usize,
     /// The tops of hills, the best first.
     tops: Vec<Candidate>,
     /// Points of the survey that are apart from those of the ascents, the best first.
@@ -172,6 +199,7 @@ impl<'a> Search<'a> {
         });
         let mut search = Self {
             survey,
+            surveyed: points.len(),
             nearest: points.into_iter().next()?,
             tops: given.collect(),
             spare: apart,
@@ -352,7 +380,7 @@ impl<'a> Search<'a> {
             true => String::new(),
             false => format!(", at {all}"),
         };
-        SearchError::no_design(problem, place, infeasible.reason)
+        SearchError::no_design(problem, Some(self.surveyed), (place, infeasible.reason))
     }
 }
 

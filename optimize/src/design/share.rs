@@ -81,6 +81,15 @@ impl Verdict {
     }
 }
 
+/// A design with normal tolerances.
+pub(super) struct Shared {
+    pub found: Found,
+    /// Standard deviations that it keeps.
+    pub deviations: f64,
+    /// False if a search for fewer was interrupted.
+    pub is_settled: bool,
+}
+
 /// The design of [`search`], and the standard deviations that it keeps: the fewest with which the share that is counted on so
 /// many machines may be; those of the problem if nothing has a normal tolerance.
 ///
@@ -90,11 +99,15 @@ pub(super) fn search_with_share(
     problem: &Problem,
     (settings, machines): (Settings, usize),
     (watch, kept): (&dyn Watch, Kept<'_>),
-) -> Result<(Found, f64), SearchError> {
+) -> Result<Shared, SearchError> {
     let mut outcome = search(problem, settings, watch, kept);
     let mut deviations = problem.deviations;
     if !problem.has_normal_tolerances() {
-        return outcome.map(|found| (found, deviations));
+        return outcome.map(|found| Shared {
+            found,
+            deviations,
+            is_settled: true,
+        });
     }
     let mut too_few = if problem.is_box_free() {
         0.0
@@ -103,6 +116,7 @@ pub(super) fn search_with_share(
     };
     let mut enough = WIDEST;
     let (mut best, mut lack) = (None, None);
+    let mut is_settled = true;
     let mut least_share: f64 = 1.0;
     let mut starts = Vec::new();
     for _ in 0..ROUNDS {
@@ -114,6 +128,7 @@ pub(super) fn search_with_share(
                     .as_built()
                     .rejected(&found.design, machines);
                 if interrupt::requested() {
+                    is_settled = false;
                     break;
                 }
                 let aim = (1.0 - 0.5 * CLOSE) * problem.violating;
@@ -134,6 +149,10 @@ pub(super) fn search_with_share(
                 enough = deviations;
                 lack.get_or_insert(error);
             }
+            Err(SearchError::Stopped(_)) if least_share < 1.0 => {
+                is_settled = false;
+                break;
+            }
             Err(error) => return Err(error),
         }
         if enough <= too_few * (1.0 + 2.0 * NARROW) {
@@ -153,13 +172,21 @@ pub(super) fn search_with_share(
         Some(lack) => lack,
         None => SearchError::no_design(
             problem,
-            String::new(),
-            format!(
-                "a share of {} of the machines as they are built loses the motion or violates a requirement: may be {} at most",
-                short(least_share),
-                short(problem.violating)
+            None,
+            (
+                String::new(),
+                format!(
+                    "a share of {} of the machines as they are built loses the motion or violates a requirement: may be {} at most",
+                    short(least_share),
+                    short(problem.violating)
+                ),
             ),
         ),
     };
+    let best = best.map(|(found, deviations)| Shared {
+        found,
+        deviations,
+        is_settled,
+    });
     best.ok_or(failure)
 }

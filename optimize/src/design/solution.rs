@@ -11,7 +11,7 @@ use super::front::{Front, Traded, front};
 use super::pareto::Pareto;
 use super::requirement::Scope;
 use super::search::{Found, SearchError, Settings, Unwatched, Watch, search_from};
-use super::share::search_with_share;
+use super::share::{Shared, search_with_share};
 use super::{Design, Problem};
 
 /// What is traded for what is sought.
@@ -44,6 +44,8 @@ pub struct Solution {
     pub found: Found,
     /// Standard deviations of normal tolerances that it keeps.
     pub deviations: f64,
+    /// False if a search for a design that keeps fewer of them was interrupted.
+    pub is_settled: bool,
     /// The best design if nothing has a tolerance and nothing is tried.
     pub relaxed: Option<Design>,
     /// What more of one good costs of another, where it costs something.
@@ -77,8 +79,11 @@ impl Solution {
         beside: Beside,
         (watch, kept): (&dyn Watch, Kept<'_>),
     ) -> Result<Self, SearchError> {
-        let (mut found, deviations) =
-            search_with_share(problem, (settings, beside.machines), (watch, kept))?;
+        let Shared {
+            mut found,
+            deviations,
+            is_settled,
+        } = search_with_share(problem, (settings, beside.machines), (watch, kept))?;
         let problem = &problem.with_deviations(deviations);
         let relaxed_problem = problem.relaxed();
         let mut relaxed = None;
@@ -146,6 +151,7 @@ impl Solution {
             pareto,
             found,
             deviations,
+            is_settled,
             relaxed: relaxed.map(|it| it.design),
             fronts,
         })

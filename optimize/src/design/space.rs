@@ -107,7 +107,7 @@ impl Axis {
     }
 
     /// The logarithm of the upper end over the lower one, where the range spans decades.
-    fn decades(&self) -> Option<f64> {
+    pub(super) fn decades(&self) -> Option<f64> {
         let Interval { low, high } = self.range;
         let is_wide = self.catalogue.is_empty() && low > 0.0 && high.is_finite();
         (is_wide && high > DECADES * low).then(|| high.ln() - low.ln())

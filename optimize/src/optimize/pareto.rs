@@ -12,8 +12,10 @@ use crate::design::judge::Met;
 use crate::design::pareto::Pareto;
 use crate::robust::{FITTED, Settings, Verdict, verify};
 
-/// Machines within the tolerances of each design at least.
+/// Machines within the tolerances of each design at least, and in units of the machines among which one may violate a
+/// requirement: so many that the share of a design with half of that is surely small enough.
 const FEWEST_MACHINES: usize = 1 << 12;
+const SHOWING: f64 = 64.0;
 
 /// A front whose designs were judged anew.
 #[derive(Debug)]
@@ -64,7 +66,7 @@ impl CheckedFront {
         if job.samples == 0 || !problem.has_tolerances() || points.is_empty() {
             return Ok(());
         }
-        let machines = (job.samples / points.len()).max(FEWEST_MACHINES);
+        let machines = machines_of_each(&problem, (job.samples, points.len()));
         let settings = Settings {
             machines,
             ..Settings::default()
@@ -90,5 +92,44 @@ impl CheckedFront {
         self.machines = Some(machines);
         self.pareto.keep(&is_kept);
         Ok(())
+    }
+}
+
+/// Machines to look at about each design: of all together as many as about one, but enough of each to show the share that may
+/// violate a requirement, as far as those do.
+fn machines_of_each(problem: &Problem, (machines, designs): (usize, usize)) -> usize {
+    let showing = match problem.has_normal_tolerances() {
+        true => machines.min((SHOWING / problem.violating) as usize),
+        false => 0,
+    };
+    (machines / designs).max(FEWEST_MACHINES).max(showing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Problem, machines_of_each};
+    use crate::design::problem::{Tolerance, Width};
+    use crate::robust::Distribution;
+    use softstop::{Machine, Parameter};
+    use softstop_dynamics::basin::wilson;
+
+    #[test]
+    fn enough_machines_show_a_small_share() {
+        let machine = Machine::named("unloaded").expect("the paper's machine");
+        let mut problem = Problem::of(machine, Vec::new());
+        assert_eq!(machines_of_each(&problem, (1 << 20, 16)), 1 << 16);
+        assert_eq!(machines_of_each(&problem, (1 << 10, 16)), 1 << 12);
+        problem.tolerances.push(Tolerance {
+            distribution: Distribution::Normal(3.0),
+            ..Tolerance::new(Parameter::Clearance, Width::Share(0.01))
+        });
+        for violating in [1e-4, 2.7e-3] {
+            problem.violating = violating;
+            let machines = machines_of_each(&problem, (1 << 20, 16));
+            let half = (0.5 * violating * machines as f64) as usize;
+            assert!(wilson(half, machines)[1] < violating, "{machines}");
+        }
+        problem.violating = 1e-5;
+        assert_eq!(machines_of_each(&problem, (1 << 20, 16)), 1 << 20);
     }
 }

@@ -37,24 +37,26 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let mut interrupted = None;
     let solution = match outcome {
         Ok(solution) => solution,
-        Err(SearchError::Stopped(Some(found))) => {
-            interrupt::save();
-            interrupted = Some(Interrupted::Search);
-            Solution {
-                found: *found,
-                deviations: job.problem.deviations,
-                relaxed: None,
-                fronts: Vec::new(),
-                pareto: None,
-            }
-        }
+        Err(SearchError::Stopped(Some(found))) => Solution {
+            found: *found,
+            deviations: job.problem.deviations,
+            is_settled: false,
+            relaxed: None,
+            fronts: Vec::new(),
+            pareto: None,
+        },
         Err(SearchError::Stopped(None)) => return Err(Failure::Interrupted),
         Err(SearchError::OverBudget) => return Err(anyhow!(job.budget.refusal()).into()),
         Err(error) => return Err(Failure::Run(error.into())),
     };
+    if !solution.is_settled {
+        interrupt::save();
+        interrupted = Some(Interrupted::Search);
+    }
     let Solution {
         found,
         deviations,
+        is_settled: _,
         relaxed,
         fronts,
         pareto,
@@ -63,7 +65,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let mut met = met(problem, &found);
     if interrupt::requested() {
         interrupt::save();
-        interrupted = Some(Interrupted::Report);
+        interrupted.get_or_insert(Interrupted::Report);
         met = self::met(problem, &found);
     }
     let met = met?;

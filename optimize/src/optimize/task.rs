@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use softstop::internals::plain;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
@@ -26,9 +27,10 @@ use super::tolerance::tolerances;
 use super::vary::{Searched, held, searched, variables};
 use super::{OptimizeArguments, older};
 use crate::design::Problem;
+use crate::design::conflict::short;
 use crate::design::cost::Cost;
 use crate::design::figure::Figure;
-use crate::design::problem::{Objective, Tolerance};
+use crate::design::problem::{Objective, Tolerance, Width};
 use crate::design::requirement::Scope;
 use crate::design::search::{LEAST_EVALUATIONS, Settings};
 use crate::design::space::Axis;
@@ -104,13 +106,10 @@ impl Job {
             let axis = axes.iter().find(|it| it.parameter == tolerance.parameter);
             let highest = axis.map(|it| it.range.high);
             let (_, factor) = tolerance.distribution.over(deviations);
-            let reserved = Tolerance {
-                width: tolerance.width.times(reserve * factor),
-                ..*tolerance
-            };
-            leaves_machines(&machine, &reserved, highest).map_err(located)?;
+            let widened = (tolerance, reserve * factor);
+            leaves_machines(&machine, widened, highest).map_err(located)?;
             for value in cases.iter().filter_map(|it| it.value(tolerance.parameter)) {
-                leaves_machines(&machine, &reserved, Some(value)).map_err(located)?;
+                leaves_machines(&machine, widened, Some(value)).map_err(located)?;
             }
         }
         for axis in &axes {
@@ -228,10 +227,20 @@ fn deviations(
     }
     if is_normal && wilson(0, samples)[1] > violating {
         return Err(Failure::usage(format!(
-            "--samples {samples}: are too few to show that a share of {violating} at most violates a requirement"
+            "--samples {samples}: are too few to show that a share of {} at most violates a requirement: {} machines are needed, of \
+             which none does",
+            plain(violating),
+            plain(least_machines(violating))
         )));
     }
     Ok(normal_quantile(1.0 - 0.5 * violating))
+}
+
+/// The fewest machines of which none violates a requirement that show a share.
+fn least_machines(share: f64) -> f64 {
+    // The upper end of the interval of none of one is z^2 / (1 + z^2), of none of n z^2 / (n + z^2).
+    let [_, one] = wilson(0, 1);
+    (one / (1.0 - one) * (1.0 - share) / share).ceil()
 }
 
 impl Job {
@@ -291,10 +300,10 @@ fn searched_by(
     searched(machine, &layers, task.with_usual || task.vary.is_empty())
 }
 
-/// Refuses a tolerance within which there are no machines even about the highest value that is searched.
+/// Refuses a tolerance so many times as wide within which there are no machines even about the highest value that is searched.
 fn leaves_machines(
     machine: &Machine,
-    tolerance: &Tolerance,
+    (tolerance, factor): (&Tolerance, f64),
     highest: Option<f64>,
 ) -> Result<(), Failure> {
     let (parameter, name) = (tolerance.parameter, machine.name(tolerance.parameter));
@@ -305,16 +314,26 @@ fn leaves_machines(
     else {
         return Ok(());
     };
-    let width = tolerance.width.around(value);
+    let stated = match tolerance.width {
+        Width::Own(width) => plain(width),
+        Width::Share(share) => format!("{} %", short(100.0 * share)),
+    };
+    let wider = match factor {
+        1.0 => String::new(),
+        factor => format!("the box is {} times as wide and ", short(factor)),
+    };
+    let width = factor * tolerance.width.around(value);
     if value > 0.0 && width >= value {
+        let value = plain(value);
         return Err(Failure::usage(format!(
-            "tolerance.{name} = {width}: is as large as the value, {value} at most, or larger"
+            "tolerance.{name} = {stated}: {wider}is as large as the value, {value} at most, or larger"
         )));
     }
     let least = parameter.about().allowed.check(name, value - width);
     least.map(|_| ()).map_err(|error| {
         Failure::usage(format!(
-            "tolerance.{name} = {width}: is too wide about {value}: {error}"
+            "tolerance.{name} = {stated}: {wider}is too wide about {}: {error}",
+            plain(value)
         ))
     })
 }

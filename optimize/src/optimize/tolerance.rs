@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 use softstop::Machine;
+use softstop::internals::plain;
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
@@ -70,7 +71,8 @@ pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Toleran
         let stated = machine.stated(&name);
         let (parameter, unit) =
             stated.map_err(|error| Failure::usage(format!("tolerance.{error}")))?;
-        let wrong = |what: &str| Failure::usage(format!("tolerance.{name} = {value}: {what}"));
+        let said = number(value).map_or_else(|| value.to_string(), plain);
+        let wrong = |what: &str| Failure::usage(format!("tolerance.{name} = {said}: {what}"));
         let (stated, distribution) = match value {
             Value::Table(words) => {
                 let stated = words.clone().try_into::<Stated>().ok();
