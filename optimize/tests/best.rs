@@ -271,6 +271,7 @@ fn the_best_hammer_of_the_drawing_is_found() -> Outcome {
 fn no_hammer_within_the_tolerances_violates_what_is_required() -> Outcome {
     let problem = hammer(Scope::Tolerances);
     let found = search(&problem, SETTINGS, &Unwatched, None)?;
+    assert!(found.residue < 1e-6, "{}", found.residue);
     assert_holds(&problem, &found.design, 1 << 16)?;
     let worst = problem.worst_of_required(&found.design);
     for (figure, bound) in [(Figure::StopForce, 400.0), (Figure::Stroke, 0.03)] {

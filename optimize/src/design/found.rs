@@ -9,7 +9,7 @@ use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
 use super::improve_catalogue::improve_catalogue;
 use super::judge::Met;
-use super::multipliers::limits;
+use super::multipliers::{Held, held};
 use super::operating_point::OperatingPoint;
 use super::robustify::{Robust, enforce_tolerance_box};
 use super::{Design, Problem};
@@ -32,6 +32,8 @@ pub struct Found {
     pub known: CriticalMachines,
     /// All that holds it back.
     pub limits: Vec<ActiveLimit>,
+    /// Rate of the score, relative, by the edges of the unit cube, that nothing of it holds back; NaN where it is unknown.
+    pub residue: f64,
     /// Others, far from it and nearly as good: a small change of the task can make one of them the best.
     pub rivals: Vec<Design>,
     /// What it has of what is tried; nothing of a search that was stopped.
@@ -55,7 +57,7 @@ impl Found {
     /// The best of some designs, and those that are its rivals.
     pub(super) fn new(problem: &Problem, best: Robust, others: &[Candidate]) -> Self {
         let score = |it: &Design| problem.score(it);
-        let limits = limits(problem, &best.candidate, &best.known);
+        let Held { limits, residue } = held(problem, &best.candidate, &best.known);
         let mut all = vec![best.candidate.design];
         for other in others {
             let is_new = all
@@ -71,6 +73,7 @@ impl Found {
             unit: best.candidate.unit,
             known: best.known,
             limits,
+            residue,
             rivals,
             tried: Vec::new(),
             resolution: None,
@@ -101,9 +104,10 @@ impl Found {
 
     /// Takes the design of another search, which is the better one or as good.
     pub(super) fn take_design(&mut self, problem: &Problem, other: &Self) {
-        let candidate = other.candidate();
+        let Held { limits, residue } = held(problem, &other.candidate(), &other.known);
         *self = Self {
-            limits: limits(problem, &candidate, &other.known),
+            limits,
+            residue,
             rivals: std::mem::take(&mut self.rivals),
             ascents: self.ascents,
             ..other.clone()

@@ -18,20 +18,28 @@ const IDLE: f64 = 1e-6;
 /// What may be left of the gradient, relative; where it is more, multipliers tell nothing.
 const RESIDUE: f64 = 1e-2;
 
-/// All that holds a design back.
-pub(super) fn limits(
-    problem: &Problem,
-    it: &Candidate,
-    known: &CriticalMachines,
-) -> Vec<ActiveLimit> {
+/// What holds a design back.
+#[derive(Debug, Clone)]
+pub(super) struct Held {
+    /// All of it.
+    pub limits: Vec<ActiveLimit>,
+    /// Rate of the score, relative, by the edges of the cube, that nothing of it holds back; NaN where it is unknown.
+    pub residue: f64,
+}
+
+/// What holds a design back, with what is known of the machines within its tolerances.
+pub(super) fn held(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> Held {
     let coordinates = Coordinates::new(problem, &it.unit);
     let start = coordinates.start(it.design.place);
     let at = coordinates.at(&it.unit, &start);
     let ends = catalogue_ends(problem, &it.unit).into_iter();
     let mut limits: Vec<ActiveLimit> = ends.map(Limit::into).collect();
+    let mut rest = f64::NAN;
     if let Some(found) = local(problem, &at, known) {
         let candidates = candidates(problem, &coordinates, &start, &found);
-        limits.extend(held_by(problem, &found, candidates));
+        let (held, residue) = held_by(problem, &found, candidates);
+        limits.extend(held);
+        rest = residue;
     }
     limits.extend(known.all_failed().map(|(figure, case)| ActiveLimit {
         limit: Limit::Required(figure, Sense::Least),
@@ -43,7 +51,10 @@ pub(super) fn limits(
             all.push(limit);
         }
     }
-    all
+    Held {
+        limits: all,
+        residue: rest,
+    }
 }
 
 /// Ends of catalogues at which a point of the unit cube stands.
@@ -88,12 +99,12 @@ fn candidates(
     all
 }
 
-/// Those of them that hold the score back.
+/// Those of them that hold the score back, and what they leave of its gradient.
 fn held_by(
     problem: &Problem,
     found: &Local,
     candidates: Vec<(ActiveLimit, Vec<f64>)>,
-) -> Vec<ActiveLimit> {
+) -> (Vec<ActiveLimit>, f64) {
     let Slope {
         value: whole,
         by: rates,
@@ -125,7 +136,7 @@ fn held_by(
     let multipliers = multipliers.iter().skip(scores.len());
     let pairs = candidates.into_iter().zip(multipliers);
     let held = pairs.filter(|(_, multiplier)| !is_told || **multiplier > IDLE);
-    held.map(|((limit, _), _)| limit).collect()
+    (held.map(|((limit, _), _)| limit).collect(), residue)
 }
 
 /// The x >= 0 with the least |A x - b|, and that (Lawson and Hanson 1974, chapter 23).
