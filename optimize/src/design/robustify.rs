@@ -11,6 +11,7 @@ use super::conflict::violated_within;
 use super::coordinates::Candidate;
 use super::critical::{CriticalMachines, Target};
 use super::figure::{Figure, Sense};
+use super::multipliers::held;
 use super::problem::Problem;
 use super::{Design, Infeasible};
 use crate::robust::{Manifold, Norm, Tolerances, Worst, first_losses, nearest, worst};
@@ -21,6 +22,8 @@ const ROUNDS: usize = 16;
 const ROUNDING: f64 = 1e-7;
 /// Relative change of what is sought that is none.
 const GAIN: f64 = 1e-9;
+/// Rate of the score by the edges of the cube, relative, that is none at a maximum.
+const STUCK: f64 = 1e-3;
 /// Directions that are added at once, at most.
 const MOST: usize = 4;
 /// Places of the zone from which a design is sought anew.
@@ -84,14 +87,25 @@ pub(super) fn enforce(
                 }
             }
         }
-        if !is_new {
-            break;
-        }
-        let next = again(problem, &known, &candidate).next();
+        let next = match is_new {
+            true => again(problem, &known, &candidate).next(),
+            false if is_stuck(problem, &candidate, &known) => {
+                let others = again(problem, &known, &candidate);
+                let better = others.filter(|it| score(it) > (1.0 + GAIN) * score(&candidate));
+                better.max_by(|a, b| score(a).total_cmp(&score(b)))
+            }
+            false => None,
+        };
         let Some(next) = next else { break };
         candidate = next;
     }
     best.ok_or_else(|| lack.unwrap_or_else(untold))
+}
+
+/// Whether nothing holds a design back: an end of the zone of all stable z = 1 may leap, and the place in it with that, where an
+/// ascent ends.
+fn is_stuck(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> bool {
+    held(problem, it, known).residue > STUCK
 }
 
 /// What is seen of the machines about a design.
