@@ -49,7 +49,7 @@ pub struct ZoneEnd {
 pub enum EndKind {
     /// g0: below it the motion without impacts strikes. The z = 1 motion goes on beyond it.
     Free,
-    /// The motion loses its stability or grazes the clearance.
+    /// The motion loses its stability or grazes a surface.
     Special(SpecialKind),
     /// It is followed no farther, or ends otherwise.
     Other(Loss),

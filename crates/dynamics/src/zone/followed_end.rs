@@ -88,7 +88,10 @@ fn followed_to_end(
         Heading::Up => &branch.ends.1,
         Heading::Down => &branch.ends.0,
     };
-    let kind = EndKind::Other(Loss::of(end));
     let last = points.last().ok_or(OrbitError::NotIsolated)?;
+    let kind = match branch.special_at(last) {
+        Some(special) => EndKind::Special(special.kind),
+        None => EndKind::Other(Loss::of(end)),
+    };
     Ok(ZoneEnd::at(last, kind))
 }
