@@ -357,17 +357,51 @@ fn a_distant_design_that_is_nearly_as_good_is_told() -> Outcome {
     Ok(())
 }
 
+/// The paper's point A, with nothing to search, and what is required of it.
+fn held(require: &str) -> Outcome<Written> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().to_str().ok_or("path")?;
+    let task = folder.path().join("task.toml");
+    let text = "machine = \"unloaded\"\n[vary]\nclearance = 10\nstop.stiffness = 7\nexcitation.frequency = 1.15\n";
+    fs::write(&task, format!("{text}[require]\n{require}\n"))?;
+    let task = task.to_str().ok_or("path")?;
+    let report = SOFTSTOP.json(&["optimize", "--config", task, "--output", path]);
+    Ok(Written {
+        page: fs::read_to_string(folder.path().join("report.html"))?,
+        text: String::new(),
+        report,
+        folder,
+    })
+}
+
 /// Nothing can be moved: the design is the machine itself, with its whole report.
 #[test]
 fn a_machine_without_anything_to_search_is_reported() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let path = folder.path().to_str().ok_or("path")?;
-    let held = ["clearance=10", "stop.stiffness=7", "eta=1.15"];
-    let mut line = vec!["optimize", "unloaded", "--output", path];
-    line.extend(held.iter().flat_map(|one| ["--vary", one]));
-    let report = SOFTSTOP.json(&line);
-    let velocity = report["design"]["before_impact_velocity"].as_f64();
+    let written = held("margin = 0.1")?;
+    let velocity = written.report["design"]["before_impact_velocity"].as_f64();
     assert!((velocity.ok_or("no velocity")? - 6.494_627_429_363).abs() < 1e-9);
-    assert!(folder.path().join("report.html").exists());
+    assert!(written.page.contains("</html>"));
+    Ok(())
+}
+
+/// All starts close to the motion lead to it, half of those of the usual box.
+#[test]
+fn certainty_is_told_of_the_box_that_is_stated() -> Outcome {
+    let near = "starts = { position = [6.8, 7.0], velocity = [9.4, 9.6] }";
+    let value = |name: &str, require: &str| -> Outcome<f64> {
+        let report = held(require)?.report;
+        let all = report["requirements"].as_array().ok_or("no requirements")?;
+        let own = all.iter().find(|it| it["name"] == name);
+        Ok(own.and_then(|it| it["value"].as_f64()).ok_or("no value")?)
+    };
+    assert_eq!(
+        value("certainty", &format!("certainty = 0.5\n{near}"))?,
+        1.0
+    );
+    // The motion, at (6.901268, 9.516656), is nearest to the upper velocity.
+    let ball = value("integrity", &format!("integrity = 0.5\n{near}"))?;
+    assert!((ball - 0.833_44).abs() < 1e-4, "{ball}");
+    let usual = value("certainty", "certainty = 0.4")?;
+    assert!((0.5..0.6).contains(&usual), "{usual}");
     Ok(())
 }

@@ -16,7 +16,7 @@ use super::problem::Problem;
 use super::requirement::{Requirement, Scope};
 use super::robustify::enforce;
 use super::search::Found;
-use super::trial::{ROUGH, certainty};
+use super::trial::{ROUGH, STARTS};
 
 /// What is given up for more of what is sought.
 #[derive(Debug, Clone)]
@@ -233,7 +233,7 @@ fn value(problem: &Problem, figure: Figure, design: &Design) -> Option<f64> {
         .find(|(of, side, _)| (*of, *side) == (figure, figure.sense()));
     let value = match (within, figure) {
         (Some((.., worst)), _) => worst.value,
-        (None, Figure::Certainty) => certainty(&design.orbit).ok()?,
+        (None, Figure::Certainty) => problem.established(&design.orbit, STARTS).ok()?.share,
         (None, _) => problem.value(&design.judged().ok()?, figure),
     };
     Some(value).filter(|it| it.is_finite())

@@ -1,6 +1,7 @@
 //! What is searched: the machine, what may change of it, what is sought and what must hold.
 
 use softstop::{Machine, Parameter};
+use softstop_dynamics::attractors::Region;
 use softstop_dynamics::run_up;
 use softstop_dynamics::zone::ZoneKind;
 
@@ -46,6 +47,8 @@ pub struct Problem {
     pub requirements: Vec<Requirement>,
     /// The formula of [`Figure::Cost`].
     pub cost: Option<Cost>,
+    /// The box of starts of which certainty and integrity are told, in SI units; that of all commands if none is stated.
+    pub starts: Option<Region>,
     /// How the machine may be run up.
     pub run_up: run_up::Settings,
     /// Further operating points, in which all that is required must hold too.
@@ -219,6 +222,7 @@ impl Problem {
             traded: Vec::new(),
             requirements: Vec::new(),
             cost: None,
+            starts: None,
             run_up: run_up::Settings::default(),
             cases: Vec::new(),
             changes: Vec::new(),

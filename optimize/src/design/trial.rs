@@ -6,7 +6,7 @@ use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::Establishment;
-use softstop_dynamics::run_up::{self, RunUp};
+use softstop_dynamics::run_up::RunUp;
 use softstop_dynamics::supply::{Reading, outlasts};
 
 use super::conflict::{conflict, violated_within};
@@ -214,10 +214,7 @@ impl Problem {
 
     fn least_certainty_at_point(&self, here: &OperatingPoint, others: &[Vec<f64>]) -> Option<f64> {
         let (machine, orbit) = (here.machine(), &here.orbit);
-        let of = |orbit: &Orbit| {
-            let found = Establishment::of(orbit, STARTS, &interrupt::watch).ok()?;
-            Some(found.interval[0])
-        };
+        let of = |orbit: &Orbit| Some(self.established(orbit, STARTS).ok()?.interval[0]);
         let spread = self.spread(machine);
         let others = others
             .iter()
@@ -242,7 +239,7 @@ impl Problem {
         orbit: &Orbit,
         effort: Effort,
     ) -> Result<Met, SurveyError> {
-        let (value, starts) = value(requirement, orbit, (effort, &self.run_up))?;
+        let (value, starts) = self.value_of_trial(requirement, orbit, effort)?;
         Ok(Met {
             value,
             starts,
@@ -259,41 +256,58 @@ impl Problem {
             })
     }
 
+    /// The share of starts that lead to a motion.
+    ///
+    /// # Errors
+    /// As [`Problem::tried`].
+    pub(super) fn established(
+        &self,
+        orbit: &Orbit,
+        starts: usize,
+    ) -> Result<Establishment, SurveyError> {
+        let watcher = &interrupt::watch;
+        match &self.starts {
+            Some(region) => Establishment::within(orbit, region, starts, watcher),
+            None => Establishment::of(orbit, starts, watcher),
+        }
+    }
+
+    /// What a motion has of a figure, and the starts that tell it.
+    fn value_of_trial(
+        &self,
+        requirement: &Requirement,
+        orbit: &Orbit,
+        Effort { starts, angles }: Effort,
+    ) -> Result<(f64, Option<Establishment>), SurveyError> {
+        let watcher = &interrupt::watch;
+        let value = match requirement.figure {
+            Figure::Certainty => {
+                let starts = self.established(orbit, starts)?;
+                return Ok((starts.share, Some(starts)));
+            }
+            Figure::Integrity => {
+                let (starts, radius) = match &self.starts {
+                    Some(region) => {
+                        Establishment::with_ball_within(orbit, region, starts, watcher)?
+                    }
+                    None => Establishment::with_ball(orbit, starts, watcher)?,
+                };
+                return Ok((radius, Some(starts)));
+            }
+            Figure::RunUp => {
+                let runs = RunUp::of(orbit, &self.run_up, angles, watcher)?;
+                runs.works().count() as f64
+            }
+            Figure::MissingStrips => f64::from(survived(requirement, orbit, angles)?),
+            _ => f64::NAN,
+        };
+        Ok((value, None))
+    }
+
     /// True if a motion must be tried.
     pub fn has_trials(&self) -> bool {
         self.trials().next().is_some()
     }
-}
-
-/// The share of starts that lead to a motion.
-///
-/// # Errors
-/// As [`Problem::tried`].
-pub(super) fn certainty(orbit: &Orbit) -> Result<f64, SurveyError> {
-    Ok(Establishment::of(orbit, STARTS, &interrupt::watch)?.share)
-}
-
-/// What a motion has of a figure, and the starts that tell it.
-fn value(
-    requirement: &Requirement,
-    orbit: &Orbit,
-    (Effort { starts, angles }, ways): (Effort, &run_up::Settings),
-) -> Result<(f64, Option<Establishment>), SurveyError> {
-    let watcher = &interrupt::watch;
-    let value = match requirement.figure {
-        Figure::Certainty => {
-            let starts = Establishment::of(orbit, starts, watcher)?;
-            return Ok((starts.share, Some(starts)));
-        }
-        Figure::Integrity => {
-            let (starts, radius) = Establishment::with_ball(orbit, starts, watcher)?;
-            return Ok((radius, Some(starts)));
-        }
-        Figure::RunUp => RunUp::of(orbit, ways, angles, watcher)?.works().count() as f64,
-        Figure::MissingStrips => f64::from(survived(requirement, orbit, angles)?),
-        _ => f64::NAN,
-    };
-    Ok((value, None))
 }
 
 /// Strips in a row that may be missing, as many as are asked for at most.

@@ -1,8 +1,9 @@
 //! What a task requires of the design: the table `[require]`.
 
 use serde::Deserialize;
-use softstop::Machine;
+use softstop::{Dimension, Machine};
 use softstop_console::failure::Failure;
+use softstop_dynamics::attractors::Region;
 use softstop_dynamics::run_up::{self, Way};
 use toml::{Table, Value};
 
@@ -45,6 +46,8 @@ pub(super) struct Required {
     pub run_up: run_up::Settings,
     /// Share of the machines with normal tolerances that may violate a requirement.
     pub violating: f64,
+    /// The box of starts of which certainty and integrity are told.
+    pub starts: Option<Region>,
 }
 
 /// The key of the reserve.
@@ -52,6 +55,8 @@ pub(super) const RESERVE: &str = "tolerance_reserve";
 /// The key of the share that may violate a requirement, and the least such share.
 pub(super) const SHARE: &str = "violating";
 const LEAST_SHARE: f64 = 1e-5;
+/// The key of the box of starts.
+pub(super) const STARTS: &str = "starts";
 
 /// Reads `[require]`.
 pub(super) fn requirements(
@@ -144,7 +149,7 @@ pub(super) fn requirements(
             scope,
         })
     };
-    let others = [RESERVE, SHARE];
+    let others = [RESERVE, SHARE, STARTS];
     let figures = table
         .iter()
         .filter(|(name, _)| !others.contains(&name.as_str()));
@@ -167,8 +172,36 @@ pub(super) fn requirements(
             reserve,
             run_up,
             violating,
+            starts: table
+                .get(STARTS)
+                .map(|it| starts(machine, it))
+                .transpose()?,
         }),
     }
+}
+
+/// `{ position = [-0.02, 0.02], velocity = [-1, 1] }`, in the machine's own units.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Starts {
+    position: [f64; 2],
+    velocity: [f64; 2],
+}
+
+/// Reads the box of starts.
+fn starts(machine: &Machine, value: &Value) -> Result<Region, Failure> {
+    let stated = value.clone().try_into::<Starts>().ok();
+    let is_range = |[low, high]: [f64; 2]| low.is_finite() && high.is_finite() && low < high;
+    let stated = stated.filter(|it| is_range(it.position) && is_range(it.velocity));
+    let Starts { position, velocity } = stated.ok_or_else(|| {
+        Failure::usage(format!(
+            "require.{STARTS} = {value}: must be {{ position = [LOW, HIGH], velocity = [LOW, HIGH] }}, finite, each HIGH above its LOW"
+        ))
+    })?;
+    Ok(Region {
+        position: position.map(|it| machine.to_si(Dimension::Length, it)),
+        velocity: velocity.map(|it| machine.to_si(Dimension::Velocity, it)),
+    })
 }
 
 /// True for a figure that may be stated in per cent.

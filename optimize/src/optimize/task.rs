@@ -79,6 +79,7 @@ impl Job {
             reserve,
             run_up,
             violating,
+            starts,
         } = requirements(&machine, &task.objective, &task.require)?;
         let Sought { objectives, cost } = Sought::new(&machine, &task.objective)?;
         let (objective, traded) = (objectives[0], objectives[1..].to_vec());
@@ -158,6 +159,7 @@ impl Job {
                 traded,
                 requirements,
                 cost,
+                starts,
                 run_up,
                 cases,
                 changes: Vec::new(),

@@ -16,7 +16,7 @@ use toml::de::{DeTable, DeValue, Deserializer, Error};
 use toml::{Spanned, Table};
 
 use super::objective::{Goal, MAX_OBJECTIVES, is_traded};
-use super::require::{RESERVE, SHARE};
+use super::require::{RESERVE, SHARE, STARTS};
 use super::title::Title;
 use crate::design::figure::Figure;
 use crate::design::search::LEAST_EVALUATIONS;
@@ -221,6 +221,18 @@ fn requirements_schema() -> serde_json::Value {
         json!({
             "anyOf": [{ "type": "number", "minimum": 1e-5, "maximum": 0.5 }, { "type": "string", "pattern": "%\\s*$" }],
             "description": "share of the machines with normal tolerances that may lose the motion or violate a requirement"
+        }),
+    );
+    let range =
+        json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
+    figures.insert(
+        STARTS.to_owned(),
+        json!({
+            "type": "object",
+            "properties": { "position": range, "velocity": range },
+            "required": ["position", "velocity"],
+            "additionalProperties": false,
+            "description": "box of starts of which certainty and integrity are told, at drive angle phi"
         }),
     );
     json!({ "type": "object", "properties": figures, "additionalProperties": false })

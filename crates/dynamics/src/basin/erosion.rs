@@ -67,7 +67,20 @@ impl Establishment {
         watcher: Watcher<'_>,
     ) -> Result<(Self, f64), SurveyError> {
         let region = starting_box(&orbit.scene, watcher)?;
-        integrity(orbit, &region, &region.starts(starts, SEED), watcher)
+        Self::with_ball_within(orbit, &region, starts, watcher)
+    }
+
+    /// [`Establishment::with_ball`] in another box.
+    ///
+    /// # Errors
+    /// As [`Establishment::of`].
+    pub fn with_ball_within(
+        orbit: &Orbit,
+        region: &Region,
+        starts: usize,
+        watcher: Watcher<'_>,
+    ) -> Result<(Self, f64), SurveyError> {
+        integrity(orbit, region, &region.starts(starts, SEED), watcher)
     }
 
     fn counted(reached: &[bool], region: &Region) -> Self {
