@@ -1,7 +1,7 @@
 //! The module `_softstop` of the Python package: machines, the commands, batches in the lanes, and exact motions.
 //!
-//! Python runs the commands of the program in its own process ([`command`]): each returns the report that the program
-//! prints, so no number has a second source. What is an array in Python goes to the lanes ([`batch`]).
+//! Python runs the commands of the program in its own process (`command`): each returns the report that the program
+//! prints, so no number has a second source. What is an array in Python goes to the lanes (`batch`).
 
 mod arrow;
 mod batch;
