@@ -83,7 +83,7 @@ class Orbit(Result):
 
     def figure(self, name: str) -> float:
         """A figure of the motion in the machine's own units: velocity, impact_energy, impact_power, stroke_work, drive_force,
-        drive_power, max_position, stroke, stop_force, cut_through, rigid_gap, largest_multiplier."""
+        drive_power, max_position, stroke, stop_force, stop_deflection, cut_through, rigid_gap, largest_multiplier."""
         return _softstop.figures(self.machine_itself._inner, [name], [])[0][0]
 
     def gradient(self, name: str, by: Sequence[str] | None = None) -> dict[str, float]:
@@ -255,15 +255,16 @@ def study(task: Mapping[str, Any] | str | os.PathLike[str], *, machine: Machine 
     Result
         `tables["study"]` has a row for each point.
     """
-    table = _content(task)
     files = {}
     if machine is not None:
-        table |= {"machine": "machine.toml"}
         files["machine.toml"] = machine.to_toml()
-    files["study.toml"] = _toml(table)
+        files["study.toml"] = _toml(_content(task) | {"machine": "machine.toml"})
+    elif isinstance(task, Mapping):
+        files["study.toml"] = _toml(task)
 
     def arguments(place: pathlib.Path) -> list[str]:
-        return ["study", "--format=json", "--csv", f"--output={place / 'out'}", str(place / "study.toml")]
+        file = place / "study.toml" if files else pathlib.Path(cast("os.PathLike[str]", task))
+        return ["study", "--format=json", "--csv", f"--output={place / 'out'}", str(file)]
 
     return _run(arguments, files)
 

@@ -98,7 +98,9 @@ class Result(Mapping[str, Any]):
         return self._values[key]
 
     def __getattr__(self, key: str) -> Any:
-        if not key.startswith("_") and key in self._values:
+        if key.startswith("_"):
+            raise AttributeError(key)
+        if key in self._values:
             return self._values[key]
         raise AttributeError(f"{key}: no such field; there are {', '.join(self._values)}")
 

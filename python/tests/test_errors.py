@@ -56,6 +56,10 @@ def test_the_key_of_a_machine():
 
 def test_pickle_and_hash():
     assert pickle.loads(pickle.dumps(A)) == A
+    orbit = ss.orbit(A)
+    again = pickle.loads(pickle.dumps(orbit))
+    assert dict(again) == dict(orbit)
+    assert again.gradient("velocity", ["clearance"]) == orbit.gradient("velocity", ["clearance"])
     assert len({A, A.replace(clearance=10), A.replace(clearance=9)}) == 2
 
 

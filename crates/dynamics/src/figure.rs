@@ -2,7 +2,7 @@
 
 use crate::orbit::Orbit;
 use crate::stroke::Stroke;
-use softstop::Dimension;
+use softstop::{Dimension, Stop};
 
 /// On which side of a bound a figure is good.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -112,7 +112,10 @@ impl Figure {
             Self::MaxPosition => stroke.highest,
             Self::Stroke => stroke.length,
             Self::StopForce => stroke.stop_force,
-            Self::StopDeflection => (stroke.highest - orbit.scene.stop_position()).max(0.0),
+            Self::StopDeflection => match orbit.scene.stop {
+                Stop::None | Stop::Rigid { .. } => f64::NAN,
+                _ => (stroke.highest - orbit.scene.stop_position()).max(0.0),
+            },
             Self::CutThrough => stroke.beyond_strip.unwrap_or(f64::NAN),
             Self::RigidGap => stroke.before_wall.unwrap_or(f64::NAN),
             Self::Multiplier => {

@@ -1,11 +1,11 @@
 //! Zones of all stable z = 1 motions on a branch, against the search over all frequencies and against differences.
 
 use softstop::{Excitation, Parameter, Ratios, Scene, Stop};
-use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::continuation::{Face, Heading, Test};
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{
-    EndKind, Loss, hysteresis, loss_of_stability, single_impact, stretches,
+    EndKind, Loss, ZoneKind, find_zones, hysteresis, loss_of_stability, single_impact, stretches,
 };
 use softstop_dynamics::{Zone, zone};
 use softstop_testing::assert_near;
@@ -136,4 +136,40 @@ fn one_frequency_is_enough_to_look_for_it() {
         words.contains("no stable z = 1 motion found between"),
         "{words}"
     );
+}
+
+/// For a design a zone ends where `stretches` says that the rigid stop is grazed; `hysteresis` has none, for it has no fold.
+#[test]
+fn a_rigid_stop_behind_the_other_ends_a_zone() -> Result<(), Box<dyn std::error::Error>> {
+    let text = "mass = 1.0\nstiffness = 1.0\ndamping = 0.02\ncontact.damping = 0.02\nclearance = 7.0\n\
+                excitation = { amplitude = 1.0, frequency = 1.05 }\n\
+                stop = { model = \"kelvinVoigt\", stiffness = 6.0 }\nrigid = { travel = 2.6, restitution = 0.5 }\n";
+    let at = |quarter: u32| -> Result<Scene, Box<dyn std::error::Error>> {
+        let mut scene = Scene::from_toml(text)?;
+        scene.clearance += 0.25 * f64::from(quarter);
+        Ok(scene)
+    };
+    let scenes = (0..=8).map(at).collect::<Result<Vec<Scene>, _>>()?;
+    let zones = find_zones(ZoneKind::Hysteresis, &scenes, &unwatched);
+    for (scene, zone) in scenes.iter().zip(zones) {
+        assert!(hysteresis(scene).is_err(), "clearance {}", scene.clearance);
+        let zone = zone?;
+        let grazed = |loss: &Loss| *loss == Loss::Inner(Face::Wall);
+        assert!(
+            zone.high.kind.loss().as_ref().is_some_and(grazed),
+            "{:?}",
+            zone.high.kind
+        );
+        let stretches = stretches(scene)?;
+        let mut ends = stretches.iter().filter(|it| grazed(&it.high.loss));
+        let end = ends.next().ok_or("no stretch ends there")?.high.frequency;
+        assert!(
+            (end - zone.high.frequency).abs() < 1e-9 * end,
+            "{end}, {}",
+            zone.high.frequency
+        );
+        let beside = zone.point_at(0.999)?;
+        assert!(beside.is_stable() && beside.impacts.len() == 1);
+    }
+    Ok(())
 }

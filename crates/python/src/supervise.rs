@@ -27,7 +27,7 @@ pub fn supervise<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> Py
     let mut raised = None;
     let done = thread::scope(|scope| {
         let (send, receive) = channel();
-        scope.spawn(move || {
+        let worker = scope.spawn(move || {
             let _ = send.send(work());
         });
         // A receiver is for one thread: it is handed to the closure and back.
@@ -41,7 +41,11 @@ pub fn supervise<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> Py
             };
             match py.detach(wait) {
                 Ok(done) => return Some(done),
-                Err(RecvTimeoutError::Disconnected) => return None,
+                Err(RecvTimeoutError::Disconnected) => {
+                    // Whoever joins a thread that has panicked keeps the scope from panicking.
+                    let _ = worker.join();
+                    return None;
+                }
                 Err(RecvTimeoutError::Timeout) => {
                     if let Err(error) = py.check_signals() {
                         raised = Some(error);

@@ -218,7 +218,7 @@ impl Met {
         }
     }
 
-    /// The same, of the case of this index.
+    /// What is known of the requirement in the case of this index.
     #[must_use]
     pub fn in_case(self, index: usize) -> Self {
         let case = Some(index);

@@ -80,7 +80,7 @@ pub struct Design {
     pub orbit: Orbit,
     /// What was sought, in SI units; of the worst machine within the tolerances, if that is what counts.
     pub value: f64,
-    /// The same design in each case.
+    /// What the design does in each case, in the order of the problem's cases.
     pub cases: Vec<Design>,
 }
 
@@ -123,7 +123,7 @@ impl Infeasible {
         }
     }
 
-    /// The same, told of a case.
+    /// What is lacking in a case.
     fn in_case(self, case: &Case) -> Self {
         Self {
             reason: format!("in case {}: {}", case.name, self.reason),
@@ -146,7 +146,10 @@ impl Problem {
         let zoned = |problem| {
             let machine = Self::machine_at(problem, values);
             let zone = match self.zone {
-                ZoneKind::Hysteresis => zone::hysteresis_watched(&machine.scene, &interrupt::watch),
+                ZoneKind::Hysteresis => {
+                    let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch);
+                    zone.or_else(|none| problem.zone_of(&machine).map_err(|_| none))
+                }
                 ZoneKind::SingleImpact { .. } => problem.zone_of(&machine),
             };
             Zoned::new(problem, machine, zone)

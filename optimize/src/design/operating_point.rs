@@ -105,7 +105,7 @@ impl OperatingPoint {
         &self.machine
     }
 
-    /// The same as a design that has this of what is sought, without cases.
+    /// The design of this operating point, without cases, with this value of what is sought.
     pub(super) fn design(&self, value: f64) -> Design {
         Design {
             machine: self.machine.clone(),
@@ -117,7 +117,7 @@ impl OperatingPoint {
         }
     }
 
-    /// The same as a design by what each of its motions has of what is sought; none if one has no such figure.
+    /// The design of this operating point and its cases, with what their motions have of what is sought; none if one has no such figure.
     pub(super) fn sought(&self, problem: &Problem) -> Option<Design> {
         let value = problem.sought(&self.judged()?)?;
         let cases = problem.in_cases();

@@ -267,7 +267,9 @@ impl Problem {
     ) -> Result<Establishment, SurveyError> {
         let watcher = &interrupt::watch;
         match &self.starts {
-            Some(region) => Establishment::within(orbit, region, starts, watcher),
+            Some(region) => {
+                Establishment::within(orbit, &region.before(&orbit.scene), starts, watcher)
+            }
             None => Establishment::of(orbit, starts, watcher),
         }
     }
@@ -288,7 +290,8 @@ impl Problem {
             Figure::Integrity => {
                 let (starts, radius) = match &self.starts {
                     Some(region) => {
-                        Establishment::with_ball_within(orbit, region, starts, watcher)?
+                        let region = region.before(&orbit.scene);
+                        Establishment::with_ball_within(orbit, &region, starts, watcher)?
                     }
                     None => Establishment::with_ball(orbit, starts, watcher)?,
                 };

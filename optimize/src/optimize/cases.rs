@@ -14,6 +14,8 @@ use crate::design::problem::{Tolerance, Width};
 /// Keys of a case that are no parameters.
 const NAME: &str = "name";
 const WEIGHT: &str = "weight";
+/// The largest weight.
+const HEAVIEST: f64 = 1e6;
 
 /// Reads the cases of a task.
 pub(super) fn cases(machine: &Machine, tables: &[Table]) -> Result<Vec<Case>, Failure> {
@@ -57,9 +59,8 @@ fn case(machine: &Machine, table: &Table, index: usize) -> Result<Case, Failure>
                 name.clone_into(&mut case.name);
             }
             WEIGHT => {
-                let weight = number(value).filter(|it| *it >= 0.0 && it.is_finite());
-                let what =
-                    "must be a number >= 0; 0 asks for all that is required and counts nothing";
+                let weight = number(value).filter(|it| (0.0..=HEAVIEST).contains(it));
+                let what = "must be a number in [0, 1e6]; 0 asks for all that is required and counts nothing";
                 case.weight = weight.ok_or_else(|| wrong(what))?;
             }
             _ => case

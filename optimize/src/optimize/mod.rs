@@ -90,6 +90,7 @@ A machine's file may hold a task (docs/tutorials/press.md takes a press from fil
     stop_force = 5e5
     run_up = true                            or { ways = [\"frequency_raised\"], ramp_rate = 0.2, force = 5e5 }
     violating = \"0.27 %\"                     of machines with normal tolerances, at most
+    starts = { position = [-0.02, 0.02], velocity = [-1, 1] }   the box of starts for certainty
     [[case]]                                 a further operating point, in which all of this holds too
     name = \"worn strip\"
     weight = 0.5                             of what is sought, 1 in the drawing and by default, 0: it only has to hold
@@ -105,7 +106,7 @@ of them are looked at (--samples).
 
 Files, whole or not at all: report.html (for people, one page), design.json (what --format json prints),
 design.toml (the machine, for every command), design.fmu (FMI 2.0 co-simulation, starting in the design's
-motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs of the report; of a front pareto.csv and
+motion), design.ssv (its parameters for SSP), design.svg (velocity over frequency), CSVs and pictures of the report; of a front pareto.csv and
 pareto.svg, and the design with the best of the figure that is named first in the others. Files that only an
 earlier run has written there are removed.
 Ctrl-C writes the best design so far, marked as such and without its report; a second one ends at once.";

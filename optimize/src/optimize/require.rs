@@ -55,6 +55,8 @@ pub(super) const RESERVE: &str = "tolerance_reserve";
 /// The key of the share that may violate a requirement, and the least such share.
 pub(super) const SHARE: &str = "violating";
 const LEAST_SHARE: f64 = 1e-5;
+/// Positions and velocities of starts at most, in the machine's own units: as large as its values may be.
+const FARTHEST: f64 = 1e24;
 /// The key of the box of starts.
 pub(super) const STARTS: &str = "starts";
 
@@ -191,11 +193,11 @@ struct Starts {
 /// Reads the box of starts.
 fn starts(machine: &Machine, value: &Value) -> Result<Region, Failure> {
     let stated = value.clone().try_into::<Starts>().ok();
-    let is_range = |[low, high]: [f64; 2]| low.is_finite() && high.is_finite() && low < high;
+    let is_range = |[low, high]: [f64; 2]| low < high && low >= -FARTHEST && high <= FARTHEST;
     let stated = stated.filter(|it| is_range(it.position) && is_range(it.velocity));
     let Starts { position, velocity } = stated.ok_or_else(|| {
         Failure::usage(format!(
-            "require.{STARTS} = {value}: must be {{ position = [LOW, HIGH], velocity = [LOW, HIGH] }}, finite, each HIGH above its LOW"
+            "require.{STARTS} = {value}: must be {{ position = [LOW, HIGH], velocity = [LOW, HIGH] }}, within 1e24, each HIGH above its LOW"
         ))
     })?;
     Ok(Region {

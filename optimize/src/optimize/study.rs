@@ -35,7 +35,7 @@ pub struct Study {
     pub nearest_box: Vec<Nearest>,
     /// The factor by which all tolerances may grow in each case until the motion is lost, if that is looked for so far.
     pub factors: Vec<Option<f64>>,
-    /// The same by the normal distance.
+    /// Where the motion is lost, by the normal distance.
     pub nearest_ball: Vec<Nearest>,
     /// How velocity and margins change with each tolerance.
     pub sensitivities: Sensitivities,

@@ -109,8 +109,18 @@ impl Job {
             let (_, factor) = tolerance.distribution.over(deviations);
             let widened = (tolerance, reserve * factor);
             leaves_machines(&machine, widened, highest).map_err(located)?;
-            for value in cases.iter().filter_map(|it| it.value(tolerance.parameter)) {
-                leaves_machines(&machine, widened, Some(value)).map_err(located)?;
+            for case in &cases {
+                let Some(value) = case.value(tolerance.parameter) else {
+                    continue;
+                };
+                let in_case = |failure| match failure {
+                    Failure::Usage(words) => {
+                        Failure::Usage(format!("{words} (case {})", case.name))
+                    }
+                    failure => failure,
+                };
+                let left = leaves_machines(&machine, widened, Some(value));
+                left.map_err(in_case).map_err(located)?;
             }
         }
         for axis in &axes {

@@ -98,7 +98,7 @@ task! {
         "type": "array",
         "items": {
             "type": "object",
-            "properties": { "name": { "type": "string" }, "weight": { "type": "number", "minimum": 0, "default": 1 } }
+            "properties": { "name": { "type": "string" }, "weight": { "type": "number", "minimum": 0, "maximum": 1e6, "default": 1 } }
         }
     });
     /// How to search.

@@ -120,8 +120,8 @@ impl Region {
         format!("{position} and {velocity} at drive angle phi")
     }
 
-    /// The part before a rigid stop.
-    fn before(mut self, scene: &Scene) -> Self {
+    /// The part before a rigid stop; the region moved there if no part of it is.
+    pub fn before(mut self, scene: &Scene) -> Self {
         if let Some(Wall { position: wall, .. }) = scene.wall() {
             let width = self.position[1] - self.position[0];
             self.position[1] = self.position[1].min(wall);

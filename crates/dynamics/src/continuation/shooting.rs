@@ -41,7 +41,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         }
     }
 
-    /// The same orbits over another number of drive periods, seen so many of them after drive angle phi.
+    /// The family of these orbits over another number of drive periods, seen so many of them after drive angle phi.
     pub fn seen_at(&self, turn: f64, periods: u64) -> Self {
         Self {
             family: self.family,

@@ -5,9 +5,10 @@ use nalgebra::{Matrix2, Vector2};
 use super::{OrbitError, Passage, StroboscopicMap};
 use softstop::MotionError;
 
-/// Newton steps before giving up; and how many in a row may fail to halve the least residual so far.
+/// Newton steps before giving up.
 const NEWTON_STEPS: usize = 30;
-const PATIENCE: usize = 12;
+/// Steps in a row that may fail to halve the least residual so far; those that lead to an orbit take fewer.
+const MAX_IDLE_STEPS: usize = 12;
 /// Share of the residual that rounding may leave below which no step makes it smaller.
 pub(crate) const NOTHING_LEFT: f64 = 0.01;
 
@@ -42,7 +43,7 @@ pub(super) fn fixed_point_unless(
             true => (size(&residual), 0),
             false => (least, idle + 1),
         };
-        if idle > PATIENCE {
+        if idle > MAX_IDLE_STEPS {
             break;
         }
         let matrix = Matrix2::identity() - passage.monodromy.matrix;

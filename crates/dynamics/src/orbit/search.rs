@@ -93,6 +93,11 @@ fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<O
         for (machine, (index, fixed_points)) in searches.iter_mut().enumerate() {
             let trials = trials.of(machine);
             if !trials.iter().any(|trial| trial.is_open) {
+                if let (Err(OrbitError::NotFound { .. }), Some(hardest)) =
+                    (&found[*index], fixed_points.hardest())
+                {
+                    found[*index] = Ok(hardest);
+                }
                 continue;
             }
             let hardest = fixed_points
@@ -168,6 +173,7 @@ impl<'a> FixedPoints<'a> {
         groups: usize,
         watcher: Watcher<'_>,
     ) -> Result<Option<Orbit>, OrbitError> {
+        OrbitError::ask(watcher)?;
         self.look_at(least(trials), watcher)?;
         if after.is_empty() {
             return Ok(None);
@@ -176,11 +182,16 @@ impl<'a> FixedPoints<'a> {
             self.look_at(settled(trials, after), watcher)?;
         }
         self.tried.clear();
+        Ok(self.hardest())
+    }
+
+    /// The hardest of the stable motions with one impact.
+    fn hardest(&self) -> Option<Orbit> {
         let velocity = |orbit: &&Orbit| orbit.before_impact_velocity();
         let hardest = self
             .singles()
             .max_by(|a, b| velocity(a).total_cmp(&velocity(b)));
-        Ok(hardest.cloned())
+        hardest.cloned()
     }
 
     /// The stable motions with one impact.

@@ -1,6 +1,6 @@
 //! The stable z = 1 motion of a scene at the frequency of its drive, and the zones of scenes.
 
-use super::hysteresis::{Upper, zones_of};
+use super::hysteresis::{UpperEnd, zones_of};
 use super::places::{Zone, ZoneKind};
 use super::single_impact::single_impact;
 use super::stretch::Stretch;
@@ -64,7 +64,7 @@ pub fn find_zones(
     watcher: Watcher<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     match kind {
-        ZoneKind::Hysteresis => zones_of(scenes, Upper::FoldOrGrazing, watcher),
+        ZoneKind::Hysteresis => zones_of(scenes, UpperEnd::FoldOrGrazing, watcher),
         ZoneKind::SingleImpact { between } => single_impact(scenes, between, watcher),
     }
 }

@@ -47,7 +47,7 @@ pub(super) fn ended(
 
 /// The end by a look at every special point, from the last point on, or from the first one if there is nothing to see
 /// from the last.
-fn followed_to_end(
+pub(super) fn followed_to_end(
     follower: &Follower<'_, Frequencies<'_>>,
     points: &mut Vec<BranchPoint>,
     heading: Heading,

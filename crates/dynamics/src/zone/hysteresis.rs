@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::end::{EndKind, ZoneEnd};
-use super::followed_end::{LONGEST_BRANCH, ended};
+use super::followed_end::{LONGEST_BRANCH, followed_to_end};
 use super::places::{AT_FOLD, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading, SpecialKind, Test};
@@ -39,31 +39,31 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
 pub fn hysteresis_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
     let start = find_watched(&scene.at_frequency(grazing.1), watcher);
-    from_start(scene, grazing, (start.ok(), Upper::Fold), watcher)
+    from_start(scene, grazing, (start.ok(), UpperEnd::Fold), watcher)
 }
 
 /// What may end a zone above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Upper {
+pub(super) enum UpperEnd {
     /// A fold.
     Fold,
     /// A fold, or where none comes first the grazing of a surface beyond the clearance, as of a rigid stop behind the other.
     FoldOrGrazing,
 }
 
-/// The same of many machines at once, in groups of some on all cores, in a fraction of the work: the z = 1 motion at g0 is the hardest of
+/// The hysteresis zones of many machines at once, in groups of some on all cores, in a fraction of the work: the z = 1 motion at g0 is the hardest of
 /// those that motions come back near to, and where there is none of them, as in [`hysteresis`].
 ///
 /// # Errors
 /// Each as [`hysteresis_watched`].
 pub fn hysteresis_batch(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
-    zones_of(scenes, Upper::Fold, watcher)
+    zones_of(scenes, UpperEnd::Fold, watcher)
 }
 
 /// The zones of [`hysteresis_batch`], or those that something else may end, too.
 pub(super) fn zones_of(
     scenes: &[Scene],
-    upper: Upper,
+    upper: UpperEnd,
     watcher: Watcher<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
@@ -75,7 +75,11 @@ pub(super) fn zones_of(
 }
 
 /// Zones of a few machines.
-fn together(scenes: &[Scene], upper: Upper, watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
+fn together(
+    scenes: &[Scene],
+    upper: UpperEnd,
+    watcher: Watcher<'_>,
+) -> Vec<Result<Zone, ZoneError>> {
     let grazing: Vec<_> = scenes.iter().map(grazing_frequencies).collect();
     let with_grazing = scenes.iter().zip(&grazing);
     let at_grazing: Vec<Scene> = with_grazing
@@ -94,7 +98,7 @@ fn together(scenes: &[Scene], upper: Upper, watcher: Watcher<'_>) -> Vec<Result<
 fn from_start(
     scene: &Scene,
     (frequency_g0_below, frequency_g0): (Option<f64>, f64),
-    (start, upper): (Option<Orbit>, Upper),
+    (start, upper): (Option<Orbit>, UpperEnd),
     watcher: Watcher<'_>,
 ) -> Result<Zone, ZoneError> {
     OrbitError::ask(watcher)?;
@@ -105,13 +109,15 @@ fn from_start(
     let follower = Follower::new(&family, 1);
     let range = (frequency_g0, FARTHEST * frequency_g0);
     let mut branch = upward(&follower, &start, range, watcher)?;
-    let high = match highest_fold(&branch).ok_or_else(|| no_fold(frequency_g0, &branch)) {
-        Ok(fold) => fold,
-        Err(ZoneError::NoFold {
-            end: BranchEnd::Regime,
-            ..
-        }) if upper == Upper::FoldOrGrazing => ended(&follower, &mut branch, Heading::Up, range)?,
-        Err(none) => return Err(none),
+    let high = match (highest_fold(&branch), upper) {
+        (Some(fold), _) => fold,
+        (None, UpperEnd::Fold) => return Err(no_fold(frequency_g0, &branch)),
+        (None, UpperEnd::FoldOrGrazing) => {
+            let none = no_fold(frequency_g0, &branch);
+            branch.truncate(1);
+            let end = followed_to_end(&follower, &mut branch, Heading::Up, range).ok();
+            end.filter(is_grazing).ok_or(none)?
+        }
     };
     Ok(Zone {
         kind: ZoneKind::Hysteresis,
@@ -145,6 +151,11 @@ pub(super) fn upward(
     OrbitError::ask(watcher)?;
     insert_folds(follower, &mut branch);
     Ok(branch)
+}
+
+/// True if a surface is grazed at an end.
+fn is_grazing(end: &ZoneEnd) -> bool {
+    matches!(end.kind, EndKind::Special(SpecialKind::Grazing(_)))
 }
 
 /// The fold at the highest frequency; none if the branch has none.

@@ -57,8 +57,8 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
     };
     let caption = format!(
         "Share of the initial states that lead to the design's kind of motion, with its 95 % interval, and the radius of the \
-         largest ball about the motion inside its basin. Starts: {STARTS} at each place, in the box of requirements and \
-         basin{widened}: positions {}, velocities {}.",
+         largest ball about the motion inside its basin. Starts: {STARTS} at each place, in the box that \
+         commands take starts from{widened}: positions {}, velocities {}.",
         ends(Dimension::Length, profile.region.position),
         ends(Dimension::Velocity, profile.region.velocity)
     );

@@ -1,5 +1,7 @@
 //! The before-impact velocity over the drive's frequency.
 
+use std::slice;
+
 use rayon::prelude::*;
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
@@ -38,7 +40,8 @@ pub fn response(
     let bands = bands(problem, &corners);
     let mut curves = motions.unstable(machine, "design, unstable", UNSTABLE);
     for it in references {
-        if let Ok(zone) = zone::hysteresis_watched(&it.machine.scene, &interrupt::watch) {
+        let scenes = slice::from_ref(&it.machine.scene);
+        if let Ok(zone) = zone::find_zones(problem.zone, scenes, &interrupt::watch).remove(0) {
             curves.extend(Motions::of(&zone).stable(&it.machine, &it.title(), BESIDE));
         }
     }
