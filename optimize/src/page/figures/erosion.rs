@@ -11,6 +11,7 @@ use crate::design::trial::STARTS;
 use crate::design::{Design, Problem};
 use crate::page::figure::{AT, BESIDE, DESIGN, Figure, HALF, Section};
 use crate::page::words::quantity;
+use crate::zone_end::end_name;
 
 const REQUIRED: Stroke = Stroke::dashed(style::ASIDE, 1.6, (3.0, 3.0));
 
@@ -37,8 +38,11 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
         integrity.named("integrity"),
     ]);
     let axis = match design.zone.is_hysteresis() {
-        true => "place s in the zone: 0 at g₀, 1 at s_SN",
-        false => "place s in the range of stable z = 1",
+        true => format!(
+            "place s in the zone: 0 at g₀, 1 at {}",
+            end_name(&design.zone.high)
+        ),
+        false => "place s in the range of stable z = 1".to_owned(),
     };
     let panel = Panel {
         x: Axis::new(axis).range((0.0, 1.0)),

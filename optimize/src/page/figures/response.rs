@@ -6,6 +6,8 @@ use rayon::prelude::*;
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_draw::{Axis, Layer, Mark, Panel, style};
+use softstop_dynamics::continuation::Test;
+use softstop_dynamics::zone::ZoneEnd;
 use softstop_dynamics::{Zone, zone};
 
 use super::{half_width, velocity};
@@ -25,6 +27,12 @@ const BESIDE_MARK: f64 = 6.0;
 const BAND: f64 = 0.35;
 const ALLOWED: f64 = 0.3;
 const MARGIN: f64 = 0.15;
+
+/// The frequency in rad/s of an end of a zone that is neither fold nor flip.
+fn ends_otherwise(end: &ZoneEnd) -> Option<f64> {
+    let is_named = end.is(Test::Fold) || end.is(Test::Flip);
+    (!is_named).then_some(end.frequency)
+}
 
 /// The motions of the design's machine, those of references, and the band of machines within the tolerances.
 pub fn response(
@@ -70,6 +78,7 @@ pub fn response(
         ("g₀", placed::grazing(design)),
         ("s_SN", placed::fold(design)),
         ("s_PD", motions.flip),
+        ("end of the zone", ends_otherwise(&design.zone.high)),
     ];
     let ends = ends.map(|(name, at)| Some((name, own(at?))));
     let ends: Vec<(&str, f64)> = ends.into_iter().flatten().collect();
