@@ -19,15 +19,7 @@ pub fn write() -> Result<PathBuf> {
         fs::remove_dir_all(&folder).with_context(|| folder.display().to_string())?;
     }
     run(Command::new(&python)
-        .args([
-            "-m",
-            "maturin",
-            "build",
-            "--release",
-            "--locked",
-            "--quiet",
-            "--out",
-        ])
+        .args(["-m", "maturin", "build", "--release", "--locked", "--out"])
         .arg(&folder)
         .arg("--target-dir")
         .arg(target())
@@ -47,13 +39,7 @@ pub fn test() -> Result<()> {
     let wheel = write()?;
     let python = environment("package", REQUIREMENTS)?;
     run(Command::new(&python)
-        .args([
-            "-m",
-            "pip",
-            "install",
-            "--quiet",
-            "--disable-pip-version-check",
-        ])
+        .args(["-m", "pip", "install", "--disable-pip-version-check"])
         .args(["--force-reinstall", "--no-deps"])
         .arg(wheel))?;
     run(&mut pytest_of(&python, "python/tests"))
