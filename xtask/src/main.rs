@@ -11,7 +11,6 @@ mod python;
 mod run;
 mod system;
 mod targets;
-mod wheel;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -56,10 +55,6 @@ enum Task {
     Fmpy,
     /// Build the FMU of daily work and run the tests with other importers only
     Importers,
-    /// Write the Python package as a wheel into target/wheels
-    Wheel,
-    /// Build that wheel and the program and run the package's tests only
-    Python,
     /// Build the program and run the tests of its pages in a headless Chromium only
     Pages,
     /// Test the pages of the guide with all that they show, and build it as a book with mdBook
@@ -110,7 +105,6 @@ fn run_task(task: &Task) -> Result<()> {
             test_with_fmpy(&package)?;
             test_with_importers(&package)?;
             test_pages()?;
-            test_wheel()?;
             stage("the library for Windows under Wine");
             portable::compare_under_wine()?;
             stage("all passed");
@@ -121,14 +115,6 @@ fn run_task(task: &Task) -> Result<()> {
             test_with_fmpy(&build()?)
         }
         Task::Importers => test_with_importers(&build()?),
-        Task::Wheel => {
-            println!("written: {}", wheel::write()?.display());
-            Ok(())
-        }
-        Task::Python => {
-            build_program()?;
-            test_wheel()
-        }
         Task::Pages => {
             build_program()?;
             test_pages()
@@ -184,11 +170,6 @@ fn test_with_fmpy(package: &Path) -> Result<()> {
 fn test_pages() -> Result<()> {
     stage("pages in a headless Chromium");
     python::test_pages()
-}
-
-fn test_wheel() -> Result<()> {
-    stage("the Python package");
-    wheel::test()
 }
 
 fn test_with_importers(package: &Path) -> Result<()> {

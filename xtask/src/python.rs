@@ -36,8 +36,7 @@ fn pytest(python: &Path, folder: &str, package: &Path) -> Result<()> {
     run(pytest_of(python, folder).env("SOFTSTOP_FMU", package))
 }
 
-/// The tests of a folder.
-pub fn pytest_of(python: &Path, folder: &str) -> Command {
+fn pytest_of(python: &Path, folder: &str) -> Command {
     let mut command = Command::new(python);
     command.args(["-m", "pytest", "-p", "no:cacheprovider", "-q", folder]);
     command
