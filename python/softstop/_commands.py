@@ -7,14 +7,11 @@ import os
 import pathlib
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from . import _softstop
 from ._machine import Machine, _tables
 from ._result import Design, Result, result_of
-
-if TYPE_CHECKING:
-    from ._motion import Motion
 
 Range = tuple[float, float]
 
@@ -313,12 +310,10 @@ def optimize(
     return cast(Design, _run(arguments, files, Design))
 
 
-def picture_of(motion: Motion) -> str:
+def picture_of(machine: Machine, start: Range, periods: int) -> str:
     """The last periods of a motion as an SVG, as `softstop simulate` draws them."""
-    x, v = motion.sample([0.0])
-    periods = round(motion.duration / motion.machine.period)
-    options = {"periods": periods, "samples_per_period": 1, "position": float(x[0]), "velocity": float(v[0])}
-    return _of_machine("simulate", motion.machine, options).files["motion.svg"].decode()
+    options = {"periods": periods, "samples_per_period": 1, "position": start[0], "velocity": start[1]}
+    return _of_machine("simulate", machine, options).files["motion.svg"].decode()
 
 
 def _content(task: Mapping[str, Any] | str | os.PathLike[str]) -> dict[str, Any]:

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _softstop
+from ._commands import picture_of
 from ._machine import Machine
 from ._result import Table
 
@@ -64,6 +65,6 @@ class Motion:
         return f"<Motion over {self.duration:g} s: {len(self.impacts)} impacts>"
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
-        from ._commands import picture_of
-
-        return {"text/plain": repr(self), "image/svg+xml": picture_of(self)}
+        x, v = self.sample([0.0])
+        picture = picture_of(self.machine, (float(x[0]), float(v[0])), round(self.duration / self.machine.period))
+        return {"text/plain": repr(self), "image/svg+xml": picture}
