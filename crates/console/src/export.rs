@@ -90,18 +90,24 @@ pub fn returned(command: impl FnOnce() -> Result<(), Failure>) -> Result<Returne
 
 /// Prints a report that has no files.
 pub fn print(report: &impl Report, format: Format) -> Result<(), Failure> {
-    show(report.text(), "", output::json(report)?, format)
+    show(report, "", || output::json(report), format)
 }
 
 /// Prints a report, or returns it to whoever asks for it.
-fn show(text: String, files: &str, json: String, format: Format) -> Result<(), Failure> {
+fn show(
+    report: &impl Report,
+    files: &str,
+    json: impl FnOnce() -> Result<String, Failure>,
+    format: Format,
+) -> Result<(), Failure> {
     if RETURNED.with_borrow(Option::is_some) {
+        let (text, json) = (report.text(), json()?);
         RETURNED.set(Some(Returned { text, json }));
         return Ok(());
     }
     output::print(&match format {
-        Format::Json => json,
-        Format::Text => text + files,
+        Format::Json => json()?,
+        Format::Text => report.text() + files,
     })
 }
 
@@ -286,7 +292,7 @@ impl Export {
             fs::remove_file(&path).with_context(|| format!("cannot remove {place}"))?;
             text += &format!("Removed: {place} (of an earlier run)\n");
         }
-        show(report.text(), &text, json, format)
+        show(report, &text, || Ok(json), format)
     }
 
     /// Kind and name of the file that holds the JSON.

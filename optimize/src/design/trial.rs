@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
-use softstop_dynamics::attractors::SurveyError;
+use softstop_dynamics::attractors::{Region, SurveyError, starting_box};
 use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::run_up::RunUp;
 use softstop_dynamics::supply::{Reading, outlasts};
@@ -265,12 +265,15 @@ impl Problem {
         orbit: &Orbit,
         starts: usize,
     ) -> Result<Establishment, SurveyError> {
-        let watcher = &interrupt::watch;
+        let region = self.region(orbit)?;
+        Establishment::within(orbit, &region, starts, &interrupt::watch)
+    }
+
+    /// The box of starts: what the task states of it, before a rigid stop, or that of all commands.
+    fn region(&self, orbit: &Orbit) -> Result<Region, SurveyError> {
         match &self.starts {
-            Some(region) => {
-                Establishment::within(orbit, &region.before(&orbit.scene), starts, watcher)
-            }
-            None => Establishment::of(orbit, starts, watcher),
+            Some(region) => Ok(region.before(&orbit.scene)),
+            None => starting_box(&orbit.scene, &interrupt::watch),
         }
     }
 
@@ -288,13 +291,8 @@ impl Problem {
                 return Ok((starts.share, Some(starts)));
             }
             Figure::Integrity => {
-                let (starts, radius) = match &self.starts {
-                    Some(region) => {
-                        let region = region.before(&orbit.scene);
-                        Establishment::with_ball_within(orbit, &region, starts, watcher)?
-                    }
-                    None => Establishment::with_ball(orbit, starts, watcher)?,
-                };
+                let region = self.region(orbit)?;
+                let (starts, radius) = Establishment::with_ball(orbit, &region, starts, watcher)?;
                 return Ok((radius, Some(starts)));
             }
             Figure::RunUp => {

@@ -56,25 +56,12 @@ impl Establishment {
         Ok(Self::counted(&reached, region))
     }
 
-    /// The same, and the radius of the largest ball about the motion that leads to it alone ([`Integrity::radius`]), in
-    /// the box that all commands take starts from.
+    /// [`Establishment::within`] a box, and the radius of the largest ball about the motion that leads to it alone
+    /// ([`Integrity::radius`]).
     ///
     /// # Errors
     /// As [`Establishment::of`].
     pub fn with_ball(
-        orbit: &Orbit,
-        starts: usize,
-        watcher: Watcher<'_>,
-    ) -> Result<(Self, f64), SurveyError> {
-        let region = starting_box(&orbit.scene, watcher)?;
-        Self::with_ball_within(orbit, &region, starts, watcher)
-    }
-
-    /// [`Establishment::with_ball`] in another box.
-    ///
-    /// # Errors
-    /// As [`Establishment::of`].
-    pub fn with_ball_within(
         orbit: &Orbit,
         region: &Region,
         starts: usize,
