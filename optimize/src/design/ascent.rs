@@ -138,8 +138,7 @@ impl<'a> Program<'a> {
         let best = self.best.borrow();
         let Candidate { unit, design } = best.as_ref()?;
         let mut start = Coordinates::new(self.problem, unit).start(design.place);
-        let levels = [design].into_iter().chain(&design.cases);
-        let levels = levels.zip(self.problem.weights());
+        let levels = design.points().zip(self.problem.weights());
         let levels = levels.filter(|(_, weight)| *weight > 0.0);
         let level = |it: &Design| self.problem.objective.score(it.value) / self.score;
         let levels = levels.map(|(design, _)| level(design));

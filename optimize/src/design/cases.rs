@@ -92,13 +92,13 @@ impl Problem {
 
     /// What a design has of what is sought, in SI units: the weighted mean over the drawing and the cases.
     pub fn sought_of(&self, design: &Design) -> f64 {
-        let values = [design].into_iter().chain(&design.cases);
+        let values = design.points();
         self.mean(values.map(|it| it.value))
     }
 
     /// The weighted mean of a figure of the own machines of a design, in SI units; none if a motion has none.
     pub fn nominal_of(&self, figure: Figure, design: &Design) -> Option<f64> {
-        let all = [design].into_iter().chain(&design.cases);
+        let all = design.points();
         let values = all.map(|it| self.value_of_motion(figure, &it.orbit));
         Some(self.mean(values.collect::<Option<Vec<f64>>>()?.into_iter()))
     }

@@ -85,6 +85,11 @@ pub struct Design {
 }
 
 impl Design {
+    /// The design in the drawing's operating point, and in each case.
+    pub fn points(&self) -> impl Iterator<Item = &Self> {
+        [self].into_iter().chain(&self.cases)
+    }
+
     /// Velocity in m/s at which the mass reaches the clearance.
     pub fn before_impact_velocity(&self) -> f64 {
         self.orbit.before_impact_velocity()

@@ -87,7 +87,9 @@ fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<O
             Err(error) => found[index] = Err(error),
         }
     }
-    let mut trials = Trials::new(searches.iter().map(|(_, fixed_points)| fixed_points.scene));
+    let scenes = searches.iter().map(|(_, fixed_points)| fixed_points.scene);
+    let kept = STAGES.iter().flat_map(|(_, after)| *after).copied();
+    let mut trials = Trials::new(scenes, kept.collect());
     for (until, after) in STAGES {
         trials.follow(&machines, until, watcher);
         for (machine, (index, fixed_points)) in searches.iter_mut().enumerate() {

@@ -17,9 +17,6 @@ const DIRECTIONS: usize = 16;
 /// Distance, in scales of the motion, that a state may move within a period and yet lie near an orbit.
 pub(super) const RETURNS: f64 = 0.2;
 
-/// Drive periods after which it is kept where motions are.
-const KEPT: [u64; 3] = [2, 12, 60];
-
 /// A state that may lie near an orbit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
@@ -62,7 +59,7 @@ pub(super) struct Trial {
     impacts: u64,
     /// The state that moved least within a period with one impact, where it moved little.
     least: Option<Candidate>,
-    /// After each of the [`KEPT`] numbers of periods.
+    /// After each of the numbers of periods that are kept.
     settled: Vec<(u64, Candidate)>,
     /// True as long as it is followed on.
     pub is_open: bool,
@@ -73,12 +70,14 @@ pub(super) struct Trials {
     all: Vec<Trial>,
     /// Of each machine.
     distances: Vec<Distance>,
+    /// Numbers of drive periods after which it is kept where motions are.
+    kept: Vec<u64>,
     /// Drive periods that they were followed.
     cycle: u64,
 }
 
 impl Trials {
-    pub(super) fn new<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Self {
+    pub(super) fn new<'a>(scenes: impl Iterator<Item = &'a Scene>, kept: Vec<u64>) -> Self {
         let (mut all, mut distances) = (Vec::new(), Vec::new());
         for (machine, scene) in scenes.enumerate() {
             distances.push(Distance::of(scene));
@@ -94,6 +93,7 @@ impl Trials {
         Self {
             all,
             distances,
+            kept,
             cycle: 0,
         }
     }
@@ -116,6 +116,7 @@ impl Trials {
         let mut recorder = Recorder {
             trials: &mut open,
             distances: &self.distances,
+            kept: &self.kept,
             since: self.cycle,
         };
         // The caller asks the watcher itself.
@@ -160,6 +161,7 @@ pub(super) fn settled(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
 struct Recorder<'a, 'b> {
     trials: &'a mut [&'b mut Trial],
     distances: &'a [Distance],
+    kept: &'a [u64],
     /// Drive periods before.
     since: u64,
 }
@@ -182,7 +184,7 @@ impl Watch for Recorder<'_, '_> {
             before,
         };
         let cycle = self.since + cycle;
-        if KEPT.contains(&cycle) {
+        if self.kept.contains(&cycle) {
             let moves = 0.0;
             trial.settled.push((
                 cycle,
