@@ -148,6 +148,11 @@ impl Course {
         matches!(self.form, Form::Particular { .. })
     }
 
+    /// True if it is a series, which ends at its reach.
+    pub fn is_series(&self) -> bool {
+        matches!(self.form, Form::Segment(_))
+    }
+
     /// True if nothing moves.
     pub fn is_held(&self) -> bool {
         match &self.form {

@@ -1,4 +1,5 @@
-//! Branches of random machines of all laws: each ends in something that has a name. What they end in is printed.
+//! Branches of random machines of all laws: each ends in something that has a name, and impacts come and go at grazings alone.
+//! What they end in is printed.
 //!
 //! A thousand machines: `PROPTEST_CASES=1000 cargo test --release -p softstop-dynamics --test dynamics branch_ends -- --nocapture`
 
@@ -10,9 +11,9 @@ use nalgebra::Vector2;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use softstop::{Parameter, Scene, Stop};
-use softstop_dynamics::continuation::End;
+use softstop_dynamics::continuation::{End, SpecialKind};
 use softstop_dynamics::orbit::{OrbitError, find};
-use softstop_dynamics::{Along, Branch, Follower, Limits, Orbit, StroboscopicMap};
+use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, Orbit, StroboscopicMap};
 use softstop_testing::machines::machines;
 use softstop_testing::random;
 
@@ -60,8 +61,33 @@ fn branch(scene: &Scene, orbit: &Orbit, along: Parameter) -> Result<Branch, Orbi
     Follower::new(&family, orbit.periods).branch(value, orbit.state(), &limits, go_on)
 }
 
+/// The determinant below which an orbit comes to rest: how many of its bounces are told one by one is the simulation's choice.
+const RESTS: f64 = 1e-12;
+
+/// Points between which the number of impacts changes without a grazing; where the branch merges into that of half as many
+/// periods, it doubles.
+fn untold(branch: &Branch) -> Vec<(&BranchPoint, &BranchPoint)> {
+    let is_grazing = |point: &BranchPoint| {
+        let special = branch.special_at(point);
+        special.is_some_and(|special| matches!(special.kind, SpecialKind::Grazing(_)))
+    };
+    let [first, last] =
+        [&branch.ends.0, &branch.ends.1].map(|end| usize::from(matches!(end, End::Merged)));
+    let points = &branch.points[first..branch.points.len() - last];
+    let pairs = points.iter().zip(points.iter().skip(1));
+    pairs
+        .filter(|(a, b)| a.impacts.len() != b.impacts.len())
+        .filter(|(a, b)| {
+            [a, b]
+                .iter()
+                .all(|point| point.monodromy.determinant() > RESTS)
+        })
+        .filter(|(a, b)| !is_grazing(a) && !is_grazing(b))
+        .collect()
+}
+
 #[test]
-fn every_branch_ends_in_something_named() {
+fn every_branch_ends_in_something_named_and_tells_each_grazing() {
     let along = prop_oneof![
         2 => Just(Parameter::Frequency),
         1 => Just(Parameter::Clearance)
@@ -76,6 +102,10 @@ fn every_branch_ends_in_something_named() {
         };
         match branch(&scene, &orbit, along) {
             Ok(branch) => {
+                for change in untold(&branch) {
+                    lost.borrow_mut()
+                        .push(format!("{along:?}: {change:?} {scene:?}"));
+                }
                 for end in [&branch.ends.0, &branch.ends.1] {
                     count(format!("{end:?}"));
                     if matches!(end, End::Lost(_) | End::Stopped) {

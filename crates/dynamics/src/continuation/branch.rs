@@ -196,8 +196,9 @@ impl<'a, F: Family> Follower<'a, F> {
             match step {
                 Ok((step, ahead, end)) => {
                     crawled = if stepper.step < SHORT { crawled + 1 } else { 0 };
+                    grazing_test = ahead.reached(&grazing_test, stepper.step);
                     stepper.take(step);
-                    (grazing_test, goes_on) = (ahead, true);
+                    goes_on = true;
                     let stopped = way
                         .points
                         .last()
@@ -276,6 +277,11 @@ impl<'a, F: Family> Follower<'a, F> {
             (Some((bound, false)), _) => {
                 let test = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
                 let (node, _) = locate(&self.shooting, (from, to), WIDTH, test)?;
+                let sequence = node.here.point.sequence;
+                let is_end = |end: &&Node<PeriodMap>| end.here.point.sequence.agrees(&sequence);
+                if ![from, to].iter().any(is_end) {
+                    return Err(UNSTABLE);
+                }
                 (node, Some(End::Range))
             }
             (None, Some(point)) => {

@@ -16,7 +16,7 @@ use crate::orbit::OrbitError;
 
 /// Scaled distances beyond a corner at which the branch is taken up.
 const BEYOND: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
-/// How many times as far from this side of the corner it may lie.
+/// How many times as far from this side of the corner it may lie, and the touch from both.
 const NEAR: f64 = 10.0;
 
 impl<F: Family> Follower<'_, F> {
@@ -63,7 +63,7 @@ impl<F: Family> Follower<'_, F> {
             let (kind, point) = (SpecialKind::Critical(test), self.point_at(from)?);
             found.push(Special { kind, point });
         }
-        let touch = self.graze_between(from, to)?;
+        let touch = self.graze_between((from, to), NEAR)?;
         found.extend(touch.map(|(_, special)| special));
         Ok(found)
     }

@@ -30,6 +30,8 @@ const DIP: f64 = 1e-6;
 /// Share of a step over which a test is taken to be straight, and the value from which on no step leads to zero and back.
 const NEARBY: f64 = 0.02;
 const SHALLOW: f64 = 0.2;
+/// Scaled length of the shortest part of a step that is halved to find a grazing on it.
+const SHORTEST: f64 = 1e-7;
 
 impl<F: Family> Follower<'_, F> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
@@ -81,9 +83,7 @@ impl<F: Family> Follower<'_, F> {
             }
         }
         found.extend(self.flips_there_and_back(from, to)?);
-        if a.sequence.crossings() != b.sequence.crossings() {
-            found.extend(self.graze_between(from, to)?);
-        }
+        found.extend(self.grazes_between(from, to)?);
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(found.into_iter().map(|(_, special)| special).collect())
     }
@@ -130,18 +130,54 @@ impl<F: Family> Follower<'_, F> {
         flips.into_iter().collect()
     }
 
-    /// The grazing of a stop without a jump of its force, where the branch goes on.
-    pub(super) fn graze_between(
+    /// The grazings on a step where the branch goes on. A part of the step is halved as long as none is found on it that
+    /// makes the whole difference in crossings.
+    fn grazes_between(
         &self,
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
+    ) -> Result<Vec<(f64, Special)>, OrbitError> {
+        let sequences = [from, to].map(|node| node.here.point.sequence);
+        let [a, b] = sequences.map(|sequence| sequence.crossings());
+        if a == b {
+            return Ok(Vec::new());
+        }
+        let found = self.graze_between((from, to), 0.0)?;
+        let [before, after] = sequences.map(|sequence| [sequence.faces, sequence.reversals]);
+        let is_whole = |special: &Special| match special.kind {
+            SpecialKind::Grazing(graze) => graze.crossings == a.min(b),
+            SpecialKind::Critical(_) => false,
+        };
+        if found.as_ref().is_some_and(|(_, special)| is_whole(special))
+            || before == after
+            || (&to.at - &from.at).norm() < SHORTEST
+        {
+            return Ok(found.into_iter().collect());
+        }
+        let middle = Cubic::between(&self.shooting, (from, to))?.node(0.5)?;
+        let mut grazes = Vec::new();
+        for (begins, half) in [(0.0, (from, &middle)), (0.5, (&middle, to))] {
+            let found = self.grazes_between(half.0, half.1)?;
+            let shares = found
+                .into_iter()
+                .map(|(share, special)| (begins + 0.5 * share, special));
+            grazes.extend(shares);
+        }
+        Ok(grazes)
+    }
+
+    /// The grazing between two nodes that Newton's method reaches from one of them, or as many of their distances beyond them.
+    pub(super) fn graze_between(
+        &self,
+        (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
+        beyond: f64,
     ) -> Result<Option<(f64, Special)>, OrbitError> {
         let way = &to.at - &from.at;
         for node in [from, to] {
             for special in GrazingTest::of(&self.shooting, node)?.grazes(&self.shooting) {
                 let at = self.place(&special.point)?;
                 let share = (&at - &from.at).dot(&way) / way.norm_squared();
-                if !(0.0..=1.0).contains(&share) || !is_beside((&from.at, &way), &at) {
+                if !(-beyond..=1.0 + beyond).contains(&share) || !is_beside((&from.at, &way), &at) {
                     continue;
                 }
                 let mut special = special.clone();

@@ -174,8 +174,16 @@ impl<O: Observer> LastArc<O> {
         }
     }
 
-    fn extend(&mut self, arc: &Arc<'_>) {
+    /// Takes an arc on to the end. A series holds no farther than its law: another arc goes on from its end. A mass that is held
+    /// touches nothing: it gives no end.
+    fn extend(&mut self, arc: &Arc<'_>, lasts: f64) {
         let elapsed = self.clock.elapsed(arc.start, self.until);
+        if lasts < elapsed && arc.course.is_series() {
+            return self.seen.arc(arc, lasts);
+        }
+        if arc.course.is_held() {
+            return;
+        }
         let drive = self.clock.drive(self.until);
         let (position, velocity) = arc.course.at(elapsed, drive);
         self.seen.arc(arc, elapsed);
@@ -186,7 +194,7 @@ impl<O: Observer> LastArc<O> {
 impl<O: Observer> Observer for LastArc<O> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         match (self.left, self.found) {
-            (0, None) => self.extend(arc),
+            (0, None) => self.extend(arc, elapsed),
             (0, Some(_)) => {}
             _ => self.seen.arc(arc, elapsed),
         }

@@ -31,6 +31,8 @@ pub(crate) struct GrazingTest {
     /// Drive angle from phi to the section.
     turned: f64,
     speed: f64,
+    /// What the distances of both touches to a smooth grazing have lost per unit of arclength on the step before.
+    losses: [f64; 2],
     /// Grazing orbits near it, once they are asked for.
     grazes: OnceCell<Vec<Special>>,
 }
@@ -58,8 +60,34 @@ impl GrazingTest {
             drive: (scene.excitation.phase, scene.excitation.frequency),
             turned: TAU * shooting.turn,
             speed: shooting.velocity_scale(),
+            losses: [0.0; 2],
             grazes: OnceCell::new(),
         })
+    }
+
+    /// The same, reached from another one by a step.
+    pub fn reached(self, before: &Self, step: f64) -> Self {
+        let loss = |(then, now): (Option<Touch>, Option<Touch>)| match (then, now) {
+            (Some(then), Some(now)) if then.face == now.face && self.is_gentle(now.face) => {
+                (then.amount - now.amount) / step
+            }
+            _ => 0.0,
+        };
+        let losses = [(before.dying, self.dying), (before.rising, self.rising)].map(loss);
+        Self { losses, ..self }
+    }
+
+    /// True if a distance to a smooth grazing falls so fast that it vanishes within a step, beyond which the orbit crosses as
+    /// much as before it: it may graze twice on it.
+    pub fn may_graze_twice(&self, ahead: &Self, step: f64) -> bool {
+        let vanishes = |(touch, loss): (Option<Touch>, f64)| {
+            touch.is_some_and(|touch| touch.amount < loss * step)
+        };
+        self.crossings.0 == ahead.crossings.0
+            && [self.dying, self.rising]
+                .into_iter()
+                .zip(self.losses)
+                .any(vanishes)
     }
 
     /// True if neither distance to a grazing that is not smooth has shrunk below `share` of what it was, or both are

@@ -242,6 +242,7 @@ impl Monitor<'_> {
         self.sequence.surfaces += 1;
         let amount = crossing.velocity.abs();
         let face = Face::at(self.scene, crossing.position);
+        self.sequence.faces += usize::from(face.is_some());
         let gentle = face.is_none_or(|face| face.is_gentle(self.scene));
         let touched = self.touched.take();
         if gentle {

@@ -9,6 +9,8 @@ pub(crate) struct Sequence {
     pub impacts: usize,
     /// Crossings of surfaces, impacts on a rigid stop among them.
     pub surfaces: usize,
+    /// Those of them at a [`Face`](super::face::Face).
+    pub faces: usize,
     /// Turns under dry friction.
     pub reversals: usize,
     /// Rows of bounces that end in rest.

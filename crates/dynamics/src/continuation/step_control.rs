@@ -109,6 +109,7 @@ impl<F: Family> Follower<'_, F> {
         Test::change_little(&from.monodromy, &to.monodromy)
             && same
             && ahead.leaves(now, SHARE_LEFT, NEAR)
+            && !now.may_graze_twice(ahead, stepper.step)
     }
 
     /// The grazing within the next step that leads no further, if there is one. Where an impact dies that no rest follows,
