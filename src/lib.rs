@@ -58,6 +58,6 @@ pub use scene::{
     Slope, Stop, Units, Wall,
 };
 pub use tangent::{Perturbation, Sensitivity, Tangent};
-pub use trajectory::{KeptArc, Touch, Trajectory};
+pub use trajectory::{AppliedForce, KeptArc, Touch, Trajectory};
 
 pub use nalgebra;

@@ -8,7 +8,8 @@ use approx::{assert_relative_eq, relative_eq};
 use proptest::prelude::*;
 use softstop::internals::Polynomial;
 use softstop::{
-    Excitation, HIGHEST_ORDER, MotionError, PhaseKind, Ratios, Scene, Simulation, Start, Stop,
+    AppliedForce, Clock, Excitation, HIGHEST_ORDER, MotionError, PhaseKind, Ratios, Scene,
+    Simulation, Start, Stop,
 };
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{cases, hertz, is_near, loaded, machines, start_below};
@@ -106,6 +107,53 @@ fn the_division_of_a_run_does_not_matter() {
         assert_eq!(whole.sample(), divided.sample(), "bit for bit");
         assert_eq!(whole.last_impact(), divided.last_impact());
         assert_eq!(whole.energy(), divided.energy());
+    }
+}
+
+#[test]
+fn a_kept_trajectory_is_the_run_under_the_same_forces() {
+    let rigid = Stop::Rigid { restitution: 0.6 };
+    for stop in [loaded().stop, hertz(50.0, 1.5, 0.1), rigid] {
+        let scene = Scene { stop, ..loaded() };
+        let start = Start::new(3.0, 11.0);
+        let force = |index: u32| AppliedForce {
+            from: 1.7 * f64::from(index),
+            derivatives: SEVENTH[..1 + index as usize % 8].to_vec(),
+        };
+        let forces: Vec<AppliedForce> = (0..30).map(force).collect();
+        let end = Clock::at_cycle(8);
+        let kept = scene.trajectory_under(start, end, &forces, &mut ());
+        let kept = kept.expect("bounded");
+        let mut run = Simulation::new(&scene, start).expect("valid");
+        let until = kept.clock.time(end);
+        for force in forces.iter().filter(|force| force.from < until) {
+            run.advance(force.from).expect("bounded");
+            let state = kept.at(kept.clock.instant(force.from)).expect("within");
+            let sample = run.sample();
+            assert_relative_eq!(state.position, sample.position, epsilon = MOTION);
+            assert_relative_eq!(state.velocity, sample.velocity, epsilon = MOTION);
+            run.set_force(&force.derivatives).expect("finite");
+        }
+        run.advance(until).expect("bounded");
+        let sample = run.sample();
+        assert_relative_eq!(kept.end.position, sample.position, epsilon = MOTION);
+        assert_relative_eq!(kept.end.velocity, sample.velocity, epsilon = MOTION);
+        assert_eq!(kept.impacts().count() as u64, run.impact_count());
+        assert!(run.impact_count() > 1);
+        assert!(kept.energy_defect().abs() < 1e-11 * kept.work.dissipated);
+    }
+}
+
+#[test]
+fn forces_of_a_kept_trajectory_come_in_order() {
+    let force = |from| AppliedForce {
+        from,
+        derivatives: vec![1.0],
+    };
+    for times in [[2.0, 1.0], [-1.0, 1.0], [f64::NAN, 1.0]] {
+        let forces = times.map(force);
+        let kept = loaded().trajectory_under(AT_REST, Clock::at_cycle(2), &forces, &mut ());
+        assert!(matches!(kept, Err(MotionError::TimeBackwards { .. })));
     }
 }
 

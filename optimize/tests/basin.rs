@@ -64,6 +64,14 @@ fn the_zone_takes_the_box_of_the_machine() {
 }
 
 #[test]
+fn the_sides_may_have_cells_of_their_own() {
+    let report = SOFTSTOP.report("basin --size 12,30");
+    assert_eq!(motions(&report), ["0", "1"]);
+    assert_eq!(report.at("grid/across/cells"), 12);
+    assert_eq!(report.at("grid/up/cells"), 30);
+}
+
+#[test]
 fn a_rigid_scene_over_the_drive_angle() {
     let report = SOFTSTOP.report("basin SCENES/rigid.toml --plane phi,v --size 16");
     motions(&report);

@@ -9,13 +9,15 @@
 (1000,)
 
 Machines (`Machine`, `read`) are immutable. `simulate` follows one motion or, where a value is an array, many at once on all
-processors. `orbit`, `motions`, `zone`, `continue_`, `sweep`, `basin`, `study`, `fidelity` and `optimize` are the commands of the
-program `softstop`, which this package installs, too: their results hold the numbers that the program prints.
+processors; `exponents` are Lyapunov's. `orbit`, `motions`, `zone`, `continue_`, `sweep`, `basin`, `certainty`, `study`, `fidelity` and
+`optimize` are the commands of the program `softstop`, which this package installs, too: their results hold the numbers that the
+program prints. What has a picture has `plot()`, which returns Matplotlib axes, where Matplotlib is installed.
 """
 
-from ._batch import Motions, simulate
+from ._batch import Exponents, Motions, exponents, simulate
 from ._commands import (
     basin,
+    certainty,
     continue_,
     fidelity,
     motions,
@@ -25,28 +27,40 @@ from ._commands import (
     sweep,
     zone,
 )
-from ._machine import Drive, Hertz, KelvinVoigt, Machine, PiecewiseLinear, Preloaded, Rigid, read
+from ._machine import Drive, Hertz, KelvinVoigt, Machine, PiecewiseLinear, Preloaded, Rigid, Strip, read
 from ._motion import Motion
-from ._result import Design, Result, Table
+from ._result import Attractors, Basin, Branch, Certainty, Design, Orbit, Result, Sweep, Zone
 from ._softstop import MachineError, SoftstopError
+from ._table import Table
 
 __all__ = [
+    "Attractors",
+    "Basin",
+    "Branch",
+    "Certainty",
     "Design",
     "Drive",
+    "Exponents",
     "Hertz",
     "KelvinVoigt",
     "Machine",
     "MachineError",
     "Motion",
     "Motions",
+    "Orbit",
     "PiecewiseLinear",
     "Preloaded",
     "Result",
     "Rigid",
     "SoftstopError",
+    "Strip",
+    "Sweep",
     "Table",
+    "Zone",
     "basin",
+    "certainty",
     "continue_",
+    "exponents",
     "fidelity",
     "motions",
     "optimize",

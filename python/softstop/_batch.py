@@ -2,27 +2,38 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import overload
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _softstop
+from . import _softstop, plot
+from ._checks import checked, floats
+from ._forces import Floats, Forces, pieces_of
 from ._machine import Machine
-from ._motion import Floats, Motion
-from ._result import Table
+from ._motion import Motion
+from ._progress import shown
+from ._table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MAX_PERIODS = 1_000_000
 MAX_KEPT_PERIODS = 100_000
 MAX_KEPT = 100_000_000
+MAX_MOTIONS = 100_000_000
 """Drive periods of a motion at most; of one that is kept whole, some 100 MB; impacts that a batch may keep, some 4 GB, if there
-is one in each period."""
+is one in each period; motions of a batch."""
+BATCHES = 32
+"""Batches of drive periods whose means tell how uncertain an exponent is."""
 
 
 @dataclass(frozen=True)
 class Motions:
-    """Many motions, in the shape to which the arguments broadcast.
+    """Many motions, in the shape to which the arguments broadcast, as `simulate` follows them.
 
     Attributes
     ----------
@@ -36,6 +47,16 @@ class Motions:
         The impacts of motion i are the rows offsets[i] to offsets[i + 1].
     errors : dict
         Why motions ended early, by their number.
+    values : dict of array
+        The values of the machine that were stated, in the shape of the motions.
+
+    Examples
+    --------
+    >>> import numpy as np, softstop as ss
+    >>> eta = np.linspace(0.95, 1.4, 1000)
+    >>> batch = ss.simulate(ss.Machine.unloaded(clearance=10), eta=eta, start=(0, 14), periods=200, keep=8)
+    >>> batch.counts.shape, len(batch.offsets)
+    ((1000,), 1001)
     """
 
     position: Floats
@@ -44,27 +65,92 @@ class Motions:
     impacts: Table
     offsets: npt.NDArray[np.int64]
     errors: dict[int, str]
+    values: dict[str, Floats]
+
+    def plot(self, axes: Axes | None = None, *, over: str | None = None) -> Axes:
+        """Draws the velocities of the impacts that were kept over a value that was an array; returns the Matplotlib axes."""
+        return plot.motions(self, over, axes)
 
     def __repr__(self) -> str:
         return f"<Motions {self.position.shape}: {int(self.counts.sum())} impacts, {len(self.impacts)} kept>"
 
 
+@dataclass(frozen=True)
+class Exponents:
+    """Lyapunov exponents of motions of the state (position, velocity), in the shape to which the arguments broadcast.
+
+    Attributes
+    ----------
+    per_period, per_second : array
+        Both exponents, the larger first, along a last axis of length 2: of the map in 1, and of the flow in 1/s.
+    error : array
+        Half-width of the 95 % interval of the larger one per period, from the means of 32 batches of drive periods.
+    chaotic : array of bool
+        Where the larger one is positive beyond doubt: above zero by more than three half-widths.
+    periods : int
+        Drive periods that they are the mean over.
+    errors : dict
+        Why motions could not be followed, by their number in the flattened shape.
+    """
+
+    per_period: Floats
+    per_second: Floats
+    error: Floats
+    chaotic: npt.NDArray[np.bool_]
+    periods: int
+    errors: dict[int, str]
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Arguments as arrays of one shape, flattened: positions, velocities, values of the machine."""
+
+    shape: tuple[int, ...]
+    start: tuple[Floats, Floats]
+    changes: dict[str, Floats]
+
+    @classmethod
+    def of(cls, machine: Machine, start: object, changes: Mapping[str, npt.ArrayLike]) -> _Rows:
+        begin = machine.start if start is None else start
+        if not isinstance(begin, tuple) or len(begin) != 2:
+            raise _softstop.MachineError(f"start = {begin!r}: must be (position, velocity)")
+        names = ["start[0]", "start[1]", *changes]
+        values = [floats(name, value) for name, value in zip(names, [*begin, *changes.values()], strict=True)]
+        try:
+            shape = np.broadcast_shapes(*(value.shape for value in values))
+        except ValueError as error:
+            shapes = ", ".join(f"{name} {value.shape}" for name, value in zip(names, values, strict=True))
+            raise _softstop.MachineError(f"{shapes}: do not broadcast to one shape") from error
+        if math.prod(shape) > MAX_MOTIONS:
+            raise _softstop.MachineError(f"{', '.join(names)}: {math.prod(shape)} motions, at most {MAX_MOTIONS}")
+        x, v, *rest = (np.ascontiguousarray(np.broadcast_to(value, shape)).ravel() for value in values)
+        return cls(shape, (x, v), dict(zip(changes, rest, strict=True)))
+
+    @property
+    def keyed(self) -> list[tuple[str, Floats]]:
+        """The values by key."""
+        return [(key.replace("__", "."), value) for key, value in self.changes.items()]
+
+
 @overload
-def simulate(
+def simulate(  # pyright: ignore[reportOverlappingOverload]
     machine: Machine, *, start: tuple[float, float] | None = ..., periods: int = ..., keep: int | None = ...,
-    **changes: float,
+    forces: Forces | None = ..., progress: bool = ..., **changes: float,
 ) -> Motion: ...
 @overload
 def simulate(
     machine: Machine, *, start: tuple[npt.ArrayLike, npt.ArrayLike] | None = ..., periods: int = ...,
-    keep: int | None = ..., **changes: npt.ArrayLike,
-) -> Motion | Motions: ...
+    keep: int | None = ..., forces: None = ..., progress: bool = ..., **changes: npt.ArrayLike,
+) -> Motions: ...
+@checked
 def simulate(
     machine: Machine,
     *,
     start: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
     periods: int = 100,
     keep: int | None = None,
+    forces: Forces | None = None,
+    progress: bool = True,
     **changes: npt.ArrayLike,
 ) -> Motion | Motions:
     """Follows a motion exactly; many at once, on all processors, where a value is an array.
@@ -79,6 +165,12 @@ def simulate(
         Drive periods to follow, 1 to 1,000,000; of one motion, which is kept whole, 100,000 at most.
     keep : int, optional
         With arrays: so many of the last periods have their impacts kept, 0 unless it is stated.
+    forces : (times, values) or piecewise polynomials, optional
+        With one motion: an external force in N over time in s, beside the drive. As many values as times are joined by
+        straight lines; one value less is held between two times each, in steps; SciPy's `CubicSpline` and other `PPoly` up to
+        degree 7 are followed as they are. All are exact. There is no force before the first time and after the last one.
+    progress : bool
+        Whether progress of many motions is shown, where tqdm is installed.
     **changes : float or array
         Values of the machine by key or letter, as in `Machine.replace`; arrays broadcast as in NumPy.
 
@@ -95,48 +187,107 @@ def simulate(
         With the parameter, its value and the allowed range.
     SoftstopError
         If the motion cannot be followed.
+
+    Examples
+    --------
+    >>> import numpy as np, softstop as ss
+    >>> machine = ss.Machine.unloaded(eta=1.15, clearance=10)
+    >>> len(ss.simulate(machine, start=(0, 14), periods=300).impacts)
+    300
+    >>> ss.simulate(machine, eta=[1.1, 1.2], clearance=[[9], [10], [11]], start=(0, 14), periods=300).counts.shape
+    (3, 2)
+    >>> pushed = ss.simulate(machine, start=(0, 0), periods=20, forces=([0, 5, 5, 8], [0, 40, 40, 0]))
+    >>> len(pushed.impacts) > 0
+    True
     """
     periods = _count("periods", periods, 1, MAX_PERIODS)
     keep = _count("keep", 0 if keep is None else keep, 0, MAX_PERIODS)
-    begin = machine.start if start is None else start
-    if not isinstance(begin, tuple) or len(begin) != 2:
-        raise _softstop.MachineError(f"start = {begin!r}: must be (position, velocity)")
-    names = ["start[0]", "start[1]", *changes]
-    values = [_floats(name, value) for name, value in zip(names, [*begin, *changes.values()], strict=True)]
-    if all(value.ndim == 0 for value in values):
+    rows = _Rows.of(machine, start, changes)
+    x, v = rows.start
+    if rows.shape == ():
         periods = _count("periods", periods, 1, MAX_KEPT_PERIODS)
-        changed = machine.replace(**{key: float(value) for key, value in zip(changes, values[2:], strict=True)})
-        state = float(values[0]), float(values[1])
-        return Motion(changed, _softstop.Trajectory(changed._inner, state, periods))
-    try:
-        shape = np.broadcast_shapes(*(value.shape for value in values))
-    except ValueError as error:
-        shapes = ", ".join(f"{name} {value.shape}" for name, value in zip(names, values, strict=True))
-        raise _softstop.MachineError(f"{shapes}: do not broadcast to one shape") from error
-    x, v, *rest = (np.ascontiguousarray(np.broadcast_to(value, shape)).ravel() for value in values)
+        changed = machine.replace(**{key: float(value[0]) for key, value in rows.changes.items()})
+        return Motion(changed, (float(x[0]), float(v[0])), periods, pieces_of(forces))
+    if forces is not None:
+        raise _softstop.MachineError("forces: for one motion; the lanes of many motions know of none")
     if len(x) * keep > MAX_KEPT:
         words = f"keep = {keep}: with {len(x)} motions at most {MAX_KEPT // len(x)}, for memory's sake"
         raise _softstop.MachineError(words)
-    keys = [key.replace("__", ".") for key in changes]
-    batch = _softstop.follow(machine._inner, list(zip(keys, rest, strict=True)), (x, v), periods, keep)
+    with shown(progress) as teller:
+        batch = _softstop.follow(machine._inner, rows.keyed, rows.start, periods, keep, teller)
     motion = np.repeat(np.arange(len(x), dtype=np.float64), np.diff(batch.offsets))
     return Motions(
-        batch.position.reshape(shape),
-        batch.velocity.reshape(shape),
-        batch.counts.reshape(shape),
+        batch.position.reshape(rows.shape),
+        batch.velocity.reshape(rows.shape),
+        batch.counts.reshape(rows.shape),
         Table({"motion": motion, "time": batch.times, "velocity": batch.velocities}),
         batch.offsets,
         dict(batch.errors),
+        {name: value.reshape(rows.shape) for name, value in rows.changes.items()},
     )
 
 
-def _floats(name: str, value: npt.ArrayLike) -> Floats:
-    """An array of numbers."""
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise _softstop.MachineError(f"{name} = {value!r}: must be a number or an array of numbers") from error
-    return array
+@checked
+def exponents(
+    machine: Machine,
+    *,
+    start: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+    transient: int = 1000,
+    periods: int = 3200,
+    progress: bool = True,
+    **changes: npt.ArrayLike,
+) -> Exponents:
+    """Both Lyapunov exponents of a motion, by the exact tangent with saltation at all crossings; of many motions where a value is
+    an array.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    start : (position, velocity), optional
+        State at time 0 in m and m/s, each a number or an array; the machine's own unless it is stated.
+    transient : int
+        Drive periods ahead, 1 to 1,000,000.
+    periods : int
+        Drive periods that the exponents are the mean over, 32 to 1,000,000; rounded up to a multiple of 32.
+    progress : bool
+        Whether progress is shown, where tqdm is installed.
+    **changes : float or array
+        Values of the machine by key or letter, as in `Machine.replace`; arrays broadcast as in NumPy.
+
+    Returns
+    -------
+    Exponents
+        Per drive period and per second, with the half-width of the 95 % interval. NaN where a motion could not be followed.
+
+    Raises
+    ------
+    MachineError
+        With the parameter, its value and the allowed range.
+    SoftstopError
+        If the motion, if it is one, cannot be followed.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> found = ss.exponents(ss.Machine.unloaded(clearance=10), eta=[0.97, 1.15], start=(0, 14))
+    >>> found.chaotic
+    array([ True, False])
+    >>> found.per_period.shape
+    (2, 2)
+    """
+    transient = _count("transient", transient, 1, MAX_PERIODS)
+    batch = -(-_count("periods", periods, BATCHES, MAX_PERIODS) // BATCHES)
+    rows = _Rows.of(machine, start, changes)
+    with shown(progress) as teller:
+        columns, errors = _softstop.exponents(machine._inner, rows.keyed, rows.start, transient, batch, teller)
+    if rows.shape == () and errors:
+        raise _softstop.SoftstopError(errors[0][1])
+    larger, smaller, error, chaotic, period = (column.reshape(rows.shape) for column in columns)
+    per_period = np.stack([larger, smaller], axis=-1)
+    return Exponents(
+        per_period, per_period / period[..., None], error, chaotic == 1.0, BATCHES * batch, dict(errors)
+    )
 
 
 def _count(name: str, value: int, least: int, most: int) -> int:

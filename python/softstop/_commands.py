@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import pathlib
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, cast
+from typing import Any
 
 from . import _softstop
-from ._machine import Machine, _tables
-from ._result import Design, Result, result_of
+from ._checks import checked
+from ._machine import Machine, _tables, word_of
+from ._progress import shown
+from ._result import Attractors, Basin, Branch, Certainty, Design, Kind, Orbit, Result, Sweep, Zone, result_of
 
 Range = tuple[float, float]
-
-
-def _word(value: Any) -> str:
-    """An option's value as on the command line."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, (tuple, list)):
-        return ",".join(_word(inner) for inner in value)
-    if isinstance(value, bool) or value is None or not hasattr(value, "__float__"):
-        raise _softstop.MachineError(f"{value!r}: must be a number or a word")
-    return repr(int(value)) if hasattr(value, "__index__") else repr(float(value))
+Side = Range | tuple[float, float, int]
 
 
 def _words(options: Mapping[str, Any]) -> list[str]:
@@ -35,13 +28,15 @@ def _words(options: Mapping[str, Any]) -> list[str]:
         if value is True:
             words.append(flag)
         elif value is not None and value is not False:
-            words.append(f"{flag}={_word(value)}")
+            values = value if isinstance(value, (tuple, list)) else [value]
+            words.append(f"{flag}={','.join(word_of(name, one) for one in values)}")
     return words
 
 
 def _run(
-    arguments: Callable[[pathlib.Path], list[str]], files: Mapping[str, str], kind: type[Result] = Result
-) -> Result:
+    arguments: Callable[[pathlib.Path], list[str]], files: Mapping[str, str], kind: type[Kind], machine: Machine | None,
+    progress: bool,
+) -> Kind:
     """Runs a command in a folder of its own, gone afterwards, with these files and a folder "out" for the program's."""
     with tempfile.TemporaryDirectory(prefix="softstop-") as folder:
         place = pathlib.Path(folder)
@@ -49,50 +44,27 @@ def _run(
             (place / name).write_text(text, encoding="utf-8")
         (place / "out").mkdir()
         try:
-            text, values = _softstop.run(arguments(place))
+            with shown(progress) as teller:
+                text, values, arrays = _softstop.run(arguments(place), teller)
         except (_softstop.MachineError, _softstop.SoftstopError) as error:
             error.args = (str(error).replace(f"{place}{os.sep}", ""),)
             raise
-        return result_of(text, values, place / "out", kind)
+        return result_of(text, values, arrays, place / "out", kind, machine)
 
 
 def _of_machine(
-    command: str, machine: Machine, options: Mapping[str, Any], *, output: bool = True, kind: type[Result] = Result
-) -> Result:
+    command: str, machine: Machine, options: Mapping[str, Any], kind: type[Kind], *, output: bool = True, progress: bool = False
+) -> Kind:
     """Runs a command on a machine; some write no files."""
 
     def arguments(place: pathlib.Path) -> list[str]:
         out = {"output": str(place / "out")} if output else {}
         return [command, "--format=json", str(place / "machine.toml"), *_words({**options, **out})]
 
-    return _run(arguments, {"machine.toml": machine.to_toml()}, kind)
+    return _run(arguments, {"machine.toml": machine.to_toml()}, kind, machine, progress)
 
 
-def _pair(name: str, value: Range) -> str:
-    low, high = value
-    return f"{_word(low)}:{_word(high)}"
-
-
-class Orbit(Result):
-    """The stable z = 1 motion of a machine."""
-
-    machine_itself: Machine
-
-    def figure(self, name: str) -> float:
-        """A figure of the motion in the machine's own units: velocity, impact_energy, impact_power, stroke_work, drive_force,
-        drive_power, max_position, stroke, stop_force, stop_deflection, cut_through, rigid_gap, largest_multiplier."""
-        return _softstop.figures(self.machine_itself._inner, [name], [])[0][0]
-
-    def gradient(self, name: str, by: Sequence[str] | None = None) -> dict[str, float]:
-        """The exact derivatives of a figure by keys of the machine, in its own units; by all its numbers unless some are named.
-
-        The motion is followed by the implicit function theorem through all its crossings.
-        """
-        keys = [key for key in self.machine_itself.parameters if key != "excitation.phase"] if by is None else list(by)
-        _, rows = _softstop.figures(self.machine_itself._inner, [name], keys)
-        return dict(zip(keys, rows[0], strict=True))
-
-
+@checked
 def orbit(machine: Machine, *, budget: int | None = None) -> Orbit:
     """The stable motion with one impact per drive period (z = 1), the hardest if there are several.
 
@@ -106,26 +78,35 @@ def orbit(machine: Machine, *, budget: int | None = None) -> Orbit:
     Returns
     -------
     Orbit
-        Position and velocity at drive angle 0, before_impact_velocity, max_position, trace, determinant, multipliers.
+        position and velocity at drive angle 0, before_impact_velocity, max_position (all in the machine's units), trace,
+        determinant, multipliers; `gradient` has exact derivatives.
 
     Raises
     ------
     SoftstopError
         If there is none, or it would cost more.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> orbit = ss.orbit(ss.Machine.unloaded(eta=1.15, clearance=10))
+    >>> round(orbit.before_impact_velocity, 9)
+    6.494627429
     """
-    found = cast(Orbit, _of_machine("orbit", machine, {"budget": budget}, output=False, kind=Orbit))
-    found.machine_itself = machine
-    return found
+    return _of_machine("orbit", machine, {"budget": budget}, Orbit, output=False)
 
 
+@checked
 def motions(
     machine: Machine, *, starts: int | None = None, seed: int | None = None, transient: int | None = None,
-    longest: int | None = None, patience: int | None = None, budget: int | None = None,
-) -> Result:
+    longest: int | None = None, patience: int | None = None, budget: int | None = None, progress: bool = True,
+) -> Attractors:
     """All motions on which the machine settles: regimes, chaos, shares of starts.
 
     Parameters
     ----------
+    machine : Machine
+        The machine.
     starts : int, optional
         Quasi-random starts; 256 unless it is stated.
     seed : int, optional
@@ -133,25 +114,76 @@ def motions(
     transient, longest, patience : int, optional
         Drive periods before a motion is looked at, longest period looked for, and for which motions that do not repeat are
         watched.
+    budget : int, optional
+        As of `orbit`.
+    progress : bool
+        Whether progress is shown, where tqdm is installed.
+
+    Returns
+    -------
+    Attractors
+        `motions`, a list with kind, z = p/n, order of impacts, share of starts, state at drive angle 0, multipliers, Lyapunov
+        exponents.
+
+    Raises
+    ------
+    SoftstopError
+        If it would cost more.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> found = ss.motions(ss.Machine.unloaded(eta=1.15, clearance=10), starts=64)
+    >>> sorted(motion["z"] for motion in found.motions)
+    ['0', '1']
     """
     options = {"starts": starts, "seed": seed, "transient": transient, "longest": longest, "patience": patience}
-    return _of_machine("motions", machine, options | {"budget": budget})
+    return _of_machine("motions", machine, options | {"budget": budget}, Attractors, progress=progress)
 
 
-def zone(machine: Machine, *, budget: int | None = None) -> Result:
-    """The hysteresis zone, from grazing (g0) to the fold (s_SN), and all stretches of stable z = 1."""
-    return _of_machine("zone", machine, {"budget": budget}, output=False)
+@checked
+def zone(machine: Machine, *, budget: int | None = None) -> Zone:
+    """The hysteresis zone, from grazing (g0) to the fold (s_SN), and all stretches of stable z = 1.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its own drive frequency plays no part.
+    budget : int, optional
+        As of `orbit`.
+
+    Returns
+    -------
+    Zone
+        frequency_g0, frequency_sn, velocity_sn in the machine's units, None where there is no zone (`no_zone` says why);
+        `stretches`, a table.
+
+    Raises
+    ------
+    SoftstopError
+        If it would cost more.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> round(ss.zone(ss.Machine.unloaded(clearance=10)).frequency_sn, 9)
+    1.369035839
+    """
+    return _of_machine("zone", machine, {"budget": budget}, Zone, output=False)
 
 
+@checked
 def continue_(
     machine: Machine, parameter: str, between: Range, *, orbit: str | None = None, state: Range | None = None,
     double: int | None = None, second: str | None = None, second_between: Range | None = None,
-    points: int | None = None, budget: int | None = None,
-) -> Result:
+    points: int | None = None, budget: int | None = None, progress: bool = True,
+) -> Branch:
     """Follows a periodic motion along a parameter, through folds, with all its bifurcations.
 
     Parameters
     ----------
+    machine : Machine
+        The machine.
     parameter : str
         Key or letter of the parameter; it starts at the machine's own value.
     between : (float, float)
@@ -166,29 +198,51 @@ def continue_(
         Follows each special point as a curve in both parameters.
     points : int, optional
         Most points of a branch or curve in each direction.
+    budget : int, optional
+        As of `orbit`.
+    progress : bool
+        Whether progress is shown, where tqdm is installed.
 
     Returns
     -------
-    Result
-        `tables["branches"]` has the points, the JSON the special ones.
+    Branch
+        Tables `points` and `specials`; `tables["curves"]` with a second parameter.
+
+    Raises
+    ------
+    MachineError
+        If the parameter is unknown, or its range does not hold the machine's value.
+    SoftstopError
+        If there is no such orbit, or it would cost more.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> branch = ss.continue_(ss.Machine.unloaded(eta=1.15, clearance=10), "frequency", (0.9, 1.5))
+    >>> [(symbol, round(value, 6)) for symbol, value in zip(branch.specials.symbol, branch.specials.value.tolist())]
+    [('G', 0.952652), ('PD', 0.988907), ('SN', 1.369036), ('G', 1.04444)]
     """
-    low, high = second_between or (None, None)
+    low, high = between
+    second_low, second_high = (None, None) if second_between is None else second_between
     options = {
-        "parameter": parameter, "from": between[0], "to": between[1], "orbit": orbit, "state": state,
-        "double": double, "second": second, "second_from": low, "second_to": high, "points": points, "budget": budget,
+        "parameter": parameter, "from": low, "to": high, "orbit": orbit, "state": state, "double": double,
+        "second": second, "second_from": second_low, "second_to": second_high, "points": points, "budget": budget,
     }
-    return _of_machine("continue", machine, options)
+    return _of_machine("continue", machine, options, Branch, progress=progress)
 
 
+@checked
 def sweep(
     machine: Machine, between: Range, *, parameter: str | None = None, steps: int | None = None,
     periods: int | None = None, direction: str | None = None, clearances: Sequence[float] | None = None,
-    tolerance: float | None = None, budget: int | None = None,
-) -> Result:
+    tolerance: float | None = None, budget: int | None = None, progress: bool = True,
+) -> Sweep:
     """A parameter up and down: bifurcation diagram, jumps, hysteresis.
 
     Parameters
     ----------
+    machine : Machine
+        The machine.
     between : (float, float)
         First and last value.
     parameter : str, optional
@@ -199,58 +253,207 @@ def sweep(
         Which way.
     clearances : sequence of float, optional
         A sweep for each.
+    tolerance : float, optional
+        How near a motion has to return for it to count as periodic.
+    budget : int, optional
+        As of `orbit`, for each thousand steps.
+    progress : bool
+        Whether progress is shown, where tqdm is installed.
+
+    Returns
+    -------
+    Sweep
+        `sweeps` with their jumps, `hysteresis`; the table `points`.
+
+    Raises
+    ------
+    MachineError
+        If the parameter is unknown or a value out of range.
+    SoftstopError
+        If it would cost more.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> sweep = ss.sweep(ss.Machine.unloaded(clearance=10), (0.9, 1.5), steps=50)
+    >>> [(it["direction"], len(it["jumps"])) for it in sweep.sweeps]
+    [('up', 3), ('down', 3)]
     """
+    low, high = between
     options = {
-        "parameter": parameter, "from": between[0], "to": between[1], "steps": steps, "periods": periods,
-        "direction": direction, "clearances": clearances and list(clearances), "tolerance": tolerance, "budget": budget,
+        "parameter": parameter, "from": low, "to": high, "steps": steps, "periods": periods,
+        "direction": direction, "clearances": None if clearances is None else list(clearances), "tolerance": tolerance,
+        "budget": budget,
     }
-    return _of_machine("sweep", machine, options)
+    return _of_machine("sweep", machine, options, Sweep, progress=progress)
 
 
+def _plane(x: Side | None, v: Side | None, phi: Side | None, plane: str | None, size: int | None) -> dict[str, Any]:
+    """Options of a plane of initial states."""
+    sides = {name: side for name, side in [("x", x), ("v", v), ("phi", phi)] if side is not None}
+    options: dict[str, Any] = {name: f"{word_of(name, side[0])}:{word_of(name, side[1])}" for name, side in sides.items()}
+
+    def cells(name: str) -> int:
+        side = sides.get(name)
+        return side[2] if side is not None and len(side) == 3 else 400 if size is None else size
+
+    return options | {"plane": plane, "size": [cells(name) for name in (plane or "x,v").split(",")]}
+
+
+@checked
 def basin(
-    machine: Machine, *, size: int | None = None, plane: str | None = None, at: float | None = None,
-    x: Range | None = None, v: Range | None = None, phi: Range | None = None, transient: int | None = None,
-    longest: int | None = None, along_zone: int | None = None, budget: int | None = None,
-) -> Result:
+    machine: Machine, *, x: Side | None = None, v: Side | None = None, phi: Side | None = None, size: int | None = None,
+    plane: str | None = None, at: float | None = None, transient: int | None = None, longest: int | None = None,
+    budget: int | None = None, progress: bool = True,
+) -> Basin:
     """Which initial states lead to which motion.
 
     Parameters
     ----------
+    machine : Machine
+        The machine.
+    x, v, phi : (low, high) or (low, high, cells), optional
+        Ranges of initial position in m, velocity in m/s and drive angle in rad, and cells along them; those of the box of
+        starts unless they are stated.
     size : int, optional
-        Cells on each side of the plane; 400 unless it is stated.
+        Cells along a side that states none; 400 unless it is stated.
     plane : str, optional
-        Two of x, v and phi: "x,v" unless it is stated.
+        Two of x, v and phi, what goes across first: "x,v" unless it is stated.
     at : float, optional
-        The third quantity.
-    x, v, phi : (float, float), optional
-        Ranges in m, m/s and rad.
-    along_zone : int, optional
-        Instead, the certainty of z = 1 at so many places of the hysteresis zone.
+        The third quantity; 0 unless it is stated.
+    transient, longest : int, optional
+        Drive periods after which what has not arrived is looked at; longest period looked for.
+    budget : int, optional
+        As of `orbit`, for each thousand cells.
+    progress : bool
+        Whether progress is shown, where tqdm is installed.
+
+    Returns
+    -------
+    Basin
+        `labels` of shape (cells of v, cells of x), which index `motions` and `shares`; `coords`; `to_xarray()`.
+
+    Raises
+    ------
+    MachineError
+        If a range or size cannot be.
+    SoftstopError
+        If it would cost more.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> basin = ss.basin(ss.Machine.unloaded(eta=1.15, clearance=10), x=(-20, 20, 30), v=(-20, 20, 40))
+    >>> basin.labels.shape, basin.dims, basin.motions
+    ((40, 30), ('v', 'x'), ['z = 0', 'z = 1'])
     """
-    ranges = {name: pair and _pair(name, pair) for name, pair in [("x", x), ("v", v), ("phi", phi)]}
-    options = {"size": size, "plane": plane, "at": at, "transient": transient, "longest": longest}
-    return _of_machine("basin", machine, options | ranges | {"along_zone": along_zone, "budget": budget})
+    options = _plane(x, v, phi, plane, size) | {"at": at, "transient": transient, "longest": longest, "budget": budget}
+    return _of_machine("basin", machine, options, Basin, progress=progress)
 
 
-def fidelity(machine: Machine, *, tolerance: float | None = None) -> Result:
-    """The simplest model of the machine that will do: error and cost of ever simpler stops."""
-    return _of_machine("fidelity", machine, {"tolerance": tolerance})
+@checked
+def certainty(
+    machine: Machine, places: int = 21, *, x: Side | None = None, v: Side | None = None, phi: Side | None = None,
+    size: int | None = None, plane: str | None = None, at: float | None = None, transient: int | None = None,
+    longest: int | None = None, budget: int | None = None, progress: bool = True,
+) -> Certainty:
+    """The establishing certainty of z = 1, the share of initial states that lead to it, along the hysteresis zone.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    places : int
+        Places from g0 to s_SN, 2 to 1000.
+    x, v, phi, size, plane, at, transient, longest, budget, progress
+        As of `basin`; the plane is the same at all places.
+
+    Returns
+    -------
+    Certainty
+        `places`, a list; `tables["certainty"]`: place, frequency, certainty with its 95 % interval, integrity, motions.
+
+    Raises
+    ------
+    SoftstopError
+        If there is no hysteresis zone.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> found = ss.certainty(ss.Machine.unloaded(clearance=10), 3, size=20)
+    >>> [place["place"] for place in found.places]
+    [0.0, 0.5, 1.0]
+    """
+    options = _plane(x, v, phi, plane, size) | {"at": at, "transient": transient, "longest": longest, "budget": budget}
+    return _of_machine("basin", machine, options | {"along_zone": places}, Certainty, progress=progress)
 
 
-def study(task: Mapping[str, Any] | str | os.PathLike[str], *, machine: Machine | None = None) -> Result:
+@checked
+def fidelity(machine: Machine, *, tolerance: float | None = None, progress: bool = True) -> Result:
+    """The simplest model of the machine that will do: error and cost of ever simpler stops.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    tolerance : float, optional
+        Relative error that is allowed.
+    progress : bool
+        Whether progress is shown, where tqdm is installed.
+
+    Returns
+    -------
+    Result
+        The models with their errors and costs, and the one that will do.
+
+    Raises
+    ------
+    SoftstopError
+        If the machine has no stable z = 1 motion.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> found = ss.fidelity(ss.Machine.unloaded(eta=1.15, clearance=10))
+    >>> "fidelity.svg" in found.files
+    True
+    """
+    return _of_machine("fidelity", machine, {"tolerance": tolerance}, Result, progress=progress)
+
+
+@checked
+def study(
+    task: Mapping[str, Any] | str | os.PathLike[str], *, machine: Machine | None = None, progress: bool = True
+) -> Result:
     """Many machines from a study: grids and samples of any parameters.
 
     Parameters
     ----------
     task : mapping or path
-        The content of a study file, or the file.
+        The content of a study file, or the file (`softstop schema study`).
     machine : Machine, optional
         The machine, in place of the study's.
+    progress : bool
+        Whether progress is shown, where tqdm is installed.
 
     Returns
     -------
     Result
         `tables["study"]` has a row for each point.
+
+    Raises
+    ------
+    MachineError
+        With the place in the study that cannot be.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> axis = {"parameter": "eta", "from": 1.1, "to": 1.3, "count": 3}
+    >>> found = ss.study({"outputs": ["velocity"], "axis": [axis]}, machine=ss.Machine.unloaded(clearance=10))
+    >>> found.tables["study"].velocity.round(6)
+    array([ 4.83028 ,  8.320189, 12.95379 ])
     """
     files = {}
     if machine is not None:
@@ -260,24 +463,25 @@ def study(task: Mapping[str, Any] | str | os.PathLike[str], *, machine: Machine 
         files["study.toml"] = _toml(task)
 
     def arguments(place: pathlib.Path) -> list[str]:
-        file = place / "study.toml" if files else pathlib.Path(cast("os.PathLike[str]", task))
-        return ["study", "--format=json", "--csv", f"--output={place / 'out'}", str(file)]
+        file = pathlib.Path(task) if isinstance(task, (str, os.PathLike)) and not files else place / "study.toml"
+        return ["study", "--format=json", "--csv", f"--output={place / 'out'}", "--", str(file)]
 
-    return _run(arguments, files)
+    return _run(arguments, files, Result, machine, progress)
 
 
+@checked
 def optimize(
     task: Mapping[str, Any] | str | os.PathLike[str] | None = None, *, machine: Machine | None = None,
     margin: float | None = None, vary: Sequence[str] = (), evaluations: int | None = None,
-    samples: int | None = None, report: bool = False, budget: int | None = None,
+    samples: int | None = None, report: bool = False, budget: int | None = None, progress: bool = True,
 ) -> Design:
     """Searches stiffness, clearance and frequency for the hardest impact that every machine within the tolerances holds.
 
     Parameters
     ----------
     task : mapping or path, optional
-        The content of a task's file, with tables vary, tolerance, objective, require, search; or the file, which may hold
-        the machine, too.
+        The content of a task's file, with tables vary, tolerance, objective, require, search (`softstop schema task`); or
+        the file, which may hold the machine, too.
     machine : Machine, optional
         The machine, unless the task has it.
     margin : float, optional
@@ -288,9 +492,31 @@ def optimize(
         Zones to compute at most; machines looked at within the tolerances.
     report : bool
         Whether there is to be a report, which takes longer.
+    budget : int, optional
+        Work that each zone may cost in millions of scan windows.
+    progress : bool
+        Whether progress is shown, where tqdm is installed.
+
+    Returns
+    -------
+    Design
+        `design` with its figures, `limits`, `requirements`; `machine`, `fmu(path)`, `report(path)`.
+
+    Raises
+    ------
+    MachineError
+        With the key of the task that cannot be.
+    SoftstopError
+        If no machine meets the task; it says which constraint is in the way.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> task = {"machine": "loaded", "vary": {"stop.stiffness": 7, "clearance": [2, 22]}, "require": {"margin": 0.1}}
+    >>> round(ss.optimize(task).design["before_impact_velocity"], 3)
+    12.861
     """
     options: dict[str, Any] = {"margin": margin, "evaluations": evaluations, "samples": samples, "budget": budget}
-    options["no_report"] = not report
     files = {}
     if machine is not None:
         files["machine.toml"] = machine.to_toml()
@@ -298,29 +524,34 @@ def optimize(
         files["task.toml"] = _toml(task)
 
     def arguments(place: pathlib.Path) -> list[str]:
-        words = ["optimize", "--format=json", f"--output={place / 'out'}", *_words(options)]
+        words = ["optimize", "--format=json", f"--output={place / 'out'}", *_words(options | {"no_report": not report})]
         words += [f"--vary={one}" for one in vary]
         words += [str(place / "machine.toml")] if machine is not None else []
         if isinstance(task, Mapping):
             words.append(f"--config={place / 'task.toml'}")
         elif task is not None:
-            words.append(os.fspath(task) if machine is None else f"--config={os.fspath(task)}")
+            words += ["--", os.fspath(task)] if machine is None else [f"--config={os.fspath(task)}"]
         return words
 
-    return cast(Design, _run(arguments, files, Design))
+    design = _run(arguments, files, Design, None, progress)
+    design._with_report = functools.partial(
+        optimize, task, machine=machine, vary=vary, report=True, progress=progress, **options
+    )
+    return design
 
 
 def picture_of(machine: Machine, start: Range, periods: int) -> str:
     """The last periods of a motion as an SVG, as `softstop simulate` draws them."""
     options = {"periods": periods, "samples_per_period": 1, "position": start[0], "velocity": start[1]}
-    return _of_machine("simulate", machine, options).files["motion.svg"].decode()
+    return _of_machine("simulate", machine, options, Result).files["motion.svg"].decode()
 
 
 def _content(task: Mapping[str, Any] | str | os.PathLike[str]) -> dict[str, Any]:
     """The content of a file."""
     if isinstance(task, Mapping):
         return dict(task)
-    return cast("dict[str, Any]", json.loads(_softstop.toml_to_json(pathlib.Path(task).read_text(encoding="utf-8"))))
+    content: dict[str, Any] = json.loads(_softstop.toml_to_json(pathlib.Path(task).read_text(encoding="utf-8")))
+    return content
 
 
 def _toml(table: Mapping[str, Any]) -> str:

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import json
+import numbers
 import os
 import pathlib
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
+import numpy as np
+
 from . import _softstop
+from ._checks import checked, is_number
 
 Value = float | str
 
@@ -98,8 +103,8 @@ class Strip(_Part):
     travel: float
 
 
-def _tables(value: Any) -> Any:
-    """Parts as tables, keys with dots as tables in tables, numbers of NumPy as Python's."""
+def _tables(value: Any, name: str = "") -> Any:
+    """Parts as tables, keys with dots as tables in tables, numbers of NumPy as Python's; what has this name, if it has one."""
     if isinstance(value, _Part):
         value = value.table()
     if isinstance(value, Mapping):
@@ -111,26 +116,28 @@ def _tables(value: Any) -> Any:
                 place = place.setdefault(name, {})
                 if not isinstance(place, dict):
                     raise _softstop.MachineError(f"{key}: {name} is a value, not a table")
-            inner = _tables(inner)
+            inner = _tables(inner, f"{name}.{key}" if name else str(key))
             known = place.get(last)
             place[last] = known | inner if isinstance(known, dict) and isinstance(inner, dict) else inner
         return table
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        value = value.item()
+    if isinstance(value, (int, float)) and not abs(value) <= sys.float_info.max:
+        raise _softstop.MachineError(f"{name} = {value!r}: must be finite")
     if isinstance(value, (str, bool, int, float)):
         return value
-    if hasattr(value, "item") and getattr(value, "ndim", 0) == 0:
-        return value.item()
-    if isinstance(value, Sequence):
-        return [_tables(inner) for inner in value]
-    raise _softstop.MachineError(f"{value!r}: must be a number, a word, or a table of them")
+    if isinstance(value, Sequence) and not isinstance(value, bytes):
+        return [_tables(inner, name) for inner in value]
+    raise _softstop.MachineError(f"{name} = {value!r}: must be a number, a word, or a table of them")
 
 
-def _word(value: Any) -> str:
-    """A value as on the command line."""
+def word_of(name: str, value: Any) -> str:
+    """A value of this name as on the command line."""
     if isinstance(value, str):
         return value
-    if isinstance(value, (bool, list, tuple, dict)) or value is None:
-        raise _softstop.MachineError(f"{value!r}: must be a number or a word")
-    return repr(float(value))
+    if not is_number(value):
+        raise _softstop.MachineError(f"{name} = {value!r}: must be a number or a word")
+    return repr(int(value)) if isinstance(value, numbers.Integral) else repr(float(value))
 
 
 class Machine:
@@ -215,31 +222,97 @@ class Machine:
 
     @classmethod
     def unloaded(cls, **changes: Value) -> Machine:
-        """The paper's machine without a strip (Peterka 2003), in ratios, with changes as of `replace`."""
+        """The paper's machine without a strip (Peterka 2003), in ratios, with changes as of `replace`.
+
+        Examples
+        --------
+        >>> Machine.unloaded(eta=1.15, rho=10)["clearance"]
+        10.0
+        """
         return cls._of(_softstop.Machine.named("unloaded")).replace(**changes)
 
     @classmethod
     def loaded(cls, **changes: Value) -> Machine:
-        """The paper's machine that pierces, in ratios, with changes as of `replace`."""
+        """The paper's machine that pierces, in ratios, with changes as of `replace`.
+
+        Examples
+        --------
+        >>> Machine.loaded(eta=1.2)["excitation.frequency"]
+        1.2
+        """
         return cls._of(_softstop.Machine.named("loaded")).replace(**changes)
 
     @classmethod
+    @checked
     def from_toml(cls, text: str) -> Machine:
-        """The machine of a file's text; tables of a task in it play no part."""
+        """The machine of a file's text; tables of a task in it play no part.
+
+        Raises
+        ------
+        MachineError
+            With line and key of what cannot be.
+
+        Examples
+        --------
+        >>> Machine.from_toml(Machine.unloaded().to_toml()) == Machine.unloaded()
+        True
+        """
         return cls._of(_softstop.Machine.from_toml(text))
 
     @classmethod
+    @checked
     def from_dict(cls, table: Mapping[str, Any]) -> Machine:
-        """The machine of a file's content."""
+        """The machine of a file's content.
+
+        Parameters
+        ----------
+        table : mapping
+            Keys and values as in the file, in tables or with dots.
+
+        Raises
+        ------
+        MachineError
+            With the key of what cannot be.
+
+        Examples
+        --------
+        >>> stop = {"model": "preloaded", "stiffness": 7, "preload": 70}
+        >>> drive = {"amplitude": 1, "frequency": 1.15}
+        >>> Machine.from_dict({"mass": 1, "stiffness": 1, "damping": 0.04, "clearance": 10, "contact.damping": 0.18,
+        ...                    "excitation": drive, "stop": stop})["stop.preload"]
+        70.0
+        """
         return cls._of(_of_table(table))
 
+    @checked
     def replace(self, changes: Mapping[str, Value] | None = None, /, **named: Value) -> Machine:
-        """Another machine with other values, by their keys, older names or letters.
+        """Another machine with other values.
 
-        Keys with dots go into a mapping, or have two underscores: `stop__stiffness=7` is `stop.stiffness`.
+        Parameters
+        ----------
+        changes : mapping, optional
+            Values by keys, older names or letters, in the machine's own units.
+        **named : float or str
+            The same; keys with dots have two underscores: `stop__stiffness=7` is `stop.stiffness`.
+
+        Returns
+        -------
+        Machine
+            The other machine; this one stays as it is.
+
+        Raises
+        ------
+        MachineError
+            With the parameter (`key`), its value and the allowed range.
+
+        Examples
+        --------
+        >>> machine = Machine.unloaded()
+        >>> machine.replace({"stop.stiffness": 8}) == machine.replace(stop__stiffness=8)
+        True
         """
         pairs = dict(changes or {}) | {key.replace("__", "."): value for key, value in named.items()}
-        return Machine._of(self._inner.replaced([(key, _word(value)) for key, value in pairs.items()]))
+        return Machine._of(self._inner.replaced([(str(key), word_of(str(key), value)) for key, value in pairs.items()]))
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -265,6 +338,7 @@ class Machine:
         """The text of its file, complete; `from_toml` makes the same machine of it."""
         return self._inner.to_toml()
 
+    @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes its file."""
         pathlib.Path(path).write_text(self.to_toml(), encoding="utf-8")
@@ -283,14 +357,18 @@ class Machine:
         return f"<Machine {self.name or ''}: {pairs}>"
 
     def _repr_html_(self) -> str:
+        """A sketch with its dimensions, and its numbers."""
         from html import escape
+
+        sketch = self._inner.sketch()
+        sketch = sketch[sketch.index("<svg"):]
 
         rows = "".join(
             f"<tr><td>{escape(meaning)}</td><td><code>{escape(key)}</code></td>"
             f"<td style='text-align:right'>{value:.7g}</td><td>{escape(unit)}</td></tr>"
             for key, value, unit, meaning in self._inner.parameters()
         )
-        return f"<table><caption>{escape(self.name or 'machine')}</caption>{rows}</table>"
+        return f"{sketch}<table><caption>{escape(self.name or 'machine')}</caption>{rows}</table>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Machine.from_toml, (self.to_toml(),)
@@ -300,6 +378,33 @@ def _of_table(table: Mapping[str, Any]) -> _softstop.Machine:
     return _softstop.Machine.from_json(json.dumps(_tables(table)))
 
 
+@checked
 def read(path: str | os.PathLike[str]) -> Machine:
-    """The machine of a TOML file."""
+    """The machine of a TOML file.
+
+    Parameters
+    ----------
+    path : path
+        The file (`softstop schema` says what it may hold).
+
+    Returns
+    -------
+    Machine
+        The machine.
+
+    Raises
+    ------
+    MachineError
+        With line and key of what cannot be.
+    OSError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     Machine.unloaded().save(f"{folder}/machine.toml")
+    ...     read(f"{folder}/machine.toml") == Machine.unloaded()
+    True
+    """
     return Machine.from_toml(pathlib.Path(path).read_text(encoding="utf-8"))

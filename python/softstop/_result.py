@@ -1,77 +1,32 @@
-"""What commands return: figures, tables and files."""
+"""What commands return: figures, tables, files and pictures."""
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
 import pathlib
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _softstop
+from . import _softstop, plot
+from ._checks import checked
 from ._machine import Machine
+from ._table import Table
 
-Column = npt.NDArray[np.float64] | list[str | None]
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from xarray import DataArray
 
-
-class Table:
-    """Columns of equal length by name: arrays of numbers (NaN: no value) or lists of words.
-
-    pandas, polars, pyarrow and DuckDB read it by Arrow's PyCapsule interface: `polars.DataFrame(table)`,
-    `pandas.DataFrame.from_arrow(table)`, `pyarrow.table(table)`.
-    """
-
-    def __init__(self, columns: Mapping[str, Column]) -> None:
-        self._columns = dict(columns)
-
-    @classmethod
-    def of_csv(cls, text: str) -> Table:
-        """The table of a CSV file with a head."""
-        head, *rows = csv.reader(io.StringIO(text))
-        return cls({name: _column([row[index] for row in rows]) for index, name in enumerate(head)})
-
-    def __getitem__(self, name: str) -> Column:
-        return self._columns[name]
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Names of the columns."""
-        return tuple(self._columns)
-
-    def __len__(self) -> int:
-        """Rows."""
-        return len(next(iter(self._columns.values()), []))
-
-    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        return _softstop.stream(list(self._columns.items()))
-
-    def __repr__(self) -> str:
-        return f"<Table of {len(self)} rows: {', '.join(self._columns)}>"
-
-    def _repr_html_(self) -> str:
-        from html import escape
-
-        shown = [[str(column[row]) for column in self._columns.values()] for row in range(min(len(self), 20))]
-        head = "".join(f"<th>{escape(name)}</th>" for name in self._columns)
-        rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in shown)
-        return f"<table><caption>{len(self)} rows</caption><tr>{head}</tr>{rows}</table>"
-
-
-def _column(cells: list[str]) -> Column:
-    """Numbers, if all cells that are not empty are numbers."""
-    try:
-        return np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
-    except ValueError:
-        return [cell or None for cell in cells]
+Floats = npt.NDArray[np.float64]
 
 
 class Result(Mapping[str, Any]):
     """What a command has found: the fields of its JSON as keys and attributes, its tables and files.
+
+    A notebook shows the picture that the program draws.
 
     Attributes
     ----------
@@ -81,18 +36,37 @@ class Result(Mapping[str, Any]):
         The program's CSV files, by name.
     files : dict of bytes
         All files that the program writes, by name.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> zone = ss.zone(ss.Machine.unloaded(clearance=10))
+    >>> zone.frequency_sn == zone["frequency_sn"]
+    True
     """
 
-    def __init__(self, text: str, values: Mapping[str, Any], files: Mapping[str, bytes]) -> None:
+    def __init__(
+        self, text: str, values: Mapping[str, Any], files: Mapping[str, bytes], arrays: Mapping[str, Any],
+        machine: Machine | None,
+    ) -> None:
         self.text = text
         self.files = dict(files)
         self._values = dict(values)
         self._values.pop("files", None)
+        self._arrays = dict(arrays)
+        self._machine = machine
         self.tables = {
             name.removesuffix(".csv"): Table.of_csv(content.decode())
             for name, content in self.files.items()
             if name.endswith(".csv")
         }
+
+    @property
+    def machine(self) -> Machine:
+        """The machine that was looked at; `result["machine"]` is what the JSON has of it."""
+        if self._machine is None:
+            raise AttributeError("machine: there is more than one")
+        return self._machine
 
     def __getitem__(self, key: str) -> Any:
         return self._values[key]
@@ -124,17 +98,204 @@ class Result(Mapping[str, Any]):
             (place / name).write_bytes(content)
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, Any]:
-        bundle: dict[str, Any] = {"text/plain": self.text}
-        for name, content in self.files.items():
-            if name.endswith(".svg"):
-                bundle["image/svg+xml"] = content.decode()
-            elif name.endswith(".png"):
-                bundle["image/png"] = content
-        return bundle
+        pictures = [name for name in self.files if name.endswith((".svg", ".png"))]
+        if not pictures:
+            return {"text/plain": self.text}
+        shown = self.files["design.svg" if "design.svg" in pictures else pictures[0]]
+        is_svg = not shown.startswith(b"\x89PNG")
+        picture = {"image/svg+xml": shown.decode()} if is_svg else {"image/png": shown}
+        return {"text/plain": self.text} | picture
+
+
+class Orbit(Result):
+    """The stable z = 1 motion of a machine, as `orbit` finds it."""
+
+    @checked
+    def figure(self, name: str) -> float:
+        """A figure of the motion in the machine's own units.
+
+        Parameters
+        ----------
+        name : str
+            velocity, impact_energy, impact_power, stroke_work, drive_force, drive_power, max_position, stroke, stop_force,
+            stop_deflection, cut_through, rigid_gap or largest_multiplier.
+
+        Returns
+        -------
+        float
+            Its value; NaN where the motion has none.
+
+        Raises
+        ------
+        MachineError
+            If there is no such figure.
+
+        Examples
+        --------
+        >>> import softstop as ss
+        >>> round(ss.orbit(ss.Machine.unloaded(eta=1.15, clearance=10)).figure("drive_power"), 6)
+        3.053836
+        """
+        return _softstop.figures(self.machine._inner, [name], [])[0][0]
+
+    @checked
+    def gradient(self, name: str, by: Sequence[str] | None = None) -> dict[str, float]:
+        """The exact derivatives of a figure, by the implicit function theorem through all crossings of the motion.
+
+        Parameters
+        ----------
+        name : str
+            A figure, as of `figure`.
+        by : sequence of str, optional
+            Keys of the machine; all its numbers but the phase of the drive unless some are named.
+
+        Returns
+        -------
+        dict
+            The derivatives by key, in the machine's own units.
+
+        Raises
+        ------
+        MachineError
+            If there is no such figure or key.
+        SoftstopError
+            If the figure has no exact derivative there.
+
+        Examples
+        --------
+        >>> import softstop as ss
+        >>> orbit = ss.orbit(ss.Machine.unloaded(eta=1.15, clearance=10))
+        >>> {key: round(slope, 6) for key, slope in orbit.gradient("velocity", ["clearance", "eta"]).items()}
+        {'clearance': 0.57012, 'eta': 34.577743}
+        """
+        keys = [key for key in self.machine.parameters if key != "excitation.phase"] if by is None else list(by)
+        _, rows = _softstop.figures(self.machine._inner, [name], keys)
+        return dict(zip(keys, rows[0], strict=True))
+
+
+class Attractors(Result):
+    """All motions on which a machine settles, as `motions` finds them."""
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws those that repeat in the phase plane: velocity over position; returns the Matplotlib axes."""
+        return plot.attractors(self, axes)
+
+
+class Zone(Result):
+    """The hysteresis zone of a machine, as `zone` finds it."""
+
+    @property
+    def stretches(self) -> Table:
+        """All stretches of stable z = 1: from and to (frequencies), what ends them, hardest impact and where."""
+        return _records(self["stretches"])
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the zone and the stretches of stable z = 1 over the drive frequency; returns the Matplotlib axes."""
+        return plot.zone(self, axes)
+
+
+class Branch(Result):
+    """Branches of periodic motions along a parameter, as `continue_` follows them."""
+
+    @property
+    def points(self) -> Table:
+        """All points, those of one branch after those of another, in the order of the branch."""
+        return self.tables["branches"]
+
+    @property
+    def specials(self) -> Table:
+        """The special points: branch, periods, symbol (SN, PD, NS, G), name, value, position, velocity,
+        before_impact_velocity (the highest; 0 without impacts), trace, determinant."""
+        rows = []
+        for number, branch in enumerate(self["branches"]):
+            for special in branch["specials"]:
+                hardest = max(special["before_impact_velocities"], default=0.0)
+                row = {"branch": number, "periods": branch["periods"]} | special | {"before_impact_velocity": hardest}
+                del row["before_impact_velocities"]
+                rows.append(row)
+        return _records(rows)
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws before-impact velocities over the parameter, stable solid, unstable dashed, with the special points; returns the
+        Matplotlib axes."""
+        return plot.branch(self, axes)
+
+
+class Sweep(Result):
+    """A parameter up and down, as `sweep` steps it."""
+
+    @property
+    def points(self) -> Table:
+        """All steps, one sweep after another."""
+        return self.tables["sweep"]
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the bifurcation diagram, before-impact velocities over the parameter; returns the Matplotlib axes."""
+        return plot.sweep(self, axes)
+
+
+class Basin(Result):
+    """Basins of attraction on a plane of initial states, as `basin` finds them."""
+
+    @property
+    def dims(self) -> tuple[str, str]:
+        """What goes upwards and across: two of x, v and phi. The rows of `labels` go upwards."""
+        names = {"position": "x", "velocity": "v", "angle": "phi"}
+        return names[self["grid"]["up"]["quantity"]], names[self["grid"]["across"]["quantity"]]
+
+    @property
+    def coords(self) -> dict[str, Floats]:
+        """Middles of the cells along both dims: x in m, v in m/s (or the machine's units), phi in rad."""
+        up, across = self.dims
+        return {up: self._arrays["up"], across: self._arrays["across"]}
+
+    @property
+    def labels(self) -> npt.NDArray[np.uint16]:
+        """Which of `motions` each cell leads to, in the shape of the coords."""
+        labels: npt.NDArray[np.uint16] = self._arrays["labels"]
+        return labels.reshape([len(axis) for axis in self.coords.values()])
+
+    @property
+    def motions(self) -> list[str]:
+        """The motions in the order of the labels: z = p/n, or what they are."""
+        return [f"z = {basin['z']}" if basin["z"] else basin["kind"] for basin in self["basins"]]
+
+    @property
+    def shares(self) -> Floats:
+        """Shares of the cells that lead to each of the motions."""
+        return np.array([basin["share"] for basin in self["basins"]])
+
+    def to_xarray(self) -> DataArray:
+        """The labels as an `xarray.DataArray` with its coordinates; the motions are its attribute.
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed.
+        """
+        try:
+            from xarray import DataArray
+        except ImportError as error:
+            raise ImportError("to_xarray() needs xarray: pip install xarray") from error
+        return DataArray(self.labels, self.coords, self.dims, name="basin", attrs={"motions": self.motions})
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the basins; returns the Matplotlib axes."""
+        return plot.basin(self, axes)
+
+
+class Certainty(Result):
+    """How certainly z = 1 establishes itself along the hysteresis zone, as `certainty` finds it."""
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the certainty with its 95 % interval over the place in the zone; returns the Matplotlib axes."""
+        return plot.certainty(self, axes)
 
 
 class Design(Result):
-    """The best design of a task."""
+    """The best design of a task, as `optimize` finds it."""
+
+    _with_report: Callable[[], Design] | None = None
 
     @property
     def machine(self) -> Machine:
@@ -146,13 +307,35 @@ class Design(Result):
         pathlib.Path(path).write_bytes(self.files["design.fmu"])
 
     def report(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report, one HTML page; the task was solved with `report=True`."""
-        if "report.html" not in self.files:
-            raise _softstop.MachineError("optimize(..., report=True) makes the report")
+        """Writes the report, one HTML page. Unless the task was solved with `report=True`, it is solved again for that."""
+        if "report.html" not in self.files and self._with_report is not None:
+            self.files |= self._with_report().files
         pathlib.Path(path).write_bytes(self.files["report.html"])
 
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draws the before-impact velocity of the design's branch over the drive frequency, and the design; returns the
+        Matplotlib axes."""
+        return plot.design(self, axes)
 
-def result_of(text: str, values: str, folder: pathlib.Path, kind: type[Result] = Result) -> Result:
+
+def _records(rows: Sequence[Mapping[str, Any]]) -> Table:
+    """The table of rows of numbers and words."""
+
+    def column(name: str) -> Any:
+        cells = [row[name] for row in rows]
+        if any(isinstance(cell, str) for cell in cells):
+            return cells
+        return np.array([np.nan if cell is None else cell for cell in cells], dtype=np.float64)
+
+    return Table({name: column(name) for name in (rows[0] if rows else ())})
+
+
+Kind = TypeVar("Kind", bound=Result)
+
+
+def result_of(
+    text: str, values: str, arrays: Mapping[str, Any], folder: pathlib.Path, kind: type[Kind], machine: Machine | None
+) -> Kind:
     """A result with the files of a folder."""
     files = {path.name: path.read_bytes() for path in sorted(folder.iterdir()) if path.is_file()}
-    return kind(text, json.loads(values), files)
+    return kind(text, json.loads(values), files, arrays, machine)

@@ -3,10 +3,10 @@
 >>> import openmdao.api as om
 >>> import softstop as ss
 >>> from softstop.openmdao import ImpactMachine
->>> problem = om.Problem()
+>>> problem = om.Problem(reports=False)
 >>> press = ss.Machine.unloaded(eta=1.15, clearance=10)
 >>> _ = problem.model.add_subsystem("press", ImpactMachine(press, inputs=["clearance"], outputs=["velocity"]), promotes=["*"])
->>> problem.setup()
+>>> _ = problem.setup()
 >>> problem.run_model()
 >>> round(problem["velocity"].item(), 6)
 6.494627
@@ -66,13 +66,13 @@ class ImpactMachine(om.ExplicitComponent):  # type: ignore[misc]
         except (_softstop.SoftstopError, _softstop.MachineError) as error:
             raise om.AnalysisError(str(error)) from error
 
-    def compute(self, inputs: Any, outputs: Any) -> None:
+    def compute(self, inputs: Any, outputs: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
         """The figures."""
         values, _ = self._solve(inputs, [])
         for figure, value in zip(self.figures, values, strict=True):
             outputs[figure] = value
 
-    def compute_partials(self, inputs: Any, partials: Any) -> None:
+    def compute_partials(self, inputs: Any, partials: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
         """Their derivatives."""
         _, rows = self._solve(inputs, self.keys)
         for figure, row in zip(self.figures, rows, strict=True):

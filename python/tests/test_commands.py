@@ -1,7 +1,10 @@
 """Every number is that of the program, to the last digit."""
 
 import json
+import re
+import shlex
 
+import numpy as np
 import pytest
 from conftest import TOP
 
@@ -63,8 +66,6 @@ def test_optimize_finds_the_design_of_the_program(program, tmp_path):
     assert motion.impacts["velocity"] == pytest.approx(printed["design"]["before_impact_velocity"], rel=1e-11)
     design.fmu(tmp_path / "design.fmu")
     assert (tmp_path / "design.fmu").read_bytes()[:2] == b"PK"
-    with pytest.raises(ss.MachineError, match="report=True"):
-        design.report(tmp_path / "report.html")
 
 
 def test_study_of_a_machine(program):
@@ -74,3 +75,83 @@ def test_study_of_a_machine(program):
     assert len(table) == 9
     alone = ss.orbit(ss.Machine.unloaded(eta=1.15, clearance=10)).before_impact_velocity
     assert table["velocity"][5] == pytest.approx(alone, rel=1e-9)
+
+
+def lines():
+    """The commands of the tutorials, page after page."""
+    pages = sorted((TOP / "docs/tutorials").glob("*.md"))
+    found = [re.findall(r"^    softstop (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE) for page in pages]
+    return [line for page in found for line in page if line.split()[0] in CALLED]
+
+
+def number(word):
+    """A word of a command line as Python has it."""
+    try:
+        return float(word)
+    except ValueError:
+        return word
+
+
+def asked(words):
+    """Machine and options of a command's words."""
+    words = [part for word in words for part in (word.split("=", 1) if word.startswith("--") else [word])]
+    machine, options, changes = ss.Machine.unloaded(), {}, {}
+    while words:
+        word = words.pop(0)
+        if word == "--set":
+            key, value = words.pop(0).split("=")
+            changes[key] = number(value)
+        elif word.startswith("--"):
+            options[word[2:].replace("-", "_")] = words.pop(0)
+        else:
+            machine = ss.read(word)
+    return machine.replace(changes), options
+
+
+def between(options):
+    return float(options["from"]), float(options["to"])
+
+
+def plane(options):
+    return {name: tuple(map(float, options[name].split(":"))) for name in ("x", "v") if name in options}
+
+
+CALLED = {
+    "orbit": lambda machine, options: ss.orbit(machine),
+    "continue": lambda machine, options: ss.continue_(
+        machine, options["parameter"], between(options), orbit=options.get("orbit")
+    ),
+    "sweep": lambda machine, options: ss.sweep(machine, between(options)),
+    "motions": lambda machine, options: ss.motions(machine),
+    "basin": lambda machine, options: ss.basin(machine, size=int(options["size"]), **plane(options)),
+    "simulate": lambda machine, options: ss.simulate(machine, periods=int(options["periods"])),
+    "optimize": None,
+}
+
+
+def test_commands_of_the_tutorials(program, tmp_path, monkeypatch):
+    """In the order of the pages, since one command reads what another has written."""
+    (tmp_path / "docs").symlink_to(TOP / "docs")
+    monkeypatch.chdir(tmp_path)
+    assert {line.split()[0] for line in lines()} == set(CALLED)
+    for line in lines():
+        command, *words = shlex.split(line)
+        # A shorter search takes less time, and its numbers have as many digits.
+        extra = ["--no-report", "--evaluations=100", "--samples=4096"] if command == "optimize" else []
+        printed = json.loads(program(command, *words, *extra, "--format=json"))
+        printed.pop("files", None)
+        if command == "optimize":
+            assert dict(ss.optimize(words[0], evaluations=100, samples=4096)) == printed, line
+            continue
+        result = CALLED[command](*asked(words))
+        if command != "simulate":
+            assert dict(result) == printed, line
+            continue
+        table = ss.Table.of_csv((tmp_path / "softstop-motion/crossings.csv").read_text(encoding="utf-8"))
+        for own, theirs in [("time", "time"), ("position", "position"), ("velocity", "velocity_before"), ("velocity_after",) * 2]:
+            np.testing.assert_array_equal(result.crossings[own], table[theirs], line)
+        assert result.end == (printed["end"]["position"], printed["end"]["velocity"])
+        assert len(result.impacts) == printed["impacts"]["count"]
+        assert result.impacts.velocity.max() == printed["impacts"]["before_impact_velocity"]
+        for name, energy in result.energies.items():
+            assert energy == printed["energy"][name], name

@@ -47,7 +47,7 @@ impl Force {
 }
 
 /// The force with these derivatives.
-pub(super) fn polynomial(derivatives: &[f64]) -> Result<Polynomial, MotionError> {
+pub(crate) fn polynomial(derivatives: &[f64]) -> Result<Polynomial, MotionError> {
     let mut force = Polynomial::default();
     for (order, &value) in derivatives.iter().enumerate() {
         if !value.is_finite() {

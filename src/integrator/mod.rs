@@ -31,6 +31,7 @@ pub use contacts::Contacts;
 pub use effort::Effort;
 pub use energy::mechanical_energy;
 pub use evaluations::Evaluations;
+pub(crate) use force::polynomial;
 pub use impact::Impact;
 pub use motion::Motion;
 pub use observer::{Arc, Crossing, CrossingKind, Observer};

@@ -27,7 +27,7 @@ impl Motion {
 
     /// Goes on from here under another external force; true if a new arc begins. Phase, latched strip and
     /// bounces in a row stay as they are; only a held mass may be let go at once.
-    pub(super) fn set_force(&mut self, force: Polynomial) -> bool {
+    pub(crate) fn set_force(&mut self, force: Polynomial) -> bool {
         if self.keeps_bouncing(&force) {
             self.force = Force::new(force.shifted(-self.elapsed()), self.start);
             return false;

@@ -1,11 +1,14 @@
 //! A motion kept: its arcs, its crossings, its energies.
 
+use std::ops::ControlFlow;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::MotionError;
 use crate::flow::Course;
 use crate::integrator::{
-    Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, mechanical_energy, work,
+    Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, mechanical_energy, polynomial,
+    work,
 };
 use crate::phases::PhaseKind;
 use crate::scene::Scene;
@@ -32,6 +35,15 @@ pub struct Touch {
     pub instant: Instant,
     /// Before-impact velocity in m/s.
     pub before_impact_velocity: f64,
+}
+
+/// An external force that acts from a time on, until the next one does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AppliedForce {
+    /// When it begins, in s.
+    pub from: f64,
+    /// Its derivatives then, as in [`Simulation::set_force`](crate::Simulation::set_force): value in N, rate in N/s, and so on.
+    pub derivatives: Vec<f64>,
 }
 
 /// An exact motion over a span of time.
@@ -96,13 +108,46 @@ impl Scene {
     /// # Errors
     /// As [`Scene::trajectory`].
     pub fn trajectory_until(&self, start: Start, end: Instant) -> Result<Trajectory, MotionError> {
+        self.trajectory_under(start, end, &[], &mut ())
+    }
+
+    /// The exact motion from `start` at time 0 under external forces, in order of time, to any later instant, or until
+    /// the observer stops it.
+    ///
+    /// # Errors
+    /// As [`Scene::trajectory`]; [`MotionError::TimeBackwards`] if a force begins before the one ahead of it, and those of
+    /// [`Simulation::set_force`](crate::Simulation::set_force).
+    pub fn trajectory_under(
+        &self,
+        start: Start,
+        end: Instant,
+        forces: &[AppliedForce],
+        observer: &mut impl Observer,
+    ) -> Result<Trajectory, MotionError> {
         let mut motion = self.motion(start)?;
         let energy_before = mechanical_energy(self, &motion);
         let mut recorder = Recorder {
             mass: self.mass,
             ..Recorder::default()
         };
-        motion.advance(end, &mut recorder)?;
+        let mut flow = ControlFlow::Continue(());
+        for force in forces {
+            let from = motion.clock().instant(force.from);
+            if from >= end {
+                break;
+            }
+            flow = motion.watch(from, &mut (&mut recorder, &mut *observer))?;
+            if flow.is_break() {
+                break;
+            }
+            let before = motion.clone();
+            if motion.set_force(polynomial(&force.derivatives)?) {
+                before.tell_arc(&mut recorder);
+            }
+        }
+        if flow.is_continue() {
+            motion.advance(end, &mut (&mut recorder, observer))?;
+        }
         motion.tell_arc(&mut recorder);
         Ok(Trajectory {
             clock: *motion.clock(),

@@ -7,7 +7,8 @@ use std::process::Command;
 
 use anyhow::{Context, Result};
 
-use crate::run::{cargo, cargo_command, run, stage, target, top};
+use crate::python;
+use crate::run::{cargo, cargo_command, output, run, stage, target, top};
 
 const MDBOOK: &str = "0.5.4";
 
@@ -27,6 +28,7 @@ pub fn write() -> Result<PathBuf> {
         fs::remove_dir_all(&folder)?;
     }
     lay_out(&folder)?;
+    add_docstrings(&folder.join("src/python.md"))?;
     run(Command::new(mdbook()?).arg("build").arg(&folder))?;
     Ok(folder.join("book/index.html"))
 }
@@ -43,6 +45,15 @@ fn mdbook() -> Result<PathBuf> {
         .context("mdBook cannot be installed")?;
     }
     Ok(program)
+}
+
+/// Adds the docstrings of the Python package to its page.
+fn add_docstrings(page: &Path) -> Result<()> {
+    let python = python::environment("docstrings", "xtask/book/requirements.txt")?;
+    let docstrings = output(Command::new(python).args(["-X", "utf8", "xtask/book/docstrings.py"]))?;
+    let text = fs::read_to_string(page)?;
+    fs::write(page, format!("{text}\n{docstrings}"))?;
+    Ok(())
 }
 
 /// Copies `docs` and the files outside that its pages link to, with the links as they have to be there.

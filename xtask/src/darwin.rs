@@ -20,6 +20,18 @@ install-name: '/usr/lib/libiconv.2.dylib'
 ...
 ";
 
+/// What the Python package asks of it: the name of the time zone, for dates in tables.
+const CORE_FOUNDATION: &str = "--- !tapi-tbd
+tbd-version: 4
+targets: [ x86_64-macos, arm64-macos ]
+install-name: '/System/Library/Frameworks/CoreFoundation.framework/Versions/A/CoreFoundation'
+exports:
+  - targets: [ x86_64-macos, arm64-macos ]
+    symbols: [ _CFRelease, _CFStringGetBytes, _CFStringGetCStringPtr, _CFStringGetLength, _CFTimeZoneCopySystem,
+      _CFTimeZoneGetName, _CFTimeZoneResetSystem ]
+...
+";
+
 /// Makes a folder that stands in for Apple's kit; returns where it is.
 pub fn kit(zig_library: &Path) -> Result<PathBuf> {
     let kit = target().join("darwin-kit");
@@ -30,6 +42,9 @@ pub fn kit(zig_library: &Path) -> Result<PathBuf> {
         fs::copy(&system, folder.join(name)).with_context(|| system.display().to_string())?;
     }
     fs::write(folder.join("libiconv.tbd"), NO_ICONV)?;
+    let framework = kit.join("System/Library/Frameworks/CoreFoundation.framework");
+    fs::create_dir_all(&framework)?;
+    fs::write(framework.join("CoreFoundation.tbd"), CORE_FOUNDATION)?;
     Ok(kit)
 }
 

@@ -95,7 +95,7 @@ fn library_in(messages: &str, name: &str) -> Option<PathBuf> {
 
 /// Flags that keep the folders of this machine out of the library: panic messages name source
 /// files.
-fn remaps() -> Result<Vec<String>> {
+pub fn remaps() -> Result<Vec<String>> {
     let sources = sysroot()?.join("lib/rustlib/src/rust");
     let commit = rustc_says("commit-hash")?;
     // Of several that fit the last one holds, so the more special ones follow.

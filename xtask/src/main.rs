@@ -11,6 +11,7 @@ mod python;
 mod run;
 mod system;
 mod targets;
+mod wheel;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -55,6 +56,17 @@ enum Task {
     Fmpy,
     /// Build the FMU of daily work and run the tests with other importers only
     Importers,
+    /// Write the Python package as a wheel for this machine into target/wheels
+    Wheel {
+        /// As it is shipped, for every platform: Linux (glibc 2.17, musl), Windows and macOS
+        #[arg(long)]
+        all_targets: bool,
+        /// The source distribution instead, or beside the wheels for every platform
+        #[arg(long)]
+        sdist: bool,
+    },
+    /// Build the wheel and the program and run the package's tests only
+    Python,
     /// Build the program and run the tests of its pages in a headless Chromium only
     Pages,
     /// Test the pages of the guide with all that they show, and build it as a book with mdBook
@@ -105,6 +117,7 @@ fn run_task(task: &Task) -> Result<()> {
             test_with_fmpy(&package)?;
             test_with_importers(&package)?;
             test_pages()?;
+            test_wheel()?;
             stage("the library for Windows under Wine");
             portable::compare_under_wine()?;
             stage("all passed");
@@ -115,6 +128,11 @@ fn run_task(task: &Task) -> Result<()> {
             test_with_fmpy(&build()?)
         }
         Task::Importers => test_with_importers(&build()?),
+        Task::Wheel { all_targets, sdist } => wheel::write(*all_targets, *sdist),
+        Task::Python => {
+            build_program()?;
+            test_wheel()
+        }
         Task::Pages => {
             build_program()?;
             test_pages()
@@ -170,6 +188,11 @@ fn test_with_fmpy(package: &Path) -> Result<()> {
 fn test_pages() -> Result<()> {
     stage("pages in a headless Chromium");
     python::test_pages()
+}
+
+fn test_wheel() -> Result<()> {
+    stage("Python package");
+    wheel::test()
 }
 
 fn test_with_importers(package: &Path) -> Result<()> {

@@ -1,4 +1,4 @@
-//! The notices of the crates in the library, which their licences ask for.
+//! The notices of the crates in a library, which their licences ask for.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -11,10 +11,25 @@ use serde_json::Value;
 use crate::run::{cargo_command, output, top};
 use crate::targets;
 
-const HEAD: &str = "Third-party notices
+/// What ships the library, and the package that it is built from.
+pub struct Library {
+    name: &'static str,
+    package: &'static str,
+}
 
-The libraries of this FMU are built from softstop and the parts below.
+/// The FMU.
+const FMU: Library = Library {
+    name: "libraries of this FMU are",
+    package: "softstop-fmu",
+};
 
+/// The Python package.
+pub const WHEEL: Library = Library {
+    name: "library of this package is",
+    package: "softstop-python",
+};
+
+const PARTS: &str = "
 Runtime
   Rust's standard library, MIT OR Apache-2.0, https://www.rust-lang.org
   Linux, Windows: unwinder and compiler runtime of LLVM, Apache-2.0 WITH LLVM-exception,
@@ -25,10 +40,10 @@ Runtime
 Crates
 ";
 
-/// Writes the notices to where the packager finds them.
+/// Writes the notices of the FMU to where the packager finds them.
 pub fn write() -> Result<()> {
     let path = path();
-    fs::write(&path, notices()?).with_context(|| path.display().to_string())?;
+    fs::write(&path, notices(&FMU)?).with_context(|| path.display().to_string())?;
     println!("{} written", path.display());
     Ok(())
 }
@@ -38,12 +53,15 @@ fn path() -> PathBuf {
 }
 
 /// The text: a list of the crates, then each text of a licence once.
-fn notices() -> Result<String> {
-    let mut text = HEAD.to_owned();
+pub fn notices(library: &Library) -> Result<String> {
+    let mut text = format!(
+        "Third-party notices\n\nThe {} built from softstop and the parts below.\n{PARTS}",
+        library.name
+    );
     let mut licences = BTreeMap::<String, Vec<String>>::new();
     let arguments = ["metadata", "--format-version=1", "--locked"];
     let metadata = serde_json::from_str(&output(cargo_command().args(arguments))?)?;
-    for package in linked_packages(&metadata)? {
+    for package in linked_packages(&metadata, library.package)? {
         let [licence, home] = ["license", "repository"].map(|key| field(package, key));
         writeln!(text, "  {}, {licence}, {home}", name(package))?;
         let manifest = Path::new(field(package, "manifest_path"));
@@ -62,13 +80,13 @@ fn notices() -> Result<String> {
     Ok(text)
 }
 
-/// Names and versions of the crates in the library, whatever the target.
-fn linked() -> Result<BTreeSet<String>> {
+/// Names and versions of the crates in the library of a package, whatever the target.
+fn linked(package: &str) -> Result<BTreeSet<String>> {
     let mut crates = BTreeSet::new();
     for triple in targets::triples() {
         let tree = output(
             cargo_command()
-                .args(["tree", "--locked", "--package=softstop-fmu"])
+                .args(["tree", "--locked", "--package", package])
                 .args(["--edges=normal,no-proc-macro", "--target", triple])
                 .args(["--prefix=none", "--format={p}"]),
         )?;
@@ -80,9 +98,9 @@ fn linked() -> Result<BTreeSet<String>> {
     Ok(crates)
 }
 
-/// The packages of others that the library is built from.
-fn linked_packages(metadata: &Value) -> Result<Vec<&Value>> {
-    let linked = linked()?;
+/// The packages of others that the library of a package is built from.
+fn linked_packages<'a>(metadata: &'a Value, package: &str) -> Result<Vec<&'a Value>> {
+    let linked = linked(package)?;
     let packages = metadata["packages"].as_array().into_iter().flatten();
     let mut packages: Vec<_> = packages
         .filter(|package| !package["source"].is_null() && linked.contains(&name(package)))
@@ -138,7 +156,7 @@ mod tests {
     #[test]
     fn kept_notices_are_up_to_date() {
         let kept = fs::read_to_string(path()).expect("notices beside the packager");
-        let current = notices().expect("notices");
+        let current = notices(&FMU).expect("notices");
         assert!(kept == current, "run cargo xtask notices");
     }
 }

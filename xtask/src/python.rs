@@ -1,4 +1,4 @@
-//! Python environments under the target folder: one for the tests with FMPy, one for tools.
+//! Python environments under the target folder, each with what one kind of tests or the tools need.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,8 @@ fn pytest(python: &Path, folder: &str, package: &Path) -> Result<()> {
     run(pytest_of(python, folder).env("SOFTSTOP_FMU", package))
 }
 
-fn pytest_of(python: &Path, folder: &str) -> Command {
+/// The tests of a folder.
+pub fn pytest_of(python: &Path, folder: &str) -> Command {
     let mut command = Command::new(python);
     command.args(["-m", "pytest", "-p", "no:cacheprovider", "-q", folder]);
     command

@@ -22,11 +22,18 @@ pub fn stage(name: &str) {
     println!("\n=== {name} ===");
 }
 
-/// Runs a command at the top folder and fails if it fails.
+/// The command in the folder that it names, or else in the top folder.
+fn in_folder(command: &mut Command) -> &mut Command {
+    if command.get_current_dir().is_none() {
+        command.current_dir(top());
+    }
+    command
+}
+
+/// Runs a command and fails if it fails.
 pub fn run(command: &mut Command) -> Result<()> {
     let shown = format!("{command:?}");
-    let status = command
-        .current_dir(top())
+    let status = in_folder(command)
         .status()
         .with_context(|| format!("cannot run {shown}"))?;
     ensure!(status.success(), "{shown} ended with {status}");
@@ -36,8 +43,7 @@ pub fn run(command: &mut Command) -> Result<()> {
 /// The text that a command writes.
 pub fn output(command: &mut Command) -> Result<String> {
     let shown = format!("{command:?}");
-    let output = command
-        .current_dir(top())
+    let output = in_folder(command)
         .stderr(Stdio::inherit())
         .output()
         .with_context(|| format!("cannot run {shown}"))?;
@@ -51,9 +57,7 @@ pub fn output(command: &mut Command) -> Result<String> {
 
 /// The cargo that runs this program.
 pub fn cargo_command() -> Command {
-    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.current_dir(top());
-    command
+    Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 /// Runs cargo with arguments that hold no space.

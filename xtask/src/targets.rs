@@ -114,7 +114,7 @@ impl Target {
 }
 
 /// Makes sure that Rust's standard library for a target is there.
-fn install_standard_library(triple: &str) -> Result<()> {
+pub fn install_standard_library(triple: &str) -> Result<()> {
     let installed = |root: &Path| root.join("lib/rustlib").join(triple).join("lib").is_dir();
     if installed(&sysroot()?) {
         return Ok(());
@@ -127,7 +127,7 @@ fn install_standard_library(triple: &str) -> Result<()> {
     Ok(())
 }
 
-/// Zig and cargo-zigbuild, if they can be had.
+/// Zig, cargo-zigbuild and maturin, if they can be had.
 pub struct Tools {
     python: Result<PathBuf, String>,
 }
@@ -137,7 +137,7 @@ impl Tools {
     pub fn new() -> Self {
         let python = python::environment("tools", "xtask/tools/requirements.txt");
         Self {
-            python: python.map_err(|error| format!("no Zig: {error:#}")),
+            python: python.map_err(|error| format!("no Zig, no maturin: {error:#}")),
         }
     }
 
@@ -148,11 +148,20 @@ impl Tools {
     }
 
     /// A cargo that links with Zig.
-    fn cargo_zigbuild(&self) -> Result<Command> {
+    pub fn cargo_zigbuild(&self) -> Result<Command> {
+        self.program("cargo-zigbuild")
+    }
+
+    /// The builder of Python packages.
+    pub fn maturin(&self) -> Result<Command> {
+        self.program("maturin")
+    }
+
+    fn program(&self, name: &str) -> Result<Command> {
         let programs = self.python()?.parent().context("a folder of programs")?;
         let mut path = vec![programs.to_owned()];
         path.extend(env::split_paths(&env::var_os("PATH").unwrap_or_default()));
-        let mut command = Command::new(programs.join("cargo-zigbuild"));
+        let mut command = Command::new(programs.join(name));
         command
             .env("PATH", env::join_paths(path)?)
             .env("CARGO_ZIGBUILD_CACHE_DIR", cache());
@@ -167,7 +176,7 @@ impl Tools {
     }
 
     /// The folder of C libraries that Zig brings.
-    fn zig_library(&self) -> Result<PathBuf> {
+    pub fn zig_library(&self) -> Result<PathBuf> {
         let show = "import os, ziglang; print(os.path.dirname(ziglang.__file__))";
         let folder = output(Command::new(self.python()?).args(["-c", show]))?;
         Ok(Path::new(folder.trim()).join("lib/libc"))

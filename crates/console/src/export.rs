@@ -64,12 +64,23 @@ pub trait Report: Serialize {
 }
 
 /// A report that was returned instead of printed.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Returned {
     /// For people, without the paths of files.
     pub text: String,
     /// One JSON object.
     pub json: String,
+    /// Arrays by name, too long for both.
+    pub arrays: Vec<(&'static str, Array)>,
+}
+
+/// Numbers, or which of a list's things each place has.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Array {
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// Places in a list.
+    Indices(Vec<u16>),
 }
 
 thread_local! {
@@ -88,6 +99,15 @@ pub fn returned(command: impl FnOnce() -> Result<(), Failure>) -> Result<Returne
     done.map(|()| returned)
 }
 
+/// Hands an array to whoever asks for the report; programs that print have no place for it.
+pub fn hand_over(name: &'static str, array: impl FnOnce() -> Array) {
+    RETURNED.with_borrow_mut(|returned| {
+        if let Some(returned) = returned {
+            returned.arrays.push((name, array()));
+        }
+    });
+}
+
 /// Prints a report that has no files.
 pub fn print(report: &impl Report, format: Format) -> Result<(), Failure> {
     show(report, "", || output::json(report), format)
@@ -102,7 +122,10 @@ fn show(
 ) -> Result<(), Failure> {
     if RETURNED.with_borrow(Option::is_some) {
         let (text, json) = (report.text(), json()?);
-        RETURNED.set(Some(Returned { text, json }));
+        RETURNED.with_borrow_mut(|returned| {
+            let returned = returned.get_or_insert_default();
+            (returned.text, returned.json) = (text, json);
+        });
         return Ok(());
     }
     output::print(&match format {

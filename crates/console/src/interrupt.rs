@@ -21,6 +21,9 @@ static UNDER_WAY: Mutex<UnderWay> = Mutex::new(UnderWay {
     closing: "interrupted: no files were written",
 });
 
+/// What stands for the signal where a program that calls this one as a library asks.
+const LIBRARY: i32 = -1;
+
 /// How long a run may take to end by itself.
 const GRACE: Duration = Duration::from_millis(700);
 
@@ -118,9 +121,10 @@ fn receive(signal: i32) {
     std::process::exit(exit_code().into());
 }
 
-/// Asks the run to end, as a signal does, but never ends the process; for programs that call this one as a library.
+/// Asks the run to end, as a signal does, but never ends the process, and nothing is saved; for programs that call this one
+/// as a library.
 pub fn request() {
-    let _ = REQUESTED.compare_exchange(0, signals::INTERRUPT, Ordering::SeqCst, Ordering::SeqCst);
+    let _ = REQUESTED.compare_exchange(0, LIBRARY, Ordering::SeqCst, Ordering::SeqCst);
 }
 
 /// Takes [`request`] back, once the run has ended.
@@ -172,5 +176,8 @@ pub fn requested() -> bool {
 /// The run that was asked to end saves what it has: it has some seconds for that and is not asked again. Another signal
 /// still ends it at once.
 pub fn save() {
-    SAVING.store(true, Ordering::SeqCst);
+    SAVING.store(
+        REQUESTED.load(Ordering::SeqCst) != LIBRARY,
+        Ordering::SeqCst,
+    );
 }

@@ -3,7 +3,8 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -17,6 +18,45 @@ const PATIENCE: Duration = Duration::from_secs(2);
 const PAUSE: u64 = 10;
 /// How often a bar that is shown is drawn anew.
 const TICK: Duration = Duration::from_millis(200);
+
+/// True while a program that calls this one as a library shows the progress of runs itself.
+static IS_SHOWN_ELSEWHERE: AtomicBool = AtomicBool::new(false);
+/// What the run under way counts, for that program.
+static UNDER_WAY: Mutex<Option<(String, ProgressBar)>> = Mutex::new(None);
+
+fn under_way() -> MutexGuard<'static, Option<(String, ProgressBar)>> {
+    UNDER_WAY.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// How far a run is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Done {
+    /// What is counted.
+    pub what: String,
+    /// How much is done.
+    pub done: u64,
+    /// Of how much, if that is known.
+    pub total: Option<u64>,
+}
+
+/// Does work whose progress is written nowhere: the program that calls this one as a library asks for it ([`done`]).
+pub fn shown_elsewhere<T>(work: impl FnOnce() -> T) -> T {
+    IS_SHOWN_ELSEWHERE.store(true, Ordering::SeqCst);
+    let value = work();
+    IS_SHOWN_ELSEWHERE.store(false, Ordering::SeqCst);
+    value
+}
+
+/// How far the run under way is, if it counts what it does.
+pub fn done() -> Option<Done> {
+    let under_way = under_way();
+    let (what, bar) = under_way.as_ref()?;
+    Some(Done {
+        what: what.clone(),
+        done: bar.position(),
+        total: bar.length(),
+    })
+}
 
 /// Counts what is done of a run. When it is dropped, the terminal is as before.
 #[derive(Debug)]
@@ -60,6 +100,9 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template(style) {
             bar.set_style(style);
         }
+        if IS_SHOWN_ELSEWHERE.load(Ordering::SeqCst) {
+            *under_way() = Some((what.to_owned(), bar.clone()));
+        }
         Self {
             begin: Instant::now(),
             bar,
@@ -73,6 +116,9 @@ impl Progress {
 
     /// The run is under way; says so once it has taken long.
     pub fn beat(&self) {
+        if IS_SHOWN_ELSEWHERE.load(Ordering::Relaxed) {
+            return;
+        }
         let (elapsed, shown) = (self.begin.elapsed(), self.shown.load(Ordering::Relaxed));
         let due = if self.is_terminal {
             u64::from(elapsed > PATIENCE)
@@ -180,6 +226,7 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
+        *under_way() = None;
         self.bar.finish_and_clear();
     }
 }

@@ -31,11 +31,8 @@ pub fn listen(receive: impl Fn(i32) + Send + 'static) -> io::Result<()> {
 /// If the system refuses a handler.
 #[cfg(not(unix))]
 pub fn listen(receive: impl Fn(i32) + Send + 'static) -> io::Result<()> {
-    ctrlc::set_handler(move || receive(INTERRUPT)).map_err(io::Error::other)
+    ctrlc::set_handler(move || receive(2)).map_err(io::Error::other)
 }
-
-/// The number of SIGINT.
-pub(crate) const INTERRUPT: i32 = 2;
 
 /// The exit code of a program that a signal ends, as shells have it.
 pub fn exit_code(signal: i32) -> u8 {

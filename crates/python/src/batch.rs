@@ -2,32 +2,34 @@
 
 use std::ops::{ControlFlow, Range};
 
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use softstop::{Machine as Stated, SceneError, Start};
+use softstop::Start;
 use softstop_console::interrupt;
+use softstop_console::progress::Progress;
 use softstop_lanes::{Instructions, Job, Machine as Lowered, Outcome, Watch, run_parallel};
 
-use crate::errors::{MachineError, of_machine, of_scene};
+use crate::errors::of_scene;
 use crate::machine::Machine;
-use crate::supervise::supervise;
+use crate::rows::{Array, Changes, Rows, States};
+use crate::supervise::{Teller, supervise_in_pool};
 
 /// What came of a batch, a value for each motion, and the impacts that were kept.
 #[pyclass(frozen, get_all, module = "softstop._softstop")]
 pub struct Batch {
     /// Position at the end.
-    position: Py<PyArray1<f64>>,
+    position: Array,
     /// Velocity at the end.
-    velocity: Py<PyArray1<f64>>,
+    velocity: Array,
     /// Impacts on the way.
     counts: Py<PyArray1<u64>>,
     /// Impacts of motion i are those from offsets[i] to offsets[i + 1].
     offsets: Py<PyArray1<i64>>,
     /// Time of each impact in s.
-    times: Py<PyArray1<f64>>,
+    times: Array,
     /// Before-impact velocity of each impact in m/s.
-    velocities: Py<PyArray1<f64>>,
+    velocities: Array,
     /// Motions that could not be followed to the end, and why.
     errors: Vec<(usize, String)>,
 }
@@ -65,57 +67,41 @@ impl Watch for Ends {
     }
 }
 
-/// follow(machine, changes, start, periods, keep)
+/// follow(machine, changes, start, periods, keep, progress)
 /// --
 ///
 /// Follows one motion for each row of the arrays over whole drive periods, on all processors.
 ///
 /// `changes` are keys of the machine and their values; `keep` is how many of the last periods have their impacts kept.
 #[pyfunction]
-pub fn follow(
-    py: Python<'_>,
+pub fn follow<'py>(
+    py: Python<'py>,
     machine: &Machine,
-    changes: Vec<(String, PyReadonlyArray1<'_, f64>)>,
-    start: (PyReadonlyArray1<'_, f64>, PyReadonlyArray1<'_, f64>),
+    changes: Changes<'py>,
+    start: States<'py>,
     periods: u64,
     keep: u64,
+    progress: Teller<'py>,
 ) -> PyResult<Batch> {
-    let stated = &machine.stated;
-    let (x, v) = (start.0.as_slice()?, start.1.as_slice()?);
-    let mut columns = Vec::new();
-    for (key, values) in &changes {
-        let (parameter, factor) = stated.stated(key).map_err(|error| of_machine(&error))?;
-        columns.push((parameter, factor, values.as_slice()?));
-    }
-    if columns.iter().any(|(.., values)| values.len() != x.len()) || v.len() != x.len() {
-        return Err(MachineError::new_err("arrays of different lengths"));
-    }
-    let lowered = |row: usize| {
-        let mut own: Stated = stated.clone();
-        for (parameter, factor, values) in &columns {
-            own.set(*parameter, values[row] * factor);
-        }
-        own.validate()?;
-        Ok::<_, SceneError>((Lowered::new(&own.scene)?, own.scene.period()))
-    };
-    let rows = if columns.is_empty() {
-        x.len().min(1)
-    } else {
-        x.len()
-    };
-    let followed = supervise(py, || {
-        let machines: Result<(Vec<Lowered>, Vec<f64>), _> =
-            (0..rows).into_par_iter().map(lowered).collect();
-        machines.map(|(machines, lengths)| (run(&machines, (x, v), periods, keep), lengths))
+    let rows = Rows::new(machine, &changes, &start)?;
+    let followed = supervise_in_pool(py, &progress, || {
+        let machines = rows.lowered()?;
+        let (outcomes, kept) = match keep {
+            0 => (ends(&machines, &rows.jobs(periods)), Vec::new()),
+            _ => impacts(&machines, &rows.jobs(periods), periods.saturating_sub(keep)),
+        };
+        let of_motion = |impacts: &[Impact]| {
+            let period = rows.scene(impacts[0].0).period();
+            let time = |it: &Impact| it.3 as f64 * period + it.1;
+            impacts.iter().map(time).collect::<Vec<f64>>()
+        };
+        let times = kept
+            .par_chunk_by(|a, b| a.0 == b.0)
+            .flat_map_iter(of_motion);
+        let times: Vec<f64> = times.collect();
+        Ok((outcomes, kept, times))
     })?;
-    let ((outcomes, mut kept), lengths) = followed.map_err(|error| of_scene(&error))?;
-    let ends = |value: fn(&Start) -> f64| {
-        outcomes
-            .iter()
-            .map(|it| value(&it.end))
-            .collect::<Vec<f64>>()
-    };
-    kept.sort_by_key(|(job, ..)| *job);
+    let (outcomes, kept, times) = followed.map_err(|error| of_scene(&error))?;
     let mut offsets = vec![0_i64; outcomes.len() + 1];
     for (job, ..) in &kept {
         offsets[job + 1] += 1;
@@ -123,62 +109,47 @@ pub fn follow(
     for row in 0..outcomes.len() {
         offsets[row + 1] += offsets[row];
     }
-    let time = |(job, offset, _, cycle): &Impact| {
-        *cycle as f64 * lengths[(*job).min(lengths.len() - 1)] + offset
+    let column = |value: fn(&Start) -> f64| {
+        let values: Vec<f64> = outcomes.iter().map(|it| value(&it.end)).collect();
+        values.into_pyarray(py).unbind()
     };
+    let counts: Vec<u64> = outcomes.iter().map(|it| it.impacts).collect();
+    let velocities: Vec<f64> = kept.iter().map(|it| it.2).collect();
     let errors = outcomes.iter().enumerate();
     let errors = errors.filter_map(|(row, it)| Some((row, it.error.as_ref()?.to_string())));
     Ok(Batch {
-        position: ends(|it| it.position).into_pyarray(py).unbind(),
-        velocity: ends(|it| it.velocity).into_pyarray(py).unbind(),
-        counts: outcomes
-            .iter()
-            .map(|it| it.impacts)
-            .collect::<Vec<u64>>()
-            .into_pyarray(py)
-            .unbind(),
+        position: column(|it| it.position),
+        velocity: column(|it| it.velocity),
+        counts: counts.into_pyarray(py).unbind(),
         offsets: offsets.into_pyarray(py).unbind(),
-        times: kept
-            .iter()
-            .map(time)
-            .collect::<Vec<f64>>()
-            .into_pyarray(py)
-            .unbind(),
-        velocities: kept
-            .iter()
-            .map(|it| it.2)
-            .collect::<Vec<f64>>()
-            .into_pyarray(py)
-            .unbind(),
+        times: times.into_pyarray(py).unbind(),
+        velocities: velocities.into_pyarray(py).unbind(),
         errors: errors.collect(),
     })
 }
 
-fn run(
-    machines: &[Lowered],
-    (x, v): (&[f64], &[f64]),
-    periods: u64,
-    keep: u64,
-) -> (Vec<Outcome>, Vec<Impact>) {
-    let jobs = x.iter().zip(v).enumerate().map(|(row, (x, v))| Job {
-        machine: row.min(machines.len().saturating_sub(1)),
-        start: Start::new(*x, *v),
-        periods,
-    });
-    let jobs: Vec<Job> = jobs.collect();
-    let from = periods.saturating_sub(keep);
-    match keep {
-        0 => (
-            run_parallel(Instructions::Widest, machines, &jobs, |_| Ends).0,
-            Vec::new(),
-        ),
-        _ => {
-            let impacts = |_: Range<usize>| Impacts {
-                from,
-                kept: Vec::new(),
-            };
-            let (outcomes, kept) = run_parallel(Instructions::Widest, machines, &jobs, impacts);
-            (outcomes, kept.into_iter().flat_map(|it| it.kept).collect())
+/// What jobs come to; motions that settle are leapt over.
+pub fn ends(machines: &[Lowered], jobs: &[Job]) -> Vec<Outcome> {
+    let progress = Progress::new(jobs.len() as u64, "motions");
+    let watch = |part: Range<usize>| {
+        progress.more(part.len() as u64);
+        Ends
+    };
+    run_parallel(Instructions::Widest, machines, jobs, watch).0
+}
+
+/// What jobs come to, and their impacts from a drive period on, job after job.
+fn impacts(machines: &[Lowered], jobs: &[Job], from: u64) -> (Vec<Outcome>, Vec<Impact>) {
+    let progress = Progress::new(jobs.len() as u64, "motions");
+    let watch = |part: Range<usize>| {
+        progress.more(part.len() as u64);
+        Impacts {
+            from,
+            kept: Vec::new(),
         }
-    }
+    };
+    let (outcomes, watches) = run_parallel(Instructions::Widest, machines, jobs, watch);
+    let mut kept: Vec<Impact> = watches.into_iter().flat_map(|it| it.kept).collect();
+    kept.sort_by_key(|(job, ..)| *job);
+    (outcomes, kept)
 }

@@ -1,18 +1,20 @@
 //! The commands of the program.
 
 use clap::Parser;
+use numpy::IntoPyArray;
 use pyo3::prelude::*;
-use softstop_console::export::{Returned, returned};
+use pyo3::types::PyDict;
+use softstop_console::export::{Array, Returned, returned};
 use softstop_console::failure::Failure;
 use softstop_optimize::CommandLine;
 
 use crate::errors::{MachineError, of_failure};
-use crate::supervise::supervise;
+use crate::supervise::{Teller, supervise};
 
-/// run(arguments: list[str]) -> tuple[str, str]
+/// run(arguments, progress)
 /// --
 ///
-/// Runs a command and returns what it would print: text for people, and JSON. Files are written as it says.
+/// Runs a command and returns what it would print: text for people, and JSON; and arrays. Files are written as it says.
 ///
 /// Raises
 /// ------
@@ -21,15 +23,26 @@ use crate::supervise::supervise;
 /// SoftstopError
 ///     If there is no result.
 #[pyfunction]
-pub fn run(py: Python<'_>, arguments: Vec<String>) -> PyResult<(String, String)> {
-    let Returned { text, json } = supervise(py, || {
+pub fn run<'py>(
+    py: Python<'py>,
+    arguments: Vec<String>,
+    progress: Teller<'py>,
+) -> PyResult<(String, String, Bound<'py, PyDict>)> {
+    let Returned { text, json, arrays } = supervise(py, &progress, || {
         let words = ["softstop".to_owned()].into_iter().chain(arguments);
         let line = CommandLine::try_parse_from(words);
         let line = line.map_err(|error| Failure::usage(told(&error)))?;
         returned(|| softstop_optimize::run(line.command))
     })?
     .map_err(of_failure)?;
-    Ok((text, json))
+    let named = PyDict::new(py);
+    for (name, array) in arrays {
+        match array {
+            Array::Numbers(numbers) => named.set_item(name, numbers.into_pyarray(py))?,
+            Array::Indices(indices) => named.set_item(name, indices.into_pyarray(py))?,
+        }
+    }
+    Ok((text, json, named))
 }
 
 /// What is wrong with arguments, without the advice to look at `--help`.

@@ -51,9 +51,10 @@ pub fn of_scene(error: &SceneError) -> PyErr {
 pub fn of_motion(error: &MotionError) -> PyErr {
     match error {
         MotionError::Scene(error) => of_scene(error),
-        MotionError::NotFinite { .. } | MotionError::BeyondStop { .. } => {
-            of_words(error.to_string(), None)
-        }
+        MotionError::NotFinite { .. }
+        | MotionError::BeyondStop { .. }
+        | MotionError::ForceNotFinite { .. }
+        | MotionError::ForceOrder { .. } => of_words(error.to_string(), None),
         error => SoftstopError::new_err(error.to_string()),
     }
 }

@@ -44,7 +44,7 @@ pub fn figures(
         .iter()
         .map(|key| direction(stated, key))
         .collect::<PyResult<_>>()?;
-    let found = supervise(py, || {
+    let found = supervise(py, &None, || {
         Budget::MACHINE.limit(|| {
             let orbit =
                 find_watched(&stated.scene, &interrupt::watch).map_err(anyhow::Error::from)?;

@@ -7,8 +7,10 @@ mod arrow;
 mod batch;
 mod command;
 mod errors;
+mod exponents;
 mod figures;
 mod machine;
+mod rows;
 mod supervise;
 mod trajectory;
 
@@ -23,6 +25,8 @@ mod _softstop {
     use super::command::{json_to_toml, main, run, toml_to_json};
     #[pymodule_export]
     use super::errors::{MachineError, SoftstopError};
+    #[pymodule_export]
+    use super::exponents::exponents;
     #[pymodule_export]
     use super::figures::figures;
     #[pymodule_export]

@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use softstop::Machine as Stated;
+use softstop_optimize::page::figures::sketch;
 
 use crate::command::json_to_toml;
 use crate::errors::{MachineError, of_machine};
@@ -50,6 +51,14 @@ impl Machine {
     /// The text of its file.
     fn to_toml(&self) -> String {
         self.stated.to_toml()
+    }
+
+    /// An SVG of it with its dimensions.
+    fn sketch(&self) -> String {
+        let mut figure = sketch(&self.stated);
+        // It speaks of a design.
+        figure.caption.clear();
+        figure.document(self.stated.name.as_deref().unwrap_or_default())
     }
 
     /// The numbers that it has: key, value, unit, meaning.

@@ -1,12 +1,16 @@
 //! One exact motion.
 
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use std::ops::ControlFlow;
+
+use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use softstop::{CrossingKind, Start, Trajectory as Motion};
+use softstop::{AppliedForce, Clock, CrossingKind, Observer, Start, Trajectory as Motion};
 use softstop_console::budget::Budget;
+use softstop_console::interrupt;
 
 use crate::errors::{SoftstopError, of_failure, of_motion};
 use crate::machine::Machine;
+use crate::rows::Array;
 use crate::supervise::supervise;
 
 /// An exact motion from time 0 over whole drive periods.
@@ -17,16 +21,40 @@ pub struct Trajectory {
     duration: f64,
 }
 
-type Array = Py<PyArray1<f64>>;
+/// Stops a motion after Ctrl-C.
+struct Interrupt;
+
+impl Observer for Interrupt {
+    fn progress(&mut self, _: u64) -> ControlFlow<()> {
+        interrupt::go_on()
+    }
+}
 
 #[pymethods]
 impl Trajectory {
+    /// Forces begin at times in s, each with a row of derivatives: value in N, rate in N/s, and so on.
     #[new]
-    fn new(py: Python<'_>, machine: &Machine, start: (f64, f64), periods: u64) -> PyResult<Self> {
+    fn new(
+        py: Python<'_>,
+        machine: &Machine,
+        start: (f64, f64),
+        periods: u64,
+        forces: (PyReadonlyArray1<'_, f64>, PyReadonlyArray2<'_, f64>),
+    ) -> PyResult<Self> {
         let scene = &machine.stated.scene;
         let start = Start::new(start.0, start.1);
-        let motion = supervise(py, || {
-            Budget::MACHINE.limit(|| Ok(scene.trajectory(start, periods)))
+        let derivatives = forces.1.as_array();
+        let rows = forces.0.as_slice()?.iter().zip(derivatives.outer_iter());
+        let forces: Vec<AppliedForce> = rows
+            .map(|(from, row)| AppliedForce {
+                from: *from,
+                derivatives: row.to_vec(),
+            })
+            .collect();
+        let end = Clock::at_cycle(periods);
+        let motion = supervise(py, &None, || {
+            let follow = || scene.trajectory_under(start, end, &forces, &mut Interrupt);
+            Budget::MACHINE.limit(|| Ok(follow()))
         })?;
         let motion = motion
             .map_err(of_failure)?

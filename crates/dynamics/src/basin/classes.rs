@@ -50,7 +50,7 @@ impl Survey<'_> {
             return Ok(None);
         };
         let (state, ask) = (self.states[cell].into(), || self.fleet.note(0));
-        let (exponents, _) = Exponents::along_asking(self.scene, state, BATCH, ask)?;
+        let (exponents, _) = Exponents::along_with_monitor(self.scene, state, BATCH, ask)?;
         let motion = match exponents.is_positive() {
             true => MotionKind::Chaos,
             false => MotionKind::Unsettled,

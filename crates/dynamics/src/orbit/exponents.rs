@@ -47,11 +47,14 @@ impl Exponents {
         state: Vector2<f64>,
         batch: u64,
     ) -> Result<(Self, Vector2<f64>), MotionError> {
-        Self::along_asking(scene, state, batch, || Ok(()))
+        Self::along_with_monitor(scene, state, batch, || Ok(()))
     }
 
-    /// The same, unless `ask`, which is asked before each drive period, fails.
-    pub(crate) fn along_asking<E: From<MotionError>>(
+    /// As [`Exponents::along`], unless `ask`, which is asked before each drive period, fails.
+    ///
+    /// # Errors
+    /// That of `ask`, or [`MotionError`] if the motion cannot be computed.
+    pub fn along_with_monitor<E: From<MotionError>>(
         scene: &Scene,
         state: Vector2<f64>,
         batch: u64,

@@ -15,12 +15,12 @@ use softstop_dynamics::basin::{Options, basins, establishing, zone_box};
 use softstop_dynamics::watch::Kept;
 use softstop_dynamics::zone;
 
-use plane::Plane;
+use plane::{Plane, Size};
 use report::{BasinReport, CertaintyReport};
 use softstop_console::arguments::{MachineArguments, title};
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
-use softstop_console::export::Export;
+use softstop_console::export::{Array, Export, hand_over};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
@@ -58,9 +58,9 @@ a row for each basin, basin.json; with --along-zone certainty.svg, certainty.csv
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct BasinArguments {
-    /// Cells on each side of the plane, 2 to 4000 (2.0 GB)
-    #[arg(long, value_name = "N", default_value_t = 400)]
-    pub size: usize,
+    /// Cells on each side of the plane, 2 to 4000 (2.0 GB), or across and upwards
+    #[arg(long, value_name = "N|ACROSS,UP", default_value = "400")]
+    pub size: Size,
     /// Plane of initial states: the quantity across, and the one upwards, of x, v and phi
     #[arg(long, value_name = "ACROSS,UP", default_value = "x,v")]
     pub plane: Plane,
@@ -134,7 +134,8 @@ pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
 const LARGEST: usize = 4000;
 
 fn options(arguments: &BasinArguments) -> Result<Options, Failure> {
-    within("size", arguments.size, 2..=LARGEST)?;
+    within("size", arguments.size.across, 2..=LARGEST)?;
+    within("size", arguments.size.up, 2..=LARGEST)?;
     within("transient", arguments.transient, 1..=1_000_000)?;
     within("longest", arguments.longest, 1..=10_000)?;
     within("along-zone", arguments.along_zone.unwrap_or(2), 2..=1000)?;
@@ -169,6 +170,11 @@ fn picture(
     let png = chart::png(machine, &basins, shown);
     let png = png.map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
     export.file("png", &png)?;
+    hand_over("labels", || Array::Indices(basins.cells.clone()));
+    for (name, axis) in [("across", &grid.across), ("up", &grid.up)] {
+        let middles = || (0..axis.cells).map(|cell| axis.value(cell)).collect();
+        hand_over(name, || Array::Numbers(middles()));
+    }
     let report = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
     export.table("csv", &report::columns(), report::rows(&basins))?;
     export.finish(&report, arguments.format)?;

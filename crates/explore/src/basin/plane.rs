@@ -39,6 +39,28 @@ impl FromStr for Plane {
     }
 }
 
+/// Cells on both sides of the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Size {
+    /// From left to right.
+    pub across: usize,
+    /// From below upwards.
+    pub up: usize,
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (across, up) = text.split_once(',').unwrap_or((text, text));
+        let number = |part: &str| part.trim().parse().ok();
+        match number(across).zip(number(up)) {
+            Some((across, up)) => Ok(Self { across, up }),
+            None => Err("must be a whole number, or two, as in 400,200".to_owned()),
+        }
+    }
+}
+
 /// Refuses values of the plane that cannot be.
 ///
 /// # Errors
@@ -83,7 +105,7 @@ pub(super) fn grid(
         true => Some(region().map_err(Error::from)?),
         false => None,
     };
-    let axis = |quantity| {
+    let axis = |quantity, cells| {
         let range = match quantity {
             Quantity::Position => arguments.x.or(region.map(|region| region.position)),
             Quantity::Velocity => arguments.v.or(region.map(|region| region.velocity)),
@@ -92,10 +114,18 @@ pub(super) fn grid(
         Axis {
             quantity,
             range: range.unwrap_or([0.0, TAU]),
-            cells: arguments.size,
+            cells,
         }
     };
-    let mut grid = Grid::states(axis(across), axis(up), scene.excitation.phase);
+    let Size {
+        across: columns,
+        up: rows,
+    } = arguments.size;
+    let mut grid = Grid::states(
+        axis(across, columns),
+        axis(up, rows),
+        scene.excitation.phase,
+    );
     if !shows(Quantity::Position) {
         grid.state.position = arguments.at;
     } else if !shows(Quantity::Velocity) {

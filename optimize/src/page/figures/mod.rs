@@ -22,6 +22,7 @@ use crate::optimize::study::Study;
 
 pub use pareto::pareto;
 pub use response::response;
+pub use sketch::sketch;
 
 /// The pictures of what a run has found, but for the response.
 pub fn figures(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<Figure> {

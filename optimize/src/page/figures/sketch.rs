@@ -28,8 +28,8 @@ const THIN: Stroke = Stroke::solid(style::INK, 1.2);
 const THICK: Stroke = Stroke::solid(style::INK, 2.4);
 const FORCE: Stroke = Stroke::solid(style::OPTIMUM, 2.4);
 
-/// The picture.
-pub(super) fn sketch(machine: &Machine) -> Figure {
+/// A machine with its dimensions.
+pub fn sketch(machine: &Machine) -> Figure {
     let mut sketch = Sketch {
         machine,
         layers: Vec::new(),

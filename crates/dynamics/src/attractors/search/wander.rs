@@ -76,7 +76,7 @@ impl Search<'_> {
         let mut best = None;
         loop {
             let ask = || self.fleet.note(0);
-            let along = Exponents::along_asking(self.scene, state.into(), batch, ask);
+            let along = Exponents::along_with_monitor(self.scene, state.into(), batch, ask);
             let (exponents, end) = along?;
             self.fleet.note(exponents.periods)?;
             let mut after = Voyage::new(end.into());

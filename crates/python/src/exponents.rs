@@ -1,0 +1,75 @@
+//! Lyapunov exponents of many motions.
+
+use numpy::IntoPyArray;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::progress::Progress;
+use softstop_dynamics::Exponents;
+
+use crate::batch::ends;
+use crate::errors::of_scene;
+use crate::machine::Machine;
+use crate::rows::{Array, Changes, Rows, States};
+use crate::supervise::{Teller, supervise_in_pool};
+
+/// Larger and smaller exponents per drive period, half-widths of the 95 % intervals of the larger ones, 1 where they are
+/// positive beyond doubt, drive periods in s; and why motions could not be followed.
+type Columns = ([Array; 5], Vec<(usize, String)>);
+
+/// exponents(machine, changes, start, transient, batch, progress)
+/// --
+///
+/// The exponents of the motion of each row over 32 batches of drive periods, after a transient.
+#[pyfunction]
+pub fn exponents<'py>(
+    py: Python<'py>,
+    machine: &Machine,
+    changes: Changes<'py>,
+    start: States<'py>,
+    transient: u64,
+    batch: u64,
+    progress: Teller<'py>,
+) -> PyResult<Columns> {
+    let rows = Rows::new(machine, &changes, &start)?;
+    let found = supervise_in_pool(py, &progress, || {
+        let machines = rows.lowered()?;
+        let settled = ends(&machines, &rows.jobs(transient));
+        let progress = Progress::new(rows.len() as u64, "exponents");
+        let along = |row: usize| {
+            if let Some(error) = &settled[row].error {
+                return Err(Failure::from(error.clone()));
+            }
+            let (scene, state) = (rows.scene(row), settled[row].end.into());
+            let ask = || match interrupt::requested() {
+                true => Err(Failure::Interrupted),
+                false => Ok(()),
+            };
+            let found = Exponents::along_with_monitor(&scene, state, batch, ask);
+            progress.more(1);
+            Ok(found?.0)
+        };
+        let found: Vec<Result<Exponents, Failure>> =
+            (0..rows.len()).into_par_iter().map(along).collect();
+        Ok(found)
+    })?;
+    let found = found.map_err(|error| of_scene(&error))?;
+    let column = |value: &dyn Fn(&Exponents) -> f64| {
+        let value = |it: &Result<_, _>| it.as_ref().map_or(f64::NAN, value);
+        let values: Vec<f64> = found.iter().map(value).collect();
+        values.into_pyarray(py).unbind()
+    };
+    let errors = found.iter().enumerate();
+    let errors = errors.filter_map(|(row, it)| Some((row, it.as_ref().err()?.to_string())));
+    Ok((
+        [
+            column(&|it| it.per_period[0]),
+            column(&|it| it.per_period[1]),
+            column(&|it| it.error),
+            column(&|it| f64::from(u8::from(it.is_positive()))),
+            column(&|it| it.period),
+        ],
+        errors.collect(),
+    ))
+}

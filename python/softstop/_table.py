@@ -1,0 +1,87 @@
+"""Tables: columns by name."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _softstop
+
+Column = npt.NDArray[np.float64] | list[str | None]
+
+
+class Table:
+    """Columns of equal length, by name as keys and attributes: arrays of numbers (NaN: no value) or lists of words.
+
+    pandas, polars, pyarrow and DuckDB read it by Arrow's PyCapsule interface: `polars.DataFrame(table)`,
+    `pandas.DataFrame.from_arrow(table)`, `pyarrow.table(table)`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> table = Table({"time": np.array([0.5, 1.0]), "kind": ["impact", "back"]})
+    >>> table.time, table["kind"], len(table)
+    (array([0.5, 1. ]), ['impact', 'back'], 2)
+    """
+
+    def __init__(self, columns: Mapping[str, Column]) -> None:
+        self._columns = dict(columns)
+
+    @classmethod
+    def of_csv(cls, text: str) -> Table:
+        """The table of a CSV file with a head.
+
+        Examples
+        --------
+        >>> Table.of_csv("time,kind\\n0.5,impact\\n").columns
+        ('time', 'kind')
+        """
+        head, *rows = csv.reader(io.StringIO(text))
+        return cls({name: _column([row[index] for row in rows]) for index, name in enumerate(head)})
+
+    def __getitem__(self, name: str) -> Any:
+        return self._columns[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or name not in self._columns:
+            raise AttributeError(f"{name}: no such column")
+        return self._columns[name]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._columns]
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns."""
+        return tuple(self._columns)
+
+    def __len__(self) -> int:
+        """Rows."""
+        return len(next(iter(self._columns.values()), []))
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        return _softstop.stream(list(self._columns.items()))
+
+    def __repr__(self) -> str:
+        return f"<Table of {len(self)} rows: {', '.join(self._columns)}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        shown = [[str(column[row]) for column in self._columns.values()] for row in range(min(len(self), 20))]
+        head = "".join(f"<th>{escape(name)}</th>" for name in self._columns)
+        rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in shown)
+        return f"<table><caption>{len(self)} rows</caption><tr>{head}</tr>{rows}</table>"
+
+
+def _column(cells: list[str]) -> Column:
+    """Numbers, if all cells that are not empty are numbers."""
+    try:
+        return np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
+    except ValueError:
+        return [cell or None for cell in cells]

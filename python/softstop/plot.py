@@ -1,0 +1,176 @@
+"""Pictures with Matplotlib, where that is installed: what `plot()` of motions and results draws.
+
+Each function draws into axes, new ones unless some are handed over, and returns them.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._batch import Motions
+    from ._motion import Motion
+    from ._result import Attractors, Basin, Branch, Certainty, Design, Sweep, Zone
+
+SAMPLES = 400
+"""Points of a motion in each drive period."""
+MARKS = {"SN": "o", "PD": "s", "NS": "^", "G": "D"}
+"""Marks of special points."""
+
+
+def new_axes(axes: Axes | None) -> Axes:
+    """The axes themselves, or new ones.
+
+    Raises
+    ------
+    ImportError
+        If Matplotlib is not installed.
+    """
+    if axes is not None:
+        return axes
+    try:
+        from matplotlib import pyplot
+    except ImportError as error:
+        raise ImportError("plot() needs Matplotlib: pip install matplotlib") from error
+    return pyplot.subplots()[1]
+
+
+def motion(motion: Motion, axes: Axes | None = None, periods: float = 4) -> Axes:
+    """Position over time in the last drive periods, with the clearance and the impacts."""
+    axes = new_axes(axes)
+    begin = max(0.0, motion.duration - periods * motion.machine.period)
+    count = round(SAMPLES * (motion.duration - begin) / motion.machine.period)
+    times = np.linspace(begin, motion.duration, count + 1)
+    axes.plot(times, motion.position(times), "k", linewidth=1)
+    impacts = motion.impacts.time[motion.impacts.time >= begin]
+    axes.plot(impacts, motion.position(impacts), "o", markersize=4, label="impacts")
+    axes.axhline(motion.machine["clearance"], color="gray", linestyle="--", linewidth=1, label="clearance")
+    axes.set(xlabel="time t", ylabel="position x")
+    axes.legend()
+    return axes
+
+
+def motions(motions: Motions, over: str | None = None, axes: Axes | None = None) -> Axes:
+    """Before-impact velocities of the impacts that were kept over a value that was an array: a bifurcation diagram."""
+    varied = [name for name, value in motions.values.items() if value.size > 1 and np.ptp(value) > 0]
+    name = over or (varied[0] if varied else "motion")
+    number = motions.impacts.motion.astype(np.int64)
+    values = motions.values[name].ravel()[number] if name in motions.values else number
+    axes = new_axes(axes)
+    axes.plot(values, motions.impacts.velocity, "k,")
+    axes.set(xlabel=name, ylabel="before-impact velocity")
+    return axes
+
+
+def attractors(found: Attractors, axes: Axes | None = None) -> Axes:
+    """The motions that repeat, in the phase plane."""
+    from ._batch import simulate
+
+    axes = new_axes(axes)
+    for it in found["motions"]:
+        if it["kind"] != "periodic":
+            continue
+        motion = simulate(found.machine, start=(it["position"], it["velocity"]), periods=it["periods"])
+        position, velocity = motion.sample(np.linspace(0, motion.duration, SAMPLES * it["periods"] + 1))
+        axes.plot(position, velocity, linewidth=1, label=f"z = {it['z']}: {it['order']}, {100 * it['share']:.1f} %")
+    axes.set(xlabel="position x", ylabel="velocity v")
+    axes.legend()
+    return axes
+
+
+def zone(zone: Zone, axes: Axes | None = None) -> Axes:
+    """Hysteresis zone and stretches of stable z = 1 over the drive frequency, with the hardest impacts."""
+    axes = new_axes(axes)
+    low, high = zone["frequency_g0"], zone["frequency_sn"]
+    if low is not None and high is not None:
+        axes.axvspan(low, high, alpha=0.15, label="hysteresis zone")
+    for number, it in enumerate(zone["stretches"]):
+        label = "stable z = 1" if number == 0 else None
+        axes.plot([it["from"], it["to"]], [it["hardest"]] * 2, color="C0", marker="|", label=label)
+        axes.plot([it["hardest_at"]], [it["hardest"]], "o", color="C1", label=label and "hardest impact")
+    axes.set(xlabel="drive frequency", ylabel="before-impact velocity", ylim=(0, None))
+    axes.legend()
+    return axes
+
+
+def branch(branch: Branch, axes: Axes | None = None) -> Axes:
+    """Before-impact velocities over the parameter: stable solid, unstable dashed, with the special points."""
+    axes = new_axes(axes)
+    points = branch.points
+    stable = np.array([word == "true" for word in points.stable])
+    for number in np.unique(points.branch):
+        own = points.branch == number
+        value, velocity = points.value[own], points.before_impact_velocity[own]
+        for is_stable, style in ((True, "-"), (False, "--")):
+            near = stable[own] == is_stable
+            # A line goes on to the point where it changes.
+            near[1:] |= near[:-1] if is_stable else False
+            axes.plot(value, np.where(near, velocity, np.nan), style, color=f"C{int(number)}", linewidth=1.2)
+    specials = branch.specials
+    for symbol, mark in MARKS.items():
+        rows = [row for row in range(len(specials)) if specials.symbol[row] == symbol]
+        if rows:
+            axes.plot(specials.value[rows], specials.before_impact_velocity[rows], mark, color="k", fillstyle="none", label=symbol)
+    axes.set(xlabel=branch["parameter"], ylabel="before-impact velocity")
+    if len(specials):
+        axes.legend()
+    return axes
+
+
+def sweep(sweep: Sweep, axes: Axes | None = None) -> Axes:
+    """Before-impact velocities over the parameter, upwards and downwards."""
+    axes = new_axes(axes)
+    steps = sweep.points
+    for way, mark in (("up", "C0."), ("down", "C1.")):
+        rows = [row for row in range(len(steps)) if steps.direction[row] == way]
+        velocities = [[float(word) for word in (steps.before_impact_velocities[row] or "").split()] for row in rows]
+        values = np.repeat(steps.value[rows], [len(it) for it in velocities])
+        if rows:
+            axes.plot(values, np.concatenate(velocities), mark, markersize=2, label=way)
+    axes.set(xlabel=sweep["parameter"], ylabel="before-impact velocity")
+    axes.legend()
+    return axes
+
+
+def basin(basin: Basin, axes: Axes | None = None) -> Axes:
+    """The cells in the colours of the motions that they lead to."""
+    axes = new_axes(axes)
+    up, across = basin.dims
+    for number, name in enumerate(basin.motions):
+        axes.plot([], [], "s", color=f"C{number}", label=f"{name}: {100 * basin.shares[number]:.2f} %")
+    from matplotlib.colors import to_rgb
+
+    colors = np.array([to_rgb(f"C{number}") for number in range(len(basin.motions))])
+    grid = basin["grid"]
+    extent = (*grid["across"]["range"], *grid["up"]["range"])
+    axes.imshow(colors[basin.labels], origin="lower", extent=extent, aspect="auto", interpolation="nearest")
+    axes.set(xlabel=f"initial {across}", ylabel=f"initial {up}")
+    axes.legend()
+    return axes
+
+
+def certainty(certainty: Certainty, axes: Axes | None = None) -> Axes:
+    """The share of starts that lead to z = 1, with its 95 % interval, over the place in the zone."""
+    axes = new_axes(axes)
+    table = certainty.tables["certainty"]
+    axes.fill_between(table.place, table.certainty_low, table.certainty_high, alpha=0.3)
+    axes.plot(table.place, table.certainty)
+    axes.set(xlabel="place in the zone, 0 at g0, 1 at s_SN", ylabel="certainty of z = 1", ylim=(0, 1))
+    return axes
+
+
+def design(design: Design, axes: Axes | None = None) -> Axes:
+    """The branch of the design over the drive frequency, and the design on it."""
+    from ._commands import continue_
+
+    machine, found = design.machine, design["design"]
+    name = next(key for key in ("excitation.frequency", "excitation.frequency_hz") if key in machine.parameters)
+    width = found["zone_to"] - found["zone_from"]
+    axes = branch(continue_(machine, name, (found["zone_from"] - 0.1 * width, found["zone_to"] + 0.1 * width)), axes)
+    axes.plot([found["frequency"]], [found["before_impact_velocity"]], "*", color="C1", markersize=12, label="design")
+    axes.legend()
+    return axes
