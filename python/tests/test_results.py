@@ -127,7 +127,8 @@ def test_notebooks_show_pictures():
     assert RESULTS["design"]()._repr_mimebundle_()["image/svg+xml"].count("<svg") == 1
 
 
-def test_progress_is_shown_after_a_second_and_can_be_off(capfd):
+def test_progress_is_shown_and_can_be_off(capfd, monkeypatch):
+    monkeypatch.setattr("softstop._progress.PATIENCE", 0)
     call = lambda progress: ss.simulate(  # noqa: E731
         A.replace(eta=0.98), start=(np.zeros(20_000), np.linspace(10, 14, 20_000)), periods=1500, keep=1, progress=progress
     )
