@@ -219,8 +219,8 @@ def continue_(
     --------
     >>> import softstop as ss
     >>> branch = ss.continue_(ss.Machine.unloaded(eta=1.15, clearance=10), "frequency", (0.9, 1.5))
-    >>> [(symbol, round(value, 6)) for symbol, value in zip(branch.specials.symbol, branch.specials.value.tolist())]
-    [('G', 0.952652), ('PD', 0.988907), ('SN', 1.369036), ('G', 1.04444)]
+    >>> branch.specials.symbol, branch.specials.value.round(6)
+    (array(['G', 'PD', 'SN', 'G'], dtype='<U2'), array([0.952652, 0.988907, 1.369036, 1.04444 ]))
     """
     low, high = between
     second_low, second_high = (None, None) if second_between is None else second_between

@@ -319,13 +319,14 @@ class Design(Result):
 
 
 def _records(rows: Sequence[Mapping[str, Any]]) -> Table:
-    """The table of rows of numbers and words."""
+    """The table of rows of numbers, truth values and words."""
 
     def column(name: str) -> Any:
         cells = [row[name] for row in rows]
         if any(isinstance(cell, str) for cell in cells):
             return cells
-        return np.array([np.nan if cell is None else cell for cell in cells], dtype=np.float64)
+        kind = np.bool_ if all(isinstance(cell, bool) for cell in cells) else np.float64
+        return np.array([np.nan if cell is None else cell for cell in cells], dtype=kind)
 
     return Table({name: column(name) for name in (rows[0] if rows else ())})
 

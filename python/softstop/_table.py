@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,12 @@ import numpy.typing as npt
 
 from . import _softstop
 
-Column = npt.NDArray[np.float64] | list[str | None]
+Column = npt.NDArray[np.float64] | npt.NDArray[np.bool_] | npt.NDArray[np.str_]
 
 
 class Table:
-    """Columns of equal length, by name as keys and attributes: arrays of numbers (NaN: no value) or lists of words.
+    """Columns of equal length, by name as keys and attributes: arrays of numbers (NaN: no value), of True and False, or of words
+    ("": no value).
 
     pandas, polars, pyarrow and DuckDB read it by Arrow's PyCapsule interface: `polars.DataFrame(table)`,
     `pandas.DataFrame.from_arrow(table)`, `pyarrow.table(table)`.
@@ -25,12 +26,15 @@ class Table:
     --------
     >>> import numpy as np
     >>> table = Table({"time": np.array([0.5, 1.0]), "kind": ["impact", "back"]})
-    >>> table.time, table["kind"], len(table)
-    (array([0.5, 1. ]), ['impact', 'back'], 2)
+    >>> table.time[table.kind == "back"], table["kind"][0], len(table)
+    (array([1.]), np.str_('impact'), 2)
     """
 
-    def __init__(self, columns: Mapping[str, Column]) -> None:
-        self._columns = dict(columns)
+    def __init__(self, columns: Mapping[str, Column | Sequence[str | None]]) -> None:
+        self._columns = {
+            name: cells if isinstance(cells, np.ndarray) else np.array([cell or "" for cell in cells], dtype=np.str_)
+            for name, cells in columns.items()
+        }
 
     @classmethod
     def of_csv(cls, text: str) -> Table:
@@ -65,7 +69,10 @@ class Table:
         return len(next(iter(self._columns.values()), []))
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        return _softstop.stream(list(self._columns.items()))
+        return _softstop.stream([
+            (name, [cell or None for cell in cells.tolist()] if cells.dtype.kind == "U" else np.ascontiguousarray(cells))
+            for name, cells in self._columns.items()
+        ])
 
     def __repr__(self) -> str:
         return f"<Table of {len(self)} rows: {', '.join(self._columns)}>"
@@ -80,8 +87,9 @@ class Table:
 
 
 def _column(cells: list[str]) -> Column:
-    """Numbers, if all cells that are not empty are numbers."""
+    """Numbers, if all cells that are not empty are numbers; True and False; or words."""
     try:
         return np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
     except ValueError:
-        return [cell or None for cell in cells]
+        words = np.array(cells)
+        return words == "true" if np.isin(words, ["true", "false"]).all() else words

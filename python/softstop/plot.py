@@ -101,20 +101,18 @@ def branch(branch: Branch, axes: Axes | None = None) -> Axes:
     """Before-impact velocities over the parameter: stable solid, unstable dashed, with the special points."""
     axes = new_axes(axes)
     points = branch.points
-    stable = np.array([word == "true" for word in points.stable])
     for number in np.unique(points.branch):
         own = points.branch == number
         value, velocity = points.value[own], points.before_impact_velocity[own]
         for is_stable, style in ((True, "-"), (False, "--")):
-            near = stable[own] == is_stable
+            near = points.stable[own] == is_stable
             # A line goes on to the point where it changes.
             near[1:] |= near[:-1] if is_stable else False
             axes.plot(value, np.where(near, velocity, np.nan), style, color=f"C{int(number)}", linewidth=1.2)
     specials = branch.specials
-    for symbol, mark in MARKS.items():
-        rows = [row for row in range(len(specials)) if specials.symbol[row] == symbol]
-        if rows:
-            axes.plot(specials.value[rows], specials.before_impact_velocity[rows], mark, color="k", fillstyle="none", label=symbol)
+    for symbol in np.unique(specials.symbol) if len(specials) else ():
+        rows = specials.symbol == symbol
+        axes.plot(specials.value[rows], specials.before_impact_velocity[rows], MARKS[symbol], color="k", fillstyle="none", label=symbol)
     axes.set(xlabel=branch["parameter"], ylabel="before-impact velocity")
     if len(specials):
         axes.legend()
@@ -126,10 +124,10 @@ def sweep(sweep: Sweep, axes: Axes | None = None) -> Axes:
     axes = new_axes(axes)
     steps = sweep.points
     for way, mark in (("up", "C0."), ("down", "C1.")):
-        rows = [row for row in range(len(steps)) if steps.direction[row] == way]
-        velocities = [[float(word) for word in (steps.before_impact_velocities[row] or "").split()] for row in rows]
+        rows = steps.direction == way
+        velocities = [[float(word) for word in str(cell).split()] for cell in steps.before_impact_velocities[rows]]
         values = np.repeat(steps.value[rows], [len(it) for it in velocities])
-        if rows:
+        if rows.any():
             axes.plot(values, np.concatenate(velocities), mark, markersize=2, label=way)
     axes.set(xlabel=sweep["parameter"], ylabel="before-impact velocity")
     axes.legend()

@@ -4,23 +4,26 @@
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray};
+use arrow_array::{
+    ArrayRef, BooleanArray, Float64Array, RecordBatch, RecordBatchIterator, StringArray,
+};
 use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 
-/// Numbers or words; None is no value.
+/// Numbers, truth values or words; NaN and None are no value.
 #[derive(FromPyObject)]
 pub enum Column<'py> {
     Numbers(PyReadonlyArray1<'py, f64>),
+    Truths(PyReadonlyArray1<'py, bool>),
     Words(Vec<Option<String>>),
 }
 
 /// stream(columns: list[tuple[str, numpy.ndarray | list[str | None]]]) -> PyCapsule
 /// --
 ///
-/// An `arrow_array_stream` of one batch. NaN is no value.
+/// An `arrow_array_stream` of one batch.
 #[pyfunction]
 pub fn stream<'py>(
     py: Python<'py>,
@@ -35,6 +38,7 @@ pub fn stream<'py>(
                     numbers.map(|it| Some(*it).filter(|it| !it.is_nan())),
                 ))
             }
+            Column::Truths(truths) => Arc::new(BooleanArray::from(truths.as_slice()?.to_vec())),
             Column::Words(words) => {
                 Arc::new(StringArray::from_iter(words.iter().map(Option::as_deref)))
             }
