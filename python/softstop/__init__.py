@@ -30,7 +30,7 @@ from ._commands import (
 from ._machine import Drive, Hertz, KelvinVoigt, Machine, PiecewiseLinear, Preloaded, Rigid, Strip, read
 from ._motion import Motion
 from ._result import Attractors, Basin, Branch, Certainty, Design, Orbit, Result, Sweep, Zone
-from ._softstop import MachineError, SoftstopError
+from ._softstop import MachineError, SoftstopError, __version__
 from ._table import Table
 
 __all__ = [
@@ -70,4 +70,5 @@ __all__ = [
     "study",
     "sweep",
     "zone",
+    "__version__",
 ]

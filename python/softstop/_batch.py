@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, overload
 
@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _softstop, plot
-from ._checks import checked, floats
+from ._checks import checked, floats, pair
 from ._forces import Floats, Forces, pieces_of
 from ._machine import Machine
 from ._motion import Motion
@@ -37,6 +37,8 @@ class Motions:
 
     Attributes
     ----------
+    machine : Machine
+        The machine whose values were stated.
     position, velocity : array
         State at the end in m and m/s.
     counts : array of int
@@ -59,6 +61,7 @@ class Motions:
     ((1000,), 1001)
     """
 
+    machine: Machine
     position: Floats
     velocity: Floats
     counts: npt.NDArray[np.uint64]
@@ -111,9 +114,7 @@ class _Rows:
 
     @classmethod
     def of(cls, machine: Machine, start: object, changes: Mapping[str, npt.ArrayLike]) -> _Rows:
-        begin = machine.start if start is None else start
-        if not isinstance(begin, tuple) or len(begin) != 2:
-            raise _softstop.MachineError(f"start = {begin!r}: must be (position, velocity)")
+        begin = pair("start", machine.start if start is None else start)
         names = ["start[0]", "start[1]", *changes]
         values = [floats(name, value) for name, value in zip(names, [*begin, *changes.values()], strict=True)]
         try:
@@ -134,19 +135,19 @@ class _Rows:
 
 @overload
 def simulate(  # pyright: ignore[reportOverlappingOverload]
-    machine: Machine, *, start: tuple[float, float] | None = ..., periods: int = ..., keep: int | None = ...,
+    machine: Machine, *, start: Sequence[float] | None = ..., periods: int = ..., keep: None = ...,
     forces: Forces | None = ..., progress: bool = ..., **changes: float,
 ) -> Motion: ...
 @overload
 def simulate(
-    machine: Machine, *, start: tuple[npt.ArrayLike, npt.ArrayLike] | None = ..., periods: int = ...,
+    machine: Machine, *, start: Sequence[npt.ArrayLike] | None = ..., periods: int = ...,
     keep: int | None = ..., forces: None = ..., progress: bool = ..., **changes: npt.ArrayLike,
 ) -> Motions: ...
 @checked
 def simulate(
     machine: Machine,
     *,
-    start: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+    start: Sequence[npt.ArrayLike] | None = None,
     periods: int = 100,
     keep: int | None = None,
     forces: Forces | None = None,
@@ -164,7 +165,7 @@ def simulate(
     periods : int
         Drive periods to follow, 1 to 1,000,000; of one motion, which is kept whole, 100,000 at most.
     keep : int, optional
-        With arrays: so many of the last periods have their impacts kept, 0 unless it is stated.
+        Of many motions: so many of the last periods have their impacts kept, 0 unless it is stated. One motion has them all.
     forces : (times, values) or piecewise polynomials, optional
         With one motion: an external force in N over time in s, beside the drive. As many values as times are joined by
         straight lines; one value less is held between two times each, in steps; SciPy's `CubicSpline` and other `PPoly` up to
@@ -201,22 +202,25 @@ def simulate(
     True
     """
     periods = _count("periods", periods, 1, MAX_PERIODS)
-    keep = _count("keep", 0 if keep is None else keep, 0, MAX_PERIODS)
+    kept = _count("keep", 0 if keep is None else keep, 0, MAX_PERIODS)
     rows = _Rows.of(machine, start, changes)
     x, v = rows.start
     if rows.shape == ():
+        if keep is not None:
+            raise _softstop.MachineError(f"keep = {keep}: for many motions; one motion has all its impacts")
         periods = _count("periods", periods, 1, MAX_KEPT_PERIODS)
         changed = machine.replace(**{key: float(value[0]) for key, value in rows.changes.items()})
         return Motion(changed, (float(x[0]), float(v[0])), periods, pieces_of(forces))
     if forces is not None:
         raise _softstop.MachineError("forces: for one motion; the lanes of many motions know of none")
-    if len(x) * keep > MAX_KEPT:
+    if len(x) * kept > MAX_KEPT:
         words = f"keep = {keep}: with {len(x)} motions at most {MAX_KEPT // len(x)}, for memory's sake"
         raise _softstop.MachineError(words)
     with shown(progress) as teller:
-        batch = _softstop.follow(machine._inner, rows.keyed, rows.start, periods, keep, teller)
+        batch = _softstop.follow(machine._inner, rows.keyed, rows.start, periods, kept, teller)
     motion = np.repeat(np.arange(len(x), dtype=np.float64), np.diff(batch.offsets))
     return Motions(
+        machine,
         batch.position.reshape(rows.shape),
         batch.velocity.reshape(rows.shape),
         batch.counts.reshape(rows.shape),
@@ -231,7 +235,7 @@ def simulate(
 def exponents(
     machine: Machine,
     *,
-    start: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+    start: Sequence[npt.ArrayLike] | None = None,
     transient: int = 1000,
     periods: int = 3200,
     progress: bool = True,

@@ -29,6 +29,10 @@ def is_number(value: Any) -> bool:
     return True
 
 
+def _is_machine(value: Any) -> bool:
+    return hasattr(value, "to_toml")
+
+
 def _is_path(value: Any) -> bool:
     return isinstance(value, (str, os.PathLike))
 
@@ -37,6 +41,15 @@ def _are(value: Any, fits: Callable[[Any], bool], least: int = 0, most: int = 1_
     if isinstance(value, str) or not isinstance(value, (Sequence, np.ndarray)) or getattr(value, "ndim", 1) == 0:
         return False
     return least <= len(value) <= most and all(map(fits, value))
+
+
+def pair(name: str, value: Any) -> tuple[Any, Any]:
+    """Position and velocity of a start."""
+    try:
+        position, velocity = value
+    except (TypeError, ValueError) as error:
+        raise _softstop.MachineError(f"{name} = {value!r}: must be (position, velocity)") from error
+    return position, velocity
 
 
 def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -48,12 +61,13 @@ def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 
 RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
-    "Machine": (lambda value: hasattr(value, "to_toml"), "a Machine"),
+    "Machine": (_is_machine, "a Machine"),
     "Mapping[str, Any]": (lambda value: isinstance(value, Mapping), "a mapping"),
     "Mapping[str, Any] | str | os.PathLike[str]": (
-        lambda value: isinstance(value, Mapping) or _is_path(value), "a mapping, or the path of a file",
+        lambda value: (isinstance(value, Mapping) and not _is_machine(value)) or _is_path(value),
+        "a mapping, or the path of a file",
     ),
-    "Mapping[str, Value]": (lambda value: isinstance(value, Mapping), "a mapping"),
+    "Mapping[str, Change]": (lambda value: isinstance(value, Mapping), "a mapping"),
     "Range": (lambda value: _are(value, is_number, 2, 2), "two numbers"),
     "Side": (
         lambda value: _are(value, is_number, 2, 3) and isinstance([*value, 0][2], numbers.Integral),

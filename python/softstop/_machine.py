@@ -7,16 +7,18 @@ import numbers
 import os
 import pathlib
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
 import numpy as np
 
 from . import _softstop
-from ._checks import checked, is_number
+from ._checks import checked, is_number, pair
 
 Value = float | str
+PARTS = {"drive": "excitation", "stop": "stop", "strip": "piercing", "rigid": "rigid", "start": "initial"}
+"""Tables of a machine's file, by what `Machine` calls them."""
 
 
 class _Part:
@@ -25,10 +27,8 @@ class _Part:
     model: ClassVar[str | None] = None
 
     def table(self) -> dict[str, Any]:
-        """The table; what is None is left out."""
-        pairs = {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
-        named = {} if self.model is None else {"model": self.model}
-        return named | {key: value for key, value in pairs.items() if value is not None}
+        """The table."""
+        return {"model": self.model} | {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)
@@ -104,12 +104,15 @@ class Strip(_Part):
 
 
 def _tables(value: Any, name: str = "") -> Any:
-    """Parts as tables, keys with dots as tables in tables, numbers of NumPy as Python's; what has this name, if it has one."""
+    """Parts as tables, keys with dots as tables in tables, numbers of NumPy as Python's; what has this name, if it has one. What
+    is None in a table is left out."""
     if isinstance(value, _Part):
         value = value.table()
     if isinstance(value, Mapping):
         table: dict[str, Any] = {}
         for key, inner in value.items():
+            if inner is None:
+                continue
             *path, last = str(key).split(".")
             place = table
             for name in path:
@@ -131,6 +134,15 @@ def _tables(value: Any, name: str = "") -> Any:
     raise _softstop.MachineError(f"{name} = {value!r}: must be a number, a word, or a table of them")
 
 
+def _part(name: str, part: Any) -> Any:
+    """What a file has in the table of a part."""
+    if name == "stop" and part is None:
+        return {"model": "none"}
+    if name == "start" and part is not None:
+        return dict(zip(("position", "velocity"), pair(name, part), strict=True))
+    return part
+
+
 def word_of(name: str, value: Any) -> str:
     """A value of this name as on the command line."""
     if isinstance(value, str):
@@ -140,8 +152,11 @@ def word_of(name: str, value: Any) -> str:
     return repr(int(value)) if isinstance(value, numbers.Integral) else repr(float(value))
 
 
-class Machine:
-    """A machine: mass on a suspension, drive, stop, strip.
+Change = Value | _Part | Mapping[str, float] | Sequence[float] | None
+
+
+class Machine(Mapping[str, float]):
+    """A machine: mass on a suspension, drive, stop, strip; a mapping of the numbers that it has, by key, in its own units.
 
     Parameters
     ----------
@@ -177,8 +192,10 @@ class Machine:
     ...                 drive=Drive(9e3, frequency_hz=24), stop=Preloaded(1.7e7, preload_deflection=0.02))
     >>> press["excitation.frequency_hz"]
     24.0
-    >>> press.replace(clearance=0.01)["clearance"]
-    0.01
+    >>> round(press["excitation.frequency"], 3)
+    150.796
+    >>> press.replace(clearance=0.01, stop=Rigid(0.8))["stop.restitution"]
+    0.8
     """
 
     __slots__ = ("_inner",)
@@ -196,7 +213,7 @@ class Machine:
         stop: KelvinVoigt | PiecewiseLinear | Hertz | Preloaded | Rigid | None,
         strip: Strip | None = None,
         rigid: Mapping[str, float] | None = None,
-        start: tuple[float, float] | None = None,
+        start: Sequence[float] | None = None,
         name: str | None = None,
     ) -> None:
         table = {
@@ -206,13 +223,9 @@ class Machine:
             "damping": damping,
             "clearance": clearance,
             "contact": {"damping": contact_damping},
-            "excitation": drive,
-            "stop": {"model": "none"} if stop is None else stop,
-            "piercing": strip,
-            "rigid": rigid,
-            "initial": None if start is None else {"position": start[0], "velocity": start[1]},
         }
-        self._inner = _of_table({key: value for key, value in table.items() if value is not None})
+        parts = {"drive": drive, "stop": stop, "strip": strip, "rigid": rigid, "start": start}
+        self._inner = _of_table(table | {PARTS[name]: _part(name, part) for name, part in parts.items()})
 
     @classmethod
     def _of(cls, inner: _softstop.Machine) -> Machine:
@@ -221,7 +234,7 @@ class Machine:
         return machine
 
     @classmethod
-    def unloaded(cls, **changes: Value) -> Machine:
+    def unloaded(cls, **changes: Change) -> Machine:
         """The paper's machine without a strip (Peterka 2003), in ratios, with changes as of `replace`.
 
         Examples
@@ -232,7 +245,7 @@ class Machine:
         return cls._of(_softstop.Machine.named("unloaded")).replace(**changes)
 
     @classmethod
-    def loaded(cls, **changes: Value) -> Machine:
+    def loaded(cls, **changes: Change) -> Machine:
         """The paper's machine that pierces, in ratios, with changes as of `replace`.
 
         Examples
@@ -285,14 +298,15 @@ class Machine:
         return cls._of(_of_table(table))
 
     @checked
-    def replace(self, changes: Mapping[str, Value] | None = None, /, **named: Value) -> Machine:
-        """Another machine with other values.
+    def replace(self, changes: Mapping[str, Change] | None = None, /, **named: Change) -> Machine:
+        """Another machine with other values and parts.
 
         Parameters
         ----------
         changes : mapping, optional
-            Values by keys, older names or letters, in the machine's own units.
-        **named : float or str
+            Values by keys, older names or letters, in the machine's own units; parts by the names of the class's parameters:
+            drive, stop, strip, rigid, start.
+        **named : float, str or part
             The same; keys with dots have two underscores: `stop__stiffness=7` is `stop.stiffness`.
 
         Returns
@@ -310,9 +324,19 @@ class Machine:
         >>> machine = Machine.unloaded()
         >>> machine.replace({"stop.stiffness": 8}) == machine.replace(stop__stiffness=8)
         True
+        >>> machine.replace(stop=None, start=(0, 5)).start
+        (0.0, 5.0)
         """
         pairs = dict(changes or {}) | {key.replace("__", "."): value for key, value in named.items()}
-        return Machine._of(self._inner.replaced([(str(key), word_of(str(key), value)) for key, value in pairs.items()]))
+        parts = {key: pairs.pop(key) for key in list(pairs) if key in PARTS}
+        inner = self._inner
+        if parts:
+            table = json.loads(_softstop.toml_to_json(inner.to_toml()))
+            for name, part in parts.items():
+                place = table if name == "start" else table.get("ratios", table)
+                place[PARTS[name]] = _part(name, part)
+            inner = _of_table(table)
+        return Machine._of(inner.replaced([(str(key), word_of(str(key), value)) for key, value in pairs.items()]))
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -343,8 +367,23 @@ class Machine:
         """Writes its file."""
         pathlib.Path(path).write_text(self.to_toml(), encoding="utf-8")
 
+    @checked
+    def fmu(self, path: str | os.PathLike[str]) -> None:
+        """Writes it as an FMU 2.0 for co-simulation, which starts in its initial state."""
+        pathlib.Path(path).write_bytes(self._inner.fmu())
+
     def __getitem__(self, key: str) -> float:
-        return self.parameters[key]
+        """The number of a key, older name or letter."""
+        try:
+            return self._inner.value(key)
+        except _softstop.MachineError as error:
+            raise KeyError(str(error)) from error
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.parameters)
+
+    def __len__(self) -> int:
+        return len(self.parameters)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Machine) and self._inner == other._inner

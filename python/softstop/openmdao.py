@@ -40,7 +40,10 @@ class ImpactMachine(om.ExplicitComponent):  # type: ignore[misc]
     outputs : sequence of str
         Figures, as those of `[require]` that one motion tells: velocity, stop_force, drive_power, stroke, ...
 
-    Where there is no such motion, `compute` raises `openmdao.api.AnalysisError`, so that drivers step back.
+    Raises
+    ------
+    openmdao.api.AnalysisError
+        From `compute`, where there is no such motion, so that drivers step back.
     """
 
     def __init__(

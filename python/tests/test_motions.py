@@ -52,6 +52,7 @@ def test_arrays_broadcast():
     assert batch.position.shape == batch.counts.shape == (4, 3)
     alone = ss.simulate(A, eta=1.1, clearance=11.0, start=(0, 14), periods=100)
     assert batch.counts[1, 2] == len(alone.impacts)
+    assert ss.simulate(A, start=[0, 14], periods=3).end == ss.simulate(A, start=np.array([0, 14]), periods=3).end
     starts = ss.simulate(A, start=(np.zeros(5), np.linspace(0, 14, 5)), periods=10)
     assert starts.velocity.shape == (5,)
     assert len(ss.simulate(A, start=(np.zeros(0), np.zeros(0))).counts) == 0
@@ -73,6 +74,12 @@ def test_a_machine_by_keywords():
         drive=ss.Drive(9e3, frequency_hz=24), stop=ss.Preloaded(1.7e7, preload_deflection=0.02), name="press",
     )
     assert press["excitation.frequency_hz"] == 24.0
+    assert press["frequency"] == press["excitation.frequency"] == pytest.approx(2 * np.pi * 24)
+    assert dict(press) == press.parameters
+    assert "rho" not in press
+    assert A["eta"] == A["frequency"] == 1.15
+    with pytest.raises(KeyError, match="did you mean clearance"):
+        A["clearence"]
     assert press.replace({"stop.stiffness": 2e7})["stop.stiffness"] == 2e7
     assert press.replace(stop__stiffness=2e7) == press.replace({"stop.stiffness": 2e7})
     assert press["stop.stiffness"] == 1.7e7
@@ -88,5 +95,8 @@ def test_a_machine_by_keywords():
 ])
 def test_every_stop_by_keywords(stop):
     machine = ss.Machine(mass=1, stiffness=1, damping=0.04, clearance=2, contact_damping=0.18, drive=ss.Drive(1, 1.15), stop=stop)
+    other = machine.replace(stop=ss.Preloaded(7, 70), drive=ss.Drive(2, frequency_hz=3), start=[0, 5], strip=ss.Strip(1, 1, 0.1, 0.1))
+    assert other.replace(stop=stop, drive=ss.Drive(1, 1.15), strip=None, start=None) == machine
+    assert ss.Machine.unloaded(stop=stop, clearance=3)["clearance"] == 3
     assert ss.Machine.from_toml(machine.to_toml()) == machine
     assert ss.simulate(machine, start=(0, 5), periods=5).duration == pytest.approx(5 * 2 * np.pi / 1.15)

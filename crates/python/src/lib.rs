@@ -18,6 +18,9 @@ mod trajectory;
 #[pyo3::pymodule]
 mod _softstop {
     #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "Python's name")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
     use super::arrow::stream;
     #[pymodule_export]
     use super::batch::{Batch, follow};

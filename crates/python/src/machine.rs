@@ -1,11 +1,13 @@
 //! A machine as Python has it.
 
 use pyo3::prelude::*;
-use softstop::Machine as Stated;
+use softstop::{Dimension, Machine as Stated};
+use softstop_console::failure::Failure;
+use softstop_optimize::fmu::{archive, library};
 use softstop_optimize::page::figures::sketch;
 
 use crate::command::json_to_toml;
-use crate::errors::{MachineError, of_machine};
+use crate::errors::{MachineError, of_failure, of_machine};
 
 /// A machine that cannot change.
 #[pyclass(frozen, eq, module = "softstop._softstop")]
@@ -53,6 +55,13 @@ impl Machine {
         self.stated.to_toml()
     }
 
+    /// The bytes of its FMU, which starts in its initial state.
+    fn fmu(&self) -> PyResult<Vec<u8>> {
+        let library = library().map_err(|error| of_failure(error.into()))?;
+        let bytes = archive(&library, &self.stated, self.stated.start);
+        bytes.map_err(|error| of_failure(Failure::usage(format!("{error:#}"))))
+    }
+
     /// An SVG of it with its dimensions.
     fn sketch(&self) -> String {
         let mut figure = sketch(&self.stated);
@@ -75,6 +84,34 @@ impl Machine {
             ))
         });
         each.collect()
+    }
+
+    /// The number of a key, letter or older name, in the unit of that key.
+    fn value(&self, name: &str) -> PyResult<f64> {
+        let stated = self.stated.stated(name);
+        let (parameter, factor) = stated.map_err(|error| of_machine(&error))?;
+        Ok(self.stated.value(parameter).unwrap_or(f64::NAN) / factor)
+    }
+
+    /// What an axis says of a quantity of motion or of a key: what it is, with its unit or symbol; the key itself
+    /// if it is in another unit than the machine's own.
+    fn label(&self, what: &str) -> PyResult<String> {
+        let dimension = match what {
+            "time" => Dimension::Time,
+            "position" => Dimension::Length,
+            "velocity" | "before-impact velocity" => Dimension::Velocity,
+            key => {
+                let stated = self.stated.stated(key);
+                let (parameter, factor) = stated.map_err(|error| of_machine(&error))?;
+                let is_own = factor == 1.0;
+                return Ok(if is_own {
+                    self.stated.label_of(parameter)
+                } else {
+                    key.to_owned()
+                });
+            }
+        };
+        Ok(self.stated.label(what, "", dimension))
     }
 
     /// Its name, if it has one.
