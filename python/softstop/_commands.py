@@ -6,6 +6,7 @@ import functools
 import json
 import os
 import pathlib
+import re
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -18,6 +19,8 @@ from ._result import Attractors, Basin, Branch, Certainty, Design, Kind, Orbit, 
 
 Range = tuple[float, float]
 Side = Range | tuple[float, float, int]
+NAMES = {"from": "between[0]", "to": "between[1]", "second-from": "second_between[0]", "second-to": "second_between[1]"}
+"""Options of the program that are called otherwise here."""
 
 
 def _words(options: Mapping[str, Any]) -> list[str]:
@@ -31,6 +34,11 @@ def _words(options: Mapping[str, Any]) -> list[str]:
             values = value if isinstance(value, (tuple, list)) else [value]
             words.append(f"{flag}={','.join(word_of(name, one) for one in values)}")
     return words
+
+
+def _said(words: str) -> str:
+    """Words of the program with what its options are called here."""
+    return re.sub(r"--([a-z-]+)", lambda it: NAMES.get(it[1], it[1].replace("-", "_")), words)
 
 
 def _run(
@@ -47,7 +55,7 @@ def _run(
             with shown(progress) as teller:
                 text, values, arrays = _softstop.run(arguments(place), teller)
         except (_softstop.MachineError, _softstop.SoftstopError) as error:
-            error.args = (str(error).replace(f"{place}{os.sep}", ""),)
+            error.args = (_said(str(error).replace(f"{place}{os.sep}", "")),)
             raise
         return result_of(text, values, arrays, place / "out", kind, machine)
 
@@ -222,6 +230,8 @@ def continue_(
     >>> branch.specials.symbol, branch.specials.value.round(6)
     (array(['G', 'PD', 'SN', 'G'], dtype='<U2'), array([0.952652, 0.988907, 1.369036, 1.04444 ]))
     """
+    if (second is None) != (second_between is None):
+        raise _softstop.MachineError(f"second = {second!r}, second_between = {second_between!r}: one needs the other")
     low, high = between
     second_low, second_high = (None, None) if second_between is None else second_between
     options = {

@@ -110,6 +110,11 @@ class Result(Mapping[str, Any]):
 class Orbit(Result):
     """The stable z = 1 motion of a machine, as `orbit` finds it."""
 
+    @property
+    def multipliers(self) -> npt.NDArray[np.complex128]:
+        """Both multipliers; `orbit["multipliers"]` is what the JSON has of them."""
+        return np.array([complex(it["re"], it["im"]) for it in self["multipliers"]])
+
     @checked
     def figure(self, name: str) -> float:
         """A figure of the motion in the machine's own units.
