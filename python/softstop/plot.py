@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ._batch import Motions
+    from ._machine import Machine
     from ._motion import Motion
     from ._result import Attractors, Basin, Branch, Certainty, Design, Sweep, Zone
 
@@ -39,6 +40,16 @@ def new_axes(axes: Axes | None) -> Axes:
     return pyplot.subplots()[1]
 
 
+def _label(axes: Axes, machine: Machine, across: str, upwards: str) -> None:
+    """Labels both axes with a quantity of motion or a key, with their units."""
+    axes.set(xlabel=machine._inner.label(across), ylabel=machine._inner.label(upwards))
+
+
+def _frequency(machine: Machine) -> str:
+    """The key of the drive frequency in the machine's own unit."""
+    return next(key for key in machine if key.startswith("excitation.frequency"))
+
+
 def motion(motion: Motion, axes: Axes | None = None, periods: float = 4) -> Axes:
     """Position over time in the last drive periods, with the clearance and the impacts."""
     axes = new_axes(axes)
@@ -49,7 +60,7 @@ def motion(motion: Motion, axes: Axes | None = None, periods: float = 4) -> Axes
     impacts = motion.impacts.time[motion.impacts.time >= begin]
     axes.plot(impacts, motion.position(impacts), "o", markersize=4, label="impacts")
     axes.axhline(motion.machine["clearance"], color="gray", linestyle="--", linewidth=1, label="clearance")
-    axes.set(xlabel="time t", ylabel="position x")
+    _label(axes, motion.machine, "time", "position")
     axes.legend()
     return axes
 
@@ -59,10 +70,13 @@ def motions(motions: Motions, over: str | None = None, axes: Axes | None = None)
     varied = [name for name, value in motions.values.items() if value.size > 1 and np.ptp(value) > 0]
     name = over or (varied[0] if varied else "motion")
     number = motions.impacts.motion.astype(np.int64)
-    values = motions.values[name].ravel()[number] if name in motions.values else number
+    label = motions.machine._inner.label
+    values, across = number, name
+    if name in motions.values:
+        values, across = motions.values[name].ravel()[number], label(name.replace("__", "."))
     axes = new_axes(axes)
     axes.plot(values, motions.impacts.velocity, "k,")
-    axes.set(xlabel=name, ylabel="before-impact velocity")
+    axes.set(xlabel=across, ylabel=label("before-impact velocity"))
     return axes
 
 
@@ -77,7 +91,7 @@ def attractors(found: Attractors, axes: Axes | None = None) -> Axes:
         motion = simulate(found.machine, start=(it["position"], it["velocity"]), periods=it["periods"])
         position, velocity = motion.sample(np.linspace(0, motion.duration, SAMPLES * it["periods"] + 1))
         axes.plot(position, velocity, linewidth=1, label=f"z = {it['z']}: {it['order']}, {100 * it['share']:.1f} %")
-    axes.set(xlabel="position x", ylabel="velocity v")
+    _label(axes, found.machine, "position", "velocity")
     axes.legend()
     return axes
 
@@ -92,7 +106,8 @@ def zone(zone: Zone, axes: Axes | None = None) -> Axes:
         label = "stable z = 1" if number == 0 else None
         axes.plot([it["from"], it["to"]], [it["hardest"]] * 2, color="C0", marker="|", label=label)
         axes.plot([it["hardest_at"]], [it["hardest"]], "o", color="C1", label=label and "hardest impact")
-    axes.set(xlabel="drive frequency", ylabel="before-impact velocity", ylim=(0, None))
+    _label(axes, zone.machine, _frequency(zone.machine), "before-impact velocity")
+    axes.set(ylim=(0, None))
     axes.legend()
     return axes
 
@@ -113,7 +128,7 @@ def branch(branch: Branch, axes: Axes | None = None) -> Axes:
     for symbol in np.unique(specials.symbol) if len(specials) else ():
         rows = specials.symbol == symbol
         axes.plot(specials.value[rows], specials.before_impact_velocity[rows], MARKS[symbol], color="k", fillstyle="none", label=symbol)
-    axes.set(xlabel=branch["parameter"], ylabel="before-impact velocity")
+    _label(axes, branch.machine, branch["parameter"], "before-impact velocity")
     if len(specials):
         axes.legend()
     return axes
@@ -129,7 +144,7 @@ def sweep(sweep: Sweep, axes: Axes | None = None) -> Axes:
         values = np.repeat(steps.value[rows], [len(it) for it in velocities])
         if rows.any():
             axes.plot(values, np.concatenate(velocities), mark, markersize=2, label=way)
-    axes.set(xlabel=sweep["parameter"], ylabel="before-impact velocity")
+    _label(axes, sweep.machine, sweep["parameter"], "before-impact velocity")
     axes.legend()
     return axes
 
@@ -146,7 +161,9 @@ def basin(basin: Basin, axes: Axes | None = None) -> Axes:
     grid = basin["grid"]
     extent = (*grid["across"]["range"], *grid["up"]["range"])
     axes.imshow(colors[basin.labels], origin="lower", extent=extent, aspect="auto", interpolation="nearest")
-    axes.set(xlabel=f"initial {across}", ylabel=f"initial {up}")
+    label = basin.machine._inner.label
+    labels = {"x": f"initial {label('position')}", "v": f"initial {label('velocity')}", "phi": label("excitation.phase")}
+    axes.set(xlabel=labels[across], ylabel=labels[up])
     axes.legend()
     return axes
 
@@ -166,7 +183,7 @@ def design(design: Design, axes: Axes | None = None) -> Axes:
     from ._commands import continue_
 
     machine, found = design.machine, design["design"]
-    name = next(key for key in ("excitation.frequency", "excitation.frequency_hz") if key in machine.parameters)
+    name = _frequency(machine)
     width = found["zone_to"] - found["zone_from"]
     axes = branch(continue_(machine, name, (found["zone_from"] - 0.1 * width, found["zone_to"] + 0.1 * width)), axes)
     axes.plot([found["frequency"]], [found["before_impact_velocity"]], "*", color="C1", markersize=12, label="design")

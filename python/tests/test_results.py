@@ -100,6 +100,20 @@ def test_plots_return_axes(name):
     assert isinstance(axes, matplotlib.axes.Axes)
     assert axes.has_data()
     assert result.plot(axes=axes) is axes
+    assert axes.get_xlabel()
+    assert axes.get_ylabel()
+    matplotlib.pyplot.close("all")
+
+
+def test_axes_have_units():
+    press = ss.read(TOP / "docs/press/press.toml")
+    axes = ss.continue_(press, "frequency_hz", (23, 25)).plot()
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("drive frequency (Hz)", "before-impact velocity (m/s)")
+    assert ss.simulate(press, stop__stiffness=[1e7, 2e7], keep=2).plot().get_xlabel() == "stiffness of the stop (N/m)"
+    assert ss.simulate(press, frequency=[150, 151], keep=2).plot().get_xlabel() == "frequency"
+    assert ss.zone(press).plot().get_xlabel() == "drive frequency (Hz)"
+    assert ss.sweep(A, (1.1, 1.2), steps=5).plot().get_xlabel() == "drive frequency η = ω/Ω"
+    assert ss.simulate(A, eta=[1.0, 1.1], keep=2).plot().get_xlabel() == "drive frequency η = ω/Ω"
     matplotlib.pyplot.close("all")
 
 
