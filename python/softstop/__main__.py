@@ -7,7 +7,10 @@ from . import _softstop
 
 def main() -> int:
     """Runs the program with this process's arguments and returns its exit code."""
-    return _softstop.main(["softstop", *sys.argv[1:]])
+    try:
+        return _softstop.main(["softstop", *sys.argv[1:]])
+    except KeyboardInterrupt:
+        return 130
 
 
 if __name__ == "__main__":

@@ -115,6 +115,9 @@ class _Rows:
     @classmethod
     def of(cls, machine: Machine, start: object, changes: Mapping[str, npt.ArrayLike]) -> _Rows:
         begin = pair("start", machine.start if start is None else start)
+        for key in changes:
+            if key.startswith("initial"):
+                raise _softstop.MachineError(f"{key}: is the start: start=(position, velocity)")
         names = ["start[0]", "start[1]", *changes]
         values = [floats(name, value) for name, value in zip(names, [*begin, *changes.values()], strict=True)]
         try:

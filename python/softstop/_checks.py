@@ -54,6 +54,8 @@ def pair(name: str, value: Any) -> tuple[Any, Any]:
 
 def floats(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """An argument as an array of numbers; complex ones and words are none."""
+    if np.ma.is_masked(value):
+        raise _softstop.MachineError(f"{name} = {value!r}: must have no masked values")
     try:
         return np.asarray(value).astype(np.float64, casting="same_kind", copy=False)
     except (TypeError, ValueError) as error:

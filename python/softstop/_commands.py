@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import json
 import os
@@ -86,7 +87,7 @@ def orbit(machine: Machine, *, budget: int | None = None) -> Orbit:
     Returns
     -------
     Orbit
-        position and velocity at drive angle 0, before_impact_velocity, max_position (all in the machine's units), trace,
+        position and velocity at time 0, before_impact_velocity, max_position (all in the machine's units), trace,
         determinant, multipliers; `gradient` has exact derivatives.
 
     Raises
@@ -130,7 +131,7 @@ def motions(
     Returns
     -------
     Attractors
-        `motions`, a list with kind, z = p/n, order of impacts, share of starts, state at drive angle 0, multipliers, Lyapunov
+        `motions`, a list with kind, z = p/n, order of impacts, share of starts, state at time 0, multipliers, Lyapunov
         exponents.
 
     Raises
@@ -199,7 +200,7 @@ def continue_(
     orbit : str, optional
         Motion to start from, "p/n": "1/1" unless it is stated.
     state : (float, float), optional
-        Starts from the orbit nearest to this state at drive angle 0, stable or not.
+        Starts from the orbit nearest to this state at time 0, stable or not.
     double : int, optional
         Follows the orbits of twice the period from every flip on, so many times over.
     second, second_between : str and (float, float), optional
@@ -531,6 +532,9 @@ def optimize(
     if machine is not None:
         files["machine.toml"] = machine.to_toml()
     if isinstance(task, Mapping):
+        if machine is not None and "machine" in task:
+            raise _softstop.MachineError("machine: the task has one, too")
+        task = copy.deepcopy(task)
         files["task.toml"] = _toml(task)
 
     def arguments(place: pathlib.Path) -> list[str]:

@@ -14,7 +14,8 @@ Floats = npt.NDArray[np.float64]
 
 
 class Polynomials(Protocol):
-    """Piecewise polynomials as SciPy's `PPoly`: `CubicSpline`, `PchipInterpolator`, `Akima1DInterpolator` and others are some."""
+    """Piecewise polynomials as SciPy's `PPoly`: `CubicSpline`, `PchipInterpolator`, `Akima1DInterpolator` and others are some;
+    of a `BPoly`, `PPoly.from_bernstein_basis` makes one."""
 
     @property
     def x(self) -> Any:
@@ -43,7 +44,7 @@ def pieces_of(forces: Forces | None) -> Pieces:
             coefficients = np.array([slopes, coefficients[:-1]])
         elif coefficients.ndim == 1:
             coefficients = coefficients[None, :]
-    elif hasattr(forces, "x") and hasattr(forces, "c"):
+    elif hasattr(forces, "x") and hasattr(forces, "c") and type(forces).__name__ != "BPoly":
         times, coefficients = floats("forces.x", forces.x), floats("forces.c", forces.c)
     else:
         raise _softstop.MachineError(f"forces = {forces!r}: must be (times, values), or piecewise polynomials with x and c as of SciPy")

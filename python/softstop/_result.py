@@ -192,7 +192,7 @@ class Zone(Result):
     @property
     def stretches(self) -> Table:
         """All stretches of stable z = 1: from and to (frequencies), what ends them, hardest impact and where."""
-        return _records(self["stretches"])
+        return _records(self["stretches"], "from from_by to to_by hardest hardest_at in_zone")
 
     def plot(self, axes: Axes | None = None) -> Axes:
         """Draws the zone and the stretches of stable z = 1 over the drive frequency; returns the Matplotlib axes."""
@@ -218,7 +218,9 @@ class Branch(Result):
                 row = {"branch": number, "periods": branch["periods"]} | special | {"before_impact_velocity": hardest}
                 del row["before_impact_velocities"]
                 rows.append(row)
-        return _records(rows)
+        return _records(
+            rows, "branch periods symbol name value position velocity trace determinant before_impact_velocity"
+        )
 
     def plot(self, axes: Axes | None = None) -> Axes:
         """Draws before-impact velocities over the parameter, stable solid, unstable dashed, with the special points; returns the
@@ -314,7 +316,10 @@ class Design(Result):
     def report(self, path: str | os.PathLike[str]) -> None:
         """Writes the report, one HTML page. Unless the task was solved with `report=True`, it is solved again for that."""
         if "report.html" not in self.files and self._with_report is not None:
-            self.files |= self._with_report().files
+            made = self._with_report().files
+            if made["design.toml"] != self.files["design.toml"]:
+                raise _softstop.SoftstopError("the task or its machine has changed since: the design is another one now")
+            self.files["report.html"] = made["report.html"]
         pathlib.Path(path).write_bytes(self.files["report.html"])
 
     def plot(self, axes: Axes | None = None) -> Axes:
@@ -323,17 +328,17 @@ class Design(Result):
         return plot.design(self, axes)
 
 
-def _records(rows: Sequence[Mapping[str, Any]]) -> Table:
-    """The table of rows of numbers, truth values and words."""
+def _records(rows: Sequence[Mapping[str, Any]], names: str) -> Table:
+    """The table of rows of numbers, truth values and words; these are its columns where it has no row."""
 
     def column(name: str) -> Any:
         cells = [row[name] for row in rows]
         if any(isinstance(cell, str) for cell in cells):
             return cells
-        kind = np.bool_ if all(isinstance(cell, bool) for cell in cells) else np.float64
+        kind = np.bool_ if cells and all(isinstance(cell, bool) for cell in cells) else np.float64
         return np.array([np.nan if cell is None else cell for cell in cells], dtype=kind)
 
-    return Table({name: column(name) for name in (rows[0] if rows else ())})
+    return Table({name: column(name) for name in (rows[0] if rows else names.split())})
 
 
 Kind = TypeVar("Kind", bound=Result)

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._softstop import MachineError
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -68,6 +70,8 @@ def motion(motion: Motion, axes: Axes | None = None, periods: float = 4) -> Axes
 def motions(motions: Motions, over: str | None = None, axes: Axes | None = None) -> Axes:
     """Before-impact velocities of the impacts that were kept over a value that was an array: a bifurcation diagram."""
     varied = [name for name, value in motions.values.items() if value.size > 1 and np.ptp(value) > 0]
+    if over is not None and over not in motions.values:
+        raise MachineError(f"over = {over!r}: must be one of {', '.join(motions.values) or 'the values that were arrays'}")
     name = over or (varied[0] if varied else "motion")
     number = motions.impacts.motion.astype(np.int64)
     label = motions.machine._inner.label

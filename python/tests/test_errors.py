@@ -189,3 +189,22 @@ def test_ctrl_c_ends_a_long_call_within_moments(tmp_path):
     assert child.stdout.readline() == "interrupted\n"
     assert int(child.stdout.readline()) >= 0
     assert child.wait() == 0
+
+
+def test_errors_of_arguments_have_a_key_too():
+    with pytest.raises(ss.MachineError) as raised:
+        ss.simulate(ss.Machine.unloaded(), periods=-1)
+    assert raised.value.key is None
+
+
+@pytest.mark.parametrize("call, words", {
+    "twice": (lambda m: ss.simulate(m, eta=[1.0], frequency=[1.3]), "frequency: is set twice"),
+    "masked": (lambda m: ss.simulate(m, eta=np.ma.masked_array([1.0, 1.1], [False, True])), "eta = .*masked"),
+    "start": (lambda m: ss.simulate(m, initial__position=5.0), "initial__position: is the start"),
+    "huge": (lambda m: ss.basin(m, x=(0, 1e308, 5), v=(-1, 1, 5)), "x = 1e308"),
+    "over": (lambda m: ss.simulate(m, eta=[1.0, 1.1], keep=3).plot(over="colour"), "over = 'colour'"),
+    "machine": (lambda m: ss.optimize({"machine": "loaded"}, machine=m), "machine: the task has one, too"),
+}.values())
+def test_what_once_was_taken_is_refused(call, words):
+    with pytest.raises(ss.MachineError, match=words):
+        call(ss.Machine.unloaded(eta=1.15, clearance=10))

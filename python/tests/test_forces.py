@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.interpolate import CubicSpline, PPoly
+from scipy.interpolate import BPoly, CubicSpline, PPoly
 
 import softstop as ss
 
@@ -88,3 +88,9 @@ def test_what_is_no_force(forces, words):
 def test_many_motions_have_no_forces():
     with pytest.raises(ss.MachineError, match="forces: for one motion"):
         ss.simulate(A, eta=[1.1, 1.2], forces=(TIMES, VALUES))
+
+
+def test_bernstein_coefficients_are_no_powers():
+    forces = BPoly([[0], [0], [30]], [0, 10])
+    with pytest.raises(ss.MachineError, match="forces = "):
+        ss.simulate(ss.Machine.unloaded(), start=(0, 0), periods=2, forces=forces)

@@ -163,6 +163,22 @@ def test_a_report_is_made_when_it_is_asked_for(tmp_path):
     assert dict(design)["design"]["machine"]["parameters"]["clearance"] == 10
 
 
+def test_a_report_is_of_the_design_that_was_found(tmp_path):
+    task = {"machine": "loaded", "vary": {"stop.stiffness": 7.0, "clearance": [2, 22]}, "require": {"margin": 0.1}}
+    design = ss.optimize(task)
+    clearance = design.machine["clearance"]
+    task["require"] = {"margin": 0.4}
+    design.report(tmp_path / "report.html")
+    assert design.machine["clearance"] == clearance == design.design["clearance"]
+    assert f"{clearance:.4f}" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+def test_tables_without_rows_have_their_columns():
+    branch = ss.continue_(A, "frequency", (1.14, 1.16))
+    assert list(branch.specials.columns) == list(RESULTS["branch"]().specials.columns)
+    assert not len(branch.specials.value[branch.specials.symbol == "PD"])
+
+
 MODULES = [module.name for module in pkgutil.iter_modules(ss.__path__) if module.name not in ("_softstop", "__main__")]
 
 

@@ -149,6 +149,9 @@ fn impacts(machines: &[Lowered], jobs: &[Job], from: u64) -> (Vec<Outcome>, Vec<
         }
     };
     let (outcomes, watches) = run_parallel(Instructions::Widest, machines, jobs, watch);
+    if interrupt::requested() {
+        return (outcomes, Vec::new());
+    }
     let mut kept: Vec<Impact> = watches.into_iter().flat_map(|it| it.kept).collect();
     kept.sort_by_key(|(job, ..)| *job);
     (outcomes, kept)

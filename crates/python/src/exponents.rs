@@ -39,7 +39,7 @@ pub fn exponents<'py>(
         let progress = Progress::new(rows.len() as u64, "exponents");
         let along = |row: usize| {
             if let Some(error) = &settled[row].error {
-                return Err(Failure::from(error.clone()));
+                return Err(Failure::Run(error.clone().into()));
             }
             let (scene, state) = (rows.scene(row), settled[row].end.into());
             let ask = || match interrupt::requested() {
@@ -61,7 +61,10 @@ pub fn exponents<'py>(
         values.into_pyarray(py).unbind()
     };
     let errors = found.iter().enumerate();
-    let errors = errors.filter_map(|(row, it)| Some((row, it.as_ref().err()?.to_string())));
+    let errors = errors.filter_map(|(row, it)| match it.as_ref().err()? {
+        Failure::Run(error) => Some((row, format!("{error:#}"))),
+        failure => Some((row, failure.to_string())),
+    });
     Ok((
         [
             column(&|it| it.per_period[0]),

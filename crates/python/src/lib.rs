@@ -36,4 +36,13 @@ mod _softstop {
     use super::machine::Machine;
     #[pymodule_export]
     use super::trajectory::Trajectory;
+
+    use pyo3::prelude::*;
+
+    /// A machine's error has a key, also where Python raises it.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let py = module.py();
+        py.get_type::<MachineError>().setattr("key", py.None())
+    }
 }

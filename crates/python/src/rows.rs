@@ -36,9 +36,12 @@ impl<'a> Rows<'a> {
     ) -> PyResult<Self> {
         let stated = &machine.stated;
         let (x, v) = (start.0.as_slice()?, start.1.as_slice()?);
-        let mut columns = Vec::new();
+        let mut columns: Vec<(Parameter, f64, &[f64])> = Vec::new();
         for (key, values) in changes {
             let (parameter, factor) = stated.stated(key).map_err(|error| of_machine(&error))?;
+            if columns.iter().any(|(known, ..)| *known == parameter) {
+                return Err(MachineError::new_err(format!("{key}: is set twice")));
+            }
             columns.push((parameter, factor, values.as_slice()?));
         }
         if columns.iter().any(|(.., values)| values.len() != x.len()) || v.len() != x.len() {

@@ -2,13 +2,12 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError, TryLockError};
 use std::thread;
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use pyo3::sync::MutexExt;
 use softstop_console::{interrupt, progress};
 
 /// Who is told of progress: what is counted, how much is done, and of how much, None if nobody knows.
@@ -60,9 +59,14 @@ fn alone<T>(
     py: Python<'_>,
     work: impl FnOnce(Sender<T>, &Mutex<Receiver<T>>) -> PyResult<T>,
 ) -> PyResult<T> {
-    let _alone = UNDER_WAY
-        .lock_py_attached(py)
-        .unwrap_or_else(PoisonError::into_inner);
+    let _alone = loop {
+        match UNDER_WAY.try_lock() {
+            Ok(lock) => break lock,
+            Err(TryLockError::Poisoned(lock)) => break lock.into_inner(),
+            Err(TryLockError::WouldBlock) => py.detach(|| thread::sleep(LOOK)),
+        }
+        py.check_signals()?;
+    };
     let (send, receive) = channel();
     // A receiver is for one thread: it is handed to a closure and back.
     let done = work(send, &Mutex::new(receive));

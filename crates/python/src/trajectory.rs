@@ -13,6 +13,9 @@ use crate::machine::Machine;
 use crate::rows::Array;
 use crate::supervise::supervise;
 
+/// States that are computed between two looks for Ctrl-C.
+const UNHEARD: usize = 100_000;
+
 /// An exact motion from time 0 over whole drive periods.
 #[pyclass(frozen, module = "softstop._softstop")]
 pub struct Trajectory {
@@ -74,7 +77,13 @@ impl Trajectory {
                 SoftstopError::new_err(format!("time = {time}: must be in [0, {}]", self.duration))
             })
         };
-        let states: Vec<Start> = times.as_slice()?.iter().map(at).collect::<PyResult<_>>()?;
+        let times = times.as_slice()?;
+        let mut states = Vec::with_capacity(times.len());
+        for part in times.chunks(UNHEARD) {
+            let part = py.detach(|| part.iter().map(at).collect::<PyResult<Vec<Start>>>());
+            states.append(&mut part?);
+            py.check_signals()?;
+        }
         let column = |value: fn(&Start) -> f64| states.iter().map(value).collect::<Vec<f64>>();
         Ok((
             column(|it| it.position).into_pyarray(py).unbind(),

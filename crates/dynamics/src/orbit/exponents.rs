@@ -164,8 +164,13 @@ impl Walk {
             .map(|sums| sums.map(|sum| sum / periods as f64))
             .collect();
         let mean = |which: usize| means.iter().map(|batch| batch[which]).sum::<f64>() / count;
-        let exponents = [mean(0), mean(1)];
-        let squares = means.iter().map(|batch| (batch[0] - exponents[0]).powi(2));
+        // The frame turns where multipliers are complex: either may come out as the larger one by the ends of the batches.
+        let mut exponents = [mean(0), mean(1)];
+        let larger = usize::from(exponents[1] > exponents[0]);
+        exponents.rotate_left(larger);
+        let squares = means
+            .iter()
+            .map(|batch| (batch[larger] - exponents[0]).powi(2));
         let variance = squares.sum::<f64>() / (count - 1.0);
         let error = STUDENT * (variance / count).sqrt();
         Exponents {

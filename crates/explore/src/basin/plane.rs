@@ -67,6 +67,11 @@ impl FromStr for Size {
 /// [`Failure::Usage`] naming the argument.
 pub(super) fn check(arguments: &BasinArguments) -> Result<(), Failure> {
     Allowed::Finite.check("at", arguments.at)?;
+    for (flag, range, _) in ranges(arguments) {
+        for end in range.into_iter().flatten() {
+            Allowed::Finite.check(flag, end)?;
+        }
+    }
     let hidden = ranges(arguments)
         .into_iter()
         .find(|(_, range, quantity)| range.is_some() && !arguments.plane.shows(*quantity));
