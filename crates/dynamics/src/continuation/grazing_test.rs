@@ -65,7 +65,7 @@ impl GrazingTest {
         })
     }
 
-    /// The same, reached from another one by a step.
+    /// This test with what its distances have lost on the step from the test before.
     pub fn reached(self, before: &Self, step: f64) -> Self {
         let loss = |(then, now): (Option<Touch>, Option<Touch>)| match (then, now) {
             (Some(then), Some(now)) if then.face == now.face && self.is_gentle(now.face) => {
