@@ -31,7 +31,8 @@ pub fn listen(receive: impl Fn(i32) + Send + 'static) -> io::Result<()> {
 /// If the system refuses a handler.
 #[cfg(not(unix))]
 pub fn listen(receive: impl Fn(i32) + Send + 'static) -> io::Result<()> {
-    ctrlc::set_handler(move || receive(2)).map_err(io::Error::other)
+    const SIGINT: i32 = 2;
+    ctrlc::set_handler(move || receive(SIGINT)).map_err(io::Error::other)
 }
 
 /// The exit code of a program that a signal ends, as shells have it.
