@@ -20,10 +20,7 @@ impl Survey<'_> {
         let orbits = self.book.orbits.iter().map(|known| &known.orbit);
         let mut orbits: Vec<(usize, &Orbit)> = orbits.enumerate().collect();
         let key = |orbit: &Orbit| (orbit.periods, orbit.impacts.len());
-        orbits.sort_by(|(_, a), (_, b)| {
-            let hardest = [a, b].map(|orbit| orbit.before_impact_velocity());
-            key(a).cmp(&key(b)).then(hardest[0].total_cmp(&hardest[1]))
-        });
+        orbits.sort_by(|(_, a), (_, b)| key(a).cmp(&key(b)).then(a.compare_velocity(b)));
         for (index, orbit) in orbits {
             let class = Class {
                 orbit: Some(Box::new(orbit.clone())),

@@ -39,11 +39,7 @@ pub(crate) fn hardest_single(
         }
         singles.look_within(guess, watcher)?;
         let stable = singles.found.iter().filter(|orbit| orbit.is_stable());
-        let harder = |a: &&Orbit, b: &&Orbit| {
-            let [a, b] = [a, b].map(|orbit| orbit.before_impact_velocity());
-            a.total_cmp(&b)
-        };
-        hardest = stable.max_by(harder).cloned();
+        hardest = stable.max_by(|a, b| a.compare_velocity(b)).cloned();
     }
     Ok(hardest.filter(|orbit| orbit.before_impact_velocity() > least))
 }

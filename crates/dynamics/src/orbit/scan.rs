@@ -87,10 +87,7 @@ fn scan<'a>(scene: &'a Scene, watcher: Watcher<'_>) -> Result<Option<Singles<'a>
     for guess in guesses(&singles.shooting, lattice, watcher)? {
         singles.look(guess, watcher)?;
     }
-    singles.found.sort_by(|a, b| {
-        let [a, b] = [a, b].map(Orbit::before_impact_velocity);
-        a.total_cmp(&b)
-    });
+    singles.found.sort_by(Orbit::compare_velocity);
     Ok(Some(singles))
 }
 

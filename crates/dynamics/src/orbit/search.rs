@@ -1,5 +1,6 @@
 //! The z = 1 motion found from scratch.
 
+use std::cmp::Ordering;
 use std::slice::from_ref;
 
 use nalgebra::{Matrix2, Vector2};
@@ -7,9 +8,10 @@ use nalgebra::{Matrix2, Vector2};
 use super::newton::fixed_point_unless;
 use super::periodic::STEEP;
 use super::scan::{FAINTEST, all_single};
-use super::trials::{Candidate, Distance, RETURNS, Trial, Trials, least, settled};
+use super::trials::{Candidate, RETURNS, Trial, Trials, distance, least, settled};
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::watch::{Watcher, unwatched};
+use softstop::internals::Scales;
 use softstop::{MotionError, Scene};
 use softstop_lanes::Machine;
 
@@ -53,6 +55,12 @@ pub fn find_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitE
 }
 
 impl Orbit {
+    /// The order of two orbits by their before-impact velocities.
+    pub(crate) fn compare_velocity(&self, other: &Self) -> Ordering {
+        let [own, other] = [self, other].map(Self::before_impact_velocity);
+        own.total_cmp(&other)
+    }
+
     /// True if its impact is harder than that of another one, beyond rounding.
     pub(crate) fn is_harder(&self, other: &Self) -> bool {
         self.before_impact_velocity() > (1.0 + SAME_SPEED) * other.before_impact_velocity()
@@ -121,9 +129,7 @@ fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<O
 struct FixedPoints<'a> {
     scene: &'a Scene,
     map: StroboscopicMap,
-    distance: Distance,
-    /// The slowest impact that is more than grazing, in m/s.
-    faintest: f64,
+    scales: Scales,
     /// All of them.
     all: Vec<FixedPoint>,
     stable: Vec<Orbit>,
@@ -158,8 +164,7 @@ impl<'a> FixedPoints<'a> {
         Ok(Self {
             scene,
             map: StroboscopicMap::new(scene, 1)?,
-            distance: Distance::of(scene),
-            faintest: FAINTEST * scene.motion_scales().speed(),
+            scales: scene.motion_scales(),
             all: Vec::new(),
             stable: Vec::new(),
             tried: Vec::new(),
@@ -189,17 +194,15 @@ impl<'a> FixedPoints<'a> {
 
     /// The hardest of the stable motions with one impact.
     fn hardest(&self) -> Option<Orbit> {
-        let velocity = |orbit: &&Orbit| orbit.before_impact_velocity();
-        let hardest = self
-            .singles()
-            .max_by(|a, b| velocity(a).total_cmp(&velocity(b)));
+        let hardest = self.singles().max_by(|a, b| a.compare_velocity(b));
         hardest.cloned()
     }
 
     /// The stable motions with one impact.
     fn singles(&self) -> impl Iterator<Item = &Orbit> {
-        let is_single = |orbit: &&Orbit| {
-            orbit.impacts.len() == 1 && orbit.before_impact_velocity() > self.faintest
+        let faintest = FAINTEST * self.scales.speed();
+        let is_single = move |orbit: &&Orbit| {
+            orbit.impacts.len() == 1 && orbit.before_impact_velocity() > faintest
         };
         self.stable.iter().filter(is_single)
     }
@@ -213,8 +216,7 @@ impl<'a> FixedPoints<'a> {
         for candidate in candidates {
             OrbitError::ask(watcher)?;
             let Candidate { moves, state, .. } = candidate;
-            let stands =
-                |other: &Vector2<f64>| self.distance.between(*other, state) < STANDS_FOR * moves;
+            let stands = |other: &Vector2<f64>| self.apart(*other, state) < STANDS_FOR * moves;
             if !self.is_near(state)
                 && !self.tried.iter().any(stands)
                 && !self.all.iter().any(|fixed| self.leads(fixed, &candidate))
@@ -226,18 +228,20 @@ impl<'a> FixedPoints<'a> {
         Ok(())
     }
 
+    /// How far apart two states are, in scales of the motion.
+    fn apart(&self, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+        distance(&self.scales, a, b)
+    }
+
     fn is_near(&self, state: Vector2<f64>) -> bool {
         let mut all = self.all.iter();
-        all.any(|other| self.distance.between(other.state, state) < other.reach)
+        all.any(|other| self.apart(other.state, state) < other.reach)
     }
 
     /// True if a candidate has moved as the Jacobian of a fixed point has it near that one.
     fn leads(&self, to: &FixedPoint, candidate: &Candidate) -> bool {
         let moved = candidate.state - candidate.before;
-        let off = |lead| {
-            self.distance
-                .between(candidate.before + lead * moved, to.state)
-        };
+        let off = |lead| self.apart(candidate.before + lead * moved, to.state);
         to.lead.is_some_and(|lead| off(lead) < to.reach)
     }
 

@@ -27,26 +27,9 @@ pub(super) struct Candidate {
     pub before: Vector2<f64>,
 }
 
-/// Measures distances of states in scales of the motion.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Distance {
-    length: f64,
-    speed: f64,
-}
-
-impl Distance {
-    pub(super) fn of(scene: &Scene) -> Self {
-        let Scales { length, rate } = scene.motion_scales();
-        Self {
-            length,
-            speed: length * rate,
-        }
-    }
-
-    pub(super) fn between(self, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
-        let way = a - b;
-        Vector2::new(way.x / self.length, way.y / self.speed).norm()
-    }
+/// Distance of two states in these scales.
+pub(super) fn distance(scales: &Scales, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+    scales.state(&(a - b)).norm()
 }
 
 /// A motion from one start.
@@ -68,8 +51,8 @@ pub(super) struct Trial {
 /// Motions of some machines from starts all around, followed together: trials of a search.
 pub(super) struct Trials {
     all: Vec<Trial>,
-    /// Of each machine.
-    distances: Vec<Distance>,
+    /// Those of the motions of each machine.
+    scales: Vec<Scales>,
     /// Numbers of drive periods after which it is kept where motions are.
     kept: Vec<u64>,
     /// Drive periods that they were followed.
@@ -78,9 +61,9 @@ pub(super) struct Trials {
 
 impl Trials {
     pub(super) fn new<'a>(scenes: impl Iterator<Item = &'a Scene>, kept: Vec<u64>) -> Self {
-        let (mut all, mut distances) = (Vec::new(), Vec::new());
+        let (mut all, mut scales) = (Vec::new(), Vec::new());
         for (machine, scene) in scenes.enumerate() {
-            distances.push(Distance::of(scene));
+            scales.push(scene.motion_scales());
             all.extend(starts(scene).map(|start| Trial {
                 machine,
                 last: Candidate::unmoved(start.into()),
@@ -92,7 +75,7 @@ impl Trials {
         }
         Self {
             all,
-            distances,
+            scales,
             kept,
             cycle: 0,
         }
@@ -100,7 +83,7 @@ impl Trials {
 
     /// Those of a machine.
     pub(super) fn of(&mut self, machine: usize) -> &mut [Trial] {
-        let each = self.all.len() / self.distances.len();
+        let each = self.all.len() / self.scales.len();
         &mut self.all[machine * each..(machine + 1) * each]
     }
 
@@ -115,7 +98,7 @@ impl Trials {
         let jobs: Vec<Job> = open.iter().map(job).collect();
         let mut recorder = Recorder {
             trials: &mut open,
-            distances: &self.distances,
+            scales: &self.scales,
             kept: &self.kept,
             since: self.cycle,
         };
@@ -160,7 +143,7 @@ pub(super) fn settled(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
 /// Keeps of each trial what becomes a candidate.
 struct Recorder<'a, 'b> {
     trials: &'a mut [&'b mut Trial],
-    distances: &'a [Distance],
+    scales: &'a [Scales],
     kept: &'a [u64],
     /// Drive periods before.
     since: u64,
@@ -177,7 +160,7 @@ impl Watch for Recorder<'_, '_> {
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
         let trial = &mut *self.trials[job];
         let (state, before) = (state.into(), trial.last.state);
-        let moves = self.distances[trial.machine].between(state, before);
+        let moves = distance(&self.scales[trial.machine], state, before);
         trial.last = Candidate {
             moves,
             state,
@@ -185,14 +168,11 @@ impl Watch for Recorder<'_, '_> {
         };
         let cycle = self.since + cycle;
         if self.kept.contains(&cycle) {
-            let moves = 0.0;
-            trial.settled.push((
-                cycle,
-                Candidate {
-                    moves,
-                    ..trial.last
-                },
-            ));
+            let settled = Candidate {
+                moves: 0.0,
+                ..trial.last
+            };
+            trial.settled.push((cycle, settled));
         }
         let impacts = std::mem::take(&mut trial.impacts);
         if impacts == 1 && moves < trial.least.map_or(RETURNS, |least| least.moves) {

@@ -42,11 +42,7 @@ pub fn find_among(
 ) -> Result<Orbit, OrbitError> {
     let here = orbit::find_watched(scene, watcher);
     let on = stretches.iter().filter_map(|one| on_stretch(scene, one));
-    let hardest = on.max_by(|a, b| {
-        let [a, b] = [a, b].map(Orbit::before_impact_velocity);
-        a.total_cmp(&b)
-    });
-    match (here, hardest) {
+    match (here, on.max_by(Orbit::compare_velocity)) {
         (Ok(here), Some(other)) if other.is_harder(&here) => Ok(other),
         (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
         (here, _) => here,
