@@ -40,15 +40,15 @@ impl Chaos {
     ) -> Result<Self, SurveyError> {
         let counted = COUNTED.min(exponents.periods);
         let map = StroboscopicMap::new(scene, counted)?;
-        let passage = map.apply(begin.into())?;
+        let impacts = map.apply(begin.into())?.impacts;
         fleet.note(counted)?;
         Ok(Self {
             state,
             exponents,
             lifetime: None,
             entered: 0,
-            impacts_per_period: passage.impacts.len() as f64 / counted as f64,
-            velocities: extremes(passage.impacts),
+            impacts_per_period: impacts.len() as f64 / counted as f64,
+            velocities: extremes(impacts.iter().map(|it| it.before_impact_velocity)),
             watched: 0,
         })
     }

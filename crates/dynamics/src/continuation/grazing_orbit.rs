@@ -14,8 +14,8 @@ use super::arclength::{Equations, Evaluation, Node};
 use super::face::Face;
 use super::period_map::carry_on;
 use super::shooting::round_off;
-use crate::orbit::{Monodromy, OrbitError};
-use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene, Tangent};
+use crate::orbit::{Monodromy, OrbitError, PassageRecorder};
+use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene};
 
 /// Grazing orbits of a family, in unknowns: drive angle of the touch, scaled parameters.
 #[derive(Debug)]
@@ -98,10 +98,7 @@ impl<F: Family<N>, const N: usize> GrazingOrbit<'_, F, N> {
             carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
         }
         carry_on(&mut motion, clock.instant(duration), &mut ())?;
-        Ok(Vector2::new(
-            motion.state().position,
-            motion.state().velocity,
-        ))
+        Ok(motion.state().into())
     }
 }
 
@@ -111,8 +108,10 @@ impl<F: Family<N>, const N: usize> Equations for GrazingOrbit<'_, F, N> {
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<GrazingPoint>, OrbitError> {
         let (scene, touch) = self.scene(at)?;
-        let (residual, Seen { tangent, impacts }) = self.around(&scene, touch)?;
-        let monodromy = Monodromy::from(&tangent);
+        let (residual, seen) = self.around::<PassageRecorder>(&scene, touch)?;
+        let monodromy = Monodromy::from(&seen.tangent);
+        let impacts = seen.impacts.iter();
+        let impacts = impacts.map(|it| it.before_impact_velocity).collect();
         Ok(Evaluation {
             residual,
             tolerance: round_off(&scene, &touch, &monodromy, self.family.state_scales()),
@@ -131,24 +130,6 @@ impl<F: Family<N>, const N: usize> Equations for GrazingOrbit<'_, F, N> {
 
     fn jacobian(&self, _: &Evaluation<GrazingPoint>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         slopes.clone()
-    }
-}
-
-/// What a grazing orbit shows.
-#[derive(Default)]
-struct Seen {
-    tangent: Tangent,
-    impacts: Vec<f64>,
-}
-
-impl Observer for Seen {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.tangent.arc(arc, elapsed);
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.tangent.crossing(crossing);
-        self.impacts.extend(crossing.impact_velocity());
     }
 }
 

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
-use softstop::internals::{highest, work};
+use crate::stroke::peak;
+use softstop::internals::work;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start, Work,
 };
@@ -77,18 +78,13 @@ impl Observation {
     /// A settled motion, observed over the periods in which it repeats.
     fn over(scene: &Scene, start: Start, regime: Option<Regime>) -> Result<Self, MotionError> {
         let periods = regime.map_or(LONG, |regime| regime.periods);
-        let mut motion = scene.motion(start)?;
-        let mut watch = Watch {
-            clock: *motion.clock(),
-            mass: scene.mass,
-            sums: Sums::default(),
-        };
-        let end = Clock::at_cycle(periods);
-        motion.advance(end, &mut watch)?;
-        motion.tell_arc(&mut watch);
+        let sums = Sums::default();
+        let mut seen = ObservationRecorder { scene, sums };
         let map = StroboscopicMap::new(scene, periods)?;
+        map.observe(start.into(), &mut seen)?;
+        let sums = seen.sums;
         let max_position = map.max_position(start.into())?;
-        let sums = watch.sums;
+        let clock = map.clock();
         let mean = |sum: f64| (sums.impacts > 0).then(|| sum / sums.impacts as f64);
         Ok(Self {
             start,
@@ -101,12 +97,12 @@ impl Observation {
             contact_time: mean(sums.contact_time),
             energy_per_impact: mean(sums.lost),
             max_position,
-            mean_power: sums.work.supplied / watch.clock.time(end),
+            mean_power: sums.work.supplied / clock.time(Clock::at_cycle(periods)),
         })
     }
 }
 
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Default)]
 struct Sums {
     impacts: u64,
     rebounds: u64,
@@ -119,57 +115,36 @@ struct Sums {
     work: Work,
 }
 
-struct Watch {
-    clock: Clock,
-    mass: f64,
+/// Adds up what a motion gives.
+struct ObservationRecorder<'a> {
+    scene: &'a Scene,
     sums: Sums,
 }
 
-/// Points of an arc among which the largest force is looked for first.
-const POINTS: u32 = 64;
-/// Share of the distance between their neighbours to which the time of the largest is known then.
-const SHARP: f64 = 4e-9;
-
-impl Watch {
-    /// The largest contact force in N on an arc: the largest of its samples, made sharper by a golden
-    /// section between its neighbours.
-    fn peak(arc: &Arc<'_>, elapsed: f64) -> Option<f64> {
-        let phase = arc.phase?;
-        let force = |time: f64| {
-            let Start { position, velocity } = arc.at(time);
-            phase.contact_force(position, velocity)
-        };
-        let time = |point: f64| elapsed * point.clamp(0.0, f64::from(POINTS)) / f64::from(POINTS);
-        let seen = (0..=POINTS)
-            .map(|point| (force(time(f64::from(point))), f64::from(point)))
-            .max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let (low, high) = (time(seen.1 - 1.0), time(seen.1 + 1.0));
-        let (_, peak) = highest(low, high, SHARP * (high - low), force);
-        Some(peak.max(seen.0))
-    }
-}
-
-impl Observer for Watch {
+impl Observer for ObservationRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let work = work(arc, self.mass, elapsed);
+        let work = work(arc, self.scene.mass, elapsed);
         self.sums.work += work;
         if arc.kind == PhaseKind::Free {
             return;
         }
         self.sums.contact_time += elapsed;
         self.sums.lost += work.dissipated;
-        let peak = Self::peak(arc, elapsed);
-        self.sums.peak_force = match (self.sums.peak_force, peak) {
-            (Some(a), Some(b)) => Some(a.max(b)),
-            (a, b) => a.or(b),
-        };
+        if let Some(phase) = arc.phase {
+            let highest = peak(self.scene, arc, elapsed, |time| {
+                let Start { position, velocity } = arc.at(time);
+                phase.contact_force(position, velocity)
+            });
+            let known = self.sums.peak_force.unwrap_or(highest);
+            self.sums.peak_force = Some(highest.max(known));
+        }
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
-        self.sums.lost += crossing.lost_energy(self.mass);
+        self.sums.lost += crossing.lost_energy(self.scene.mass);
         self.sums.rebounds += u64::from(matches!(crossing.kind, CrossingKind::Rebound { .. }));
         if let Some(velocity) = crossing.impact_velocity() {
-            let drive = self.clock.drive(crossing.instant);
+            let drive = self.scene.clock().drive(crossing.instant);
             self.sums.impacts += 1;
             self.sums.velocity += velocity;
             self.sums.cosine += drive.cos;

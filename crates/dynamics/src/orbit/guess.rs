@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use super::StroboscopicMap;
 use super::turn::turns;
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, PhaseKind, Scene};
 
@@ -18,16 +19,14 @@ pub(super) fn guesses(
     state: Vector2<f64>,
     periods: u64,
 ) -> Result<Vec<Impacts>, MotionError> {
-    let mut motion = scene.motion(state.into())?;
-    let mut seen = Seen {
-        clock: *motion.clock(),
+    let mut seen = NearMisses {
+        clock: scene.clock(),
         face: scene.clearance,
         impacts: Impacts::new(),
         miss: None,
     };
-    motion.advance(Clock::at_cycle(periods), &mut seen)?;
-    motion.tell_arc(&mut seen);
-    let Seen { impacts, miss, .. } = seen;
+    StroboscopicMap::new(scene, periods)?.observe(state, &mut seen)?;
+    let NearMisses { impacts, miss, .. } = seen;
     let mut guesses = Vec::new();
     if !impacts.is_empty() {
         guesses.push(impacts.clone());
@@ -49,8 +48,8 @@ pub(super) fn guesses(
     Ok(guesses)
 }
 
-/// Watches for impacts and near misses.
-struct Seen {
+/// Records impacts and the nearest miss.
+struct NearMisses {
     clock: Clock,
     face: f64,
     impacts: Impacts,
@@ -59,7 +58,7 @@ struct Seen {
     miss: Option<(f64, (f64, f64))>,
 }
 
-impl Observer for Seen {
+impl Observer for NearMisses {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         if arc.kind != PhaseKind::Free {
             return;

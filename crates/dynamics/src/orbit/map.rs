@@ -9,6 +9,7 @@ use super::turn::turns;
 use softstop::internals::{Motion, Phases, Scales};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, Start, Tangent,
+    Touch,
 };
 
 /// Times what rounding leaves of a residual by which it may be off.
@@ -33,10 +34,8 @@ pub struct Passage {
     pub monodromy: Monodromy,
     /// Integral of damping over mass along the way.
     pub damping_integral: f64,
-    /// Before-impact velocities in m/s, in order of time.
-    pub impacts: Vec<f64>,
-    /// When they happen.
-    pub instants: Vec<Instant>,
+    /// Its impacts, in order of time.
+    pub impacts: Vec<Touch>,
     /// Ends of complete chatter: infinitely many ever weaker impacts that end in rest, of which `impacts`
     /// holds only those before the summed ones.
     pub rests: Vec<Instant>,
@@ -77,15 +76,14 @@ impl StroboscopicMap {
     /// # Errors
     /// [`MotionError`] if the state is not finite or the motion unbounded.
     pub fn apply(&self, state: Vector2<f64>) -> Result<Passage, MotionError> {
-        let mut watch = Watch::default();
-        let end = self.run(state, &mut watch)?;
+        let mut seen = PassageRecorder::default();
+        let end = self.observe(state, &mut seen)?;
         Ok(Passage {
             end,
-            monodromy: Monodromy::from(&watch.tangent),
-            damping_integral: watch.tangent.damping_integral,
-            impacts: watch.impacts,
-            instants: watch.instants,
-            rests: watch.rests,
+            monodromy: Monodromy::from(&seen.tangent),
+            damping_integral: seen.tangent.damping_integral,
+            impacts: seen.impacts,
+            rests: seen.rests,
         })
     }
 
@@ -102,7 +100,7 @@ impl StroboscopicMap {
     /// # Errors
     /// As [`StroboscopicMap::apply`].
     pub fn image(&self, state: Vector2<f64>) -> Result<Vector2<f64>, MotionError> {
-        self.run(state, &mut ())
+        self.observe(state, &mut ())
     }
 
     /// The largest position in m on the way from a state.
@@ -111,11 +109,12 @@ impl StroboscopicMap {
     /// As [`StroboscopicMap::apply`].
     pub fn max_position(&self, state: Vector2<f64>) -> Result<f64, MotionError> {
         let mut highest = Highest(state.x);
-        let end = self.run(state, &mut highest)?;
+        let end = self.observe(state, &mut highest)?;
         Ok(highest.0.max(end.x))
     }
 
-    fn run(
+    /// The image of a state, with all arcs and crossings on the way told to an observer.
+    pub(crate) fn observe(
         &self,
         state: Vector2<f64>,
         observer: &mut impl Observer,
@@ -129,15 +128,15 @@ impl StroboscopicMap {
     }
 }
 
+/// Records the tangent, the impacts and the ends of chatter of a motion.
 #[derive(Default)]
-struct Watch {
-    tangent: Tangent,
-    impacts: Vec<f64>,
-    instants: Vec<Instant>,
+pub(crate) struct PassageRecorder {
+    pub tangent: Tangent,
+    pub impacts: Vec<Touch>,
     rests: Vec<Instant>,
 }
 
-impl Observer for Watch {
+impl Observer for PassageRecorder {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.tangent.arc(arc, elapsed);
     }
@@ -145,8 +144,10 @@ impl Observer for Watch {
     fn crossing(&mut self, crossing: &Crossing) {
         self.tangent.crossing(crossing);
         if let Some(velocity) = crossing.impact_velocity() {
-            self.impacts.push(velocity);
-            self.instants.push(crossing.instant);
+            self.impacts.push(Touch {
+                instant: crossing.instant,
+                before_impact_velocity: velocity,
+            });
         }
         if crossing.kind == CrossingKind::Rest {
             self.rests.push(crossing.instant);

@@ -24,6 +24,7 @@ pub(crate) mod turn;
 
 pub use exponents::Exponents;
 pub(crate) use hardest::hardest_single;
+pub(crate) use map::PassageRecorder;
 pub use map::{Passage, StroboscopicMap};
 pub use monodromy::Monodromy;
 pub(crate) use newton::NOTHING_LEFT;

@@ -149,17 +149,12 @@ impl Orbit {
         state: Vector2<f64>,
         passage: &Passage,
     ) -> Result<Self, OrbitError> {
-        let touch = |(instant, velocity): (&Instant, &f64)| Touch {
-            instant: *instant,
-            before_impact_velocity: *velocity,
-        };
-        let touches = passage.instants.iter().zip(&passage.impacts);
         Ok(Self {
             scene: scene.clone(),
             periods: map.periods(),
             position: state.x,
             velocity: state.y,
-            impacts: touches.map(touch).collect(),
+            impacts: passage.impacts.clone(),
             rests: passage.rests.clone(),
             max_position: map.max_position(state)?,
             monodromy: passage.monodromy,

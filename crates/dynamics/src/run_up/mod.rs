@@ -13,7 +13,7 @@ use crate::attractors::SurveyError;
 use crate::basin::{Home, at_section};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime};
-use crate::stroke::Passed;
+use crate::stroke::PeriodRecorder;
 use crate::sweep::{Chain, Plan};
 use crate::watch::{Watcher, stop_if};
 use softstop::{MotionError, Parameter, Scene, Start};
@@ -103,10 +103,10 @@ pub struct Peaks {
 impl Peaks {
     /// Goes on with some periods; the state after them.
     fn take(&mut self, scene: &Scene, start: Start, periods: u64) -> Result<Start, MotionError> {
-        let passed = Passed::of(scene, start, periods)?;
-        self.stop_force = self.stop_force.max(passed.stop_force);
-        self.highest = self.highest.max(passed.highest);
-        Ok(passed.end)
+        let (seen, end) = PeriodRecorder::over(scene, start, periods)?;
+        self.stop_force = self.stop_force.max(seen.stop_force);
+        self.highest = self.highest.max(seen.highest);
+        Ok(end)
     }
 }
 

@@ -5,8 +5,8 @@ mod record;
 use serde::{Deserialize, Serialize};
 
 use crate::orbit::Orbit;
-use record::Recorder;
-use softstop::{Clock, MotionError, Scene, Start, Stop};
+pub(crate) use record::{PeriodRecorder, peak};
+use softstop::{MotionError, Stop};
 
 /// Figures of one period of a periodic motion, in SI units; of z = 1 it is one drive period, one stroke.
 ///
@@ -81,35 +81,6 @@ impl Losses {
     }
 }
 
-/// What some drive periods from a state do.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Passed {
-    /// The state after them.
-    pub end: Start,
-    /// Largest force of contact in N while the stop is touched.
-    pub stop_force: f64,
-    /// Largest position in m.
-    pub highest: f64,
-}
-
-impl Passed {
-    /// Those of a scene, from drive angle phi on.
-    ///
-    /// # Errors
-    /// [`MotionError`] if its motion cannot be computed.
-    pub fn of(scene: &Scene, start: Start, periods: u64) -> Result<Self, MotionError> {
-        let mut motion = scene.motion(start)?;
-        let mut seen = Recorder::new(scene, start.position);
-        motion.advance(Clock::at_cycle(periods), &mut seen)?;
-        motion.tell_arc(&mut seen);
-        Ok(Self {
-            end: motion.state(),
-            stop_force: seen.stop_force,
-            highest: seen.highest,
-        })
-    }
-}
-
 impl Stroke {
     /// The figures of an orbit.
     ///
@@ -117,10 +88,7 @@ impl Stroke {
     /// [`MotionError`] if its motion cannot be computed.
     pub fn of(orbit: &Orbit) -> Result<Self, MotionError> {
         let scene = &orbit.scene;
-        let mut motion = scene.motion(orbit.state().into())?;
-        let mut seen = Recorder::new(scene, orbit.position);
-        motion.advance(Clock::at_cycle(orbit.periods), &mut seen)?;
-        motion.tell_arc(&mut seen);
+        let (seen, _) = PeriodRecorder::over(scene, orbit.state().into(), orbit.periods)?;
         let duration = scene.period() * orbit.periods as f64;
         let energy = |velocity: f64| 0.5 * scene.mass * velocity * velocity;
         let hardest = orbit.before_impact_velocity();

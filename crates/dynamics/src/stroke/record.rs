@@ -1,12 +1,13 @@
 //! What is recorded along the arcs of a period.
 
 use super::Losses;
+use crate::orbit::StroboscopicMap;
 use crate::orbit::turn::turns;
 use softstop::internals::{Phase, largest, shares};
-use softstop::{Arc, Crossing, CrossingKind, Observer, PhaseKind, Scene, Start};
+use softstop::{Arc, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start};
 
-/// What is seen of a period.
-pub(super) struct Recorder<'a> {
+/// Records what a motion does over some drive periods.
+pub(crate) struct PeriodRecorder<'a> {
     scene: &'a Scene,
     pub lowest: f64,
     pub highest: f64,
@@ -20,12 +21,20 @@ pub(super) struct Recorder<'a> {
     pub losses: Losses,
 }
 
-impl<'a> Recorder<'a> {
-    pub(super) fn new(scene: &'a Scene, position: f64) -> Self {
-        Self {
+impl<'a> PeriodRecorder<'a> {
+    /// What the motion from a state at drive angle phi does, and the state after it.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn over(
+        scene: &'a Scene,
+        start: Start,
+        periods: u64,
+    ) -> Result<(Self, Start), MotionError> {
+        let mut seen = Self {
             scene,
-            lowest: position,
-            highest: position,
+            lowest: start.position,
+            highest: start.position,
             strips: 0,
             contact_force: 0.0,
             stop_force: 0.0,
@@ -34,7 +43,9 @@ impl<'a> Recorder<'a> {
             supplied: 0.0,
             power: 0.0,
             losses: Losses::default(),
-        }
+        };
+        let end = StroboscopicMap::new(scene, periods)?.observe(start.into(), &mut seen)?;
+        Ok((seen, end.into()))
     }
 
     fn reach(&mut self, position: f64) {
@@ -63,7 +74,9 @@ impl<'a> Recorder<'a> {
             PhaseKind::Stop | PhaseKind::Released | PhaseKind::Resting => Some(false),
             PhaseKind::Gap => None,
         };
-        let force = self.peak(arc, elapsed, |elapsed| self.contact(arc, elapsed));
+        let force = peak(self.scene, arc, elapsed, |elapsed| {
+            self.contact(arc, elapsed)
+        });
         self.contact_force = self.contact_force.max(force);
         match of_kind {
             Some(true) => self.strip_force = self.strip_force.max(force),
@@ -71,16 +84,16 @@ impl<'a> Recorder<'a> {
             None => {}
         }
     }
-
-    /// The largest value of a quantity on an arc.
-    fn peak(&self, arc: &Arc<'_>, elapsed: f64, value: impl Fn(f64) -> f64) -> f64 {
-        let rate = |phase: &Phase| (phase.law.stiffness.abs() / self.scene.mass).sqrt();
-        let rate = self.scene.excitation.frequency + arc.phase.map_or(0.0, rate);
-        largest((0.0, elapsed), rate, value)
-    }
 }
 
-impl Observer for Recorder<'_> {
+/// The largest value of a quantity on an arc, by the time in s since its start.
+pub(crate) fn peak(scene: &Scene, arc: &Arc<'_>, elapsed: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let rate = |phase: &Phase| (phase.law.stiffness.abs() / scene.mass).sqrt();
+    let rate = scene.excitation.frequency + arc.phase.map_or(0.0, rate);
+    largest((0.0, elapsed), rate, value)
+}
+
+impl Observer for PeriodRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let lasting = shares(arc, self.scene.mass, elapsed);
         let losses = &mut self.losses;
@@ -102,7 +115,7 @@ impl Observer for Recorder<'_> {
             }
         }
         let power = |elapsed| self.drive(arc, elapsed) * arc.at(elapsed).velocity;
-        self.power = self.power.max(self.peak(arc, elapsed, power));
+        self.power = self.power.max(peak(self.scene, arc, elapsed, power));
         self.press(arc, elapsed);
     }
 
