@@ -1,16 +1,13 @@
 //! The z = 1 motion on a straight way out from the nominal machine.
 
-use crate::continuation::{BranchPoint, End, Family, Follower, Heading, Limits, Test};
+use crate::continuation::{BranchPoint, Family, Follower, Heading};
 use crate::orbit::{Orbit, OrbitError};
 use crate::watch::stop_if;
-use crate::zone::{Loss, first_end};
-use softstop::internals::Scales;
+use crate::zone::{Frequencies, LONGEST_BRANCH, Loss, ended};
 use softstop::{MotionError, Scene};
 
 use super::Spread;
 
-/// Points after which a way is given up.
-const POINTS: usize = 2000;
 /// Typical change of the share of the way, the unit of steps.
 const TYPICAL: f64 = 2.0;
 
@@ -39,76 +36,18 @@ pub fn along(
     let family = Ray {
         spread,
         to,
-        scales: nominal.scene.scales(),
-        clearance: nominal.scene.clearance,
+        state_scales: Frequencies(&nominal.scene).state_scales(),
     };
     let follower = Follower::new(&family, 1);
-    let mut points = follower.follow(nominal, 0.0, Heading::Up, POINTS, |point| {
+    let mut points = follower.follow(nominal, 0.0, Heading::Up, LONGEST_BRANCH, |point| {
         let inside = (0.0..farthest).contains(&point.parameter);
         stop_if(!inside || !point.is_stable())
     })?;
-    let last = points.pop().ok_or(OrbitError::NotIsolated)?;
-    let Some(before) = points.pop() else {
-        return by_branch(&follower, nominal, farthest);
-    };
-    let end = match lost_by(&last) {
-        Some(test) => follower
-            .critical_between(&before, &last, test)
-            .map_or((last, None), |point| (point, Some(test))),
-        None => (last, None),
-    };
-    match end {
-        (point, Some(test)) if point.parameter <= farthest => Ok(Reached {
-            share: point.parameter,
-            point,
-            loss: Some(Loss::from(test)),
-        }),
-        (point, None) if !point.is_stable() => by_branch(&follower, nominal, farthest),
-        (point, _) if point.parameter >= farthest => Ok(Reached {
-            share: farthest,
-            point: follower.between(&before, &point, farthest)?,
-            loss: None,
-        }),
-        _ => by_branch(&follower, nominal, farthest),
-    }
-}
-
-/// The test that an unstable motion fails.
-fn lost_by(point: &BranchPoint) -> Option<Test> {
-    let fails = |test: &Test| test.value(&point.monodromy) <= 0.0;
-    let test = Test::ALL.into_iter().find(fails);
-    test.filter(|_| !point.is_stable())
-}
-
-/// The same with a look at every special point: for ways on which the motion grazes something.
-fn by_branch<F: Family>(
-    follower: &Follower<'_, F>,
-    nominal: &Orbit,
-    farthest: f64,
-) -> Result<Reached, OrbitError> {
-    let limits = Limits {
-        range: (0.0, farthest),
-        points: POINTS,
-    };
-    let branch = follower.branch(0.0, nominal.state(), &limits, |point| {
-        stop_if(!point.is_stable())
-    })?;
-    let points = branch.points.iter().filter(|point| point.parameter > 0.0);
-    if let Some((point, kind)) = first_end(&branch, points) {
-        return Ok(Reached {
-            share: point.parameter,
-            point: point.clone(),
-            loss: kind.loss(),
-        });
-    }
-    let last = branch.points.last().ok_or(OrbitError::NotIsolated)?;
+    let end = ended(&follower, &mut points, Heading::Up, (0.0, farthest))?;
     Ok(Reached {
-        share: last.parameter,
-        point: last.clone(),
-        loss: match branch.ends.1 {
-            End::Range => None,
-            ref end => Some(Loss::of(end)),
-        },
+        share: end.frequency,
+        loss: end.kind.loss().filter(|loss| *loss != Loss::Range),
+        point: end.point,
     })
 }
 
@@ -116,8 +55,7 @@ fn by_branch<F: Family>(
 struct Ray<'a> {
     spread: &'a dyn Spread,
     to: &'a [f64],
-    scales: Scales,
-    clearance: f64,
+    state_scales: [f64; 2],
 }
 
 impl Family for Ray<'_> {
@@ -129,8 +67,7 @@ impl Family for Ray<'_> {
     }
 
     fn state_scales(&self) -> [f64; 2] {
-        let length = self.clearance.abs().max(self.scales.length);
-        [length, length * self.scales.rate]
+        self.state_scales
     }
 
     fn parameter_scales(&self) -> [f64; 1] {

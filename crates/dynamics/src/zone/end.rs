@@ -83,7 +83,7 @@ impl EndKind {
 }
 
 /// The first of some points of a branch, in this order, at which a stable z = 1 motion ends.
-pub(crate) fn first_end<'a>(
+pub(super) fn first_end<'a>(
     branch: &'a Branch,
     mut points: impl Iterator<Item = &'a BranchPoint>,
 ) -> Option<(&'a BranchPoint, EndKind)> {
@@ -104,7 +104,7 @@ pub(crate) fn first_end<'a>(
 
 impl Loss {
     /// At a special point.
-    pub(crate) fn at(kind: &SpecialKind) -> Self {
+    pub(super) fn at(kind: &SpecialKind) -> Self {
         match kind {
             SpecialKind::Critical(test) => Self::from(*test),
             SpecialKind::Grazing(graze) => match graze.face {
@@ -116,7 +116,7 @@ impl Loss {
     }
 
     /// Where a branch ends otherwise; at a grazing its special point says which.
-    pub(crate) fn of(end: &End) -> Self {
+    pub(super) fn of(end: &End) -> Self {
         match end {
             End::Points => Self::Budget,
             End::Border(border) => Self::Border(*border),

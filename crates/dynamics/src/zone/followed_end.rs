@@ -1,54 +1,61 @@
 //! Where the stable motions of a branch end.
 
-use super::Frequencies;
 use super::end::{EndKind, Loss, ZoneEnd, first_end};
-use crate::continuation::{BranchPoint, Follower, Heading, Limits, SpecialKind, Test};
+use crate::continuation::{BranchPoint, Family, Follower, Heading, Limits, SpecialKind, Test};
 use crate::orbit::OrbitError;
 use crate::watch::stop_if;
 
 /// Points after which a branch is given up.
-pub(super) const LONGEST_BRANCH: usize = 2000;
+pub(crate) const LONGEST_BRANCH: usize = 2000;
 
-/// Where stable motions end that were followed from the first of these points on; the last point is then there.
-pub(super) fn ended(
-    follower: &Follower<'_, Frequencies<'_>>,
+/// Where stable motions end that were followed from the first of these points on; the last point is then there. Where
+/// that shows in none of the tests, as at a grazing, every special point of the branch is looked at.
+pub(crate) fn ended<F: Family>(
+    follower: &Follower<'_, F>,
     points: &mut Vec<BranchPoint>,
     heading: Heading,
     range: (f64, f64),
 ) -> Result<ZoneEnd, OrbitError> {
     let is_beyond =
         |point: &BranchPoint| !point.is_stable() || !(range.0..=range.1).contains(&point.parameter);
-    let first = points.iter().position(is_beyond).unwrap_or(points.len());
-    let beyond = points.drain(first..).next();
-    if let (Some(before), Some(beyond)) = (points.last(), beyond) {
-        let (point, kind) = match Test::ALL
-            .into_iter()
-            .find(|test| test.value(&beyond.monodromy) <= 0.0)
-        {
-            Some(test) => {
-                let kind = EndKind::Special(SpecialKind::Critical(test));
-                (follower.critical_between(before, &beyond, test), kind)
-            }
-            None => {
-                let bound = beyond.parameter.clamp(range.0, range.1);
-                (
-                    follower.between(before, &beyond, bound),
-                    EndKind::Other(Loss::Range),
-                )
-            }
-        };
-        if let Ok(point) = point {
-            points.push(point.clone());
-            return Ok(ZoneEnd::at(&point, kind));
-        }
+    let first = points.iter().skip(1).position(is_beyond);
+    let beyond = first.and_then(|first| points.drain(first + 1..).next());
+    if let (Some(before), Some(beyond)) = (points.last(), beyond)
+        && let Ok(end) = end_between(follower, before, beyond, range)
+    {
+        points.push(end.point.clone());
+        return Ok(end);
     }
     followed_to_end(follower, points, heading, range)
 }
 
+/// The end of stable motions between a point before it and one beyond: where a test vanishes, or the bound of the range
+/// if that comes first.
+fn end_between<F: Family>(
+    follower: &Follower<'_, F>,
+    before: &BranchPoint,
+    mut beyond: BranchPoint,
+    (low, high): (f64, f64),
+) -> Result<ZoneEnd, OrbitError> {
+    if !beyond.is_stable() {
+        let fails = |test: &Test| test.value(&beyond.monodromy) <= 0.0;
+        let test = Test::ALL.into_iter().find(fails);
+        let test = test.ok_or(OrbitError::NotIsolated)?;
+        beyond = follower.critical_between(before, &beyond, test)?;
+        if (low..=high).contains(&beyond.parameter) {
+            let kind = EndKind::Special(SpecialKind::Critical(test));
+            return Ok(ZoneEnd::at(&beyond, kind));
+        }
+    }
+    let bound = beyond.parameter.clamp(low, high);
+    let point = follower.between(before, &beyond, bound)?;
+    Ok(ZoneEnd::at(&point, EndKind::Other(Loss::Range)))
+}
+
 /// The end by a look at every special point, from the last point on, or from the first one if there is nothing to see
 /// from the last.
-pub(super) fn followed_to_end(
-    follower: &Follower<'_, Frequencies<'_>>,
+pub(super) fn followed_to_end<F: Family>(
+    follower: &Follower<'_, F>,
     points: &mut Vec<BranchPoint>,
     heading: Heading,
     range: (f64, f64),

@@ -15,9 +15,9 @@ mod stretch;
 mod stretches;
 
 pub use bounds::Bounds;
-pub(crate) use end::first_end;
 pub use end::{EndKind, Loss, ZoneEnd};
 pub use find::{find, find_among, find_watched, find_zones};
+pub(crate) use followed_end::{LONGEST_BRANCH, ended};
 pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_watched};
 pub use loss::{end_along, loss_of_stability};
