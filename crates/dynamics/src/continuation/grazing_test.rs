@@ -7,7 +7,6 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Node, correct};
-use super::close_approaches::close_approaches;
 use super::face::{Face, Touch};
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
 use super::period_map::PeriodMap;
@@ -46,15 +45,13 @@ impl GrazingTest {
         let scene = shooting.scene(&node.at)?;
         let round = &node.here.point;
         let total = round.sequence.crossings();
-        let machine = (&scene, shooting.phases(&scene));
-        let close_approaches = close_approaches(machine, shooting.periods, round.start)?;
         let taken = round
             .slowest
-            .map_or(0, |touch| close_approaches.taken(touch.time));
+            .map_or(0, |touch| round.motion.taken(touch.time));
         Ok(Self {
             dying: round.slowest,
             gentle: Face::ALL.map(|face| face.is_gentle(&scene)),
-            rising: close_approaches.turn,
+            rising: round.motion.nearest_turn(&scene),
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
             drive: (scene.excitation.phase, scene.excitation.frequency),

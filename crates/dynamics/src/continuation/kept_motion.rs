@@ -1,122 +1,146 @@
-//! Where an orbit comes near to grazing.
-
-use std::sync::Arc as Shared;
-
-use nalgebra::Vector2;
+//! A motion that is kept, and what follows from it without running it again.
 
 use super::face::{Face, Touch};
-use super::period_map::carry_on;
 use crate::orbit::turn::turns;
-use softstop::internals::{Motion, Phases};
-use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene};
+use softstop::internals::Course;
+use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Scene};
 
-/// An orbit seen from close by.
-pub(crate) struct CloseApproaches {
-    /// The turning point that comes nearest to the surface ahead of it, if any turns before one.
-    pub turn: Option<Touch>,
-    /// Times in s, positions and kinds of all crossings, in order.
-    crossings: Vec<(f64, f64, CrossingKind)>,
+/// The arcs and crossings of a motion from time 0 on, in order of time.
+#[derive(Debug, Clone)]
+pub(crate) struct KeptMotion {
+    clock: Clock,
+    arcs: Vec<KeptArc>,
+    crossings: Vec<KeptCrossing>,
+    /// Whether the mass moves on the last arc.
+    flies: bool,
 }
 
-impl CloseApproaches {
-    /// How many crossings go with one, at a time, if it dies: a rebound with the rest right after it, all up to the way
-    /// back through a surface otherwise.
+#[derive(Debug, Clone)]
+struct KeptArc {
+    /// Time in s.
+    start: f64,
+    /// How long it lasts, in s.
+    elapsed: f64,
+    course: Course,
+}
+
+#[derive(Debug, Clone)]
+struct KeptCrossing {
+    /// Time in s.
+    time: f64,
+    crossing: Crossing,
+    /// True if the mass moves before it.
+    ends_flight: bool,
+}
+
+impl KeptMotion {
+    pub fn new(clock: Clock) -> Self {
+        Self {
+            clock,
+            arcs: Vec::new(),
+            crossings: Vec::new(),
+            flies: true,
+        }
+    }
+
+    /// The turning point that comes nearest to a surface of the scene ahead of it, if any turns before one.
+    pub fn nearest_turn(&self, scene: &Scene) -> Option<Touch> {
+        let faces = Face::ALL.into_iter();
+        let faces = faces.filter_map(|face| Some((face, face.position(scene)?)));
+        let faces: Vec<(Face, f64)> = faces.collect();
+        let on_arcs = self.arcs.iter().flat_map(|arc| {
+            let back = arc.course.departure.velocity > 0.0;
+            let turns = turns(&arc.course, arc.elapsed, back);
+            turns.map(|turn| (turn.back, arc.start + turn.elapsed, turn.position, false))
+        });
+        let crossings = self.crossings.iter();
+        let reversals = crossings.filter(|it| it.crossing.kind == CrossingKind::Reversal);
+        let reversals = reversals.map(|KeptCrossing { time, crossing, .. }| {
+            let back = crossing.acceleration_before < 0.0;
+            (back, *time, crossing.position, true)
+        });
+        let touches = on_arcs
+            .chain(reversals)
+            .flat_map(|(back, time, position, reverses)| {
+                faces.iter().map(move |&(face, level)| Touch {
+                    time,
+                    amount: if back {
+                        level - position
+                    } else {
+                        position - level
+                    },
+                    face,
+                    reverses,
+                })
+            });
+        let ahead = touches.filter(|touch| touch.amount > 0.0);
+        ahead.reduce(|known, touch| {
+            let is_equal = touch.reverses && touch.amount == known.amount;
+            match touch.amount < known.amount || is_equal {
+                true => touch,
+                false => known,
+            }
+        })
+    }
+
+    /// How many crossings go with one, at a time in s, if it dies: a rebound with the rest right after it, all up to the
+    /// way back through a surface otherwise.
     pub fn taken(&self, time: f64) -> usize {
-        let at = |one: &(f64, f64, CrossingKind)| one.0 == time;
-        let Some(index) = self.crossings.iter().position(at) else {
+        let Some(index) = self.crossings.iter().position(|one| one.time == time) else {
             return 0;
         };
-        let (_, position, kind) = self.crossings[index];
+        let Crossing { kind, position, .. } = self.crossings[index].crossing;
+        let (before, after) = (&self.crossings[..index], &self.crossings[index + 1..]);
         if matches!(kind, CrossingKind::Rebound { .. }) {
             let rests = |kind| matches!(kind, CrossingKind::Rest | CrossingKind::Release);
-            let after = self.crossings[index + 1..].iter();
-            return 1 + after.take_while(|one| rests(one.2)).count();
+            let after = after.iter().take_while(|one| rests(one.crossing.kind));
+            return 1 + after.count();
         }
-        let same = |one: &(f64, f64, CrossingKind)| one.1 == position;
-        let (before, after) = (&self.crossings[..index], &self.crossings[index + 1..]);
+        let same = |one: &KeptCrossing| one.crossing.position == position;
         let ways = [
             after.iter().position(same),
             before.iter().rev().position(same),
         ];
-        ways.into_iter()
-            .flatten()
-            .min()
-            .map_or(1, |between| between + 2)
+        let between = ways.into_iter().flatten().min();
+        between.map_or(1, |between| between + 2)
+    }
+
+    /// Middle and length of the longest time in which the motion, which repeats after so many drive periods, crosses
+    /// nothing and is not held, in drive periods.
+    pub fn longest_flight(&self, periods: u64) -> (f64, f64) {
+        let crossings = self.crossings.iter();
+        let all = crossings.map(|it| (it.time / self.clock.period(), it.ends_flight));
+        // The longest flight may lead over time 0.
+        let again = all.clone().take(1);
+        let again = again.map(|(time, ends_flight)| (time + periods as f64, ends_flight));
+        let pairs = all.clone().zip(all.skip(1).chain(again));
+        let flights = pairs.filter(|(_, (_, ends_flight))| *ends_flight);
+        let flights = flights.map(|((from, _), (to, _))| (0.5 * (from + to), to - from));
+        flights.fold((0.0, 0.0), |longest, flight| {
+            if flight.1 > longest.1 {
+                flight
+            } else {
+                longest
+            }
+        })
     }
 }
 
-/// How an orbit comes near to surfaces.
-pub(crate) fn close_approaches(
-    (scene, phases): (&Scene, Shared<Phases>),
-    periods: u64,
-    state: Vector2<f64>,
-) -> Result<CloseApproaches, MotionError> {
-    let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), state.into())?;
-    let mut turns = Turns {
-        clock: *motion.clock(),
-        faces: Face::ALL
-            .into_iter()
-            .filter_map(|face| Some((face, face.position(scene)?)))
-            .collect(),
-        nearest: None,
-        crossings: Vec::new(),
-    };
-    for period in 1..=periods {
-        carry_on(&mut motion, Clock::at_cycle(period), &mut turns)?;
-    }
-    motion.tell_arc(&mut turns);
-    Ok(CloseApproaches {
-        turn: turns.nearest,
-        crossings: turns.crossings,
-    })
-}
-
-struct Turns {
-    clock: Clock,
-    faces: Vec<(Face, f64)>,
-    nearest: Option<Touch>,
-    crossings: Vec<(f64, f64, CrossingKind)>,
-}
-
-impl Observer for Turns {
+impl Observer for KeptMotion {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let start = self.clock.time(arc.start);
-        let back = arc.course.departure.velocity > 0.0;
-        for turn in turns(arc.course, elapsed, back) {
-            self.turn(turn.back, start + turn.elapsed, turn.position, false);
-        }
+        self.flies = !(arc.course.is_held() || arc.course.is_chattering());
+        self.arcs.push(KeptArc {
+            start: self.clock.time(arc.start),
+            elapsed,
+            course: arc.course.clone(),
+        });
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
-        let time = self.clock.time(crossing.instant);
-        self.crossings
-            .push((time, crossing.position, crossing.kind));
-        if crossing.kind == CrossingKind::Reversal {
-            let back = crossing.acceleration_before < 0.0;
-            self.turn(back, time, crossing.position, true);
-        }
-    }
-}
-
-impl Turns {
-    fn turn(&mut self, back: bool, time: f64, position: f64, reverses: bool) {
-        for &(face, level) in &self.faces {
-            let amount = if back {
-                level - position
-            } else {
-                position - level
-            };
-            let nearer = self
-                .nearest
-                .is_none_or(|known| amount < known.amount || (reverses && amount == known.amount));
-            if amount > 0.0 && nearer {
-                self.nearest = Some(Touch {
-                    time,
-                    amount,
-                    face,
-                    reverses,
-                });
-            }
-        }
+        self.crossings.push(KeptCrossing {
+            time: self.clock.time(crossing.instant),
+            crossing: *crossing,
+            ends_flight: self.flies,
+        });
     }
 }

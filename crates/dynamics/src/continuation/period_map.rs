@@ -1,10 +1,12 @@
 //! The map over the drive periods of an orbit, with everything that a continuation looks at.
 
+use std::rc::Rc;
 use std::sync::Arc as Shared;
 
 use nalgebra::Vector2;
 
 use super::face::{Face, Touch};
+use super::kept_motion::KeptMotion;
 use super::sequence::Sequence;
 use crate::orbit::Monodromy;
 use softstop::internals::{Detuning, Motion, Phases};
@@ -31,6 +33,8 @@ pub(crate) struct PeriodMap {
     pub slowest: Option<Touch>,
     /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
     pub margin: f64,
+    /// The motion itself.
+    pub motion: Rc<KeptMotion>,
 }
 
 impl PeriodMap {
@@ -42,12 +46,14 @@ impl PeriodMap {
         state: Vector2<f64>,
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
-        let mut detuning = Detuning::default();
+        let (mut detuning, mut kept) = (Detuning::default(), KeptMotion::new(machine.0.clock()));
         let (followed, by_frequency) = if by_frequency {
-            let (followed, motion) = follow(machine, periods, state, &mut detuning)?;
+            let observer = &mut (&mut detuning, &mut kept);
+            let (followed, motion) = follow(machine, periods, state, observer)?;
             (followed, detuning.at_drive_angle(&motion))
         } else {
-            let (followed, _) = follow(machine, periods, state, &mut detuning.tangent)?;
+            let observer = &mut (&mut detuning.tangent, &mut kept);
+            let (followed, _) = follow(machine, periods, state, observer)?;
             (followed, None)
         };
         let Followed {
@@ -70,6 +76,7 @@ impl PeriodMap {
             sequence: monitor.sequence,
             slowest: monitor.slowest,
             margin: monitor.margin,
+            motion: kept.into(),
         })
     }
 

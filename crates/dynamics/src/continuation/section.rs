@@ -15,7 +15,7 @@ use super::follower::{Follower, SectionChange, keeps_sense};
 use super::period_map::{PeriodMap, before_wall, carry_on};
 use super::point::BranchPoint;
 use softstop::internals::{Motion, Phases};
-use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene};
+use softstop::{Clock, MotionError, Scene};
 
 /// Drive periods between the section and a crossing within which the crossing may stand in the way.
 const NEAR: f64 = 0.05;
@@ -63,9 +63,8 @@ impl<'a, F: Family> Follower<'a, F> {
         if margin > NEAR {
             return None;
         }
-        let scene = self.shooting.scene(&node.at).ok()?;
-        let state = node.here.point.start;
-        let (middle, gap) = longest_flight(&scene, self.shooting.periods, state).ok()?;
+        let motion = &node.here.point.motion;
+        let (middle, gap) = motion.longest_flight(self.shooting.periods);
         (0.5 * gap > FARTHER * margin).then(|| self.with_turn(self.shooting.turn + middle))
     }
 
@@ -108,49 +107,4 @@ fn after(
     let end = clock.instant(periods * clock.period());
     carry_on(&mut motion, end, &mut ())?;
     Ok(motion.state().into())
-}
-
-/// Middle and length of the longest time in which a periodic motion crosses nothing and is not held, in drive periods.
-fn longest_flight(
-    scene: &Scene,
-    periods: u64,
-    state: Vector2<f64>,
-) -> Result<(f64, f64), MotionError> {
-    let mut motion = scene.motion(state.into())?;
-    let mut flights = Flights {
-        clock: *motion.clock(),
-        is_held: false,
-        last: None,
-        longest: (0.0, 0.0),
-    };
-    // Twice around: the longest flight may lead over the section.
-    for period in 1..=2 * periods {
-        carry_on(&mut motion, Clock::at_cycle(period), &mut flights)?;
-    }
-    Ok(flights.longest)
-}
-
-/// Looks for the longest flight; all times in drive periods.
-struct Flights {
-    clock: Clock,
-    is_held: bool,
-    last: Option<f64>,
-    /// Middle and length.
-    longest: (f64, f64),
-}
-
-impl Observer for Flights {
-    fn arc(&mut self, arc: &Arc<'_>, _: f64) {
-        self.is_held = arc.course.is_held() || arc.course.is_chattering();
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        let now = self.clock.time(crossing.instant) / self.clock.period();
-        if let Some(last) = self.last.replace(now)
-            && now - last > self.longest.1
-            && !self.is_held
-        {
-            self.longest = (0.5 * (last + now), now - last);
-        }
-    }
 }
