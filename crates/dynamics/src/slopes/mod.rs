@@ -62,7 +62,7 @@ pub struct Slopes {
 pub fn of(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError> {
     let variation = Variation::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
     let starts = variation.starts()?;
-    let figure = |found: &watch::Row| Figure {
+    let figure = |found: &Figure| Figure {
         value: found.value,
         by: variation.along(found, &starts),
     };

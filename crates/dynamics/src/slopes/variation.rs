@@ -6,7 +6,7 @@ use softstop::internals::{Lowered, Motion, Phases};
 use softstop::{Clock, MotionError, Parameter, Scene, Start, Tangent};
 
 use super::figure::Figure;
-use super::watch::{Row, Watch, Watched};
+use super::watch::{Watch, Watched};
 use crate::orbit::{Monodromy, OrbitError};
 
 /// 1 - tr + det in units of the size of the monodromy matrix up to which a motion is at a fold to rounding.
@@ -22,7 +22,7 @@ pub(super) struct Variation {
     /// As [`Influence`](softstop::internals::Influence) has them in the end.
     pub columns: Vec<Vector3<f64>>,
     pub watched: Watched,
-    pub supplied: Row,
+    pub supplied: Figure,
 }
 
 /// The changes of a scene's phases with each parameter.
@@ -62,7 +62,7 @@ impl Variation {
         motion.advance(Clock::at_cycle(periods), observer)?;
         motion.tell_arc(observer);
         let columns = watch.influence.columns().ok_or_else(|| none(parameters))?;
-        let supplied = Row {
+        let supplied = Figure {
             value: watch.influence.supplied,
             by: columns.iter().map(|column| column.z).collect(),
         };
@@ -94,7 +94,7 @@ impl Variation {
     }
 
     /// A figure's derivatives along the motion.
-    pub fn along(&self, row: &Row, starts: &[Vector2<f64>]) -> Vec<f64> {
+    pub fn along(&self, row: &Figure, starts: &[Vector2<f64>]) -> Vec<f64> {
         let own = row.by[2..].iter().zip(starts);
         own.map(|(own, start)| own + row.by[0] * start.x + row.by[1] * start.y)
             .collect()

@@ -5,24 +5,18 @@ use nalgebra::Vector3;
 use softstop::internals::{Influence, Lowered, Phase, PhaseId, Phases};
 use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKind};
 
+use super::figure::Figure;
 use super::peak::peaks;
 use crate::orbit::turn::turns;
 
-/// A figure with its derivatives by position and velocity at time 0, then by the parameters.
-#[derive(Debug, Clone)]
-pub(super) struct Row {
-    pub value: f64,
-    pub by: Vec<f64>,
-}
-
-/// What was seen.
+/// What was seen, with derivatives by position and velocity at time 0, then by the parameters.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Watched {
     /// Times and before-impact velocities.
-    pub impacts: Vec<[Row; 2]>,
-    pub highest: Option<Row>,
-    pub lowest: Option<Row>,
-    pub force: Option<Row>,
+    pub impacts: Vec<[Figure; 2]>,
+    pub highest: Option<Figure>,
+    pub lowest: Option<Figure>,
+    pub force: Option<Figure>,
 }
 
 /// Watches a motion.
@@ -54,17 +48,17 @@ impl<'a> Watch<'a> {
     }
 
     /// A row, with what it changes by with the drive's frequency where the drive angle is held, too.
-    fn row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> Row {
+    fn row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> Figure {
         for (part, by) in by.iter_mut().skip(2).zip(self.by) {
             if by.parameter == Parameter::Frequency {
                 *part += with_time / self.frequency;
             }
         }
-        Row { value, by }
+        Figure { value, by }
     }
 
     fn sees_position(&mut self, value: f64, by: impl FnOnce(&Self) -> Option<Vec<f64>>) {
-        let beats = |known: &Option<Row>, sign: f64| {
+        let beats = |known: &Option<Figure>, sign: f64| {
             known
                 .as_ref()
                 .is_none_or(|known| sign * (value - known.value) > 0.0)
@@ -77,7 +71,7 @@ impl<'a> Watch<'a> {
             return;
         }
         let by = by(self).unwrap_or_else(|| vec![f64::NAN; 2 + self.by.len()]);
-        let row = Row { value, by };
+        let row = Figure { value, by };
         if high {
             self.watched.highest = Some(row.clone());
         }
@@ -110,7 +104,7 @@ impl<'a> Watch<'a> {
                 .map_or(0.0, |index| self.by[index].contact_force(phase, x, v));
             stiffness * (column.x + v * delay) + damping * (column.y + a * delay) + own
         });
-        let row = Row {
+        let row = Figure {
             value,
             by: parts.collect(),
         };

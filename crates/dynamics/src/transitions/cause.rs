@@ -1,6 +1,6 @@
 //! Why a motion ends: the words of Peterka 2003, Table 2.
 
-use super::window::EndKind;
+use crate::continuation::{SpecialKind, Test};
 use crate::motion::MotionKind;
 
 /// Why a motion ends.
@@ -41,9 +41,9 @@ impl Cause {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Course<'a> {
     /// By what the motion ends.
-    pub end: EndKind,
+    pub end: SpecialKind,
     /// By what the motion doubled from it ends, if it ends by a flip.
-    pub doubled: Option<EndKind>,
+    pub doubled: Option<SpecialKind>,
     /// True if the doubled motion begins beyond the flip, and takes over without a jump.
     pub is_soft: bool,
     /// The motions met beyond the end.
@@ -55,23 +55,28 @@ pub(super) struct Course<'a> {
 impl Course<'_> {
     /// The causes, in order.
     pub(super) fn causes(&self) -> Vec<Cause> {
-        match self.end {
-            EndKind::Grazing { .. } => vec![Cause::Grazing],
-            EndKind::Fold => self.jump(),
-            EndKind::Flip if self.met_chaos() && !self.hysteresis => vec![Cause::InterruptedFlips],
-            EndKind::Flip if self.is_soft => self.end_of_doubled(),
+        let test = match self.end {
+            SpecialKind::Grazing(_) => return vec![Cause::Grazing],
+            SpecialKind::Critical(test) => test,
+        };
+        match test {
+            Test::Fold => self.jump(),
+            Test::Flip if self.met_chaos() && !self.hysteresis => vec![Cause::InterruptedFlips],
+            Test::Flip if self.is_soft => self.end_of_doubled(),
             // Beyond a hard flip there is nothing near to go on with.
-            EndKind::Flip => [vec![Cause::Flip], self.jump()].concat(),
-            EndKind::Merging | EndKind::Range | EndKind::Lost => vec![Cause::Unknown],
+            Test::Flip => [vec![Cause::Flip], self.jump()].concat(),
+            Test::NeimarkSacker => vec![Cause::Unknown],
         }
     }
 
     /// A soft doubling loses nothing: the doubled motion goes on in place of the simple one, and its end counts.
     fn end_of_doubled(&self) -> Vec<Cause> {
         match self.doubled {
-            Some(EndKind::Grazing { .. }) => vec![Cause::Grazing],
-            Some(EndKind::Fold) => self.jump(),
-            Some(EndKind::Flip) if self.met_chaos() => self.out_of_chaos(Cause::InterruptedFlips),
+            Some(SpecialKind::Grazing(_)) => vec![Cause::Grazing],
+            Some(SpecialKind::Critical(Test::Fold)) => self.jump(),
+            Some(SpecialKind::Critical(Test::Flip)) if self.met_chaos() => {
+                self.out_of_chaos(Cause::InterruptedFlips)
+            }
             _ => vec![Cause::Flip],
         }
     }

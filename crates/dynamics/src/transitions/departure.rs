@@ -3,9 +3,9 @@
 use super::cause::Course;
 use super::stage::{Explorer, Gathering};
 use super::way::Way;
-use super::window::{EndKind, Window, WindowEnd};
+use super::window::{Window, WindowEnd};
 use super::{Transition, TransitionError};
-use crate::continuation::{Family, Follower, Limits};
+use crate::continuation::{Family, Follower, Limits, SpecialKind, Test};
 use crate::motion::MotionKind;
 use crate::watch::stop_if;
 
@@ -30,9 +30,10 @@ impl<F: Family + Sync> Explorer<'_, F> {
         upper: bool,
     ) -> Result<Option<Departure>, TransitionError> {
         let end = &window.ends[usize::from(upper)];
-        if matches!(end.kind, EndKind::Merging | EndKind::Range | EndKind::Lost) {
+        let Some(kind) = end.kind else {
             return Ok(None);
-        }
+        };
+        let flips = kind == SpecialKind::Critical(Test::Flip);
         let sign = if upper { 1.0 } else { -1.0 };
         let mut way = Way {
             states: self.fill(&[end.point.state().into()]),
@@ -42,12 +43,12 @@ impl<F: Family + Sync> Explorer<'_, F> {
             let value = end.point.parameter + sign * distance;
             let mut gathering = self.gather(value, &self.fill(&way.states))?;
             if gathering.motion.is_none()
-                && end.kind == EndKind::Flip
+                && flips
                 && self.is_intermittent(value, &gathering.states, &window.motion)?
             {
                 gathering.motion = Some(MotionKind::Chaos);
             }
-            if way.meet(gathering, distance, (&window.motion, end.kind)) {
+            if way.meet(gathering, distance, (&window.motion, flips)) {
                 break;
             }
         }
@@ -59,13 +60,13 @@ impl<F: Family + Sync> Explorer<'_, F> {
         let back = end.point.parameter - sign * distance.min(INSIDE * width);
         let returned = self.gather(back, &self.fill(&gathering.states))?;
         let hysteresis = returned.motion.as_ref() != Some(&window.motion);
-        let doubled = match end.kind {
-            EndKind::Flip => self.end_of_doubled(&way, window, end, upper)?,
-            _ => None,
+        let doubled = match flips {
+            true => self.end_of_doubled(&way, window, end, upper)?,
+            false => None,
         };
         let course = Course {
-            end: end.kind,
-            doubled: doubled.map(|it| it.0),
+            end: kind,
+            doubled: doubled.and_then(|it| it.0),
             is_soft: doubled.is_some_and(|it| sign * (it.1 - end.point.parameter) > 0.0),
             path: &way.path,
             hysteresis,
@@ -133,7 +134,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         window: &Window,
         end: &WindowEnd,
         upper: bool,
-    ) -> Result<Option<(EndKind, f64)>, TransitionError> {
+    ) -> Result<Option<(Option<SpecialKind>, f64)>, TransitionError> {
         let place = usize::from(upper);
         if let Some((distance, orbit)) = &way.doubled {
             let value = end.point.parameter + if upper { *distance } else { -distance };
@@ -157,6 +158,6 @@ impl<F: Family + Sync> Explorer<'_, F> {
             stop_if(seen == DOUBLED)
         });
         let first = branch.ok().and_then(|it| it.specials.into_iter().next());
-        Ok(first.map(|special| (special.kind.into(), special.point.parameter)))
+        Ok(first.map(|special| (Some(special.kind), special.point.parameter)))
     }
 }

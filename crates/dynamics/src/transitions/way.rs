@@ -1,7 +1,6 @@
 //! What a motion meets beyond the end of its window.
 
 use super::stage::Gathering;
-use super::window::EndKind;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use softstop::Start;
@@ -25,12 +24,12 @@ pub(super) struct Way {
 }
 
 impl Way {
-    /// Enters what is met at a distance beyond an end of a window; true if that is where it settles.
+    /// Enters what is met at a distance beyond an end of a window, which is a flip or not; true if that is where it settles.
     pub fn meet(
         &mut self,
         gathering: Gathering,
         distance: f64,
-        (from, end): (&MotionKind, EndKind),
+        (from, flips): (&MotionKind, bool),
     ) -> bool {
         if !gathering.states.is_empty() {
             self.states.clone_from(&gathering.states);
@@ -47,19 +46,13 @@ impl Way {
         }
         self.last_seen = Some((distance, self.states.clone()));
         let doubles = is_doubled(from, &motion);
-        let settles = match (end, &motion) {
-            (EndKind::Flip, MotionKind::Chaos) => false,
-            (EndKind::Flip, _) if doubles => false,
-            // A window within chaos is narrow.
-            (EndKind::Flip, _) if self.path.contains(&MotionKind::Chaos) => {
-                if self.tentative.as_ref() != Some(&motion) {
-                    self.tentative = Some(motion);
-                    return false;
-                }
-                true
-            }
-            _ => true,
-        };
+        let goes_on = doubles || motion == MotionKind::Chaos;
+        // A window within chaos is narrow.
+        let is_doubtful = flips && !goes_on && self.path.contains(&MotionKind::Chaos);
+        if is_doubtful && self.tentative.as_ref() != Some(&motion) {
+            self.tentative = Some(motion);
+            return false;
+        }
         self.tentative = None;
         if doubles && let Some(orbit) = &gathering.orbit {
             self.doubled = Some((distance, orbit.clone()));
@@ -68,7 +61,7 @@ impl Way {
             self.path.push(motion);
         }
         self.last = Some((distance, gathering));
-        settles
+        !(flips && goes_on)
     }
 }
 

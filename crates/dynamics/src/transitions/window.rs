@@ -1,47 +1,17 @@
 //! The values of the parameter for which a periodic motion is stable.
 
 use super::{Rules, TransitionError};
-use crate::continuation::{Branch, BranchPoint, End, Family, Follower, Limits, SpecialKind, Test};
+use crate::continuation::{Branch, BranchPoint, Family, Follower, Limits, SpecialKind, Test};
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use crate::watch::stop_if;
 
-/// By what a window ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum EndKind {
-    /// The motion grazes.
-    Grazing {
-        /// True if the touch is that of an impact that dies.
-        dies: bool,
-    },
-    /// Fold.
-    Fold,
-    /// Flip.
-    Flip,
-    /// A doubled motion becomes that of half its period, at a flip of that.
-    Merging,
-    /// The parameter's range ends.
-    Range,
-    /// It could not be followed any farther.
-    Lost,
-}
-
-impl From<SpecialKind> for EndKind {
-    fn from(kind: SpecialKind) -> Self {
-        match kind {
-            SpecialKind::Grazing(graze) => Self::Grazing { dies: graze.dies },
-            SpecialKind::Critical(Test::Fold) => Self::Fold,
-            SpecialKind::Critical(Test::Flip) => Self::Flip,
-            SpecialKind::Critical(Test::NeimarkSacker) => Self::Lost,
-        }
-    }
-}
-
 /// One end.
 #[derive(Debug, Clone)]
 pub(super) struct WindowEnd {
-    /// By what.
-    pub kind: EndKind,
+    /// The grazing, fold or flip that ends the motion; none where it becomes that of half its period, the parameter's range
+    /// ends, or it could not be followed any farther.
+    pub kind: Option<SpecialKind>,
     /// The orbit there.
     pub point: BranchPoint,
 }
@@ -104,25 +74,17 @@ fn nearest(branch: &Branch, value: f64, orbit: &Orbit) -> usize {
 
 /// The end of stability on one side of a point of a branch.
 fn end(branch: &Branch, start: usize, backwards: bool) -> WindowEnd {
-    let (points, why): (Vec<&BranchPoint>, &End) = match backwards {
-        true => (
-            branch.points[..=start].iter().rev().collect(),
-            &branch.ends.0,
-        ),
-        false => (branch.points[start..].iter().collect(), &branch.ends.1),
+    let points: Vec<&BranchPoint> = match backwards {
+        true => branch.points[..=start].iter().rev().collect(),
+        false => branch.points[start..].iter().collect(),
     };
     let mut beyond = points.iter().skip(1);
-    let special = beyond.find_map(|point| Some((branch.special_at(point)?.kind.into(), *point)));
-    let (kind, point) = special.unwrap_or_else(|| {
-        let kind = match why {
-            End::Range => EndKind::Range,
-            End::Merged => EndKind::Merging,
-            _ => EndKind::Lost,
-        };
-        (kind, points[points.len() - 1])
-    });
+    let special = beyond.find_map(|point| Some((branch.special_at(point)?.kind, *point)));
+    let is_told = |kind: &SpecialKind| *kind != SpecialKind::Critical(Test::NeimarkSacker);
     WindowEnd {
-        kind,
-        point: point.clone(),
+        kind: special.map(|(kind, _)| kind).filter(is_told),
+        point: special
+            .map_or(points[points.len() - 1], |(_, point)| point)
+            .clone(),
     }
 }
