@@ -1,6 +1,7 @@
 //! One way to watch long work, to stop it, and to take it up again.
 
 use std::ops::ControlFlow;
+use std::time::Duration;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -32,6 +33,9 @@ pub trait Memory: Sync {
 
 /// Where pieces are kept, if anywhere.
 pub type Kept<'a> = Option<&'a dyn Memory>;
+
+/// How long work takes whose result is kept as a piece.
+pub(crate) const PIECE: Duration = Duration::from_millis(250);
 
 /// A piece of work: recalled if it is known, else done now and kept, unless the [`budget`] is spent by then. It must
 /// follow from its key. What it costs is charged in both cases.

@@ -4,10 +4,7 @@ use super::survey::{Fate, Survey};
 use super::{Basins, Class, wilson};
 use crate::attractors::SurveyError;
 use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit};
-
-/// Drive periods in each of the 32 batches of an exponent.
-const BATCH: u64 = 100;
+use crate::orbit::{BATCH_PERIODS, Exponents, Orbit};
 
 impl Survey<'_> {
     /// All basins: periodic motions by period, impacts and hardest impact, then the others.
@@ -47,7 +44,8 @@ impl Survey<'_> {
             return Ok(None);
         };
         let (state, ask) = (self.states[cell].into(), || self.fleet.note(0));
-        let (exponents, _) = Exponents::along_with_monitor(self.scene, state, BATCH, ask)?;
+        let (exponents, _) =
+            Exponents::along_with_monitor(self.scene, state, BATCH_PERIODS.0, ask)?;
         let motion = match exponents.is_positive() {
             true => MotionKind::Chaos,
             false => MotionKind::Unsettled,

@@ -5,21 +5,20 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::home::PERIODS_AT_ONCE;
 use super::survey::{Fate, Survey, TILE};
 use crate::attractors::SurveyError;
 use crate::batch;
-use crate::watch::{piece, stop_if};
+use crate::watch::{PIECE, piece, stop_if};
 use softstop::Start;
 use softstop::internals::budget::Fork;
 use softstop_lanes::Job;
 
 /// As [`TILE`], where each motion goes alone, and takes long.
 const SMALL_TILE: usize = 16;
-/// Drive periods between two looks at where the motions are.
-const STRETCH: u64 = 16;
-/// How long cells are followed before what they have come to is kept: at first, so much longer each time, and at most.
-const PIECE: Duration = Duration::from_millis(250);
-const LONGEST: Duration = Duration::from_secs(5);
+/// How long cells are followed at most before what they have come to is kept: at first for a piece, and for so much longer
+/// each time.
+const LONGEST_PIECE: Duration = Duration::from_secs(5);
 
 /// Cells that were followed together for some time.
 #[derive(Serialize, Deserialize)]
@@ -78,7 +77,7 @@ impl Survey<'_> {
                 last.left = Vec::new();
             }
             pieces.push(next);
-            time = (time + PIECE).min(LONGEST);
+            time = (time + PIECE).min(LONGEST_PIECE);
         }
         Ok(pieces)
     }
@@ -99,7 +98,7 @@ impl Survey<'_> {
         };
         while all.periods < self.options.transient && !all.left.is_empty() && begin.elapsed() < time
         {
-            let stretch = STRETCH.min(self.options.transient - all.periods);
+            let stretch = PERIODS_AT_ONCE.min(self.options.transient - all.periods);
             all.periods += stretch;
             let job = |(_, start): &(usize, Start)| Job {
                 machine: 0,

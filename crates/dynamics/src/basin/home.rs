@@ -21,7 +21,7 @@ use softstop_lanes::{Job, Machine, Watch};
 /// Motions that go together: enough for all lanes to be busy. It may not depend on how many threads there are.
 const TOGETHER: usize = 512;
 /// Drive periods between two looks at where the motions are.
-const STRETCH: u64 = 16;
+pub(super) const PERIODS_AT_ONCE: u64 = 16;
 /// Drive periods that motions may take before they come near: this many, and as many as the slowest multiplier needs
 /// to take away all but this exponent of e; and never more than the last.
 const PATIENCE: u64 = 256;
@@ -149,7 +149,7 @@ impl Home {
             let job = |guest: &usize| Job {
                 machine: guests[*guest].machine,
                 start: guests[*guest].state,
-                periods: STRETCH,
+                periods: PERIODS_AT_ONCE,
             };
             let jobs: Vec<Job> = left.iter().map(job).collect();
             let mut counter = Counter::<COUNTS> {
@@ -159,13 +159,13 @@ impl Home {
             };
             let outcomes = follow(machines, &jobs, &mut counter, || watcher(0, 0));
             let outcomes = outcomes.ok_or(SurveyError::Stopped)?;
-            periods += STRETCH;
+            periods += PERIODS_AT_ONCE;
             let ends = left.into_iter().zip(outcomes);
             left = ends
                 .filter_map(|(guest, outcome)| {
                     let it = &mut guests[guest];
                     it.state = outcome.end;
-                    it.time += STRETCH as f64;
+                    it.time += PERIODS_AT_ONCE as f64;
                     let fate = match outcome.error {
                         Some(_) => Some(false),
                         None => self.is_home(it, periods >= self.patience),

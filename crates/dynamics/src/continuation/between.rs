@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::Family;
 use super::arclength::Node;
 use super::follower::{Follower, WIDTH};
-use super::locate::{locate, zero};
+use super::locate::{along_chord, locate, zero};
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
 use super::test::Test;
@@ -14,7 +14,7 @@ use crate::orbit::OrbitError;
 
 /// Distance of a point from the chord between its neighbours, as a share of the chord, within which it is taken for
 /// a point between them.
-const ASIDE: f64 = 0.2;
+pub(crate) const ASIDE: f64 = 0.2;
 /// Relative difference of a parameter within which it is the one asked for.
 const SAME: f64 = 1e-9;
 /// Most points that a branch is followed through between two neighbours.
@@ -137,10 +137,9 @@ impl<F: Family> Follower<'_, F> {
     /// True if a point lies beside the chord between two neighbours, and on their side of a fold.
     fn is_between(&self, (from, to): (&BranchPoint, &BranchPoint), point: &BranchPoint) -> bool {
         let place = |point: &BranchPoint| self.shooting.scaled(point.state(), [point.parameter]);
-        let (way, gone) = (place(to) - place(from), place(point) - place(from));
-        let along = way.dot(&gone) / way.norm_squared();
-        let off = gone - along * &way;
+        let (begin, way) = (place(from), place(to) - place(from));
+        let (along, off) = along_chord((&begin, &way), &place(point));
         let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;
-        same_side && (0.0..=1.0).contains(&along) && off.norm() < ASIDE * way.norm()
+        same_side && (0.0..=1.0).contains(&along) && off < ASIDE * way.norm()
     }
 }

@@ -6,6 +6,7 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::Node;
+use super::curve::SHORTEST_LOOP;
 use super::follower::{Follower, Heading, SectionChange, WIDTH};
 use super::grazing_test::GrazingTest;
 use super::locate::locate;
@@ -37,8 +38,6 @@ const LONGEST_CRAWL: usize = 60;
 const REPEATS: f64 = 1e-7;
 /// First step after a corner: others, and folds, may lie as near.
 const AFTER_CORNER: f64 = 1e-5;
-/// Points after which a branch may be found closed.
-const SHORTEST_LOOP: usize = 8;
 
 impl Branch {
     /// What is special at a point of it, if anything is.

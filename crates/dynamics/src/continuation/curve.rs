@@ -8,7 +8,7 @@ use super::Family;
 use super::arclength::{Equations, Node, correct};
 use super::follower::WIDTH;
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
-use super::locate::locate;
+use super::locate::{along_chord, locate};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, SpecialKind};
 use super::sequence::Sequence;
@@ -202,8 +202,8 @@ fn follow<E: Codimension>(
 }
 
 /// Points after which a curve may be found closed, and distance from its start, in units of the step.
-const SHORTEST_LOOP: usize = 8;
-const CLOSED: f64 = 0.05;
+pub(super) const SHORTEST_LOOP: usize = 8;
+pub(super) const CLOSED: f64 = 0.05;
 
 fn way<E: Codimension>(
     equations: &E,
@@ -233,10 +233,9 @@ fn way<E: Codimension>(
         };
         stepper.take(step);
         let step = &node.at - &last.at;
-        let share = step.dot(&(&origin - &last.at)) / step.norm_squared();
-        let off = (&origin - &last.at) - share * &step;
-        let passes = (0.0..=1.0).contains(&share);
-        let closed = points.len() >= SHORTEST_LOOP && passes && off.norm() < CLOSED * step.norm();
+        let (share, off) = along_chord((&last.at, &step), &origin);
+        let passes = (0.0..=1.0).contains(&share) && off < CLOSED * step.norm();
+        let closed = points.len() >= SHORTEST_LOOP && passes;
         let point = equations.describe(&node)?;
         let stopped = watch(&point).is_break();
         points.push(point);

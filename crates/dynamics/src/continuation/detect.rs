@@ -6,9 +6,10 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Equations, Node};
+use super::curve::CLOSED;
 use super::follower::{Follower, WIDTH};
 use super::grazing_test::GrazingTest;
-use super::locate::{Cubic, is_beside, locate};
+use super::locate::{Cubic, along_chord, locate};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
@@ -21,10 +22,8 @@ use softstop::internals::highest;
 const MERGED: f64 = 1e-3;
 /// Scaled distance within which an end of the range is reached where it cannot be passed.
 const AT_BOUND: f64 = 1e-4;
-/// Distance from the start, in units of the step, at which a branch is closed.
-const CLOSED: f64 = 0.05;
-/// The same of the orbit found there.
-const SAME: f64 = 1e-3;
+/// Distance of an orbit from the start of a branch, in units of the step, at which the branch is closed.
+const AT_START: f64 = 1e-3;
 /// Share of a step to which the place is found where a multiplier is farthest beyond -1.
 const DIP: f64 = 1e-6;
 /// Share of a step over which a test is taken to be straight, and the value from which on no step leads to zero and back.
@@ -176,8 +175,8 @@ impl<F: Family> Follower<'_, F> {
         for node in [from, to] {
             for special in GrazingTest::of(&self.shooting, node)?.grazes(&self.shooting) {
                 let at = self.place(&special.point)?;
-                let share = (&at - &from.at).dot(&way) / way.norm_squared();
-                if !(-beyond..=1.0 + beyond).contains(&share) || !is_beside((&from.at, &way), &at) {
+                let (share, off) = along_chord((&from.at, &way), &at);
+                if !(-beyond..=1.0 + beyond).contains(&share) || off > way.norm() {
                     continue;
                 }
                 let mut special = special.clone();
@@ -198,13 +197,12 @@ impl<F: Family> Follower<'_, F> {
         origin: &DVector<f64>,
     ) -> bool {
         let way = &to.at - &from.at;
-        let share = (origin - &from.at).dot(&way) / way.norm_squared();
-        let off = |at: &DVector<f64>| (origin - at).norm() / way.norm();
+        let (share, off) = along_chord((&from.at, &way), origin);
         (0.0..=1.0).contains(&share)
-            && off(&(&from.at + share * &way)) < CLOSED
+            && off < CLOSED * way.norm()
             && Cubic::between(&self.shooting, (from, to))
                 .and_then(|cubic| cubic.node(share))
-                .is_ok_and(|node| off(&node.at) < SAME)
+                .is_ok_and(|node| (origin - &node.at).norm() < AT_START * way.norm())
     }
 
     /// The flip at which an orbit becomes one of half as many periods, if it does on a step: half a round

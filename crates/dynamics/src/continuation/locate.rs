@@ -96,9 +96,17 @@ pub(crate) fn zero<E: Equations>(
 /// True if a place is no farther from the line between two neighbours than they are from each other: what Newton's method
 /// finds farther off lies on another curve.
 pub(super) fn is_beside((from, way): (&DVector<f64>, &DVector<f64>), at: &DVector<f64>) -> bool {
+    along_chord((from, way), at).1 <= way.norm()
+}
+
+/// The share of the way from a place to its neighbour at which another place lies, and how far from the straight line.
+pub(super) fn along_chord(
+    (from, way): (&DVector<f64>, &DVector<f64>),
+    at: &DVector<f64>,
+) -> (f64, f64) {
     let gone = at - from;
-    let off = &gone - way * (gone.dot(way) / way.norm_squared());
-    off.norm() <= way.norm()
+    let share = gone.dot(way) / way.norm_squared();
+    (share, (gone - share * way).norm())
 }
 
 /// Where a function with these values vanishes, as the polynomial through its inverse has it.

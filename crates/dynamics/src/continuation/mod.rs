@@ -50,6 +50,7 @@ mod test;
 mod way;
 
 pub use along::Along;
+pub(crate) use between::ASIDE;
 pub use branch::Branch;
 pub use curve::{Curve, CurveEnd, CurvePoint, Region, curve};
 pub use face::Face;

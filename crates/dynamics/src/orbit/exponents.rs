@@ -7,8 +7,8 @@ use softstop::{MotionError, Scene};
 
 /// Batches whose means tell how uncertain the exponents are.
 const BATCHES: usize = 32;
-/// Drive periods in each of them at first and at most, where it is asked whether differences grow.
-const BATCH: (u64, u64) = (100, 1600);
+/// Drive periods in each of them at first and at most.
+pub(crate) const BATCH_PERIODS: (u64, u64) = (100, 1600);
 /// The exponent of a growth, or decay, that is for good: rounding to the size of the motion is 36.
 const GROWTH: f64 = 100.0;
 /// Student's t of 31 degrees of freedom for a two-sided 95 % interval.
@@ -75,14 +75,14 @@ impl Exponents {
     /// [`MotionError`] if the motion cannot be computed.
     pub(crate) fn grow(scene: &Scene, state: Vector2<f64>) -> Result<bool, MotionError> {
         let mut walk = Walk::new(scene, state)?;
-        let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), BATCH.0);
+        let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), BATCH_PERIODS.0);
         loop {
             walk.add(&mut sums, batch, || Ok::<(), MotionError>(()))?;
             let found = walk.exponents(&sums, batch);
             let largest = found.per_period[0];
             let is_clear = largest.abs() > SURE * found.error;
             let is_much = largest.abs() * found.periods as f64 > GROWTH;
-            if (is_clear && is_much) || batch >= BATCH.1 {
+            if (is_clear && is_much) || batch >= BATCH_PERIODS.1 {
                 return Ok(found.is_positive());
             }
             let pairs = sums.chunks(2);

@@ -22,6 +22,7 @@ mod smallest;
 mod trials;
 pub(crate) mod turn;
 
+pub(crate) use exponents::BATCH_PERIODS;
 pub use exponents::Exponents;
 pub(crate) use hardest::hardest_single;
 pub(crate) use map::PassageRecorder;

@@ -2,8 +2,8 @@
 
 use softstop::Start;
 
-/// Distance within which a state has returned, in units of the motion's size.
-const RETURN: f64 = 1e-4;
+/// Distance within which a state has returned unless it is said otherwise, in units of the motion's size.
+pub(crate) const RETURN: f64 = 1e-4;
 
 /// A motion that returns.
 #[derive(Debug, Clone, Copy, PartialEq)]

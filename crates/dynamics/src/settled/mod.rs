@@ -25,12 +25,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::attractors::Region;
 use crate::orbit::Regime;
+use crate::orbit::recurrence::RETURN;
 use crate::watch::Watcher;
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
-
-/// Distance within which a state has returned unless it is said otherwise.
-pub(crate) const RETURN: f64 = 1e-4;
 
 /// How motions are followed, and looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -34,7 +34,7 @@ pub use settle::Step;
 
 use thiserror::Error;
 
-use crate::settled::RETURN;
+use crate::orbit::recurrence::RETURN;
 use softstop::{Machine, Parameter, Start};
 
 /// Which way the parameter goes.

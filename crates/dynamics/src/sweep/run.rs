@@ -11,25 +11,13 @@ use serde::{Deserialize, Serialize};
 use super::settle::Step;
 use super::{Chain, Plan};
 use crate::settled::{Seen, watched};
-use crate::watch::{Kept, Watcher, piece};
+use crate::watch::{Kept, PIECE, Watcher, piece};
 use softstop::internals::budget::{self, Fork};
-use softstop::{MotionError, Scene, Start};
+use softstop::{MotionError, Scene};
 use softstop_lanes::Machine;
-
-/// How long a piece takes that is kept.
-const PIECE: Duration = Duration::from_millis(250);
 
 /// Whether to go on.
 type Ask<'a> = &'a dyn Fn() -> ControlFlow<()>;
-
-/// One chain's next step.
-struct Leg {
-    /// Its place in the group.
-    chain: usize,
-    value: f64,
-    scene: Scene,
-    state: Start,
-}
 
 /// What a chain comes to in a piece of work.
 #[derive(Serialize, Deserialize)]
@@ -139,65 +127,47 @@ impl Plan {
         let Some(step) = afloat.map(|chain| chain.steps.len()).min() else {
             return Some(0);
         };
-        let (mut legs, mut machines) = (Vec::new(), Vec::new());
+        let (mut moved, mut machines, mut starts) = (Vec::new(), Vec::new(), Vec::new());
         for (index, chain) in group.iter_mut().enumerate() {
             if self.is_complete(chain) || chain.steps.len() != step {
                 continue;
             }
-            match self.leg(index, chain) {
-                Ok((leg, machine)) => {
-                    legs.push(leg);
+            match self.lowered(chain) {
+                Ok((scene, machine)) => {
+                    let state = chain.steps.last().map_or(self.start, |step| step.end);
+                    starts.push((machines.len(), state));
                     machines.push(machine);
+                    moved.push((index, scene));
                 }
                 Err(error) => chain.error = Some(error.to_string()),
             }
         }
-        let count = legs.len() as u64;
-        for (index, outcome) in self.follow(legs, &machines, ask)? {
-            match outcome {
-                Ok(step) => group[index].steps.push(step),
-                Err(error) => group[index].error = Some(error.to_string()),
+        let count = moved.len() as u64;
+        let looked = self.watched();
+        let records = watched(&machines, &starts, self.periods - looked, looked, ask)?;
+        for ((index, scene), record) in moved.into_iter().zip(records) {
+            let chain = &mut group[index];
+            let made = record.and_then(|record| {
+                let seen = Seen::of(&scene, record, self.tolerance, self.periods);
+                let value = self.value(step, chain.direction);
+                Step::new(value, &scene, seen, self.heights)
+            });
+            match made {
+                Ok(step) => chain.steps.push(step),
+                Err(error) => chain.error = Some(error.to_string()),
             }
         }
         // A group of failures alone has moved as well.
         Some(count.max(1))
     }
 
-    fn leg(&self, index: usize, chain: &Chain) -> Result<(Leg, Machine), MotionError> {
-        let value = self.value(chain.steps.len(), chain.direction);
+    /// The machine at the next step of a chain.
+    fn lowered(&self, chain: &Chain) -> Result<(Scene, Machine), MotionError> {
         let mut machine = chain.machine.clone();
+        let value = self.value(chain.steps.len(), chain.direction);
         machine.set(self.parameter, value);
         machine.validate()?;
-        let scene = machine.scene;
-        let machine = Machine::new(&scene)?;
-        let state = chain.steps.last().map_or(self.start, |step| step.end);
-        let leg = Leg {
-            chain: index,
-            value,
-            scene,
-            state,
-        };
-        Ok((leg, machine))
-    }
-
-    /// Follows all legs.
-    fn follow(
-        &self,
-        legs: Vec<Leg>,
-        machines: &[Machine],
-        ask: Ask<'_>,
-    ) -> Option<Vec<(usize, Result<Step, MotionError>)>> {
-        let starts = legs.iter().enumerate();
-        let starts: Vec<_> = starts.map(|(index, leg)| (index, leg.state)).collect();
-        let looked = self.watched();
-        let records = watched(machines, &starts, self.periods - looked, looked, ask)?;
-        let results = legs.into_iter().zip(records).map(|(leg, record)| {
-            let step = record.and_then(|record| {
-                let seen = Seen::of(&leg.scene, record, self.tolerance, self.periods);
-                Step::new(leg.value, &leg.scene, seen, self.heights)
-            });
-            (leg.chain, step)
-        });
-        Some(results.collect())
+        let lowered = Machine::new(&machine.scene)?;
+        Ok((machine.scene, lowered))
     }
 }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::followed_end::{LONGEST_BRANCH, ended};
 use super::hysteresis::{highest_fold, upward};
 use super::places::{Zone, ZoneKind};
+use super::stretch::SAME;
 use super::stretches::FOLLOWED;
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Follower, Heading};
@@ -17,9 +18,6 @@ use softstop::internals::budget::Fork;
 const STARTS: usize = 6;
 /// Highest frequency, in units of the natural one, at which they are looked for.
 const HIGHEST: f64 = 4.0;
-
-/// Share by which rounding may change a before-impact velocity.
-const SAME: f64 = 1e-6;
 
 /// The ranges of stable z = 1 of some scenes; the frequency of their drives plays no part. Each reaches both ways from the
 /// hardest of the z = 1 motions at g0 and at some frequencies between two, in rad/s, until the motion loses its stability

@@ -4,16 +4,13 @@ use nalgebra::{Vector2, Vector4};
 
 use super::end::Loss;
 use super::{Frequencies, Zone};
-use crate::continuation::{Branch, BranchPoint, End, Family, Follower};
+use crate::continuation::{ASIDE, Branch, BranchPoint, End, Family, Follower};
 use crate::orbit::OrbitError;
 use softstop::Scene;
 use softstop::internals::highest;
 
-/// Distance of an orbit from the chord between two points of a branch, as a share of the chord, within which it lies
-/// on that branch.
-const ASIDE: f64 = 0.2;
 /// Share by which rounding may change a before-impact velocity or a state.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// One end of a stretch.
 #[derive(Debug, Clone)]

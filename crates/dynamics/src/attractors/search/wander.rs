@@ -8,11 +8,9 @@ use super::super::fleet::Voyage;
 use super::super::group::groups;
 use super::super::known::Standing;
 use super::{GROWTH, Group, Search};
-use crate::orbit::Exponents;
+use crate::orbit::{BATCH_PERIODS, Exponents};
 use softstop::Start;
 
-/// Drive periods in each of the 32 batches of an exponent: at first, and at most.
-const BATCH: (u64, u64) = (100, 1600);
 /// Relative error of an exponent that is small enough.
 const SHARP: f64 = 0.05;
 /// Motions of a group whose exponent is tried before it is given up.
@@ -72,7 +70,7 @@ impl Search<'_> {
     /// The exponents along the motion from a state, over ever longer times until they are sharp, or the
     /// motion settles; the state then, and whether the motion still wandered.
     fn exponents(&mut self, state: Start) -> Result<(Exponents, Start, bool), SurveyError> {
-        let mut batch = BATCH.0;
+        let mut batch = BATCH_PERIODS.0;
         let mut best = None;
         loop {
             let ask = || self.fleet.note(0);
@@ -91,7 +89,7 @@ impl Search<'_> {
             let sharp = exponents.error < SHARP * largest;
             let hopeless = largest <= exponents.error;
             batch *= GROWTH;
-            if sharp || hopeless || batch > BATCH.1 {
+            if sharp || hopeless || batch > BATCH_PERIODS.1 {
                 return Ok(found);
             }
             best = exponents.is_positive().then_some(found).or(best);
