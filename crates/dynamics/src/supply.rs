@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::SurveyError;
-use crate::basin::{Coming, Guest, Home};
+use crate::basin::{BasinTest, TestResult, TestedMotion};
 use crate::orbit::Orbit;
 pub use crate::strokes::Strokes;
 use crate::watch::{Watcher, stop_if};
@@ -99,7 +99,7 @@ pub fn outlasts(
     angles: usize,
     watcher: Watcher<'_>,
 ) -> Result<Outlasting, SurveyError> {
-    let home = Home::of(orbit)?;
+    let basin_test = BasinTest::of(orbit)?;
     let line = Line::new(&orbit.scene, reading)?;
     let (turn, angles) = (TAU * orbit.periods as f64, angles.max(1));
     let angles: Vec<f64> = (0..angles)
@@ -108,7 +108,7 @@ pub fn outlasts(
     let gaps = angles
         .par_chunks(TOGETHER)
         .map(|angles| -> Result<_, SurveyError> {
-            let (mut machines, mut guests, mut starts) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut machines, mut motions, mut starts) = (Vec::new(), Vec::new(), Vec::new());
             for (machine, turned) in angles.iter().enumerate() {
                 let run = line.run(orbit, *turned, missing)?;
                 let mut turned_by = orbit.scene.clone();
@@ -116,7 +116,7 @@ pub fn outlasts(
                     (orbit.scene.excitation.phase + turned).rem_euclid(TAU);
                 let angle = turned_by.excitation.phase;
                 machines.push(Machine::new(&turned_by)?);
-                guests.push(Guest {
+                motions.push(TestedMotion {
                     machine,
                     angle,
                     state: run.motion.state(),
@@ -125,13 +125,13 @@ pub fn outlasts(
                 });
                 starts.push(angle);
             }
-            let comings = home.receive::<true>(&machines, guests, watcher)?;
-            let gap = |(angle, coming): (f64, Coming)| Gap {
+            let results = basin_test.follow_motions::<true>(&machines, motions, watcher)?;
+            let gap = |(angle, result): (f64, TestResult)| Gap {
                 angle,
-                comes_back: coming.comes,
-                missed: coming.missed,
+                comes_back: result.reaches,
+                missed: result.missed,
             };
-            Ok(starts.into_iter().zip(comings).map(gap).collect::<Vec<_>>())
+            Ok(starts.into_iter().zip(results).map(gap).collect::<Vec<_>>())
         });
     Ok(Outlasting {
         missing,
@@ -228,7 +228,7 @@ impl Run {
     }
 
     fn go_to(&mut self, until: Instant, stops: bool) -> Result<bool, MotionError> {
-        let mut watch = Strike {
+        let mut watch = StrokeCounter {
             clearance: self.clearance,
             period: self.motion.clock().period(),
             strokes: &mut self.strokes,
@@ -240,7 +240,7 @@ impl Run {
 }
 
 /// Counts strokes, and stops a motion where it leaves what it touches.
-struct Strike<'a> {
+struct StrokeCounter<'a> {
     clearance: f64,
     period: f64,
     strokes: &'a mut Strokes,
@@ -248,7 +248,7 @@ struct Strike<'a> {
     left: bool,
 }
 
-impl Observer for Strike<'_> {
+impl Observer for StrokeCounter<'_> {
     fn crossing(&mut self, crossing: &Crossing) {
         self.left |= crossing.position == self.clearance && crossing.velocity_after < 0.0;
         if crossing.kind.is_impact() {

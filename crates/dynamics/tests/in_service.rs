@@ -3,7 +3,9 @@
 use rayon::ThreadPoolBuilder;
 use softstop::{Machine, Scene, Simulation, Start};
 use softstop_dynamics::attractors::{Region, starting_box};
-use softstop_dynamics::basin::{ErosionProfile, Establishment, Home, Options, basins, zone_box};
+use softstop_dynamics::basin::{
+    BasinTest, ErosionProfile, Establishment, Options, basins, zone_box,
+};
 use softstop_dynamics::run_up::{RunUp, Settings, Way};
 use softstop_dynamics::supply::{Reading, outlasts};
 use softstop_dynamics::watch::{stop_if, unwatched};
@@ -39,7 +41,7 @@ fn who_comes_home_is_in_the_basin_of_z_1() {
             let options = Options::default();
             let found = basins(&orbit.scene, &grid, &options, &unwatched, None).expect("basins");
             let starts: Vec<_> = (0..grid.cells()).map(|cell| grid.start(cell).0).collect();
-            let reached = Home::of(&orbit).map(|home| home.reached(&starts, &unwatched));
+            let reached = BasinTest::of(&orbit).map(|home| home.reached(&starts, &unwatched));
             let reached = reached.expect("computed").expect("not stopped");
             for (cell, reached) in reached.into_iter().enumerate() {
                 let class = &found.classes[usize::from(found.cells[cell])];

@@ -1,7 +1,7 @@
 //! What a chaotic motion is like.
 
 use super::SurveyError;
-use super::fleet::Fleet;
+use super::ensemble::Ensemble;
 use crate::extremes::extremes;
 use crate::orbit::{Exponents, StroboscopicMap};
 use softstop::{Scene, Start};
@@ -34,14 +34,14 @@ impl Chaos {
     /// The motion from a state, that still wanders at the end of its exponents.
     pub(super) fn of(
         scene: &Scene,
-        fleet: &Fleet<'_>,
+        ensemble: &Ensemble<'_>,
         (begin, state): (Start, Start),
         exponents: Exponents,
     ) -> Result<Self, SurveyError> {
         let counted = COUNTED.min(exponents.periods);
         let map = StroboscopicMap::new(scene, counted)?;
         let impacts = map.apply(begin.into())?.impacts;
-        fleet.note(counted)?;
+        ensemble.note(counted)?;
         Ok(Self {
             state,
             exponents,

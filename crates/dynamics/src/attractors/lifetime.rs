@@ -6,11 +6,11 @@ use softstop::internals::narrow;
 
 /// Looks at motions on one chaos after some drive periods each.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Looks(Vec<Look>);
+pub(super) struct EscapeCounts(Vec<EscapeCount>);
 
 /// Motions that were watched for one length of time.
 #[derive(Debug, Clone, Copy)]
-struct Look {
+struct EscapeCount {
     periods: u64,
     stayed: u64,
     gone: u64,
@@ -21,7 +21,7 @@ const WIDTH: f64 = 1e-14;
 /// Range of the logarithm of the rate per drive period.
 const RATES: (f64, f64) = (-40.0, 5.0);
 
-impl Looks {
+impl EscapeCounts {
     /// A motion has been watched for so many drive periods, and is still there or has gone meanwhile.
     pub fn note(&mut self, periods: u64, is_gone: bool) {
         let (stayed, gone) = (u64::from(!is_gone), u64::from(is_gone));
@@ -30,7 +30,7 @@ impl Looks {
                 look.stayed += stayed;
                 look.gone += gone;
             }
-            None => self.0.push(Look {
+            None => self.0.push(EscapeCount {
                 periods,
                 stayed,
                 gone,
@@ -40,7 +40,7 @@ impl Looks {
 
     /// Drive periods watched, all together.
     pub fn watched(&self) -> u64 {
-        let watched = |look: &Look| look.periods * (look.stayed + look.gone);
+        let watched = |look: &EscapeCount| look.periods * (look.stayed + look.gone);
         self.0.iter().map(watched).sum()
     }
 
@@ -59,7 +59,7 @@ impl Looks {
         let least = self.0.iter().map(|look| look.periods).min().unwrap_or(1);
         let stayed = stayed.max(0.5 * least as f64);
         let excess = |rate: f64| {
-            let share = |look: &Look| {
+            let share = |look: &EscapeCount| {
                 let periods = look.periods as f64;
                 look.gone as f64 * periods / (rate * periods).exp_m1()
             };
@@ -74,7 +74,7 @@ impl Looks {
 
 #[cfg(test)]
 mod tests {
-    use super::Looks;
+    use super::EscapeCounts;
     use approx::assert_abs_diff_eq;
     use softstop_testing::tolerance::DIFFERENCED;
 
@@ -82,33 +82,33 @@ mod tests {
     #[test]
     fn a_mean_life_is_found_however_rarely_it_is_looked_at() {
         let (mean, motions) = (12_810.0, 4000);
-        let mut looks = Looks::default();
+        let mut escapes = EscapeCounts::default();
         for motion in 0..motions {
             let share = (f64::from(motion) + 0.5) / f64::from(motions);
             let life = -mean * (1.0 - share).ln();
             let (mut begin, mut periods) = (0.0, 500);
             loop {
                 let end = begin + periods as f64;
-                looks.note(periods, life <= end);
+                escapes.note(periods, life <= end);
                 if life <= end {
                     break;
                 }
                 (begin, periods) = (end, 2 * periods);
             }
         }
-        let found = looks.lifetime().expect("all have gone");
+        let found = escapes.lifetime().expect("all have gone");
         assert_abs_diff_eq!(found / mean, 1.0, epsilon = 0.02);
     }
 
     #[test]
     fn what_nothing_leaves_has_no_lifetime() {
-        let mut looks = Looks::default();
-        looks.note(1000, false);
-        assert_eq!(looks.lifetime(), None);
-        assert_eq!(looks.watched(), 1000);
-        looks.note(1000, true);
+        let mut escapes = EscapeCounts::default();
+        escapes.note(1000, false);
+        assert_eq!(escapes.lifetime(), None);
+        assert_eq!(escapes.watched(), 1000);
+        escapes.note(1000, true);
         assert_abs_diff_eq!(
-            looks.lifetime().expect("one has gone"),
+            escapes.lifetime().expect("one has gone"),
             1000.0 / 2_f64.ln(),
             epsilon = DIFFERENCED
         );

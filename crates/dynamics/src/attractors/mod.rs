@@ -7,10 +7,10 @@
 //! to one. They are watched on for millions of drive periods: if some settle elsewhere, the chaos is
 //! transient, and its mean lifetime is told.
 
+pub(crate) mod catalogue;
 mod chaos;
-pub(crate) mod fleet;
+pub(crate) mod ensemble;
 mod group;
-pub(crate) mod known;
 mod lifetime;
 mod search;
 pub(crate) mod starts;

@@ -9,7 +9,7 @@ use softstop::{MotionError, Start};
 
 /// Where a motion has arrived: |L (s - c)| <= r.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ball {
+pub(super) struct ContractionBall {
     centre: Vector2<f64>,
     shape: Matrix2<f64>,
     /// r^2.
@@ -26,7 +26,7 @@ const LEAST: f64 = 1e-5;
 /// Most terms of the series of the norm.
 const TERMS: usize = 20_000;
 
-impl Ball {
+impl ContractionBall {
     pub(super) fn holds(&self, state: Start) -> bool {
         let gap = Vector2::new(state.position, state.velocity) - self.centre;
         (self.shape * gap).norm_squared() <= self.square

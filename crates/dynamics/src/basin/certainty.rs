@@ -33,7 +33,7 @@ pub enum CertaintyError {
     Zone(#[from] ZoneError),
     /// Basins that could not be computed.
     #[error(transparent)]
-    Survey(#[from] SurveyError),
+    BasinSurvey(#[from] SurveyError),
 }
 
 /// The establishing certainty of z = 1 at places s of a hysteresis zone (Peterka 2003, section 3: it is said to

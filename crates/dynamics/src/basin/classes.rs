@@ -1,20 +1,20 @@
 //! What the cells have come to, basin by basin.
 
-use super::survey::{Fate, Survey};
+use super::survey::{BasinSurvey, CellOutcome};
 use super::{Basins, Class, wilson};
 use crate::attractors::SurveyError;
 use crate::motion::MotionKind;
 use crate::orbit::{BATCH_PERIODS, Exponents, Orbit};
 
-impl Survey<'_> {
+impl BasinSurvey<'_> {
     /// All basins: periodic motions by period, impacts and hardest impact, then the others.
     pub(super) fn report(self) -> Result<Basins, SurveyError> {
         let mut basins = Basins {
             grid: *self.grid,
             classes: Vec::new(),
-            cells: vec![0; self.fates.len()],
+            cells: vec![0; self.outcomes.len()],
         };
-        let orbits = self.book.orbits.iter().map(|known| &known.orbit);
+        let orbits = self.catalogue.orbits.iter().map(|known| &known.orbit);
         let mut orbits: Vec<(usize, &Orbit)> = orbits.enumerate().collect();
         let key = |orbit: &Orbit| (orbit.periods, orbit.impacts.len());
         orbits.sort_by(|(_, a), (_, b)| key(a).cmp(&key(b)).then(a.compare_velocity(b)));
@@ -23,27 +23,31 @@ impl Survey<'_> {
                 orbit: Some(Box::new(orbit.clone())),
                 ..Class::of(MotionKind::of(orbit))
             };
-            self.enter(&mut basins, Fate::Orbit(index), class);
+            self.enter(&mut basins, CellOutcome::Orbit(index), class);
         }
-        self.enter(&mut basins, Fate::AtRest, Class::of(MotionKind::Rest));
+        self.enter(
+            &mut basins,
+            CellOutcome::AtRest,
+            Class::of(MotionKind::Rest),
+        );
         if let Some(class) = self.wandering()? {
-            self.enter(&mut basins, Fate::Wandering, class);
+            self.enter(&mut basins, CellOutcome::Wandering, class);
         }
         let lost = Class {
             error: self.lost.as_ref().map(|(_, error)| error.clone()),
             ..Class::of(MotionKind::Lost)
         };
-        self.enter(&mut basins, Fate::Lost, lost);
+        self.enter(&mut basins, CellOutcome::Lost, lost);
         Ok(basins)
     }
 
     /// What the cells are that have not returned.
     fn wandering(&self) -> Result<Option<Class>, SurveyError> {
-        let mut fates = self.fates.iter();
-        let Some(cell) = fates.position(|fate| *fate == Fate::Wandering) else {
+        let mut outcomes = self.outcomes.iter();
+        let Some(cell) = outcomes.position(|outcome| *outcome == CellOutcome::Wandering) else {
             return Ok(None);
         };
-        let (state, ask) = (self.states[cell].into(), || self.fleet.note(0));
+        let (state, ask) = (self.states[cell].into(), || self.ensemble.note(0));
         let (exponents, _) =
             Exponents::along_with_monitor(self.scene, state, BATCH_PERIODS.0, ask)?;
         let motion = match exponents.is_positive() {
@@ -56,11 +60,16 @@ impl Survey<'_> {
         }))
     }
 
-    /// Enters the basin of all cells with a fate, if there are any.
-    fn enter(&self, basins: &mut Basins, fate: Fate, class: Class) {
-        let all = self.fates.len();
+    /// Enters the basin of all cells with an outcome, if there are any.
+    fn enter(&self, basins: &mut Basins, outcome: CellOutcome, class: Class) {
+        let all = self.outcomes.len();
         let mut own = 0;
-        for (cell, _) in self.fates.iter().enumerate().filter(|it| *it.1 == fate) {
+        for (cell, _) in self
+            .outcomes
+            .iter()
+            .enumerate()
+            .filter(|it| *it.1 == outcome)
+        {
             basins.cells[cell] = basins.classes.len() as u16;
             own += 1;
         }

@@ -7,8 +7,8 @@ use nalgebra::Vector2;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::basin_test::BasinTest;
 use super::certainty::CertaintyError;
-use super::home::Home;
 use super::share::wilson;
 use crate::attractors::starts::evenly;
 use crate::attractors::{Region, SurveyError, starting_box, stays};
@@ -52,7 +52,7 @@ impl Establishment {
         watcher: Watcher<'_>,
     ) -> Result<Self, SurveyError> {
         let states = region.starts(starts, SEED);
-        let reached = Home::of(orbit)?.reached(&states, watcher)?;
+        let reached = BasinTest::of(orbit)?.reached(&states, watcher)?;
         Ok(Self::counted(&reached, region))
     }
 
@@ -192,14 +192,14 @@ fn integrity(
     states: &[Start],
     watcher: Watcher<'_>,
 ) -> Result<(Establishment, f64), SurveyError> {
-    let home = Home::of(orbit)?;
-    let reached = home.reached(states, watcher)?;
+    let basin_test = BasinTest::of(orbit)?;
+    let reached = basin_test.reached(states, watcher)?;
     let certainty = Establishment::counted(&reached, region);
-    let ball = Ball::new(orbit, region);
+    let ball = StateBall::new(orbit, region);
     let mut radius = ball.nearest_lost(states, &reached, ball.edge(region));
     while radius > LEAST {
         let filling = ball.filling(radius, (states.len() / PART).max(FEWEST));
-        let reached = home.reached(&filling, watcher)?;
+        let reached = basin_test.reached(&filling, watcher)?;
         let smaller = ball.nearest_lost(&filling, &reached, radius);
         if smaller == radius {
             return Ok((certainty, radius));
@@ -210,12 +210,12 @@ fn integrity(
 }
 
 /// Balls about a state, in units of half of each axis of a box.
-struct Ball {
+struct StateBall {
     centre: Vector2<f64>,
     half: Vector2<f64>,
 }
 
-impl Ball {
+impl StateBall {
     fn new(orbit: &Orbit, region: &Region) -> Self {
         let half = [region.position, region.velocity].map(|[low, high]| 0.5 * (high - low));
         Self {

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::home::PERIODS_AT_ONCE;
-use super::survey::{Fate, Survey, TILE};
+use super::basin_test::PERIODS_AT_ONCE;
+use super::survey::{BasinSurvey, CellOutcome, TILE};
 use crate::attractors::SurveyError;
 use crate::batch;
 use crate::watch::{PIECE, piece, stop_if};
@@ -22,7 +22,7 @@ const LONGEST_PIECE: Duration = Duration::from_secs(5);
 
 /// Cells that were followed together for some time.
 #[derive(Serialize, Deserialize)]
-struct Followed {
+struct FollowedCells {
     /// Drive periods so far.
     periods: u64,
     /// Those that a ball has caught, and the orbit; none for a lost cell.
@@ -32,27 +32,27 @@ struct Followed {
     lost: Option<(usize, String)>,
 }
 
-impl Survey<'_> {
-    /// Follows all cells that are afloat until a ball catches them or the transient is over.
+impl BasinSurvey<'_> {
+    /// Follows all cells that are open until a ball catches them or the transient is over.
     pub(super) fn settle(&mut self) -> Result<(), SurveyError> {
-        let afloat: Vec<usize> = self.afloat().collect();
-        let tile = if self.fleet.is_fast() {
+        let open: Vec<usize> = self.open().collect();
+        let tile = if self.ensemble.is_fast() {
             TILE
         } else {
             SMALL_TILE
         };
-        let (fork, tiles) = (Fork::default(), afloat.par_chunks(tile));
+        let (fork, tiles) = (Fork::default(), open.par_chunks(tile));
         let followed = tiles.map(|tile| fork.part(|| self.follow(tile)));
-        let followed: Result<Vec<Vec<Followed>>, _> = followed.collect();
+        let followed: Result<Vec<Vec<FollowedCells>>, _> = followed.collect();
         fork.join();
         for tile in followed? {
             let last = tile.last().map(|followed| followed.left.clone());
             for (cell, state) in last.into_iter().flatten() {
                 self.states[cell] = state;
             }
-            for Followed { ended, lost, .. } in tile {
+            for FollowedCells { ended, lost, .. } in tile {
                 for (cell, orbit) in ended {
-                    self.fates[cell] = orbit.map_or(Fate::Lost, Fate::Orbit);
+                    self.outcomes[cell] = orbit.map_or(CellOutcome::Lost, CellOutcome::Orbit);
                 }
                 self.lose(lost);
             }
@@ -61,16 +61,16 @@ impl Survey<'_> {
     }
 
     /// Follows some cells, piece by piece.
-    fn follow(&self, tile: &[usize]) -> Result<Vec<Followed>, SurveyError> {
+    fn follow(&self, tile: &[usize]) -> Result<Vec<FollowedCells>, SurveyError> {
         let of = ("tile", self.scene, self.grid, self.options, tile[0]);
         let left = tile.iter().map(|cell| (*cell, self.states[*cell]));
         let (mut periods, mut left) = (0, left.collect::<Vec<_>>());
-        let mut pieces: Vec<Followed> = Vec::new();
+        let mut pieces: Vec<FollowedCells> = Vec::new();
         let mut time = PIECE;
         while periods < self.options.transient && !left.is_empty() {
             let on = || self.follow_on(std::mem::take(&mut left), periods, time);
             let next = piece(self.kept, &(of, periods), on)?;
-            self.fleet.note(next.ended.len() as u64)?;
+            self.ensemble.note(next.ended.len() as u64)?;
             periods = next.periods;
             left.clone_from(&next.left);
             if let Some(last) = pieces.last_mut() {
@@ -88,9 +88,9 @@ impl Survey<'_> {
         left: Vec<(usize, Start)>,
         periods: u64,
         time: Duration,
-    ) -> Result<Followed, SurveyError> {
+    ) -> Result<FollowedCells, SurveyError> {
         let begin = Instant::now();
-        let mut all = Followed {
+        let mut all = FollowedCells {
             periods,
             ended: Vec::with_capacity(left.len()),
             left,
@@ -106,8 +106,8 @@ impl Survey<'_> {
                 periods: stretch,
             };
             let jobs: Vec<Job> = all.left.iter().map(job).collect();
-            let ask = || stop_if(self.fleet.note(0).is_err());
-            let outcomes = batch::follow(&self.fleet.machine, &jobs, &mut (), ask);
+            let ask = || stop_if(self.ensemble.note(0).is_err());
+            let outcomes = batch::follow(&self.ensemble.machine, &jobs, &mut (), ask);
             let outcomes = outcomes.ok_or(SurveyError::Stopped)?;
             let ends = std::mem::take(&mut all.left).into_iter().zip(outcomes);
             for ((cell, _), outcome) in ends {
@@ -121,7 +121,7 @@ impl Survey<'_> {
                     all.left.push((cell, outcome.end));
                 }
             }
-            self.fleet.note(0)?;
+            self.ensemble.note(0)?;
         }
         Ok(all)
     }

@@ -25,22 +25,22 @@
 //! ```
 
 mod ball;
+mod basin_test;
 mod certainty;
 mod classes;
 mod erosion;
 mod follow;
 mod grid;
-mod home;
 mod integrity;
 mod section;
 mod share;
 mod survey;
 
+pub use basin_test::BasinTest;
+pub(crate) use basin_test::{TestResult, TestedMotion};
 pub use certainty::{CertaintyError, Establishing, establishing};
 pub use erosion::{ErosionProfile, Establishment, Integrity, zone_box};
 pub use grid::{Axis, Grid, Quantity};
-pub use home::Home;
-pub(crate) use home::{Coming, Guest};
 pub use integrity::{Clearing, clearing};
 pub(crate) use section::at_section;
 pub use share::wilson;

@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::ball::Ball;
+use super::ball::ContractionBall;
 use super::section::at_section;
 use super::{Basins, Grid, Options};
 use crate::attractors::SurveyError;
-use crate::attractors::fleet::{Fleet, Voyage};
-use crate::attractors::known::{Book, Standing};
+use crate::attractors::catalogue::{AttractorCatalogue, Status};
+use crate::attractors::ensemble::{Ensemble, EnsembleMember};
 use crate::watch::{Kept, Watcher, piece, stop_if};
 use softstop::internals::budget::Fork;
 use softstop::{MotionError, Scene, Start};
@@ -21,15 +21,15 @@ const BROUGHT: usize = 1 << 16;
 /// Scouts on each axis of the grid: these cells are looked at first.
 const SCOUTS: usize = 16;
 
-/// Cells that are looked at one by one before what they have come to is kept; so many groups of the fleet's.
+/// Cells that are looked at one by one before what they have come to is kept; so many groups of the ensemble's.
 const LOOKED: usize = 1024;
 
 /// How it stands with a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Fate {
+pub(super) enum CellOutcome {
     /// On its way.
-    Afloat,
-    /// On this orbit of the book.
+    Open,
+    /// On this orbit of the catalogue.
     Orbit(usize),
     AtRest,
     /// It has not returned.
@@ -37,31 +37,31 @@ pub(super) enum Fate {
     Lost,
 }
 
-pub(super) struct Survey<'a> {
+pub(super) struct BasinSurvey<'a> {
     pub scene: &'a Scene,
     pub grid: &'a Grid,
     pub options: Options,
     /// Counts cells.
-    pub fleet: Fleet<'a>,
-    pub book: Book<'a>,
-    /// Balls of the orbits in the book.
-    pub balls: Vec<(usize, Ball)>,
+    pub ensemble: Ensemble<'a>,
+    pub catalogue: AttractorCatalogue<'a>,
+    /// Balls of the orbits in the catalogue.
+    pub balls: Vec<(usize, ContractionBall)>,
     pub states: Vec<Start>,
-    pub fates: Vec<Fate>,
+    pub outcomes: Vec<CellOutcome>,
     /// Why the first lost cell is lost.
     pub lost: Option<(usize, String)>,
     pub kept: Kept<'a>,
 }
 
 /// One motion that is looked at: its latest state, the last ones, and why it ended.
-type Seen = (Start, Vec<Start>, Option<String>);
+type SeenCell = (Start, Vec<Start>, Option<String>);
 
 /// Cells that were looked at.
 #[derive(Serialize, Deserialize, Default)]
-struct Looked {
+struct CellOutcomes {
     states: Vec<Start>,
-    fates: Vec<Fate>,
-    /// Motions by which the book has grown, in order.
+    outcomes: Vec<CellOutcome>,
+    /// Motions by which the catalogue has grown, in order.
     entered: Vec<Vec<Start>>,
     lost: Option<(usize, String)>,
 }
@@ -77,17 +77,17 @@ pub fn basins(
     watcher: Watcher<'_>,
     kept: Kept<'_>,
 ) -> Result<Basins, SurveyError> {
-    let mut fleet = Fleet::new(scene, watcher)?;
-    fleet.planned = grid.cells() as u64;
-    let mut survey = Survey {
+    let mut ensemble = Ensemble::new(scene, watcher)?;
+    ensemble.planned = grid.cells() as u64;
+    let mut survey = BasinSurvey {
         scene,
         grid,
         options: *options,
-        fleet,
-        book: Book::new(scene),
+        ensemble,
+        catalogue: AttractorCatalogue::new(scene),
         balls: Vec::new(),
         states: Vec::new(),
-        fates: Vec::new(),
+        outcomes: Vec::new(),
         lost: None,
         kept,
     };
@@ -98,29 +98,29 @@ pub fn basins(
     survey.report()
 }
 
-impl Survey<'_> {
+impl BasinSurvey<'_> {
     /// Brings all cells to drive angle phi.
     fn bring(&mut self) -> Result<(), SurveyError> {
         let cells = self.grid.cells();
         self.states.reserve(cells);
-        self.fates.reserve(cells);
+        self.outcomes.reserve(cells);
         for from in (0..cells).step_by(BROUGHT) {
-            self.fleet.note(0)?;
+            self.ensemble.note(0)?;
             let here = from..cells.min(from + BROUGHT);
             let (fork, brought) = (Fork::default(), here.clone().into_par_iter());
             let brought = brought.map(|cell| fork.part(|| self.at_section(cell)));
             let brought: Vec<_> = brought.collect();
             fork.join();
             for (cell, result) in here.zip(brought) {
-                let (state, fate) = match result {
-                    Ok(state) => (state, Fate::Afloat),
+                let (state, outcome) = match result {
+                    Ok(state) => (state, CellOutcome::Open),
                     Err(error) => {
                         self.lost.get_or_insert((cell, error.to_string()));
-                        (self.grid.start(cell).0, Fate::Lost)
+                        (self.grid.start(cell).0, CellOutcome::Lost)
                     }
                 };
                 self.states.push(state);
-                self.fates.push(fate);
+                self.outcomes.push(outcome);
             }
         }
         Ok(())
@@ -129,11 +129,11 @@ impl Survey<'_> {
     /// The state of a cell when the drive angle next is phi.
     fn at_section(&self, cell: usize) -> Result<Start, MotionError> {
         let (start, angle) = self.grid.start(cell);
-        let phases = self.fleet.machine[0].shared_phases();
+        let phases = self.ensemble.machine[0].shared_phases();
         at_section(&phases, self.scene.excitation, start, angle)
     }
 
-    /// A few cells, spread over the grid, fill the book.
+    /// A few cells, spread over the grid, fill the catalogue.
     fn scout(&mut self) -> Result<(), SurveyError> {
         let (columns, rows) = (self.grid.across.cells, self.grid.up.cells);
         let along = |cells: usize| cells.div_ceil(SCOUTS);
@@ -143,7 +143,7 @@ impl Survey<'_> {
                 let columns_here = (along(columns) / 2..columns).step_by(along(columns));
                 columns_here.map(move |column| row * columns + column)
             })
-            .filter(|cell| self.fates[*cell] == Fate::Afloat)
+            .filter(|cell| self.outcomes[*cell] == CellOutcome::Open)
             .collect();
         self.look(&cells, self.options.transient)
     }
@@ -153,14 +153,14 @@ impl Survey<'_> {
         self.lost = self.lost.take().into_iter().chain(lost).min();
     }
 
-    pub(super) fn afloat(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.fates.len()).filter(|cell| self.fates[*cell] == Fate::Afloat)
+    pub(super) fn open(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.outcomes.len()).filter(|cell| self.outcomes[*cell] == CellOutcome::Open)
     }
 
     /// Looks at all cells that no ball has caught.
     fn judge_all(&mut self) -> Result<(), SurveyError> {
-        let afloat: Vec<usize> = self.afloat().collect();
-        for cells in afloat.chunks(LOOKED) {
+        let open: Vec<usize> = self.open().collect();
+        for cells in open.chunks(LOOKED) {
             self.look(cells, 0)?;
         }
         Ok(())
@@ -185,40 +185,40 @@ impl Survey<'_> {
             for log in &looked.entered {
                 self.judge(log)?;
             }
-            self.fleet.note(cells.len() as u64)?;
+            self.ensemble.note(cells.len() as u64)?;
         }
-        let ends = looked.states.into_iter().zip(looked.fates);
-        for (cell, (state, fate)) in cells.iter().zip(ends) {
-            (self.states[*cell], self.fates[*cell]) = (state, fate);
+        let ends = looked.states.into_iter().zip(looked.outcomes);
+        for (cell, (state, outcome)) in cells.iter().zip(ends) {
+            (self.states[*cell], self.outcomes[*cell]) = (state, outcome);
         }
         self.lose(looked.lost);
         Ok(())
     }
 
-    fn look_anew(&mut self, cells: &[usize], periods: u64) -> Result<Looked, SurveyError> {
+    fn look_anew(&mut self, cells: &[usize], periods: u64) -> Result<CellOutcomes, SurveyError> {
         let seen = self.see(cells, periods)?;
-        let mut looked = Looked::default();
+        let mut looked = CellOutcomes::default();
         for (cell, (state, log, error)) in cells.iter().zip(seen) {
-            let known = self.book.orbits.len();
+            let known = self.catalogue.orbits.len();
             looked.states.push(state);
-            looked.fates.push(match error {
+            looked.outcomes.push(match error {
                 Some(error) => {
                     looked.lost.get_or_insert((*cell, error));
-                    Fate::Lost
+                    CellOutcome::Lost
                 }
                 None => self.judge(&log)?,
             });
-            if self.book.orbits.len() > known {
+            if self.catalogue.orbits.len() > known {
                 looked.entered.push(log);
             }
-            self.fleet.note(1)?;
+            self.ensemble.note(1)?;
         }
         Ok(looked)
     }
 
     /// Follows cells for so many drive periods and those of a log; motions that take long are kept one by one.
-    fn see(&self, cells: &[usize], periods: u64) -> Result<Vec<Seen>, SurveyError> {
-        if self.fleet.is_fast() {
+    fn see(&self, cells: &[usize], periods: u64) -> Result<Vec<SeenCell>, SurveyError> {
+        if self.ensemble.is_fast() {
             return self.see_together(cells, periods);
         }
         let one = |cell: &usize| {
@@ -232,31 +232,33 @@ impl Survey<'_> {
         Ok(seen?.concat())
     }
 
-    fn see_together(&self, cells: &[usize], periods: u64) -> Result<Vec<Seen>, SurveyError> {
+    fn see_together(&self, cells: &[usize], periods: u64) -> Result<Vec<SeenCell>, SurveyError> {
         let logged = 2 * self.options.longest + 1;
-        let states = cells.iter().map(|cell| Voyage::new(self.states[*cell]));
-        let mut voyages: Vec<Voyage> = states.collect();
-        let go_on = |_, _| stop_if(self.fleet.note(0).is_err());
-        let fleet = Fleet::new(self.scene, &go_on)?;
-        let mut all: Vec<&mut Voyage> = voyages.iter_mut().collect();
-        fleet.sail(&mut all, periods + logged as u64, logged)?;
-        let seen = voyages.into_iter();
+        let states = cells
+            .iter()
+            .map(|cell| EnsembleMember::new(self.states[*cell]));
+        let mut trajectories: Vec<EnsembleMember> = states.collect();
+        let go_on = |_, _| stop_if(self.ensemble.note(0).is_err());
+        let ensemble = Ensemble::new(self.scene, &go_on)?;
+        let mut all: Vec<&mut EnsembleMember> = trajectories.iter_mut().collect();
+        ensemble.advance(&mut all, periods + logged as u64, logged)?;
+        let seen = trajectories.into_iter();
         let seen = seen.map(|it| (it.state, it.log, it.error.map(|error| error.to_string())));
         Ok(seen.collect())
     }
 
-    fn judge(&mut self, log: &[Start]) -> Result<Fate, SurveyError> {
-        let known = self.book.orbits.len();
-        let standing = self.book.judge(log)?;
-        for (index, entry) in self.book.orbits.iter().enumerate().skip(known) {
-            let balls = Ball::all(&entry.orbit)?;
+    fn judge(&mut self, log: &[Start]) -> Result<CellOutcome, SurveyError> {
+        let known = self.catalogue.orbits.len();
+        let status = self.catalogue.judge(log)?;
+        for (index, entry) in self.catalogue.orbits.iter().enumerate().skip(known) {
+            let balls = ContractionBall::all(&entry.orbit)?;
             let balls = balls.into_iter().map(|ball| (index, ball));
             self.balls.extend(balls);
         }
-        Ok(match standing.orbit() {
-            Some(orbit) => Fate::Orbit(orbit),
-            None if standing == Standing::AtRest => Fate::AtRest,
-            None => Fate::Wandering,
+        Ok(match status.orbit() {
+            Some(orbit) => CellOutcome::Orbit(orbit),
+            None if status == Status::AtRest => CellOutcome::AtRest,
+            None => CellOutcome::Wandering,
         })
     }
 }

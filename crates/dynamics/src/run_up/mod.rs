@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::SurveyError;
-use crate::basin::{Home, at_section};
+use crate::basin::{BasinTest, at_section};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime};
 use crate::stroke::PeriodRecorder;
@@ -131,10 +131,12 @@ impl RunUp {
         angles: usize,
         watcher: Watcher<'_>,
     ) -> Result<Self, SurveyError> {
-        let home = Home::of(orbit)?;
+        let basin_test = BasinTest::of(orbit)?;
         let tried = settings.ways.par_iter().map(|way| match way {
-            Way::SwitchedOn => switched_on(orbit, &home, (settings, angles), watcher).map(Some),
-            _ => changed(orbit, &home, (settings, *way), watcher),
+            Way::SwitchedOn => {
+                switched_on(orbit, &basin_test, (settings, angles), watcher).map(Some)
+            }
+            _ => changed(orbit, &basin_test, (settings, *way), watcher),
         });
         let tried = tried.collect::<Result<Vec<Option<Attempt>>, SurveyError>>()?;
         Ok(Self {
@@ -193,7 +195,7 @@ fn at_rest(scene: &Scene) -> Start {
 
 fn switched_on(
     orbit: &Orbit,
-    home: &Home,
+    basin_test: &BasinTest,
     (settings, angles): (&Settings, usize),
     watcher: Watcher<'_>,
 ) -> Result<Attempt, SurveyError> {
@@ -205,7 +207,7 @@ fn switched_on(
     let states = angles.iter();
     let states = states.map(|angle| at_section(&phases, scene.excitation, rest, *angle));
     let states = states.collect::<Result<Vec<Start>, _>>()?;
-    let reached = home.reached(&states, watcher)?;
+    let reached = basin_test.reached(&states, watcher)?;
     let peaks = || {
         let mut peaks = Peaks::default();
         for state in states {
@@ -242,7 +244,7 @@ fn middle(circle: &[bool]) -> Option<f64> {
 
 fn changed(
     orbit: &Orbit,
-    home: &Home,
+    basin_test: &BasinTest,
     (settings, way): (&Settings, Way),
     watcher: Watcher<'_>,
 ) -> Result<Option<Attempt>, SurveyError> {
@@ -271,7 +273,7 @@ fn changed(
     let [chain] = chains;
     let last = chain.steps.last().filter(|_| chain.error.is_none());
     let reached = match last {
-        Some(last) => home.reached(&[last.end], watcher)?[0],
+        Some(last) => basin_test.reached(&[last.end], watcher)?[0],
         None => false,
     };
     let peaks = || {

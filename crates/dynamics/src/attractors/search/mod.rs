@@ -5,10 +5,10 @@ mod wander;
 
 use std::collections::BTreeMap;
 
+use super::catalogue::{AttractorCatalogue, Status};
 use super::chaos::Chaos;
-use super::fleet::{Fleet, Voyage};
-use super::known::{Book, Standing};
-use super::lifetime::Looks;
+use super::ensemble::{Ensemble, EnsembleMember};
+use super::lifetime::EscapeCounts;
 use super::{Arrival, Attractor, Options, Region, Survey, SurveyError};
 use crate::orbit::recurrence::returns;
 use crate::orbit::{self, Exponents};
@@ -26,9 +26,9 @@ const GROWTH: u64 = 2;
 const FIRST_LOOK: u64 = 4;
 
 /// A motion of the search.
-struct Member {
-    voyage: Voyage,
-    standing: Standing,
+struct SearchMember {
+    trajectory: EnsembleMember,
+    status: Status,
     /// Its group, if it wanders.
     group: Option<usize>,
     /// It started in the region.
@@ -41,7 +41,7 @@ struct Group {
     exponents: Option<Exponents>,
     chaos: Option<Chaos>,
     /// How long its motions were watched, and which had settled elsewhere then.
-    looks: Looks,
+    escapes: EscapeCounts,
     /// Starts of the region that came here.
     entered: usize,
 }
@@ -49,9 +49,9 @@ struct Group {
 struct Search<'a> {
     scene: &'a Scene,
     options: Options,
-    fleet: Fleet<'a>,
-    book: Book<'a>,
-    members: Vec<Member>,
+    ensemble: Ensemble<'a>,
+    catalogue: AttractorCatalogue<'a>,
+    members: Vec<SearchMember>,
     groups: BTreeMap<usize, Group>,
 }
 
@@ -79,7 +79,7 @@ pub fn attractors(
 ) -> Result<Survey, SurveyError> {
     let mut search = Search::new(scene, options, watcher)?;
     let run = options.transient + search.logged() as u64;
-    search.fleet.planned = run * (options.starts + PILOT) as u64 + search.patience();
+    search.ensemble.planned = run * (options.starts + PILOT) as u64 + search.patience();
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
     let region = options
         .region
@@ -104,11 +104,11 @@ pub fn starting_box(scene: &Scene, watcher: Watcher<'_>) -> Result<Region, Surve
 pub(crate) fn stays(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Start>, SurveyError> {
     let options = Options::default();
     let mut search = Search::new(scene, &options, watcher)?;
-    search.fleet.planned = (options.transient + search.logged() as u64) * PILOT as u64;
+    search.ensemble.planned = (options.transient + search.logged() as u64) * PILOT as u64;
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
-    let go_on = |_, _| stop_if(search.fleet.note(0).is_err());
+    let go_on = |_, _| stop_if(search.ensemble.note(0).is_err());
     let own = orbit::find_watched(scene, &go_on).ok();
-    search.fleet.note(0)?;
+    search.ensemble.note(0)?;
     let own = own.map(|orbit| Start::new(orbit.position, orbit.velocity));
     Ok(search.stays().copied().chain(own).collect())
 }
@@ -121,7 +121,7 @@ pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Attrac
     let mut search = Search::new(scene, options, &unwatched)?;
     start.validate()?;
     search.launch(vec![start], true)?;
-    if let Some(error) = &search.members[0].voyage.error {
+    if let Some(error) = &search.members[0].trajectory.error {
         return Err(error.clone().into());
     }
     search.watch()?;
@@ -143,15 +143,17 @@ pub fn settle(
 ) -> Result<Vec<Arrival>, SurveyError> {
     let mut search = Search::new(scene, options, watcher)?;
     search.launch(starts.to_vec(), true)?;
-    let Search { members, book, .. } = search;
-    let orbit = |at: usize| book.orbits[at].orbit.clone();
+    let Search {
+        members, catalogue, ..
+    } = search;
+    let orbit = |at: usize| catalogue.orbits[at].orbit.clone();
     let frequency = scene.excitation.frequency;
-    let arrival = |member: Member| match member.voyage.error {
+    let arrival = |member: SearchMember| match member.trajectory.error {
         Some(error) => Err(error.into()),
         None => Ok(Arrival {
-            state: member.voyage.state,
-            returns: returns(frequency, &member.voyage.log).is_some(),
-            orbit: member.standing.orbit().map(orbit),
+            state: member.trajectory.state,
+            returns: returns(frequency, &member.trajectory.log).is_some(),
+            orbit: member.status.orbit().map(orbit),
         }),
     };
     members.into_iter().map(arrival).collect()
@@ -162,8 +164,8 @@ impl<'a> Search<'a> {
         Ok(Self {
             scene,
             options: *options,
-            fleet: Fleet::new(scene, watcher)?,
-            book: Book::new(scene),
+            ensemble: Ensemble::new(scene, watcher)?,
+            catalogue: AttractorCatalogue::new(scene),
             members: Vec::new(),
             groups: BTreeMap::new(),
         })
@@ -176,7 +178,7 @@ impl<'a> Search<'a> {
 
     /// Drive periods for which motions may be watched.
     fn patience(&self) -> u64 {
-        match self.fleet.is_fast() {
+        match self.ensemble.is_fast() {
             true => self.options.patience,
             false => self.options.patience / DEAR,
         }
@@ -184,26 +186,25 @@ impl<'a> Search<'a> {
 
     /// Where motions stay: at the orbits at which they have arrived, or where they were last.
     fn stays(&self) -> impl Iterator<Item = &Start> + Clone {
-        self.members
-            .iter()
-            .flat_map(|member| match member.standing {
-                Standing::Arrived(orbit) => self.book.orbits[orbit].states(),
-                _ => &member.voyage.log,
-            })
+        self.members.iter().flat_map(|member| match member.status {
+            Status::Arrived(orbit) => self.catalogue.orbits[orbit].states(),
+            _ => &member.trajectory.log,
+        })
     }
 
     /// Lets motions settle from starts and looks at them.
     fn launch(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), SurveyError> {
         let first = self.members.len();
-        self.members.extend(starts.into_iter().map(|start| Member {
-            voyage: Voyage::new(start),
-            standing: Standing::Wandering,
-            group: None,
-            counts,
-        }));
+        self.members
+            .extend(starts.into_iter().map(|start| SearchMember {
+                trajectory: EnsembleMember::new(start),
+                status: Status::Wandering,
+                group: None,
+                counts,
+            }));
         let (transient, logged) = (self.options.transient, self.logged() as u64);
         let early = transient / FIRST_LOOK;
-        if self.fleet.leaps() && early < FIRST_LOOK * logged {
+        if self.ensemble.leaps() && early < FIRST_LOOK * logged {
             return self.carry_on(first.., transient + logged);
         }
         self.carry_on(first.., early + logged)?;
@@ -218,14 +219,14 @@ impl<'a> Search<'a> {
     ) -> Result<(), SurveyError> {
         let logged = self.logged();
         let members = self.members[which].iter_mut();
-        let mut afloat: Vec<&mut Member> = members.filter(|member| member.is_afloat()).collect();
-        let voyages = afloat.iter_mut().map(|member| &mut member.voyage);
-        let mut voyages: Vec<&mut Voyage> = voyages.collect();
-        self.fleet.sail(&mut voyages, periods, logged)?;
-        for member in afloat {
-            self.fleet.note(0)?;
-            if member.voyage.error.is_none() {
-                member.standing = self.book.judge(&member.voyage.log)?;
+        let mut open: Vec<&mut SearchMember> = members.filter(|member| member.is_open()).collect();
+        let trajectories = open.iter_mut().map(|member| &mut member.trajectory);
+        let mut trajectories: Vec<&mut EnsembleMember> = trajectories.collect();
+        self.ensemble.advance(&mut trajectories, periods, logged)?;
+        for member in open {
+            self.ensemble.note(0)?;
+            if member.trajectory.error.is_none() {
+                member.status = self.catalogue.judge(&member.trajectory.log)?;
             }
         }
         Ok(())
@@ -237,7 +238,7 @@ impl<'a> Search<'a> {
         let mut left = self.patience();
         let mut periods = self.options.transient.max(self.logged() as u64);
         loop {
-            let before: Vec<usize> = self.afloat().collect();
+            let before: Vec<usize> = self.open().collect();
             let most = left / before.len().max(1) as u64;
             periods = periods.min(most);
             if before.is_empty() || periods < self.logged() as u64 {
@@ -247,9 +248,9 @@ impl<'a> Search<'a> {
             left -= periods * before.len() as u64;
             for index in before {
                 let member = &self.members[index];
-                let gone = !member.is_afloat();
+                let gone = !member.is_open();
                 if let Some(group) = member.group.and_then(|group| self.groups.get_mut(&group)) {
-                    group.looks.note(periods, gone);
+                    group.escapes.note(periods, gone);
                 }
             }
             periods *= GROWTH;
@@ -257,18 +258,18 @@ impl<'a> Search<'a> {
         self.look_far()
     }
 
-    fn afloat(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.members.len()).filter(|index| self.members[*index].is_afloat())
+    fn open(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.members.len()).filter(|index| self.members[*index].is_open())
     }
 }
 
-impl Member {
-    fn is_afloat(&self) -> bool {
-        let settled = matches!(self.standing, Standing::Arrived(_) | Standing::AtRest);
-        self.voyage.error.is_none() && !settled
+impl SearchMember {
+    fn is_open(&self) -> bool {
+        let settled = matches!(self.status, Status::Arrived(_) | Status::AtRest);
+        self.trajectory.error.is_none() && !settled
     }
 
     fn wanders(&self) -> bool {
-        self.voyage.error.is_none() && self.standing == Standing::Wandering
+        self.trajectory.error.is_none() && self.status == Status::Wandering
     }
 }

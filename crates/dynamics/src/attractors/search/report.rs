@@ -1,9 +1,9 @@
 //! What a search has found.
 
+use super::super::catalogue::{KnownOrbit, Status};
 use super::super::chaos::Chaos;
-use super::super::known::{Known, Standing};
 use super::super::{Attractor, Region, Survey, SurveyError};
-use super::{Group, Member, Search};
+use super::{Group, Search, SearchMember};
 use crate::extremes::extremes;
 use crate::motion::MotionKind;
 use crate::orbit::Exponents;
@@ -17,21 +17,22 @@ impl Search<'_> {
         attractors.extend(self.wandering(counted));
         attractors.sort_by_key(|attractor| std::cmp::Reverse(attractor.starts));
         let members = self.members.iter_mut();
-        let errors = members.filter_map(|member| member.voyage.error.take());
+        let errors = members.filter_map(|member| member.trajectory.error.take());
         let errors: Vec<MotionError> = errors.collect();
         Ok(Survey {
             attractors,
             region,
             starts: counted,
             lost: errors.first().map(|first| (errors.len(), first.clone())),
-            periods: self.fleet.done(),
+            periods: self.ensemble.done(),
         })
     }
 
     fn periodic(&self, counted: usize) -> Vec<Attractor> {
-        let known = self.book.orbits.iter().enumerate();
-        let attractor = |(index, known): (usize, &Known)| {
-            let here = |member: &&Member| member.counts && member.standing.orbit() == Some(index);
+        let known = self.catalogue.orbits.iter().enumerate();
+        let attractor = |(index, known): (usize, &KnownOrbit)| {
+            let here =
+                |member: &&SearchMember| member.counts && member.status.orbit() == Some(index);
             let starts = self.members.iter().filter(here).count();
             let (orbit, motion) = (&known.orbit, MotionKind::of(&known.orbit));
             Attractor {
@@ -47,8 +48,9 @@ impl Search<'_> {
     /// Chaos, chaos that ends, and what has not settled.
     fn wandering(&self, counted: usize) -> Vec<Attractor> {
         let attractor = |(number, group): (&usize, &Group)| {
-            let wanders = |member: &&Member| member.group == Some(*number) && member.wanders();
-            let left: Vec<&Member> = self.members.iter().filter(wanders).collect();
+            let wanders =
+                |member: &&SearchMember| member.group == Some(*number) && member.wanders();
+            let left: Vec<&SearchMember> = self.members.iter().filter(wanders).collect();
             let starts = left.iter().filter(|member| member.counts).count();
             let chaos = group.chaos();
             let (motion, state, exponents) = match chaos {
@@ -60,7 +62,7 @@ impl Search<'_> {
                     (motion, chaos.state, chaos.exponents)
                 }
                 None => {
-                    let state = left.first()?.voyage.state;
+                    let state = left.first()?.trajectory.state;
                     (MotionKind::Unsettled, state, group.exponents?)
                 }
             };
@@ -75,14 +77,20 @@ impl Search<'_> {
 
     /// Rest, if some motions end there.
     fn resting(&self, counted: usize) -> Option<Attractor> {
-        let rests = |member: &&Member| member.standing == Standing::AtRest;
-        let members: Vec<&Member> = self.members.iter().filter(rests).collect();
-        let positions = members.iter().map(|member| member.voyage.state.position);
+        let rests = |member: &&SearchMember| member.status == Status::AtRest;
+        let members: Vec<&SearchMember> = self.members.iter().filter(rests).collect();
+        let positions = members
+            .iter()
+            .map(|member| member.trajectory.state.position);
         let positions = extremes(positions)?;
         let starts = members.iter().filter(|member| member.counts).count();
         Some(Attractor {
             positions: Some(positions),
-            ..Attractor::new(MotionKind::Rest, members[0].voyage.state, (starts, counted))
+            ..Attractor::new(
+                MotionKind::Rest,
+                members[0].trajectory.state,
+                (starts, counted),
+            )
         })
     }
 }
@@ -91,8 +99,8 @@ impl Group {
     /// Its chaos with what was seen of it, if it is any.
     fn chaos(&self) -> Option<Chaos> {
         Some(Chaos {
-            watched: self.looks.watched(),
-            lifetime: self.looks.lifetime(),
+            watched: self.escapes.watched(),
+            lifetime: self.escapes.lifetime(),
             entered: self.entered,
             ..self.chaos?
         })

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::super::SurveyError;
+use super::super::catalogue::Status;
 use super::super::chaos::Chaos;
-use super::super::fleet::Voyage;
+use super::super::ensemble::EnsembleMember;
 use super::super::group::groups;
-use super::super::known::Standing;
 use super::{GROWTH, Group, Search};
 use crate::orbit::{BATCH_PERIODS, Exponents};
 use softstop::Start;
@@ -22,12 +22,12 @@ impl Search<'_> {
     /// Groups the wandering motions and asks for their exponents.
     pub(super) fn gather(&mut self) -> Result<(), SurveyError> {
         let wandering: Vec<usize> = self
-            .afloat()
-            .filter(|index| self.members[*index].standing == Standing::Wandering)
+            .open()
+            .filter(|index| self.members[*index].status == Status::Wandering)
             .collect();
-        let log = |index: &usize| self.members[*index].voyage.log.as_slice();
+        let log = |index: &usize| self.members[*index].trajectory.log.as_slice();
         let logs: Vec<&[Start]> = wandering.iter().map(log).collect();
-        let numbers = groups(&logs, || self.fleet.note(0))?;
+        let numbers = groups(&logs, || self.ensemble.note(0))?;
         let mut of_group: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, number) in wandering.into_iter().zip(numbers) {
             self.members[index].group = Some(number);
@@ -49,14 +49,14 @@ impl Search<'_> {
             ..Group::default()
         };
         for &index in indices.iter().take(TRIES) {
-            let state = self.members[index].voyage.state;
+            let state = self.members[index].trajectory.state;
             let (exponents, end, wanders) = self.exponents(state)?;
             let larger = |best: &Exponents| exponents.per_period[0] > best.per_period[0];
             if group.exponents.as_ref().is_none_or(larger) {
                 group.exponents = Some(exponents);
             }
             if wanders && exponents.is_positive() {
-                let chaos = Chaos::of(self.scene, &self.fleet, (state, end), exponents)?;
+                let chaos = Chaos::of(self.scene, &self.ensemble, (state, end), exponents)?;
                 // Without impacts the motion is linear and damped: it settles, if slowly.
                 if chaos.velocities.is_some() {
                     group.chaos = Some(chaos);
@@ -73,14 +73,15 @@ impl Search<'_> {
         let mut batch = BATCH_PERIODS.0;
         let mut best = None;
         loop {
-            let ask = || self.fleet.note(0);
+            let ask = || self.ensemble.note(0);
             let along = Exponents::along_with_monitor(self.scene, state.into(), batch, ask);
             let (exponents, end) = along?;
-            self.fleet.note(exponents.periods)?;
-            let mut after = Voyage::new(end.into());
+            self.ensemble.note(exponents.periods)?;
+            let mut after = EnsembleMember::new(end.into());
             let logged = self.logged();
-            self.fleet.sail(&mut [&mut after], logged as u64, logged)?;
-            let wanders = self.book.judge(&after.log)? == Standing::Wandering;
+            self.ensemble
+                .advance(&mut [&mut after], logged as u64, logged)?;
+            let wanders = self.catalogue.judge(&after.log)? == Status::Wandering;
             let found = (exponents, after.state, wanders);
             if !wanders {
                 return Ok(best.unwrap_or(found));
@@ -100,14 +101,15 @@ impl Search<'_> {
     pub(super) fn look_far(&mut self) -> Result<(), SurveyError> {
         let logged = LAST_LOOK * self.logged();
         let unsettled: Vec<usize> = self
-            .afloat()
+            .open()
             .filter(|index| !self.is_chaotic(*index))
             .collect();
         for index in unsettled {
-            let voyage = &mut self.members[index].voyage;
-            self.fleet.sail(&mut [voyage], logged as u64, logged)?;
-            let standing = self.book.judge(&self.members[index].voyage.log)?;
-            self.members[index].standing = standing;
+            let trajectory = &mut self.members[index].trajectory;
+            self.ensemble
+                .advance(&mut [trajectory], logged as u64, logged)?;
+            let status = self.catalogue.judge(&self.members[index].trajectory.log)?;
+            self.members[index].status = status;
         }
         Ok(())
     }

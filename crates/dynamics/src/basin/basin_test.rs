@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
-use super::ball::Ball;
+use super::ball::ContractionBall;
 use super::section::at_section;
 use crate::attractors::SurveyError;
 use crate::batch::follow;
@@ -35,13 +35,13 @@ const AT_BORDER: u64 = 512;
 const ARRIVED: [f64; 2] = [1e-6, 2e-2];
 
 /// A stable orbit with balls about its points in which its map contracts: what lies in one of them comes to it.
-pub struct Home {
+pub struct BasinTest {
     machine: [Machine; 1],
     drive: Excitation,
     states: Vec<Start>,
-    balls: Vec<Ball>,
+    balls: Vec<ContractionBall>,
     /// Those of the motion without impacts, if it is another one: what lies there is lost.
-    away: Vec<Ball>,
+    away: Vec<ContractionBall>,
     patience: u64,
     /// Distance within which a motion has arrived in the end.
     arrived: f64,
@@ -49,7 +49,7 @@ pub struct Home {
 
 /// A motion on its way, at a drive angle in rad that its machine starts with.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Guest {
+pub(crate) struct TestedMotion {
     pub machine: usize,
     pub angle: f64,
     pub state: Start,
@@ -59,16 +59,16 @@ pub(crate) struct Guest {
     pub strokes: Strokes,
 }
 
-/// What became of a guest.
+/// What became of a tested motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Coming {
+pub(crate) struct TestResult {
     /// It came to the orbit.
-    pub comes: bool,
+    pub reaches: bool,
     /// Strokes missed on its way, if they were counted.
     pub missed: u64,
 }
 
-impl Home {
+impl BasinTest {
     /// That of an orbit; nothing comes to one that is unstable or neutral.
     ///
     /// # Errors
@@ -88,14 +88,14 @@ impl Home {
             _ => (0, 0.0),
         };
         let away = match without_impacts(scene).filter(|_| !orbit.impacts.is_empty()) {
-            Some(other) => Ball::all(&other)?,
+            Some(other) => ContractionBall::all(&other)?,
             None => Vec::new(),
         };
         Ok(Self {
             machine: [Machine::new(scene)?],
             drive: scene.excitation,
             states,
-            balls: Ball::all(orbit)?,
+            balls: ContractionBall::all(orbit)?,
             away,
             patience,
             arrived: arrived * size,
@@ -112,84 +112,88 @@ impl Home {
         starts: &[Start],
         watcher: Watcher<'_>,
     ) -> Result<Vec<bool>, SurveyError> {
-        let guest = |state: &Start| Guest {
+        let motion = |state: &Start| TestedMotion {
             machine: 0,
             angle: self.drive.phase,
             state: *state,
             time: 0.0,
             strokes: Strokes::after(0.0),
         };
-        let receive = |starts: &[Start]| {
-            let guests: Vec<Guest> = starts.iter().map(guest).collect();
-            self.receive::<false>(&self.machine, guests, watcher)
+        let follow_motions = |starts: &[Start]| {
+            let motions: Vec<TestedMotion> = starts.iter().map(motion).collect();
+            self.follow_motions::<false>(&self.machine, motions, watcher)
         };
         let (fork, chunks) = (Fork::default(), starts.par_chunks(TOGETHER));
-        let chunks = chunks.map(|starts| fork.part(|| receive(starts)));
+        let chunks = chunks.map(|starts| fork.part(|| follow_motions(starts)));
         let chunks = chunks.collect::<Result<Vec<_>, SurveyError>>();
         fork.join();
-        Ok(chunks?.concat().iter().map(|coming| coming.comes).collect())
+        Ok(chunks?
+            .concat()
+            .iter()
+            .map(|result| result.reaches)
+            .collect())
     }
 
-    /// Follows guests until they have come or are given up. The machines differ from the orbit's in the drive angle
+    /// Follows motions until they have reached the orbit or are given up. The machines differ from the orbit's in the drive angle
     /// alone with which they start.
-    pub(crate) fn receive<const COUNTS: bool>(
+    pub(crate) fn follow_motions<const COUNTS: bool>(
         &self,
         machines: &[Machine],
-        mut guests: Vec<Guest>,
+        mut motions: Vec<TestedMotion>,
         watcher: Watcher<'_>,
-    ) -> Result<Vec<Coming>, SurveyError> {
+    ) -> Result<Vec<TestResult>, SurveyError> {
         let period = TAU / self.drive.frequency;
-        let mut home = vec![false; guests.len()];
-        let mut left: Vec<usize> = (0..guests.len()).collect();
+        let mut reached = vec![false; motions.len()];
+        let mut left: Vec<usize> = (0..motions.len()).collect();
         let mut periods = 0;
         while !left.is_empty() && periods < self.patience {
             if watcher(0, 0).is_break() {
                 return Err(SurveyError::Stopped);
             }
-            let job = |guest: &usize| Job {
-                machine: guests[*guest].machine,
-                start: guests[*guest].state,
+            let job = |motion: &usize| Job {
+                machine: motions[*motion].machine,
+                start: motions[*motion].state,
                 periods: PERIODS_AT_ONCE,
             };
             let jobs: Vec<Job> = left.iter().map(job).collect();
             let mut counter = Counter::<COUNTS> {
                 period,
-                guests: &mut guests,
-                afloat: &left,
+                motions: &mut motions,
+                open: &left,
             };
             let outcomes = follow(machines, &jobs, &mut counter, || watcher(0, 0));
             let outcomes = outcomes.ok_or(SurveyError::Stopped)?;
             periods += PERIODS_AT_ONCE;
             let ends = left.into_iter().zip(outcomes);
             left = ends
-                .filter_map(|(guest, outcome)| {
-                    let it = &mut guests[guest];
+                .filter_map(|(motion, outcome)| {
+                    let it = &mut motions[motion];
                     it.state = outcome.end;
                     it.time += PERIODS_AT_ONCE as f64;
-                    let fate = match outcome.error {
+                    let outcome = match outcome.error {
                         Some(_) => Some(false),
-                        None => self.is_home(it, periods >= self.patience),
+                        None => self.has_reached(it, periods >= self.patience),
                     };
-                    home[guest] = fate == Some(true);
-                    fate.is_none().then_some(guest)
+                    reached[motion] = outcome == Some(true);
+                    outcome.is_none().then_some(motion)
                 })
                 .collect();
         }
-        let ends = guests.iter().zip(home);
-        let coming = |(guest, comes): (&Guest, bool)| Coming {
-            comes,
-            missed: guest.strokes.missed(guest.time),
+        let ends = motions.iter().zip(reached);
+        let result = |(motion, reaches): (&TestedMotion, bool)| TestResult {
+            reaches,
+            missed: motion.strokes.missed(motion.time),
         };
-        Ok(ends.map(coming).collect())
+        Ok(ends.map(result).collect())
     }
 
     /// Whether a motion has come to the orbit, or never will; none if that is open still.
-    fn is_home(&self, guest: &Guest, is_last: bool) -> Option<bool> {
+    fn has_reached(&self, motion: &TestedMotion, is_last: bool) -> Option<bool> {
         let phases = self.machine[0].shared_phases();
-        let Ok(state) = at_section(&phases, self.drive, guest.state, guest.angle) else {
+        let Ok(state) = at_section(&phases, self.drive, motion.state, motion.angle) else {
             return Some(false);
         };
-        let holds = |balls: &[Ball]| balls.iter().any(|ball| ball.holds(state));
+        let holds = |balls: &[ContractionBall]| balls.iter().any(|ball| ball.holds(state));
         let is_near = |own: &Start| distance(self.drive.frequency, own, &state) <= self.arrived;
         match () {
             () if holds(&self.balls) => Some(true),
@@ -214,19 +218,19 @@ fn without_impacts(scene: &Scene) -> Option<Orbit> {
     orbit.impacts.is_empty().then_some(orbit)
 }
 
-/// Counts the strokes of those guests that are afloat.
+/// Counts the strokes of those motions that are open.
 struct Counter<'a, const COUNTS: bool> {
     period: f64,
-    guests: &'a mut [Guest],
-    afloat: &'a [usize],
+    motions: &'a mut [TestedMotion],
+    open: &'a [usize],
 }
 
 impl<const COUNTS: bool> Watch for Counter<'_, COUNTS> {
     const IMPACTS: bool = COUNTS;
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, _: f64) {
-        let guest = &mut self.guests[self.afloat[job]];
-        let time = guest.time + cycle as f64 + offset / self.period;
-        guest.strokes.strike(time);
+        let motion = &mut self.motions[self.open[job]];
+        let time = motion.time + cycle as f64 + offset / self.period;
+        motion.strokes.strike(time);
     }
 }

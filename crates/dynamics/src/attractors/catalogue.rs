@@ -19,14 +19,14 @@ const NEAR: f64 = 1e-3;
 
 /// A stable orbit.
 #[derive(Debug, Clone)]
-pub(crate) struct Known {
+pub(crate) struct KnownOrbit {
     pub orbit: Orbit,
     pub certainty: Certainty,
     states: Vec<Start>,
     size: f64,
 }
 
-impl Known {
+impl KnownOrbit {
     /// Its states after each drive period, from drive angle phi.
     pub(crate) fn states(&self) -> &[Start] {
         &self.states
@@ -34,14 +34,14 @@ impl Known {
 }
 
 /// All of them.
-pub(crate) struct Book<'a> {
+pub(crate) struct AttractorCatalogue<'a> {
     scene: &'a Scene,
-    pub orbits: Vec<Known>,
+    pub orbits: Vec<KnownOrbit>,
 }
 
 /// How it stands with a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Standing {
+pub(crate) enum Status {
     /// It has arrived at this orbit.
     Arrived(usize),
     /// It has come to rest for good.
@@ -52,7 +52,7 @@ pub(crate) enum Standing {
     Wandering,
 }
 
-impl Standing {
+impl Status {
     /// The orbit at which it has arrived, or will.
     pub(crate) fn orbit(self) -> Option<usize> {
         match self {
@@ -62,7 +62,7 @@ impl Standing {
     }
 }
 
-impl<'a> Book<'a> {
+impl<'a> AttractorCatalogue<'a> {
     pub(crate) fn new(scene: &'a Scene) -> Self {
         Self {
             scene,
@@ -85,40 +85,40 @@ impl<'a> Book<'a> {
     }
 
     /// Distance of a state from an orbit.
-    fn gap(&self, known: &Known, state: &Start) -> f64 {
+    fn gap(&self, known: &KnownOrbit, state: &Start) -> f64 {
         let others = known.states.iter();
         let gaps = others.map(|other| distance(self.frequency(), state, other));
         gaps.fold(f64::INFINITY, f64::min)
     }
 
     /// How it stands with a motion whose last states are these; what it turns up is entered.
-    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Standing, SurveyError> {
+    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Status, SurveyError> {
         let Some(last) = log.last() else {
-            return Ok(Standing::Wandering);
+            return Ok(Status::Wandering);
         };
         if let Some(orbit) = self.reached(log) {
-            return Ok(Standing::Arrived(orbit));
+            return Ok(Status::Arrived(orbit));
         }
         let Some(found) = returns(self.frequency(), log) else {
-            return Ok(Standing::Wandering);
+            return Ok(Status::Wandering);
         };
         if self.is_at_rest(last)? {
-            return Ok(Standing::AtRest);
+            return Ok(Status::AtRest);
         }
         let orbit = match Orbit::periodic(self.scene, (*last).into(), found.periods as u64) {
             Ok(orbit) if orbit.is_stable() => orbit,
-            _ => return Ok(Standing::Wandering),
+            _ => return Ok(Status::Wandering),
         };
         if self.is_at_rest(&orbit.state().into())? {
-            return Ok(Standing::AtRest);
+            return Ok(Status::AtRest);
         }
         let orbit = self.enter(orbit, found.distance)?;
         let known = &self.orbits[orbit];
         let gap = self.gap(known, last);
         let is_near = found.distance <= ARRIVED && gap <= NEAR * known.size;
         Ok(match is_near || self.reached(log).is_some() {
-            true => Standing::Arrived(orbit),
-            false => Standing::Approaching(orbit),
+            true => Status::Arrived(orbit),
+            false => Status::Approaching(orbit),
         })
     }
 
@@ -136,7 +136,7 @@ impl<'a> Book<'a> {
 
     /// The known orbit that another one is.
     fn twin(&self, periods: u64, states: &[Start]) -> Option<usize> {
-        let apart = |known: &Known, shift: usize| {
+        let apart = |known: &KnownOrbit, shift: usize| {
             let pairs = states.iter().zip(known.states.iter().cycle().skip(shift));
             let gaps = pairs.map(|(a, b)| distance(self.frequency(), a, b) / known.size);
             gaps.fold((f64::INFINITY, 0.0f64), |(least, largest), gap| {
@@ -160,7 +160,7 @@ impl<'a> Book<'a> {
             return Ok(index);
         }
         let (residual, rounding) = orbit.residual()?;
-        self.orbits.push(Known {
+        self.orbits.push(KnownOrbit {
             size: size(self.frequency(), &states),
             states,
             orbit,

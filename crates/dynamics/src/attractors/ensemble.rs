@@ -13,15 +13,15 @@ use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
 
 /// Motions that one thread follows at a time: several times as many as there are lanes.
-const AT_ONCE: usize = 64;
+const MEMBERS_AT_ONCE: usize = 64;
 
 /// Drive periods for which they are followed before the watcher is asked again, where many motions cost little and
 /// where they do not: a third of a second.
-const STRETCH: (u64, u64) = (1 << 16, 256);
+const PERIODS_AT_ONCE: (u64, u64) = (1 << 16, 256);
 
 /// One motion.
 #[derive(Debug, Clone)]
-pub(crate) struct Voyage {
+pub(crate) struct EnsembleMember {
     /// Its latest state at drive angle phi.
     pub state: Start,
     /// Its last states there, in order of time; the latest is the last.
@@ -30,7 +30,7 @@ pub(crate) struct Voyage {
     pub error: Option<MotionError>,
 }
 
-impl Voyage {
+impl EnsembleMember {
     pub(crate) fn new(state: Start) -> Self {
         Self {
             state,
@@ -41,7 +41,7 @@ impl Voyage {
 }
 
 /// The machine they share, and how much work has been done.
-pub(crate) struct Fleet<'a> {
+pub(crate) struct Ensemble<'a> {
     pub machine: [Machine; 1],
     watcher: Watcher<'a>,
     done: AtomicU64,
@@ -49,7 +49,7 @@ pub(crate) struct Fleet<'a> {
     pub planned: u64,
 }
 
-impl<'a> Fleet<'a> {
+impl<'a> Ensemble<'a> {
     pub(crate) fn new(scene: &Scene, watcher: Watcher<'a>) -> Result<Self, SurveyError> {
         Ok(Self {
             machine: [Machine::new(scene)?],
@@ -83,62 +83,66 @@ impl<'a> Fleet<'a> {
     }
 
     /// Carries all on for `periods` drive periods and keeps a log of the last `logged` of them.
-    pub(crate) fn sail(
+    pub(crate) fn advance(
         &self,
-        voyages: &mut [&mut Voyage],
+        members: &mut [&mut EnsembleMember],
         periods: u64,
         logged: usize,
     ) -> Result<(), SurveyError> {
         let fork = Fork::default();
-        let chunks = voyages.par_chunks_mut(AT_ONCE);
-        let sailed =
-            chunks.try_for_each(|chunk| fork.part(|| self.sail_together(chunk, periods, logged)));
+        let chunks = members.par_chunks_mut(MEMBERS_AT_ONCE);
+        let sailed = chunks
+            .try_for_each(|chunk| fork.part(|| self.advance_together(chunk, periods, logged)));
         fork.join();
         sailed
     }
 
     /// Carries motions on in stretches, so that the watcher is asked often.
-    fn sail_together(
+    fn advance_together(
         &self,
-        voyages: &mut [&mut Voyage],
+        members: &mut [&mut EnsembleMember],
         periods: u64,
         logged: usize,
     ) -> Result<(), SurveyError> {
-        let stretch = if self.is_fast() { STRETCH.0 } else { STRETCH.1 };
+        let stretch = if self.is_fast() {
+            PERIODS_AT_ONCE.0
+        } else {
+            PERIODS_AT_ONCE.1
+        };
         let logged = periods.min(logged as u64);
         let mut left = periods - logged;
         while left > 0 {
             let now = left.min(stretch);
-            self.sail_stretch(voyages, now, &mut ())?;
+            self.advance_by(members, now, &mut ())?;
             left -= now;
         }
-        let mut log = Log(vec![Vec::with_capacity(logged as usize); voyages.len()]);
-        self.sail_stretch(voyages, logged, &mut log)?;
-        for (voyage, log) in voyages.iter_mut().zip(log.0) {
-            voyage.log = log;
+        let mut log = Log(vec![Vec::with_capacity(logged as usize); members.len()]);
+        self.advance_by(members, logged, &mut log)?;
+        for (member, log) in members.iter_mut().zip(log.0) {
+            member.log = log;
         }
         Ok(())
     }
 
     /// Carries those on that can be, under a watch that knows them by their numbers.
-    fn sail_stretch(
+    fn advance_by(
         &self,
-        voyages: &mut [&mut Voyage],
+        members: &mut [&mut EnsembleMember],
         periods: u64,
         watch: &mut impl Watch,
     ) -> Result<(), SurveyError> {
-        let job = |voyage: &&mut Voyage| Job {
+        let job = |member: &&mut EnsembleMember| Job {
             machine: 0,
-            start: voyage.state,
-            periods: if voyage.error.is_none() { periods } else { 0 },
+            start: member.state,
+            periods: if member.error.is_none() { periods } else { 0 },
         };
-        let jobs: Vec<Job> = voyages.iter().map(job).collect();
+        let jobs: Vec<Job> = members.iter().map(job).collect();
         let ask = || stop_if(self.note(0).is_err());
         let outcomes = follow(&self.machine, &jobs, watch, ask).ok_or(SurveyError::Stopped)?;
-        let afloat = voyages.iter_mut().zip(outcomes);
-        for (voyage, outcome) in afloat.filter(|(voyage, _)| voyage.error.is_none()) {
-            voyage.state = outcome.end;
-            voyage.error = outcome.error;
+        let open = members.iter_mut().zip(outcomes);
+        for (member, outcome) in open.filter(|(member, _)| member.error.is_none()) {
+            member.state = outcome.end;
+            member.error = outcome.error;
         }
         self.note(jobs.iter().map(|job| job.periods).sum())
     }
