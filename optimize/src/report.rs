@@ -13,7 +13,7 @@ use softstop_console::report::{Stated, motion};
 use softstop_console::sheet::Sheet;
 use softstop_console::table::{heading, sections};
 use softstop_dynamics::Orbit;
-use softstop_dynamics::zone::{Stretch, stretches_watched};
+use softstop_dynamics::zone::{StableRange, stable_ranges_with_monitor};
 
 use crate::comparison::comparison;
 use crate::design::problem::Objective;
@@ -242,15 +242,16 @@ fn objective<'a>() -> [Column<Sought<'a>>; 5] {
 
 /// The stretches of the design's machine that are no part of its zone.
 fn left_out(design: &Design) -> Vec<Record> {
-    let all = stretches_watched(&design.machine.scene, &interrupt::watch).unwrap_or_default();
+    let all =
+        stable_ranges_with_monitor(&design.machine.scene, &interrupt::watch).unwrap_or_default();
     let others = all.iter().filter(|one| !one.is_part_of(&design.zone));
     others
         .map(|one| Record::of(&stretch(), &(design, one)))
         .collect()
 }
 
-fn stretch<'a>() -> [Column<(&'a Design, &'a Stretch)>; 3] {
-    columns! { (&'a Design, &'a Stretch), it;
+fn stretch<'a>() -> [Column<(&'a Design, &'a StableRange)>; 3] {
+    columns! { (&'a Design, &'a StableRange), it;
         "from" [Frequency] Six, "lower end" => own(it.0, it.1.low.frequency);
         "to" [Frequency] Six, "upper end" => own(it.0, it.1.high.frequency);
         "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();

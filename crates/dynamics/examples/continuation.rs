@@ -4,19 +4,19 @@ use approx::assert_abs_diff_eq;
 use std::ops::ControlFlow;
 
 use softstop::{Parameter, Ratios};
-use softstop_dynamics::{Along, Follower, Limits, orbit};
+use softstop_dynamics::{Continuation, Limits, ParameterFamily, orbit};
 
 /// Runs the example.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Ratios::unloaded().scene()?;
     let state = orbit::find(&scene)?.state();
-    let family = Along::new(scene, [Parameter::Frequency])?;
+    let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
     let limits = Limits {
         range: (0.9, 1.5),
         points: 500,
     };
-    let follower = Follower::new(&family, 1);
-    let branch = follower.branch(1.15, state, &limits, |_| ControlFlow::Continue(()))?;
+    let continuation = Continuation::new(&family, 1);
+    let branch = continuation.branch(1.15, state, &limits, |_| ControlFlow::Continue(()))?;
     for special in &branch.specials {
         println!(
             "{} at eta = {}",

@@ -47,7 +47,7 @@ pub mod zone;
 
 pub use attractors::Survey;
 pub use basin::{Axis, Basins, Grid};
-pub use continuation::{Along, Branch, BranchPoint, Follower, Limits};
+pub use continuation::{Branch, BranchPoint, Continuation, Limits, ParameterFamily};
 pub use motion::MotionKind;
 pub use orbit::{Exponents, Orbit, Regime, StroboscopicMap};
 pub use slopes::Slopes;

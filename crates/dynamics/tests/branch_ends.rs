@@ -13,7 +13,9 @@ use proptest::test_runner::TestRunner;
 use softstop::{Parameter, Scene, Stop};
 use softstop_dynamics::continuation::{End, SpecialKind};
 use softstop_dynamics::orbit::{OrbitError, find};
-use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, Orbit, StroboscopicMap};
+use softstop_dynamics::{
+    Branch, BranchPoint, Continuation, Limits, Orbit, ParameterFamily, StroboscopicMap,
+};
 use softstop_testing::machines::machines;
 use softstop_testing::random;
 
@@ -47,7 +49,7 @@ fn orbit(scene: &Scene) -> Option<Orbit> {
 
 /// Its branch along the frequency, over two octaves, or along the clearance.
 fn branch(scene: &Scene, orbit: &Orbit, along: Parameter) -> Result<Branch, OrbitError> {
-    let family = Along::new(scene.clone(), [along]).expect("every machine has it");
+    let family = ParameterFamily::new(scene.clone(), [along]).expect("every machine has it");
     let [value] = family.values();
     let range = match along {
         Parameter::Frequency => (0.5 * value, 2.0 * value),
@@ -58,7 +60,7 @@ fn branch(scene: &Scene, orbit: &Orbit, along: Parameter) -> Result<Branch, Orbi
         points: POINTS,
     };
     let go_on = |_: &_| ControlFlow::Continue(());
-    Follower::new(&family, orbit.periods).branch(value, orbit.state(), &limits, go_on)
+    Continuation::new(&family, orbit.periods).branch(value, orbit.state(), &limits, go_on)
 }
 
 /// The determinant below which an orbit comes to rest: how many of its bounces are told one by one is the simulation's choice.

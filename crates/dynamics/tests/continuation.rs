@@ -10,19 +10,22 @@ use std::ops::ControlFlow;
 use nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{
-    Curve, CurveEnd, CurvePoint, End, Face, Region, Special, SpecialKind, Test, curve,
+    Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Special, SpecialKind, Test, curve,
 };
 use softstop_dynamics::zone::grazing_frequencies;
-use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, StroboscopicMap};
+use softstop_dynamics::{
+    Branch, BranchPoint, Continuation, Limits, ParameterFamily, StroboscopicMap,
+};
 use softstop_testing::reference::{FOLDS, MACHINE, list, number};
 use softstop_testing::tangent::differences;
 use softstop_testing::{assert_near, is_near, loaded};
 
-type Frequencies = Along<1>;
+type Frequencies = ParameterFamily<1>;
 
 fn frequencies(eta: f64) -> Frequencies {
     let machine = Ratios::unloaded().at_frequency(eta);
-    Along::new(machine.scene().expect("a scene"), [Parameter::Frequency]).expect("a family")
+    ParameterFamily::new(machine.scene().expect("a scene"), [Parameter::Frequency])
+        .expect("a family")
 }
 
 /// The branch of period-`n` orbits of the unloaded machine near a state.
@@ -35,7 +38,7 @@ fn branch(eta: f64, n: u64, state: (f64, f64), range: (f64, f64)) -> Branch {
 fn follow(family: &Frequencies, n: u64, from: (f64, Vector2<f64>), range: (f64, f64)) -> Branch {
     let limits = Limits { range, points: 500 };
     let go_on = |_: &_| ControlFlow::Continue(());
-    let branch = Follower::new(family, n).branch(from.0, from.1, &limits, go_on);
+    let branch = Continuation::new(family, n).branch(from.0, from.1, &limits, go_on);
     branch.expect("a branch")
 }
 
@@ -46,7 +49,7 @@ fn double(family: &Frequencies, n: u64, flip: &BranchPoint) -> Branch {
         points: 500,
     };
     let go_on = |_: &_| ControlFlow::Continue(());
-    let doubled = Follower::new(family, n).doubled(flip, &limits, go_on);
+    let doubled = Continuation::new(family, n).doubled(flip, &limits, go_on);
     doubled.expect("a branch of twice the period")
 }
 
@@ -156,7 +159,7 @@ fn flips_of_the_subharmonic_motions() {
 /// The loaded machine touches the stop behind the strip at both ends; between them flip and fold.
 #[test]
 fn inner_surfaces_end_a_branch_too() {
-    let family = Along::new(loaded(), [Parameter::Frequency]).expect("a family");
+    let family = ParameterFamily::new(loaded(), [Parameter::Frequency]).expect("a family");
     let orbit = softstop_dynamics::orbit::find(&loaded()).expect("z = 1");
     let branch = follow(&family, 1, (1.15, orbit.state()), (0.5, 2.0));
     assert_eq!(symbols(&branch), ["G", "PD", "SN", "G"]);
@@ -267,11 +270,11 @@ fn two_orbits_before_a_fold_and_none_beyond() {
     let branch = all_of_z1();
     let fold = of_kind(&branch, "SN").remove(0).point;
     let follower_family = frequencies(1.15);
-    let follower = Follower::new(&follower_family, 1);
+    let continuation = Continuation::new(&follower_family, 1);
     let beside = |eta: f64, sign: f64, size: f64| {
         let m = fold.monodromy;
         let along = Vector2::new(m.m12, 1.0 - m.m11).normalize();
-        follower.point(eta, fold.state() + sign * size * along)
+        continuation.point(eta, fold.state() + sign * size * along)
     };
     let eta = fold.parameter - 1e-6;
     let stable = [1.0, -1.0].map(|sign| beside(eta, sign, 0.02).expect("an orbit").is_stable());

@@ -7,7 +7,9 @@ use std::ops::ControlFlow;
 use softstop::{Machine, Parameter, Ratios, Scene, Stop};
 use softstop_dynamics::continuation::End;
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::{Along, Branch, BranchPoint, Follower, Limits, Orbit, StroboscopicMap};
+use softstop_dynamics::{
+    Branch, BranchPoint, Continuation, Limits, Orbit, ParameterFamily, StroboscopicMap,
+};
 use softstop_testing::is_near;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -22,13 +24,13 @@ fn branch(
     scene.excitation.phase += angle;
     let orbit: Orbit = find(&scene)?;
     let eta = scene.excitation.frequency;
-    let family = Along::new(scene, [Parameter::Frequency])?;
+    let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
     let limits = Limits {
         range,
         points: 2000,
     };
-    let follower = Follower::new(&family, 1);
-    Ok(follower.branch(eta, orbit.state(), &limits, |_| ControlFlow::Continue(()))?)
+    let continuation = Continuation::new(&family, 1);
+    Ok(continuation.branch(eta, orbit.state(), &limits, |_| ControlFlow::Continue(()))?)
 }
 
 /// Symbols and frequencies of all special points.

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{Face, SpecialKind, Test};
 use softstop_dynamics::slopes::{Border, BorderKind};
-use softstop_dynamics::{Along, Follower, Limits, orbit, zone};
+use softstop_dynamics::{Continuation, Limits, ParameterFamily, orbit, zone};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{assert_near, rigid_stop};
 
@@ -64,13 +64,13 @@ fn borders(scene: &Scene) -> Vec<Border> {
         .into_iter()
         .filter(|parameter| parameter.get(scene).is_some())
         .collect();
-    let family = Along::new(scene.clone(), [Parameter::Frequency]).expect("valid");
+    let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("valid");
     let limits = Limits {
         range: (0.8, 1.6),
         points: 2000,
     };
     let state = orbit::find(scene).expect("an orbit").state();
-    let branch = Follower::new(&family, 1)
+    let branch = Continuation::new(&family, 1)
         .branch(scene.excitation.frequency, state, &limits, |_| {
             ControlFlow::Continue(())
         })

@@ -5,7 +5,7 @@ use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::spread::{Model, Settled, Spread, along};
 use softstop_dynamics::zone::{Loss, hysteresis};
-use softstop_dynamics::{Follower, Limits, Orbit};
+use softstop_dynamics::{Continuation, Limits, Orbit};
 use softstop_testing::assert_relative;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -49,13 +49,13 @@ fn a_way_out_that_ends_in_a_flip_ends_at_that_of_its_branch() -> Outcome {
     let nominal = find(&spread.0)?;
     let reached = along(&spread, &nominal, &[-1.0, 0.0], 1.0)?;
     assert_eq!(reached.loss, Some(Loss::Flip));
-    let family = softstop_dynamics::Along::new(spread.0.clone(), [Parameter::Frequency])?;
+    let family = softstop_dynamics::ParameterFamily::new(spread.0.clone(), [Parameter::Frequency])?;
     let limits = Limits {
         range: (0.5, 1.2),
         points: 500,
     };
     let go_on = |_: &_| std::ops::ControlFlow::Continue(());
-    let branch = Follower::new(&family, 1).branch(1.15, nominal.state(), &limits, go_on)?;
+    let branch = Continuation::new(&family, 1).branch(1.15, nominal.state(), &limits, go_on)?;
     let test = softstop_dynamics::continuation::Test::Flip;
     let flip = branch.critical(test).last().ok_or("a flip")?;
     let frequency = 1.15 * (1.0 - 0.5 * reached.share);

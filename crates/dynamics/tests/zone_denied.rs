@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 use softstop::{Machine, Scene, Start};
-use softstop_dynamics::zone::{Loss, Stretch, stretches};
+use softstop_dynamics::zone::{Loss, StableRange, stable_ranges};
 use softstop_dynamics::{BranchPoint, Orbit};
 
 #[derive(Deserialize)]
@@ -48,8 +48,8 @@ fn is_told(machine: &toml::Table, [position, velocity]: [f64; 2]) -> bool {
         impacts: orbit.before_impact_velocities().collect(),
         monodromy: orbit.monodromy,
     };
-    let on = |one: &Stretch| one.contains(&scene, &point).expect("followed");
-    stretches(&scene).expect("stretches").iter().any(on)
+    let on = |one: &StableRange| one.contains(&scene, &point).expect("followed");
+    stable_ranges(&scene).expect("stable_ranges").iter().any(on)
 }
 
 #[test]
@@ -67,8 +67,8 @@ fn what_ends_a_stretch_has_a_name() {
     let all = found().ends;
     assert_eq!(all.len(), 4);
     for one in all {
-        let stretches = stretches(&scene(&one.machine)).expect("stretches");
-        let mut ends = stretches.iter().flat_map(|one| [&one.low, &one.high]);
+        let stable_ranges = stable_ranges(&scene(&one.machine)).expect("stable_ranges");
+        let mut ends = stable_ranges.iter().flat_map(|one| [&one.low, &one.high]);
         let is_named = |loss: &Loss| !matches!(loss, Loss::Lost(_) | Loss::Budget);
         assert!(ends.all(|end| is_named(&end.loss)), "{}", one.what);
     }

@@ -9,7 +9,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use softstop::{Ratios, Scene};
 use softstop_dynamics::watch::unwatched;
-use softstop_dynamics::zone::{Loss, Stretch, find, find_among, stretches};
+use softstop_dynamics::zone::{Loss, StableRange, find, find_among, stable_ranges};
 use softstop_testing::random::{self, log_uniform};
 use softstop_testing::tolerance::GROWN;
 use softstop_testing::with_changes;
@@ -46,12 +46,12 @@ fn machines() -> impl Strategy<Value = Scene> {
 }
 
 /// What is wrong at a frequency of a stretch.
-fn wrong(scene: &Scene, all: &[Stretch], stretch: &Stretch) -> Option<String> {
+fn wrong(scene: &Scene, all: &[StableRange], stable_range: &StableRange) -> Option<String> {
     let orbit = match find_among(scene, all, &unwatched) {
         Ok(orbit) => orbit,
         Err(error) => return Some(error.to_string()),
     };
-    let on = stretch.point_at(scene, scene.excitation.frequency);
+    let on = stable_range.point_at(scene, scene.excitation.frequency);
     let least = on
         .ok()
         .flatten()
@@ -65,15 +65,15 @@ fn wrong(scene: &Scene, all: &[Stretch], stretch: &Stretch) -> Option<String> {
 }
 
 /// The stretches of a machine, and what is wrong within them.
-fn searched(scene: &mut Scene) -> (Vec<Stretch>, Vec<String>) {
-    let all = stretches(scene).expect("a machine");
+fn searched(scene: &mut Scene) -> (Vec<StableRange>, Vec<String>) {
+    let all = stable_ranges(scene).expect("a machine");
     let mut denied = Vec::new();
-    for stretch in &all {
-        let (low, high) = (stretch.low.frequency, stretch.high.frequency);
+    for stable_range in &all {
+        let (low, high) = (stable_range.low.frequency, stable_range.high.frequency);
         for part in 0..FREQUENCIES {
             let share = (f64::from(part) + 0.5) / f64::from(FREQUENCIES);
             scene.excitation.frequency = low + share * (high - low);
-            let told = wrong(scene, &all, stretch).map(|wrong| format!("{wrong}: {scene:?}"));
+            let told = wrong(scene, &all, stable_range).map(|wrong| format!("{wrong}: {scene:?}"));
             denied.extend(told.inspect(|told| eprintln!("{told}")));
         }
     }
@@ -93,8 +93,8 @@ fn assert_found(machines_count: u32) {
     let (mut listed, mut narrow, mut denied) = (0, 0, Vec::new());
     for machine in 0..count {
         let (all, wrong) = searched(&mut draw());
-        let is_narrow = |stretch: &&Stretch| {
-            let (low, high) = (stretch.low.frequency, stretch.high.frequency);
+        let is_narrow = |stable_range: &&StableRange| {
+            let (low, high) = (stable_range.low.frequency, stable_range.high.frequency);
             high - low < 1e-3 * high
         };
         listed += all.len();
@@ -102,7 +102,7 @@ fn assert_found(machines_count: u32) {
         denied.extend(wrong);
         if (machine + 1).is_multiple_of(REPORTED) || machine + 1 == count {
             eprintln!(
-                "{} of {count} machines, {listed} stretches, {narrow} narrow, {FREQUENCIES} frequencies each, {} denied",
+                "{} of {count} machines, {listed} stable_ranges, {narrow} narrow, {FREQUENCIES} frequencies each, {} denied",
                 machine + 1,
                 denied.len()
             );
@@ -110,7 +110,7 @@ fn assert_found(machines_count: u32) {
     }
     assert!(
         listed > count && narrow > 0,
-        "{listed} stretches, {narrow} narrow"
+        "{listed} stable_ranges, {narrow} narrow"
     );
     assert!(denied.is_empty(), "{denied:#?}");
 }
@@ -157,10 +157,11 @@ fn two_flips_within_a_step_end_stretches() {
     );
     let (all, denied) = searched(&mut scene);
     assert!(denied.is_empty(), "{denied:#?}");
-    let inside =
-        |stretch: &&Stretch| stretch.low.frequency < 0.3785 && stretch.high.frequency > 0.3785;
+    let inside = |stable_range: &&StableRange| {
+        stable_range.low.frequency < 0.3785 && stable_range.high.frequency > 0.3785
+    };
     assert_eq!(all.iter().find(inside).map(|it| it.low.frequency), None);
-    let flips = |stretch: &&Stretch| stretch.high.loss == Loss::Flip;
+    let flips = |stable_range: &&StableRange| stable_range.high.loss == Loss::Flip;
     assert!(
         all.iter()
             .filter(flips)

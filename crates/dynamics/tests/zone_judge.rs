@@ -12,7 +12,7 @@ use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use softstop::{Piercing, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::zone::{Loss, Stretch, stretches};
+use softstop_dynamics::zone::{Loss, StableRange, stable_ranges};
 use softstop_dynamics::{BranchPoint, Orbit};
 use softstop_lanes::{Job, Machine, Watch};
 use softstop_testing::random::{self, log_uniform};
@@ -186,7 +186,7 @@ type Case = (Scene, Vec<(f64, bool)>, Vec<(f64, f64)>);
 
 fn judge((scene, shares, starts): &Case) -> Tally {
     let mut tally = Tally::default();
-    let all = match stretches(scene) {
+    let all = match stable_ranges(scene) {
         Ok(all) => all,
         Err(error) => {
             tally.wrong.push(format!("{error} of {scene:?}"));
@@ -205,17 +205,17 @@ fn judge((scene, shares, starts): &Case) -> Tally {
         tally.motions += points.len();
         tally.undecided += undecided;
         let denied = points.iter().filter(|point| {
-            let on = |one: &Stretch| one.contains(&scene, point).unwrap_or(false);
+            let on = |one: &StableRange| one.contains(&scene, point).unwrap_or(false);
             !all.iter().any(on)
         });
-        let told = denied.map(|point| format!("{point:?} lies on no stretch of {scene:?}"));
+        let told = denied.map(|point| format!("{point:?} lies on no stable_range of {scene:?}"));
         tally.wrong.extend(told);
     }
     tally
 }
 
 /// A frequency on a stretch, or anywhere from 0.4 to 2.4.
-fn frequency(all: &[Stretch], share: f64, anywhere: bool) -> f64 {
+fn frequency(all: &[StableRange], share: f64, anywhere: bool) -> f64 {
     let place = share * all.len() as f64;
     match all.get(place as usize) {
         Some(one) if !anywhere => {

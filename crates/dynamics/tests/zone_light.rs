@@ -5,7 +5,7 @@ use softstop::{Ratios, Scene, Stop};
 use softstop_dynamics::Zone;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
-    Loss, Stretch, ZoneError, grazing_frequencies, hysteresis, stretches,
+    Loss, StableRange, ZoneError, grazing_frequencies, hysteresis, stable_ranges,
 };
 use softstop_testing::tolerance::printed;
 use softstop_testing::{assert_near, is_near, with_changes};
@@ -82,11 +82,15 @@ fn a_motion_with_a_small_basin() -> Outcome {
 }
 
 /// The stretches between folds alone, and which of them belong to a zone.
-fn between_folds(found: &[Stretch], zone: Option<&Zone>) -> Vec<(f64, f64, bool)> {
-    let ends_fold = |stretch: &&Stretch| stretch.high.loss == Loss::Fold;
-    let ends = |stretch: &Stretch| {
-        let in_zone = zone.is_some_and(|zone| stretch.is_part_of(zone));
-        (stretch.low.frequency, stretch.high.frequency, in_zone)
+fn between_folds(found: &[StableRange], zone: Option<&Zone>) -> Vec<(f64, f64, bool)> {
+    let ends_fold = |stable_range: &&StableRange| stable_range.high.loss == Loss::Fold;
+    let ends = |stable_range: &StableRange| {
+        let in_zone = zone.is_some_and(|zone| stable_range.is_part_of(zone));
+        (
+            stable_range.low.frequency,
+            stable_range.high.frequency,
+            in_zone,
+        )
     };
     found.iter().filter(ends_fold).map(ends).collect()
 }
@@ -94,7 +98,7 @@ fn between_folds(found: &[Stretch], zone: Option<&Zone>) -> Vec<(f64, f64, bool)
 #[test]
 fn stretches_between_several_folds() -> Outcome {
     let scene = three_folds();
-    let found = stretches(&scene)?;
+    let found = stable_ranges(&scene)?;
     let zone = hysteresis(&scene)?;
     let [(_, first, true), (low, high, true)] = between_folds(&found, Some(&zone))[..] else {
         panic!("{found:?}");
@@ -119,7 +123,7 @@ fn an_isola() -> Outcome {
     let none = hysteresis(&scene);
     assert!(matches!(none, Err(ZoneError::NoOrbit { .. })), "{none:?}");
     let (_, g0) = grazing_frequencies(&scene)?;
-    let found = stretches(&scene)?;
+    let found = stable_ranges(&scene)?;
     let isola: Vec<_> = found.iter().filter(|one| one.low.frequency > g0).collect();
     let [first, second] = isola[..] else {
         panic!("{isola:?}");
@@ -148,7 +152,7 @@ fn without_a_grazing_boundary_there_are_stretches() -> Outcome {
             hysteresis(&scene),
             Err(ZoneError::NoGrazing { .. })
         ));
-        let found = stretches(&scene)?;
+        let found = stable_ranges(&scene)?;
         assert!(!found.is_empty(), "{clearance}");
         for one in &found {
             let middle = 0.5 * (one.low.frequency + one.high.frequency);
@@ -192,11 +196,11 @@ fn a_branch_does_not_run_off() {
 fn assert_none_missed(all: &[Settled]) {
     for one in all {
         let scene = scene(&one.machine);
-        let on = |stretch: &Stretch| {
-            let there = stretch.point_at(&scene, one.frequency).ok().flatten();
+        let on = |stable_range: &StableRange| {
+            let there = stable_range.point_at(&scene, one.frequency).ok().flatten();
             there.is_some_and(|point| is_near(point.impacts[0], one.velocity, 1e-6))
         };
-        let found = stretches(&scene).expect("a machine");
+        let found = stable_ranges(&scene).expect("a machine");
         assert!(found.iter().any(on), "{}", one.frequency);
     }
 }
@@ -205,7 +209,7 @@ fn assert_none_missed(all: &[Settled]) {
 #[test]
 fn no_part_is_listed_twice() -> Outcome {
     let scene = scene(&light().narrow[1].machine);
-    let found = stretches(&scene)?;
+    let found = stable_ranges(&scene)?;
     for (index, one) in found.iter().enumerate() {
         for other in &found[..index] {
             let low = one.low.frequency.max(other.low.frequency);

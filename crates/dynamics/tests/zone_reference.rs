@@ -1,7 +1,7 @@
 //! Grazing boundary and fold against 30-digit values and against the published figures.
 
 use softstop::{Ratios, Scene};
-use softstop_dynamics::zone::{grazing_frequencies, hysteresis, stretches};
+use softstop_dynamics::zone::{grazing_frequencies, hysteresis, stable_ranges};
 use softstop_testing::reference::{FOLDS, MACHINE, list, number, ratios};
 use softstop_testing::tolerance::{DIFFERENCED, GROWN, ROUNDING, SOLVED, printed};
 use softstop_testing::{assert_near, is_near};
@@ -153,8 +153,8 @@ fn peaks_agree_with_thirty_digits() {
             ),
             "{expected}"
         );
-        let stretches = stretches(&machine).expect("stretches");
-        let tops = stretches.iter().filter(|one| one.is_part_of(&zone));
+        let stable_ranges = stable_ranges(&machine).expect("stable_ranges");
+        let tops = stable_ranges.iter().filter(|one| one.is_part_of(&zone));
         let tops = tops.map(|one| one.hardest.before_impact_velocity());
         assert_near(tops.fold(0.0, f64::max), highest, 10.0 * SOLVED);
         assert!(velocity(peak - 1e-3) < highest && velocity(peak + 1e-3) < highest);

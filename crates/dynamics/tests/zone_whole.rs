@@ -5,7 +5,8 @@ use softstop_dynamics::continuation::{Face, Heading, Test};
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{
-    EndKind, Loss, ZoneKind, find_zones, hysteresis, loss_of_stability, single_impact, stretches,
+    EndKind, Loss, ZoneKind, find_zones, hysteresis, loss_of_stability, single_impact,
+    stable_ranges,
 };
 use softstop_dynamics::{Zone, zone};
 use softstop_testing::assert_near;
@@ -69,12 +70,12 @@ fn its_ends_are_those_of_the_search_over_all_frequencies() {
         let scene = pile_driver(clearance);
         assert_eq!(zone::hysteresis(&scene).is_ok(), is_hysteresis);
         let whole = whole(&scene);
-        let all = stretches(&scene).expect("a scene");
+        let all = stable_ranges(&scene).expect("a scene");
         let hardest = all.iter().max_by(|a, b| {
             let [a, b] = [a, b].map(|it| it.hardest.before_impact_velocity());
             a.total_cmp(&b)
         });
-        let hardest = hardest.expect("a stretch");
+        let hardest = hardest.expect("a stable_range");
         for (own, other) in [(&whole.low, &hardest.low), (&whole.high, &hardest.high)] {
             assert_near(own.frequency, other.frequency, 1e-7 * other.frequency);
             assert_eq!(own.kind.loss(), Some(other.loss.clone()), "{clearance}");
@@ -138,7 +139,7 @@ fn one_frequency_is_enough_to_look_for_it() {
     );
 }
 
-/// For a design a zone ends where `stretches` says that the rigid stop is grazed; `hysteresis` has none, for it has no fold.
+/// For a design a zone ends where `stable_ranges` says that the rigid stop is grazed; `hysteresis` has none, for it has no fold.
 #[test]
 fn a_rigid_stop_behind_the_other_ends_a_zone() -> Result<(), Box<dyn std::error::Error>> {
     let text = "mass = 1.0\nstiffness = 1.0\ndamping = 0.02\ncontact.damping = 0.02\nclearance = 7.0\n\
@@ -160,9 +161,13 @@ fn a_rigid_stop_behind_the_other_ends_a_zone() -> Result<(), Box<dyn std::error:
             "{:?}",
             zone.high.kind
         );
-        let stretches = stretches(scene)?;
-        let mut ends = stretches.iter().filter(|it| grazed(&it.high.loss));
-        let end = ends.next().ok_or("no stretch ends there")?.high.frequency;
+        let stable_ranges = stable_ranges(scene)?;
+        let mut ends = stable_ranges.iter().filter(|it| grazed(&it.high.loss));
+        let end = ends
+            .next()
+            .ok_or("no stable_range ends there")?
+            .high
+            .frequency;
         assert!(
             (end - zone.high.frequency).abs() < 1e-9 * end,
             "{end}, {}",

@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use clap::Args;
 use serde::Serialize;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::zone::find_watched;
+use softstop_dynamics::zone::find_with_monitor;
 
 use softstop::{Machine, Parameter, Scene, Stop};
 use softstop_console::arguments::MachineArguments;
@@ -55,7 +55,7 @@ pub struct OrbitArguments {
 pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
-    let find = || Ok(find_watched(&machine.scene, &interrupt::watch));
+    let find = || Ok(find_with_monitor(&machine.scene, &interrupt::watch));
     let orbit = arguments
         .limit
         .budget

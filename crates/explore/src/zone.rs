@@ -20,7 +20,8 @@ use softstop_console::table::heading;
 use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::Face;
 use softstop_dynamics::zone::{
-    Loss, Stretch, ZoneError, grazing_frequencies, hysteresis_watched, stretches_watched,
+    Loss, StableRange, ZoneError, grazing_frequencies, hysteresis_with_monitor,
+    stable_ranges_with_monitor,
 };
 
 const EXAMPLES: &str = "\
@@ -63,8 +64,8 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
         .machine
         .refuse(&machine, Parameter::Frequency, why)?;
     let (zone, all) = arguments.limit.budget.limit(|| {
-        let zone = hysteresis_watched(&machine.scene, &interrupt::watch);
-        let all = stretches_watched(&machine.scene, &interrupt::watch);
+        let zone = hysteresis_with_monitor(&machine.scene, &interrupt::watch);
+        let all = stable_ranges_with_monitor(&machine.scene, &interrupt::watch);
         Ok((zone, all.map_err(|error| anyhow!(error))?))
     })?;
     let zone = zone.map_err(|error| error.stated(&machine));
@@ -97,12 +98,12 @@ struct ZoneReport<'a> {
 /// A machine with its zone, if it has one.
 type Zoned<'a> = (&'a Machine, Option<&'a Zone>);
 /// A machine, a stretch of it, and whether that is a part of its zone.
-type Stretched<'a> = (&'a Machine, &'a Stretch, bool);
+type Stretched<'a> = (&'a Machine, &'a StableRange, bool);
 
 impl<'a> ZoneReport<'a> {
-    fn new(machine: &'a Machine, zone: &Result<Zone, ZoneError>, all: &[Stretch]) -> Self {
+    fn new(machine: &'a Machine, zone: &Result<Zone, ZoneError>, all: &[StableRange]) -> Self {
         let found = zone.as_ref().ok();
-        let in_zone = |one: &Stretch| found.is_some_and(|zone| one.is_part_of(zone));
+        let in_zone = |one: &StableRange| found.is_some_and(|zone| one.is_part_of(zone));
         let stretch = |one| Record::of(&stretch_columns(), &(machine, one, in_zone(one)));
         Self {
             zone: Record::of(&columns(), &(machine, found)),

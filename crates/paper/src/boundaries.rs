@@ -3,10 +3,10 @@
 
 use anyhow::{Context, Result};
 use softstop::{Parameter, Ratios};
-use softstop_dynamics::continuation::{Curve, CurvePoint, Region, SpecialKind, Test, curve};
+use softstop_dynamics::continuation::{Curve, CurveLimits, CurvePoint, SpecialKind, Test, curve};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::free_amplitude;
-use softstop_dynamics::{Along, Follower, Limits};
+use softstop_dynamics::{Continuation, Limits, ParameterFamily};
 
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -37,18 +37,18 @@ impl Boundaries {
         let [eta, _] = RANGES;
         let scene = machine.scene()?;
         let orbit = find(&scene).context("no z = 1 motion to start from")?;
-        let family = Along::new(scene.clone(), [Parameter::Frequency])?;
+        let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency])?;
         let limits = Limits {
             range: eta,
             points: MOST,
         };
-        let follower = Follower::new(&family, 1).with_steps(STEP);
+        let follower = Continuation::new(&family, 1).with_steps(STEP);
         let at = (machine.frequency, orbit.state());
         let branch = follower.branch(at.0, at.1, &limits, |_| interrupt::go_on());
         let branch = branch.context("the z = 1 motion cannot be followed")?;
         let plane = [Parameter::Frequency, Parameter::Clearance];
-        let plane = Along::new(scene.clone(), plane)?;
-        let region = Region {
+        let plane = ParameterFamily::new(scene.clone(), plane)?;
+        let region = CurveLimits {
             ranges: RANGES,
             points: MOST,
             step: STEP,

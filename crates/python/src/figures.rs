@@ -6,7 +6,7 @@ use softstop_console::budget::Budget;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_dynamics::figure::Figure;
-use softstop_dynamics::zone::find_watched;
+use softstop_dynamics::zone::find_with_monitor;
 use softstop_dynamics::{Orbit, Stroke, slopes};
 use softstop_optimize::robust::rates;
 
@@ -47,7 +47,7 @@ pub fn figures(
     let found = supervise(py, &None, || {
         Budget::MACHINE.limit(|| {
             let orbit =
-                find_watched(&stated.scene, &interrupt::watch).map_err(anyhow::Error::from)?;
+                find_with_monitor(&stated.scene, &interrupt::watch).map_err(anyhow::Error::from)?;
             let stroke = Stroke::of(&orbit)?;
             Ok::<_, Failure>((orbit, stroke))
         })

@@ -8,7 +8,7 @@ use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{end_along, find_zones, free_amplitude, loss_of_stability};
-use softstop_dynamics::{Along, Orbit, Stroke, Zone};
+use softstop_dynamics::{Orbit, ParameterFamily, Stroke, Zone};
 
 use super::cost::value_of_motion;
 use super::figure::Figure;
@@ -158,7 +158,7 @@ impl<'a> Judged<'a> {
         let Some(from) = parameter.get(scene) else {
             return f64::NAN;
         };
-        let family = Along::new(scene.clone(), [parameter]).map_err(OrbitError::from);
+        let family = ParameterFamily::new(scene.clone(), [parameter]).map_err(OrbitError::from);
         let end = family.and_then(|family| end_along(&family, from, self.orbit, heading, test));
         match end {
             Ok(Some(lost)) => (lost - from).abs(),

@@ -152,7 +152,7 @@ impl Problem {
             let machine = Self::machine_at(problem, values);
             let zone = match self.zone {
                 ZoneKind::Hysteresis => {
-                    let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch);
+                    let zone = zone::hysteresis_with_monitor(&machine.scene, &interrupt::watch);
                     zone.or_else(|none| problem.zone_of(&machine).map_err(|_| none))
                 }
                 ZoneKind::SingleImpact { .. } => problem.zone_of(&machine),

@@ -32,7 +32,7 @@ impl Reference {
 /// machine itself, if it has a stable z = 1 motion as it is.
 pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
     if machine.ratios().is_none() {
-        let found = zone::find_watched(&machine.scene, &interrupt::watch).ok();
+        let found = zone::find_with_monitor(&machine.scene, &interrupt::watch).ok();
         return Ok(Vec::from_iter(found.map(|orbit| Reference {
             name: "given",
             machine: machine.clone(),
@@ -45,7 +45,7 @@ pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
             let point = || format!("the paper's point {}", regime.point());
             let machine = Machine::named(regime.name()).with_context(point)?;
             let orbit =
-                orbit::find_watched(&machine.scene, &interrupt::watch).with_context(point)?;
+                orbit::find_with_monitor(&machine.scene, &interrupt::watch).with_context(point)?;
             Ok(Reference {
                 name: regime.point(),
                 machine,

@@ -3,9 +3,9 @@
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_draw::Stroke;
-use softstop_dynamics::continuation::{Follower, Heading, Test};
+use softstop_dynamics::continuation::{Continuation, Heading, Test};
 use softstop_dynamics::watch::stop_if;
-use softstop_dynamics::{Along, BranchPoint, Orbit, Zone};
+use softstop_dynamics::{BranchPoint, Orbit, ParameterFamily, Zone};
 
 use super::figure::Curve;
 
@@ -125,8 +125,8 @@ fn is_shown(point: &BranchPoint) -> bool {
 /// The stable motions from g0 down, and where their period doubles.
 fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
     let start: Orbit = zone.orbit(zone.branch.first()?).ok()?;
-    let family = Along::new(start.scene.clone(), [Parameter::Frequency]).ok()?;
-    let follower = Follower::new(&family, 1);
+    let family = ParameterFamily::new(start.scene.clone(), [Parameter::Frequency]).ok()?;
+    let follower = Continuation::new(&family, 1);
     let from = start.scene.excitation.frequency;
     let mut points = follower
         .follow(&start, from, Heading::Down, LONGEST, |point| {
@@ -146,10 +146,10 @@ fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
 
 /// Motions of a branch with others between them, where Newton's method stays between its neighbours.
 fn refined(scene: &Scene, points: &[BranchPoint]) -> Vec<BranchPoint> {
-    let Ok(family) = Along::new(scene.clone(), [Parameter::Frequency]) else {
+    let Ok(family) = ParameterFamily::new(scene.clone(), [Parameter::Frequency]) else {
         return points.to_vec();
     };
-    let follower = Follower::new(&family, 1);
+    let follower = Continuation::new(&family, 1);
     let mut all: Vec<BranchPoint> = points.first().cloned().into_iter().collect();
     for pair in points.windows(2) {
         let (from, to) = (&pair[0], &pair[1]);

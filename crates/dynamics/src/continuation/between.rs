@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 
 use super::Family;
 use super::arclength::Node;
-use super::follower::{Follower, WIDTH};
+use super::follow::{Continuation, WIDTH};
+use super::half_branch::Limits;
 use super::locate::{along_chord, locate, zero};
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
 use super::test::Test;
-use super::way::Limits;
 use crate::orbit::OrbitError;
 
 /// Distance of a point from the chord between its neighbours, as a share of the chord, within which it is taken for
@@ -20,7 +20,7 @@ const SAME: f64 = 1e-9;
 /// Most points that a branch is followed through between two neighbours.
 const WALK: usize = 200;
 
-impl<F: Family> Follower<'_, F> {
+impl<F: Family> Continuation<'_, F> {
     /// The point between two neighbours at which `test` changes its sign.
     ///
     /// # Errors
@@ -31,8 +31,8 @@ impl<F: Family> Follower<'_, F> {
         to: &BranchPoint,
         test: impl Fn(&BranchPoint) -> f64,
     ) -> Result<BranchPoint, OrbitError> {
-        self.clearly(from, to, |follower, ends| {
-            follower.locate_between(ends, &test)
+        self.clearly(from, to, |continuation, ends| {
+            continuation.locate_between(ends, &test)
         })
     }
 
@@ -46,7 +46,9 @@ impl<F: Family> Follower<'_, F> {
         to: &BranchPoint,
         test: Test,
     ) -> Result<BranchPoint, OrbitError> {
-        self.clearly(from, to, |follower, ends| follower.zero_between(ends, test))
+        self.clearly(from, to, |continuation, ends| {
+            continuation.zero_between(ends, test)
+        })
     }
 
     /// What is found between two neighbours, seen at a drive angle with no crossing near.

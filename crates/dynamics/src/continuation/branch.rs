@@ -7,15 +7,15 @@ use nalgebra::{DVector, Vector2};
 use super::Family;
 use super::arclength::Node;
 use super::curve::SHORTEST_LOOP;
-use super::follower::{Follower, Heading, SectionChange, WIDTH};
+use super::follow::{Continuation, Heading, SectionChange, WIDTH};
 use super::grazing_test::GrazingTest;
+use super::half_branch::{End, HalfBranch, Limits};
 use super::locate::locate;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::step_control::SHORT;
 use super::stepper::Stepper;
 use super::test::Test;
-use super::way::{End, Limits, Way};
 use crate::orbit::OrbitError;
 
 /// A branch of orbits, in order of arclength.
@@ -53,7 +53,7 @@ impl Branch {
     }
 }
 
-impl<'a, F: Family> Follower<'a, F> {
+impl<'a, F: Family> Continuation<'a, F> {
     /// The branch through the orbit near a state, towards falling and rising parameters, with every
     /// fold, flip, Neimark-Sacker point and grazing on it. `watch` sees each point as it comes, and the last
     /// one again whenever the next one was not reached by a step.
@@ -80,9 +80,9 @@ impl<'a, F: Family> Follower<'a, F> {
             &mut watch,
         )?;
         let down = match up.end {
-            End::Closed => Way {
+            End::Closed => HalfBranch {
                 end: End::Closed,
-                ..Way::none()
+                ..HalfBranch::none()
             },
             _ => self.way(
                 start.clone(),
@@ -117,7 +117,7 @@ impl<'a, F: Family> Follower<'a, F> {
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let way = self.way(start.clone(), along, limits, watch)?;
-        let mut branch = self.joined(&start, Way::none(), way)?;
+        let mut branch = self.joined(&start, HalfBranch::none(), way)?;
         branch.ends.0 = End::Merged;
         Ok(branch)
     }
@@ -125,8 +125,8 @@ impl<'a, F: Family> Follower<'a, F> {
     fn joined(
         &self,
         start: &Node<PeriodMap>,
-        mut down: Way,
-        up: Way,
+        mut down: HalfBranch,
+        up: HalfBranch,
     ) -> Result<Branch, OrbitError> {
         down.points.reverse();
         down.specials.reverse();
@@ -147,17 +147,17 @@ impl<'a, F: Family> Follower<'a, F> {
         along: &DVector<f64>,
         limits: &Limits,
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
-    ) -> Result<Way, OrbitError> {
-        let mut way = Way::none();
+    ) -> Result<HalfBranch, OrbitError> {
+        let mut way = HalfBranch::none();
         let origin = self.point_at(&start)?;
         let mut next = Some(self.set_out(start, along.clone()));
         while let Some(SectionChange {
-            follower,
+            continuation,
             node,
             along,
         }) = next
         {
-            next = follower.go_on(&mut way, (node, &along), &origin, limits, watch)?;
+            next = continuation.go_on(&mut way, (node, &along), &origin, limits, watch)?;
         }
         Ok(way)
     }
@@ -165,7 +165,7 @@ impl<'a, F: Family> Follower<'a, F> {
     /// Goes on along a branch as long as this section serves; then how it goes on, if it does.
     fn go_on(
         &self,
-        way: &mut Way,
+        way: &mut HalfBranch,
         (start, along): (Node<PeriodMap>, &DVector<f64>),
         origin: &BranchPoint,
         limits: &Limits,
@@ -262,7 +262,7 @@ impl<'a, F: Family> Follower<'a, F> {
     /// where that fails.
     fn record(
         &self,
-        way: &mut Way,
+        way: &mut HalfBranch,
         (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
         mut specials: Vec<Special>,
         origin: &DVector<f64>,

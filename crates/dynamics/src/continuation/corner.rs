@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Equations, Node, correct, tangent};
-use super::follower::{Follower, keeps_sense};
+use super::follow::{Continuation, keeps_sense};
 use super::period_map::PeriodMap;
 use super::point::{Special, SpecialKind};
 use super::shooting::Shooting;
@@ -19,7 +19,7 @@ const BEYOND: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
 /// How many times as far from this side of the corner it may lie, and the touch from both.
 const NEAR: f64 = 10.0;
 
-impl<F: Family> Follower<'_, F> {
+impl<F: Family> Continuation<'_, F> {
     /// A node beyond the corner just ahead, and the direction in which the branch goes on from it. Whether the force jumps
     /// at the touch plays no part: the map is continuous there, so that fixed points go on from it one way alone, which
     /// their index tells, and no other branch comes as near.

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Equations, Node, correct};
-use super::follower::WIDTH;
+use super::follow::WIDTH;
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
 use super::locate::{along_chord, locate};
 use super::period_map::PeriodMap;
@@ -18,7 +18,7 @@ use crate::orbit::{Monodromy, OrbitError};
 
 /// The part of the plane of two parameters in which a curve is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Region {
+pub struct CurveLimits {
     /// Lowest and highest values.
     pub ranges: [(f64, f64); 2],
     /// Points in each direction.
@@ -89,7 +89,7 @@ pub fn curve<F: Family<2>>(
     periods: u64,
     (kind, point): (SpecialKind, &BranchPoint),
     parameters: [f64; 2],
-    region: &Region,
+    region: &CurveLimits,
     mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Curve, OrbitError> {
     match kind {
@@ -175,7 +175,7 @@ fn follow<E: Codimension>(
     equations: &E,
     kind: SpecialKind,
     guess: &DVector<f64>,
-    region: &Region,
+    region: &CurveLimits,
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Curve, OrbitError> {
     let unknowns = guess.len();
@@ -209,7 +209,7 @@ fn way<E: Codimension>(
     equations: &E,
     start: Node<E::Point>,
     along: &DVector<f64>,
-    region: &Region,
+    region: &CurveLimits,
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<(Vec<CurvePoint>, CurveEnd), OrbitError> {
     let origin = start.at.clone();
@@ -256,7 +256,7 @@ fn way<E: Codimension>(
 fn within<E: Codimension>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
-    region: &Region,
+    region: &CurveLimits,
 ) -> Result<(Node<E::Point>, bool), OrbitError> {
     let mut end = (to.clone(), false);
     for (index, (low, high)) in region.ranges.into_iter().enumerate() {

@@ -7,13 +7,13 @@ use nalgebra::DVector;
 use super::Family;
 use super::arclength::{Equations, Node};
 use super::curve::CLOSED;
-use super::follower::{Follower, WIDTH};
+use super::follow::{Continuation, WIDTH};
 use super::grazing_test::GrazingTest;
+use super::half_branch::Limits;
 use super::locate::{Cubic, along_chord, locate};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
-use super::way::Limits;
 use crate::orbit::OrbitError;
 use softstop::internals::highest;
 
@@ -32,7 +32,7 @@ const SHALLOW: f64 = 0.2;
 /// Scaled length of the shortest part of a step that is halved to find a grazing on it.
 const SHORTEST: f64 = 1e-7;
 
-impl<F: Family> Follower<'_, F> {
+impl<F: Family> Continuation<'_, F> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
     pub(super) fn bound_passed(
         &self,
@@ -227,10 +227,12 @@ impl<F: Family> Follower<'_, F> {
         }
         let share = a.norm() / (a.norm() + b.norm());
         let at = &from.at + share * (&to.at - &from.at);
-        let follower = self.over(periods / 2);
+        let continuation = self.over(periods / 2);
         let [parameter] = self.shooting.parameters(&at);
-        let near = follower.point(parameter, self.shooting.state(&at)).ok()?;
-        follower.critical(&near, Test::Flip).ok()
+        let near = continuation
+            .point(parameter, self.shooting.state(&at))
+            .ok()?;
+        continuation.critical(&near, Test::Flip).ok()
     }
 }
 

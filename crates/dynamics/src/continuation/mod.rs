@@ -1,10 +1,10 @@
 //! Branches of periodic orbits in one parameter, by pseudo-arclength (Keller 1977), their
 //! bifurcations, and curves of bifurcations in two parameters.
 //!
-//! A [`Family`] is a machine with one parameter or two left open: [`Along`] makes one of any machine and
-//! any [`Parameter`](softstop::Parameter). A [`Follower`] follows its orbits over a number of drive periods, whether stable or
-//! not, through folds; [`Follower::branch`] finds every fold, flip and grazing on the way,
-//! [`Follower::doubled`] goes on to the orbits of twice the period, and [`curve`] follows a special point
+//! A [`Family`] is a machine with one parameter or two left open: [`ParameterFamily`] makes one of any machine and
+//! any [`Parameter`](softstop::Parameter). A [`Continuation`] follows its orbits over a number of drive periods, whether stable or
+//! not, through folds; [`Continuation::branch`] finds every fold, flip and grazing on the way,
+//! [`Continuation::doubled`] goes on to the orbits of twice the period, and [`curve`] follows a special point
 //! in two parameters.
 //!
 //! ```
@@ -12,9 +12,9 @@
 //!
 //! use nalgebra::Vector2;
 //! use softstop::{Parameter, Ratios};
-//! use softstop_dynamics::{Along, Follower, Limits};
+//! use softstop_dynamics::{ParameterFamily, Continuation, Limits};
 //!
-//! let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
+//! let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
 //! let limits = Limits { range: (1.1, 1.5), points: 500 };
 //! let state = Vector2::new(6.9, 9.5);
 //! let branch =
@@ -25,7 +25,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod along;
 mod arclength;
 mod between;
 mod branch;
@@ -33,11 +32,14 @@ mod corner;
 mod curve;
 mod detect;
 mod face;
-mod follower;
+mod follow;
 mod grazing_orbit;
 mod grazing_test;
+mod half_branch;
 mod kept_motion;
 mod locate;
+mod parameter_family;
+mod period_doubling;
 mod period_map;
 mod point;
 mod section;
@@ -45,22 +47,20 @@ mod sequence;
 mod shooting;
 mod step_control;
 mod stepper;
-mod switch;
 mod test;
-mod way;
 
-pub use along::Along;
 pub(crate) use between::ASIDE;
 pub use branch::Branch;
-pub use curve::{Curve, CurveEnd, CurvePoint, Region, curve};
+pub use curve::{Curve, CurveEnd, CurveLimits, CurvePoint, curve};
 pub use face::Face;
-pub use follower::{Follower, Heading};
+pub use follow::{Continuation, Heading};
 pub(crate) use grazing_orbit::LastArc;
 pub(crate) use grazing_test::grazing;
+pub use half_branch::{BorderCollision, End, Limits};
+pub use parameter_family::ParameterFamily;
 pub(crate) use period_map::carry_on;
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub use test::Test;
-pub use way::{Border, End, Limits};
 
 use softstop::{MotionError, Scene};
 

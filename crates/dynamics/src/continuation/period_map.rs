@@ -59,23 +59,23 @@ impl PeriodMap {
         let Followed {
             start,
             ends,
-            monitor,
+            recorder,
         } = followed;
-        let wall = monitor.scene.wall();
+        let wall = recorder.scene.wall();
         let at_wall = wall.is_some_and(|wall| wall.position == start.x);
         Ok(Self {
             start,
             ends,
             // Whatever comes to rest at a rigid stop goes on alike.
-            monodromy: match at_wall && monitor.margin == 0.0 {
+            monodromy: match at_wall && recorder.margin == 0.0 {
                 true => Monodromy::ZERO,
                 false => Monodromy::from(&detuning.tangent),
             },
             by_frequency,
-            impacts: monitor.impacts,
-            sequence: monitor.sequence,
-            slowest: monitor.slowest,
-            margin: monitor.margin,
+            impacts: recorder.impacts,
+            sequence: recorder.sequence,
+            slowest: recorder.slowest,
+            margin: recorder.margin,
             motion: kept.into(),
         })
     }
@@ -92,15 +92,15 @@ pub(crate) fn image(
     periods: u64,
     state: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Sequence), MotionError> {
-    let (Followed { ends, monitor, .. }, _) = follow(machine, periods, state, &mut ())?;
-    Ok((ends[ends.len() - 1], monitor.sequence))
+    let (Followed { ends, recorder, .. }, _) = follow(machine, periods, state, &mut ())?;
+    Ok((ends[ends.len() - 1], recorder.sequence))
 }
 
 /// A motion from a state over the periods.
 struct Followed<'a> {
     start: Vector2<f64>,
     ends: Vec<Vector2<f64>>,
-    monitor: Monitor<'a>,
+    recorder: MapRecorder<'a>,
 }
 
 /// Follows a motion over the periods, which another observer watches, too.
@@ -114,7 +114,7 @@ fn follow<'a>(
     let begin = Start::from(start);
     begin.validate()?;
     let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
-    let mut monitor = Monitor {
+    let mut recorder = MapRecorder {
         scene,
         clock: *motion.clock(),
         impacts: Vec::new(),
@@ -131,17 +131,17 @@ fn follow<'a>(
         carry_on(
             &mut motion,
             Clock::at_cycle(period),
-            &mut (&mut monitor, &mut *other),
+            &mut (&mut recorder, &mut *other),
         )?;
         ends.push(motion.state().into());
     }
-    motion.tell_arc(&mut (&mut monitor, other));
-    monitor.sequence.impacts = monitor.impacts.len();
+    motion.tell_arc(&mut (&mut recorder, other));
+    recorder.sequence.impacts = recorder.impacts.len();
     Ok((
         Followed {
             start,
             ends,
-            monitor,
+            recorder,
         },
         motion,
     ))
@@ -185,7 +185,7 @@ pub(crate) fn carry_on(
     })
 }
 
-struct Monitor<'a> {
+struct MapRecorder<'a> {
     scene: &'a Scene,
     clock: Clock,
     impacts: Vec<f64>,
@@ -210,7 +210,7 @@ struct Row {
     impacts: usize,
 }
 
-impl Observer for Monitor<'_> {
+impl Observer for MapRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, _: f64) {
         let was_held = std::mem::replace(&mut self.is_held, arc.course.is_held());
         if self.is_held && arc.start == Clock::at_cycle(0) {
@@ -237,7 +237,7 @@ impl Observer for Monitor<'_> {
     }
 }
 
-impl Monitor<'_> {
+impl MapRecorder<'_> {
     fn turns(&mut self) {
         self.sequence.reversals += 1;
         if let Some((_, turned)) = &mut self.touched {

@@ -11,7 +11,7 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Node, correct, tangent};
-use super::follower::{Follower, SectionChange, keeps_sense};
+use super::follow::{Continuation, SectionChange, keeps_sense};
 use super::period_map::{PeriodMap, before_wall, carry_on};
 use super::point::BranchPoint;
 use softstop::internals::{Motion, Phases};
@@ -27,31 +27,31 @@ const BACK: f64 = 1e-6;
 /// method may run off to another one.
 const FOUND: f64 = 1e-2;
 
-impl<'a, F: Family> Follower<'a, F> {
+impl<'a, F: Family> Continuation<'a, F> {
     /// The same branch seen where no crossing stands in the way; none if this section is as good as any.
     pub(super) fn turned(
         &self,
         node: &Node<PeriodMap>,
         direction: &DVector<f64>,
     ) -> Option<SectionChange<'a, F>> {
-        let follower = self.clear_of(node)?;
-        let by = follower.shooting.turn - self.shooting.turn;
+        let continuation = self.clear_of(node)?;
+        let by = continuation.shooting.turn - self.shooting.turn;
         let carried = |at: &DVector<f64>| self.carried(at, by);
         let at = carried(&node.at).ok()?;
         let back = carried(&(&node.at - BACK * direction)).ok()?;
         let along = (&at - back).normalize();
-        let seen = correct(&follower.shooting, &at, Some(&along)).ok()?;
+        let seen = correct(&continuation.shooting, &at, Some(&along)).ok()?;
         if (&seen.at - &at).norm() > FOUND {
             return None;
         }
-        let (mut along, _) = tangent(&follower.shooting, &seen, &along).ok()?;
+        let (mut along, _) = tangent(&continuation.shooting, &seen, &along).ok()?;
         // Where small changes grow too much on the way, what is carried back may point backward.
         let [before, after] = [node, &seen].map(|node| &node.here.point.monodromy);
         if !keeps_sense((direction, before), (&along, after)) {
             along.neg_mut();
         }
         Some(SectionChange {
-            follower,
+            continuation,
             node: seen,
             along,
         })

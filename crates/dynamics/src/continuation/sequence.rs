@@ -1,6 +1,6 @@
 //! What an orbit crosses, and how often.
 
-use super::way::Border;
+use super::half_branch::BorderCollision;
 
 /// How often an orbit crosses what; it changes only where the orbit grazes something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,14 +35,14 @@ impl Sequence {
     }
 
     /// What comes in between two orbits.
-    pub fn border(&self, other: &Self) -> Option<Border> {
+    pub fn border(&self, other: &Self) -> Option<BorderCollision> {
         let ([surfaces, turns], [others, other_turns]) = (self.hard(), other.hard());
         if (self.holds, self.rests) != (other.holds, other.rests) {
-            Some(Border::Rest)
+            Some(BorderCollision::Rest)
         } else if surfaces != others {
-            Some(Border::Surface)
+            Some(BorderCollision::Surface)
         } else {
-            (turns != other_turns).then_some(Border::Turn)
+            (turns != other_turns).then_some(BorderCollision::Turn)
         }
     }
 

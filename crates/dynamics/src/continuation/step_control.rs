@@ -2,14 +2,14 @@
 
 use super::Family;
 use super::arclength::{DIFFERENCE, Equations, Node, correct};
-use super::follower::{Follower, keeps_sense};
+use super::follow::{Continuation, keeps_sense};
 use super::grazing_test::GrazingTest;
+use super::half_branch::{BorderCollision, End, HalfBranch, Limits};
 use super::period_map::PeriodMap;
 use super::point::{Special, SpecialKind};
 use super::shooting::Shooting;
 use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
-use super::way::{Border, End, Limits, Way};
 use crate::orbit::OrbitError;
 
 /// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR`
@@ -32,12 +32,12 @@ const WILD: f64 = 1e8;
 /// Length of the steps from which on all changes are taken.
 pub(super) const SHORT: f64 = 1e-5;
 
-impl<F: Family> Follower<'_, F> {
+impl<F: Family> Continuation<'_, F> {
     /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just
     /// ahead (of values that no machine can have beyond), at an orbit that is too unstable, or lost.
     pub(super) fn give_up(
         &self,
-        way: &mut Way,
+        way: &mut HalfBranch,
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
         grazing_test: &GrazingTest,
         limits: &Limits,
@@ -56,7 +56,9 @@ impl<F: Family> Follower<'_, F> {
             };
             return;
         }
-        let dies = grazing_test.dies_within(NEAR).then_some(Border::Surface);
+        let dies = grazing_test
+            .dies_within(NEAR)
+            .then_some(BorderCollision::Surface);
         way.end = match self.border_ahead(stepper, &error).or(dies) {
             Some(border) => End::Border(border),
             None if self.shooting.growth(&stepper.node.here.point.monodromy) * DIFFERENCE > 1.0 => {
@@ -72,7 +74,7 @@ impl<F: Family> Follower<'_, F> {
         &self,
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
         error: &OrbitError,
-    ) -> Option<Border> {
+    ) -> Option<BorderCollision> {
         let node = &stepper.node;
         let border = |reach: f64| {
             let there = &node.at + reach * &stepper.direction;
@@ -83,7 +85,7 @@ impl<F: Family> Follower<'_, F> {
         let mut near = JUST_AHEAD.into_iter().chain(behind);
         let held = || {
             let mut far = HELD_AHEAD.into_iter().filter_map(border);
-            far.find(|border| *border == Border::Rest)
+            far.find(|border| *border == BorderCollision::Rest)
         };
         near.find_map(border)
             .or_else(|| held().filter(|_| *error == OrbitError::NotIsolated))

@@ -147,7 +147,7 @@ impl Walk {
                 ask()?;
                 let passage = self.map.apply(self.state)?;
                 self.state = passage.end;
-                let [first, second] = stretch(&mut self.frame, &passage.monodromy);
+                let [first, second] = carry_frame(&mut self.frame, &passage.monodromy);
                 sums[0] += first;
                 sums[1] += second;
             }
@@ -183,7 +183,7 @@ impl Walk {
 }
 
 /// Carries an orthonormal frame through a Jacobian: M Q = Q' R. Gives ln |R| on the diagonal.
-fn stretch(frame: &mut Matrix2<f64>, jacobian: &Matrix2<f64>) -> [f64; 2] {
+fn carry_frame(frame: &mut Matrix2<f64>, jacobian: &Matrix2<f64>) -> [f64; 2] {
     let image = jacobian * *frame;
     let first = image.column(0).into_owned();
     let length = first.norm();

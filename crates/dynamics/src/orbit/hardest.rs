@@ -61,7 +61,7 @@ impl Singles<'_> {
             has_left.set(leaves(at));
             has_left.get() || is_near(at)
         };
-        let settled = self.shooting.settle_unless(&[guess], ends);
+        let settled = self.shooting.settle_new(&[guess], ends);
         let is_new = match settled {
             Err(_) => return Ok(()),
             Ok(None) => !has_left.get(),

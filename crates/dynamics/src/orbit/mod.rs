@@ -34,8 +34,8 @@ pub use pattern::{Count, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
 pub(crate) use scan::{all_about, singles_near};
-pub(crate) use search::find_soon;
-pub use search::{find, find_watched};
+pub(crate) use search::find_batch;
+pub use search::{find, find_with_monitor};
 pub(crate) use smallest::smallest_period;
 
 use std::ops::ControlFlow;

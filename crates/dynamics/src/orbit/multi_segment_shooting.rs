@@ -117,7 +117,7 @@ impl<'a> MultiSegmentShooting<'a> {
     }
 
     /// The same; none as soon as a whole step leads to impacts that are known.
-    pub(super) fn settle_unless(
+    pub(super) fn settle_new(
         &self,
         guess: &[(f64, f64)],
         known: impl Fn(&[f64]) -> bool,

@@ -22,12 +22,12 @@ pub fn fixed_point(
     map: &StroboscopicMap,
     start: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Passage), OrbitError> {
-    let found = fixed_point_unless(map, start, |_| false)?;
+    let found = find_new_fixed_point(map, start, |_| false)?;
     found.ok_or(OrbitError::Diverged { residual: f64::NAN })
 }
 
 /// The same; none as soon as a whole step leads to a state that is known.
-pub(super) fn fixed_point_unless(
+pub(super) fn find_new_fixed_point(
     map: &StroboscopicMap,
     start: Vector2<f64>,
     known: impl Fn(Vector2<f64>) -> bool,

@@ -123,7 +123,7 @@ impl<'a> Singles<'a> {
             let near = |other| apart(other, (at[0], at[1]), period) < NEAR;
             impacts.iter().copied().any(near)
         };
-        let settled = self.shooting.settle_unless(&[guess], known);
+        let settled = self.shooting.settle_new(&[guess], known);
         let mut next = settled.map_err(|failed| self.miss(failed.nearest));
         while let Ok(orbit) = next {
             OrbitError::ask(watcher)?;

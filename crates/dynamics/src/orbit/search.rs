@@ -5,7 +5,7 @@ use std::slice::from_ref;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::newton::fixed_point_unless;
+use super::newton::find_new_fixed_point;
 use super::periodic::STEEP;
 use super::scan::{FAINTEST, all_single};
 use super::trials::{Candidate, RETURNS, Trial, Trials, distance, least, settled};
@@ -36,14 +36,14 @@ const SAME_SPEED: f64 = 1e-9;
 /// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is
 /// invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
-    find_watched(scene, &unwatched)
+    find_with_monitor(scene, &unwatched)
 }
 
 /// The motion that [`find`] finds, as long as a watcher, which is not told how much is done, lets the search go on.
 ///
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
-pub fn find_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitError> {
+pub fn find_with_monitor(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitError> {
     let settled = search(from_ref(scene), usize::MAX, watcher).remove(0);
     let mut all = all_single(scene, watcher)?;
     all.retain(Orbit::is_stable);
@@ -72,7 +72,7 @@ impl Orbit {
 ///
 /// # Errors
 /// Each as of [`find`].
-pub(crate) fn find_soon(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Orbit, OrbitError>> {
+pub(crate) fn find_batch(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Orbit, OrbitError>> {
     search(scenes, 1, watcher)
 }
 
@@ -253,7 +253,7 @@ impl<'a> FixedPoints<'a> {
 
     /// Newton's method from a state, unless it comes near a motion that was met.
     fn look(&mut self, state: Vector2<f64>) {
-        let found = fixed_point_unless(&self.map, state, |state| self.is_near(state));
+        let found = find_new_fixed_point(&self.map, state, |state| self.is_near(state));
         let steepness = |passage: &Passage| self.map.scales().jacobian(&passage.monodromy).norm();
         let orbit = match found {
             Ok(None) => return,

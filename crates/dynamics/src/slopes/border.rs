@@ -12,7 +12,7 @@ use softstop::{Clock, Parameter, Scene, SceneError, Start};
 
 use super::variation::{Variation, lowered, none};
 use crate::continuation::{
-    BranchPoint, Follower, Graze, LastArc, Special, SpecialKind, Test, grazing,
+    BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, Test, grazing,
 };
 use crate::orbit::OrbitError;
 use crate::zone::{EndKind, Frequencies, ZoneEnd, ZoneError, grazing_frequencies};
@@ -167,7 +167,7 @@ impl Border {
         let special = match motion {
             SpecialKind::Critical(test) => Special {
                 kind: motion,
-                point: Follower::new(&family, *periods).critical(&guess, test)?,
+                point: Continuation::new(&family, *periods).critical(&guess, test)?,
             },
             SpecialKind::Grazing(graze) => {
                 let phase = scene.excitation.phase;

@@ -5,7 +5,7 @@ use super::stage::{Explorer, Gathering};
 use super::way::Way;
 use super::window::{Window, WindowEnd};
 use super::{Transition, TransitionError};
-use crate::continuation::{Family, Follower, Limits, SpecialKind, Test};
+use crate::continuation::{Continuation, Family, Limits, SpecialKind, Test};
 use crate::motion::MotionKind;
 use crate::watch::stop_if;
 
@@ -149,11 +149,11 @@ impl<F: Family + Sync> Explorer<'_, F> {
             range: self.range,
             points: self.rules.points,
         };
-        let follower = Follower::new(self.family, periods);
+        let continuation = Continuation::new(self.family, periods);
         // Its first special point is the end of the doubled motion or, where the flip is hard, the fold from
         // which the doubled motion comes.
         let mut seen = 0;
-        let branch = follower.doubled(&end.point, &limits, |_| {
+        let branch = continuation.doubled(&end.point, &limits, |_| {
             seen += 1;
             stop_if(seen == DOUBLED)
         });

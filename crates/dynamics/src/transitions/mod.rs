@@ -8,11 +8,11 @@
 //!
 //! ```
 //! use softstop::{Parameter, Ratios};
-//! use softstop_dynamics::Along;
+//! use softstop_dynamics::ParameterFamily;
 //! use softstop_dynamics::transitions::{Explorer, Rules};
 //! use softstop_dynamics::watch::unwatched;
 //!
-//! let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
+//! let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
 //! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &unwatched);
 //! let transitions = explorer.explore(&[1.2])?;
 //! // The grazing of z = 0 at g0 and the fold of z = 1, both with hysteresis.

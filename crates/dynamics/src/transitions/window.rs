@@ -1,7 +1,7 @@
 //! The values of the parameter for which a periodic motion is stable.
 
 use super::{Rules, TransitionError};
-use crate::continuation::{Branch, BranchPoint, Family, Follower, Limits, SpecialKind, Test};
+use crate::continuation::{Branch, BranchPoint, Continuation, Family, Limits, SpecialKind, Test};
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use crate::watch::stop_if;
@@ -41,10 +41,10 @@ impl Window {
             range,
             points: rules.points,
         };
-        let follower = Follower::new(family, orbit.periods);
+        let continuation = Continuation::new(family, orbit.periods);
         // One point beyond a fold or flip is enough to have it located.
         let watch = |point: &BranchPoint| stop_if(!point.is_stable());
-        let branch = follower.branch(value, orbit.state(), &limits, watch)?;
+        let branch = continuation.branch(value, orbit.state(), &limits, watch)?;
         let start = nearest(&branch, value, orbit);
         let mut ends = [end(&branch, start, true), end(&branch, start, false)];
         if ends[0].point.parameter > ends[1].point.parameter {

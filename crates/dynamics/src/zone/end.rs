@@ -1,9 +1,9 @@
 //! What ends a range of z = 1 motions.
 
-use crate::continuation::{Border, Branch, BranchPoint, End, Face, SpecialKind, Test};
+use crate::continuation::{BorderCollision, Branch, BranchPoint, End, Face, SpecialKind, Test};
 use crate::orbit::OrbitError;
 
-/// Why a stretch ends.
+/// Why a stable range ends.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Loss {
@@ -20,7 +20,7 @@ pub enum Loss {
     /// It grazes a surface beyond the clearance, where the force jumps: a border collision.
     Inner(Face),
     /// Another border collision.
-    Border(Border),
+    Border(BorderCollision),
     /// It is followed no farther than here.
     Range,
     /// The branch has more points than are followed.

@@ -3,45 +3,47 @@
 use super::hysteresis::{UpperEnd, zones_of};
 use super::places::{Zone, ZoneKind};
 use super::single_impact::single_impact;
-use super::stretch::Stretch;
-use super::stretches::all_stretches;
+use super::stable_range::StableRange;
+use super::stable_ranges::find_stable_ranges;
 use super::{Frequencies, ZoneError};
-use crate::continuation::Follower;
+use crate::continuation::Continuation;
 use crate::orbit::{self, Orbit, OrbitError};
 use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
-/// The stable z = 1 motion of a scene with the highest before-impact velocity: of those on all stretches of stable z = 1
-/// ([`stretches`](super::stretches)) that hold the frequency of the drive, and of those that a search at that frequency
+/// The stable z = 1 motion of a scene with the highest before-impact velocity: of those on all ranges of stable z = 1
+/// ([`stable_ranges`](super::stable_ranges)) that hold the frequency of the drive, and of those that a search at that frequency
 /// alone finds, from starts spread over the plane of states and from a lattice of impacts.
 ///
 /// # Errors
 /// [`OrbitError::NotFound`] if there is none; [`OrbitError::Motion`] if the scene is invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
-    find_watched(scene, &unwatched)
+    find_with_monitor(scene, &unwatched)
 }
 
 /// The motion that [`find`] finds, as long as a watcher, which is not told how much is done, lets the search go on.
 ///
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
-pub fn find_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitError> {
-    let stretches = all_stretches(scene, watcher)?;
-    find_among(scene, &stretches, watcher)
+pub fn find_with_monitor(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitError> {
+    let stable_ranges = find_stable_ranges(scene, watcher)?;
+    find_among(scene, &stable_ranges, watcher)
 }
 
-/// The motion that [`find`] finds, with the stretches of the scene, which do not depend on the frequency of its drive,
+/// The motion that [`find`] finds, with the stable ranges of the scene, which do not depend on the frequency of its drive,
 /// known already.
 ///
 /// # Errors
-/// As [`find_watched`].
+/// As [`find_with_monitor`].
 pub fn find_among(
     scene: &Scene,
-    stretches: &[Stretch],
+    stable_ranges: &[StableRange],
     watcher: Watcher<'_>,
 ) -> Result<Orbit, OrbitError> {
-    let here = orbit::find_watched(scene, watcher);
-    let on = stretches.iter().filter_map(|one| on_stretch(scene, one));
+    let here = orbit::find_with_monitor(scene, watcher);
+    let on = stable_ranges
+        .iter()
+        .filter_map(|one| on_stable_range(scene, one));
     match (here, on.max_by(Orbit::compare_velocity)) {
         (Ok(here), Some(other)) if other.is_harder(&here) => Ok(other),
         (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
@@ -65,10 +67,12 @@ pub fn find_zones(
     }
 }
 
-/// The motion of a stretch at the frequency of the scene's drive.
-fn on_stretch(scene: &Scene, stretch: &Stretch) -> Option<Orbit> {
-    let point = stretch.point_at(scene, scene.excitation.frequency).ok()??;
+/// The motion of a stable range at the frequency of the scene's drive.
+fn on_stable_range(scene: &Scene, stable_range: &StableRange) -> Option<Orbit> {
+    let point = stable_range
+        .point_at(scene, scene.excitation.frequency)
+        .ok()??;
     let family = Frequencies(scene);
-    let orbit = Follower::new(&family, 1).orbit(&point).ok()?;
+    let orbit = Continuation::new(&family, 1).orbit(&point).ok()?;
     (orbit.is_stable() && orbit.impacts.len() == 1).then_some(orbit)
 }

@@ -1,7 +1,7 @@
 //! Where the stable motions of a branch end.
 
 use super::end::{EndKind, Loss, ZoneEnd, first_end};
-use crate::continuation::{BranchPoint, Family, Follower, Heading, Limits, SpecialKind, Test};
+use crate::continuation::{BranchPoint, Continuation, Family, Heading, Limits, SpecialKind, Test};
 use crate::orbit::OrbitError;
 use crate::watch::stop_if;
 
@@ -11,7 +11,7 @@ pub(crate) const LONGEST_BRANCH: usize = 2000;
 /// Where stable motions end that were followed from the first of these points on; the last point is then there. Where
 /// that shows in none of the tests, as at a grazing, every special point of the branch is looked at.
 pub(crate) fn ended<F: Family>(
-    follower: &Follower<'_, F>,
+    continuation: &Continuation<'_, F>,
     points: &mut Vec<BranchPoint>,
     heading: Heading,
     range: (f64, f64),
@@ -21,18 +21,18 @@ pub(crate) fn ended<F: Family>(
     let first = points.iter().skip(1).position(is_beyond);
     let beyond = first.and_then(|first| points.drain(first + 1..).next());
     if let (Some(before), Some(beyond)) = (points.last(), beyond)
-        && let Ok(end) = end_between(follower, before, beyond, range)
+        && let Ok(end) = end_between(continuation, before, beyond, range)
     {
         points.push(end.point.clone());
         return Ok(end);
     }
-    followed_to_end(follower, points, heading, range)
+    followed_to_end(continuation, points, heading, range)
 }
 
 /// The end of stable motions between a point before it and one beyond: where a test vanishes, or the bound of the range
 /// if that comes first.
 fn end_between<F: Family>(
-    follower: &Follower<'_, F>,
+    continuation: &Continuation<'_, F>,
     before: &BranchPoint,
     mut beyond: BranchPoint,
     (low, high): (f64, f64),
@@ -41,21 +41,21 @@ fn end_between<F: Family>(
         let fails = |test: &Test| test.value(&beyond.monodromy) <= 0.0;
         let test = Test::ALL.into_iter().find(fails);
         let test = test.ok_or(OrbitError::NotIsolated)?;
-        beyond = follower.critical_between(before, &beyond, test)?;
+        beyond = continuation.critical_between(before, &beyond, test)?;
         if (low..=high).contains(&beyond.parameter) {
             let kind = EndKind::Special(SpecialKind::Critical(test));
             return Ok(ZoneEnd::at(&beyond, kind));
         }
     }
     let bound = beyond.parameter.clamp(low, high);
-    let point = follower.between(before, &beyond, bound)?;
+    let point = continuation.between(before, &beyond, bound)?;
     Ok(ZoneEnd::at(&point, EndKind::Other(Loss::Range)))
 }
 
 /// The end by a look at every special point, from the last point on, or from the first one if there is nothing to see
 /// from the last.
 pub(super) fn followed_to_end<F: Family>(
-    follower: &Follower<'_, F>,
+    continuation: &Continuation<'_, F>,
     points: &mut Vec<BranchPoint>,
     heading: Heading,
     range: (f64, f64),
@@ -70,7 +70,7 @@ pub(super) fn followed_to_end<F: Family>(
             },
             points: LONGEST_BRANCH,
         };
-        let branch = follower.branch(start.parameter, start.state(), &limits, |point| {
+        let branch = continuation.branch(start.parameter, start.state(), &limits, |point| {
             stop_if(!point.is_stable() || point.impacts.len() != 1)
         });
         branch.map(|branch| (index, branch))

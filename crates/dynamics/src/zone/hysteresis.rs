@@ -6,8 +6,8 @@ use super::end::{EndKind, ZoneEnd};
 use super::followed_end::{LONGEST_BRANCH, followed_to_end};
 use super::places::{AT_FOLD, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
-use crate::continuation::{BranchPoint, Follower, Heading, SpecialKind, Test};
-use crate::orbit::{Orbit, OrbitError, find_soon, find_watched};
+use crate::continuation::{BranchPoint, Continuation, Heading, SpecialKind, Test};
+use crate::orbit::{Orbit, OrbitError, find_batch, find_with_monitor};
 use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::Scene;
 use softstop::internals::budget::Fork;
@@ -29,16 +29,16 @@ const TOGETHER: usize = 8;
 /// # Errors
 /// [`ZoneError`] if there is no grazing boundary, no z = 1 motion at it, or no fold.
 pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
-    hysteresis_watched(scene, &unwatched)
+    hysteresis_with_monitor(scene, &unwatched)
 }
 
 /// The same, as long as a watcher, which is not told how much is done, lets it go on.
 ///
 /// # Errors
 /// As [`hysteresis`]; [`OrbitError::Stopped`].
-pub fn hysteresis_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Zone, ZoneError> {
+pub fn hysteresis_with_monitor(scene: &Scene, watcher: Watcher<'_>) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
-    let start = find_watched(&scene.at_frequency(grazing.1), watcher);
+    let start = find_with_monitor(&scene.at_frequency(grazing.1), watcher);
     from_start(scene, grazing, (start.ok(), UpperEnd::Fold), watcher)
 }
 
@@ -55,7 +55,7 @@ pub(super) enum UpperEnd {
 /// those that motions come back near to, and where there is none of them, as in [`hysteresis`].
 ///
 /// # Errors
-/// Each as [`hysteresis_watched`].
+/// Each as [`hysteresis_with_monitor`].
 pub fn hysteresis_batch(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
     zones_of(scenes, UpperEnd::Fold, watcher)
 }
@@ -85,7 +85,7 @@ fn together(
     let at_grazing: Vec<Scene> = with_grazing
         .filter_map(|(scene, grazing)| Some(scene.at_frequency(grazing.as_ref().ok()?.1)))
         .collect();
-    let mut starts = find_soon(&at_grazing, watcher).into_iter();
+    let mut starts = find_batch(&at_grazing, watcher).into_iter();
     let zones = scenes.iter().zip(grazing).map(|(scene, grazing)| {
         let grazing = grazing?;
         let start = starts.next().and_then(Result::ok);
@@ -106,16 +106,16 @@ fn from_start(
     let start = start.ok_or(ZoneError::NoOrbit {
         frequency: frequency_g0.into(),
     })?;
-    let follower = Follower::new(&family, 1);
+    let continuation = Continuation::new(&family, 1);
     let range = (frequency_g0, FARTHEST * frequency_g0);
-    let mut branch = upward(&follower, &start, range, watcher)?;
+    let mut branch = upward(&continuation, &start, range, watcher)?;
     let high = match (highest_fold(&branch), upper) {
         (Some(fold), _) => fold,
         (None, UpperEnd::Fold) => return Err(no_fold(frequency_g0, &branch)),
         (None, UpperEnd::FoldOrGrazing) => {
             let none = no_fold(frequency_g0, &branch);
             branch.truncate(1);
-            let end = followed_to_end(&follower, &mut branch, Heading::Up, range).ok();
+            let end = followed_to_end(&continuation, &mut branch, Heading::Up, range).ok();
             end.filter(is_grazing).ok_or(none)?
         }
     };
@@ -136,12 +136,12 @@ fn from_start(
 
 /// The branch from a z = 1 motion at the lower of two frequencies on, through all its folds, in order of arclength.
 pub(super) fn upward(
-    follower: &Follower<'_, Frequencies<'_>>,
+    continuation: &Continuation<'_, Frequencies<'_>>,
     start: &Orbit,
     (lowest, highest): (f64, f64),
     watcher: Watcher<'_>,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
-    let mut branch = follower.follow(start, lowest, Heading::Up, LONGEST_BRANCH, |point| {
+    let mut branch = continuation.follow(start, lowest, Heading::Up, LONGEST_BRANCH, |point| {
         let flipped = !point.is_stable() && point.fold_test() > 0.0;
         let weak = point.before_impact_velocity() < WEAKEST * start.before_impact_velocity();
         let outside = point.parameter < lowest || point.parameter > highest;
@@ -149,7 +149,7 @@ pub(super) fn upward(
         stop_if(flipped || outside || ends_in_grazing || watcher(0, 0).is_break())
     })?;
     OrbitError::ask(watcher)?;
-    insert_folds(follower, &mut branch);
+    insert_folds(continuation, &mut branch);
     Ok(branch)
 }
 
@@ -170,11 +170,11 @@ pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
 
 /// Adds the folds to a branch, between the neighbours where 1 - tr + det changes its sign; where it leaps over zero, in
 /// a border collision, there is none.
-fn insert_folds(follower: &Follower<'_, Frequencies<'_>>, branch: &mut Vec<BranchPoint>) {
+fn insert_folds(continuation: &Continuation<'_, Frequencies<'_>>, branch: &mut Vec<BranchPoint>) {
     for index in (1..branch.len()).rev() {
         let (from, to) = (&branch[index - 1], &branch[index]);
         if from.fold_test() * to.fold_test() < 0.0
-            && let Ok(fold) = follower.critical_between(from, to, Test::Fold)
+            && let Ok(fold) = continuation.critical_between(from, to, Test::Fold)
         {
             branch.insert(index, fold);
         }

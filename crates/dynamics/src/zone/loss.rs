@@ -1,7 +1,7 @@
 //! Where a motion loses its stability as the drive's frequency, or another parameter, changes.
 
 use super::Frequencies;
-use crate::continuation::{BranchPoint, Family, Follower, Heading, Test};
+use crate::continuation::{BranchPoint, Continuation, Family, Heading, Test};
 use crate::orbit::{Orbit, OrbitError};
 use crate::watch::stop_if;
 
@@ -22,8 +22,12 @@ pub fn loss_of_stability(
 ) -> Result<Option<BranchPoint>, OrbitError> {
     let from = orbit.scene.excitation.frequency;
     let family = Frequencies(&orbit.scene);
-    let follower = Follower::new(&family, 1);
-    located(&follower, &stable(&follower, from, orbit, heading)?, test)
+    let continuation = Continuation::new(&family, 1);
+    located(
+        &continuation,
+        &stable(&continuation, from, orbit, heading)?,
+        test,
+    )
 }
 
 /// Where stability is lost along the parameter of any family, of which the orbit has the value `from`, by whatever it is,
@@ -39,9 +43,9 @@ pub fn end_along<F: Family>(
     heading: Heading,
     test: Test,
 ) -> Result<Option<f64>, OrbitError> {
-    let follower = Follower::new(family, 1);
-    let branch = stable(&follower, from, orbit, heading)?;
-    if let Some(lost) = located(&follower, &branch, test)? {
+    let continuation = Continuation::new(family, 1);
+    let branch = stable(&continuation, from, orbit, heading)?;
+    if let Some(lost) = located(&continuation, &branch, test)? {
         return Ok(Some(lost.parameter));
     }
     let last = branch.last().filter(|point| is_near(point, from));
@@ -54,26 +58,26 @@ fn is_near(point: &BranchPoint, from: f64) -> bool {
 
 /// The branch as long as it is stable.
 fn stable<F: Family>(
-    follower: &Follower<'_, F>,
+    continuation: &Continuation<'_, F>,
     from: f64,
     orbit: &Orbit,
     heading: Heading,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
-    follower.follow(orbit, from, heading, LONGEST, |point| {
+    continuation.follow(orbit, from, heading, LONGEST, |point| {
         stop_if(!point.is_stable() || !is_near(point, from))
     })
 }
 
 /// Where a test passes zero at the end of a branch.
 fn located<F: Family>(
-    follower: &Follower<'_, F>,
+    continuation: &Continuation<'_, F>,
     branch: &[BranchPoint],
     test: Test,
 ) -> Result<Option<BranchPoint>, OrbitError> {
     let value = |point: &BranchPoint| test.value(&point.monodromy);
     match branch {
         [.., before, last] if value(before) > 0.0 && value(last) <= 0.0 => {
-            follower.critical_between(before, last, test).map(Some)
+            continuation.critical_between(before, last, test).map(Some)
         }
         _ => Ok(None),
     }

@@ -1,6 +1,6 @@
 //! Where z = 1 begins and ends over the drive's frequency: the grazing of the motion without impacts
 //! (g0, in closed form), the hysteresis zone from there to the fold s_SN, the flip s_PD (Peterka 2003,
-//! section 3); and all stretches of stable z = 1, wherever they are. In the scene's own units, with any stop.
+//! section 3); and all ranges of stable z = 1, wherever they are. In the scene's own units, with any stop.
 
 mod bounds;
 mod end;
@@ -11,20 +11,20 @@ mod hysteresis;
 mod loss;
 mod places;
 mod single_impact;
-mod stretch;
-mod stretches;
+mod stable_range;
+mod stable_ranges;
 
 pub use bounds::Bounds;
 pub use end::{EndKind, Loss, ZoneEnd};
-pub use find::{find, find_among, find_watched, find_zones};
+pub use find::{find, find_among, find_with_monitor, find_zones};
 pub(crate) use followed_end::{LONGEST_BRANCH, ended};
 pub use grazing::{free_amplitude, grazing_frequencies};
-pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_watched};
+pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_with_monitor};
 pub use loss::{end_along, loss_of_stability};
 pub use places::{Zone, ZoneKind};
 pub use single_impact::single_impact;
-pub use stretch::{Stretch, StretchEnd};
-pub use stretches::{stretches, stretches_watched};
+pub use stable_range::{StableRange, StableRangeEnd};
+pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
 
 use std::fmt::{self, Display, Formatter};
 

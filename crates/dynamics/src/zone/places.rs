@@ -2,7 +2,7 @@
 
 use super::end::ZoneEnd;
 use super::{Frequencies, ZoneError};
-use crate::continuation::{BranchPoint, Follower};
+use crate::continuation::{BranchPoint, Continuation};
 use crate::orbit::{Orbit, OrbitError};
 use softstop::Scene;
 
@@ -85,7 +85,7 @@ impl Zone {
     /// [`ZoneError::Orbit`] if the orbit is lost.
     pub fn orbit(&self, point: &BranchPoint) -> Result<Orbit, ZoneError> {
         let family = Frequencies(&self.scene);
-        Ok(Follower::new(&family, 1).orbit(point)?)
+        Ok(Continuation::new(&family, 1).orbit(point)?)
     }
 
     /// The z = 1 motion of the highest before-impact velocity at a place s of the zone, on the stable
@@ -98,7 +98,7 @@ impl Zone {
             return Err(ZoneError::Outside { share });
         }
         let family = Frequencies(&self.scene);
-        let follower = Follower::new(&family, 1);
+        let continuation = Continuation::new(&family, 1);
         let target = self.frequency_at(share);
         let mut best: Option<BranchPoint> = None;
         for pair in self.branch.windows(2) {
@@ -109,7 +109,7 @@ impl Zone {
             let point = match (from.parameter - target, to.parameter - target) {
                 (0.0, _) => from.clone(),
                 (_, 0.0) => to.clone(),
-                (a, b) if a * b < 0.0 => follower.between(from, to, target)?,
+                (a, b) if a * b < 0.0 => continuation.between(from, to, target)?,
                 _ => continue,
             };
             let stronger =

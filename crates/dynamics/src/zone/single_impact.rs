@@ -5,10 +5,10 @@ use rayon::prelude::*;
 use super::followed_end::{LONGEST_BRANCH, ended};
 use super::hysteresis::{highest_fold, upward};
 use super::places::{Zone, ZoneKind};
-use super::stretch::SAME;
-use super::stretches::FOLLOWED;
+use super::stable_range::SAME;
+use super::stable_ranges::FOLLOWED;
 use super::{Frequencies, ZoneError, grazing_frequencies};
-use crate::continuation::{BranchPoint, Follower, Heading};
+use crate::continuation::{BranchPoint, Continuation, Heading};
 use crate::orbit::{Orbit, OrbitError, hardest_single};
 use crate::watch::{Watcher, stop_if};
 use softstop::Scene;
@@ -107,18 +107,19 @@ fn about(
     let rate = scene.scales().rate;
     let range = (FOLLOWED.0 * rate, FOLLOWED.1 * rate);
     let family = Frequencies(scene);
-    let follower = Follower::new(&family, 1);
-    let mut above = upward(&follower, start, (frequency, range.1), watcher)?;
+    let continuation = Continuation::new(&family, 1);
+    let mut above = upward(&continuation, start, (frequency, range.1), watcher)?;
     let high = match highest_fold(&above) {
         Some(fold) => fold,
-        None => ended(&follower, &mut above, Heading::Up, range)?,
+        None => ended(&continuation, &mut above, Heading::Up, range)?,
     };
-    let mut branch = follower.follow(start, frequency, Heading::Down, LONGEST_BRANCH, |point| {
-        let ends = !point.is_stable() || point.parameter < range.0;
-        stop_if(ends || watcher(0, 0).is_break())
-    })?;
+    let mut branch =
+        continuation.follow(start, frequency, Heading::Down, LONGEST_BRANCH, |point| {
+            let ends = !point.is_stable() || point.parameter < range.0;
+            stop_if(ends || watcher(0, 0).is_break())
+        })?;
     OrbitError::ask(watcher)?;
-    let low = ended(&follower, &mut branch, Heading::Down, range)?;
+    let low = ended(&continuation, &mut branch, Heading::Down, range)?;
     branch.reverse();
     branch.extend(above.into_iter().skip(1));
     let (frequency_g0_below, frequency_g0) = match grazing_frequencies(scene) {

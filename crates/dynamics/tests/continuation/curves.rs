@@ -4,14 +4,15 @@ use super::*;
 use softstop_testing::tolerance::{MOTION, SOLVED, printed};
 use softstop_testing::{assert_near, with_changes};
 
-fn plane(parameters: [Parameter; 2]) -> Along<2> {
-    Along::new(Ratios::unloaded().scene().expect("a scene"), parameters).expect("a family")
+fn plane(parameters: [Parameter; 2]) -> ParameterFamily<2> {
+    ParameterFamily::new(Ratios::unloaded().scene().expect("a scene"), parameters)
+        .expect("a family")
 }
 
 fn followed(
     special: &Special,
     periods: u64,
-    family: &Along<2>,
+    family: &ParameterFamily<2>,
     second: f64,
     ranges: [(f64, f64); 2],
 ) -> Curve {
@@ -21,12 +22,12 @@ fn followed(
 fn followed_by_steps(
     special: &Special,
     periods: u64,
-    family: &Along<2>,
+    family: &ParameterFamily<2>,
     second: f64,
     ranges: [(f64, f64); 2],
     step: f64,
 ) -> Curve {
-    let region = Region {
+    let region = CurveLimits {
         ranges,
         points: 500,
         step,
@@ -136,7 +137,7 @@ fn flip_curve_meets_the_branch_of_another_stiffness() {
         .expect("points");
     assert_near(end.parameters[1], 9.0, 10.0 * SOLVED);
     let stiffer = with_changes("unloaded", "k4=9");
-    let along = Along::new(stiffer, [Parameter::Frequency]).expect("a family");
+    let along = ParameterFamily::new(stiffer, [Parameter::Frequency]).expect("a family");
     let branch = follow(&along, 1, (1.15, Vector2::new(A.0, A.1)), (0.9, 1.2));
     let flips = of_kind(&branch, "PD");
     assert_near(flips[0].point.parameter, end.parameters[0], SOLVED);

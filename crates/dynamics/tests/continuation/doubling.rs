@@ -7,14 +7,14 @@ use softstop_testing::{assert_near, with_changes};
 /// A rigid stop of restitution 1/2.
 fn rigid() -> Frequencies {
     let scene = with_changes("unloaded", "eta=2.2 rho=0.2 stop.model=rigid R=0.5");
-    Along::new(scene, [Parameter::Frequency]).expect("a family")
+    ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family")
 }
 
 /// Doublings accumulate at Feigenbaum's rate, 4.669.
 #[test]
 fn doublings_of_a_rigid_stop_are_feigenbaums() {
     let family = rigid();
-    let follower = Follower::new(&family, 1);
+    let continuation = Continuation::new(&family, 1);
     let limits = Limits {
         range: (1.5, 3.0),
         points: 500,
@@ -22,7 +22,7 @@ fn doublings_of_a_rigid_stop_are_feigenbaums() {
     let state = Vector2::new(-0.630_529, 0.062_449);
     let branch = follow(&family, 1, (2.2, state), limits.range);
     let flip = of_kind(&branch, "PD").remove(0).point;
-    let flips = follower.cascade(&flip, 5, &limits).expect("a cascade");
+    let flips = continuation.cascade(&flip, 5, &limits).expect("a cascade");
     assert_eq!(flips.len(), 5);
     for (index, flip) in flips.iter().enumerate() {
         assert_eq!(flip.impacts.len(), 1 << index);

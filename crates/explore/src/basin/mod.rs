@@ -193,7 +193,7 @@ fn along(
     let export = Export::open(&arguments.output, &ALONG)?;
     let limit = arguments.limit.budget;
     let zone = limit.limit(|| {
-        let zone = zone::hysteresis_watched(&machine.scene, &interrupt::watch);
+        let zone = zone::hysteresis_with_monitor(&machine.scene, &interrupt::watch);
         Ok(zone.with_context(|| format!("no hysteresis zone found of {}", title(machine)))?)
     })?;
     let mut widened = false;

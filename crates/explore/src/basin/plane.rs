@@ -149,7 +149,7 @@ pub(super) fn beyond(machine: &Machine, grid: &Grid) -> Option<String> {
     if !is_own || shows.contains(&Quantity::Angle) {
         return None;
     }
-    let orbit = zone::find_watched(&machine.scene, &interrupt::watch).ok()?;
+    let orbit = zone::find_with_monitor(&machine.scene, &interrupt::watch).ok()?;
     let outside = |axis: &Axis| {
         let value = match axis.quantity {
             Quantity::Position => orbit.position,

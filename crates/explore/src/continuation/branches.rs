@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use anyhow::anyhow;
 use softstop::Machine;
 use softstop_dynamics::continuation::{Family, Test};
-use softstop_dynamics::{Along, Branch, Follower, Limits};
+use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily};
 
 use super::{ContinueArguments, Followed, family, seed};
 use softstop_console::failure::Failure;
@@ -18,7 +18,7 @@ pub(super) const STEP: f64 = 0.02;
 const NARROW: (f64, f64) = (100.0, 0.1);
 
 /// Largest step of a range, so that its chart has no corners.
-fn step(family: &Along<1>, (low, high): (f64, f64)) -> f64 {
+fn step(family: &ParameterFamily<1>, (low, high): (f64, f64)) -> f64 {
     let [scale] = family.parameter_scales();
     let (steps, least) = NARROW;
     ((high - low) / (steps * scale)).clamp(least * STEP, STEP)
@@ -49,7 +49,7 @@ pub(super) fn branches(
     };
     let bar = Progress::open("points");
     let largest = step(family, limits.range);
-    let follower = Follower::new(family, arguments.orbit.periods).with_steps(largest);
+    let follower = Continuation::new(family, arguments.orbit.periods).with_steps(largest);
     let first = follower
         .branch(along.start, state, limits, |_| count(&bar))
         .map_err(|error| anyhow!(error).context("no orbit to start from"))?;
@@ -70,8 +70,13 @@ pub(super) fn branches(
 }
 
 /// The branches of twice the period from the flips of one.
-fn doubled(family: &Along<1>, branch: &Branch, limits: &Limits, bar: &Progress) -> Vec<Branch> {
-    let follower = Follower::new(family, branch.periods).with_steps(step(family, limits.range));
+fn doubled(
+    family: &ParameterFamily<1>,
+    branch: &Branch,
+    limits: &Limits,
+    bar: &Progress,
+) -> Vec<Branch> {
+    let follower = Continuation::new(family, branch.periods).with_steps(step(family, limits.range));
     let flips = branch.critical(Test::Flip);
     let doubled = flips.map(|flip| follower.doubled(flip, limits, |_| count(bar)));
     doubled.filter_map(Result::ok).collect()

@@ -3,7 +3,7 @@
 use anyhow::anyhow;
 use softstop::Machine;
 use softstop_dynamics::Branch;
-use softstop_dynamics::continuation::{Curve, CurvePoint, Region, SpecialKind, curve};
+use softstop_dynamics::continuation::{Curve, CurveLimits, CurvePoint, SpecialKind, curve};
 
 use super::branches::{STEP, count};
 use super::{ContinueArguments, Followed, family};
@@ -19,7 +19,7 @@ pub(super) fn curves(
     branch: &Branch,
 ) -> Result<Vec<Curve>, Failure> {
     let family = family(machine, both.map(|one| one.parameter))?;
-    let region = Region {
+    let region = CurveLimits {
         ranges: both.map(|one| one.range),
         points: arguments.points,
         step: STEP,

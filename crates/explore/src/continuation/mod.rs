@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use clap::Args;
 use nalgebra::Vector2;
 use softstop::{Machine, Parameter};
-use softstop_dynamics::{Along, Regime};
+use softstop_dynamics::{ParameterFamily, Regime};
 
 use report::ContinuationReport;
 pub(crate) use report::met;
@@ -199,6 +199,7 @@ impl Followed {
 fn family<const N: usize>(
     machine: &Machine,
     parameters: [Parameter; N],
-) -> Result<Along<N>, Failure> {
-    Along::new(machine.clone(), parameters).map_err(|error| Failure::usage(error.to_string()))
+) -> Result<ParameterFamily<N>, Failure> {
+    ParameterFamily::new(machine.clone(), parameters)
+        .map_err(|error| Failure::usage(error.to_string()))
 }

@@ -3,7 +3,9 @@
 use serde::Serialize;
 use softstop::{Machine, MotionError, Parameter};
 use softstop_dynamics::Branch;
-use softstop_dynamics::continuation::{Border, Curve, CurveEnd, End, Special, SpecialKind};
+use softstop_dynamics::continuation::{
+    BorderCollision, Curve, CurveEnd, End, Special, SpecialKind,
+};
 use softstop_dynamics::orbit::OrbitError;
 
 use softstop_console::column::{Column, Told, Unit, Units};
@@ -122,11 +124,11 @@ fn end(end: &End, points: usize) -> String {
 }
 
 /// What an orbit meets at a border collision.
-pub fn met(border: Border) -> &'static str {
+pub fn met(border: BorderCollision) -> &'static str {
     match border {
-        Border::Rest => "beyond, the mass is held once more or once less",
-        Border::Turn => "beyond, the mass turns once more or once less",
-        Border::Surface => "beyond, the mass crosses another number of surfaces",
+        BorderCollision::Rest => "beyond, the mass is held once more or once less",
+        BorderCollision::Turn => "beyond, the mass turns once more or once less",
+        BorderCollision::Surface => "beyond, the mass crosses another number of surfaces",
     }
 }
 

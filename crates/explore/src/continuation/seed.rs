@@ -4,7 +4,7 @@ use anyhow::{Error, anyhow};
 use nalgebra::Vector2;
 use softstop::Scene;
 use softstop_dynamics::attractors::{Options, attractors};
-use softstop_dynamics::zone::find_watched;
+use softstop_dynamics::zone::find_with_monitor;
 use softstop_dynamics::{Orbit, Regime};
 
 use softstop_console::failure::Failure;
@@ -50,7 +50,7 @@ pub fn state(text: &str) -> Result<Vector2<f64>, String> {
 /// The stable orbit of this regime with the largest share of starts.
 pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
     if wanted == Regime::ONE
-        && let Ok(orbit) = find_watched(scene, &interrupt::watch)
+        && let Ok(orbit) = find_with_monitor(scene, &interrupt::watch)
     {
         return Ok(orbit);
     }

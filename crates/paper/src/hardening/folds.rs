@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use softstop::Parameter;
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::orbit::{OrbitError, find};
-use softstop_dynamics::{Along, BranchPoint, Follower, Limits};
+use softstop_dynamics::{BranchPoint, Continuation, Limits, ParameterFamily};
 
 use super::stops::{CLEARANCE, Law, grazing};
 use super::swept::RANGE;
@@ -92,12 +92,12 @@ fn of(stiffness: f64) -> Result<Folds, OrbitError> {
     // Time 0 where the mass is on its way far from the stop.
     scene.excitation.phase = PI;
     let state = find(&scene)?.state();
-    let family = Along::new(scene, [Parameter::Frequency])?;
+    let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
     let limits = Limits {
         range: RANGE,
         points: 2000,
     };
-    let follower = Follower::new(&family, 1).with_steps(LARGEST);
+    let follower = Continuation::new(&family, 1).with_steps(LARGEST);
     let branch = follower.branch(FREQUENCY, state, &limits, |_| interrupt::go_on())?;
     let described = |point: &BranchPoint| (point.parameter, point.before_impact_velocity());
     let folds = || branch.critical(Test::Fold).map(described);

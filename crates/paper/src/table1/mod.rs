@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use softstop::{Parameter, Ratios};
-use softstop_dynamics::Along;
+use softstop_dynamics::ParameterFamily;
 use softstop_dynamics::transitions::{Explorer, Rules, Transition};
 use softstop_dynamics::watch::{Kept, Memory};
 
@@ -157,7 +157,7 @@ pub fn transitions(
     values: &[f64],
     kept: Kept<'_>,
 ) -> Result<Vec<Transition>> {
-    let family = Along::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
+    let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
     let bar = Progress::open("drive periods of the present look at motions");
     let watcher = |done, _| {
         bar.at(done);

@@ -107,7 +107,7 @@ pub(crate) fn stays(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Start>, S
     search.ensemble.planned = (options.transient + search.logged() as u64) * PILOT as u64;
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
     let go_on = |_, _| stop_if(search.ensemble.note(0).is_err());
-    let own = orbit::find_watched(scene, &go_on).ok();
+    let own = orbit::find_with_monitor(scene, &go_on).ok();
     search.ensemble.note(0)?;
     let own = own.map(|orbit| Start::new(orbit.position, orbit.velocity));
     Ok(search.stays().copied().chain(own).collect())

@@ -1,10 +1,10 @@
-//! A stretch of frequencies with a stable z = 1 motion, and what ends it.
+//! A range of frequencies with a stable z = 1 motion, and what ends it.
 
 use nalgebra::{Vector2, Vector4};
 
 use super::end::Loss;
 use super::{Frequencies, Zone};
-use crate::continuation::{ASIDE, Branch, BranchPoint, End, Family, Follower};
+use crate::continuation::{ASIDE, Branch, BranchPoint, Continuation, End, Family};
 use crate::orbit::OrbitError;
 use softstop::Scene;
 use softstop::internals::highest;
@@ -12,34 +12,34 @@ use softstop::internals::highest;
 /// Share by which rounding may change a before-impact velocity or a state.
 pub(super) const SAME: f64 = 1e-6;
 
-/// One end of a stretch.
+/// One end of a stable range.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct StretchEnd {
+pub struct StableRangeEnd {
     /// Frequency in rad/s.
     pub frequency: f64,
     /// Before-impact velocity in m/s there.
     pub velocity: f64,
-    /// Why the stretch ends there.
+    /// Why the stable range ends there.
     pub loss: Loss,
 }
 
 /// A range of frequencies with a stable z = 1 motion that changes continuously.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Stretch {
+pub struct StableRange {
     /// Its lower end.
-    pub low: StretchEnd,
+    pub low: StableRangeEnd,
     /// Its upper end.
-    pub high: StretchEnd,
+    pub high: StableRangeEnd,
     /// The motion that hits hardest.
     pub hardest: BranchPoint,
     /// Its points, in rising order of frequency.
     points: Vec<BranchPoint>,
 }
 
-impl Stretch {
-    /// The motion at a frequency in rad/s; none outside the stretch.
+impl StableRange {
+    /// The motion at a frequency in rad/s; none outside the stable range.
     ///
     /// # Errors
     /// [`OrbitError`] if it is lost.
@@ -55,8 +55,8 @@ impl Stretch {
         match (after.checked_sub(1), self.points.get(after)) {
             (_, Some(point)) if point.parameter == frequency => Ok(Some(point.clone())),
             (Some(before), Some(to)) => {
-                let follower = Follower::new(&family, 1);
-                follower
+                let continuation = Continuation::new(&family, 1);
+                continuation
                     .between(&self.points[before], to, frequency)
                     .map(Some)
             }
@@ -76,7 +76,7 @@ impl Stretch {
     /// True if a point lies on it.
     ///
     /// # Errors
-    /// [`OrbitError`] if the stretch is lost.
+    /// [`OrbitError`] if the stable range is lost.
     pub fn contains(&self, scene: &Scene, point: &BranchPoint) -> Result<bool, OrbitError> {
         let own = self.point_at(scene, point.parameter)?;
         Ok(own.is_some_and(|own| is_same(&own, point.state(), scene)))
@@ -128,8 +128,11 @@ pub(super) fn lies_between(
     (-ASIDE..=1.0 + ASIDE).contains(&share) && off <= ASIDE * way.norm() + SAME
 }
 
-/// The stable stretches of a branch that was followed so.
-pub(super) fn stable(follower: &Follower<'_, Frequencies<'_>>, branch: &Branch) -> Vec<Stretch> {
+/// The stable ranges of a branch that was followed so.
+pub(super) fn stable(
+    continuation: &Continuation<'_, Frequencies<'_>>,
+    branch: &Branch,
+) -> Vec<StableRange> {
     let mut found = Vec::new();
     let mut part = Part::new(Loss::of(&branch.ends.0));
     for point in in_order(branch) {
@@ -138,11 +141,11 @@ pub(super) fn stable(follower: &Follower<'_, Frequencies<'_>>, branch: &Branch) 
         if let Some(loss) = loss.or_else(|| part.differs(point)) {
             part.points.push(point.clone());
             let part = std::mem::replace(&mut part, Part::new(loss.clone()));
-            found.extend(part.ended(follower, loss));
+            found.extend(part.ended(continuation, loss));
         }
         part.points.push(point.clone());
     }
-    found.extend(part.ended(follower, Loss::of(&branch.ends.1)));
+    found.extend(part.ended(continuation, Loss::of(&branch.ends.1)));
     found
 }
 
@@ -184,13 +187,17 @@ impl Part {
         }
     }
 
-    /// The stretch, if the motions between its ends are stable and have one impact.
-    fn ended(self, follower: &Follower<'_, Frequencies<'_>>, ends: Loss) -> Option<Stretch> {
+    /// The stable range, if the motions between its ends are stable and have one impact.
+    fn ended(
+        self,
+        continuation: &Continuation<'_, Frequencies<'_>>,
+        ends: Loss,
+    ) -> Option<StableRange> {
         let Self { begins, mut points } = self;
         // Both ends may lie on one step.
         if let [from, to] = points.as_slice() {
             let middle = 0.5 * (from.parameter + to.parameter);
-            points.insert(1, follower.between(from, to, middle).ok()?);
+            points.insert(1, continuation.between(from, to, middle).ok()?);
         }
         let inner = points.get(1..points.len().saturating_sub(1))?;
         let is_single = |point: &BranchPoint| point.impacts.len() == 1 && point.is_stable();
@@ -203,10 +210,10 @@ impl Part {
             losses.reverse();
         }
         let [below, above] = losses;
-        Some(Stretch {
-            low: StretchEnd::new(&points[0], below),
-            high: StretchEnd::new(&points[points.len() - 1], above),
-            hardest: hardest(follower, &points)?,
+        Some(StableRange {
+            low: StableRangeEnd::new(&points[0], below),
+            high: StableRangeEnd::new(&points[points.len() - 1], above),
+            hardest: hardest(continuation, &points)?,
             points,
         })
     }
@@ -218,7 +225,7 @@ const WIDTH: f64 = 1e-5;
 
 /// The hardest motion along points in rising order: about the hardest of them, by golden section between its neighbours.
 fn hardest(
-    follower: &Follower<'_, Frequencies<'_>>,
+    continuation: &Continuation<'_, Frequencies<'_>>,
     points: &[BranchPoint],
 ) -> Option<BranchPoint> {
     let velocity = BranchPoint::before_impact_velocity;
@@ -231,7 +238,7 @@ fn hardest(
         } else {
             best
         };
-        follower
+        continuation
             .between(&points[near], points.get(near + 1)?, frequency)
             .ok()
     };
@@ -242,7 +249,7 @@ fn hardest(
     Some(top.unwrap_or_else(|| points[best].clone()))
 }
 
-impl StretchEnd {
+impl StableRangeEnd {
     fn new(point: &BranchPoint, loss: Loss) -> Self {
         Self {
             frequency: point.parameter,

@@ -7,11 +7,11 @@ use nalgebra::{DVector, Vector2};
 use super::Family;
 use super::arclength::{Node, correct};
 use super::branch::Branch;
-use super::follower::Follower;
+use super::follow::Continuation;
+use super::half_branch::Limits;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
-use super::way::Limits;
 use crate::orbit::OrbitError;
 use crate::watch::stop_if;
 
@@ -20,8 +20,8 @@ const DISTANCES: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
 /// Smallest share of such a distance by which half a round must lead away.
 const APART: f64 = 0.5;
 
-impl<F: Family> Follower<'_, F> {
-    /// The branch of orbits of twice the period from a flip of this follower's orbits on, along the
+impl<F: Family> Continuation<'_, F> {
+    /// The branch of orbits of twice the period from a flip of these orbits on, along the
     /// critical eigenvector.
     ///
     /// # Errors
@@ -65,10 +65,10 @@ impl<F: Family> Follower<'_, F> {
         let mut flips = vec![first.clone()];
         let mut periods = self.shooting.periods;
         while flips.len() < count {
-            let follower = self.over(periods);
+            let continuation = self.over(periods);
             let flip = &flips[flips.len() - 1];
             let mut last = None;
-            let branch = follower.doubled(flip, limits, |point| {
+            let branch = continuation.doubled(flip, limits, |point| {
                 let flipped = last.is_some_and(|sign| sign != flip_sign(point));
                 last = Some(flip_sign(point));
                 stop_if(flipped)

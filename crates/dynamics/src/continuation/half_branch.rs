@@ -28,7 +28,7 @@ pub enum End {
     /// The watcher asked for it.
     Stopped,
     /// Just beyond the last point the orbit would meet something where the force jumps.
-    Border(Border),
+    Border(BorderCollision),
     /// The orbit is so unstable that the differences along the parameter leave its neighbourhood.
     Unstable,
     /// It cannot be followed even with the smallest step.
@@ -37,7 +37,7 @@ pub enum End {
 
 /// What an orbit meets where its branch ends in a border collision that is no grazing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Border {
+pub enum BorderCollision {
     /// The mass comes to rest, by dry friction or at a face, or ceases to.
     Rest,
     /// It turns once more, or once less, under dry friction.
@@ -47,7 +47,7 @@ pub enum Border {
 }
 
 /// One direction of a branch, its start left out.
-pub(super) struct Way {
+pub(super) struct HalfBranch {
     pub(super) points: Vec<BranchPoint>,
     pub(super) specials: Vec<Special>,
     pub(super) end: End,
@@ -55,7 +55,7 @@ pub(super) struct Way {
     pub(super) turned_at: Option<usize>,
 }
 
-impl Way {
+impl HalfBranch {
     /// Ends in a grazing; false if there is none.
     pub(super) fn grazes(&mut self, special: Option<Special>) -> bool {
         let Some(special) = special else {

@@ -27,20 +27,20 @@ pub enum Heading {
 
 /// Follows the orbits of a family over a number of drive periods.
 #[derive(Debug)]
-pub struct Follower<'a, F> {
+pub struct Continuation<'a, F> {
     pub(super) shooting: Shooting<'a, F, 1>,
     pub(super) largest: f64,
 }
 
 /// A branch seen at another section: a node of it, and the direction in which it goes on.
 pub(super) struct SectionChange<'a, F> {
-    pub follower: Follower<'a, F>,
+    pub continuation: Continuation<'a, F>,
     pub node: Node<PeriodMap>,
     pub along: DVector<f64>,
 }
 
-impl<'a, F: Family> Follower<'a, F> {
-    /// A follower of the orbits of `family` over `periods` drive periods.
+impl<'a, F: Family> Continuation<'a, F> {
+    /// A continuation of the orbits of `family` over `periods` drive periods.
     pub fn new(family: &'a F, periods: u64) -> Self {
         Self {
             shooting: Shooting::new(family, periods),
@@ -115,12 +115,12 @@ impl<'a, F: Family> Follower<'a, F> {
         let mut turned_at = 0;
         let mut next = Some(self.set_out(node, Self::direction(heading)));
         while let Some(SectionChange {
-            follower,
+            continuation,
             node,
             along,
         }) = next
         {
-            next = follower.follow_on(
+            next = continuation.follow_on(
                 (node, &along),
                 limit,
                 (&mut points, &mut turned_at),
@@ -137,7 +137,7 @@ impl<'a, F: Family> Follower<'a, F> {
         along: DVector<f64>,
     ) -> SectionChange<'a, F> {
         SectionChange {
-            follower: self.with_turn(self.shooting.turn),
+            continuation: self.with_turn(self.shooting.turn),
             node,
             along,
         }

@@ -5,7 +5,7 @@ use softstop::{Dimension, Machine, MotionError, Parameter, Scene, SceneError};
 
 /// A machine along some of its parameters.
 #[derive(Debug, Clone)]
-pub struct Along<const N: usize> {
+pub struct ParameterFamily<const N: usize> {
     machine: Machine,
     parameters: [Parameter; N],
     state_scales: [f64; 2],
@@ -15,7 +15,7 @@ pub struct Along<const N: usize> {
 /// Typical change of a parameter in units of its value.
 const TYPICAL: f64 = 0.2;
 
-impl<const N: usize> Along<N> {
+impl<const N: usize> ParameterFamily<N> {
     /// A machine, or a scene, along parameters that it has, in its own units.
     ///
     /// # Errors
@@ -51,7 +51,7 @@ impl<const N: usize> Along<N> {
     }
 }
 
-impl<const N: usize> Family<N> for Along<N> {
+impl<const N: usize> Family<N> for ParameterFamily<N> {
     fn scene(&self, parameters: [f64; N]) -> Result<Scene, MotionError> {
         let mut machine = self.machine.clone();
         for (parameter, value) in self.parameters.into_iter().zip(parameters) {

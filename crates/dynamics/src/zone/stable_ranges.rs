@@ -1,16 +1,16 @@
-//! All stable z = 1 motions of a machine, as stretches of the drive's frequency.
+//! All stable z = 1 motions of a machine, as ranges of the drive's frequency.
 
 use std::collections::VecDeque;
 
-use super::stretch::{Stretch, is_same, lies_between, sizes, stable};
+use super::stable_range::{StableRange, is_same, lies_between, sizes, stable};
 use super::{Frequencies, ZoneError, grazing_frequencies};
-use crate::continuation::{Branch, BranchPoint, End, Follower, Limits};
+use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
 use crate::orbit::{Orbit, OrbitError, all_about, singles_near};
 use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
 /// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row: closely
-/// below, where a drive period holds several free ones and stretches are narrow.
+/// below, where a drive period holds several free ones and stable ranges are narrow.
 const LOOKED_AT: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
 /// Frequencies in the same units up to which they are followed: farther up, but no farther down, where branches wind from
 /// resonance to resonance and more of them are not looked for.
@@ -27,7 +27,7 @@ const BEYOND: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// Most frequencies at which motions are looked for, and most branches.
 const MOST: usize = 200;
 
-/// All stretches of a scene, in rising order of frequency; the frequency of its drive plays no part.
+/// All stable ranges of a scene, in rising order of frequency; the frequency of its drive plays no part.
 ///
 /// At each of a row of frequencies all z = 1 motions are found; those that lie on no branch known so far are followed
 /// both ways, through folds. So branches that no motion at g0 leads to, isolas among them, come to light. Where a branch
@@ -35,26 +35,29 @@ const MOST: usize = 200;
 ///
 /// # Errors
 /// [`ZoneError::Orbit`] for a scene that is none.
-pub fn stretches(scene: &Scene) -> Result<Vec<Stretch>, ZoneError> {
-    stretches_watched(scene, &unwatched)
+pub fn stable_ranges(scene: &Scene) -> Result<Vec<StableRange>, ZoneError> {
+    stable_ranges_with_monitor(scene, &unwatched)
 }
 
 /// The same, as long as a watcher, which is not told how much is done, lets it go on.
 ///
 /// # Errors
-/// As [`stretches`]; [`OrbitError::Stopped`].
-pub fn stretches_watched(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Stretch>, ZoneError> {
-    Ok(all_stretches(scene, watcher)?)
-}
-
-/// All stretches of a scene.
-pub(super) fn all_stretches(
+/// As [`stable_ranges`]; [`OrbitError::Stopped`].
+pub fn stable_ranges_with_monitor(
     scene: &Scene,
     watcher: Watcher<'_>,
-) -> Result<Vec<Stretch>, OrbitError> {
+) -> Result<Vec<StableRange>, ZoneError> {
+    Ok(find_stable_ranges(scene, watcher)?)
+}
+
+/// All stable ranges of a scene.
+pub(super) fn find_stable_ranges(
+    scene: &Scene,
+    watcher: Watcher<'_>,
+) -> Result<Vec<StableRange>, OrbitError> {
     scene.validate()?;
     let family = Frequencies(scene);
-    let follower = Follower::new(&family, 1);
+    let continuation = Continuation::new(&family, 1);
     let limits = limits(scene);
     let sizes = sizes(scene);
     let mut branches: Vec<Branch> = Vec::new();
@@ -76,30 +79,30 @@ pub(super) fn all_stretches(
                 let mut pairs = branch.points.windows(2);
                 pairs.any(|pair| {
                     lies_between(pair, &point, sizes)
-                        && !is_beside(&follower, pair, (&point, scene))
+                        && !is_beside(&continuation, pair, (&point, scene))
                 })
             });
             if is_known {
                 continue;
             }
             let go_on = |_: &BranchPoint| watcher(0, 0);
-            if let Ok(branch) = follower.branch(frequency, orbit.state(), &limits, go_on) {
+            if let Ok(branch) = continuation.branch(frequency, orbit.state(), &limits, go_on) {
                 OrbitError::ask(watcher)?;
                 for border in borders(&branch) {
                     frequencies.extend(beside(border.parameter));
-                    let border = follower.orbit(border);
+                    let border = continuation.orbit(border);
                     met.extend(border.map_or(Vec::new(), |border| beyond(scene, &border)));
                 }
                 branches.push(branch);
             }
         }
     }
-    let mut found: Vec<Stretch> = branches
+    let mut found: Vec<StableRange> = branches
         .iter()
-        .flat_map(|branch| stable(&follower, branch))
+        .flat_map(|branch| stable(&continuation, branch))
         .collect();
     found.sort_by(|a, b| a.low.frequency.total_cmp(&b.low.frequency));
-    let mut distinct: Vec<Stretch> = Vec::new();
+    let mut distinct: Vec<StableRange> = Vec::new();
     for one in found {
         if !distinct.iter().any(|other| one.is_within(other, scene)) {
             distinct.retain(|other| !other.is_within(&one, scene));
@@ -112,13 +115,13 @@ pub(super) fn all_stretches(
 /// True if a point that lies near the chord between two neighbours is not the one between them on their branch, as far as
 /// that can be told.
 fn is_beside(
-    follower: &Follower<'_, Frequencies<'_>>,
+    continuation: &Continuation<'_, Frequencies<'_>>,
     pair: &[BranchPoint],
     (point, scene): (&BranchPoint, &Scene),
 ) -> bool {
     let [from, to] = [&pair[0], &pair[1]];
     let is_inside = (from.parameter < point.parameter) != (to.parameter < point.parameter);
-    let own = || follower.between(from, to, point.parameter);
+    let own = || continuation.between(from, to, point.parameter);
     is_inside && own().is_ok_and(|own| !is_same(&own, point.state(), scene))
 }
 
@@ -131,7 +134,7 @@ fn limits(scene: &Scene) -> Limits {
 }
 
 /// g0 and what lies beside both grazing frequencies, the row, and what lies beside its lower end, beyond which there is
-/// none to lead to a stretch that ends there.
+/// none to lead to a stable range that ends there.
 fn frequencies(scene: &Scene) -> Vec<f64> {
     let natural = scene.scales().rate;
     let row = LOOKED_AT.into_iter().flat_map(|(low, high, count)| {
