@@ -127,6 +127,24 @@ pub fn text<T>(
     below(&records.collect::<Vec<_>>(), units)
 }
 
+/// The table for programs: an array of the cells of each column, by the column's name.
+pub fn arrays<T>(
+    columns: &[Column<T>],
+    rows: impl IntoIterator<Item = impl Borrow<T>>,
+) -> serde_json::Result<Told> {
+    let rows: Vec<_> = rows.into_iter().collect();
+    let mut value = serde_json::Map::new();
+    for column in columns {
+        let cells = rows.iter().map(|row| (column.cell)(row.borrow()));
+        let cells = cells.map(serde_json::to_value).collect::<Result<_, _>>()?;
+        value.insert(column.name.to_owned(), cells);
+    }
+    Ok(Told {
+        words: String::new(),
+        value: value.into(),
+    })
+}
+
 /// What the columns of a file mean: a paragraph at the end of `--help`.
 pub fn help<T>(file: &str, columns: &[Column<T>]) -> String {
     let lines = columns.iter().map(|column| {

@@ -73,6 +73,7 @@ pub mod bifurcation {
     pub const FLIP: &str = "#CC79A7";
     pub const NEIMARK_SACKER: &str = "#009E73";
     pub const GRAZING: &str = super::POINT;
+    pub const CODIMENSION_TWO: &str = super::INK;
 }
 
 /// Phases of a motion: tints, behind its line; free flight is white.

@@ -1,6 +1,7 @@
 //! Branches, their special points and curves of them, against closed forms, published figures and an
 //! independent 30-digit integrator.
 
+mod codimension_two;
 mod curves;
 mod doubling;
 

@@ -5,9 +5,11 @@ use std::ops::ControlFlow;
 use nalgebra::DVector;
 
 use super::Family;
-use super::arclength::{Equations, Node, correct};
+use super::arclength::{Equations, Node, correct, tangent};
+use super::critical_impact::{CriticalImpact, CriticalPoint};
 use super::follow::WIDTH;
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
+use super::impact_section::ImpactSection;
 use super::locate::{along_chord, locate};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, SpecialKind};
@@ -39,7 +41,7 @@ pub struct CurvePoint {
     pub velocity: f64,
     /// Before-impact velocities in m/s.
     pub impacts: Vec<f64>,
-    /// Jacobian of the map, a touch left out.
+    /// Jacobian of the map over the periods from where it is computed: time 0, an impact or a touch, which is left out.
     pub monodromy: Monodromy,
 }
 
@@ -61,10 +63,41 @@ pub enum CurveEnd {
     Closed,
     /// Beyond its last point the orbit would cross surfaces in another order: it grazes there.
     Grazing,
+    /// The impact dies in resonant grazing; the last point is there.
+    ResonantGrazing,
     /// The watcher asked for it.
     Stopped,
     /// It cannot be followed even with the smallest step.
     Lost(OrbitError),
+}
+
+/// A bifurcation of codimension two.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CodimensionTwo {
+    /// Two curves of folds meet in a cusp (Kuznetsov 2004, section 9.2).
+    Cusp,
+    /// Curves of folds and flips end on a curve of grazing: a weak impact has no bearing on the next (Simpson and Ghosh,
+    /// arXiv 2602.22797).
+    ResonantGrazing,
+}
+
+impl CodimensionTwo {
+    /// In one word: CP, RG.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Cusp => "CP",
+            Self::ResonantGrazing => "RG",
+        }
+    }
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cusp => "cusp",
+            Self::ResonantGrazing => "resonant grazing",
+        }
+    }
 }
 
 /// A curve of special points of one kind in two parameters.
@@ -75,6 +108,8 @@ pub struct Curve {
     pub kind: SpecialKind,
     /// Points, in order of arclength.
     pub points: Vec<CurvePoint>,
+    /// Points of codimension two on it, in the same order.
+    pub specials: Vec<(CodimensionTwo, CurvePoint)>,
     /// Why it ends at its first point and at its last.
     pub ends: (CurveEnd, CurveEnd),
 }
@@ -97,7 +132,10 @@ pub fn curve<F: Family<2>>(
             let shooting = Shooting::new(family, periods);
             let guess = shooting.scaled(point.state(), parameters);
             let critical = Critical { shooting, test };
-            follow(&critical, kind, &guess, region, &mut watch)
+            match CriticalImpact::at((family, periods), test, point.state(), parameters)? {
+                Some((critical, guess)) => follow(&critical, kind, &guess, region, &mut watch),
+                None => follow(&critical, kind, &guess, region, &mut watch),
+            }
         }
         SpecialKind::Grazing(Graze {
             angle,
@@ -105,23 +143,44 @@ pub fn curve<F: Family<2>>(
             face,
             ..
         }) => {
-            let touching = GrazingOrbit {
+            let section = ImpactSection {
                 family,
                 periods,
                 crossings,
                 face,
             };
+            let touching = GrazingOrbit { section };
             let guess = touching.scaled(angle, parameters);
             follow(&touching, kind, &guess, region, &mut watch)
         }
     }
 }
 
-/// A system whose solutions are special points in two parameters.
+/// A system whose solutions are special points in two parameters, its last two unknowns.
 trait Codimension: Equations {
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2];
     fn describe(&self, node: &Node<Self::Point>) -> Result<CurvePoint, OrbitError>;
     fn sequence(&self, point: &Self::Point) -> Sequence;
+
+    /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a direction;
+    /// before, it had another one. At a cusp both parameters turn back.
+    fn degeneracy(
+        &self,
+        _: &Node<Self::Point>,
+        [before, here]: [&DVector<f64>; 2],
+    ) -> (CodimensionTwo, f64) {
+        let parameters = |of: &DVector<f64>| of.rows(of.len() - 2, 2).into_owned();
+        (
+            CodimensionTwo::Cusp,
+            parameters(before).dot(&parameters(here)),
+        )
+    }
+
+    /// The point of codimension two in which the curve ends within a step from a node, if it does.
+    fn last(&self, node: &Node<Self::Point>, step: &DVector<f64>) -> Option<CurvePoint> {
+        let _ = (node, step);
+        None
+    }
 }
 
 impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
@@ -146,13 +205,52 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
     }
 }
 
+impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
+    fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
+        CriticalImpact::parameters(self, at)
+    }
+
+    fn describe(&self, node: &Node<CriticalPoint>) -> Result<CurvePoint, OrbitError> {
+        let state = self.state(&node.at)?;
+        let CriticalPoint {
+            monodromy, impacts, ..
+        } = node.here.point.clone();
+        Ok(CurvePoint {
+            parameters: CriticalImpact::parameters(self, &node.at),
+            position: state.x,
+            velocity: state.y,
+            impacts,
+            monodromy,
+        })
+    }
+
+    fn sequence(&self, point: &CriticalPoint) -> Sequence {
+        Sequence {
+            impacts: point.impacts.len(),
+            surfaces: usize::from(point.is_cut),
+            ..Sequence::default()
+        }
+    }
+
+    fn last(&self, node: &Node<CriticalPoint>, step: &DVector<f64>) -> Option<CurvePoint> {
+        let (velocity, change) = (node.at[1], step[1]);
+        if velocity + change > 0.0 {
+            return None;
+        }
+        let (resonant, guess) = self.resonant_grazing(&(&node.at - step * (velocity / change)));
+        let found = correct(&resonant, &guess, None).ok()?;
+        let is_near = (&found.at - node.at.clone().remove_row(1)).norm() <= step.norm();
+        is_near.then(|| resonant.0.describe(&found).ok()).flatten()
+    }
+}
+
 impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
         GrazingOrbit::parameters(self, at)
     }
 
     fn describe(&self, node: &Node<GrazingPoint>) -> Result<CurvePoint, OrbitError> {
-        let state = self.state(node)?;
+        let state = self.state(&node.at)?;
         let contact = &node.here.point;
         Ok(CurvePoint {
             parameters: GrazingOrbit::parameters(self, &node.at),
@@ -168,6 +266,22 @@ impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
             impacts: point.impacts.len(),
             ..Sequence::default()
         }
+    }
+
+    fn degeneracy(
+        &self,
+        node: &Node<GrazingPoint>,
+        _: [&DVector<f64>; 2],
+    ) -> (CodimensionTwo, f64) {
+        let scene = self
+            .section
+            .scene(0.0, GrazingOrbit::parameters(self, &node.at));
+        let is_hard = scene.is_ok_and(|(scene, _)| !self.section.face.is_gentle(&scene));
+        let value = self.recurrence(&node.here.point);
+        (
+            CodimensionTwo::ResonantGrazing,
+            if is_hard { value } else { 0.0 },
+        )
     }
 }
 
@@ -186,18 +300,21 @@ fn follow<E: Codimension>(
     let start = correct(equations, guess, Some(&second))
         .or_else(|_| correct(equations, guess, Some(&first)))?;
     let up = way(equations, start.clone(), &second, region, watch)?;
-    let down = match up.1 {
-        CurveEnd::Closed => (Vec::new(), CurveEnd::Closed),
+    let down = match up.2 {
+        CurveEnd::Closed => (Vec::new(), Vec::new(), CurveEnd::Closed),
         _ => way(equations, start.clone(), &-second, region, watch)?,
     };
-    let mut points = down.0;
+    let (mut points, mut specials, first) = down;
     points.reverse();
+    specials.reverse();
     points.push(equations.describe(&start)?);
     points.extend(up.0);
+    specials.extend(up.1);
     Ok(Curve {
         kind,
         points,
-        ends: (down.1, up.1),
+        specials,
+        ends: (first, up.2),
     })
 }
 
@@ -205,19 +322,28 @@ fn follow<E: Codimension>(
 pub(super) const SHORTEST_LOOP: usize = 8;
 pub(super) const CLOSED: f64 = 0.05;
 
+/// Points of a curve one way, those of codimension two among them, and why it ends.
+type Way = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
+
 fn way<E: Codimension>(
     equations: &E,
     start: Node<E::Point>,
     along: &DVector<f64>,
     region: &CurveLimits,
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
-) -> Result<(Vec<CurvePoint>, CurveEnd), OrbitError> {
+) -> Result<Way, OrbitError> {
     let origin = start.at.clone();
     let sequence = equations.sequence(&start.here.point);
     let mut stepper = Stepper::new(equations, start, along, region.step)?;
-    let mut points = Vec::new();
+    let (mut points, mut specials) = (Vec::new(), Vec::new());
     while points.len() < region.points {
         let last = stepper.node.clone();
+        let ahead = stepper.step * &stepper.direction;
+        if let Some(point) = equations.last(&last, &ahead) {
+            points.push(point.clone());
+            specials.push((CodimensionTwo::ResonantGrazing, point));
+            return Ok((points, specials, CurveEnd::ResonantGrazing));
+        }
         let next = stepper.attempt().map_err(CurveEnd::Lost);
         let next = next.and_then(|step| {
             if equations.sequence(&step.node.here.point) != sequence {
@@ -229,8 +355,11 @@ fn way<E: Codimension>(
         let (step, (node, leaves)) = match next {
             Ok(next) => next,
             Err(_) if stepper.shorten() => continue,
-            Err(cause) => return Ok((points, cause)),
+            Err(cause) => return Ok((points, specials, cause)),
         };
+        let directions = [&stepper.direction, &step.direction];
+        let special = special_between(equations, (&last, &node), directions);
+        specials.extend(special.ok().flatten());
         stepper.take(step);
         let step = &node.at - &last.at;
         let (share, off) = along_chord((&last.at, &step), &origin);
@@ -240,16 +369,50 @@ fn way<E: Codimension>(
         let stopped = watch(&point).is_break();
         points.push(point);
         if leaves {
-            return Ok((points, CurveEnd::Range));
+            return Ok((points, specials, CurveEnd::Range));
         }
         if closed {
-            return Ok((points, CurveEnd::Closed));
+            return Ok((points, specials, CurveEnd::Closed));
         }
         if stopped {
-            return Ok((points, CurveEnd::Stopped));
+            return Ok((points, specials, CurveEnd::Stopped));
         }
     }
-    Ok((points, CurveEnd::Points))
+    Ok((points, specials, CurveEnd::Points))
+}
+
+/// Part of a direction along the parameters that is none.
+const TURNING_BACK: f64 = 1e-6;
+
+/// The part of a direction along the two parameters.
+fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
+    direction.rows(direction.len() - 2, 2).into_owned()
+}
+
+/// The point of codimension two between two nodes, if there is one; with the directions of the curve there.
+fn special_between<E: Codimension>(
+    equations: &E,
+    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    [begins, ends]: [&DVector<f64>; 2],
+) -> Result<Option<(CodimensionTwo, CurvePoint)>, OrbitError> {
+    let (kind, before) = equations.degeneracy(from, [begins, begins]);
+    let (_, after) = equations.degeneracy(to, [begins, ends]);
+    if before * after >= 0.0 {
+        return Ok(None);
+    }
+    let direction = |node: &Node<E::Point>| tangent(equations, node, begins);
+    let value = |node: &Node<E::Point>| {
+        let value = direction(node).map(|(here, _)| equations.degeneracy(node, [begins, &here]).1);
+        value.unwrap_or(f64::NAN)
+    };
+    let (node, _) = locate(equations, (from, to), WIDTH, value)?;
+    // A curve that only turns sharply has its parameters change there, too.
+    let is_found = match kind {
+        CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < TURNING_BACK,
+        CodimensionTwo::ResonantGrazing => true,
+    };
+    let point = equations.describe(&node)?;
+    Ok(is_found.then_some((kind, point)))
 }
 
 /// The end of a step, or the point on it where a parameter leaves its range.

@@ -9,6 +9,7 @@ use super::Family;
 use super::arclength::{Node, correct};
 use super::face::{Face, Touch};
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
+use super::impact_section::ImpactSection;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
 use super::shooting::Shooting;
@@ -161,16 +162,17 @@ pub(crate) fn grazing<F: Family>(
     phase: f64,
     parameter: f64,
 ) -> Result<Special, OrbitError> {
-    let touching = GrazingOrbit {
+    let section = ImpactSection {
         family,
         periods,
         crossings: near.crossings,
         face: near.face,
     };
+    let touching = GrazingOrbit { section };
     let guess: DVector<f64> = touching.scaled(near.angle, [parameter]);
     let node = correct(&touching, &guess, None)?;
     let [parameter] = touching.parameters(&node.at);
-    let state = touching.state(&node)?;
+    let state = touching.state(&node.at)?;
     let GrazingPoint { monodromy, impacts } = node.here.point;
     let graze = Graze {
         angle: phase + (node.at[0] - phase).rem_euclid(TAU * periods as f64),

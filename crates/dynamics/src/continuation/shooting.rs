@@ -226,4 +226,4 @@ impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
 }
 
 /// What rounding leaves of a test function on orbits that stretch little.
-const TEST_TOLERANCE: f64 = 1e-12;
+pub(super) const TEST_TOLERANCE: f64 = 1e-12;

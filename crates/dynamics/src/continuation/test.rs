@@ -22,13 +22,20 @@ impl Test {
     /// The value, scaled by the size of trace and determinant: bounded also where they grow beyond all
     /// bounds, at grazing.
     pub fn value(self, monodromy: &Monodromy) -> f64 {
+        self.weighted(monodromy, 1.0)
+    }
+
+    /// The value of a weight times the test, scaled by the size of the weight times trace and determinant: smooth down to
+    /// weight 0 where trace and determinant grow as its reciprocal.
+    pub(crate) fn weighted(self, monodromy: &Monodromy, weight: f64) -> f64 {
         let (trace, determinant) = (monodromy.trace(), monodromy.determinant());
-        let size = 1.0f64.hypot(trace).hypot(determinant);
-        match self {
-            Self::Fold => (1.0 - trace + determinant) / size,
-            Self::Flip => (1.0 + trace + determinant) / size,
-            Self::NeimarkSacker => (determinant - 1.0) / size,
-        }
+        let size = 1.0f64.hypot(weight * trace).hypot(weight * determinant);
+        let test = match self {
+            Self::Fold => 1.0 - trace + determinant,
+            Self::Flip => 1.0 + trace + determinant,
+            Self::NeimarkSacker => determinant - 1.0,
+        };
+        weight * test / size
     }
 
     /// True if no test changes much between two orbits, as on one short piece of a branch.

@@ -4,12 +4,12 @@ use super::*;
 use softstop_testing::tolerance::{MOTION, SOLVED, printed};
 use softstop_testing::{assert_near, with_changes};
 
-fn plane(parameters: [Parameter; 2]) -> ParameterFamily<2> {
+pub(super) fn plane(parameters: [Parameter; 2]) -> ParameterFamily<2> {
     ParameterFamily::new(Ratios::unloaded().scene().expect("a scene"), parameters)
         .expect("a family")
 }
 
-fn followed(
+pub(super) fn followed(
     special: &Special,
     periods: u64,
     family: &ParameterFamily<2>,

@@ -3,7 +3,7 @@
 use softstop::{Dimension, Machine, Parameter};
 use softstop_draw::style::{self, bifurcation};
 use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Stroke};
-use softstop_dynamics::continuation::{Curve, SpecialKind, Test};
+use softstop_dynamics::continuation::{CodimensionTwo, Curve, SpecialKind, Test};
 use softstop_dynamics::{Branch, BranchPoint};
 
 /// Name, mark and line of a kind of special points.
@@ -66,11 +66,24 @@ pub fn curves(machine: &Machine, parameters: [Parameter; 2], curves: &[Curve]) -
         let points = curve.points.iter().map(|point| point.parameters.into());
         Layer::line(points, line).named(name)
     });
+    let specials = curves.iter().flat_map(|curve| &curve.specials);
+    let specials = specials.map(|(kind, point)| {
+        let (name, mark) = match kind {
+            CodimensionTwo::Cusp => ("cusp (CP)", Mark::Triangle),
+            _ => ("resonant grazing (RG)", Mark::Diamond),
+        };
+        Layer::marks(
+            [point.parameters.into()],
+            mark,
+            bifurcation::CODIMENSION_TWO,
+        )
+        .named(name)
+    });
     let [across, upwards] = parameters.map(|it| Axis::new(machine.label_of(it)));
     let panel = Panel {
         x: across,
         y: upwards,
-        layers: lines.collect(),
+        layers: lines.chain(specials).collect(),
         ..Panel::default()
     };
     chart("Bifurcations of periodic motions", panel)

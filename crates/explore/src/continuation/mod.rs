@@ -39,8 +39,9 @@ Examples:
 
 Words: SN fold, where two orbits meet and vanish; PD flip, where the period doubles; G grazing,
 where an impact dies or a turning point reaches a surface; NS Neimark-Sacker, which damping
-rules out. All are located to 1e-10. In the chart stable orbits are drawn solid, unstable ones
-dashed; of an orbit with several impacts each has its line.
+rules out. All are located to 1e-10. On curves in two parameters: CP cusp, where two folds meet;
+RG resonant grazing, where curves of folds and flips end on one of grazing. In the chart stable
+orbits are drawn solid, unstable ones dashed; of an orbit with several impacts each has its line.
 
 The parameter starts at the machine's own value, which must lie between --from and --to.";
 
@@ -154,7 +155,8 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     }
     let most = arguments.points;
     let report =
-        ContinuationReport::new(&machine, first.parameter, most, &branches, curves.as_ref());
+        ContinuationReport::new(&machine, first.parameter, most, &branches, curves.as_ref())
+            .map_err(anyhow::Error::from)?;
     export.finish(&report, arguments.format)
 }
 

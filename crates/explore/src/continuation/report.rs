@@ -4,11 +4,12 @@ use serde::Serialize;
 use softstop::{Machine, MotionError, Parameter};
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    BorderCollision, Curve, CurveEnd, End, Special, SpecialKind,
+    BorderCollision, CodimensionTwo, Curve, CurveEnd, CurvePoint, End, Special, SpecialKind,
 };
 use softstop_dynamics::orbit::OrbitError;
 
-use softstop_console::column::{Column, Told, Unit, Units};
+use super::tables::{branch_columns, curve_columns, rows_of_branch, rows_of_curve};
+use softstop_console::column::{Column, Told, Unit, Units, arrays};
 use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
@@ -47,7 +48,16 @@ struct CurvesReport {
     parameter: &'static str,
     /// Its unit.
     unit: &'static str,
-    curves: Vec<Record>,
+    curves: Vec<CurveReport>,
+}
+
+/// One curve.
+#[derive(Debug, Serialize)]
+struct CurveReport {
+    #[serde(flatten)]
+    figures: Record,
+    /// Its points of codimension two, in order.
+    specials: Vec<Record>,
 }
 
 /// A branch or a curve, and the points that it was followed for at most.
@@ -83,6 +93,20 @@ fn curve<'a>() -> [Column<Followed<'a, Curve>>; 5] {
         "from" [None] Fixed(8), "both parameters at its first point" => it.0.points.first().map(|it| it.parameters);
         "to" [None] Fixed(8), "at its last" => it.0.points.last().map(|it| it.parameters);
         "ends" [None] Plain, "why it ends there" => ends([&it.0.ends.0, &it.0.ends.1].map(|at| curve_end(at, it.1)));
+    }
+}
+
+/// A point of codimension two, with the kind of its curve.
+type OnCurve<'a> = (SpecialKind, &'a (CodimensionTwo, CurvePoint));
+
+fn codimension_two<'a>() -> [Column<OnCurve<'a>>; 6] {
+    columns! { OnCurve<'a>, it;
+        "symbol" [None] Plain, "CP or RG" => it.1.0.symbol();
+        "name" [None] Plain, "what it is" => it.1.0.name();
+        "on" [None] Plain, "kind of the curve" => it.0.symbol();
+        "values" [None] Fixed(12), "of both parameters" => it.1.1.parameters;
+        "position" [Length], "at drive angle 0 of the scene" => it.1.1.position;
+        "velocity" [Velocity], "there" => it.1.1.velocity;
     }
 }
 
@@ -152,6 +176,7 @@ fn curve_end(end: &CurveEnd, points: usize) -> String {
         CurveEnd::Points => limit(points),
         CurveEnd::Closed => "the curve is closed".to_owned(),
         CurveEnd::Grazing => "the orbit grazes elsewhere".to_owned(),
+        CurveEnd::ResonantGrazing => "resonant grazing".to_owned(),
         CurveEnd::Stopped => "stopped".to_owned(),
         CurveEnd::Lost(error) => lost(error),
     }
@@ -164,27 +189,42 @@ impl ContinuationReport {
         most: usize,
         branches: &[Branch],
         curves: Option<&(Parameter, Vec<Curve>)>,
-    ) -> Self {
-        let branches = branches.iter().map(|it| BranchReport {
-            figures: Record::of(&branch(), &(it, most)),
-            specials: Record::all(&specials(), &it.specials),
+    ) -> serde_json::Result<Self> {
+        let branches = branches.iter().enumerate().map(|(number, it)| {
+            let table = arrays(&branch_columns(), rows_of_branch(number, it))?;
+            Ok(BranchReport {
+                figures: Record::of(&branch(), &(it, most)).hidden("table", table),
+                specials: Record::all(&specials(), &it.specials),
+            })
         });
+        let curve_report = |(number, it): (usize, &Curve)| {
+            let table = arrays(&curve_columns(), rows_of_curve(number, it))?;
+            let specials = it.specials.iter().map(|special| (it.kind, special));
+            Ok(CurveReport {
+                figures: Record::of(&curve(), &(it, most)).hidden("table", table),
+                specials: Record::all(&codimension_two(), &specials.collect::<Vec<_>>()),
+            })
+        };
         let unit = |parameter| units::of_parameter(machine, parameter);
-        Self {
+        let curves = curves.map(|(second, curves)| {
+            serde_json::Result::Ok(CurvesReport {
+                parameter: machine.name(*second),
+                unit: unit(*second),
+                curves: curves
+                    .iter()
+                    .enumerate()
+                    .map(curve_report)
+                    .collect::<Result<_, _>>()?,
+            })
+        });
+        Ok(Self {
             machine: MachineReport::of(machine),
             parameter: machine.name(parameter),
             unit: unit(parameter),
-            branches: branches.collect(),
-            curves: curves.map(|(second, curves)| {
-                let curves = curves.iter().map(|it| Record::of(&curve(), &(it, most)));
-                CurvesReport {
-                    parameter: machine.name(*second),
-                    unit: unit(*second),
-                    curves: curves.collect(),
-                }
-            }),
+            branches: branches.collect::<serde_json::Result<_>>()?,
+            curves: curves.transpose()?,
             units: Units::of(machine),
-        }
+        })
     }
 }
 
@@ -204,7 +244,14 @@ impl Report for ContinuationReport {
         if let Some(found) = &self.curves {
             let second = label(found.parameter, found.unit);
             text += &heading(&format!("Curves in {parameter} and {second}"));
-            text += &below(&found.curves, &self.units);
+            let figures: Vec<_> = found.curves.iter().map(|it| it.figures.clone()).collect();
+            text += &below(&figures, &self.units);
+            let specials = found.curves.iter().flat_map(|it| &it.specials);
+            let specials: Vec<_> = specials.cloned().collect();
+            if !specials.is_empty() {
+                text += "\nOf codimension two:\n";
+                text += &below(&specials, &self.units);
+            }
         }
         text
     }

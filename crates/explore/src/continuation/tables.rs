@@ -35,13 +35,22 @@ pub(super) fn branch_columns<'a>() -> [Column<BranchRow<'a>>; 13] {
 
 /// The rows of `branches.csv`.
 pub(super) fn branch_rows(branches: &[Branch]) -> impl Iterator<Item = BranchRow<'_>> {
-    branches.iter().enumerate().flat_map(|(number, branch)| {
-        branch.points.iter().map(move |point| BranchRow {
-            number,
-            branch,
-            point,
-            multipliers: point.monodromy.multipliers(),
-        })
+    branches
+        .iter()
+        .enumerate()
+        .flat_map(|(number, branch)| rows_of_branch(number, branch))
+}
+
+/// Those of one branch.
+pub(super) fn rows_of_branch(
+    number: usize,
+    branch: &Branch,
+) -> impl Iterator<Item = BranchRow<'_>> {
+    branch.points.iter().map(move |point| BranchRow {
+        number,
+        branch,
+        point,
+        multipliers: point.monodromy.multipliers(),
     })
 }
 
@@ -74,11 +83,17 @@ pub(super) fn curve_columns<'a>() -> [Column<CurveRow<'a>>; 9] {
 
 /// The rows of `curves.csv`.
 pub(super) fn curve_rows(curves: &[Curve]) -> impl Iterator<Item = CurveRow<'_>> {
-    curves.iter().enumerate().flat_map(|(number, curve)| {
-        curve.points.iter().map(move |point| CurveRow {
-            number,
-            curve,
-            point,
-        })
+    curves
+        .iter()
+        .enumerate()
+        .flat_map(|(number, curve)| rows_of_curve(number, curve))
+}
+
+/// Those of one curve.
+pub(super) fn rows_of_curve(number: usize, curve: &Curve) -> impl Iterator<Item = CurveRow<'_>> {
+    curve.points.iter().map(move |point| CurveRow {
+        number,
+        curve,
+        point,
     })
 }

@@ -1,0 +1,220 @@
+//! Folds and flips with their slowest impact as the section: regular down to grazing.
+//!
+//! In the state at a fixed drive angle a weak impact has a square root, so a curve of folds or flips that comes near to
+//! grazing asks for ever shorter steps. In the drive angle and the before-impact velocity v of that impact the orbit, taken
+//! back to the surface as if it were not there, is smooth down to v = 0, and so is v tr M, whose limit vanishes at resonant
+//! grazing alone: where grazing meets folds and flips (Nordmark 2001; Simpson and Ghosh, arXiv 2602.22797).
+
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+
+use super::Family;
+use super::arclength::{Equations, Evaluation};
+use super::face::Face;
+use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
+use super::impact_section::ImpactSection;
+use super::period_map::carry_on;
+use super::shooting::{TEST_TOLERANCE, round_off};
+use super::test::Test;
+use crate::orbit::{Monodromy, OrbitError, PassageRecorder};
+use softstop::{Clock, Crossing, CrossingKind, MotionError, Observer, Parameter, Scene, Start};
+
+/// Orbits on which a test vanishes, in unknowns: drive angle of their slowest impact, its velocity and the parameters,
+/// scaled.
+#[derive(Debug)]
+pub(crate) struct CriticalImpact<'a, F, const N: usize> {
+    pub section: ImpactSection<'a, F, N>,
+    pub test: Test,
+}
+
+/// Such an orbit.
+#[derive(Debug, Clone)]
+pub(crate) struct CriticalPoint {
+    /// Jacobian of the map from just before the impact to there.
+    pub monodromy: Monodromy,
+    /// Before-impact velocities in m/s, that of the section first.
+    pub impacts: Vec<f64>,
+    /// True if the orbit meets the surface before its last arc comes back to it.
+    pub is_cut: bool,
+}
+
+impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
+    /// The system and its unknowns at an orbit; none if its slowest entry is no section, which is one into a rigid or a
+    /// preloaded stop.
+    pub fn at(
+        (family, periods): (&'a F, u64),
+        test: Test,
+        state: Vector2<f64>,
+        parameters: [f64; N],
+    ) -> Result<Option<(Self, DVector<f64>)>, MotionError> {
+        let scene = family.scene(parameters)?;
+        let mut motion = scene.motion(Start::from(state))?;
+        let mut entries = Entries::default();
+        for period in 1..=periods {
+            carry_on(&mut motion, Clock::at_cycle(period), &mut entries)?;
+        }
+        let slowest = entries.all.iter();
+        let slowest = slowest.min_by(|a, b| a.velocity.total_cmp(&b.velocity));
+        let Some(entry) = slowest.filter(|_| !entries.rests) else {
+            return Ok(None);
+        };
+        let face = Face::at(&scene, entry.position);
+        let serves = |face: &Face| match face {
+            Face::Clearance => scene.piercing.is_none() && !face.is_gentle(&scene),
+            Face::Pierced => false,
+            Face::Stop | Face::Wall => true,
+        };
+        let Some(face) = face.filter(serves) else {
+            return Ok(None);
+        };
+        let is_told = matches!(entry.kind, CrossingKind::Rebound { .. });
+        let section = ImpactSection {
+            family,
+            periods,
+            crossings: entries.crossings - usize::from(!is_told),
+            face,
+        };
+        let time = motion.clock().time(entry.instant);
+        let angle = scene.excitation.phase + scene.excitation.frequency * time;
+        let [_, speed] = family.state_scales();
+        let scales = family.parameter_scales();
+        let scaled = parameters.iter().zip(scales);
+        let scaled = scaled.map(|(value, scale)| value / scale);
+        let unknowns = [angle, entry.velocity / speed].into_iter().chain(scaled);
+        let guess = DVector::from_iterator(2 + N, unknowns);
+        Ok(Some((Self { section, test }, guess)))
+    }
+
+    pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
+        let scales = self.section.family.parameter_scales();
+        std::array::from_fn(|index| at[2 + index] * scales[index])
+    }
+
+    /// Velocity in m/s of the impact at the section.
+    fn velocity(&self, at: &DVector<f64>) -> f64 {
+        let [_, speed] = self.section.family.state_scales();
+        at[1] * speed
+    }
+
+    /// The state at time 0 of the family's scene.
+    pub fn state(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
+        let velocity = self.velocity(at);
+        self.section.state(at[0], velocity, self.parameters(at))
+    }
+
+    /// Resonant grazing of these orbits, and its unknowns near them.
+    pub fn resonant_grazing(&self, at: &DVector<f64>) -> (ResonantGrazing<'a, F, N>, DVector<f64>) {
+        let section = ImpactSection {
+            crossings: self.section.crossings - 1,
+            ..self.section
+        };
+        (
+            ResonantGrazing(GrazingOrbit { section }),
+            at.clone().remove_row(1),
+        )
+    }
+}
+
+impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
+    type Point = CriticalPoint;
+    const EXACT: usize = 0;
+
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<CriticalPoint>, OrbitError> {
+        let velocity = self.velocity(at);
+        if velocity <= 0.0 {
+            let residual = f64::INFINITY;
+            return Err(OrbitError::Diverged { residual });
+        }
+        let (scene, position) = self.section.scene(at[0], self.parameters(at))?;
+        let begin = Vector2::new(position, velocity);
+        let (drift, around) = self.section.around::<PassageRecorder>(&scene, begin)?;
+        let PassageRecorder {
+            tangent, impacts, ..
+        } = around.seen;
+        let entry = entry(&scene, begin);
+        let is_impact = entry.is_some() && self.section.face == Face::Clearance;
+        let told = impacts.iter().map(|it| it.before_impact_velocity);
+        let impacts = is_impact
+            .then_some(velocity)
+            .into_iter()
+            .chain(told)
+            .collect();
+        let entered = (entry.unwrap_or_else(Matrix2::identity), 1.0);
+        let monodromy = Monodromy::product(&[entered, (tangent.matrix, tangent.determinant)]);
+        let value = self.test.weighted(&monodromy, at[1]);
+        let sizes = self.section.family.state_scales();
+        let tolerance = round_off(&scene, &begin, &Monodromy::from(&tangent), sizes);
+        Ok(Evaluation {
+            residual: DVector::from_column_slice(&[drift.x, drift.y, value]),
+            tolerance: tolerance.max(TEST_TOLERANCE),
+            point: CriticalPoint {
+                monodromy,
+                impacts,
+                is_cut: around.is_cut,
+            },
+        })
+    }
+
+    fn jacobian(&self, _: &Evaluation<CriticalPoint>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        slopes.clone()
+    }
+}
+
+/// The saltation matrix of an entry into a preloaded stop, which a motion from there does not tell; none at a rigid stop,
+/// whose rebound it tells.
+fn entry(scene: &Scene, begin: Vector2<f64>) -> Option<Matrix2<f64>> {
+    if scene.wall().is_some_and(|wall| wall.position == begin.x) {
+        return None;
+    }
+    let preload = Parameter::Preload.get(scene).unwrap_or(0.0);
+    // Behind a strip the contact's damper acts already.
+    let damper = match scene.piercing {
+        None => (scene.contact_damping - scene.damping) * begin.y,
+        Some(_) => 0.0,
+    };
+    let jump = -(preload + damper) / scene.mass;
+    Some(Matrix2::new(1.0, 0.0, jump / begin.y, 1.0))
+}
+
+/// Surfaces that a motion enters, and how often it crosses any.
+#[derive(Default)]
+struct Entries {
+    all: Vec<Crossing>,
+    crossings: usize,
+    rests: bool,
+}
+
+impl Observer for Entries {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.crossings += 1;
+        match crossing.kind {
+            CrossingKind::Surface { forward: true, .. } | CrossingKind::Rebound { .. } => {
+                self.all.push(*crossing);
+            }
+            CrossingKind::Rest => self.rests = true,
+            _ => {}
+        }
+    }
+}
+
+/// Grazing orbits between whose touches the mass comes back to the surface at all velocities alike, so that a weak impact
+/// has no bearing on the next: in the linear machine at frequencies 2 `omega_d` n / k.
+#[derive(Debug)]
+pub(crate) struct ResonantGrazing<'a, F, const N: usize>(pub GrazingOrbit<'a, F, N>);
+
+impl<F: Family<N>, const N: usize> Equations for ResonantGrazing<'_, F, N> {
+    type Point = GrazingPoint;
+    const EXACT: usize = 0;
+
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<GrazingPoint>, OrbitError> {
+        let orbit = self.0.evaluate(at)?;
+        Ok(Evaluation {
+            residual: orbit.residual.push(self.0.recurrence(&orbit.point)),
+            tolerance: orbit.tolerance.max(TEST_TOLERANCE),
+            point: orbit.point,
+        })
+    }
+
+    fn jacobian(&self, _: &Evaluation<GrazingPoint>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        slopes.clone()
+    }
+}

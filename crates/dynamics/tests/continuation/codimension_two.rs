@@ -1,0 +1,191 @@
+//! Points of codimension two against closed forms, scaling and counts of folds.
+
+use super::curves::{followed, plane};
+use super::*;
+use softstop::Machine;
+use softstop_dynamics::attractors::{Options, attractors};
+use softstop_dynamics::continuation::CodimensionTwo;
+
+/// A machine with m = k = F0 = 1 before a stop, at 0.95 of the clearance that the motion without impacts reaches.
+fn beside_grazing(frequency: f64, damping: f64, stop: &str) -> Scene {
+    let reach = (1.0 - frequency * frequency)
+        .hypot(damping * frequency)
+        .recip();
+    let text = format!(
+        "mass = 1.0\nstiffness = 1.0\ndamping = {damping}\nclearance = {}\ncontact.damping = {damping}\n\
+         excitation = {{ amplitude = 1.0, frequency = {frequency} }}\nstop = {stop}",
+        0.95 * reach
+    );
+    Machine::from_toml(&text).expect("a machine").scene
+}
+
+const STOPS: [&str; 2] = [
+    "{ model = \"rigid\", restitution = 0.8 }",
+    "{ model = \"preloaded\", stiffness = 7.0, preload = 2.0 }",
+];
+
+/// The special points of z = 1 over the clearance, from its stable motion.
+fn over_the_clearance(scene: &Scene) -> Branch {
+    let found = attractors(
+        scene,
+        &Options::default(),
+        &|_, _| ControlFlow::Continue(()),
+    );
+    let found = found.expect("attractors").attractors;
+    let orbit = found.into_iter().find_map(|it| {
+        let regime = it.motion.regime()?;
+        (regime.impacts == 1 && regime.periods == 1).then_some(it.orbit?)
+    });
+    let family = ParameterFamily::new(scene.clone(), [Parameter::Clearance]).expect("a family");
+    let limits = Limits {
+        range: (0.6 * scene.clearance, 1.3 * scene.clearance),
+        points: 2000,
+    };
+    let state = orbit.expect("z = 1").state();
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let branch = Continuation::new(&family, 1).branch(scene.clearance, state, &limits, go_on);
+    branch.expect("a branch")
+}
+
+/// Grazing is resonant where the free motion comes back in half its own periods, at `2 omega_d / n` (Simpson and Ghosh,
+/// arXiv 2602.22797). The curve of folds from below, that of flips from above and that of grazing meet there, at the
+/// amplitude of the linear machine.
+#[test]
+fn folds_and_flips_end_in_resonant_grazing() {
+    for (damping, stop) in [0.02, 0.04, 0.1f64]
+        .into_iter()
+        .flat_map(|it| STOPS.map(|stop| (it, stop)))
+    {
+        let resonant = 2.0 * (1.0 - damping * damping / 4.0).sqrt();
+        let reach = (1.0 - resonant * resonant)
+            .hypot(damping * resonant)
+            .recip();
+        for (frequency, symbol) in [(resonant - 0.01, "SN"), (resonant + 4e-4, "PD")] {
+            let scene = beside_grazing(frequency, damping, stop);
+            let branch = over_the_clearance(&scene);
+            let parameters = [Parameter::Clearance, Parameter::Frequency];
+            let family = ParameterFamily::new(scene, parameters).expect("a family");
+            let ranges = [(0.2, 0.5), (frequency - 0.1, frequency + 0.1)];
+            for kind in [symbol, "G"] {
+                let special = of_kind(&branch, kind).remove(0);
+                let curve = followed(&special, 1, &family, frequency, ranges);
+                let [(CodimensionTwo::ResonantGrazing, point)] = &curve.specials[..] else {
+                    panic!("{kind}: {:?}", curve.specials);
+                };
+                assert_near(point.parameters[1], resonant, SOLVED);
+                assert_near(point.parameters[0], reach, SOLVED);
+                let ends = [&curve.ends.0, &curve.ends.1];
+                let ends = ends
+                    .iter()
+                    .filter(|it| matches!(it, CurveEnd::ResonantGrazing));
+                assert_eq!(
+                    ends.count(),
+                    usize::from(kind != "G"),
+                    "{kind}: {:?}",
+                    curve.ends
+                );
+            }
+        }
+    }
+}
+
+/// The orbits of a curve are periodic, and the test vanishes, in the map of the state at a drive angle, too.
+#[test]
+fn curves_from_impact_to_impact_are_those_of_the_stroboscopic_map() {
+    let branch = all_of_z1();
+    let family = plane([Parameter::Frequency, Parameter::Clearance]);
+    let mut compared = 0;
+    for (symbol, test) in [("PD", Test::Flip), ("SN", Test::Fold)] {
+        let special = of_kind(&branch, symbol).remove(0);
+        let curve = followed(&special, 1, &family, 10.0, [(0.6, 1.8), (1.0, 24.0)]);
+        for point in curve
+            .points
+            .iter()
+            .filter(|it| it.before_impact_velocity() > 0.1)
+        {
+            let [frequency, clearance] = point.parameters;
+            let mut scene = unloaded().at_frequency(frequency);
+            scene.clearance = clearance;
+            let map = StroboscopicMap::new(&scene, 1).expect("a map");
+            let state = Vector2::new(point.position, point.velocity);
+            let passage = map.apply(state).expect("an image");
+            assert_near((passage.end - state).norm() / clearance, 0.0, SOLVED);
+            assert_near(test.value(&passage.monodromy), 0.0, 10.0 * GROWN);
+            compared += 1;
+        }
+    }
+    assert!(compared > 40, "{compared}");
+}
+
+/// The flips of the paper's unloaded machine end at a third of its own frequency, twice over; those of the loaded machine
+/// and its folds where the mass grazes the stop behind the strip, beside a cusp.
+#[test]
+fn the_papers_machines_have_resonant_grazings() {
+    let flip = of_kind(&all_of_z1(), "PD").remove(0);
+    let family = plane([Parameter::Frequency, Parameter::Clearance]);
+    let curve = followed(&flip, 1, &family, 10.0, [(0.5, 2.0), (1.0, 24.0)]);
+    let [(CodimensionTwo::ResonantGrazing, point)] = &curve.specials[..] else {
+        panic!("{:?}", curve.specials);
+    };
+    let own = (1.0 - 0.02 * 0.02f64).sqrt();
+    assert_near(point.parameters[0], 2.0 * own / 3.0, SOLVED);
+
+    let frequencies = ParameterFamily::new(loaded(), [Parameter::Frequency]).expect("a family");
+    let orbit = softstop_dynamics::orbit::find(&loaded()).expect("z = 1");
+    let branch = follow(&frequencies, 1, (1.15, orbit.state()), (0.5, 2.0));
+    let family = ParameterFamily::new(loaded(), [Parameter::Frequency, Parameter::Clearance]);
+    let family = family.expect("a family");
+    let ends = ["PD", "SN"].map(|symbol| {
+        let special = of_kind(&branch, symbol).remove(0);
+        let curve = followed(&special, 1, &family, 10.0, [(0.5, 2.0), (1.0, 24.0)]);
+        let resonant = curve.specials.into_iter();
+        let mut resonant = resonant.filter(|it| it.0 == CodimensionTwo::ResonantGrazing);
+        resonant.next().expect("a resonant grazing").1.parameters
+    });
+    assert_near(ends[0][0], ends[1][0], SOLVED);
+    assert_near(ends[0][1], ends[1][1], GROWN);
+}
+
+/// The soft stop alone has a scale of its own, its clearance: the cusp stands at one ratio of amplitude to clearance, and
+/// of the machines on either side of it one has two folds more.
+#[test]
+fn folds_of_a_soft_stop_meet_in_a_cusp() {
+    let soft = Machine::from_toml(
+        "mass = 1.0\nstiffness = 1.0\ndamping = 0.1\nclearance = 1.0\ncontact.damping = 0.1\n\
+         excitation = { amplitude = 0.5, frequency = 1.2 }\nstop = { model = \"kelvinVoigt\", stiffness = 3.0 }",
+    );
+    let soft = soft.expect("a machine").scene;
+    let folds = |amplitude: f64| {
+        let mut scene = soft.clone();
+        scene.excitation.amplitude = amplitude;
+        scene.excitation.frequency = 1.0;
+        let orbit = softstop_dynamics::orbit::find(&scene).expect("z = 1");
+        let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
+        let limits = Limits {
+            range: (0.8, 2.5),
+            points: 4000,
+        };
+        let go_on = |_: &_| ControlFlow::Continue(());
+        let branch = Continuation::new(&family, 1).branch(1.0, orbit.state(), &limits, go_on);
+        of_kind(&branch.expect("a branch"), "SN")
+    };
+    let fold = folds(0.5).remove(0);
+    let cusps = [
+        (Parameter::Amplitude, 0.5, (0.5, 2.0)),
+        (Parameter::Clearance, 1.0, (0.1, 1.0)),
+    ]
+    .map(|(second, value, range)| {
+        let family =
+            ParameterFamily::new(soft.clone(), [Parameter::Frequency, second]).expect("a family");
+        let curve = followed(&fold, 1, &family, value, [(0.9, 2.5), range]);
+        let [(CodimensionTwo::Cusp, point)] = &curve.specials[..] else {
+            panic!("{:?}", curve.specials);
+        };
+        point.parameters
+    });
+    let [[frequency, amplitude], [same, clearance]] = cusps;
+    assert_near(frequency, same, GROWN);
+    assert_near(amplitude / 1.0, 0.5 / clearance, GROWN);
+    let counts = [0.999, 1.001].map(|share| folds(share * amplitude).len());
+    assert_eq!(counts, [2, 0]);
+}
