@@ -4,7 +4,7 @@ use std::mem;
 use std::ops::ControlFlow;
 
 use softstop::internals::{Polynomial, budget};
-use softstop::{Effort, MotionError, Simulation};
+use softstop::{Crossing, Effort, MotionError, Observer, Simulation};
 use softstop_fmi::{Advance, Derivatives, Events, Outcome};
 
 use crate::drive::Drive;
@@ -18,6 +18,49 @@ const EFFORT: Effort = Effort::windows(1 << 25);
 const BACKSTOP: u64 = 1 << 27;
 /// Pieces of a drive that changes its speed that one step may take, for about as long.
 const MOST_PIECES: usize = 1 << 18;
+
+/// How far the next crossing is looked for, in drive periods, and what that may cost.
+const SIGHT: f64 = 16.0;
+const OUTLOOK: Effort = Effort::windows(1 << 14);
+
+/// Whether there was a crossing.
+struct Passes(bool);
+
+impl Observer for Passes {
+    fn crossing(&mut self, _: &Crossing) {
+        self.0 = true;
+    }
+}
+
+/// Impacts and pierced strips so far.
+struct Tally {
+    impacts: u64,
+    pierced: u64,
+}
+
+impl Tally {
+    fn of(simulation: &Simulation) -> Self {
+        Self {
+            impacts: simulation.impact_count(),
+            pierced: simulation.pierce_count(),
+        }
+    }
+
+    /// Tells what has happened since, if there was an impact; how many there were.
+    fn tell(&self, simulation: &Simulation, events: &mut Events) -> u64 {
+        let impacts = simulation.impact_count() - self.impacts;
+        if let Some(last) = simulation.last_impact().filter(|_| impacts > 0) {
+            let pierced = simulation.pierce_count() - self.pierced;
+            events.tell(|| {
+                format!(
+                    "impacts: {impacts}, strips pierced: {pierced}; last impact at {} s with {} m/s",
+                    last.time, last.velocity
+                )
+            });
+        }
+        impacts
+    }
+}
 
 impl More {
     /// All of it but what is known of the last step.
@@ -91,8 +134,13 @@ impl Machine {
         outcome.map_err(|error| format!("under drive.speed and drive.amplitude: {error}").into())
     }
 
-    /// Goes on to a time that is not in the past.
-    pub(crate) fn go_to(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
+    /// Goes on to a time that is not in the past, or to right before the first crossing that does not happen before `halt`.
+    pub(crate) fn go_to(
+        &mut self,
+        until: f64,
+        halt: Option<f64>,
+        events: &mut Events,
+    ) -> Outcome<Advance<Self>> {
         let more = &mut self.more;
         if more.contacts.is_some() || more.origin.is_some() || more.ended.is_some() {
             (more.contacts, more.origin, more.ended) = (None, None, None);
@@ -100,20 +148,20 @@ impl Machine {
         more.is_open = true;
         let mut effort = EFFORT;
         if !more.drive.as_ref().is_some_and(|drive| drive.varies()) {
-            return self.go_straight(until, &mut effort, events);
+            return self.go_straight(until, halt, &mut effort, events);
         }
         self.more.is_open = false;
         let mut origin = Box::new(self.clone());
         origin.change().mark();
-        match self.go_in_pieces(until, &mut effort, events) {
-            Ok(None) => {
-                self.more.origin = Some(origin);
-                Ok(Advance::Arrived)
-            }
-            Ok(Some(reason)) => Ok(Advance::Short {
+        match self.go_in_pieces(until, halt, &mut effort, events) {
+            Ok(Advance::Short { reason, .. }) => Ok(Advance::Short {
                 reason,
                 before: Some(origin),
             }),
+            Ok(advance) => {
+                self.more.origin = Some(origin);
+                Ok(advance)
+            }
             Err(error) => {
                 *self = *origin;
                 Err(error)
@@ -121,42 +169,51 @@ impl Machine {
         }
     }
 
-    /// The same under a drive that changes; otherwise than all the way, why.
+    /// The same under a drive that changes.
     fn go_in_pieces(
         &mut self,
         until: f64,
+        halt: Option<f64>,
         effort: &mut Effort,
         events: &mut Events,
-    ) -> Outcome<Option<String>> {
+    ) -> Outcome<Advance<Self>> {
+        let short = |reason| {
+            let before = None;
+            Ok(Advance::Short { reason, before })
+        };
         for _ in 0..MOST_PIECES {
             let now = self.simulation().time();
             if now >= until {
-                return Ok(None);
+                return Ok(Advance::Arrived);
             }
             let drive = self.more.drive.as_ref();
             let end = drive.map_or(until, |drive| drive.end_of_piece(now, until));
             if end <= now {
-                return Ok(Some(format!(
+                return short(format!(
                     "drive.speed or drive.amplitude changes faster than the time {now} s tells"
-                )));
+                ));
             }
             self.push_until(end)?;
-            let outcome = self.go_straight(end, effort, events)?;
+            let outcome = self.go_straight(end, halt, effort, events)?;
             self.more.is_open = true;
+            if matches!(outcome, Advance::Event) {
+                return Ok(outcome);
+            }
             self.keep_contacts();
-            if let Advance::Short { reason, .. } = outcome {
-                return Ok(Some(reason));
+            if matches!(outcome, Advance::Short { .. }) {
+                return Ok(outcome);
             }
         }
-        Ok(Some(format!(
+        short(format!(
             "{MOST_PIECES} pieces of a quarter of a radian so far"
-        )))
+        ))
     }
 
     /// Goes on under a drive and an external force that the engine has as they are.
     fn go_straight(
         &mut self,
         until: f64,
+        halt: Option<f64>,
         effort: &mut Effort,
         events: &mut Events,
     ) -> Outcome<Advance<Self>> {
@@ -166,21 +223,20 @@ impl Machine {
             external.at(simulation.time(), simulation.scene().mass)
         });
         let simulation = self.change();
-        let before = (simulation.impact_count(), simulation.pierce_count());
-        let backstop = || simulation.watch(until, effort);
+        let before = Tally::of(simulation);
+        let mut passes = Passes(false);
+        let backstop = || match halt {
+            None => simulation.watch(until, effort),
+            Some(halt) => simulation.watch_before(until, halt, &mut (effort, &mut passes)),
+        };
         let (outcome, _) = budget::within(BACKSTOP, backstop);
-        let impacts = simulation.impact_count() - before.0;
-        if let Some(last) = simulation.last_impact().filter(|_| impacts > 0) {
-            let pierced = simulation.pierce_count() - before.1;
-            events.tell(|| {
-                format!(
-                    "impacts: {impacts}, strips pierced: {pierced}; last impact at {} s with {} m/s",
-                    last.time, last.velocity
-                )
-            });
+        if passes.0 {
+            events.note();
         }
+        let impacts = before.tell(simulation, events);
         let outcome = match outcome {
             Ok(ControlFlow::Continue(())) => Advance::Arrived,
+            Ok(ControlFlow::Break(())) if simulation.is_at_crossing() => Advance::Event,
             Ok(ControlFlow::Break(())) => {
                 // To go through so many contacts again would take as long.
                 self.more.is_open = false;
@@ -210,6 +266,26 @@ impl Machine {
             self.more.external.count(work);
         }
         Ok(outcome)
+    }
+
+    /// Lets a crossing happen that the machine stands before.
+    pub(crate) fn cross(&mut self, events: &mut Events) {
+        let simulation = self.change();
+        let before = Tally::of(simulation);
+        if simulation.cross(&mut ()) {
+            events.note();
+        }
+        before.tell(simulation, events);
+    }
+
+    /// When the next crossing happens, unless the drive changes until then.
+    pub(crate) fn next_crossing(&self) -> Option<f64> {
+        if self.more.drive.as_ref().is_some_and(|drive| drive.varies()) {
+            return None;
+        }
+        let simulation = self.simulation();
+        let sight = simulation.time() + SIGHT * simulation.scene().period();
+        simulation.next_crossing(sight, OUTLOOK)
     }
 
     /// Takes over other parameters, all of them or none.

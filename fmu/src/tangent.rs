@@ -111,7 +111,7 @@ impl Machine {
         machine.push()?;
         let end = self.simulation().time();
         if end > machine.simulation().time() {
-            machine.go_to(end, &mut Events::default())?;
+            machine.go_to(end, None, &mut Events::default())?;
         }
         Ok(machine)
     }

@@ -118,7 +118,22 @@ impl Unit for Machine {
     }
 
     fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
-        self.go_to(until, events)
+        self.go_to(until, None, events)
+    }
+
+    const HAS_EVENTS: bool = true;
+
+    fn approach(&mut self, until: f64, halt: f64, events: &mut Events) -> Outcome<Advance<Self>> {
+        self.go_to(until, Some(halt), events)
+    }
+
+    fn pass_event(&mut self, events: &mut Events) -> Outcome<()> {
+        self.cross(events);
+        Ok(())
+    }
+
+    fn next_event(&self) -> Option<f64> {
+        self.next_crossing()
     }
 
     fn drive(&mut self, signal: usize, derivatives: &Derivatives) -> Outcome<()> {

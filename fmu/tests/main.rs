@@ -20,3 +20,4 @@ mod table;
 mod threads;
 mod traces;
 mod tuning;
+mod v3;

@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use std::slice;
 
 use anyhow::{Context, Result, ensure};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use softstop::{Machine, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
 use softstop_console::names::file_stem;
 use softstop_console::output::{self, Folder};
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
-use softstop_fmu::{Imprint, StartValues, parameter_set};
+use softstop_fmu::{Imprint, Standard, StartValues, parameter_set};
 
 /// Compiled along with this program, from the same engine.
 static BYTES: &[u8] = include_bytes!(env!("SOFTSTOP_FMU_LIBRARY"));
@@ -72,8 +72,10 @@ Examples:
       the machine of the file as press.fmu, under its name and in its units (SI)
   softstop fmu loaded --set excitation.frequency=1.2 --output b.fmu
       the paper's loaded machine, with m = 1 kg, k1 = 1 N/m, F0 = 1 N, at eta = 1.2
+  softstop fmu press.toml --fmi 3
+      the machine for FMI 3.0, where the importer sees every impact as an event
 
-The FMU is for FMI 2.0 co-simulation and holds the library for this platform. It starts at the machine's
+The FMU is for co-simulation and holds the library for this platform. It starts at the machine's
 initial state at time 0; an importer may set parameters and inputs by the names of the machine's file.";
 
 /// Arguments of `softstop fmu`.
@@ -86,6 +88,29 @@ pub struct FmuArguments {
     /// File to write [default: NAME.fmu, by the machine's name]
     #[arg(long, value_name = "FILE.fmu")]
     pub output: Option<PathBuf>,
+    /// Version of FMI
+    #[arg(long, value_enum, value_name = "VERSION", default_value = "2")]
+    pub fmi: Version,
+}
+
+/// A version of FMI, as it is asked for.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Version {
+    /// FMI 2.0
+    #[value(name = "2")]
+    Two,
+    /// FMI 3.0
+    #[value(name = "3")]
+    Three,
+}
+
+impl From<Version> for Standard {
+    fn from(version: Version) -> Self {
+        match version {
+            Version::Two => Self::Fmi2,
+            Version::Three => Self::Fmi3,
+        }
+    }
 }
 
 /// Packs the machine.
@@ -98,6 +123,7 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
     };
     let imprint = imprint(&machine, machine.start);
     let imprint = imprint.map_err(|error| Failure::usage(format!("{error:#}")))?;
+    let imprint = imprint.by(arguments.fmi.into());
     let (folder, file) = output::folder_and_file(&place)?;
     let folder = Folder::of_file(folder, file)?;
     folder.stage(file, &packed(&library()?, &imprint)?)?;

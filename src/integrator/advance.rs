@@ -52,6 +52,17 @@ impl Motion {
         until: Instant,
         observer: &mut impl Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
+        self.watch_before(until, None, observer)
+    }
+
+    /// Advances as [`Motion::watch`], but stops right before the first crossing that does not happen before the instant
+    /// `halt`: [`Motion::is_at_crossing`] then tells so.
+    pub(super) fn watch_before(
+        &mut self,
+        until: Instant,
+        halt: Option<Instant>,
+        observer: &mut impl Observer,
+    ) -> Result<ControlFlow<()>, MotionError> {
         let finite = until.cycles.is_finite() && until.offset.is_finite();
         if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
             let (until, present) = (self.clock.time(until), self.clock.time(self.now));
@@ -71,6 +82,12 @@ impl Motion {
             };
             if at_once > MOST_AT_ONCE {
                 return Err(self.stalled());
+            }
+            if let Some(at) = self.next_crossing()
+                && halt.is_some_and(|halt| at >= halt)
+            {
+                self.now = at;
+                return Ok(ControlFlow::Break(()));
             }
             let windows = match self.outlook {
                 Outlook::Crossing(found) => {
@@ -208,7 +225,7 @@ impl Motion {
     }
 
     /// Takes up the motion where a course ends that was not meant to go further.
-    fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
+    pub(super) fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
         let drive = self.end_arc(elapsed, None, observer);
         let Mode::Chattering(hold) = self.mode else {
             return self.next_step(elapsed, drive);
@@ -250,7 +267,7 @@ impl Motion {
         self.begin(departure, self.mode, finer, None);
     }
 
-    fn cross(&mut self, found: Found, observer: &mut impl Observer) {
+    pub(super) fn cross(&mut self, found: Found, observer: &mut impl Observer) {
         // A mass that leaves rest and is back at once has not moved.
         let moved = self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
         let velocity = match self.mode {

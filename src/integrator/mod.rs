@@ -7,6 +7,7 @@ mod drive;
 mod effort;
 mod energy;
 mod evaluations;
+mod event;
 mod force;
 mod hum;
 mod impact;

@@ -42,7 +42,7 @@ impl Simulation {
     /// Tells of all arcs and crossings since the mark; the first arc may have begun before it.
     pub(super) fn review(&self, observer: &mut impl Observer) -> Result<(), MotionError> {
         let mut motion = self.marked().0.clone();
-        motion.advance(self.motion.now(), observer)?;
+        motion.advance_like(&self.motion, observer)?;
         motion.tell_arc(observer);
         Ok(())
     }

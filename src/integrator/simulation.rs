@@ -134,11 +134,31 @@ impl Simulation {
         until: f64,
         observer: &mut impl Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
+        self.watch_halting(until, None, observer)
+    }
+
+    /// The same, where [`Simulation::watch_before`] says from when on it stops before crossings.
+    pub(super) fn watch_halting(
+        &mut self,
+        until: f64,
+        halt: Option<f64>,
+        observer: &mut impl Observer,
+    ) -> Result<ControlFlow<()>, MotionError> {
         self.check_reach(until)?;
-        let instant = self.motion.clock().instant(until - self.epoch);
+        let clock = *self.motion.clock();
+        let instant = clock.instant(until - self.epoch);
         let before = self.motion.now();
+        let (mut end, mut last, mut stop) = (instant, until, None);
+        if let Some(halt) = halt {
+            let rounding = self.rounding_at(until);
+            (end, last) = (clock.after(instant, rounding), until + rounding);
+            stop = Some(clock.instant(halt - rounding - self.epoch));
+        }
         // Equal times may be written as instants that differ in the last digit.
-        if instant <= before || self.motion.glide(instant)? {
+        if instant <= before || self.motion.glide(end)? {
+            if halt.is_some() && instant > before {
+                self.motion.now = instant;
+            }
             self.mark = Mark::OnArc(before);
             self.now = until;
             return Ok(ControlFlow::Continue(()));
@@ -150,13 +170,16 @@ impl Simulation {
         };
         let origin = Box::write(Box::new_uninit(), origin);
         let mut observers = (&mut self.tallies, observer);
-        match self.motion.watch(instant, &mut observers) {
+        match self.motion.watch_before(end, stop, &mut observers) {
             Ok(flow) => {
                 self.mark = Mark::Before(origin);
                 self.now = if flow.is_continue() {
+                    if halt.is_some() && instant > self.motion.start {
+                        self.motion.now = instant;
+                    }
                     until
                 } else {
-                    self.time_of(self.motion.now()).clamp(self.now, until)
+                    self.time_of(self.motion.now()).clamp(self.now, last)
                 };
                 Ok(flow)
             }

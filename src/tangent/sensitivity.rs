@@ -60,7 +60,7 @@ impl Simulation {
             velocity: by.velocity,
             ..Watch::default()
         };
-        motion.advance(now.now(), &mut watch)?;
+        motion.advance_like(now, &mut watch)?;
         if motion.elapsed() > 0.0 {
             motion.tell_arc(&mut watch);
         }

@@ -64,7 +64,7 @@ impl<U: Unit> Instance<U> {
         orders: &[i32],
         values: &mut [f64],
     ) -> Result<(), Fault> {
-        if self.lifecycle == Lifecycle::Initializing {
+        if matches!(self.lifecycle, Lifecycle::Initializing | Lifecycle::Event) {
             return Err(Fault::WrongState {
                 state: self.lifecycle,
                 remedy: "derivatives of outputs can be read after initialisation",

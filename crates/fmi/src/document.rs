@@ -10,13 +10,14 @@ use quick_xml::events::BytesText;
 
 use crate::description::{capabilities, start_value};
 use crate::imprint::Imprint;
+use crate::standard::Standard;
 use crate::unit::{Row, Unit};
 use crate::variable::Kind;
 
 type Html = Writer<Vec<u8>>;
 
 /// What a flag of the model description says about this unit.
-const CAPABILITIES: [(&str, &str); 9] = [
+const CAPABILITIES: [(&str, &str); 12] = [
     (
         "canHandleVariableCommunicationStepSize",
         "Steps of any length, each as exact as the next; a step costs by the events in it",
@@ -30,6 +31,14 @@ const CAPABILITIES: [(&str, &str); 9] = [
         "Time derivatives of the continuous outputs up to this order",
     ),
     (
+        "hasEventMode",
+        "Whether events can be handled by the importer, each at its instant, with the state before it and after it",
+    ),
+    (
+        "mightReturnEarlyFromDoStep",
+        "A step ends at the first event in it, if the importer allows that",
+    ),
+    (
         "canGetAndSetFMUstate",
         "The whole state can be kept and taken up again, bit for bit",
     ),
@@ -40,6 +49,10 @@ const CAPABILITIES: [(&str, &str); 9] = [
     (
         "providesDirectionalDerivative",
         "Derivatives of the outputs over the last step by continuous inputs, over the first one also by the initial state; in initialisation by every real parameter",
+    ),
+    (
+        "providesAdjointDerivatives",
+        "The same derivatives, by each known of a weighted sum of outputs",
     ),
     (
         "canBeInstantiatedOnlyOncePerProcess",
@@ -59,19 +72,25 @@ const CAPABILITIES: [(&str, &str); 9] = [
 pub(crate) fn html<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
     let about = U::about();
     let page = about.page.replace("<!--version-->", about.version);
-    let page = page.replace("<!--capabilities-->", &flags::<U>()?);
+    let page = page.replace("<!--capabilities-->", &flags::<U>(imprint.standard())?);
     let page = page.replace("<!--variables-->", &variables(imprint)?);
     Ok(page.replace("<!--name-->", &escape(imprint.name())))
 }
 
 /// The flags, with the values that the model description gives them.
-fn flags<U: Unit>() -> io::Result<String> {
-    let flags = capabilities(U::about());
+fn flags<U: Unit>(standard: Standard) -> io::Result<String> {
+    let flags = capabilities::<U>(standard);
     rows(|html| {
         CAPABILITIES.iter().try_for_each(|(name, meaning)| {
-            let value = flags.iter().find(|(flag, _)| flag == name);
-            let value = value.ok_or_else(|| io::Error::other(*name))?;
-            cells(html, "td", &[name, &value.1, meaning])
+            // Some are written in another way in FMI 3.0.
+            let is_meant = |flag: &str| {
+                flag.trim_end_matches('s')
+                    .eq_ignore_ascii_case(name.trim_end_matches('s'))
+            };
+            let Some((flag, value)) = flags.iter().find(|(flag, _)| is_meant(flag)) else {
+                return Ok(());
+            };
+            cells(html, "td", &[flag, value, meaning])
         })
     })
 }

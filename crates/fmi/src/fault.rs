@@ -91,6 +91,17 @@ pub(crate) enum Fault {
     LogCategory(String),
     #[error("no step is under way: fmi2DoStep never returns fmi2Pending")]
     NotPending,
+    /// A value that is not taken: all is as it was before the call.
+    #[error(transparent)]
+    Refused(Box<Fault>),
+    #[error("{argument} = {value}: must be {wanted}, one for each value reference")]
+    Count {
+        argument: &'static str,
+        value: usize,
+        wanted: usize,
+    },
+    #[error("not offered: {0}")]
+    NotOffered(&'static str),
     #[error("{0}")]
     Instantiation(String),
     /// A defect of this library, caught at its boundary.
@@ -102,8 +113,16 @@ impl Fault {
     /// The status that the call returns.
     pub(crate) const fn status(&self) -> Status {
         match self {
-            Self::Discarded { .. } => Status::Discard,
+            Self::Discarded { .. } | Self::Refused(_) => Status::Discard,
             _ => Status::Error,
+        }
+    }
+
+    /// What FMI 3.0 makes of a fault that has left the instance as it was: the importer may go on with another value.
+    pub(crate) fn refused(self) -> Self {
+        match self {
+            Self::OutOfRange { .. } | Self::Unit(_) => Self::Refused(self.into()),
+            other => other,
         }
     }
 

@@ -10,9 +10,10 @@ use crate::unit::Unit;
 const NAMESPACE: Uuid = Uuid::from_bytes(*b"softstop/fmi-2.0");
 
 /// A name-based UUID of the model description, taken with an empty `guid`. Name, description and start
-/// values are part of it, so the library must know them to know its GUID: they stand in its block.
+/// values are part of it, so the library must know them to know its GUID: they stand in its block. It is taken of the
+/// description by FMI 2.0 for both standards, whose descriptions say the same.
 fn uuid_of<U: Unit>(imprint: &Imprint<U>) -> std::io::Result<Uuid> {
-    let xml = description::write(imprint, "")?;
+    let xml = description::v2::write(imprint, "")?;
     Ok(Uuid::new_v5(&NAMESPACE, xml.as_bytes()))
 }
 

@@ -5,6 +5,7 @@ use std::marker::PhantomData;
 use thiserror::Error;
 
 use crate::block::{DESCRIPTION, NAME};
+use crate::standard::Standard;
 use crate::unit::Unit;
 
 /// Name, description and start values of an FMU of the unit `U`.
@@ -13,6 +14,7 @@ pub struct Imprint<U> {
     name: String,
     description: String,
     values: Vec<f64>,
+    standard: Standard,
     unit: PhantomData<U>,
 }
 
@@ -36,6 +38,7 @@ impl<U: Unit> Imprint<U> {
             name: block.name(),
             description: block.description(),
             values: block.values(),
+            standard: Standard::default(),
             unit: PhantomData,
         }
     }
@@ -70,6 +73,17 @@ impl<U: Unit> Imprint<U> {
             description: checked("description", description, DESCRIPTION)?,
             ..self
         })
+    }
+
+    /// The imprint for an FMU of another standard than FMI 2.0.
+    #[must_use]
+    pub fn by(self, standard: Standard) -> Self {
+        Self { standard, ..self }
+    }
+
+    /// The standard that the FMU is packed by.
+    pub fn standard(&self) -> Standard {
+        self.standard
     }
 
     /// Its name.

@@ -24,6 +24,12 @@ pub(crate) struct Instance<U: Unit> {
     pub(crate) fell_short: bool,
     /// The unit and the signals with which it began, if it can be repeated.
     pub(crate) retreat: Option<Box<(U, Vec<Signal>)>>,
+    /// The unit stands before an event: what was set reaches it after that.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) awaits: bool,
+    /// Where in s the last step was to end, if an event ended it before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) aim: Option<f64>,
 }
 
 /// What `fmi2SetupExperiment` said.
@@ -44,6 +50,8 @@ impl<U: Unit> Clone for Instance<U> {
             tuned: self.tuned,
             fell_short: self.fell_short,
             retreat: self.retreat.clone(),
+            awaits: self.awaits,
+            aim: self.aim,
         }
     }
 
@@ -57,6 +65,8 @@ impl<U: Unit> Clone for Instance<U> {
         self.tuned = kept.tuned;
         self.fell_short = kept.fell_short;
         self.retreat.clone_from(&kept.retreat);
+        self.awaits = kept.awaits;
+        self.aim = kept.aim;
     }
 }
 
@@ -72,6 +82,8 @@ impl<U: Unit> Instance<U> {
             tuned: false,
             fell_short: false,
             retreat: None,
+            awaits: false,
+            aim: None,
         }
     }
 
@@ -155,10 +167,10 @@ impl<U: Unit> Instance<U> {
     /// Ends the experiment; values can still be read.
     pub(crate) fn terminate(&mut self) -> Result<(), Fault> {
         self.require(
-            &[Lifecycle::Running, Lifecycle::Failed],
+            &[Lifecycle::Running, Lifecycle::Event, Lifecycle::Failed],
             "only an initialised unit can be terminated",
         )?;
-        if self.lifecycle == Lifecycle::Running {
+        if self.lifecycle.is_under_way() {
             self.settle()?;
         }
         self.lifecycle = Lifecycle::Terminated;
@@ -184,6 +196,7 @@ impl<U: Unit> Instance<U> {
             values,
             signals,
             tuned,
+            awaits,
             ..
         } = self;
         let unit = match unit {
@@ -195,6 +208,9 @@ impl<U: Unit> Instance<U> {
                 unit
             }
         };
+        if *awaits {
+            return Ok(unit);
+        }
         if *tuned {
             unit.tune(values)?;
             *tuned = false;

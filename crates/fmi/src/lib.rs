@@ -6,11 +6,15 @@
 //! [`export`] gives the unit the C functions of the standard ([`v2`]). `Instance` is one running unit
 //! in safe Rust; `v2` and the block of start values are the only unsafe code.
 
+#[macro_use]
+#[doc(hidden)]
+pub mod abi;
 mod blob;
 mod block;
 mod derivatives;
 pub mod description;
 mod document;
+mod event;
 mod fault;
 mod guid;
 mod imprint;
@@ -26,10 +30,12 @@ mod sensitivity;
 mod setting;
 pub mod si;
 mod signal;
+mod standard;
 mod step;
 mod table;
 mod unit;
 pub mod v2;
+pub mod v3;
 pub mod variable;
 
 pub use block::Block;
@@ -38,5 +44,6 @@ pub use imprint::{Imprint, TextError};
 pub use quantity::{Enumeration, Item, Quantity, item};
 pub use sensitivity::slope;
 pub use signal::{Derivatives, HIGHEST_ORDER};
+pub use standard::Standard;
 pub use table::Table;
 pub use unit::{About, Advance, Events, Known, Outcome, Row, Unit};

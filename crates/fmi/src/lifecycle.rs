@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Where an instance stands between instantiation and its end (FMI 2.0, 4.2.4).
+/// Where an instance stands between instantiation and its end (FMI 2.0, 4.2.4; FMI 3.0, 2.3 and 4.2.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Lifecycle {
     /// Made or reset.
@@ -17,6 +17,17 @@ pub(crate) enum Lifecycle {
     Failed,
     /// Ended by the importer.
     Terminated,
+    /// At an event that the importer handles (FMI 3.0).
+    Event,
+    /// A call has failed (FMI 3.0).
+    Erred,
+}
+
+impl Lifecycle {
+    /// Whether initialisation is over and the end is not reached.
+    pub(crate) const fn is_under_way(self) -> bool {
+        matches!(self, Self::Running | Self::Event)
+    }
 }
 
 impl fmt::Display for Lifecycle {
@@ -25,6 +36,8 @@ impl fmt::Display for Lifecycle {
             Self::Instantiated => "before initialisation",
             Self::Initializing => "during initialisation",
             Self::Running => "after initialisation",
+            Self::Event => "in event mode",
+            Self::Erred => "after fmi3Error",
             Self::Failed => "after an internal error",
             Self::Terminated => "after fmi2Terminate",
         })

@@ -13,6 +13,7 @@ use zip::write::{SimpleFileOptions, ZipWriter};
 use zip::{CompressionMethod, DateTime};
 
 use crate::imprint::Imprint;
+use crate::standard::Standard;
 use crate::unit::Unit;
 use crate::{description, document, guid};
 
@@ -29,6 +30,9 @@ pub const HOST_PLATFORM: &str = if cfg!(target_os = "windows") {
 
 /// Deflate's level: packing at the usual one takes longer than finding a design.
 const QUICKLY: i64 = 1;
+
+/// The icon, where FMI 2.0 has it.
+const ICON: &str = "model.png";
 
 /// A compiled library for one platform.
 #[derive(Debug, Clone)]
@@ -85,7 +89,8 @@ impl Library {
         })
     }
 
-    fn path_in_archive(&self, identifier: &str) -> String {
+    /// Where it lies, in a folder for each processor if the standard has one.
+    fn paths(&self, identifier: &str, standard: Standard) -> Vec<String> {
         let extension = if self.platform.starts_with("win") {
             "dll"
         } else if self.platform.starts_with("darwin") {
@@ -93,7 +98,15 @@ impl Library {
         } else {
             "so"
         };
-        format!("binaries/{}/{identifier}.{extension}", self.platform)
+        let folders = match (standard, self.platform.as_str()) {
+            (Standard::Fmi3, "linux64") => vec!["x86_64-linux"],
+            (Standard::Fmi3, "win64") => vec!["x86_64-windows"],
+            // A universal library.
+            (Standard::Fmi3, "darwin64") => vec!["x86_64-darwin", "aarch64-darwin"],
+            (_, platform) => vec![platform],
+        };
+        let path = |folder| format!("binaries/{folder}/{identifier}.{extension}");
+        folders.into_iter().map(path).collect()
     }
 
     /// How many libraries are in the file: a universal one of macOS holds one for each processor.
@@ -188,13 +201,23 @@ pub fn archive<U: Unit>(
         ("documentation/index.html".to_owned(), page.into_bytes()),
     ];
     let about = U::about();
+    let standard = imprint.standard();
     let files = about.files.iter();
-    entries.extend(files.map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec())));
+    entries.extend(files.map(|(name, bytes)| {
+        let name = match (standard, *name) {
+            (Standard::Fmi3, ICON) => "terminalsAndIcons/icon.png",
+            (_, name) => name,
+        };
+        (name.to_owned(), bytes.to_vec())
+    }));
+    if standard == Standard::Fmi3 && about.files.iter().any(|(name, _)| *name == ICON) {
+        let icons = description::v3::icons()?.into_bytes();
+        entries.push(("terminalsAndIcons/terminalsAndIcons.xml".to_owned(), icons));
+    }
     for library in libraries {
-        entries.push((
-            library.path_in_archive(about.identifier),
-            library.with_imprint(imprint)?,
-        ));
+        let bytes = library.with_imprint(imprint)?;
+        let paths = library.paths(about.identifier, standard).into_iter();
+        entries.extend(paths.map(|path| (path, bytes.clone())));
     }
     zipped(entries)
 }

@@ -46,6 +46,26 @@ impl<U: Unit> Instance<U> {
         Ok(())
     }
 
+    /// The derivatives by each of `knowns` of the sum of `unknowns`, each of these taken `seed` times: the transposed of
+    /// what [`Instance::directional_derivative`] multiplies by, column by column.
+    pub(crate) fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        sensitivity: &mut [f64],
+    ) -> Result<(), Fault> {
+        let mut column = vec![0.0; unknowns.len()];
+        if let Some(seed) = seed.iter().find(|seed| !seed.is_finite()) {
+            return Err(Fault::argument("seed", *seed, "finite"));
+        }
+        for (&known, value) in knowns.iter().zip(sensitivity) {
+            self.directional_derivative(unknowns, &[known], &[1.0], &mut column)?;
+            *value = column.iter().zip(seed).map(|(of, seed)| of * seed).sum();
+        }
+        Ok(())
+    }
+
     /// The direction as the unit knows it, and the parameters that change with it.
     #[expect(
         clippy::type_complexity,

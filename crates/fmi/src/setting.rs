@@ -5,7 +5,7 @@ use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
 use crate::reading::{Type, find};
 use crate::signal::{Derivatives, Signal};
-use crate::unit::{Row, Unit};
+use crate::unit::{Events, Row, Unit};
 use crate::variable::Access;
 
 impl<U: Unit> Instance<U> {
@@ -57,15 +57,15 @@ impl<U: Unit> Instance<U> {
     }
 
     pub(crate) fn require_settable(&self) -> Result<(), Fault> {
-        use Lifecycle::{Initializing, Instantiated, Running};
+        use Lifecycle::{Event, Initializing, Instantiated, Running};
         let remedy = "values can be set again after fmi2Reset";
-        self.require(&[Instantiated, Initializing, Running], remedy)
+        self.require(&[Instantiated, Initializing, Running, Event], remedy)
     }
 
     fn check_settable(&self, variable: &Row<U>) -> Result<(), Fault> {
         let name = variable.name;
         match variable.access {
-            Access::Parameter { tunable: false, .. } if self.lifecycle == Lifecycle::Running => {
+            Access::Parameter { tunable: false, .. } if self.lifecycle.is_under_way() => {
                 Err(Fault::Fixed(name))
             }
             Access::Parameter { .. } | Access::Signal(_) | Access::Input(_) => Ok(()),
@@ -75,10 +75,14 @@ impl<U: Unit> Instance<U> {
 
     /// Takes over values, unless the unit under way cannot go on with them.
     fn adopt(&mut self, values: Vec<f64>) -> Result<(), Fault> {
-        if self.lifecycle == Lifecycle::Running
+        if self.lifecycle.is_under_way()
             && let Some(unit) = &self.unit
         {
-            unit.clone().tune(&values)?;
+            let mut unit = unit.clone();
+            if self.awaits {
+                unit.pass_event(&mut Events::default())?;
+            }
+            unit.tune(&values)?;
         }
         self.values = values;
         self.tuned = true;
@@ -88,14 +92,14 @@ impl<U: Unit> Instance<U> {
 
     /// What is set before the first step makes another beginning; a unit under way takes it over later.
     fn begin_anew(&mut self) {
-        if self.lifecycle != Lifecycle::Running {
+        if !self.lifecycle.is_under_way() {
             self.unit = None;
         }
     }
 
     /// A continuous input from now on; setting what holds anyway changes nothing.
     pub(crate) fn push(&mut self, number: usize, derivatives: Derivatives) {
-        if let Some(unit) = &mut self.unit {
+        if let Some(unit) = self.unit.as_mut().filter(|_| !self.awaits) {
             unit.mark();
         }
         let now = self.time();

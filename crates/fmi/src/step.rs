@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
 use crate::signal::Signal;
-use crate::unit::{Advance, Events, Unit};
+use crate::unit::{Advance, Events, Outcome, Unit};
 
 /// What there is to tell of a step.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ impl StepReport {
         Self {
             events: Events {
                 wanted: wants_events,
-                lines: Vec::new(),
+                ..Events::default()
             },
             gap: None,
         }
@@ -41,7 +41,7 @@ fn drift_tolerance(present: f64, step: f64) -> f64 {
 }
 
 /// What adding up a time in such steps may bring.
-fn rounding_of(time: f64, step: f64) -> f64 {
+pub(crate) fn rounding_of(time: f64, step: f64) -> f64 {
     16.0 * f64::EPSILON * time.abs().max(step)
 }
 
@@ -54,6 +54,17 @@ impl<U: Unit> Instance<U> {
         point: f64,
         step: f64,
         report: &mut StepReport,
+    ) -> Result<(), Fault> {
+        self.carry_on(point, step, report, U::advance)
+    }
+
+    /// As [`Instance::do_step`], by any way of going on.
+    pub(crate) fn carry_on(
+        &mut self,
+        point: f64,
+        step: f64,
+        report: &mut StepReport,
+        go_on: impl FnOnce(&mut U, f64, &mut Events) -> Outcome<Advance<U>>,
     ) -> Result<(), Fault> {
         self.require(
             &[Lifecycle::Running],
@@ -79,10 +90,11 @@ impl<U: Unit> Instance<U> {
         }
         let unit = self.settle()?;
         // A step below the last digit of the time ends where it began.
-        let advance = unit.advance(end.max(present), &mut report.events)?;
+        let advance = go_on(unit, end.max(present), &mut report.events)?;
         let reached = unit.time();
         report.gap = Some(point - present).filter(|gap| gap.abs() > rounding_of(present, step));
         self.fell_short = matches!(advance, Advance::Short { .. });
+        self.awaits = matches!(advance, Advance::Event);
         let Advance::Short { reason, before } = advance else {
             self.retreat = None;
             return Ok(());

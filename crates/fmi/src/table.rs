@@ -4,6 +4,8 @@ use crate::variable::{Access, Variable};
 
 /// Value references lie below this number.
 const REFERENCES: usize = 256;
+/// The value reference of time, which is a variable in FMI 3.0.
+pub(crate) const TIME_REFERENCE: u32 = REFERENCES as u32;
 
 /// All variables of a unit.
 #[derive(Debug)]

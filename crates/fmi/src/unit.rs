@@ -46,6 +46,25 @@ pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
     /// Goes on to `until` in s, which is not in the past, and tells of events on the way.
     fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>>;
 
+    /// Whether there are events that [`Unit::approach`] stops at.
+    const HAS_EVENTS: bool = false;
+
+    /// Goes on to `until` in s, or to right before the first event that does not happen before `halt` in s; one that happens
+    /// at `until` but for rounding is on the way.
+    fn approach(&mut self, until: f64, _halt: f64, events: &mut Events) -> Outcome<Advance<Self>> {
+        self.advance(until, events)
+    }
+
+    /// Lets the event happen that it stands before.
+    fn pass_event(&mut self, _events: &mut Events) -> Outcome<()> {
+        Ok(())
+    }
+
+    /// When the next event happens if nothing is set, in s, as far as it can be told now.
+    fn next_event(&self) -> Option<f64> {
+        None
+    }
+
     /// Takes the derivatives that a continuous input has from now on.
     fn drive(&mut self, _signal: usize, _derivatives: &Derivatives) -> Outcome<()> {
         Ok(())
@@ -90,6 +109,8 @@ pub enum Known {
 pub enum Advance<U> {
     /// All the way.
     Arrived,
+    /// To right before an event.
+    Event,
     /// A part of the way: the step is discarded.
     Short {
         /// Why it ended there, in words.
@@ -104,9 +125,15 @@ pub enum Advance<U> {
 pub struct Events {
     pub(crate) wanted: bool,
     pub(crate) lines: Vec<String>,
+    pub(crate) happened: bool,
 }
 
 impl Events {
+    /// Notes that an event has happened.
+    pub fn note(&mut self) {
+        self.happened = true;
+    }
+
     /// Adds a line, if lines are wanted.
     pub fn tell(&mut self, line: impl FnOnce() -> String) {
         if self.wanted {

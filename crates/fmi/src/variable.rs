@@ -1,6 +1,7 @@
 //! A row of the table of variables: what a unit offers, and how its value is had.
 
 use crate::quantity::{Enumeration, Quantity};
+use crate::standard::Standard;
 
 /// One row: one variable of the unit `U`, whose derivatives along a direction are held in `T`.
 #[derive(Debug)]
@@ -36,13 +37,15 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Name of the type, as in the XML.
-    pub const fn type_name(&self) -> &'static str {
-        match self {
-            Self::Real(_) => "Real",
-            Self::Count { .. } => "Integer",
-            Self::Boolean => "Boolean",
-            Self::Enumeration(_) => "Enumeration",
+    /// Name of the type, as in the XML of a standard.
+    pub const fn type_name(&self, standard: Standard) -> &'static str {
+        match (self, standard) {
+            (Self::Real(_), Standard::Fmi2) => "Real",
+            (Self::Real(_), Standard::Fmi3) => "Float64",
+            (Self::Count { .. }, Standard::Fmi2) => "Integer",
+            (Self::Count { .. }, Standard::Fmi3) => "Int32",
+            (Self::Boolean, _) => "Boolean",
+            (Self::Enumeration(_), _) => "Enumeration",
         }
     }
 
@@ -145,6 +148,8 @@ pub enum Access<U: 'static, T> {
         /// Whether it can be set between steps.
         tunable: bool,
     },
+    /// Time, the independent variable.
+    Time,
     /// A continuous input, by its number among these; it starts at 0.
     Signal(usize),
     /// A discrete input, with the place of its value.
@@ -194,6 +199,7 @@ impl<U, T> Variable<U, T> {
     pub const fn causality(&self) -> &'static str {
         match self.access {
             Access::Parameter { .. } => "parameter",
+            Access::Time => "independent",
             Access::Signal(_) | Access::Input(_) => "input",
             _ => "output",
         }
@@ -204,7 +210,7 @@ impl<U, T> Variable<U, T> {
         match self.access {
             Access::Parameter { tunable: true, .. } => "tunable",
             Access::Parameter { tunable: false, .. } => "fixed",
-            Access::Signal(_) | Access::Continuous { .. } => "continuous",
+            Access::Signal(_) | Access::Continuous { .. } | Access::Time => "continuous",
             Access::Input(_) | Access::Discrete { .. } | Access::Integer { .. } => "discrete",
         }
     }

@@ -11,11 +11,12 @@
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
-use super::component::{CallbackFunctions, Component, instantiate};
-use super::guard::{guarded, silent};
-use super::pointers::{answer, kept, read, string, write, write_one};
-use crate::fault::{Fault, Status};
-use crate::instance::Instance;
+use super::host::{CallbackFunctions, Importer, answer, instantiate};
+use crate::abi::component::Component;
+use crate::abi::guard::{guarded, silent};
+use crate::abi::pointers::{read, string, write, write_one};
+use crate::abi::state;
+use crate::fault::Fault;
 use crate::log::Category;
 use crate::reading::Type;
 use crate::step::StepReport;
@@ -26,7 +27,7 @@ const DO_STEP_STATUS: c_int = 0;
 const PENDING_STATUS: c_int = 1;
 const TERMINATED: c_int = 3;
 
-functions! { $
+functions! { $ export_v2 v2 Importer;
     /// The platform types this library was built with.
     fn fmi2GetTypesPlatform<U>() -> *const c_char {
         c"default".as_ptr()
@@ -51,7 +52,7 @@ functions! { $
     /// Frees an instance, once; NULL is allowed.
     fn fmi2FreeInstance<U>(component: *mut c_void) -> () {
         if !component.is_null() {
-            let freed = silent(|| drop(Box::from_raw(component.cast::<Component<U>>())));
+            let freed = silent(|| drop(Box::from_raw(component.cast::<Component<U, Importer>>())));
             debug_assert!(freed.is_ok());
         }
     }
@@ -81,8 +82,7 @@ functions! { $
             (stop_time_defined != 0).then_some(stop_time),
         )?;
         if tolerance_defined != 0 {
-            let text = format!("tolerance = {tolerance:e} has no effect: the motion is exact");
-            component.log(Status::Ok, Category::Warnings, &text);
+            component.tell_tolerance(tolerance);
         }
         Ok(())
     }
@@ -131,7 +131,7 @@ functions! { $
         component, references: *const c_uint, count: size_t, values: *mut *const c_char
     ) {
         write("value", values, count)?;
-        component.instance.strings(read("vr", references, count)?)
+        component.instance.none_of(Type::String, read("vr", references, count)?)
     }
 
     /// Sets real values.
@@ -159,66 +159,42 @@ functions! { $
         for &value in read("value", values, count)? {
             string("value", value)?;
         }
-        component.instance.strings(read("vr", references, count)?)
+        component.instance.none_of(Type::String, read("vr", references, count)?)
     }
 
     /// Keeps a snapshot; one that was kept before is overwritten.
     fn fmi2GetFMUstate<U>(component, state: *mut *mut c_void) {
-        let state = write_one("FMUstate", state)?;
-        match state.cast::<Instance<U>>().as_mut() {
-            Some(kept) => kept.clone_from(&component.instance),
-            None => *state = Box::into_raw(Box::new(component.instance.clone())).cast(),
-        }
-        Ok(())
+        state::keep(component, state)
     }
 
     /// Goes back to a snapshot.
     fn fmi2SetFMUstate<U>(component, state: *mut c_void) {
-        component.instance.clone_from(kept::<U>(state)?);
-        Ok(())
+        state::go_back(component, state)
     }
 
     /// Frees a snapshot and sets its pointer to NULL; NULL is allowed.
     fn fmi2FreeFMUstate<U>(_component, state: *mut *mut c_void) {
-        if let Some(state) = state.as_mut()
-            && !state.is_null()
-        {
-            drop(Box::from_raw(state.cast::<Instance<U>>()));
-            *state = std::ptr::null_mut();
-        }
+        state::free::<U>(state);
         Ok(())
     }
 
     /// How many bytes a snapshot takes.
     fn fmi2SerializedFMUstateSize<U>(_component, state: *mut c_void, size: *mut size_t) {
-        *write_one("size", size)? = kept::<U>(state)?.size_in_bytes()?;
-        Ok(())
+        state::measure::<U>(state, size)
     }
 
     /// Writes a snapshot as bytes; what is left of them becomes zero.
     fn fmi2SerializeFMUstate<U>(
         _component, state: *mut c_void, bytes: *mut c_char, size: size_t
     ) {
-        let written = kept::<U>(state)?.to_bytes()?;
-        let needed = written.len();
-        if size < needed {
-            return Err(Fault::Room { size, needed });
-        }
-        let bytes = write("serializedState", bytes.cast::<u8>(), size)?;
-        let (room, beyond) = bytes.split_at_mut(needed);
-        room.copy_from_slice(&written);
-        beyond.fill(0);
-        Ok(())
+        state::store::<U>(state, bytes.cast(), size)
     }
 
     /// Makes a snapshot of bytes. The pointer's old content is not looked at.
     fn fmi2DeSerializeFMUstate<U>(
         _component, bytes: *const c_char, size: size_t, state: *mut *mut c_void
     ) {
-        let state = write_one("FMUstate", state)?;
-        let kept = Instance::<U>::from_bytes(read("serializedState", bytes.cast::<u8>(), size)?)?;
-        *state = Box::into_raw(Box::new(kept)).cast();
-        Ok(())
+        state::restore::<U>(bytes.cast(), size, state)
     }
 
     /// Derivatives of outputs along a direction of inputs.

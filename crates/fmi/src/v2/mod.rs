@@ -6,14 +6,8 @@
     reason = "the C interface: pointers of the importer and exported symbols"
 )]
 
-mod component;
-#[macro_use]
-mod export;
 mod functions;
-mod guard;
-mod pointers;
+mod host;
 
-pub use component::{CallbackFunctions, Logger};
 pub use functions::*;
-#[doc(hidden)]
-pub use libc::{c_char, c_int, c_uint, c_void, size_t};
+pub use host::{CallbackFunctions, Logger};

@@ -13,7 +13,7 @@ use std::sync::Once;
 
 use libc::c_int;
 
-use super::component::Component;
+use super::component::{Component, Host};
 use crate::fault::{Fault, Status};
 use crate::log::Category;
 use crate::unit::Unit;
@@ -36,7 +36,7 @@ fn install_hook() {
 }
 
 /// Runs `action`; a panic ends it in silence.
-pub(super) fn silent<T>(action: impl FnOnce() -> T) -> Result<T, String> {
+pub(crate) fn silent<T>(action: impl FnOnce() -> T) -> Result<T, String> {
     install_hook();
     let outcome = GUARDED.with(|guarded| {
         let before = guarded.replace(true);
@@ -57,10 +57,10 @@ fn message(panic: &(dyn Any + Send)) -> &str {
 
 /// Runs a call on an instance: a fault becomes an error and one log line, a panic as well, after
 /// which the instance must be reset.
-pub(super) fn guarded<U: Unit>(
-    component: Option<&mut Component<U>>,
+pub(crate) fn guarded<U: Unit, H: Host>(
+    component: Option<&mut Component<U, H>>,
     call: &'static str,
-    action: impl FnOnce(&mut Component<U>) -> Result<(), Fault>,
+    action: impl FnOnce(&mut Component<U, H>) -> Result<(), Fault>,
 ) -> c_int {
     let Some(component) = component else {
         return Status::Error as c_int;
@@ -74,6 +74,9 @@ pub(super) fn guarded<U: Unit>(
         Err(fault) => {
             let status = fault.status();
             component.log(status, Category::Errors, &format!("{call}: {fault}"));
+            if status == Status::Error {
+                component.host.note_error(&mut component.instance);
+            }
             status as c_int
         }
     }

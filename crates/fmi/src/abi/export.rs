@@ -1,9 +1,10 @@
 //! The macros that make C functions.
 
-/// Makes of each function a generic one and, in the macro `export`, the C function of a unit. Behind the
-/// semicolon stand the calls on an instance: a fault in one becomes its status and one log line.
+/// Makes of each function of a standard's module a generic one and, in a macro of the given name, the C function of a
+/// unit. Behind the semicolon stand the calls on an instance of that standard's host: a fault in one becomes its status
+/// and one log line.
 macro_rules! functions {
-    ($dollar:tt $(
+    ($dollar:tt $export:ident $module:ident $host:ty; $(
         $(#[$doc:meta])*
         fn $name:ident<$unit:ident>($($argument:ident: $type:ty),*) -> $result:ty $body:block
     )* ; $(
@@ -25,8 +26,8 @@ macro_rules! functions {
             pub unsafe fn $call<$call_unit: Unit>(
                 component: *mut c_void $(, $call_argument: $call_type)*
             ) -> c_int {
-                // SAFETY: the importer passes NULL or what fmi2Instantiate gave it.
-                let component = unsafe { component.cast::<Component<$call_unit>>().as_mut() };
+                // SAFETY: the importer passes NULL or what instantiation gave it.
+                let component = unsafe { component.cast::<Component<$call_unit, $host>>().as_mut() };
                 guarded(component, stringify!($call), |$component| {
                     // SAFETY: by the standard arrays are as long as the importer says; NULL is
                     // refused where there is something to read or to write.
@@ -35,7 +36,7 @@ macro_rules! functions {
                 })
             }
         )*
-        c_functions! { $dollar
+        c_functions! { $dollar $export $module
             $(fn $name($($argument: $type),*) -> $result;)*
             $(fn $call(component: *mut c_void $(, $call_argument: $call_type)*) -> c_int;)*
         }
@@ -43,25 +44,45 @@ macro_rules! functions {
 }
 
 macro_rules! c_functions {
-    ($dollar:tt $(fn $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
-        /// The C functions of the standard for one type that is a [`Unit`](crate::Unit), with the types
-        /// of their callbacks. To be called once in a library, in a module of its own.
+    ($dollar:tt $export:ident $module:ident
+        $(fn $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
+        #[doc(hidden)]
         #[macro_export]
-        macro_rules! export {
+        macro_rules! $export {
             ($dollar unit_type:ty) => {
-                pub use $crate::v2::{CallbackFunctions, Logger};
-                use $crate::v2::{c_char, c_int, c_uint, c_void, size_t};
-
                 $(
                     #[doc = concat!("`", stringify!($name), "` of the standard.")]
-                    #[allow(unsafe_code, clippy::missing_safety_doc, reason = "as in the standard")]
+                    #[allow(
+                        unsafe_code,
+                        clippy::missing_safety_doc,
+                        clippy::too_many_arguments,
+                        reason = "as in the standard"
+                    )]
                     #[unsafe(no_mangle)]
                     pub unsafe extern "C" fn $name($($argument: $type),*) -> $result {
                         // SAFETY: the importer keeps to the standard.
-                        unsafe { $crate::v2::$name::<$dollar unit_type>($($argument),*) }
+                        unsafe { $crate::$module::$name::<$dollar unit_type>($($argument),*) }
                     }
                 )*
             };
         }
+    };
+}
+
+/// The C functions of both standards for one type that is a [`Unit`](crate::Unit), with the types of their callbacks. To
+/// be called once in a library, in a module of its own.
+#[macro_export]
+macro_rules! export {
+    ($unit_type:ty) => {
+        use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
+        pub use $crate::v2::{CallbackFunctions, Logger};
+        pub use $crate::v3::{
+            ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,
+        };
+
+        $crate::export_v2!($unit_type);
+        $crate::export_v3!($unit_type);
+        $crate::export_v3_values!($unit_type);
+        $crate::export_v3_absent!($unit_type);
     };
 }

@@ -1,13 +1,11 @@
-//! Pointers of the importer as slices, strings and snapshots.
+//! Pointers of the importer as slices and strings.
 
 use std::borrow::Cow;
 use std::ffi::CStr;
 
-use libc::{c_char, c_int, c_void};
+use libc::c_char;
 
 use crate::fault::Fault;
-use crate::instance::Instance;
-use crate::unit::Unit;
 
 fn check<T>(argument: &'static str, pointer: *const T, length: usize) -> Result<(), Fault> {
     if pointer.is_null() {
@@ -23,7 +21,7 @@ fn check<T>(argument: &'static str, pointer: *const T, length: usize) -> Result<
 ///
 /// # Safety
 /// A pointer other than NULL must point to `length` values that live as long as the call.
-pub(super) unsafe fn read<'a, T>(
+pub(crate) unsafe fn read<'a, T>(
     argument: &'static str,
     pointer: *const T,
     length: usize,
@@ -40,7 +38,7 @@ pub(super) unsafe fn read<'a, T>(
 ///
 /// # Safety
 /// As [`read`], and nothing else may use the array during the call.
-pub(super) unsafe fn write<'a, T>(
+pub(crate) unsafe fn write<'a, T>(
     argument: &'static str,
     pointer: *mut T,
     length: usize,
@@ -57,7 +55,7 @@ pub(super) unsafe fn write<'a, T>(
 ///
 /// # Safety
 /// As [`write`] with one element.
-pub(super) unsafe fn write_one<'a, T>(
+pub(crate) unsafe fn write_one<'a, T>(
     argument: &'static str,
     pointer: *mut T,
 ) -> Result<&'a mut T, Fault> {
@@ -69,7 +67,7 @@ pub(super) unsafe fn write_one<'a, T>(
 ///
 /// # Safety
 /// A pointer other than NULL must point to a string that ends with NUL.
-pub(super) unsafe fn string<'a>(
+pub(crate) unsafe fn string<'a>(
     argument: &'static str,
     pointer: *const c_char,
 ) -> Result<Cow<'a, str>, Fault> {
@@ -78,35 +76,4 @@ pub(super) unsafe fn string<'a>(
     }
     // SAFETY: not NULL, and valid by this function's contract.
     Ok(unsafe { CStr::from_ptr(pointer) }.to_string_lossy())
-}
-
-/// What a snapshot's handle points to.
-///
-/// # Safety
-/// NULL, or what `fmi2GetFMUstate` or `fmi2DeSerializeFMUstate` gave and nobody has freed.
-pub(super) unsafe fn kept<'a, U: Unit>(state: *mut c_void) -> Result<&'a Instance<U>, Fault> {
-    // SAFETY: by this function's contract.
-    unsafe { state.cast::<Instance<U>>().as_ref() }.ok_or(Fault::Null {
-        argument: "FMUstate",
-    })
-}
-
-/// Answers a question about the last step, if it is of the one kind that has an answer of this type.
-///
-/// # Safety
-/// As [`write_one`].
-pub(super) unsafe fn answer<T>(
-    wanted: &'static str,
-    kind: c_int,
-    answered: c_int,
-    place: *mut T,
-    value: T,
-) -> Result<(), Fault> {
-    // SAFETY: by this function's contract.
-    let place = unsafe { write_one("value", place) }?;
-    if kind != answered {
-        return Err(Fault::StatusKind { kind, wanted });
-    }
-    *place = value;
-    Ok(())
 }

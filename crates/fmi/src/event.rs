@@ -1,0 +1,136 @@
+//! Events that an importer sees (FMI 3.0): steps that end at them, and event mode.
+
+use crate::fault::Fault;
+use crate::instance::Instance;
+use crate::lifecycle::Lifecycle;
+use crate::step::{StepReport, rounding_of};
+use crate::unit::Unit;
+
+/// What an importer can do with events.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Handling {
+    /// It handles them, in event mode.
+    pub in_event_mode: bool,
+    /// A step may end at one.
+    pub early: bool,
+}
+
+/// How a step ended that was carried out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Ending {
+    /// There is something to handle in event mode.
+    pub event: bool,
+    /// It has not come to its end.
+    pub early: bool,
+}
+
+impl<U: Unit> Instance<U> {
+    /// Carries the unit on to `point + step`. Where a step may end early it ends at the first event: right before it if the
+    /// importer handles it, else right after it. Where it may not, only an event at its very end is left to the importer.
+    pub(crate) fn do_step_to_event(
+        &mut self,
+        point: f64,
+        step: f64,
+        handling: Handling,
+        report: &mut StepReport,
+    ) -> Result<Ending, Fault> {
+        if self.awaits && handling.in_event_mode {
+            return Err(Fault::WrongState {
+                state: self.lifecycle,
+                remedy: "an event is due: fmi3EnterEventMode and fmi3UpdateDiscreteStates must come first",
+            });
+        }
+        self.pass_event(report)?;
+        let (begin, end) = (self.time(), self.aimed_at(point + step, step));
+        let outcome = match handling {
+            Handling { early: true, .. } => {
+                self.carry_on(point, step, report, |unit, _, events| {
+                    unit.approach(end, begin, events)
+                })
+            }
+            Handling { in_event_mode, .. } if in_event_mode => {
+                self.carry_on(point, step, report, |unit, _, events| {
+                    unit.approach(end, end, events)
+                })
+            }
+            Handling { .. } => self.carry_on(point, step, report, U::advance),
+        };
+        let is_discarded = matches!(outcome, Err(Fault::Discarded { .. }));
+        if !(is_discarded && handling.early && self.time() > begin) {
+            if is_discarded {
+                self.take_back()?;
+            }
+            outcome?;
+        }
+        self.fell_short = false;
+        if self.awaits && !handling.in_event_mode {
+            self.pass_event(report)?;
+        }
+        let early = handling.early && end - self.time() > rounding_of(end, step);
+        self.aim = early.then_some(end);
+        Ok(Ending {
+            event: handling.in_event_mode && (self.awaits || report.events.happened),
+            early,
+        })
+    }
+
+    /// The end of a step: where one was to end that an event has ended before, but for the rounding of who adds up what is
+    /// left of it.
+    fn aimed_at(&self, end: f64, step: f64) -> f64 {
+        let is_meant = |aim: &f64| (end - aim).abs() <= rounding_of(end, step);
+        self.aim.filter(is_meant).unwrap_or(end).max(self.time())
+    }
+
+    /// Goes back to where a discarded step began.
+    fn take_back(&mut self) -> Result<(), Fault> {
+        self.fell_short = false;
+        let (unit, signals) = *self.retreat.take().ok_or_else(|| {
+            Fault::Internal("the step ended on its way and cannot be taken back".to_owned())
+        })?;
+        (self.unit, self.signals) = (Some(unit), signals);
+        Ok(())
+    }
+
+    /// Lets an event happen that is due.
+    fn pass_event(&mut self, report: &mut StepReport) -> Result<(), Fault> {
+        if let Some(unit) = self.unit.as_mut().filter(|_| self.awaits) {
+            unit.pass_event(&mut report.events)?;
+        }
+        self.awaits = false;
+        Ok(())
+    }
+
+    /// Enters event mode.
+    pub(crate) fn enter_event_mode(&mut self) -> Result<(), Fault> {
+        self.require(
+            &[Lifecycle::Running],
+            "event mode is entered from step mode",
+        )?;
+        self.lifecycle = Lifecycle::Event;
+        Ok(())
+    }
+
+    /// Leaves event mode.
+    pub(crate) fn enter_step_mode(&mut self) -> Result<(), Fault> {
+        self.require(&[Lifecycle::Event], "step mode is entered from event mode")?;
+        if self.awaits {
+            return Err(Fault::WrongState {
+                state: self.lifecycle,
+                remedy: "an event is due: fmi3UpdateDiscreteStates must come first",
+            });
+        }
+        self.settle()?;
+        self.lifecycle = Lifecycle::Running;
+        Ok(())
+    }
+
+    /// Lets an event happen that is due, takes over what was set, and tells when the next event comes.
+    pub(crate) fn update_discrete_states(
+        &mut self,
+        report: &mut StepReport,
+    ) -> Result<Option<f64>, Fault> {
+        self.require(&[Lifecycle::Event], "it belongs to event mode")?;
+        self.pass_event(report)?;
+        Ok(self.settle()?.next_event())
+    }
+}

@@ -1,0 +1,76 @@
+//! Functions of the standard for what no unit has: they answer with an error and one log line.
+#![expect(
+    clippy::missing_safety_doc,
+    non_snake_case,
+    reason = "names and contracts are those of the FMI 3.0 standard"
+)]
+
+use libc::{c_int, c_uint, c_void, size_t};
+
+use super::host::Importer;
+use crate::abi::component::Component;
+use crate::abi::guard::guarded;
+use crate::fault::Fault;
+use crate::unit::Unit;
+
+macro_rules! absent_functions {
+    ($dollar:tt $($why:literal: $($name:ident($($argument:ident: $type:ty),*);)*)*) => {
+        functions! { $dollar export_v3_absent v3 Importer; ;
+            $($(
+                /// Not offered.
+                #[allow(unused_variables, reason = "nothing is done with any argument")]
+                fn $name<U>(component $(, $argument: $type)*) {
+                    Err(Fault::NotOffered($why))
+                }
+            )*)*
+        }
+    };
+}
+
+absent_functions! { $
+    "dependencies stand in the model description":
+    fmi3GetNumberOfVariableDependencies(reference: c_uint, dependencies: *mut size_t);
+    fmi3GetVariableDependencies(
+        dependent: c_uint, elements: *mut size_t, independents: *mut c_uint,
+        independent_elements: *mut size_t, kinds: *mut c_int, count: size_t
+    );
+    "the unit has no structural parameters":
+    fmi3EnterConfigurationMode();
+    fmi3ExitConfigurationMode();
+    "the unit has no clocks":
+    fmi3GetIntervalDecimal(
+        references: *const c_uint, count: size_t, intervals: *mut f64, qualifiers: *mut c_int
+    );
+    fmi3GetIntervalFraction(
+        references: *const c_uint, count: size_t, counters: *mut u64, resolutions: *mut u64,
+        qualifiers: *mut c_int
+    );
+    fmi3GetShiftDecimal(references: *const c_uint, count: size_t, shifts: *mut f64);
+    fmi3GetShiftFraction(
+        references: *const c_uint, count: size_t, counters: *mut u64, resolutions: *mut u64
+    );
+    fmi3SetIntervalDecimal(references: *const c_uint, count: size_t, intervals: *const f64);
+    fmi3SetIntervalFraction(
+        references: *const c_uint, count: size_t, counters: *const u64, resolutions: *const u64
+    );
+    fmi3SetShiftDecimal(references: *const c_uint, count: size_t, shifts: *const f64);
+    fmi3SetShiftFraction(
+        references: *const c_uint, count: size_t, counters: *const u64, resolutions: *const u64
+    );
+    "providesEvaluateDiscreteStates is false":
+    fmi3EvaluateDiscreteStates();
+    "the unit is for co-simulation only":
+    fmi3EnterContinuousTimeMode();
+    fmi3CompletedIntegratorStep(
+        no_set_state_prior: u8, enter_event_mode: *mut u8, terminate: *mut u8
+    );
+    fmi3SetTime(time: f64);
+    fmi3SetContinuousStates(states: *const f64, count: size_t);
+    fmi3GetContinuousStateDerivatives(derivatives: *mut f64, count: size_t);
+    fmi3GetEventIndicators(indicators: *mut f64, count: size_t);
+    fmi3GetContinuousStates(states: *mut f64, count: size_t);
+    fmi3GetNominalsOfContinuousStates(nominals: *mut f64, count: size_t);
+    fmi3GetNumberOfEventIndicators(count: *mut size_t);
+    fmi3GetNumberOfContinuousStates(count: *mut size_t);
+    fmi3ActivateModelPartition(clock: c_uint, time: f64);
+}

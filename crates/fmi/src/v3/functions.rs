@@ -1,0 +1,272 @@
+//! The functions of the standard for the life of an instance, its states, its derivatives and its steps.
+//!
+//! Each turns pointers into slices, calls the safe [`Instance`](crate::instance::Instance) and turns a [`Fault`] into a
+//! status and one log line. Enumerations and Booleans of the importer come in as plain integers, since a number out of
+//! their range must not be undefined behaviour.
+#![expect(
+    clippy::missing_safety_doc,
+    clippy::too_many_arguments,
+    non_snake_case,
+    reason = "names and contracts are those of the FMI 3.0 standard"
+)]
+
+use libc::{c_char, c_int, c_uint, c_void, size_t};
+
+use super::host::{
+    ClockUpdateCallback, Importer, IntermediateUpdateCallback, LogMessageCallback,
+    PreemptionCallback, instantiate, refuse, sink,
+};
+use super::values::{check_count, listed};
+use crate::abi::component::Component;
+use crate::abi::guard::{guarded, silent};
+use crate::abi::pointers::{read, string, write, write_one};
+use crate::abi::state;
+use crate::event::Handling;
+use crate::fault::Fault;
+use crate::log::Category;
+use crate::step::StepReport;
+use crate::unit::Unit;
+
+functions! { $ export_v3 v3 Importer;
+    /// The version of the standard.
+    fn fmi3GetVersion<U>() -> *const c_char {
+        c"3.0".as_ptr()
+    }
+
+    /// Makes an instance, or returns NULL after one log line.
+    fn fmi3InstantiateCoSimulation<U>(
+        instance_name: *const c_char, instantiation_token: *const c_char,
+        _resource_path: *const c_char, _visible: u8, logging_on: u8, event_mode_used: u8,
+        early_return_allowed: u8, _required_intermediate_variables: *const c_uint,
+        _required_count: size_t, environment: *mut c_void, log_message: LogMessageCallback,
+        _intermediate_update: IntermediateUpdateCallback
+    ) -> *mut c_void {
+        let handling = Handling {
+            in_event_mode: event_mode_used != 0,
+            early: early_return_allowed != 0,
+        };
+        let sink = sink(environment, log_message);
+        let make = || {
+            instantiate::<U>(instance_name, instantiation_token, logging_on != 0, handling, sink)
+        };
+        let made = silent(|| make().map(|made| Box::into_raw(made).cast()));
+        made.ok().flatten().unwrap_or(std::ptr::null_mut())
+    }
+
+    /// There are no instances for model exchange.
+    fn fmi3InstantiateModelExchange<U>(
+        _instance_name: *const c_char, _instantiation_token: *const c_char,
+        _resource_path: *const c_char, _visible: u8, _logging_on: u8, environment: *mut c_void,
+        log_message: LogMessageCallback
+    ) -> *mut c_void {
+        let refused = silent(|| refuse::<U>("fmi3InstantiateModelExchange", environment, log_message));
+        debug_assert!(refused.is_ok());
+        std::ptr::null_mut()
+    }
+
+    /// There are no instances for scheduled execution.
+    fn fmi3InstantiateScheduledExecution<U>(
+        _instance_name: *const c_char, _instantiation_token: *const c_char,
+        _resource_path: *const c_char, _visible: u8, _logging_on: u8, environment: *mut c_void,
+        log_message: LogMessageCallback, _clock_update: ClockUpdateCallback,
+        _lock_preemption: PreemptionCallback, _unlock_preemption: PreemptionCallback
+    ) -> *mut c_void {
+        let refused =
+            silent(|| refuse::<U>("fmi3InstantiateScheduledExecution", environment, log_message));
+        debug_assert!(refused.is_ok());
+        std::ptr::null_mut()
+    }
+
+    /// Frees an instance, once; NULL is allowed.
+    fn fmi3FreeInstance<U>(component: *mut c_void) -> () {
+        if !component.is_null() {
+            let freed = silent(|| drop(Box::from_raw(component.cast::<Component<U, Importer>>())));
+            debug_assert!(freed.is_ok());
+        }
+    }
+
+    ;
+
+    /// Switches categories of log lines.
+    fn fmi3SetDebugLogging<U>(
+        component, logging_on: u8, count: size_t, categories: *const *const c_char
+    ) {
+        let names = read("categories", categories, count)?;
+        let names = names
+            .iter()
+            .map(|&name| string("categories", name))
+            .collect::<Result<Vec<_>, _>>()?;
+        component.wanted.switch(logging_on != 0, &names)
+    }
+
+    /// Sets start time, stop time and tolerance, of which the last is of no use to an exact solution, and enters
+    /// initialisation.
+    fn fmi3EnterInitializationMode<U>(
+        component, tolerance_defined: u8, tolerance: f64, start_time: f64, stop_time_defined: u8,
+        stop_time: f64
+    ) {
+        let tolerance = (tolerance_defined != 0).then_some(tolerance);
+        let stop = (stop_time_defined != 0).then_some(stop_time);
+        component.instance.setup(tolerance, start_time, stop)?;
+        component.instance.enter_initialization()?;
+        if let Some(tolerance) = tolerance {
+            component.tell_tolerance(tolerance);
+        }
+        Ok(())
+    }
+
+    /// Leaves initialisation, for event mode if that is used.
+    fn fmi3ExitInitializationMode<U>(component) {
+        component.instance.exit_initialization()?;
+        if component.host.handling.in_event_mode {
+            component.instance.enter_event_mode()?;
+        }
+        Ok(())
+    }
+
+    /// Enters event mode.
+    fn fmi3EnterEventMode<U>(component) {
+        if !component.host.handling.in_event_mode {
+            return Err(Fault::NotOffered("eventModeUsed was false"));
+        }
+        component.instance.enter_event_mode()
+    }
+
+    /// Lets the event happen, and tells when the next one comes.
+    fn fmi3UpdateDiscreteStates<U>(
+        component, discrete_states_need_update: *mut u8, terminate_simulation: *mut u8,
+        nominals_of_continuous_states_changed: *mut u8,
+        values_of_continuous_states_changed: *mut u8, next_event_time_defined: *mut u8,
+        next_event_time: *mut f64
+    ) {
+        let need_update = write_one("discreteStatesNeedUpdate", discrete_states_need_update)?;
+        let terminate = write_one("terminateSimulation", terminate_simulation)?;
+        let nominals =
+            write_one("nominalsOfContinuousStatesChanged", nominals_of_continuous_states_changed)?;
+        let values =
+            write_one("valuesOfContinuousStatesChanged", values_of_continuous_states_changed)?;
+        let defined = write_one("nextEventTimeDefined", next_event_time_defined)?;
+        let time = write_one("nextEventTime", next_event_time)?;
+        let mut report = StepReport::new(component.wanted.has(Category::Events));
+        let next = component.instance.update_discrete_states(&mut report);
+        component.tell(&report);
+        let next = next?;
+        (*need_update, *terminate, *nominals, *values) = (0, 0, 0, 0);
+        (*defined, *time) = (u8::from(next.is_some()), next.unwrap_or(0.0));
+        Ok(())
+    }
+
+    /// Enters step mode.
+    fn fmi3EnterStepMode<U>(component) {
+        component.instance.enter_step_mode()
+    }
+
+    /// Ends the experiment.
+    fn fmi3Terminate<U>(component) {
+        component.instance.terminate()
+    }
+
+    /// Leads back to the state right after instantiation.
+    fn fmi3Reset<U>(component) {
+        component.reset();
+        Ok(())
+    }
+
+    /// Keeps a snapshot; one that was kept before is overwritten.
+    fn fmi3GetFMUState<U>(component, state: *mut *mut c_void) {
+        state::keep(component, state)
+    }
+
+    /// Goes back to a snapshot.
+    fn fmi3SetFMUState<U>(component, state: *mut c_void) {
+        state::go_back(component, state)
+    }
+
+    /// Frees a snapshot and sets its pointer to NULL; NULL is allowed.
+    fn fmi3FreeFMUState<U>(_component, state: *mut *mut c_void) {
+        state::free::<U>(state);
+        Ok(())
+    }
+
+    /// How many bytes a snapshot takes.
+    fn fmi3SerializedFMUStateSize<U>(_component, state: *mut c_void, size: *mut size_t) {
+        state::measure::<U>(state, size)
+    }
+
+    /// Writes a snapshot as bytes; what is left of them becomes zero.
+    fn fmi3SerializeFMUState<U>(
+        _component, state: *mut c_void, bytes: *mut u8, size: size_t
+    ) {
+        state::store::<U>(state, bytes, size)
+    }
+
+    /// Makes a snapshot of bytes. The pointer's old content is not looked at.
+    fn fmi3DeserializeFMUState<U>(
+        _component, bytes: *const u8, size: size_t, state: *mut *mut c_void
+    ) {
+        state::restore::<U>(bytes, size, state)
+    }
+
+    /// Derivatives of outputs along a direction of inputs.
+    fn fmi3GetDirectionalDerivative<U>(
+        component, unknowns: *const c_uint, unknown_count: size_t, knowns: *const c_uint,
+        known_count: size_t, seed: *const f64, seed_count: size_t, sensitivity: *mut f64,
+        sensitivity_count: size_t
+    ) {
+        check_count("nSeed", seed_count, known_count)?;
+        check_count("nSensitivity", sensitivity_count, unknown_count)?;
+        let unknowns = read("unknowns", unknowns, unknown_count)?;
+        let knowns = read("knowns", knowns, known_count)?;
+        let seed = read("seed", seed, known_count)?;
+        let sensitivity = write("sensitivity", sensitivity, unknown_count)?;
+        component.instance.directional_derivative(unknowns, knowns, seed, sensitivity)
+    }
+
+    /// Derivatives of a sum of outputs by each input.
+    fn fmi3GetAdjointDerivative<U>(
+        component, unknowns: *const c_uint, unknown_count: size_t, knowns: *const c_uint,
+        known_count: size_t, seed: *const f64, seed_count: size_t, sensitivity: *mut f64,
+        sensitivity_count: size_t
+    ) {
+        check_count("nSeed", seed_count, unknown_count)?;
+        check_count("nSensitivity", sensitivity_count, known_count)?;
+        let unknowns = read("unknowns", unknowns, unknown_count)?;
+        let knowns = read("knowns", knowns, known_count)?;
+        let seed = read("seed", seed, unknown_count)?;
+        let sensitivity = write("sensitivity", sensitivity, known_count)?;
+        component.instance.adjoint_derivative(unknowns, knowns, seed, sensitivity)
+    }
+
+    /// Reads time derivatives of outputs.
+    fn fmi3GetOutputDerivatives<U>(
+        component, references: *const c_uint, count: size_t, orders: *const c_int,
+        values: *mut f64, value_count: size_t
+    ) {
+        check_count("nValues", value_count, count)?;
+        let references = listed(references, count)?;
+        let orders = read("orders", orders, count)?;
+        let values = write("values", values, count)?;
+        component.instance.get_output_derivatives(references, orders, values)
+    }
+
+    /// Carries the motion on by one communication step, or to an event on the way.
+    fn fmi3DoStep<U>(
+        component, current_communication_point: f64, communication_step_size: f64,
+        _no_set_state_prior: u8, event_handling_needed: *mut u8, terminate_simulation: *mut u8,
+        early_return: *mut u8, last_successful_time: *mut f64
+    ) {
+        let event = write_one("eventHandlingNeeded", event_handling_needed)?;
+        let terminate = write_one("terminateSimulation", terminate_simulation)?;
+        let early = write_one("earlyReturn", early_return)?;
+        let time = write_one("lastSuccessfulTime", last_successful_time)?;
+        let mut report = StepReport::new(component.wanted.has(Category::Events));
+        let (point, step) = (current_communication_point, communication_step_size);
+        let handling = component.host.handling;
+        let ending = component.instance.do_step_to_event(point, step, handling, &mut report);
+        component.tell(&report);
+        let ending = ending?;
+        (*event, *terminate) = (u8::from(ending.event), 0);
+        (*early, *time) = (u8::from(ending.early), component.instance.time());
+        Ok(())
+    }
+}

@@ -1,0 +1,106 @@
+//! What an importer agrees on with an instance by FMI 3.0.
+
+use libc::{c_char, c_int, c_void};
+
+use crate::abi::component::{Component, Host, Sink, check_name, check_token};
+use crate::abi::pointers::string;
+use crate::event::Handling;
+use crate::fault::Fault;
+use crate::instance::Instance;
+use crate::lifecycle::Lifecycle;
+use crate::unit::Unit;
+
+/// `fmi3LogMessageCallback`: environment, status, category, message.
+pub type LogMessageCallback =
+    Option<unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char)>;
+/// `fmi3IntermediateUpdateCallback`. It is not called: see `providesIntermediateUpdate`.
+pub type IntermediateUpdateCallback =
+    Option<unsafe extern "C" fn(*mut c_void, f64, u8, u8, u8, u8, *mut u8, *mut f64)>;
+/// `fmi3ClockUpdateCallback`, of scheduled execution.
+pub type ClockUpdateCallback = Option<unsafe extern "C" fn(*mut c_void)>;
+/// `fmi3LockPreemptionCallback` and `fmi3UnlockPreemptionCallback`, of scheduled execution.
+pub type PreemptionCallback = Option<unsafe extern "C" fn()>;
+
+/// An importer by FMI 3.0.
+pub(crate) struct Importer {
+    pub(super) handling: Handling,
+}
+
+impl Host for Importer {
+    const PREFIX: &'static str = "fmi3";
+
+    fn has_event_mode(&self) -> bool {
+        self.handling.in_event_mode
+    }
+
+    /// By the standard an error ends the simulation: only a state that was kept, or a reset, leads back.
+    fn note_error<U: Unit>(&self, instance: &mut Instance<U>) {
+        if instance.lifecycle != Lifecycle::Failed {
+            instance.lifecycle = Lifecycle::Erred;
+        }
+    }
+}
+
+/// The importer's logger, which may be missing.
+pub(super) fn sink(environment: *mut c_void, log: LogMessageCallback) -> Sink {
+    let Some(log) = log else {
+        return Box::new(|_, _, _| {});
+    };
+    Box::new(move |status, category, text| {
+        // SAFETY: the importer's function, called as the standard says; both strings outlive it.
+        unsafe {
+            log(
+                environment,
+                status as c_int,
+                category.as_ptr(),
+                text.as_ptr(),
+            )
+        };
+    })
+}
+
+/// Makes an instance, or sends one line that says why not.
+///
+/// # Safety
+/// Pointers other than NULL must point to what the standard says.
+pub(super) unsafe fn instantiate<U: Unit>(
+    name: *const c_char,
+    token: *const c_char,
+    logging_on: bool,
+    handling: Handling,
+    sink: Sink,
+) -> Option<Box<Component<U, Importer>>> {
+    // SAFETY: by this function's contract.
+    let (name, token) = unsafe {
+        (
+            string("instanceName", name),
+            string("instantiationToken", token),
+        )
+    };
+    let checked = check_name(name)
+        .and_then(|()| check_token::<U>("instantiationToken", token))
+        .and_then(|()| check_event_mode::<U>(handling));
+    let call = "fmi3InstantiateCoSimulation";
+    Component::new(call, checked, logging_on, Importer { handling }, sink)
+}
+
+fn check_event_mode<U: Unit>(handling: Handling) -> Result<(), Fault> {
+    match handling.in_event_mode && !U::HAS_EVENTS {
+        true => Err(Fault::Instantiation(
+            "eventModeUsed is true, hasEventMode is false".to_owned(),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Refuses to make an instance of an interface type that no unit has.
+pub(super) fn refuse<U: Unit>(call: &str, environment: *mut c_void, log: LogMessageCallback) {
+    let other = Fault::NotOffered("the unit is for co-simulation only");
+    let handling = Handling {
+        in_event_mode: false,
+        early: false,
+    };
+    let sink = sink(environment, log);
+    let made = Component::<U, _>::new(call, Err(other), false, Importer { handling }, sink);
+    debug_assert!(made.is_none());
+}

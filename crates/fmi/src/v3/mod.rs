@@ -1,0 +1,20 @@
+//! FMI 3.0 for co-simulation: all 75 C functions of the standard, for any unit.
+//!
+//! Here the functions are generic; [`export`](crate::export) makes the C functions of one unit. Those of the other
+//! interface types, and of what the units do not have, answer with an error and one log line.
+#![allow(
+    unsafe_code,
+    reason = "the C interface: pointers of the importer and exported symbols"
+)]
+
+mod absent;
+mod functions;
+mod host;
+mod values;
+
+pub use absent::*;
+pub use functions::*;
+pub use host::{
+    ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,
+};
+pub use values::*;

@@ -1,0 +1,197 @@
+//! Reading and setting variables, for all types of the standard.
+#![expect(
+    clippy::missing_safety_doc,
+    non_snake_case,
+    reason = "names and contracts are those of the FMI 3.0 standard"
+)]
+
+use libc::{c_char, c_int, c_uint, c_void, size_t};
+
+use super::host::Importer;
+use crate::abi::component::Component;
+use crate::abi::guard::guarded;
+use crate::abi::pointers::{read, write};
+use crate::fault::Fault;
+use crate::reading::Type;
+use crate::unit::Unit;
+
+/// Refuses another number of values than of value references: all variables are scalars.
+pub(super) fn check_count(
+    argument: &'static str,
+    value: usize,
+    wanted: usize,
+) -> Result<(), Fault> {
+    match value == wanted {
+        true => Ok(()),
+        false => Err(Fault::Count {
+            argument,
+            value,
+            wanted,
+        }),
+    }
+}
+
+/// The value references of a call.
+///
+/// # Safety
+/// As [`read`].
+pub(super) unsafe fn listed<'a>(references: *const u32, count: usize) -> Result<&'a [u32], Fault> {
+    // SAFETY: by this function's contract.
+    unsafe { read("valueReferences", references, count) }
+}
+
+/// Reads values of a type.
+///
+/// # Safety
+/// As [`read`] and [`write`].
+pub(super) unsafe fn get<U: Unit, T>(
+    component: &mut Component<U, Importer>,
+    (references, count): (*const u32, usize),
+    (values, value_count): (*mut T, usize),
+    (wanted, typed): (Type, fn(f64) -> T),
+) -> Result<(), Fault> {
+    check_count("nValues", value_count, count)?;
+    // SAFETY: by this function's contract.
+    let (references, values) =
+        unsafe { (listed(references, count)?, write("values", values, count)?) };
+    let read = component.instance.read(references, values, wanted, typed);
+    read.map_err(|fault| match fault {
+        // Reading is allowed there, but outputs have no values yet.
+        Fault::WrongState { .. } => Fault::Refused(fault.into()),
+        other => other,
+    })
+}
+
+/// Sets values of a type.
+///
+/// # Safety
+/// As [`read`].
+pub(super) unsafe fn set<U: Unit, T: Copy>(
+    component: &mut Component<U, Importer>,
+    (references, count): (*const u32, usize),
+    (values, value_count): (*const T, usize),
+    (wanted, number): (Type, fn(T) -> f64),
+) -> Result<(), Fault> {
+    check_count("nValues", value_count, count)?;
+    // SAFETY: by this function's contract.
+    let (references, values) =
+        unsafe { (listed(references, count)?, read("values", values, count)?) };
+    let set = component.instance.set(references, values, wanted, number);
+    set.map_err(Fault::refused)
+}
+
+/// Reads or sets values of a type of which there are no variables.
+///
+/// # Safety
+/// As [`read`].
+pub(super) unsafe fn none<U: Unit>(
+    component: &Component<U, Importer>,
+    (references, count): (*const u32, usize),
+    value_count: usize,
+    type_name: &'static str,
+) -> Result<(), Fault> {
+    check_count("nValues", value_count, count)?;
+    // SAFETY: by this function's contract.
+    let references = unsafe { listed(references, count) }?;
+    component
+        .instance
+        .none_of(Type::Other(type_name), references)
+}
+
+/// The functions of the types of which there are variables, with the type and how a value and a number become each
+/// other, and of those of which there are none.
+macro_rules! typed_functions {
+    ($dollar:tt
+        some { $($get:ident $set:ident $type:ty: $wanted:expr, $typed:expr, $number:expr;)* }
+        none { $($get_none:ident $set_none:ident $none_type:ty: $name:literal;)* }
+    ) => {
+        functions! { $dollar export_v3_values v3 Importer; ;
+            $(
+                /// Reads values of this type.
+                fn $get<U>(
+                    component, references: *const c_uint, count: size_t, values: *mut $type,
+                    value_count: size_t
+                ) {
+                    let how = ($wanted, $typed as fn(f64) -> $type);
+                    get(component, (references, count), (values, value_count), how)
+                }
+
+                /// Sets values of this type.
+                fn $set<U>(
+                    component, references: *const c_uint, count: size_t, values: *const $type,
+                    value_count: size_t
+                ) {
+                    let how = ($wanted, $number as fn($type) -> f64);
+                    set(component, (references, count), (values, value_count), how)
+                }
+            )*
+            $(
+                /// Reads values of this type, of which there are none.
+                fn $get_none<U>(
+                    component, references: *const c_uint, count: size_t, _values: *mut $none_type,
+                    value_count: size_t
+                ) {
+                    none(component, (references, count), value_count, $name)
+                }
+
+                /// Sets values of this type, of which there are none.
+                fn $set_none<U>(
+                    component, references: *const c_uint, count: size_t,
+                    _values: *const $none_type, value_count: size_t
+                ) {
+                    none(component, (references, count), value_count, $name)
+                }
+            )*
+
+            /// Reads binary values, of which there are none.
+            fn fmi3GetBinary<U>(
+                component, references: *const c_uint, count: size_t, _sizes: *mut size_t,
+                _values: *mut *const u8, value_count: size_t
+            ) {
+                none(component, (references, count), value_count, "Binary")
+            }
+
+            /// Sets binary values, of which there are none.
+            fn fmi3SetBinary<U>(
+                component, references: *const c_uint, count: size_t, _sizes: *const size_t,
+                _values: *const *const u8, value_count: size_t
+            ) {
+                none(component, (references, count), value_count, "Binary")
+            }
+
+            /// Reads clocks, of which there are none.
+            fn fmi3GetClock<U>(
+                component, references: *const c_uint, count: size_t, _values: *mut u8
+            ) {
+                none(component, (references, count), count, "Clock")
+            }
+
+            /// Sets clocks, of which there are none.
+            fn fmi3SetClock<U>(
+                component, references: *const c_uint, count: size_t, _values: *const u8
+            ) {
+                none(component, (references, count), count, "Clock")
+            }
+        }
+    };
+}
+
+typed_functions! { $
+    some {
+        fmi3GetFloat64 fmi3SetFloat64 f64: Type::Float64, |value| value, |value| value;
+        fmi3GetInt32 fmi3SetInt32 c_int: Type::Int32, |value| value as c_int, f64::from;
+        fmi3GetInt64 fmi3SetInt64 i64: Type::Int64, |value| value as i64, |value| value as f64;
+        fmi3GetBoolean fmi3SetBoolean u8: Type::Truth, |value| u8::from(value != 0.0),
+            |value| f64::from(u8::from(value != 0));
+    }
+    none {
+        fmi3GetFloat32 fmi3SetFloat32 f32: "Float32";
+        fmi3GetInt8 fmi3SetInt8 i8: "Int8";
+        fmi3GetUInt8 fmi3SetUInt8 u8: "UInt8";
+        fmi3GetInt16 fmi3SetInt16 i16: "Int16";
+        fmi3GetUInt16 fmi3SetUInt16 u16: "UInt16";
+        fmi3GetUInt32 fmi3SetUInt32 u32: "UInt32";
+        fmi3GetUInt64 fmi3SetUInt64 u64: "UInt64";
+        fmi3GetString fmi3SetString *const c_char: "String";
+    }
+}

@@ -1,0 +1,474 @@
+//! Random sequences of calls, right and wrong, against the state machine of the standard (FMI 3.0, 2.3 and 4.2.1): which
+//! status each must have.
+
+use std::ffi::{c_int, c_void};
+use std::ptr;
+
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::select;
+use softstop_fmu::ffi::*;
+
+use super::unit::{HANDLINGS, Unit, reference};
+use crate::common::{DISCARD, ERROR, OK};
+
+const STATES: usize = 3;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Life {
+    Instantiated,
+    Initializing,
+    Event,
+    Step,
+    Terminated,
+}
+use Life::{Event, Initializing, Instantiated, Step, Terminated};
+
+#[derive(Debug, Clone, Copy)]
+enum Call {
+    EnterInitialization(f64),
+    ExitInitialization,
+    EnterEvent,
+    EnterStep,
+    Update,
+    Terminate,
+    Reset,
+    Get(&'static str),
+    Set(&'static str, f64),
+    UnknownVariable,
+    OtherType,
+    TooFewValues,
+    NullValues,
+    DoStep(Where, f64),
+    Directional(&'static str),
+    Adjoint(&'static str),
+    OutputDerivative(c_int),
+    GetState(usize),
+    SetState(usize),
+    Copy(usize),
+    DamagedBytes(usize),
+    Logging(bool),
+    Absent(usize),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Where {
+    Present,
+    Beyond,
+}
+
+/// An instance as its importer must imagine it.
+#[derive(Debug, Clone, Copy)]
+struct Model {
+    life: Life,
+    time: f64,
+    /// An event was reported that has not been handled.
+    awaits: bool,
+    /// Initialisation was left, so that there are outputs whatever comes.
+    begun: bool,
+}
+
+const FRESH: Model = Model {
+    life: Instantiated,
+    time: 0.0,
+    awaits: false,
+    begun: false,
+};
+
+/// What may come of a call.
+type Statuses = &'static [c_int];
+
+fn if_all(conditions: &[bool]) -> Statuses {
+    if conditions.iter().all(|holds| *holds) {
+        &[OK]
+    } else {
+        &[ERROR]
+    }
+}
+
+impl Model {
+    fn is(&self, lives: &[Life]) -> bool {
+        lives.contains(&self.life)
+    }
+
+    fn is_settable(&self) -> bool {
+        self.life != Terminated
+    }
+
+    /// What may come of what needs outputs where it is allowed in these states.
+    fn of_outputs(&self, lives: &[Life], otherwise: Statuses) -> Statuses {
+        match self.life {
+            Terminated if !self.begun => &[OK, DISCARD, ERROR],
+            life if lives.contains(&life) => &[OK],
+            _ => otherwise,
+        }
+    }
+
+    fn expected(&self, call: Call, handling: (bool, bool), kept: Option<&Self>) -> Statuses {
+        match call {
+            Call::EnterInitialization(start) => {
+                if_all(&[self.life == Instantiated, start.is_finite()])
+            }
+            Call::ExitInitialization => if_all(&[self.life == Initializing]),
+            Call::EnterEvent => if_all(&[self.life == Step, handling.0]),
+            Call::EnterStep => if_all(&[self.life == Event, !self.awaits]),
+            Call::Update => if_all(&[self.life == Event]),
+            Call::Terminate => if_all(&[self.is(&[Event, Step])]),
+            Call::Reset | Call::GetState(_) | Call::Logging(true) => &[OK],
+            Call::Get("position" | "phase" | "impact.count") => {
+                self.of_outputs(&[Initializing, Event, Step, Terminated], &[DISCARD])
+            }
+            Call::Get(_) => &[OK],
+            Call::Set(name, value) => match name {
+                _ if !self.is_settable() => &[ERROR],
+                "position" => &[ERROR],
+                "mass" if self.is(&[Event, Step]) => &[ERROR],
+                _ if value.is_finite() && value.abs() < 1e12 => &[OK],
+                _ => &[DISCARD],
+            },
+            Call::DoStep(at, size) => if_all(&[
+                self.life == Step,
+                !self.awaits,
+                size.is_finite() && size > 0.0,
+                at == Where::Present,
+            ]),
+            Call::Directional(known) | Call::Adjoint(known) => match known {
+                // In initialisation every real parameter is a known.
+                "clearance" if self.life == Initializing => &[OK],
+                "force" => self.of_outputs(&[Initializing, Event, Step, Terminated], &[ERROR]),
+                _ => &[ERROR],
+            },
+            Call::OutputDerivative(order) => match order {
+                1 | 2 => self.of_outputs(&[Step, Terminated], &[ERROR]),
+                _ => &[ERROR],
+            },
+            Call::SetState(_) => if_all(&[
+                kept.is_some_and(|kept| handling.0 || !(kept.awaits || kept.life == Event))
+            ]),
+            Call::Copy(_) => if_all(&[kept.is_some()]),
+            Call::UnknownVariable
+            | Call::OtherType
+            | Call::TooFewValues
+            | Call::NullValues
+            | Call::DamagedBytes(_)
+            | Call::Logging(false)
+            | Call::Absent(_) => &[ERROR],
+        }
+    }
+}
+
+/// The functions for what the unit does not have.
+fn absent(instance: *mut c_void, number: usize) -> c_int {
+    let (none, no_number, mut count, mut real) = (ptr::null(), 0, 0usize, 0.0f64);
+    let (real, count) = (&raw mut real, &raw mut count);
+    // SAFETY: none of them looks at its arguments.
+    unsafe {
+        match number {
+            0 => fmi3EnterConfigurationMode(instance),
+            1 => fmi3ExitConfigurationMode(instance),
+            2 => fmi3EvaluateDiscreteStates(instance),
+            3 => fmi3EnterContinuousTimeMode(instance),
+            4 => fmi3SetTime(instance, 0.0),
+            5 => fmi3GetNumberOfContinuousStates(instance, count),
+            6 => fmi3GetContinuousStates(instance, real, 1),
+            7 => fmi3GetShiftDecimal(instance, none, 0, real),
+            8 => fmi3ActivateModelPartition(instance, 0, 0.0),
+            _ => fmi3GetNumberOfVariableDependencies(instance, no_number, count),
+        }
+    }
+}
+
+struct World {
+    units: [(Unit, Model); 4],
+    states: [Option<(*mut c_void, Model)>; STATES],
+}
+
+impl World {
+    fn new() -> Self {
+        Self {
+            units: HANDLINGS.map(|handling| (Unit::new(handling), FRESH)),
+            states: [None; STATES],
+        }
+    }
+
+    fn state(&self, number: usize) -> *mut c_void {
+        self.states[number].map_or(ptr::null_mut(), |(state, _)| state)
+    }
+
+    fn run(&mut self, index: usize, call: Call) {
+        let kept = match call {
+            Call::SetState(number) | Call::Copy(number) => {
+                self.states[number].map(|(_, model)| model)
+            }
+            _ => None,
+        };
+        let (unit, model) = &self.units[index];
+        let (handling, model) = (unit.handling, *model);
+        let expected = model.expected(call, handling, kept.as_ref());
+        let before = (expected == [DISCARD]).then(|| unit.everything());
+        unit.take_log();
+        let (status, after) = self.perform(index, call);
+        let (unit, own) = &mut self.units[index];
+        let lines = unit.take_log();
+        let what = format!("{call:?} of {handling:?} {model:?}: {lines:?}");
+        assert!(expected.contains(&status), "status {status}, {what}");
+        match status {
+            OK => assert!(lines.is_empty(), "{what}"),
+            _ => {
+                let begins = format!("{status} errors fmi3");
+                assert!(lines.len() == 1 && lines[0].starts_with(&begins), "{what}");
+                assert!(!lines[0].contains("fmi2"), "{what}");
+            }
+        }
+        match status {
+            OK => *own = after,
+            ERROR => own.life = Terminated,
+            _ => {}
+        }
+        if let Some(before) = before {
+            let same = before == self.units[index].0.everything();
+            assert!(same, "what was discarded left a trace: {what}");
+        }
+    }
+
+    /// The status, and the instance as it must be if that is good.
+    fn perform(&mut self, index: usize, call: Call) -> (c_int, Model) {
+        let (unit, model) = &self.units[index];
+        let (instance, mut after) = (unit.instance, *model);
+        let (force, position) = (reference("force"), reference("position"));
+        let (one, mut value) = (1.0, f64::NAN);
+        let (one, value) = (&raw const one, &raw mut value);
+        // SAFETY: the instance is alive, arrays are as long as is said.
+        let status = unsafe {
+            match call {
+                Call::EnterInitialization(start) => {
+                    (after.life, after.time) = (Initializing, start);
+                    fmi3EnterInitializationMode(instance, 0, 0.0, start, 0, 0.0)
+                }
+                Call::ExitInitialization => {
+                    after.life = if unit.handling.0 { Event } else { Step };
+                    after.begun = true;
+                    fmi3ExitInitializationMode(instance)
+                }
+                Call::EnterEvent => {
+                    after.life = Event;
+                    fmi3EnterEventMode(instance)
+                }
+                Call::EnterStep => {
+                    after.life = Step;
+                    fmi3EnterStepMode(instance)
+                }
+                Call::Update => {
+                    let (status, next) = unit.try_update();
+                    assert!(next.is_none_or(|next| next >= model.time));
+                    after.awaits = false;
+                    status
+                }
+                Call::Terminate => {
+                    after.life = Terminated;
+                    fmi3Terminate(instance)
+                }
+                Call::Reset => {
+                    after = FRESH;
+                    fmi3Reset(instance)
+                }
+                Call::Get(name) => {
+                    let variable = softstop_fmu::table().by_name(name).expect("a variable");
+                    unit.read(&variable.kind, variable.reference).0
+                }
+                Call::Set(name, value) => unit.set(name, value),
+                Call::UnknownVariable => fmi3GetFloat64(instance, &199, 1, value, 1),
+                Call::OtherType => {
+                    let mut real = 0.0f32;
+                    fmi3GetFloat32(instance, &raw const force, 1, &raw mut real, 1)
+                }
+                Call::TooFewValues => fmi3GetFloat64(instance, &raw const force, 1, value, 0),
+                Call::NullValues => {
+                    fmi3GetFloat64(instance, &raw const force, 1, ptr::null_mut(), 1)
+                }
+                Call::DoStep(at, size) => {
+                    let point = match at {
+                        Where::Present => model.time,
+                        Where::Beyond => model.time + 7.0,
+                    };
+                    let (status, ending) = unit.try_step(point, size);
+                    if status == OK {
+                        assert!(unit.handling.0 || !ending.event, "{ending:?}");
+                        assert!(unit.handling.1 || !ending.early, "{ending:?}");
+                        let end = point + size;
+                        assert!(ending.early || (ending.time - end).abs() < 1e-12 * end.abs());
+                        (after.time, after.awaits) = (ending.time, ending.event);
+                        // Only an event at the end of the step is left to be handled.
+                        if ending.event && !unit.handling.1 {
+                            after.awaits = fmi3EnterEventMode(instance) == OK
+                                && fmi3EnterStepMode(instance) == ERROR;
+                            after.life = if after.awaits { Terminated } else { Step };
+                            unit.take_log();
+                        }
+                    }
+                    status
+                }
+                Call::Directional(known) => {
+                    let known = reference(known);
+                    let (of, by) = (&raw const position, &raw const known);
+                    fmi3GetDirectionalDerivative(instance, of, 1, by, 1, one, 1, value, 1)
+                }
+                Call::Adjoint(known) => {
+                    let known = reference(known);
+                    let (of, by) = (&raw const position, &raw const known);
+                    fmi3GetAdjointDerivative(instance, of, 1, by, 1, one, 1, value, 1)
+                }
+                Call::OutputDerivative(order) => {
+                    let of = &raw const position;
+                    fmi3GetOutputDerivatives(instance, of, 1, &raw const order, value, 1)
+                }
+                Call::GetState(number) => {
+                    let mut state = self.state(number);
+                    let status = fmi3GetFMUState(instance, &raw mut state);
+                    self.states[number] = Some((state, after));
+                    status
+                }
+                Call::SetState(number) => {
+                    if let Some((_, kept)) = self.states[number] {
+                        after = kept;
+                    }
+                    fmi3SetFMUState(instance, self.state(number))
+                }
+                Call::Copy(number) => self.copy(instance, number, false),
+                Call::DamagedBytes(number) => self.copy(instance, number, true),
+                Call::Logging(right) => {
+                    let name = if right { c"events" } else { c"nonsense" }.as_ptr();
+                    fmi3SetDebugLogging(instance, 0, 1, &raw const name)
+                }
+                Call::Absent(number) => absent(instance, number),
+            }
+        };
+        (status, after)
+    }
+
+    /// Takes a state over bytes to another place.
+    fn copy(&mut self, instance: *mut c_void, number: usize, damaged: bool) -> c_int {
+        let (state, mut size, mut copy) = (self.state(number), 0, ptr::null_mut());
+        // SAFETY: the state is NULL or alive; the old one is freed once.
+        unsafe {
+            let status = fmi3SerializedFMUStateSize(instance, state, &raw mut size);
+            if status != OK {
+                return status;
+            }
+            let mut bytes = vec![0u8; size];
+            assert_eq!(
+                fmi3SerializeFMUState(instance, state, bytes.as_mut_ptr(), size),
+                OK
+            );
+            if damaged {
+                bytes[size / 2] ^= 8;
+            }
+            let place = &raw mut copy;
+            let status = fmi3DeserializeFMUState(instance, bytes.as_ptr(), size, place);
+            if let Some((state, _)) = self.states[number].as_mut().filter(|_| status == OK) {
+                assert_eq!(fmi3FreeFMUState(instance, &raw mut *state), OK);
+                *state = copy;
+            }
+            status
+        }
+    }
+}
+
+impl Drop for World {
+    fn drop(&mut self) {
+        for mut state in self.states.iter().flatten().map(|(state, _)| *state) {
+            // SAFETY: each is freed once, by any instance.
+            unsafe { fmi3FreeFMUState(self.units[0].0.instance, &raw mut state) };
+        }
+    }
+}
+
+fn call() -> impl Strategy<Value = Call> {
+    let start = prop_oneof![9 => select(vec![0.0, 10.0, -5.0]), 1 => Just(f64::NAN)];
+    let size = prop_oneof![
+        12 => select(vec![1e-3, 0.1, 0.7, 5.463639, 30.0]),
+        1 => select(vec![0.0, -1.0, f64::NAN, f64::INFINITY]),
+    ];
+    let at = prop_oneof![30 => Just(Where::Present), 1 => Just(Where::Beyond)];
+    let variable = select(vec![
+        "position",
+        "phase",
+        "impact.count",
+        "force",
+        "mass",
+        "material",
+    ]);
+    let settable = select(vec![
+        ("force", 0.5),
+        ("force", f64::NAN),
+        ("clearance", 9.5),
+        ("clearance", 1e300),
+        ("mass", 2.0),
+        ("material", 0.0),
+        ("stop.stiffness", 9.0),
+    ]);
+    let state = || 0..STATES;
+    let known = || prop_oneof![9 => Just("force"), 1 => Just("clearance")];
+    let orders = prop_oneof![9 => 1..3, 1 => select(vec![0, 3, -1])];
+    prop_oneof![
+        14 => start.prop_map(Call::EnterInitialization),
+        14 => Just(Call::ExitInitialization),
+        10 => select(vec![Call::EnterEvent, Call::EnterStep, Call::Update]),
+        20 => Just(Call::Update),
+        20 => Just(Call::EnterStep),
+        3 => Just(Call::Reset),
+        1 => Just(Call::Terminate),
+        14 => variable.prop_map(Call::Get),
+        12 => settable.prop_map(|(name, value)| Call::Set(name, value)),
+        1 => select(vec![
+            Call::Set("position", 1.0),
+            Call::UnknownVariable,
+            Call::OtherType,
+            Call::TooFewValues,
+            Call::NullValues,
+            Call::Logging(false),
+        ]),
+        40 => (at, size).prop_map(|(at, size)| Call::DoStep(at, size)),
+        3 => known().prop_map(Call::Directional),
+        3 => known().prop_map(Call::Adjoint),
+        3 => orders.prop_map(Call::OutputDerivative),
+        8 => state().prop_map(Call::GetState),
+        10 => state().prop_map(Call::SetState),
+        3 => state().prop_map(Call::Copy),
+        1 => state().prop_map(Call::DamagedBytes),
+        2 => Just(Call::Logging(true)),
+        1 => (0..10usize).prop_map(Call::Absent),
+    ]
+}
+
+/// Calls in the order in which they can be carried out, which random ones seldom have.
+fn life() -> impl Strategy<Value = Vec<Call>> {
+    vec(call(), 0..60).prop_map(|calls| {
+        let begin = [
+            Call::Reset,
+            Call::EnterInitialization(0.0),
+            Call::ExitInitialization,
+        ];
+        begin.into_iter().chain(calls).collect()
+    })
+}
+
+proptest! {
+    #![proptest_config(softstop_testing::cases(1000))]
+
+    #[test]
+    fn all_calls_have_the_status_of_the_standard(
+        lives in vec((0..4usize, life()), 1..4),
+        rest in vec((0..4usize, call()), 0..60),
+    ) {
+        let mut world = World::new();
+        for (index, calls) in lives {
+            for call in calls {
+                world.run(index, call);
+            }
+        }
+        for (index, call) in rest {
+            world.run(index, call);
+        }
+    }
+}

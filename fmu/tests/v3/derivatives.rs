@@ -1,0 +1,143 @@
+//! Derivatives on both sides of an event, along a direction and by each known.
+
+use softstop_fmi::variable::{Access, Kind};
+use softstop_fmu::table;
+
+use super::unit::{Unit, reference};
+
+const KNOWNS: [&str; 4] = [
+    "initial.position",
+    "initial.velocity",
+    "force",
+    "base.acceleration",
+];
+
+/// Outputs that are the largest of some, where another one is the largest on the other side.
+const KINKED: [&str; 3] = [
+    "contact.peak",
+    "impact.step.hardest.time",
+    "impact.step.hardest.velocity",
+];
+
+/// Machines whose first impact is a jump of the force, or of the velocity.
+const SOFT: &[(&str, f64)] = &[];
+const RIGID: &[(&str, f64)] = &[
+    ("stop.model", 6.0),
+    ("piercing.thickness", 0.0),
+    ("piercing.travel", 0.0),
+];
+
+fn assert_close(one: f64, other: f64, most: f64) {
+    assert!((one - other).abs() <= most, "{one} and {other}");
+}
+
+fn reals() -> Vec<u32> {
+    let real = table().rows().filter(|variable| {
+        let is_output = matches!(
+            variable.access,
+            Access::Continuous { .. } | Access::Discrete { .. }
+        );
+        is_output && matches!(variable.kind, Kind::Real(_))
+    });
+    real.map(|variable| variable.reference).collect()
+}
+
+/// Adjoint derivatives are the transposed of directional ones.
+fn check_transposed(unit: &Unit) {
+    let (unknowns, knowns) = (reals(), KNOWNS.map(reference));
+    let columns: Vec<_> = knowns
+        .iter()
+        .map(|&known| unit.directional(&unknowns, &[known], &[1.0]))
+        .collect();
+    let weights: Vec<_> = (0..unknowns.len()).map(|k| 0.3 + 0.1 * k as f64).collect();
+    let sums = unit.adjoint(&unknowns, &knowns, &weights);
+    for (column, sum) in columns.iter().zip(sums) {
+        let terms = column.iter().zip(&weights);
+        let direct: f64 = terms.map(|(of, weight)| of * weight).sum();
+        assert_close(sum, direct, 1e-13 * direct.abs());
+    }
+    let along: Vec<_> = KNOWNS.iter().map(|_| 1.0).collect();
+    let whole = unit.directional(&unknowns, &knowns, &along);
+    for (row, &unknown) in unknowns.iter().enumerate() {
+        let gradient = unit.adjoint(&[unknown], &knowns, &[1.0]);
+        for (by, column) in gradient.iter().zip(&columns) {
+            assert_eq!(by.to_bits(), column[row].to_bits());
+        }
+        let sum: f64 = gradient.iter().sum();
+        let scale: f64 = gradient.iter().map(|by| by.abs()).sum();
+        // Those by differences have some nine digits.
+        let is_smooth = KINKED.iter().all(|name| reference(name) != unknown);
+        assert!(
+            !is_smooth || (whole[row] - sum).abs() <= 1e-7 * scale.max(1.0),
+            "{unknown}"
+        );
+    }
+}
+
+/// Position and velocity at a time under a small change, and how many impacts there were.
+fn moved(values: &[(&str, f64)], time: f64, name: &str, change: f64) -> ([f64; 2], f64) {
+    let unit = Unit::begun((false, false), &[]);
+    let start = match name {
+        "force" => 0.0,
+        _ => unit.get(name),
+    };
+    let mut values = values.to_vec();
+    values.push((name, start + change));
+    let unit = Unit::begun((false, false), &values);
+    unit.step(0.0, time);
+    (
+        ["position", "velocity"].map(|of| unit.get(of)),
+        unit.get("impact.count"),
+    )
+}
+
+#[test]
+fn derivatives_before_and_after_an_impact() {
+    for values in [SOFT, RIGID] {
+        let unit = Unit::begun((true, true), values);
+        let time = unit.step(0.0, 10.0).time;
+        let known = ["initial.position", "initial.velocity", "force"];
+        let by = known.map(reference);
+        let of = ["position", "velocity"].map(reference);
+        let jacobian = || by.map(|known| unit.directional(&of, &[known], &[1.0]));
+        unit.enter_event_mode();
+        check_transposed(&unit);
+        let (before, state_before) = (jacobian(), unit.get("velocity"));
+        unit.update();
+        check_transposed(&unit);
+        let (after, state_after) = (jacobian(), unit.get("velocity"));
+        for (k, name) in known.iter().enumerate() {
+            for sign in [1.0, -1.0] {
+                let width = sign * 1e-5;
+                let [one, two] = [width, 0.5 * width].map(|by| moved(values, time, name, by));
+                let (exact, velocity) = match one.1 {
+                    0.0 => (&before[k], state_before),
+                    _ => (&after[k], state_after),
+                };
+                let here = [unit.get("position"), velocity];
+                for side in 0..2 {
+                    let slope = |of: f64, width: f64| (of - here[side]) / width;
+                    let (far, near) = (slope(one.0[side], width), slope(two.0[side], 0.5 * width));
+                    let extrapolated = 2.0 * near - far;
+                    assert_close(extrapolated, exact[side], 1e-6 * exact[side].abs().max(1.0));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn adjoint_is_directional_transposed_over_many_impacts() {
+    for values in [SOFT, RIGID] {
+        let unit = Unit::begun((false, false), values);
+        unit.step(0.0, 23.0);
+        check_transposed(&unit);
+        unit.step(23.0, 5.0);
+        let (of, by) = (reals(), ["force", "base.acceleration"].map(reference));
+        for &unknown in &of {
+            let gradient = unit.adjoint(&[unknown], &by, &[1.0]);
+            let columns = by.map(|by| unit.directional(&[unknown], &[by], &[1.0])[0]);
+            assert_eq!(gradient, columns);
+        }
+    }
+}
