@@ -12,3 +12,9 @@ def package(path, name):
     if name == "softstop":
         return path
     return str(beside if beside.exists() else TOP / f"{name}.fmu")
+
+
+def package_3(path, name):
+    """The unit for FMI 3.0, beside the one for FMI 2.0 or at the top."""
+    beside = pathlib.Path(path).parent / f"{name}-fmi3.fmu"
+    return str(beside if beside.exists() else TOP / f"{name}-fmi3.fmu")

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use softstop_fmi::package::{self, HOST_PLATFORM, Library};
-use softstop_fmi::{Imprint, Unit, description, guid_of};
+use softstop_fmi::{Imprint, Standard, Unit, description, guid_of};
 use softstop_fmu::Machine;
 use softstop_optimize::fmu::library;
 use softstop_units::{Drive, Feeder};
@@ -29,31 +29,44 @@ pub fn write_description() -> Result<()> {
     Ok(())
 }
 
+/// The standards that units are packed for.
+pub const STANDARDS: [Standard; 2] = [Standard::Fmi2, Standard::Fmi3];
+
 /// Packs the libraries that are built for daily work; returns the oscillator's path.
-pub fn write_package() -> Result<PathBuf> {
+pub fn write_package(standards: &[Standard]) -> Result<PathBuf> {
     let daily = |artifact| anyhow::Ok(vec![Library::read(&build_daily(artifact)?)?]);
-    write_all(&daily(DRIVE)?, &daily(FEEDER)?, &[library()?])
+    write_all(standards, &daily(DRIVE)?, &daily(FEEDER)?, &[library()?])
 }
 
 /// Builds the libraries for this machine as they are shipped and packs them; returns the oscillator's path.
-pub fn write_shipped() -> Result<PathBuf> {
+pub fn write_shipped(standards: &[Standard]) -> Result<PathBuf> {
     let [drive, feeder, press] = [DRIVE, FEEDER, OSCILLATOR].map(shipped);
-    write_all(&[drive?], &[feeder?], &[press?])
+    write_all(standards, &[drive?], &[feeder?], &[press?])
 }
 
-/// Writes the units, and the machine that they make together.
-fn write_all(drive: &[Library], feeder: &[Library], press: &[Library]) -> Result<PathBuf> {
-    write::<Drive>(drive)?;
-    write::<Feeder>(feeder)?;
-    let path = top().join("piercing-machine.ssp");
-    let libraries = Libraries {
-        drive,
-        feeder,
-        press,
-    };
-    system::write(&path, &libraries)?;
-    say(&path)?;
-    write::<Machine>(press)
+/// Writes the units, and the machine that those of FMI 2.0 make together.
+fn write_all(
+    standards: &[Standard],
+    drive: &[Library],
+    feeder: &[Library],
+    press: &[Library],
+) -> Result<PathBuf> {
+    for &standard in standards {
+        write::<Drive>(standard, drive)?;
+        write::<Feeder>(standard, feeder)?;
+        write::<Machine>(standard, press)?;
+    }
+    if standards.contains(&Standard::Fmi2) {
+        let path = top().join("piercing-machine.ssp");
+        let libraries = Libraries {
+            drive,
+            feeder,
+            press,
+        };
+        system::write(&path, &libraries)?;
+        say(&path)?;
+    }
+    Ok(path_of::<Machine>(Standard::Fmi2))
 }
 
 fn shipped(artifact: Artifact) -> Result<Library> {
@@ -83,10 +96,10 @@ fn built_or_host(artifact: Artifact, target: &Target, tools: &Tools) -> Result<(
 }
 
 /// Builds the libraries for every platform that can be had here as they are shipped and packs them all.
-pub fn write_shipped_for_all() -> Result<()> {
+pub fn write_shipped_for_all(standards: &[Standard]) -> Result<()> {
     let tools = Tools::new();
     let all = |artifact| shipped_for_all(artifact, &tools);
-    write_all(&all(DRIVE)?, &all(FEEDER)?, &all(OSCILLATOR)?).map(drop)
+    write_all(standards, &all(DRIVE)?, &all(FEEDER)?, &all(OSCILLATOR)?).map(drop)
 }
 
 /// Left out are platforms for which something cannot be had; where all is there, a build that fails is an error.
@@ -119,11 +132,19 @@ fn host_library(artifact: Artifact) -> Result<Library> {
     Ok(Library::read(&build.run()?)?)
 }
 
-fn write<U: Unit>(libraries: &[Library]) -> Result<PathBuf> {
-    let path = top().join(format!("{}.fmu", U::about().identifier));
-    package::write(&path, &Imprint::<U>::library(), libraries)?;
-    say(&path)?;
-    Ok(path)
+fn write<U: Unit>(standard: Standard, libraries: &[Library]) -> Result<()> {
+    let path = path_of::<U>(standard);
+    package::write(&path, &Imprint::<U>::library().by(standard), libraries)?;
+    say(&path)
+}
+
+/// Where a unit's package is written.
+fn path_of<U: Unit>(standard: Standard) -> PathBuf {
+    let version = match standard {
+        Standard::Fmi2 => "",
+        Standard::Fmi3 => "-fmi3",
+    };
+    top().join(format!("{}{version}.fmu", U::about().identifier))
 }
 
 fn say(path: &Path) -> Result<()> {

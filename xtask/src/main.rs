@@ -19,7 +19,9 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 
+use fmu::STANDARDS;
 use run::{cargo, cargo_command, run, stage};
+use softstop_optimize::fmu::Version;
 
 /// Tasks of the workspace.
 #[derive(Parser)]
@@ -33,9 +35,12 @@ struct Arguments {
 enum Task {
     /// Before each commit: format, clippy and the tests that take seconds
     Check,
-    /// Write softstop.fmu, drive.fmu, feeder.fmu, the machine that they make (piercing-machine.ssp) and
-    /// modelDescription.xml at the top level
+    /// Write softstop.fmu, drive.fmu, feeder.fmu, the machine that they make (piercing-machine.ssp),
+    /// modelDescription.xml and, for FMI 3.0, softstop-fmi3.fmu, drive-fmi3.fmu and feeder-fmi3.fmu at the top level
     Fmu {
+        /// Only those for this version of FMI
+        #[arg(long, value_enum, value_name = "VERSION")]
+        fmi: Option<Version>,
         /// As it is shipped: optimized as a whole, and for any Linux with version 2.17 of the C library or a
         /// later one; without it the library of the daily build, for this machine's C library
         #[arg(long)]
@@ -90,14 +95,20 @@ fn main() -> ExitCode {
 fn run_task(task: &Task) -> Result<()> {
     match task {
         Task::Check => check(),
-        Task::Fmu { dist, all_targets } => {
+        Task::Fmu {
+            fmi,
+            dist,
+            all_targets,
+        } => {
             fmu::write_description()?;
+            let one = fmi.map(|version| [version.into()]);
+            let standards = one.as_ref().map_or(&STANDARDS[..], |one| &one[..]);
             if *all_targets {
-                fmu::write_shipped_for_all()
+                fmu::write_shipped_for_all(standards)
             } else if *dist {
-                fmu::write_shipped().map(drop)
+                fmu::write_shipped(standards).map(drop)
             } else {
-                fmu::write_package().map(drop)
+                fmu::write_package(standards).map(drop)
             }
         }
         Task::Xml => fmu::write_description(),
@@ -105,7 +116,7 @@ fn run_task(task: &Task) -> Result<()> {
         Task::Wine => portable::compare_under_wine(),
         Task::Test => {
             stage("FMU");
-            let package = fmu::write_shipped()?;
+            let package = fmu::write_shipped(&STANDARDS)?;
             stage("Rust tests");
             run(cargo_command()
                 .args(["test", "--release", "--workspace", "--no-fail-fast"])
@@ -172,7 +183,7 @@ fn check() -> Result<()> {
 
 fn build() -> Result<PathBuf> {
     stage("FMU");
-    fmu::write_package()
+    fmu::write_package(&STANDARDS)
 }
 
 fn build_program() -> Result<()> {

@@ -61,7 +61,7 @@ pub(crate) fn document<'a>(
     String::from_utf8(bytes).map_err(io::Error::other)
 }
 
-/// What the root says in both standards, after the standard's version and around the fingerprint of this name.
+/// What the root says in both standards, the fingerprint under this name included.
 fn root<'a, U: Unit>(
     version: &'static str,
     imprint: &'a Imprint<U>,
@@ -83,16 +83,16 @@ fn root<'a, U: Unit>(
     ]
 }
 
-/// The elements with units, log categories and the default experiment.
-fn units<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
+/// The units of quantities.
+fn units(xml: &mut Xml, quantities: &[&'static Quantity]) -> io::Result<()> {
     element(xml, "UnitDefinitions", NONE, |xml| {
-        about
-            .quantities
+        quantities
             .iter()
             .try_for_each(|of| unit(xml, ["Unit", "BaseUnit"], of, |xml| shown(xml, of)))
     })
 }
 
+/// Log categories and the default experiment.
 fn log_and_experiment<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
     element(xml, "LogCategories", NONE, |xml| log_categories(xml, about))?;
     let experiment = about.experiment.iter().copied();

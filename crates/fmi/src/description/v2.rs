@@ -17,7 +17,7 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<Str
     let root = root.into_iter().chain([("numberOfEventIndicators", "0")]);
     document("fmiModelDescription", root, |xml| {
         empty(xml, "CoSimulation", capabilities(about))?;
-        units(xml, about)?;
+        units(xml, about.quantities)?;
         element(xml, "TypeDefinitions", NONE, |xml| types(xml, about))?;
         log_and_experiment(xml, about)?;
         element(xml, "VendorAnnotations", NONE, |xml| {

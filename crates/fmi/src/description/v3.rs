@@ -8,17 +8,22 @@ use super::{
 };
 use crate::imprint::Imprint;
 use crate::instance::Instance;
+use crate::quantity::Quantity;
+use crate::si;
 use crate::standard::Standard;
 use crate::unit::{About, Unit};
 
 /// The XML of the FMU with this imprint and this instantiation token.
 pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<String> {
     let about = U::about();
+    let quantities = quantities(about);
     let root = root("3.0", imprint, ("instantiationToken", token));
     document("fmiModelDescription", root, |xml| {
         empty(xml, "CoSimulation", capabilities::<U>())?;
-        units(xml, about)?;
-        element(xml, "TypeDefinitions", NONE, |xml| types(xml, about))?;
+        units(xml, &quantities)?;
+        element(xml, "TypeDefinitions", NONE, |xml| {
+            types(xml, about, &quantities)
+        })?;
         log_and_experiment(xml, about)?;
         element(xml, "ModelVariables", NONE, |xml| {
             let mut rows = [&Instance::<U>::TIME].into_iter().chain(about.table.rows());
@@ -60,8 +65,19 @@ pub(super) fn capabilities<U: Unit>() -> Attributes {
     flags.map(|(name, value)| (name, value.to_owned())).into()
 }
 
-fn types<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
-    for of in about.quantities {
+/// The quantities in use, that of time among them.
+fn quantities<U: Unit>(about: &About<U>) -> Vec<&'static Quantity> {
+    let is_time = |of: &&Quantity| of.type_name == si::TIME.type_name;
+    let time = (!about.quantities.iter().any(is_time)).then_some(&si::TIME);
+    about.quantities.iter().copied().chain(time).collect()
+}
+
+fn types<U: Unit>(
+    xml: &mut Xml,
+    about: &About<U>,
+    quantities: &[&'static Quantity],
+) -> io::Result<()> {
+    for of in quantities {
         empty(xml, "Float64Type", real_type(of))?;
     }
     for of in about.enumerations {
