@@ -1,4 +1,4 @@
-//! The impact oscillator as an FMI 2.0 co-simulation unit.
+//! The impact oscillator as a co-simulation unit of FMI 2.0 and 3.0.
 //!
 //! One table (`table`) says what the unit offers: value references, names, units, ranges and how each
 //! value is read; [`StartValues`] are scenes in other words, and [`Machine`] is the motion. All else,
@@ -21,7 +21,7 @@ pub use softstop_fmi::{Standard, description, guid_of, package, parameter_set};
 pub use start::{NotServed, StartValues, slot};
 pub use tangent::Tangent;
 
-/// The C functions of the standard, behind the feature `c-functions`: without it a program can link this unit
+/// The C functions of both standards, behind the feature `c-functions`: without it a program can link this unit
 /// beside another one.
 #[cfg(feature = "c-functions")]
 pub mod ffi {

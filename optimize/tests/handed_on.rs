@@ -10,7 +10,10 @@ use softstop::{Machine, Parameter, Start, Units};
 use softstop_fmu::{Imprint, StartValues, description, guid_of, parameter_set};
 use softstop_optimize::fmu;
 use softstop_testing::machines::machines;
+use softstop_testing::program::words;
 use softstop_testing::random::cases;
+
+use crate::SOFTSTOP;
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 type Attributes = BTreeMap<String, String>;
@@ -173,5 +176,46 @@ fn the_fmu_of_a_press_has_its_name_and_si_start_values() -> Outcome {
         Parameter::Frequency.get(&press.scene),
         Some(24.5 * std::f64::consts::TAU)
     );
+    Ok(())
+}
+
+#[test]
+fn the_fmu_for_fmi_3_tells_the_same() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let [machine, place] = ["press.toml", "press.fmu"].map(|name| folder.path().join(name));
+    std::fs::write(&machine, PRESS)?;
+    let packed = |version: &str| -> Outcome<String> {
+        let (machine, place) = (machine.display(), place.display());
+        SOFTSTOP.text(&words(&format!("fmu {machine} {version} --output {place}")));
+        let bytes = std::fs::read(folder.path().join("press.fmu"))?;
+        let mut archive = zip::ZipArchive::new(Cursor::new(bytes))?;
+        let mut xml = String::new();
+        archive
+            .by_name("modelDescription.xml")?
+            .read_to_string(&mut xml)?;
+        Ok(xml)
+    };
+    let (two, three) = (packed("--fmi 2")?, packed("--fmi 3")?);
+    assert_eq!(two, packed("")?);
+    let root = |xml: &str, name: &str| {
+        Ok::<_, Box<dyn std::error::Error>>(elements(xml)?[0].2[name].clone())
+    };
+    assert_eq!(root(&three, "fmiVersion")?, "3.0");
+    assert_eq!(root(&two, "guid")?, root(&three, "instantiationToken")?);
+    let variables = elements(&three)?
+        .into_iter()
+        .filter_map(|(_, _, variable)| {
+            let causality = variable
+                .get("causality")
+                .filter(|it| *it != "independent")?;
+            let start = variable.get("start").cloned().unwrap_or_default();
+            let told = (
+                start,
+                variable.get("unit").cloned(),
+                causality == "parameter",
+            );
+            Some((variable["name"].clone(), told))
+        });
+    assert_eq!(described(&two)?, variables.collect());
     Ok(())
 }

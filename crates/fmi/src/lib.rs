@@ -1,10 +1,10 @@
-//! The boundary of FMI 2.0 co-simulation for any unit, and the packager that writes its FMU.
+//! The boundary of FMI 2.0 and 3.0 co-simulation for any unit, and the packager that writes its FMU.
 //!
 //! A [`Unit`] is a table of variables ([`variable`]) and a motion that can be advanced. The XML
 //! ([`description`]), the documentation, the package ([`package`]) and its parameters as a file of their own
 //! ([`parameter_set`]) follow from the table, and
-//! [`export`] gives the unit the C functions of the standard ([`v2`]). `Instance` is one running unit
-//! in safe Rust; `v2` and the block of start values are the only unsafe code.
+//! [`export`] gives the unit the C functions of both standards ([`v2`], [`v3`]). `Instance` is one running unit
+//! in safe Rust; `v2`, `v3`, what they are made of (`abi`) and the block of start values are the only unsafe code.
 
 #[macro_use]
 #[doc(hidden)]

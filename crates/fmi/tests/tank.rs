@@ -1,6 +1,8 @@
 //! A unit that has nothing to do with an oscillator, through the C functions.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
+#[path = "tank/three.rs"]
+mod three;
 #[path = "tank/mod.rs"]
 mod unit;
 
