@@ -187,6 +187,36 @@ fn an_impact_is_seen_from_both_sides() {
 }
 
 #[test]
+fn events_under_a_drive_that_is_followed_in_pieces() {
+    // It crawls, so that its time is resolved by the parameter's frequency.
+    let values = [
+        ("drive.takes.speed", 1.0),
+        ("drive.speed", 0.06),
+        ("excitation.amplitude", 40.0),
+    ];
+    let after = |handling, size| {
+        let (seen, last) = events(&values, handling, size);
+        let skipped = usize::from(handling == (true, true));
+        (
+            seen.into_iter()
+                .skip(skipped)
+                .step_by(skipped + 1)
+                .collect::<Vec<_>>(),
+            last,
+        )
+    };
+    let (one, other) = (after((true, true), 0.7), after((false, true), 0.7));
+    assert!(one.0.len() > 10 && one == other);
+    let number = |bits: &u64| f64::from_bits(*bits);
+    for handling in HANDLINGS {
+        let (_, last) = after(handling, PERIOD);
+        for (one, other) in last.iter().zip(&one.1) {
+            assert!((number(one) - number(other)).abs() < 1e-8 * number(one).abs().max(1.0));
+        }
+    }
+}
+
+#[test]
 fn a_state_at_an_event_leads_on_bit_for_bit() {
     let (one, other) = (Unit::begun((true, true), &[]), Unit::new((true, true)));
     let ending = one.step(0.0, 50.0);

@@ -1,5 +1,7 @@
 //! What an importer agrees on with an instance by FMI 3.0.
 
+use std::ffi::CString;
+
 use libc::{c_char, c_int, c_void};
 
 use crate::abi::component::{Component, Host, Sink, check_name, check_token};
@@ -47,6 +49,9 @@ pub(super) fn sink(environment: *mut c_void, log: LogMessageCallback) -> Sink {
         return Box::new(|_, _, _| {});
     };
     Box::new(move |status, category, text| {
+        // By the standard a single # begins a value reference.
+        let text = text.to_string_lossy().replace('#', "##");
+        let text = CString::new(text).unwrap_or_default();
         // SAFETY: the importer's function, called as the standard says; both strings outlive it.
         unsafe {
             log(
