@@ -10,7 +10,6 @@ use softstop::{Machine, Parameter, Start, Units};
 use softstop_fmu::{Imprint, StartValues, description, guid_of, parameter_set};
 use softstop_optimize::fmu;
 use softstop_testing::machines::machines;
-use softstop_testing::program::words;
 use softstop_testing::random::cases;
 
 use crate::SOFTSTOP;
@@ -184,10 +183,10 @@ fn the_fmu_for_fmi_3_tells_the_same() -> Outcome {
     let folder = tempfile::tempdir()?;
     let [machine, place] = ["press.toml", "press.fmu"].map(|name| folder.path().join(name));
     std::fs::write(&machine, PRESS)?;
-    let packed = |version: &str| -> Outcome<String> {
-        let (machine, place) = (machine.display(), place.display());
-        SOFTSTOP.text(&words(&format!("fmu {machine} {version} --output {place}")));
-        let bytes = std::fs::read(folder.path().join("press.fmu"))?;
+    let packed = |version: &[&str]| -> Outcome<String> {
+        let [machine, place] = [&machine, &place].map(|path| path.to_str().unwrap_or_default());
+        SOFTSTOP.text(&[&["fmu", machine, "--output", place], version].concat());
+        let bytes = std::fs::read(place)?;
         let mut archive = zip::ZipArchive::new(Cursor::new(bytes))?;
         let mut xml = String::new();
         archive
@@ -195,8 +194,8 @@ fn the_fmu_for_fmi_3_tells_the_same() -> Outcome {
             .read_to_string(&mut xml)?;
         Ok(xml)
     };
-    let (two, three) = (packed("--fmi 2")?, packed("--fmi 3")?);
-    assert_eq!(two, packed("")?);
+    let (two, three) = (packed(&["--fmi", "2"])?, packed(&["--fmi", "3"])?);
+    assert_eq!(two, packed(&[])?);
     let root = |xml: &str, name: &str| {
         Ok::<_, Box<dyn std::error::Error>>(elements(xml)?[0].2[name].clone())
     };
