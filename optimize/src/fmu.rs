@@ -123,7 +123,7 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
     };
     let imprint = imprint(&machine, machine.start);
     let imprint = imprint.map_err(|error| Failure::usage(format!("{error:#}")))?;
-    let imprint = imprint.by(arguments.fmi.into());
+    let imprint = imprint.with_standard(arguments.fmi.into());
     let (folder, file) = output::folder_and_file(&place)?;
     let folder = Folder::of_file(folder, file)?;
     folder.stage(file, &packed(&library()?, &imprint)?)?;

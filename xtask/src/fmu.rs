@@ -134,7 +134,11 @@ fn host_library(artifact: Artifact) -> Result<Library> {
 
 fn write<U: Unit>(standard: Standard, libraries: &[Library]) -> Result<()> {
     let path = path_of::<U>(standard);
-    package::write(&path, &Imprint::<U>::library().by(standard), libraries)?;
+    package::write(
+        &path,
+        &Imprint::<U>::library().with_standard(standard),
+        libraries,
+    )?;
     say(&path)
 }
 

@@ -41,7 +41,7 @@ impl<U: Unit> Instance<U> {
             });
         }
         self.pass_event(report)?;
-        let (begin, end) = (self.time(), self.aimed_at(point + step, step));
+        let (begin, end) = (self.time(), self.intended_end(point + step, step));
         let outcome = match handling {
             Handling { early: true, .. } => {
                 self.carry_on(point, step, report, |unit, _, events| {
@@ -76,7 +76,7 @@ impl<U: Unit> Instance<U> {
 
     /// The end of a step: where one was to end that an event has ended before, but for the rounding of who adds up what is
     /// left of it.
-    fn aimed_at(&self, end: f64, step: f64) -> f64 {
+    fn intended_end(&self, end: f64, step: f64) -> f64 {
         let is_meant = |aim: &f64| (end - aim).abs() <= rounding_of(end, step);
         self.aim.filter(is_meant).unwrap_or(end).max(self.time())
     }

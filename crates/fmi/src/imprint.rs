@@ -77,7 +77,7 @@ impl<U: Unit> Imprint<U> {
 
     /// The imprint for an FMU of another standard than FMI 2.0.
     #[must_use]
-    pub fn by(self, standard: Standard) -> Self {
+    pub fn with_standard(self, standard: Standard) -> Self {
         Self { standard, ..self }
     }
 

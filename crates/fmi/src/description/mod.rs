@@ -47,8 +47,8 @@ pub(crate) fn capabilities<U: Unit>(standard: Standard) -> Attributes {
     }
 }
 
-/// A whole document with this root.
-pub(crate) fn document<'a>(
+/// Writes a whole document with this root.
+fn write_document<'a>(
     root: &'static str,
     attributes: impl IntoIterator<Item = (&'static str, &'a str)>,
     content: impl FnOnce(&mut Xml) -> io::Result<()>,

@@ -3,8 +3,8 @@
 use std::io;
 
 use super::{
-    Attributes, NONE, TOOL, VERSION, Xml, dependencies, document, element, empty, items,
-    log_and_experiment, named, real_type, root, typed, units,
+    Attributes, NONE, TOOL, VERSION, Xml, dependencies, element, empty, items, log_and_experiment,
+    named, real_type, root, typed, units, write_document,
 };
 use crate::imprint::Imprint;
 use crate::standard::Standard;
@@ -15,7 +15,7 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<Str
     let about = U::about();
     let root = root("2.0", imprint, ("guid", guid));
     let root = root.into_iter().chain([("numberOfEventIndicators", "0")]);
-    document("fmiModelDescription", root, |xml| {
+    write_document("fmiModelDescription", root, |xml| {
         empty(xml, "CoSimulation", capabilities(about))?;
         units(xml, about.quantities)?;
         element(xml, "TypeDefinitions", NONE, |xml| types(xml, about))?;

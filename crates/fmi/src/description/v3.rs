@@ -3,8 +3,8 @@
 use std::io;
 
 use super::{
-    Attributes, NONE, TOOL, VERSION, Xml, dependencies, document, element, empty, items,
-    log_and_experiment, named, real_type, root, typed, units,
+    Attributes, NONE, TOOL, VERSION, Xml, dependencies, element, empty, items, log_and_experiment,
+    named, real_type, root, typed, units, write_document,
 };
 use crate::imprint::Imprint;
 use crate::instance::Instance;
@@ -18,7 +18,7 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<St
     let about = U::about();
     let quantities = quantities(about);
     let root = root("3.0", imprint, ("instantiationToken", token));
-    document("fmiModelDescription", root, |xml| {
+    write_document("fmiModelDescription", root, |xml| {
         empty(xml, "CoSimulation", capabilities::<U>())?;
         units(xml, &quantities)?;
         element(xml, "TypeDefinitions", NONE, |xml| {
@@ -112,7 +112,7 @@ fn unknowns<U: Unit>(xml: &mut Xml, about: &About<U>, name: &'static str) -> io:
 pub(crate) fn icons() -> io::Result<String> {
     let corners = [("x1", "-100"), ("y1", "-100"), ("x2", "100"), ("y2", "100")];
     let scale = [("suggestedScalingFactorTo_mm", "0.1")];
-    document("fmiTerminalsAndIcons", [("fmiVersion", "3.0")], |xml| {
+    write_document("fmiTerminalsAndIcons", [("fmiVersion", "3.0")], |xml| {
         element(xml, "GraphicalRepresentation", NONE, |xml| {
             empty(xml, "CoordinateSystem", corners.into_iter().chain(scale))?;
             empty(xml, "Icon", corners)

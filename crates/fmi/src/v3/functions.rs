@@ -16,7 +16,7 @@ use super::host::{
     ClockUpdateCallback, Importer, IntermediateUpdateCallback, LogMessageCallback,
     PreemptionCallback, instantiate, refuse, sink,
 };
-use super::values::{check_count, listed};
+use super::values::{check_count, read_references};
 use crate::abi::component::Component;
 use crate::abi::guard::{guarded, silent};
 use crate::abi::pointers::{read, string, write, write_one};
@@ -243,7 +243,7 @@ functions! { $ export_v3 v3 Importer;
         values: *mut f64, value_count: size_t
     ) {
         check_count("nValues", value_count, count)?;
-        let references = listed(references, count)?;
+        let references = read_references(references, count)?;
         let orders = read("orders", orders, count)?;
         let values = write("values", values, count)?;
         component.instance.get_output_derivatives(references, orders, values)

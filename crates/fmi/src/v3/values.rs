@@ -35,7 +35,10 @@ pub(super) fn check_count(
 ///
 /// # Safety
 /// As [`read`].
-pub(super) unsafe fn listed<'a>(references: *const u32, count: usize) -> Result<&'a [u32], Fault> {
+pub(super) unsafe fn read_references<'a>(
+    references: *const u32,
+    count: usize,
+) -> Result<&'a [u32], Fault> {
     // SAFETY: by this function's contract.
     unsafe { read("valueReferences", references, count) }
 }
@@ -52,8 +55,12 @@ pub(super) unsafe fn get<U: Unit, T>(
 ) -> Result<(), Fault> {
     check_count("nValues", value_count, count)?;
     // SAFETY: by this function's contract.
-    let (references, values) =
-        unsafe { (listed(references, count)?, write("values", values, count)?) };
+    let (references, values) = unsafe {
+        (
+            read_references(references, count)?,
+            write("values", values, count)?,
+        )
+    };
     let read = component.instance.read(references, values, wanted, typed);
     read.map_err(|fault| match fault {
         // Reading is allowed there, but outputs have no values yet.
@@ -74,8 +81,12 @@ pub(super) unsafe fn set<U: Unit, T: Copy>(
 ) -> Result<(), Fault> {
     check_count("nValues", value_count, count)?;
     // SAFETY: by this function's contract.
-    let (references, values) =
-        unsafe { (listed(references, count)?, read("values", values, count)?) };
+    let (references, values) = unsafe {
+        (
+            read_references(references, count)?,
+            read("values", values, count)?,
+        )
+    };
     let set = component.instance.set(references, values, wanted, number);
     set.map_err(Fault::refused)
 }
@@ -84,7 +95,7 @@ pub(super) unsafe fn set<U: Unit, T: Copy>(
 ///
 /// # Safety
 /// As [`read`].
-pub(super) unsafe fn none<U: Unit>(
+pub(super) unsafe fn access_none<U: Unit>(
     component: &Component<U, Importer>,
     (references, count): (*const u32, usize),
     value_count: usize,
@@ -92,7 +103,7 @@ pub(super) unsafe fn none<U: Unit>(
 ) -> Result<(), Fault> {
     check_count("nValues", value_count, count)?;
     // SAFETY: by this function's contract.
-    let references = unsafe { listed(references, count) }?;
+    let references = unsafe { read_references(references, count) }?;
     component
         .instance
         .none_of(Type::Other(type_name), references)
@@ -131,7 +142,7 @@ macro_rules! typed_functions {
                     component, references: *const c_uint, count: size_t, _values: *mut $none_type,
                     value_count: size_t
                 ) {
-                    none(component, (references, count), value_count, $name)
+                    access_none(component, (references, count), value_count, $name)
                 }
 
                 /// Sets values of this type, of which there are none.
@@ -139,7 +150,7 @@ macro_rules! typed_functions {
                     component, references: *const c_uint, count: size_t,
                     _values: *const $none_type, value_count: size_t
                 ) {
-                    none(component, (references, count), value_count, $name)
+                    access_none(component, (references, count), value_count, $name)
                 }
             )*
 
@@ -148,7 +159,7 @@ macro_rules! typed_functions {
                 component, references: *const c_uint, count: size_t, _sizes: *mut size_t,
                 _values: *mut *const u8, value_count: size_t
             ) {
-                none(component, (references, count), value_count, "Binary")
+                access_none(component, (references, count), value_count, "Binary")
             }
 
             /// Sets binary values, of which there are none.
@@ -156,21 +167,21 @@ macro_rules! typed_functions {
                 component, references: *const c_uint, count: size_t, _sizes: *const size_t,
                 _values: *const *const u8, value_count: size_t
             ) {
-                none(component, (references, count), value_count, "Binary")
+                access_none(component, (references, count), value_count, "Binary")
             }
 
             /// Reads clocks, of which there are none.
             fn fmi3GetClock<U>(
                 component, references: *const c_uint, count: size_t, _values: *mut u8
             ) {
-                none(component, (references, count), count, "Clock")
+                access_none(component, (references, count), count, "Clock")
             }
 
             /// Sets clocks, of which there are none.
             fn fmi3SetClock<U>(
                 component, references: *const c_uint, count: size_t, _values: *const u8
             ) {
-                none(component, (references, count), count, "Clock")
+                access_none(component, (references, count), count, "Clock")
             }
         }
     };

@@ -118,7 +118,7 @@ fn a_value_that_is_not_taken_is_discarded_and_an_error_ends_the_simulation() {
 fn its_description() {
     let imprint = Imprint::<Tank>::library();
     let token = guid_of(&imprint).expect("a token");
-    let xml = description::write(&imprint.by(Standard::Fmi3), &token).expect("XML");
+    let xml = description::write(&imprint.with_standard(Standard::Fmi3), &token).expect("XML");
     for words in [
         "fmiVersion=\"3.0\"",
         "modelIdentifier=\"tank\"",
