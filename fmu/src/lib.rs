@@ -21,13 +21,6 @@ pub use softstop_fmi::{Standard, description, guid_of, package, parameter_set};
 pub use start::{NotServed, StartValues, slot};
 pub use tangent::Tangent;
 
-/// The C functions of both standards, behind the feature `c-functions`: without it a program can link this unit
-/// beside another one.
-#[cfg(feature = "c-functions")]
-pub mod ffi {
-    softstop_fmi::export!(crate::Machine);
-}
-
 /// Name, description and start values of an FMU.
 pub type Imprint = softstop_fmi::Imprint<Machine>;
 

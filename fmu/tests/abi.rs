@@ -7,7 +7,7 @@
 use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
 use std::mem::{offset_of, size_of};
 
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 type Component = *mut c_void;
 type State = *mut c_void;

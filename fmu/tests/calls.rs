@@ -5,7 +5,7 @@ use std::ffi::{c_int, c_void};
 use std::ptr;
 
 use crate::common::{OK, Unit, reference};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 #[test]
 fn a_life_without_faults() {

@@ -2,7 +2,7 @@
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
 use crate::common::{OK, OUTPUTS, Unit};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 use softstop_testing::assert_near;
 use softstop_testing::tolerance::SOLVED;
 

@@ -4,7 +4,7 @@
 use std::ffi::c_int;
 
 use crate::common::{DISCARD, ERROR, OK, Unit};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 fn step_status(unit: &Unit) -> c_int {
     let mut status = -1;

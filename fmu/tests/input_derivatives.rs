@@ -4,7 +4,7 @@
 use std::ffi::c_int;
 
 use crate::common::{OK, Unit, reference};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 #[test]
 fn input_derivatives() {

@@ -1,25 +1,25 @@
-//! Every library of an FMU exports the functions of both standards and nothing else, and needs
+//! Every library of an FMU exports the functions of its standard and nothing else, and needs
 //! nothing but the system.
 //!
-//! They are in the FMU that was packed from the library built along with this test, and in the one that
-//! `SOFTSTOP_FMU` names: it should be one as it is shipped.
+//! They are in the FMUs that were packed from the libraries built along with this test, and in the one that
+//! `SOFTSTOP_FMU` names with the one for FMI 3.0 beside it: they should be as they are shipped.
 
 use crate::common::library;
 use std::collections::BTreeSet;
 use std::env;
 use std::fs;
 use std::io::{Cursor, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use library::library_path;
 use object::endian::Endianness;
 use object::read::elf::{ElfFile64, FileHeader, SectionHeader};
 use object::read::macho::{FatArch, MachOFatFile32};
 use object::{File, Object};
-use softstop_fmu::Imprint;
 use softstop_fmu::package::{self, Library};
+use softstop_fmu::{Imprint, Standard};
 
-const DEFINITION: &str = include_str!("../softstop.def");
+const STANDARDS: [Standard; 2] = [Standard::Fmi2, Standard::Fmi3];
 
 /// Libraries that every Linux has, the loader among them. Since version 2.34 of the C library all
 /// are parts of `libc.so.6` but `libm.so.6` and the loader.
@@ -41,28 +41,45 @@ const MACOS: [&str; 1] = ["/usr/lib/libSystem.B.dylib"];
 const OLDEST_GLIBC: (u32, u32) = (2, 17);
 
 struct Packed {
+    standard: Standard,
     /// Folder in `binaries/`.
     platform: String,
     bytes: Vec<u8>,
 }
 
-/// The FMUs, and whether each was built apart from this test.
-fn fmus() -> Vec<(Vec<u8>, bool)> {
-    let library = Library::read(&library_path()).expect("a readable library");
-    let archive = package::archive(&Imprint::library(), &[library]).expect("an archive");
-    let given = env::var_os("SOFTSTOP_FMU")
-        .map(|path| fs::read(path).expect("the FMU that SOFTSTOP_FMU names"));
-    let given = given.map(|archive| (archive, true));
-    [(archive, false)].into_iter().chain(given).collect()
+/// The libraries of each FMU, and whether it was built apart from this test.
+fn fmus() -> Vec<(Vec<Packed>, bool)> {
+    let own = STANDARDS.map(|standard| {
+        let library = Library::read(&library_path(standard)).expect("a readable library");
+        (packed(standard, library), false)
+    });
+    let given = env::var_os("SOFTSTOP_FMU").map(PathBuf::from);
+    let given = given.into_iter().flat_map(|path| {
+        let beside = path.with_file_name("softstop-fmi3.fmu");
+        STANDARDS.into_iter().zip([path, beside])
+    });
+    let given = given.map(|(standard, path)| {
+        let archive = fs::read(path).expect("the FMU that SOFTSTOP_FMU names, and the one beside");
+        (libraries(standard, &archive), true)
+    });
+    own.into_iter().chain(given).collect()
 }
 
 fn all_libraries() -> impl Iterator<Item = Packed> {
-    fmus()
-        .into_iter()
-        .flat_map(|(archive, _)| libraries(&archive))
+    fmus().into_iter().flat_map(|(libraries, _)| libraries)
 }
 
-fn libraries(archive: &[u8]) -> Vec<Packed> {
+fn imprint(standard: Standard) -> Imprint {
+    Imprint::library().with_standard(standard)
+}
+
+/// The library as it is in the FMU.
+fn packed(standard: Standard, library: Library) -> Vec<Packed> {
+    let archive = package::archive(&imprint(standard), &[library]).expect("an archive");
+    libraries(standard, &archive)
+}
+
+fn libraries(standard: Standard, archive: &[u8]) -> Vec<Packed> {
     let mut archive = zip::ZipArchive::new(Cursor::new(archive)).expect("an archive");
     let names: Vec<_> = archive
         .file_names()
@@ -77,7 +94,11 @@ fn libraries(archive: &[u8]) -> Vec<Packed> {
             let mut file = archive.by_name(name).expect("an entry");
             file.read_to_end(&mut bytes).expect("a readable entry");
             let platform = name.split('/').nth(1).expect("a folder").to_owned();
-            Packed { platform, bytes }
+            Packed {
+                standard,
+                platform,
+                bytes,
+            }
         })
         .collect()
 }
@@ -98,22 +119,23 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-fn wanted_functions() -> BTreeSet<String> {
-    let (_, names) = DEFINITION.split_once("EXPORTS").expect("a list of exports");
+fn wanted_functions(standard: Standard) -> BTreeSet<String> {
+    let definition = match standard {
+        Standard::Fmi2 => include_str!("../fmi2/exports.def"),
+        Standard::Fmi3 => include_str!("../fmi3/exports.def"),
+    };
+    let (_, names) = definition.split_once("EXPORTS").expect("a list of exports");
     names.split_whitespace().map(str::to_owned).collect()
 }
 
 #[test]
-fn the_definition_names_the_functions_of_the_standard() {
-    let functions = wanted_functions();
-    let number = |prefix| {
-        functions
-            .iter()
-            .filter(|name| name.starts_with(prefix))
-            .count()
-    };
-    assert_eq!((number("fmi2"), number("fmi3")), (34, 75));
-    assert_eq!(functions.len(), 34 + 75);
+fn the_definitions_name_the_functions_of_each_standard() {
+    for (standard, number) in STANDARDS.into_iter().zip([34, 75]) {
+        let functions = wanted_functions(standard);
+        assert_eq!(functions.len(), number);
+        let prefix = standard.prefix();
+        assert!(functions.iter().all(|name| name.starts_with(prefix)));
+    }
 }
 
 #[test]
@@ -132,7 +154,8 @@ fn the_functions_of_the_standard_are_exported_and_nothing_else() {
                         .to_owned()
                 })
                 .collect();
-            assert_eq!(exports, wanted_functions(), "{}", library.platform);
+            let wanted = wanted_functions(library.standard);
+            assert_eq!(exports, wanted, "{}", library.platform);
         }
     }
 }
@@ -185,18 +208,18 @@ fn nothing_but_the_system_is_needed() {
     for library in all_libraries() {
         for slice in slices(&library.bytes) {
             let strange: Vec<_> = match library.platform.as_str() {
-                "win64" => imports(slice)
-                    .into_iter()
-                    .filter(|name| !is_of_windows(name))
-                    .collect(),
-                "darwin64" => imports(slice)
-                    .into_iter()
-                    .filter(|name| !MACOS.contains(&name.as_str()))
-                    .collect(),
-                _ => needs_of_elf(slice)
+                linux if linux.contains("linux") => needs_of_elf(slice)
                     .0
                     .into_iter()
                     .filter(|name| !LINUX.contains(&name.as_str()))
+                    .collect(),
+                macos if macos.contains("darwin") => imports(slice)
+                    .into_iter()
+                    .filter(|name| !MACOS.contains(&name.as_str()))
+                    .collect(),
+                _ => imports(slice)
+                    .into_iter()
+                    .filter(|name| !is_of_windows(name))
                     .collect(),
             };
             assert!(strange.is_empty(), "{}: {strange:?}", library.platform);
@@ -213,8 +236,7 @@ fn glibc(version: &str) -> Option<(u32, u32)> {
 
 #[test]
 fn a_package_for_many_platforms_runs_with_an_old_c_library() {
-    for (archive, _) in fmus() {
-        let libraries = libraries(&archive);
+    for (libraries, _) in fmus() {
         let many = libraries.len() > 1;
         for library in libraries.iter().filter(|l| l.platform.contains("linux")) {
             let (_, versions) = needs_of_elf(&library.bytes);
@@ -235,9 +257,8 @@ fn start_values_are_those_of_the_description() {
             platform: library.platform,
             bytes: library.bytes.clone(),
         };
-        let archive = package::archive(&Imprint::library(), &[again]).expect("an archive");
-        let [packed] = &libraries(&archive)[..] else {
-            panic!("one library");
+        let [packed, ..] = &packed(library.standard, again)[..] else {
+            panic!("a library");
         };
         assert!(packed.bytes == library.bytes, "{}", packed.platform);
     }
@@ -253,7 +274,7 @@ fn no_folder_of_this_machine_is_in_the_shipped_libraries() {
     folders.extend(env::var_os("CARGO_HOME").map(Into::into));
     folders.extend(env::var_os("CARGO_TARGET_DIR").map(Into::into));
     let shipped = fmus().into_iter().filter(|(_, apart)| *apart);
-    for library in shipped.flat_map(|(archive, _)| libraries(&archive)) {
+    for library in shipped.flat_map(|(libraries, _)| libraries) {
         let text = String::from_utf8_lossy(&library.bytes);
         for folder in &folders {
             let folder = format!("{}/", folder.display());

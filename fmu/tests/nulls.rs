@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use std::ptr;
 
 use crate::common::{ERROR, OK, Unit, reference};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 use softstop_fmu::library_guid;
 
 #[test]

@@ -14,10 +14,10 @@ use std::ptr;
 use built::library_path;
 use softstop::{Scene, Start};
 use softstop_fmu::package::{self, Library, PackageError};
-use softstop_fmu::{Imprint, StartValues, description, guid_of, library_guid, table};
+use softstop_fmu::{Imprint, Standard, StartValues, description, guid_of, library_guid, table};
 
 fn library() -> Library {
-    Library::read(&library_path()).expect("a readable library")
+    Library::read(&library_path(Standard::Fmi2)).expect("a readable library")
 }
 
 fn other_design() -> (Scene, Start) {

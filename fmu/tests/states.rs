@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use std::ptr;
 
 use crate::common::{OK, OUTPUTS, Unit};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 fn outputs(unit: &Unit) -> [u64; 9] {
     OUTPUTS.map(|name| unit.get(name).to_bits())

@@ -4,7 +4,7 @@
 use std::ffi::c_int;
 
 use crate::common::{OK, Unit};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 const PIECEWISE_LINEAR: c_int = 3;
 const HERTZ: c_int = 4;

@@ -5,7 +5,7 @@
 use std::ffi::c_int;
 
 use crate::common::{DISCARD, ERROR, OK, Unit};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 fn set_rate(unit: &Unit, rate: f64) -> c_int {
     unit.slope("force", 1, rate)

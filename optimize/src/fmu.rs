@@ -1,4 +1,4 @@
-//! `softstop fmu`: a machine as an FMU, the library that this program holds with the machine's start values,
+//! `softstop fmu`: a machine as an FMU, a library that this program holds with the machine's start values,
 //! name and description.
 
 use std::path::PathBuf;
@@ -11,25 +11,31 @@ use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
 use softstop_console::names::file_stem;
 use softstop_console::output::{self, Folder};
+pub use softstop_fmu::Standard;
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
-use softstop_fmu::{Imprint, Standard, StartValues, parameter_set};
+use softstop_fmu::{Imprint, StartValues, parameter_set};
 
 /// Compiled along with this program, from the same engine.
-static BYTES: &[u8] = include_bytes!(env!("SOFTSTOP_FMU_LIBRARY"));
+static FMI2: &[u8] = include_bytes!(env!("SOFTSTOP_FMI2_LIBRARY"));
+static FMI3: &[u8] = include_bytes!(env!("SOFTSTOP_FMI3_LIBRARY"));
 
 /// The FMU's library for this machine.
 ///
 /// # Errors
 /// If this program was built without it.
-pub fn library() -> Result<Library> {
+pub fn library(standard: Standard) -> Result<Library> {
+    let bytes = match standard {
+        Standard::Fmi2 => FMI2,
+        Standard::Fmi3 => FMI3,
+    };
     ensure!(
-        !BYTES.is_empty(),
+        !bytes.is_empty(),
         "cannot make the FMU: this program was built without its library; in the folder of its source, build it with \
-         `cargo clean -p softstop-fmu` and `cargo build` or `cargo install --path optimize`"
+         `cargo clean -p softstop-fmi2 -p softstop-fmi3` and `cargo build` or `cargo install --path optimize`"
     );
     Ok(Library {
         platform: HOST_PLATFORM.to_owned(),
-        bytes: BYTES.to_vec(),
+        bytes: bytes.to_vec(),
     })
 }
 
@@ -126,7 +132,7 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
     let imprint = imprint.with_standard(arguments.fmi.into());
     let (folder, file) = output::folder_and_file(&place)?;
     let folder = Folder::of_file(folder, file)?;
-    folder.stage(file, &packed(&library()?, &imprint)?)?;
+    folder.stage(file, &packed(&library(imprint.standard())?, &imprint)?)?;
     folder.commit(&[file])?;
     output::print(&format!("Written: {}\n", place.display()))
 }

@@ -147,7 +147,11 @@ piercing = { stiffness = 5e7, friction = 5.5e7, thickness = 0.002, travel = 0.00
 #[test]
 fn the_fmu_of_a_press_has_its_name_and_si_start_values() -> Outcome {
     let press = Machine::from_toml(PRESS)?;
-    let archive = fmu::archive(&fmu::library()?, &press, Start::new(0.001, 2.5))?;
+    let archive = fmu::archive(
+        &fmu::library(fmu::Standard::Fmi2)?,
+        &press,
+        Start::new(0.001, 2.5),
+    )?;
     let mut archive = zip::ZipArchive::new(Cursor::new(archive))?;
     let mut xml = String::new();
     archive

@@ -7,12 +7,11 @@ use anyhow::{Context, Result};
 use softstop_fmi::package::{self, HOST_PLATFORM, Library};
 use softstop_fmi::{Imprint, Standard, Unit, description, guid_of};
 use softstop_fmu::Machine;
-use softstop_optimize::fmu::library;
 use softstop_units::{Drive, Feeder};
 
-use crate::library::{Artifact, Build, DRIVE, FEEDER, OSCILLATOR, build_daily, host};
+use crate::library::{Artifact, Build, build_daily, host};
 use crate::run::{cargo_command, stage, top};
-use crate::system::{self, Libraries};
+use crate::system;
 use crate::targets::{TARGETS, Target, Tools};
 
 /// Writes the model description of the default FMU at the top level, if it has changed.
@@ -34,37 +33,36 @@ pub const STANDARDS: [Standard; 2] = [Standard::Fmi2, Standard::Fmi3];
 
 /// Packs the libraries that are built for daily work; returns the oscillator's path.
 pub fn write_package(standards: &[Standard]) -> Result<PathBuf> {
-    let daily = |artifact| anyhow::Ok(vec![Library::read(&build_daily(artifact)?)?]);
-    write_all(standards, &daily(DRIVE)?, &daily(FEEDER)?, &[library()?])
+    write_all(standards, |artifact| Ok(vec![build_daily(artifact)?]))
 }
 
 /// Builds the libraries for this machine as they are shipped and packs them; returns the oscillator's path.
 pub fn write_shipped(standards: &[Standard]) -> Result<PathBuf> {
-    let [drive, feeder, press] = [DRIVE, FEEDER, OSCILLATOR].map(shipped);
-    write_all(standards, &[drive?], &[feeder?], &[press?])
+    write_all(standards, |artifact| Ok(vec![shipped(artifact)?]))
 }
 
 /// Writes the units, and the machine that those of FMI 2.0 make together.
 fn write_all(
     standards: &[Standard],
-    drive: &[Library],
-    feeder: &[Library],
-    press: &[Library],
+    build: impl Fn(Artifact) -> Result<Vec<Library>>,
 ) -> Result<PathBuf> {
     for &standard in standards {
-        write::<Drive>(standard, drive)?;
-        write::<Feeder>(standard, feeder)?;
-        write::<Machine>(standard, press)?;
-    }
-    if standards.contains(&Standard::Fmi2) {
-        let path = top().join("piercing-machine.ssp");
-        let libraries = Libraries {
-            drive,
-            feeder,
-            press,
-        };
-        system::write(&path, &libraries)?;
-        say(&path)?;
+        let drive = build(Artifact::of::<Drive>(standard))?;
+        let feeder = build(Artifact::of::<Feeder>(standard))?;
+        let press = build(Artifact::of::<Machine>(standard))?;
+        write::<Drive>(standard, &drive)?;
+        write::<Feeder>(standard, &feeder)?;
+        write::<Machine>(standard, &press)?;
+        if standard == Standard::Fmi2 {
+            let path = top().join("piercing-machine.ssp");
+            let libraries = system::Libraries {
+                drive,
+                feeder,
+                press,
+            };
+            system::write(&path, &libraries)?;
+            say(&path)?;
+        }
     }
     Ok(path_of::<Machine>(Standard::Fmi2))
 }
@@ -98,8 +96,7 @@ fn built_or_host(artifact: Artifact, target: &Target, tools: &Tools) -> Result<(
 /// Builds the libraries for every platform that can be had here as they are shipped and packs them all.
 pub fn write_shipped_for_all(standards: &[Standard]) -> Result<()> {
     let tools = Tools::new();
-    let all = |artifact| shipped_for_all(artifact, &tools);
-    write_all(standards, &all(DRIVE)?, &all(FEEDER)?, &all(OSCILLATOR)?).map(drop)
+    write_all(standards, |artifact| shipped_for_all(artifact, &tools)).map(drop)
 }
 
 /// Left out are platforms for which something cannot be had; where all is there, a build that fails is an error.

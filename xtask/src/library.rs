@@ -7,37 +7,55 @@ use std::process::Command;
 
 use anyhow::{Context, Result};
 use serde_json::Value;
+use softstop_fmi::package::Library;
+use softstop_fmi::{Standard, Unit};
+use softstop_fmu::Machine;
 
 use crate::run::{cargo_command, output, target, top};
 
-/// A unit's library, as cargo knows it.
+/// A unit's library for one standard.
 #[derive(Clone, Copy)]
 pub struct Artifact {
-    package: &'static str,
-    arguments: &'static [&'static str],
-    name: &'static str,
+    /// The `modelIdentifier` of the unit.
+    unit: &'static str,
+    standard: Standard,
 }
 
-/// That of softstop.fmu.
-pub const OSCILLATOR: Artifact = Artifact {
-    package: "softstop-fmu",
-    arguments: &["--lib"],
-    name: "softstop_fmu",
-};
+impl Artifact {
+    /// That of a unit.
+    pub fn of<U: Unit>(standard: Standard) -> Self {
+        let unit = U::about().identifier;
+        Self { unit, standard }
+    }
 
-/// That of drive.fmu.
-pub const DRIVE: Artifact = Artifact {
-    package: "softstop-units",
-    arguments: &["--example", "drive"],
-    name: "drive",
-};
+    /// Cargo's name of it.
+    fn name(self) -> String {
+        format!("{}_{}", self.unit, self.standard.prefix())
+    }
 
-/// That of feeder.fmu.
-pub const FEEDER: Artifact = Artifact {
-    package: "softstop-units",
-    arguments: &["--example", "feeder"],
-    name: "feeder",
-};
+    fn is_oscillator(self) -> bool {
+        self.unit == Machine::about().identifier
+    }
+
+    /// What names it to cargo. A program holds the oscillator's, so that each has a package of its own.
+    fn arguments(self) -> [String; 2] {
+        match self.is_oscillator() {
+            true => [
+                format!("--package=softstop-{}", self.standard.prefix()),
+                "--lib".to_owned(),
+            ],
+            false => [
+                "--package=softstop-units".to_owned(),
+                format!("--example={}", self.name()),
+            ],
+        }
+    }
+
+    /// The list of what it exports, for a linker that wants one.
+    pub fn exports(self) -> String {
+        format!("fmu/{}/exports.def", self.standard.prefix())
+    }
+}
 
 /// One way to call cargo.
 pub struct Build {
@@ -58,9 +76,8 @@ impl Build {
         flags.append(&mut self.flags);
         let messages = output(
             self.command
-                .args(["rustc", "--profile", "dist", "--package"])
-                .arg(self.artifact.package)
-                .args(self.artifact.arguments)
+                .args(["rustc", "--profile", "dist"])
+                .args(self.artifact.arguments())
                 // Not also as a Rust library: only so is it optimized as a whole and left without
                 // what it does not use.
                 .args(["--crate-type", "cdylib"])
@@ -71,13 +88,13 @@ impl Build {
                 .env_remove("RUSTFLAGS")
                 .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}")),
         )?;
-        library_in(&messages, self.artifact.name)
-            .with_context(|| format!("cargo names no library {}", self.artifact.name))
+        library_in(&messages, self.artifact)
     }
 }
 
 /// The shared library among the files that cargo says it made.
-fn library_in(messages: &str, name: &str) -> Option<PathBuf> {
+fn library_in(messages: &str, artifact: Artifact) -> Result<PathBuf> {
+    let name = artifact.name();
     let is_library = |path: &Path| {
         path.extension()
             .and_then(OsStr::to_str)
@@ -86,11 +103,12 @@ fn library_in(messages: &str, name: &str) -> Option<PathBuf> {
     messages
         .lines()
         .filter_map(|line| serde_json::from_str::<Value>(line).ok())
-        .filter(|message| message["target"]["name"] == name)
+        .filter(|message| message["target"]["name"] == *name)
         .filter_map(|message| message["filenames"].as_array().cloned())
         .flatten()
         .filter_map(|name| name.as_str().map(PathBuf::from))
         .find(|path| is_library(path))
+        .with_context(|| format!("cargo names no library {name}"))
 }
 
 /// Flags that keep the folders of this machine out of the library: panic messages name source
@@ -141,14 +159,16 @@ pub fn host() -> Result<String> {
     rustc_says("host")
 }
 
-/// Builds the library of daily work for this machine; returns where cargo says it is.
-pub fn build_daily(artifact: Artifact) -> Result<PathBuf> {
+/// Builds the library of daily work for this machine, if this program does not hold it.
+pub fn build_daily(artifact: Artifact) -> Result<Library> {
+    if artifact.is_oscillator() {
+        return softstop_optimize::fmu::library(artifact.standard);
+    }
     let messages = output(
         cargo_command()
-            .args(["build", "--release", "--package", artifact.package])
-            .args(artifact.arguments)
+            .args(["build", "--release"])
+            .args(artifact.arguments())
             .arg("--message-format=json-render-diagnostics"),
     )?;
-    library_in(&messages, artifact.name)
-        .with_context(|| format!("cargo names no library {}", artifact.name))
+    Ok(Library::read(&library_in(&messages, artifact)?)?)
 }

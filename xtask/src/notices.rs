@@ -20,7 +20,7 @@ pub struct Library {
 /// The FMU.
 const FMU: Library = Library {
     name: "libraries of this FMU are",
-    package: "softstop-fmu",
+    package: "softstop-fmi3",
 };
 
 /// The Python package.

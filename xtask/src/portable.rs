@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
-use softstop_fmu::{Imprint, guid_of, table};
+use softstop_fmu::{Imprint, Machine, Standard, guid_of, table};
 
-use crate::library::OSCILLATOR;
+use crate::library::Artifact;
 use crate::run::{output, run, stage, target};
 use crate::targets::{Target, Tools};
 
@@ -90,9 +90,10 @@ impl Program {
         let folder = target().join("portable").join(platform);
         fs::create_dir_all(&folder)?;
         let library = folder.join("softstop.library");
+        let artifact = Artifact::of::<Machine>(Standard::Fmi2);
         fs::write(
             &library,
-            Target::of(platform)?.build(OSCILLATOR, tools)?.bytes,
+            Target::of(platform)?.build(artifact, tools)?.bytes,
         )?;
         let program = folder.join("portable.exe");
         run(tools

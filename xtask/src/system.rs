@@ -19,10 +19,10 @@ const DESIGN: &str = include_str!("../../docs/system/design.toml");
 const TORQUE: f64 = 60.0;
 
 /// The libraries of the three units.
-pub struct Libraries<'a> {
-    pub drive: &'a [Library],
-    pub feeder: &'a [Library],
-    pub press: &'a [Library],
+pub struct Libraries {
+    pub drive: Vec<Library>,
+    pub feeder: Vec<Library>,
+    pub press: Vec<Library>,
 }
 
 /// One machine: its name, and its units as they begin.
@@ -44,17 +44,17 @@ pub fn write(path: &Path, libraries: &Libraries) -> Result<()> {
     ];
     let [Variant { press, drive, .. }, ..] = &variants;
     let feeder = with(Imprint::<Feeder>::library(), &[("feed.takes.angle", 1.0)])?;
-    let press_archive = package::archive(&press.clone().named("press")?, libraries.press)?;
+    let press_archive = package::archive(&press.clone().named("press")?, &libraries.press)?;
     let mut entries = vec![
         ("SystemStructure.ssd".to_owned(), STRUCTURE.into()),
         ("resources/press.fmu".to_owned(), press_archive),
         (
             "resources/drive.fmu".to_owned(),
-            package::archive(drive, libraries.drive)?,
+            package::archive(drive, &libraries.drive)?,
         ),
         (
             "resources/feeder.fmu".to_owned(),
-            package::archive(&feeder, libraries.feeder)?,
+            package::archive(&feeder, &libraries.feeder)?,
         ),
     ];
     entries.extend(sets(&variants, "press", |of| &of.press)?);

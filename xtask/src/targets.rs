@@ -25,28 +25,25 @@ pub struct Target {
 }
 
 enum Linked {
-    /// By Zig: Rust's name of the target and what cargo-zigbuild wants added to it, and flags.
-    Zig(&'static str, &'static str, &'static [&'static str]),
+    /// By Zig: Rust's name of the target and what cargo-zigbuild wants added to it.
+    Zig(&'static str, &'static str),
     /// As one universal library of several targets.
     Darwin(&'static [&'static str]),
 }
-
-/// Zig exports every function from a DLL unless a module definition says which.
-const EXPORTS: &str = "-Clink-arg=fmu/softstop.def";
 
 /// All platforms. Version 2.17 of the C library is that of the oldest Linux that Rust runs on.
 pub const TARGETS: [Target; 4] = [
     Target {
         platform: "linux64",
-        linked: Linked::Zig("x86_64-unknown-linux-gnu", ".2.17", &[]),
+        linked: Linked::Zig("x86_64-unknown-linux-gnu", ".2.17"),
     },
     Target {
         platform: "aarch64-linux",
-        linked: Linked::Zig("aarch64-unknown-linux-gnu", ".2.17", &[]),
+        linked: Linked::Zig("aarch64-unknown-linux-gnu", ".2.17"),
     },
     Target {
         platform: "win64",
-        linked: Linked::Zig("x86_64-pc-windows-gnu", "", &[EXPORTS]),
+        linked: Linked::Zig("x86_64-pc-windows-gnu", ""),
     },
     Target {
         platform: "darwin64",
@@ -59,7 +56,7 @@ pub fn triples() -> impl Iterator<Item = &'static str> {
     TARGETS
         .iter()
         .flat_map(|target| match &target.linked {
-            Linked::Zig(triple, ..) => std::slice::from_ref(triple),
+            Linked::Zig(triple, _) => std::slice::from_ref(triple),
             Linked::Darwin(triples) => triples,
         })
         .copied()
@@ -78,7 +75,7 @@ impl Target {
     pub fn prepare(&self, tools: &Tools) -> Result<()> {
         tools.python()?;
         match &self.linked {
-            Linked::Zig(triple, ..) => install_standard_library(triple),
+            Linked::Zig(triple, _) => install_standard_library(triple),
             Linked::Darwin(triples) => triples
                 .iter()
                 .try_for_each(|triple| install_standard_library(triple)),
@@ -88,12 +85,15 @@ impl Target {
     /// Builds a unit's library for this platform, for which all is prepared.
     pub fn build(&self, artifact: Artifact, tools: &Tools) -> Result<Library> {
         let bytes = match self.linked {
-            Linked::Zig(triple, suffix, flags) => {
+            Linked::Zig(triple, suffix) => {
+                // Zig exports every function from a DLL unless a module definition says which.
+                let exports = format!("-Clink-arg={}", artifact.exports());
+                let is_windows = triple.contains("windows");
                 let build = Build {
                     artifact,
                     command: tools.cargo_zigbuild()?,
                     target: format!("{triple}{suffix}"),
-                    flags: flags.iter().map(ToString::to_string).collect(),
+                    flags: is_windows.then_some(exports).into_iter().collect(),
                 };
                 fs::read(build.run()?)?
             }

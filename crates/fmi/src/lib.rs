@@ -3,7 +3,7 @@
 //! A [`Unit`] is a table of variables ([`variable`]) and a motion that can be advanced. The XML
 //! ([`description`]), the documentation, the package ([`package`]) and its parameters as a file of their own
 //! ([`parameter_set`]) follow from the table, and
-//! [`export`] gives the unit the C functions of both standards ([`v2`], [`v3`]). `Instance` is one running unit
+//! [`export_fmi2`] and [`export_fmi3`] give the unit the C functions of a standard ([`v2`], [`v3`]). `Instance` is one running unit
 //! in safe Rust; `v2`, `v3`, what they are made of (`abi`) and the block of start values are the only unsafe code.
 
 #[macro_use]

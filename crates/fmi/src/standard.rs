@@ -9,3 +9,13 @@ pub enum Standard {
     /// FMI 3.0.
     Fmi3,
 }
+
+impl Standard {
+    /// What the names of its functions begin with.
+    pub fn prefix(self) -> &'static str {
+        match self {
+            Self::Fmi2 => "fmi2",
+            Self::Fmi3 => "fmi3",
+        }
+    }
+}

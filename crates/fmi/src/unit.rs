@@ -16,11 +16,11 @@ use crate::variable::{Slot, Variable};
 /// What a unit can refuse, with a text for the importer's log that names the variable.
 pub type Outcome<T> = Result<T, Box<dyn Error>>;
 
-/// A unit under way. Lifecycle, values and inputs are kept for it, and [`export`](crate::export) gives
-/// it the C functions of the standard.
+/// A unit under way. Lifecycle, values and inputs are kept for it, and
+/// [`export_fmi2`](crate::export_fmi2) and [`export_fmi3`](crate::export_fmi3) give it the C functions of a standard.
 ///
 /// To make another unit, write its [`About`] with the table of variables and its [`Block`] as two
-/// statics, implement the methods without a body, and call `softstop_fmi::export!` in a `cdylib`.
+/// statics, implement the methods without a body, and call each of these macros in a `cdylib` of its own.
 /// `tests/tank/mod.rs` is one in a page.
 ///
 /// Its clone, and what is read back from its bytes, must go on bit for bit.

@@ -6,14 +6,18 @@ mod three;
 #[path = "tank/mod.rs"]
 mod unit;
 
-mod ffi {
-    softstop_fmi::export!(super::unit::Tank);
+mod fmi2 {
+    softstop_fmi::export_fmi2!(super::unit::Tank);
+}
+
+mod fmi3 {
+    softstop_fmi::export_fmi3!(super::unit::Tank);
 }
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 
-use ffi::*;
+use fmi2::*;
 use softstop_fmi::package::{self, Library};
 use softstop_fmi::{Imprint, description, guid_of, library_guid};
 use unit::Tank;

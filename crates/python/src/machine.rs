@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use softstop::{Dimension, Machine as Stated};
 use softstop_console::failure::Failure;
-use softstop_optimize::fmu::{archive, library};
+use softstop_optimize::fmu::{Standard, archive, library};
 use softstop_optimize::page::figures::sketch;
 
 use crate::command::json_to_toml;
@@ -57,7 +57,7 @@ impl Machine {
 
     /// The bytes of its FMU, which starts in its initial state.
     fn fmu(&self) -> PyResult<Vec<u8>> {
-        let library = library().map_err(|error| of_failure(error.into()))?;
+        let library = library(Standard::Fmi2).map_err(|error| of_failure(error.into()))?;
         let bytes = archive(&library, &self.stated, self.stated.start);
         bytes.map_err(|error| of_failure(Failure::usage(format!("{error:#}"))))
     }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use softstop_fmu::Standard;
 use tempfile::TempDir;
 
 use super::library::library_path;
@@ -80,7 +81,7 @@ impl Program {
 
     fn arguments(&self) -> [PathBuf; 2] {
         let description = Path::new(env!("CARGO_MANIFEST_DIR")).join("../modelDescription.xml");
-        [library_path(), description]
+        [library_path(Standard::Fmi2), description]
     }
 }
 

@@ -5,7 +5,7 @@ use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 
 use softstop_fmi::variable::Kind;
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 use softstop_fmu::{library_guid, table};
 
 pub const OK: c_int = 0;

@@ -20,7 +20,7 @@ use crate::common::OK;
 use calls::{Call, UNITS};
 use perform::perform;
 use probe::{Probe, silent};
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 use world::World;
 
 /// Three steps from the beginning: all that can be read after each.

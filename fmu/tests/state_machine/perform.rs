@@ -3,7 +3,7 @@
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 use std::ptr;
 
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 use super::calls::{Call, Null, StatusOf, Type};
 

@@ -4,7 +4,7 @@ use std::ffi::c_void;
 use std::ptr;
 
 use softstop_fmi::variable::Kind;
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 use softstop_fmu::{library_guid, table};
 
 use super::calls::{Call, Null, Type, reference};

@@ -3,7 +3,7 @@
 use std::ffi::{c_char, c_void};
 use std::ptr;
 
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 
 use super::calls::{Call, Damage, Null};
 use super::model::Expected;

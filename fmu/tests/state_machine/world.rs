@@ -7,7 +7,7 @@
 use std::ffi::{CString, c_int, c_void};
 use std::ptr;
 
-use softstop_fmu::ffi::*;
+use softstop_fmi2::*;
 use softstop_fmu::library_guid;
 
 use super::calls::{Birth, Call, Point, STATES, UNITS};

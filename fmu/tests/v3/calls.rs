@@ -7,7 +7,7 @@ use std::ptr;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
-use softstop_fmu::ffi::*;
+use softstop_fmi3::*;
 
 use super::unit::{HANDLINGS, Unit, reference};
 use crate::common::{DISCARD, ERROR, OK};

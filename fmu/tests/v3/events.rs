@@ -2,7 +2,7 @@
 
 use std::ptr;
 
-use softstop_fmu::ffi::*;
+use softstop_fmi3::*;
 
 use super::unit::{HANDLINGS, Unit};
 use crate::common;

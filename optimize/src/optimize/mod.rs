@@ -35,7 +35,7 @@ use softstop_console::scene_file;
 use softstop_dynamics::zone::ZoneKind;
 
 use crate::design::Problem;
-use crate::fmu::{archive, library, parameters};
+use crate::fmu::{Standard, archive, library, parameters};
 use crate::page::figure::Figure;
 use crate::page::figures::{figures, pareto, response};
 use crate::page::html;
@@ -192,7 +192,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     for ending in [".csv", ".svg"] {
         export.refuse_folders_called(ending)?;
     }
-    let library = library()?;
+    let library = library(Standard::Fmi2)?;
     let keep = Keep::open(&job.output, "optimize", &job.identity(), arguments.keep)?;
     let mut outcome = match solve(&job, &keep) {
         Err(failure @ Failure::Run(_)) => {

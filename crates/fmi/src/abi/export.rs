@@ -69,18 +69,27 @@ macro_rules! c_functions {
     };
 }
 
-/// The C functions of both standards for one type that is a [`Unit`](crate::Unit), with the types of their callbacks. To
-/// be called once in a library, in a module of its own.
+/// The C functions of FMI 2.0 for one type that is a [`Unit`](crate::Unit), with the types of their callbacks. To be
+/// called once in a library, in a module of its own.
 #[macro_export]
-macro_rules! export {
+macro_rules! export_fmi2 {
     ($unit_type:ty) => {
         use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
         pub use $crate::v2::{CallbackFunctions, Logger};
+
+        $crate::export_v2!($unit_type);
+    };
+}
+
+/// The C functions of FMI 3.0, as [`export_fmi2`] those of FMI 2.0.
+#[macro_export]
+macro_rules! export_fmi3 {
+    ($unit_type:ty) => {
+        use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
         pub use $crate::v3::{
             ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,
         };
 
-        $crate::export_v2!($unit_type);
         $crate::export_v3!($unit_type);
         $crate::export_v3_values!($unit_type);
         $crate::export_v3_absent!($unit_type);

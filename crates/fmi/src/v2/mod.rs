@@ -1,6 +1,6 @@
 //! FMI 2.0 for co-simulation: its 34 C functions, for any unit.
 //!
-//! Here the functions are generic; [`export`] makes the C functions of one unit.
+//! Here the functions are generic; [`export_fmi2`] makes the C functions of one unit.
 #![allow(
     unsafe_code,
     reason = "the C interface: pointers of the importer and exported symbols"

@@ -1,6 +1,6 @@
 //! FMI 3.0 for co-simulation: all 75 C functions of the standard, for any unit.
 //!
-//! Here the functions are generic; [`export`] makes the C functions of one unit. Those of the other
+//! Here the functions are generic; [`export_fmi3`] makes the C functions of one unit. Those of the other
 //! interface types, and of what the units do not have, answer with an error and one log line.
 #![allow(
     unsafe_code,

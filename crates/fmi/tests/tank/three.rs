@@ -5,7 +5,7 @@ use std::ptr;
 
 use softstop_fmi::{Imprint, Standard, description, guid_of, library_guid};
 
-use super::ffi::*;
+use super::fmi3::*;
 use super::unit::Tank;
 use super::{DISCARD, ERROR, INFLOW, LEVEL, OK};
 

@@ -12,7 +12,7 @@ use std::process::Command;
 const ARCHIVE: &str = "libgcc_eh.a";
 
 fn main() -> io::Result<()> {
-    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=Cargo.toml");
     let is = |name: &str, value: &str| env::var(name).is_ok_and(|found| found == value);
     if !(is("CARGO_CFG_TARGET_OS", "linux") && is("CARGO_CFG_TARGET_ENV", "gnu")) {
         return Ok(());

@@ -1,3 +1,0 @@
-//! The library of drive.fmu.
-
-softstop_fmi::export!(softstop_units::Drive);

@@ -1,0 +1,3 @@
+//! The library of drive.fmu for FMI 3.0.
+
+softstop_fmi::export_fmi3!(softstop_units::Drive);

@@ -1,0 +1,3 @@
+//! The library of feeder.fmu for FMI 2.0.
+
+softstop_fmi::export_fmi2!(softstop_units::Feeder);
