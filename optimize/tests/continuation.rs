@@ -97,6 +97,62 @@ fn folds_over_clearance_are_those_of_fig_6() {
     assert!(report.path("curves.csv").exists() && report.path("curves.svg").exists());
 }
 
+/// Resonant grazing of the loaded machine, where its curves of grazing, flips and folds meet; the JSON has their points.
+#[test]
+fn curves_tell_where_they_meet_and_have_their_points() {
+    let report = SOFTSTOP.report(
+        "continue loaded --parameter eta --from 0.9 --to 1.7 --second rho --second-from 2 --second-to 24",
+    );
+    let curves = report.list("curves/curves");
+    let found = curves.iter().flat_map(|curve| {
+        assert_eq!(
+            curve["table"]["value"].as_array().map(Vec::len),
+            Some(points(curve))
+        );
+        curve["specials"].as_array().expect("a list")
+    });
+    let mut on = Vec::new();
+    for special in found {
+        assert_eq!(special["name"], "resonant grazing");
+        has_near(
+            special,
+            &[
+                ("values/0", 1.004_846_261_4, 1e-9),
+                ("values/1", 21.832_067_109, 1e-8),
+            ],
+        );
+        on.push(special["on"].as_str().expect("a symbol"));
+    }
+    on.sort_unstable();
+    assert_eq!(on, ["G", "PD", "SN"]);
+    let branch = report.at("branches/0");
+    let marked = branch["table"]["special"]
+        .as_array()
+        .expect("a column")
+        .iter();
+    let marked: Vec<_> = marked.filter(|it| *it != "").collect();
+    assert_eq!(marked, ["G", "PD", "SN", "G"]);
+    report.shows("curves.svg", &["resonant grazing (RG)"]);
+}
+
+fn points(curve: &serde_json::Value) -> usize {
+    softstop_testing::number(curve, "points") as usize
+}
+
+/// With m = 4 kg and k1 = 16 N/m eta = 1 is 2 rad/s.
+#[test]
+fn a_machine_in_si_units_is_followed_along_eta() {
+    let specials = [("eta", 0.9, 1.6), ("excitation.frequency", 1.8, 3.2)].map(|(name, from, to)| {
+        let line = format!(
+            "continue ../docs/scenes/rigid.toml --set mass=4 --set stiffness=16 --set excitation.amplitude=16 \
+             --set damping=0.32 --set excitation.frequency=2.3 --parameter {name} --from {from} --to {to}"
+        );
+        SOFTSTOP.report(&line).list("branches/0/specials").to_vec()
+    });
+    assert_eq!(specials[0], specials[1]);
+    assert!(!specials[0].is_empty());
+}
+
 #[test]
 fn a_mass_that_bounces_without_end_is_no_obstacle() {
     // Pressed on a stop at its place of rest; doubling there once ran without end.

@@ -110,7 +110,7 @@ impl MachineArguments {
     }
 
     /// The parameter of this key that the machine has, and the key's unit in the machine's own
-    /// ([`Machine::stated`]); `flag` asks for it.
+    /// ([`Machine::stated`]); `flag` asks for it. `eta` is the drive's frequency in units of sqrt(k1/m) of any machine.
     ///
     /// # Errors
     /// [`Failure::Usage`] naming the flag, and what the machine has instead.
@@ -120,6 +120,11 @@ impl MachineArguments {
         flag: &str,
         name: &str,
     ) -> Result<(Parameter, f64), Failure> {
+        let own = (machine.scene.stiffness / machine.scene.mass).sqrt();
+        if name == "eta" && machine.speaks != Language::Ratios && own > 0.0 {
+            let frequency = Parameter::Frequency;
+            return Ok((frequency, machine.to_own(frequency.about().dimension, own)));
+        }
         let found = machine.stated(name);
         found.map_err(|error| Failure::usage(format!("--{flag} {name}: {error}")))
     }

@@ -50,7 +50,8 @@ The parameter starts at the machine's own value, which must lie between --from a
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct ContinueArguments {
     /// Parameter to follow the motion along, by its key in the file, whose unit the values are in, such
-    /// as excitation.frequency, excitation.frequency_hz or mass, or by its letter of ratios (eta, rho, k4)
+    /// as excitation.frequency, excitation.frequency_hz or mass, or by its letter of ratios (eta, rho, k4);
+    /// eta, the drive frequency in units of sqrt(k1/m), any machine has
     #[arg(long, value_name = "NAME")]
     pub parameter: String,
     /// Lowest value of the parameter

@@ -80,7 +80,8 @@ impl Ways {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, after_long_help = help(), allow_negative_numbers = true)]
 pub struct SweepArguments {
-    /// Parameter to sweep, by its key in the file, whose unit the values are in, or by its letter of ratios
+    /// Parameter to sweep, by its key in the file, whose unit the values are in, or by its letter of ratios; eta,
+    /// the drive frequency in units of sqrt(k1/m), any machine has
     /// [default: the drive frequency, as the machine states it]
     #[arg(long, value_name = "NAME")]
     pub parameter: Option<String>,
