@@ -3,7 +3,7 @@
 
 use argmin::core::CostFunction;
 use softstop::{Machine, Parameter};
-use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::zone::ZoneKind;
 use softstop_optimize::design::constraint::{ActiveLimit, Limit};
 use softstop_optimize::design::figure::{Figure, Sense};
@@ -150,7 +150,7 @@ fn assert_holds(problem: &Problem, design: &Design, machines: usize) -> Outcome 
     };
     let required = problem.requirements.iter().copied();
     let required: Vec<Requirement> = required.filter(Requirement::is_of_each_motion).collect();
-    let verdict = verify(&spread, &design.orbit, (settings, &required), &unwatched)?;
+    let verdict = verify(&spread, &design.orbit, (settings, &required), &unmonitored)?;
     assert_eq!(verdict.lost, 0);
     assert!(
         verdict.violating.iter().all(|count| *count == 0),

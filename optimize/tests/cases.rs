@@ -315,9 +315,9 @@ fn tolerances_hold_in_every_case() -> Outcome {
         ..robust::Settings::default()
     };
     let settings = (settings, &problem.requirements[..]);
-    let unwatched = &softstop_dynamics::watch::unwatched;
+    let unmonitored = &softstop_dynamics::monitor::unmonitored;
     let drawn = problem.drawn(design).ok_or("tolerances")?;
-    let together = verify_in_cases(&drawn, settings, unwatched)?;
+    let together = verify_in_cases(&drawn, settings, unmonitored)?;
     assert_eq!((together.machines, together.rejected), (1 << 12, 0));
     for (index, (problem, design)) in points.iter().enumerate() {
         let spread = problem.spread(&design.machine).ok_or("tolerances")?;
@@ -325,10 +325,10 @@ fn tolerances_hold_in_every_case() -> Outcome {
             (Figure::Velocity, Sense::Least),
             (Figure::StopForce, Sense::Most),
         ];
-        let found = worst(&spread, &design.orbit, &figures, unwatched)?;
+        let found = worst(&spread, &design.orbit, &figures, unmonitored)?;
         assert_relative_eq!(found[0].value, design.value, max_relative = 1e-9);
         assert!(found[1].value <= 5e5 * (1.0 + 1e-9));
-        let alone = verify(&spread.over(FITTED), &design.orbit, settings, unwatched)?;
+        let alone = verify(&spread.over(FITTED), &design.orbit, settings, unmonitored)?;
         assert_eq!((alone.lost, alone.rejected), (0, 0));
         if let Some(case) = index.checked_sub(1) {
             let case = &together.cases[case];
@@ -347,7 +347,7 @@ fn tolerances_hold_in_every_case() -> Outcome {
     for (problem, design) in problems.iter().zip(others) {
         let spread = problem.spread(&design.machine).ok_or("tolerances")?;
         let figures = [(Figure::Velocity, Sense::Least)];
-        least.push(worst(&spread, &design.orbit, &figures, unwatched)?[0].value);
+        least.push(worst(&spread, &design.orbit, &figures, unmonitored)?[0].value);
     }
     let other = (least[0] + 0.5 * least[1] + least[2]) / 2.5;
     assert!(other <= mean * (1.0 + 1e-6), "{other} {mean}");

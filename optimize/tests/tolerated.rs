@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use softstop::{Machine, Parameter};
-use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::zone;
 use softstop_optimize::design::constraint::Limit;
 use softstop_optimize::design::figure::Figure;
@@ -63,13 +63,13 @@ fn lost(problem: &Problem, design: &Design) -> Result<usize, Box<dyn std::error:
         enough: usize::MAX,
         first: 0,
     };
-    Ok(verify(&spread, &design.orbit, (some, &[]), &unwatched)?.lost)
+    Ok(verify(&spread, &design.orbit, (some, &[]), &unmonitored)?.lost)
 }
 
 /// By how much all tolerances of a design may grow until the motion is lost; infinite beyond three times.
 fn factor(problem: &Problem, design: &Design) -> Result<f64, Box<dyn std::error::Error>> {
     let spread = problem.spread(&design.machine).ok_or("tolerances")?;
-    let found = nearest(&spread, &design.orbit, Norm::Box, 3.0, &unwatched)?;
+    let found = nearest(&spread, &design.orbit, Norm::Box, 3.0, &unmonitored)?;
     Ok(found.first().map_or(f64::INFINITY, |it| it.distance))
 }
 

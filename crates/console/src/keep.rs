@@ -3,7 +3,7 @@
 //! Beside its results a run has a file, gone once they are in place. Each finished [piece] of work is appended to it at
 //! once, with its checksum: a kill loses the pieces under way, and a record that it cuts off ends the file.
 //!
-//! [piece]: softstop_dynamics::watch::piece
+//! [piece]: softstop_dynamics::monitor::piece
 
 use std::collections::HashMap;
 use std::fs;
@@ -14,7 +14,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use anyhow::{Context, anyhow};
 use clap::Args;
 use serde::Serialize;
-use softstop_dynamics::watch::Memory;
+use softstop_dynamics::monitor::Memory;
 
 use crate::failure::Failure;
 use crate::interrupt::{requested, under_way};

@@ -2,7 +2,7 @@
 
 use softstop::Ratios;
 use softstop_dynamics::basin::{Options, basins};
-use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::{Axis, Grid, Regime};
 
 /// Runs the example.
@@ -13,7 +13,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         Axis::velocity(-20.0, 20.0, 24),
         0.0,
     );
-    let basins = basins(&scene, &grid, &Options::default(), &unwatched, None)?;
+    let basins = basins(&scene, &grid, &Options::default(), &unmonitored, None)?;
     for class in &basins.classes {
         println!("{}: {:.1} %", class.motion, 100.0 * class.share);
     }

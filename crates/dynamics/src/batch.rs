@@ -1,4 +1,4 @@
-//! Batches of motions that end at once where a watcher wants to stop.
+//! Batches of motions that end at once where a monitor wants to stop.
 
 use std::ops::ControlFlow;
 

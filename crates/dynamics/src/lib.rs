@@ -8,7 +8,7 @@
 //! what a motion, an end or a model is, are not, so that a match says what a new one asks for.
 //!
 //! What they all speak of stands at the root; the rest is where it is computed. Work that may be long takes a
-//! [`watch::Watcher`], [`watch::unwatched`] if nobody looks on.
+//! [`monitor::Monitor`], [`monitor::unmonitored`] if nobody looks on.
 //!
 //! ```
 //! use softstop::Ratios;
@@ -30,6 +30,7 @@ pub mod continuation;
 mod extremes;
 pub mod figure;
 pub mod models;
+pub mod monitor;
 pub mod motion;
 pub mod orbit;
 pub mod points;
@@ -42,7 +43,6 @@ mod strokes;
 pub mod supply;
 pub mod sweep;
 pub mod transitions;
-pub mod watch;
 pub mod zone;
 
 pub use attractors::Survey;

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::attractors::SurveyError;
 use crate::basin::{BasinTest, TestResult, TestedMotion};
+use crate::monitor::{Monitor, stop_if};
 use crate::orbit::Orbit;
 pub use crate::strokes::Strokes;
-use crate::watch::{Watcher, stop_if};
 use softstop::internals::{Motion, Phases};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Piercing, Scene};
 use softstop_lanes::Machine;
@@ -97,7 +97,7 @@ pub fn outlasts(
     missing: u32,
     reading: Reading,
     angles: usize,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Outlasting, SurveyError> {
     let basin_test = BasinTest::of(orbit)?;
     let line = Line::new(&orbit.scene, reading)?;
@@ -125,7 +125,7 @@ pub fn outlasts(
                 });
                 starts.push(angle);
             }
-            let results = basin_test.follow_motions::<true>(&machines, motions, watcher)?;
+            let results = basin_test.follow_motions::<true>(&machines, motions, monitor)?;
             let gap = |(angle, result): (f64, TestResult)| Gap {
                 angle,
                 comes_back: result.reaches,

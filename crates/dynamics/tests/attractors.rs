@@ -4,7 +4,7 @@
 use softstop::{Scene, Start, Stop};
 use softstop_dynamics::Survey;
 use softstop_dynamics::attractors::{Attractor, Chaos, Options, attractors, classify};
-use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_testing::{assert_near, is_near, loaded, unloaded};
 
 const OPTIONS: Options = Options {
@@ -21,7 +21,7 @@ fn survey(scene: &Scene) -> Survey {
 }
 
 fn survey_by(scene: &Scene, options: &Options) -> Survey {
-    let survey = attractors(scene, options, &unwatched).expect("a survey");
+    let survey = attractors(scene, options, &unmonitored).expect("a survey");
     assert_eq!(survey.lost, None);
     let starts: usize = survey.attractors.iter().map(|found| found.starts).sum();
     assert_eq!(starts, survey.starts, "every start counts once");
@@ -119,7 +119,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     let [one, three] = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("a pool")
-            .install(|| attractors(&scene, &options, &unwatched))
+            .install(|| attractors(&scene, &options, &unmonitored))
     });
     assert_eq!(one, three);
 }

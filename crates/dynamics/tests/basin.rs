@@ -5,7 +5,7 @@ use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
 use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::{Options, basins, establishing};
-use softstop_dynamics::watch::{stop_if, unwatched};
+use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{assert_near, is_near, rigid_stop, unloaded};
@@ -28,7 +28,7 @@ fn states(size: usize) -> Grid {
 }
 
 fn on(scene: &Scene, grid: &Grid) -> Basins {
-    let found = basins(scene, grid, &Options::default(), &unwatched, None).expect("there is one");
+    let found = basins(scene, grid, &Options::default(), &unmonitored, None).expect("there is one");
     assert_eq!(found.cells.len(), grid.cells());
     let cells: usize = found.classes.iter().map(|class| class.cells).sum();
     assert_eq!(cells, grid.cells());
@@ -176,7 +176,7 @@ fn the_certainty_falls_along_the_zone() {
         &places,
         &states(30),
         &Options::default(),
-        &unwatched,
+        &unmonitored,
         None,
     )
     .expect("there is one");

@@ -7,9 +7,9 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use softstop::internals::budget;
 use softstop::{MotionError, Scene, Start};
 use softstop_dynamics::attractors::{Options, attractors};
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::settled::Settling;
-use softstop_dynamics::watch::unwatched;
 use softstop_testing::machines::machines;
 use softstop_testing::random;
 
@@ -50,10 +50,10 @@ fn answers(scene: &Scene, windows: u64) -> [(Option<String>, u64); 3] {
     [
         told(budget::within(windows, || format!("{:?}", find(scene)))),
         told(budget::within(windows, || {
-            format!("{:?}", attractors(scene, &options, &unwatched))
+            format!("{:?}", attractors(scene, &options, &unmonitored))
         })),
         told(budget::within(windows, || {
-            format!("{:?}", settling.follow(&[(scene, start)], &unwatched))
+            format!("{:?}", settling.follow(&[(scene, start)], &unmonitored))
         })),
     ]
 }

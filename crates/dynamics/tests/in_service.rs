@@ -6,9 +6,9 @@ use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{
     BasinTest, ErosionProfile, Establishment, Options, basins, zone_box,
 };
+use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::run_up::{RunUp, Settings, Way};
 use softstop_dynamics::supply::{Reading, outlasts};
-use softstop_dynamics::watch::{stop_if, unwatched};
 use softstop_dynamics::{Axis, Grid, Orbit, Regime, Zone, orbit, zone};
 use softstop_testing::{loaded, unloaded};
 
@@ -34,14 +34,14 @@ fn cells(region: &Region, size: usize) -> Grid {
 fn who_comes_home_is_in_the_basin_of_z_1() {
     for scene in [unloaded(1.15), loaded()] {
         let zone = zone_of(&scene);
-        let (region, _) = zone_box(&scene, &zone, &unwatched).expect("a box");
+        let (region, _) = zone_box(&scene, &zone, &unmonitored).expect("a box");
         for place in [0.01, 0.3, 0.6, 0.97] {
             let orbit = zone.orbit_at(place).expect("z = 1");
             let grid = cells(&region, 40);
             let options = Options::default();
-            let found = basins(&orbit.scene, &grid, &options, &unwatched, None).expect("basins");
+            let found = basins(&orbit.scene, &grid, &options, &unmonitored, None).expect("basins");
             let starts: Vec<_> = (0..grid.cells()).map(|cell| grid.start(cell).0).collect();
-            let reached = BasinTest::of(&orbit).map(|home| home.reached(&starts, &unwatched));
+            let reached = BasinTest::of(&orbit).map(|home| home.reached(&starts, &unmonitored));
             let reached = reached.expect("computed").expect("not stopped");
             for (cell, reached) in reached.into_iter().enumerate() {
                 let class = &found.classes[usize::from(found.cells[cell])];
@@ -59,11 +59,11 @@ fn the_certainty_at_a_is_that_of_the_paper_room() {
         position: [-20.0, 20.0],
         velocity: [-20.0, 20.0],
     };
-    let of = |starts| Establishment::within(&one(&unloaded(1.15)), &square, starts, &unwatched);
+    let of = |starts| Establishment::within(&one(&unloaded(1.15)), &square, starts, &unmonitored);
     let found = of(40_000).expect("computed");
     assert!((found.share - 0.541).abs() < 0.002, "{}", found.share);
     assert!(found.interval[0] < 0.541 && found.interval[1] > 0.541);
-    let own = Establishment::of(&one(&unloaded(1.15)), 1000, &unwatched).expect("computed");
+    let own = Establishment::of(&one(&unloaded(1.15)), 1000, &unmonitored).expect("computed");
     assert_eq!((own.starts, own.region.position), (1000, [-20.0, 20.0]));
 }
 
@@ -73,7 +73,7 @@ fn b_outlasts_missing_strips() {
     let b = one(&loaded());
     for missing in [0, 1, 2, 5, 25] {
         for reading in [Reading::Near, Reading::Fixed] {
-            let found = outlasts(&b, missing, reading, 64, &unwatched).expect("computed");
+            let found = outlasts(&b, missing, reading, 64, &unmonitored).expect("computed");
             assert_eq!((found.share(), found.gaps.len()), (1.0, 64));
             assert_eq!(found.missed(), 0, "{missing} {reading:?}");
         }
@@ -85,7 +85,7 @@ fn b_outlasts_missing_strips() {
 fn near_the_fold_missing_strips_end_the_motion() {
     let zone = zone_of(&loaded());
     let near = zone.orbit_at(0.995).expect("z = 1");
-    let found = outlasts(&near, 25, Reading::Near, 32, &unwatched).expect("computed");
+    let found = outlasts(&near, 25, Reading::Near, 32, &unmonitored).expect("computed");
     assert!(found.share() < 0.5, "{}", found.share());
     let lost = found.gaps.iter().filter(|gap| !gap.comes_back);
     assert!(lost.clone().count() > 0 && lost.clone().all(|gap| gap.missed > 3));
@@ -108,7 +108,7 @@ fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
         with_peaks: true,
         ..Settings::default()
     };
-    let found = RunUp::of(&orbit, &settings, 1, &unwatched).expect("computed");
+    let found = RunUp::of(&orbit, &settings, 1, &unmonitored).expect("computed");
     let attempt = found.by(Way::FrequencyRaised).expect("tried");
     let steps = attempt.periods.expect("periods");
     assert_eq!(steps, 131, "from 0.5 to 1.15");
@@ -143,7 +143,7 @@ fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
             most_force: Some(most),
             ..settings.clone()
         };
-        RunUp::of(&orbit, &settings, 1, &unwatched).expect("computed")
+        RunUp::of(&orbit, &settings, 1, &unmonitored).expect("computed")
     };
     let reaches = attempt.share == 1.0;
     assert_eq!(
@@ -157,7 +157,7 @@ fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
 #[test]
 fn a_and_b_are_run_up_from_impacts() {
     for scene in [unloaded(1.15), loaded()] {
-        let run_up = RunUp::of(&one(&scene), &all_ways(), 64, &unwatched).expect("computed");
+        let run_up = RunUp::of(&one(&scene), &all_ways(), 64, &unmonitored).expect("computed");
         let works: Vec<Way> = run_up.works().map(|attempt| attempt.way).collect();
         let ways = [
             Way::FrequencyRaised,
@@ -184,7 +184,7 @@ fn a_way_says_where_it_loses_the_motion() {
     // A narrow stretch of z = 1 above a gap: at rho = 22, loaded, the flip ends it at 1.016794.
     let mut scene = loaded();
     (scene.clearance, scene.excitation.frequency) = (22.0, 1.005);
-    let run_up = RunUp::of(&one(&scene), &all_ways(), 64, &unwatched).expect("computed");
+    let run_up = RunUp::of(&one(&scene), &all_ways(), 64, &unmonitored).expect("computed");
     for attempt in &run_up.ways {
         let is_lost = attempt.lost.is_some_and(|lost| Some(lost) != attempt.from);
         assert!(attempt.share == 0.0 || !is_lost, "{attempt:?}");
@@ -195,8 +195,8 @@ fn a_way_says_where_it_loses_the_motion() {
 fn integrity_falls_to_nothing_at_the_fold() {
     let zone = zone_of(&unloaded(1.15));
     let places = ErosionProfile::evenly(5);
-    let (region, _) = zone_box(&zone.scene, &zone, &unwatched).expect("a box");
-    let profile = ErosionProfile::of(&zone, &region, (&places, 1024), &unwatched);
+    let (region, _) = zone_box(&zone.scene, &zone, &unmonitored).expect("a box");
+    let profile = ErosionProfile::of(&zone, &region, (&places, 1024), &unmonitored);
     let profile = profile.expect("computed");
     assert!(profile.region == region && !profile.widened);
     let at = |place: usize| &profile.places[place];
@@ -207,7 +207,7 @@ fn integrity_falls_to_nothing_at_the_fold() {
         assert_eq!(place.velocity, orbit.before_impact_velocity());
         // No cell of a survey lies in the ball but not in the basin, and one just outside of it is lost.
         let options = Options::default();
-        let found = basins(&orbit.scene, &grid, &options, &unwatched, None).expect("basins");
+        let found = basins(&orbit.scene, &grid, &options, &unmonitored, None).expect("basins");
         let largest = found.largest_ball_of(Regime::ONE).expect("a basin").radius;
         assert!(
             place.radius > 0.05 && place.radius < largest + 0.04,
@@ -233,10 +233,10 @@ fn integrity_falls_to_nothing_at_the_fold() {
 fn one_box_tells_the_same_of_a_motion_alone_and_along_its_zone() {
     let a = one(&unloaded(1.15));
     let zone = zone_of(&a.scene);
-    let alone = Establishment::of(&a, 512, &unwatched).expect("computed");
+    let alone = Establishment::of(&a, 512, &unmonitored).expect("computed");
     let width = zone.high.frequency - zone.frequency_g0;
     let place = (a.scene.excitation.frequency - zone.frequency_g0) / width;
-    let along = ErosionProfile::of(&zone, &alone.region, (&[place], 512), &unwatched);
+    let along = ErosionProfile::of(&zone, &alone.region, (&[place], 512), &unmonitored);
     assert_eq!(
         along.expect("computed").places[0].certainty.share,
         alone.share
@@ -246,7 +246,7 @@ fn one_box_tells_the_same_of_a_motion_alone_and_along_its_zone() {
         position: [-1.0, 1.0],
         velocity: [-1.0, 1.0],
     };
-    let wider = ErosionProfile::of(&zone, &small, (&[0.9], 512), &unwatched).expect("computed");
+    let wider = ErosionProfile::of(&zone, &small, (&[0.9], 512), &unmonitored).expect("computed");
     assert!(wider.widened && wider.region.position[1] > a.position.abs());
     assert!(wider.places[0].radius > 0.0);
 }
@@ -256,12 +256,12 @@ fn threads_and_watchers() {
     let all = || {
         let (a, b) = (one(&unloaded(1.15)), one(&loaded()));
         let zone = zone_of(&a.scene);
-        let region = starting_box(&a.scene, &unwatched).expect("a box");
+        let region = starting_box(&a.scene, &unmonitored).expect("a box");
         (
-            Establishment::of(&a, 2000, &unwatched).expect("computed"),
-            outlasts(&b, 3, Reading::Near, 300, &unwatched).expect("computed"),
-            RunUp::of(&a, &Settings::default(), 32, &unwatched).expect("computed"),
-            ErosionProfile::of(&zone, &region, (&[0.2, 0.8], 700), &unwatched).expect("computed"),
+            Establishment::of(&a, 2000, &unmonitored).expect("computed"),
+            outlasts(&b, 3, Reading::Near, 300, &unmonitored).expect("computed"),
+            RunUp::of(&a, &Settings::default(), 32, &unmonitored).expect("computed"),
+            ErosionProfile::of(&zone, &region, (&[0.2, 0.8], 700), &unmonitored).expect("computed"),
         )
     };
     let on = |threads| {

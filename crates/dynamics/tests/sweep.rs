@@ -6,8 +6,8 @@ use std::sync::Mutex;
 
 use rayon::ThreadPoolBuilder;
 use softstop::{Parameter, Ratios, Start, Stop};
+use softstop_dynamics::monitor::{Memory, unmonitored};
 use softstop_dynamics::sweep::{PlanError, hysteresis};
-use softstop_dynamics::watch::{Memory, unwatched};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Regime, Step, orbit};
 use softstop_testing::tolerance::{GROWN, MOTION};
 use softstop_testing::{assert_near, is_near, unloaded};
@@ -33,7 +33,7 @@ fn both(ratios: Ratios) -> Vec<Chain> {
 
 /// Runs a plan to its end.
 fn run(plan: &Plan, mut chains: Vec<Chain>) -> Vec<Chain> {
-    assert!(plan.run(&mut chains, &unwatched));
+    assert!(plan.run(&mut chains, &unmonitored));
     assert!(chains.iter().all(|chain| chain.error.is_none()));
     assert!(chains.iter().all(|chain| chain.steps.len() == plan.steps));
     chains
@@ -239,7 +239,7 @@ fn a_failed_chain_is_recalled_as_such() {
             chain(Ratios::unloaded(), Direction::Down),
             chain(Ratios::loaded(), Direction::Up),
         ];
-        assert!(plan.run_kept(&mut chains, &unwatched, Some(&pieces)));
+        assert!(plan.run_kept(&mut chains, &unmonitored, Some(&pieces)));
         chains
     };
     let done = run();
@@ -266,7 +266,7 @@ fn plans_and_parameters_that_cannot_be_are_refused() {
     assert!(matches!(plan((1.0, 2.0), 3, 0), Err(PlanError::Periods(0))));
     let plan = plan((-1.0, 1.0), 3, 3).expect("there is one");
     let mut chains = both(Ratios::unloaded());
-    assert!(plan.run(&mut chains, &unwatched));
+    assert!(plan.run(&mut chains, &unmonitored));
     // A frequency below zero: one chain cannot begin, the other cannot end.
     assert!(chains[0].steps.is_empty() && chains[0].error.is_some());
     assert_eq!(chains[1].steps.len(), 1);
@@ -281,7 +281,7 @@ fn steps_tell_the_order_of_impacts() {
         let start = Start::new(position, velocity);
         let plan = Plan { start, ..plan };
         let mut chain = [chain(Ratios::unloaded(), Direction::Up)];
-        assert!(plan.run(&mut chain, &unwatched));
+        assert!(plan.run(&mut chain, &unmonitored));
         let orders = chain[0].steps.iter().map(|step| step.motion.order());
         orders
             .map(|order| order.map_or_else(String::new, ToString::to_string))

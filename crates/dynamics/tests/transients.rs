@@ -3,8 +3,8 @@
 
 use softstop::{Ratios, Scene, SceneError, Slope, Start, Stop};
 use softstop_dynamics::Orbit;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::settled::{Seen, Settling};
-use softstop_dynamics::watch::unwatched;
 use softstop_testing::assert_near;
 use softstop_testing::tolerance::printed;
 
@@ -44,7 +44,9 @@ fn starts() -> impl Iterator<Item = Start> {
 
 fn follow(scene: &Scene, settling: Settling) -> Vec<Seen> {
     let motions: Vec<_> = starts().map(|start| (scene, start)).collect();
-    let seen = settling.follow(&motions, &unwatched).expect("not stopped");
+    let seen = settling
+        .follow(&motions, &unmonitored)
+        .expect("not stopped");
     seen.into_iter()
         .map(|seen| seen.expect("a motion"))
         .collect()
@@ -82,7 +84,7 @@ fn long_transients_are_followed_to_their_ends() -> Outcome {
     assert!(late.count() >= 2);
     // Each is told the same alone, though rounding may make its transient another.
     for (start, seen) in starts().zip(&seen) {
-        let alone = STUDY.follow(&[(&scene, start)], &unwatched);
+        let alone = STUDY.follow(&[(&scene, start)], &unmonitored);
         let alone = alone.and_then(|mut alone| alone.pop()).ok_or("stopped")??;
         assert_eq!(alone.regime(), seen.regime());
     }

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use softstop::{Ratios, Scene};
-use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::zone::{Loss, StableRange, find, find_among, stable_ranges};
 use softstop_testing::random::{self, log_uniform};
 use softstop_testing::tolerance::GROWN;
@@ -47,7 +47,7 @@ fn machines() -> impl Strategy<Value = Scene> {
 
 /// What is wrong at a frequency of a stretch.
 fn wrong(scene: &Scene, all: &[StableRange], stable_range: &StableRange) -> Option<String> {
-    let orbit = match find_among(scene, all, &unwatched) {
+    let orbit = match find_among(scene, all, &unmonitored) {
         Ok(orbit) => orbit,
         Err(error) => return Some(error.to_string()),
     };

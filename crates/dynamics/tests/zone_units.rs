@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use softstop::{Language, Machine, Piercing, Ratios, Scene, Start, Stop};
 use softstop_dynamics::MotionKind;
 use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::settled::Settling;
-use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{BranchEnd, ZoneError, hysteresis, loss_of_stability};
 use softstop_testing::{hertz, kelvin_voigt, preloaded, random, units};
 
@@ -81,7 +81,7 @@ fn what_has_not_settled_is_no_chaos_in_any_units() {
     for units in [units(1.0, 1.0), units(1e-6, 1e6)] {
         let scene = plain.in_units(units).expect("valid");
         let start = Start::new(0.5 * units.length(), 0.0);
-        let seen = settling.follow(&[(&scene, start)], &unwatched);
+        let seen = settling.follow(&[(&scene, start)], &unmonitored);
         let seen = seen.expect("followed").remove(0).expect("a motion");
         let map = seen.map(&scene).expect("valid");
         let (motion, growth) = seen.motion(&scene, &map).expect("a motion");

@@ -2,8 +2,8 @@
 
 use softstop::{Excitation, Parameter, Ratios, Scene, Stop};
 use softstop_dynamics::continuation::{Face, Heading, Test};
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::slopes::Border;
-use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{
     EndKind, Loss, ZoneKind, find_zones, hysteresis, loss_of_stability, single_impact,
     stable_ranges,
@@ -16,7 +16,7 @@ use softstop_testing::tolerance::DIFFERENCED;
 const ALL: (f64, f64) = (f64::MIN_POSITIVE, f64::INFINITY);
 
 fn whole(scene: &Scene) -> Zone {
-    let mut zones = single_impact(std::slice::from_ref(scene), ALL, &unwatched);
+    let mut zones = single_impact(std::slice::from_ref(scene), ALL, &unmonitored);
     zones.remove(0).expect("a zone")
 }
 
@@ -122,11 +122,11 @@ fn its_ends_have_normals() {
 fn one_frequency_is_enough_to_look_for_it() {
     let scene = pile_driver(0.004);
     let at = 75.0;
-    let zones = single_impact(std::slice::from_ref(&scene), (at, at), &unwatched);
+    let zones = single_impact(std::slice::from_ref(&scene), (at, at), &unmonitored);
     let found = zones.into_iter().next().expect("one").expect("a zone");
     assert_near(found.low.frequency, whole(&scene).low.frequency, 1e-6);
     assert!(!matches!(found.low.kind, EndKind::Free));
-    let none = single_impact(std::slice::from_ref(&scene), (400.0, 410.0), &unwatched);
+    let none = single_impact(std::slice::from_ref(&scene), (400.0, 410.0), &unmonitored);
     let words = none
         .into_iter()
         .next()
@@ -151,7 +151,7 @@ fn a_rigid_stop_behind_the_other_ends_a_zone() -> Result<(), Box<dyn std::error:
         Ok(scene)
     };
     let scenes = (0..=8).map(at).collect::<Result<Vec<Scene>, _>>()?;
-    let zones = find_zones(ZoneKind::Hysteresis, &scenes, &unwatched);
+    let zones = find_zones(ZoneKind::Hysteresis, &scenes, &unmonitored);
     for (scene, zone) in scenes.iter().zip(zones) {
         assert!(hysteresis(scene).is_err(), "clearance {}", scene.clearance);
         let zone = zone?;

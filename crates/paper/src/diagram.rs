@@ -4,7 +4,7 @@ use anyhow::{Error, Result};
 use rayon::prelude::*;
 use serde::Deserialize;
 use softstop::{Parameter, Scene};
-use softstop_dynamics::watch::Kept;
+use softstop_dynamics::monitor::Kept;
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Regime, Step};
 
 use crate::figure::Detail;

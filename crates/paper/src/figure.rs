@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use softstop_console::column::Column;
 use softstop_console::record::Record;
 use softstop_dynamics::attractors::Options;
+use softstop_dynamics::monitor::{Kept, piece};
 use softstop_dynamics::transitions::{Rules, Transition};
-use softstop_dynamics::watch::{Kept, piece};
 
 use crate::table1::{self, paper};
 

@@ -7,8 +7,8 @@ use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use softstop::{Ratios, Start};
 use softstop_dynamics::StroboscopicMap;
+use softstop_dynamics::monitor::piece;
 use softstop_dynamics::transitions::Transition;
-use softstop_dynamics::watch::piece;
 use softstop_lanes::{Job, Machine, Watch};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};

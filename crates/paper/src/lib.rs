@@ -35,7 +35,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::{self, Folder, Format};
-use softstop_dynamics::watch::piece;
+use softstop_dynamics::monitor::piece;
 
 const EXAMPLES: &str = "\
 Examples:

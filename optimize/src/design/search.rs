@@ -11,7 +11,7 @@
 
 use rayon::prelude::*;
 use softstop::internals::plain;
-use softstop_dynamics::watch::Kept;
+use softstop_dynamics::monitor::Kept;
 use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};

@@ -7,7 +7,7 @@
 
 use softstop_console::interrupt;
 use softstop_dynamics::basin::wilson;
-use softstop_dynamics::watch::Kept;
+use softstop_dynamics::monitor::Kept;
 
 use super::Design;
 use super::conflict::short;

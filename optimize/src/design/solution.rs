@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 use softstop_console::interrupt;
-use softstop_dynamics::watch::Kept;
+use softstop_dynamics::monitor::Kept;
 
 use super::coordinates::Candidate;
 use super::figure::Figure;

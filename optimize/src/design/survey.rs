@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use argmin::core::{CostFunction, Error};
 use rayon::prelude::*;
 use softstop::internals::budget;
+use softstop_dynamics::monitor::{Kept, piece};
 use softstop_dynamics::points::place;
-use softstop_dynamics::watch::{Kept, piece};
 
 use super::coordinates::Candidate;
 use super::incumbent::{Incumbent, Rank};

@@ -4,7 +4,7 @@ use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_draw::Stroke;
 use softstop_dynamics::continuation::{Continuation, Heading, Test};
-use softstop_dynamics::watch::stop_if;
+use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::{BranchPoint, Orbit, ParameterFamily, Zone};
 
 use super::figure::Curve;

@@ -5,8 +5,8 @@
 //! inputs, and for each input the points of A with that input as in B.
 
 use rayon::prelude::*;
+use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::points::{BLOCK, blocks, place};
-use softstop_dynamics::watch::Watcher;
 
 /// An estimate and its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,7 @@ pub fn indices<const N: usize>(
     dimensions: usize,
     effort: Effort,
     outputs: impl Fn(&[f64]) -> Option<[f64; N]> + Sync,
-    watcher: Watcher<'_>,
+    watcher: Monitor<'_>,
 ) -> Option<[Vec<Index>; N]> {
     let Effort { points, sequences } = effort;
     let points = points.clamp(2, BLOCK);

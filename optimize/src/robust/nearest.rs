@@ -8,10 +8,10 @@
 
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
+use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
 use softstop_dynamics::spread::{Spread, along};
-use softstop_dynamics::watch::Watcher;
 use softstop_dynamics::zone::Loss;
 
 use super::corners::corners;
@@ -48,7 +48,7 @@ pub fn nearest(
     nominal: &Orbit,
     norm: Norm,
     farthest: f64,
-    watcher: Watcher<'_>,
+    watcher: Monitor<'_>,
 ) -> Result<Vec<Nearest>, OrbitError> {
     along(spread, nominal, &vec![0.0; spread.dimensions()], 1e-3)?;
     let search = Search {
@@ -99,7 +99,7 @@ impl Search<'_> {
     fn of_motion(
         &self,
         mut met: Vec<Meeting>,
-        watcher: Watcher<'_>,
+        watcher: Monitor<'_>,
     ) -> Result<Vec<Nearest>, OrbitError> {
         let mut found: Vec<Nearest> = Vec::new();
         loop {
@@ -119,7 +119,7 @@ impl Search<'_> {
         &self,
         start: Meeting,
         others: &mut Vec<Meeting>,
-        watcher: Watcher<'_>,
+        watcher: Monitor<'_>,
     ) -> Result<Nearest, OrbitError> {
         let mut here = start;
         let mut normal = self.normal(&here);

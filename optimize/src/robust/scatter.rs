@@ -1,10 +1,10 @@
 //! Which tolerance eats the margin.
 
 use softstop_dynamics::continuation::Test;
+use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, place};
 use softstop_dynamics::spread::{Fate, Guide, Model, Spread, critical_normal, free_normal};
-use softstop_dynamics::watch::{Watcher, unwatched};
 use softstop_dynamics::zone::{ZoneError, ZoneKind, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 
@@ -49,7 +49,7 @@ pub fn sensitivities(
         false => None,
     };
     Ok(Sensitivities {
-        velocity: nominal_slopes(spread, nominal, &unwatched)?,
+        velocity: nominal_slopes(spread, nominal, &unmonitored)?,
         to_fold: fold.map(|normal| normal.iter().map(|part| -part).collect()),
         to_free: free_normal(spread, &centre).ok(),
     })
@@ -74,7 +74,7 @@ pub fn scatter(
     spread: &dyn Spread,
     (nominal, kind): (&Orbit, ZoneKind),
     effort: Effort,
-    watcher: Watcher<'_>,
+    watcher: Monitor<'_>,
 ) -> Result<Option<Scatter>, OrbitError> {
     let dimensions = spread.dimensions();
     // Of a sequence that the points do not use.

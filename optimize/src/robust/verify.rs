@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
+use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, blocks, place};
 use softstop_dynamics::spread::{Fate, Model, Settled, Spread};
-use softstop_dynamics::watch::Watcher;
 use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;
@@ -183,7 +183,7 @@ pub fn verify(
     spread: &Tolerances,
     nominal: &Orbit,
     (settings, required): (Settings, &[Requirement]),
-    watcher: Watcher<'_>,
+    watcher: Monitor<'_>,
 ) -> Result<Verdict, OrbitError> {
     verify_in_cases(&[(spread.clone(), nominal)], (settings, required), watcher)
 }
@@ -196,7 +196,7 @@ pub fn verify(
 pub fn verify_in_cases(
     points: &[(Tolerances, &Orbit)],
     (settings, required): (Settings, &[Requirement]),
-    watcher: Watcher<'_>,
+    watcher: Monitor<'_>,
 ) -> Result<Verdict, OrbitError> {
     let spread = &points[0].0;
     let dimensions = spread.dimensions();

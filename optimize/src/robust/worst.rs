@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::{Figure, Sense};
+use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::slopes;
 use softstop_dynamics::spread::{Spread, in_coordinates, varied};
-use softstop_dynamics::watch::Watcher;
 
 use super::Tolerances;
 use super::corners::corners;
@@ -48,7 +48,7 @@ pub fn worst(
     spread: &Tolerances,
     nominal: &Orbit,
     figures: &[(Figure, Sense)],
-    watcher: Watcher<'_>,
+    watcher: Monitor<'_>,
 ) -> Result<Vec<Worst>, OrbitError> {
     let neighbours = Neighbours::new(spread, nominal);
     let corners = corners(spread.dimensions(), CORNERS).into_par_iter();
@@ -79,7 +79,7 @@ struct Search<'a> {
     neighbours: &'a Neighbours<'a>,
     figure: Figure,
     sign: f64,
-    watcher: Watcher<'a>,
+    watcher: Monitor<'a>,
 }
 
 impl Search<'_> {
@@ -209,7 +209,7 @@ impl Search<'_> {
 pub(super) fn nominal_slopes(
     spread: &Tolerances,
     nominal: &Orbit,
-    watcher: Watcher<'_>,
+    watcher: Monitor<'_>,
 ) -> Result<Vec<f64>, OrbitError> {
     let search = Search {
         neighbours: &Neighbours::new(spread, nominal),

@@ -4,9 +4,9 @@ use rayon::prelude::*;
 use softstop::Parameter;
 use softstop_dynamics::basin::wilson;
 use softstop_dynamics::figure::Figure;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::points::random;
 use softstop_dynamics::spread::Spread;
-use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::{Orbit, Stroke};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::problem::{Tolerance, Width};
@@ -71,7 +71,7 @@ fn the_share_that_is_reported_is_that_of_machines_by_chance() -> Outcome {
     };
     let required = kept.required_of_each();
     let spread = spread.over(FITTED);
-    let verdict = verify(&spread, &design.orbit, (settings, &required), &unwatched)?;
+    let verdict = verify(&spread, &design.orbit, (settings, &required), &unmonitored)?;
     let [low, high] = verdict.share_rejected();
     assert!(
         (0.9 * problem.violating..=problem.violating).contains(&high),
@@ -133,7 +133,7 @@ fn the_share_beyond_one_bound_is_that_of_the_normal_distribution() -> Outcome {
         &spread.over(FITTED),
         &nominal,
         (settings, &[bound]),
-        &unwatched,
+        &unmonitored,
     )?;
     let share = verdict.rejected as f64 / verdict.machines as f64;
     assert!((normal_quantile(share) + 1.5).abs() < 1e-3, "{share}");

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use approx::assert_relative_eq;
-use softstop_dynamics::watch::unwatched;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::zone;
 use softstop_dynamics::zone::ZoneKind;
 use softstop_optimize::robust::{Effort, Estimate, indices, scatter, sensitivities};
@@ -26,7 +26,7 @@ fn ishigami() -> Outcome {
         let [x, y, z] = [at[0], at[1], at[2]].map(|at| PI * at);
         Some([x.sin() + a * y.sin().powi(2) + b * z.powi(4) * x.sin()])
     };
-    let [found] = indices(3, Effort::default(), function, &unwatched).ok_or("indices")?;
+    let [found] = indices(3, Effort::default(), function, &unmonitored).ok_or("indices")?;
     let pi = PI.powi(4);
     let variance = a * a / 8.0 + b * pi / 5.0 + b * b * pi * pi / 18.0 + 0.5;
     let alone = 0.5 * (1.0 + b * pi / 5.0).powi(2) / variance;
@@ -49,7 +49,7 @@ fn shares_of_a_sum_are_those_of_its_parts() -> Outcome {
         let sum: f64 = parts.sum();
         Some([sum, 1e6 + sum])
     };
-    let found = indices(4, Effort::default(), sum, &unwatched).ok_or("indices")?;
+    let found = indices(4, Effort::default(), sum, &unmonitored).ok_or("indices")?;
     for found in found {
         for (index, weight) in found.iter().zip(weights) {
             agrees(index.first, weight * weight / 14.0, 0.01);
@@ -68,8 +68,8 @@ fn nothing_is_told_of_what_does_not_change_or_is_not_there() {
         sequences: 2,
     };
     let stop = |_: u64, _: u64| ControlFlow::Break(());
-    assert!(indices(2, few, |_| Some([1.0]), &unwatched).is_none());
-    assert!(indices(2, few, |_| None::<[f64; 1]>, &unwatched).is_none());
+    assert!(indices(2, few, |_| Some([1.0]), &unmonitored).is_none());
+    assert!(indices(2, few, |_| None::<[f64; 1]>, &unmonitored).is_none());
     assert!(indices(2, few, |at| Some([at[0]]), &stop).is_none());
 }
 
@@ -85,7 +85,7 @@ fn scatter_of_small_tolerances_is_that_of_the_slopes() -> Outcome {
         &tolerances,
         (&nominal, ZoneKind::Hysteresis),
         effort,
-        &unwatched,
+        &unmonitored,
     )?
     .ok_or("indices")?;
     let slopes = sensitivities(&tolerances, &nominal, &zone::hysteresis(&machine.scene)?)?;

@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 use approx::assert_relative_eq;
 use rayon::prelude::*;
 use softstop::Parameter;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::spread::{Spread, along};
-use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::{self, Loss};
 use softstop_optimize::robust::{Manifold, Nearest, Norm, Settings, nearest, verify};
 
@@ -31,7 +31,7 @@ fn along_the_frequency_it_is_the_border_of_the_zone() -> Outcome {
         let zone = zone::hysteresis(&machine.scene)?;
         let frequency = machine.scene.excitation.frequency;
         for norm in [Norm::Box, Norm::Ball] {
-            let found = nearest(&tolerances, &nominal, norm, 12.0, &unwatched)?;
+            let found = nearest(&tolerances, &nominal, norm, 12.0, &unmonitored)?;
             let fold = of(&found, &Manifold::Motion(Loss::Fold))?;
             let share = (zone.high.frequency / frequency - 1.0) / 0.02;
             assert_relative_eq!(fold.distance, share, max_relative = 1e-8);
@@ -50,7 +50,7 @@ fn no_direction_of_a_dense_fan_leads_to_a_nearer_loss() -> Outcome {
     let machine = press()?;
     let (tolerances, nominal) = spread(&machine, &TWO, 1.0)?;
     for norm in [Norm::Box, Norm::Ball] {
-        let found = nearest(&tolerances, &nominal, norm, 10.0, &unwatched)?;
+        let found = nearest(&tolerances, &nominal, norm, 10.0, &unmonitored)?;
         let fold = of(&found, &Manifold::Motion(Loss::Fold))?;
         let distance = |index: usize| {
             let (sin, cos) = (TAU * index as f64 / 240.0).sin_cos();
@@ -80,14 +80,14 @@ fn no_machine_within_is_lost_and_some_are_just_outside() -> Outcome {
     for machine in machines()? {
         for percent in [TWO.to_vec(), shop(&machine)] {
             let (tolerances, nominal) = spread(&machine, &percent, 1.0)?;
-            let found = nearest(&tolerances, &nominal, Norm::Box, FARTHEST, &unwatched)?;
+            let found = nearest(&tolerances, &nominal, Norm::Box, FARTHEST, &unmonitored)?;
             let mut lost = found
                 .iter()
                 .filter(|one| one.manifold != Manifold::Hysteresis);
             let least = lost.next();
             let factor = least.map_or(FARTHEST, |least| least.distance);
             let (within, _) = spread(&machine, &percent, 0.9999 * factor)?;
-            let verdict = verify(&within, &nominal, (few(4096), &[]), &unwatched)?;
+            let verdict = verify(&within, &nominal, (few(4096), &[]), &unmonitored)?;
             assert_eq!(
                 verdict.lost, 0,
                 "{:?} {percent:?} {found:?} {:?}",
@@ -99,7 +99,7 @@ fn no_machine_within_is_lost_and_some_are_just_outside() -> Outcome {
             assert_eq!(end.loss.map(Manifold::Motion), Some(least.manifold.clone()));
             if percent.len() == 2 {
                 let (outside, _) = spread(&machine, &percent, 1.02 * factor)?;
-                let verdict = verify(&outside, &nominal, (few(1 << 15), &[]), &unwatched)?;
+                let verdict = verify(&outside, &nominal, (few(1 << 15), &[]), &unmonitored)?;
                 assert!(verdict.lost > 0, "{least:?}");
             }
         }

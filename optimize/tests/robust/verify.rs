@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, SceneError, Units};
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::points::{BLOCK, place};
 use softstop_dynamics::spread::Spread;
-use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
 use softstop_optimize::robust::{Distribution, Settings, Tolerance, Tolerances, verify};
@@ -43,7 +43,7 @@ fn a_machine_is_lost_if_its_drive_is_faster_than_the_fold() -> Outcome {
             machines: 512,
             ..FEW
         };
-        let verdict = verify(&tolerances, &nominal, (some, &[]), &unwatched)?;
+        let verdict = verify(&tolerances, &nominal, (some, &[]), &unmonitored)?;
         let frequency = |index| tolerances.scene(&place(index, 1)).excitation.frequency;
         let beyond = (0..some.machines)
             .filter(|index| frequency(*index) > fold)
@@ -63,7 +63,7 @@ fn a_machine_is_lost_if_its_drive_is_faster_than_the_fold() -> Outcome {
 fn every_velocity_is_that_of_the_orbit() -> Outcome {
     for machine in machines()? {
         let (tolerances, nominal) = spread(&machine, &shop(&machine), 1.0)?;
-        let verdict = verify(&tolerances, &nominal, (FEW, &[]), &unwatched)?;
+        let verdict = verify(&tolerances, &nominal, (FEW, &[]), &unmonitored)?;
         assert_eq!(verdict.lost, 0);
         let mut slowest = f64::INFINITY;
         for index in (0..FEW.machines).step_by(16) {
@@ -108,7 +108,7 @@ fn ratios_and_si_tell_the_same() -> Outcome {
     for machine in [machine.clone(), dimensional] {
         let (tolerances, nominal) =
             spread(&machine, &shop(&Machine::named("loaded").ok_or("B")?), 1.0)?;
-        let verdict = verify(&tolerances, &nominal, (FEW, &[]), &unwatched)?;
+        let verdict = verify(&tolerances, &nominal, (FEW, &[]), &unmonitored)?;
         means.push(verdict.mean().ok_or("a motion")?.0);
     }
     assert_relative_eq!(means[0] * unit, means[1], max_relative = 1e-9);
@@ -127,7 +127,7 @@ fn any_number_of_threads_tells_the_same() -> Outcome {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()?;
-        let verdict = pool.install(|| verify(&tolerances, &nominal, (some, &[]), &unwatched))?;
+        let verdict = pool.install(|| verify(&tolerances, &nominal, (some, &[]), &unmonitored))?;
         assert!(verdict.lost > 0);
         Ok::<_, Box<dyn std::error::Error>>(format!("{verdict:?}"))
     };
@@ -144,7 +144,7 @@ fn enough_lost_machines_or_a_watcher_end_it() -> Outcome {
         enough: 10,
         first: 0,
     };
-    let verdict = verify(&tolerances, &nominal, (settings, &[]), &unwatched)?;
+    let verdict = verify(&tolerances, &nominal, (settings, &[]), &unmonitored)?;
     assert!(verdict.lost >= 10 && verdict.machines < BLOCK);
     let stopped = verify(&tolerances, &nominal, (settings, &[]), &|_, _| {
         ControlFlow::Break(())

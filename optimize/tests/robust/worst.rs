@@ -3,10 +3,10 @@
 use approx::assert_relative_eq;
 use rayon::prelude::*;
 use softstop::Parameter;
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
 use softstop_dynamics::spread::{Spread, along};
-use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::{Orbit, Stroke, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::robust::{
@@ -18,7 +18,7 @@ use super::{Outcome, machines, press, shop, spread};
 /// The machine that strikes the least.
 fn slowest(spread: &Tolerances, nominal: &Orbit) -> Result<Worst, OrbitError> {
     let figures = [(Figure::Velocity, Sense::Least)];
-    let mut found = worst(spread, nominal, &figures, &unwatched)?;
+    let mut found = worst(spread, nominal, &figures, &unmonitored)?;
     found.pop().ok_or(OrbitError::NotIsolated)
 }
 
@@ -34,7 +34,7 @@ fn no_machine_is_beyond_the_worst() -> Outcome {
     ];
     for machine in machines()? {
         let (tolerances, nominal) = spread(&machine, &shop(&machine), 1.0)?;
-        let all = worst(&tolerances, &nominal, &figures, &unwatched)?;
+        let all = worst(&tolerances, &nominal, &figures, &unmonitored)?;
         for index in 0..512 {
             let scene = tolerances.scene(&place(index, tolerances.dimensions()));
             let orbit = Orbit::near(&scene, nominal.state())?;
@@ -65,7 +65,7 @@ fn no_machine_strikes_less_than_the_worst() -> Outcome {
             let worst = slowest(&tolerances, &nominal)?;
             let least = worst.orbit.before_impact_velocity();
             assert!(worst.at.iter().all(|at| at.abs() <= 1.0));
-            let sampled = verify(&tolerances, &nominal, (few, &[]), &unwatched)?;
+            let sampled = verify(&tolerances, &nominal, (few, &[]), &unmonitored)?;
             let (sampled, _) = sampled.quantile(0.0).ok_or("machines")?;
             let loss = nominal.before_impact_velocity() - least;
             assert!(least <= sampled, "{least} {sampled}");

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::SurveyError;
 use crate::batch::follow;
-use crate::watch::{Watcher, stop_if};
+use crate::monitor::{Monitor, stop_if};
 use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
@@ -15,7 +15,7 @@ use softstop_lanes::{Job, Machine, Watch};
 /// Motions that one thread follows at a time: several times as many as there are lanes.
 const MEMBERS_AT_ONCE: usize = 64;
 
-/// Drive periods for which they are followed before the watcher is asked again, where many motions cost little and
+/// Drive periods for which they are followed before the monitor is asked again, where many motions cost little and
 /// where they do not: a third of a second.
 const PERIODS_AT_ONCE: (u64, u64) = (1 << 16, 256);
 
@@ -43,17 +43,17 @@ impl EnsembleMember {
 /// The machine they share, and how much work has been done.
 pub(crate) struct Ensemble<'a> {
     pub machine: [Machine; 1],
-    watcher: Watcher<'a>,
+    monitor: Monitor<'a>,
     done: AtomicU64,
     /// Work that will be done at most, in drive periods unless its owner counts otherwise.
     pub planned: u64,
 }
 
 impl<'a> Ensemble<'a> {
-    pub(crate) fn new(scene: &Scene, watcher: Watcher<'a>) -> Result<Self, SurveyError> {
+    pub(crate) fn new(scene: &Scene, monitor: Monitor<'a>) -> Result<Self, SurveyError> {
         Ok(Self {
             machine: [Machine::new(scene)?],
-            watcher,
+            monitor,
             done: AtomicU64::new(0),
             planned: 0,
         })
@@ -73,10 +73,10 @@ impl<'a> Ensemble<'a> {
         self.done.load(Ordering::Relaxed)
     }
 
-    /// Counts work; an error if the watcher wants to stop, or the budget is spent.
+    /// Counts work; an error if the monitor wants to stop, or the budget is spent.
     pub(crate) fn note(&self, periods: u64) -> Result<(), SurveyError> {
         let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
-        match (self.watcher)(done, self.planned.max(done)) {
+        match (self.monitor)(done, self.planned.max(done)) {
             ControlFlow::Continue(()) if !budget::is_spent() => Ok(()),
             _ => Err(SurveyError::Stopped),
         }
@@ -97,7 +97,7 @@ impl<'a> Ensemble<'a> {
         sailed
     }
 
-    /// Carries motions on in stretches, so that the watcher is asked often.
+    /// Carries motions on in stretches, so that the monitor is asked often.
     fn advance_together(
         &self,
         members: &mut [&mut EnsembleMember],

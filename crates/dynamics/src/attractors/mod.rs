@@ -113,7 +113,7 @@ impl Default for Options {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SurveyError {
-    /// The watcher asked to stop.
+    /// The monitor asked to stop.
     #[error("the search for motions was stopped")]
     Stopped,
     /// The scene is invalid, or a start cannot be.

@@ -8,10 +8,10 @@ use super::ball::ContractionBall;
 use super::section::at_section;
 use crate::attractors::SurveyError;
 use crate::batch::follow;
+use crate::monitor::Monitor;
 use crate::orbit::Orbit;
 use crate::orbit::recurrence::{distance, size};
 use crate::strokes::Strokes;
-use crate::watch::Watcher;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
 use softstop::internals::budget::Fork;
@@ -103,14 +103,14 @@ impl BasinTest {
     }
 
     /// Which of the motions from these states at drive angle phi come to the orbit; a motion that cannot be computed
-    /// does not. The same for any number of threads. The watcher is not told how much is done.
+    /// does not. The same for any number of threads. The monitor is not told how much is done.
     ///
     /// # Errors
     /// [`SurveyError::Stopped`].
     pub fn reached(
         &self,
         starts: &[Start],
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Result<Vec<bool>, SurveyError> {
         let motion = |state: &Start| TestedMotion {
             machine: 0,
@@ -121,7 +121,7 @@ impl BasinTest {
         };
         let follow_motions = |starts: &[Start]| {
             let motions: Vec<TestedMotion> = starts.iter().map(motion).collect();
-            self.follow_motions::<false>(&self.machine, motions, watcher)
+            self.follow_motions::<false>(&self.machine, motions, monitor)
         };
         let (fork, chunks) = (Fork::default(), starts.par_chunks(TOGETHER));
         let chunks = chunks.map(|starts| fork.part(|| follow_motions(starts)));
@@ -140,14 +140,14 @@ impl BasinTest {
         &self,
         machines: &[Machine],
         mut motions: Vec<TestedMotion>,
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Result<Vec<TestResult>, SurveyError> {
         let period = TAU / self.drive.frequency;
         let mut reached = vec![false; motions.len()];
         let mut left: Vec<usize> = (0..motions.len()).collect();
         let mut periods = 0;
         while !left.is_empty() && periods < self.patience {
-            if watcher(0, 0).is_break() {
+            if monitor(0, 0).is_break() {
                 return Err(SurveyError::Stopped);
             }
             let job = |motion: &usize| Job {
@@ -161,7 +161,7 @@ impl BasinTest {
                 motions: &mut motions,
                 open: &left,
             };
-            let outcomes = follow(machines, &jobs, &mut counter, || watcher(0, 0));
+            let outcomes = follow(machines, &jobs, &mut counter, || monitor(0, 0));
             let outcomes = outcomes.ok_or(SurveyError::Stopped)?;
             periods += PERIODS_AT_ONCE;
             let ends = left.into_iter().zip(outcomes);

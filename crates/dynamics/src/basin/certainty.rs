@@ -4,8 +4,8 @@ use thiserror::Error;
 
 use super::{Basins, Grid, Options, basins};
 use crate::attractors::SurveyError;
+use crate::monitor::{Kept, Monitor};
 use crate::orbit::Regime;
-use crate::watch::{Kept, Watcher};
 use crate::zone::{Zone, ZoneError};
 
 /// The basins at one place of the zone.
@@ -38,17 +38,17 @@ pub enum CertaintyError {
 
 /// The establishing certainty of z = 1 at places s of a hysteresis zone (Peterka 2003, section 3: it is said to
 /// rise from 0 at s_SN to 1 at g0): the share of the initial states of a grid that lead to it, or to any of several
-/// z = 1 motions, a weak and a strong one say. The watcher is
+/// z = 1 motions, a weak and a strong one say. The monitor is
 /// told of the cells done at all places.
 ///
 /// # Errors
-/// [`CertaintyError`] if a place lies outside the zone, the basins cannot be computed or the watcher says stop.
+/// [`CertaintyError`] if a place lies outside the zone, the basins cannot be computed or the monitor says stop.
 pub fn establishing(
     zone: &Zone,
     places: &[f64],
     grid: &Grid,
     options: &Options,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
     kept: Kept<'_>,
 ) -> Result<Vec<Establishing>, CertaintyError> {
     let each = grid.cells() as u64;
@@ -59,8 +59,8 @@ pub fn establishing(
         let before = each * index as u64;
         let all = each * places.len() as u64;
         let scene = zone.scene_at(*place);
-        let watcher = |done, _| watcher(before + done, all);
-        let basins = basins(&scene, grid, options, &watcher, kept)?;
+        let monitor = |done, _| monitor(before + done, all);
+        let basins = basins(&scene, grid, options, &monitor, kept)?;
         let (certainty, interval) = basins.share(Regime::ONE);
         Ok(Establishing {
             place: *place,

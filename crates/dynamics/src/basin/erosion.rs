@@ -12,8 +12,8 @@ use super::certainty::CertaintyError;
 use super::share::wilson;
 use crate::attractors::starts::evenly;
 use crate::attractors::{Region, SurveyError, starting_box, stays};
+use crate::monitor::Monitor;
 use crate::orbit::Orbit;
-use crate::watch::Watcher;
 use crate::zone::Zone;
 use softstop::{Scene, Start};
 
@@ -36,9 +36,9 @@ impl Establishment {
     ///
     /// # Errors
     /// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
-    pub fn of(orbit: &Orbit, starts: usize, watcher: Watcher<'_>) -> Result<Self, SurveyError> {
-        let region = starting_box(&orbit.scene, watcher)?;
-        Self::within(orbit, &region, starts, watcher)
+    pub fn of(orbit: &Orbit, starts: usize, monitor: Monitor<'_>) -> Result<Self, SurveyError> {
+        let region = starting_box(&orbit.scene, monitor)?;
+        Self::within(orbit, &region, starts, monitor)
     }
 
     /// The same in another box.
@@ -49,10 +49,10 @@ impl Establishment {
         orbit: &Orbit,
         region: &Region,
         starts: usize,
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Result<Self, SurveyError> {
         let states = region.starts(starts, SEED);
-        let reached = BasinTest::of(orbit)?.reached(&states, watcher)?;
+        let reached = BasinTest::of(orbit)?.reached(&states, monitor)?;
         Ok(Self::counted(&reached, region))
     }
 
@@ -65,9 +65,9 @@ impl Establishment {
         orbit: &Orbit,
         region: &Region,
         starts: usize,
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Result<(Self, f64), SurveyError> {
-        integrity(orbit, region, &region.starts(starts, SEED), watcher)
+        integrity(orbit, region, &region.starts(starts, SEED), monitor)
     }
 
     fn counted(reached: &[bool], region: &Region) -> Self {
@@ -99,12 +99,12 @@ const LEAST: f64 = 1e-4;
 pub fn zone_box(
     scene: &Scene,
     zone: &Zone,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<(Region, bool), SurveyError> {
-    let own = starting_box(scene, watcher)?;
+    let own = starting_box(scene, monitor)?;
     let mut all = Vec::new();
     for place in BOXED {
-        all.extend(stays(&zone.scene_at(place), watcher)?);
+        all.extend(stays(&zone.scene_at(place), monitor)?);
     }
     let region = own.holding(scene, &all);
     Ok((region, region != own))
@@ -146,12 +146,12 @@ impl ErosionProfile {
     /// ball lies in it. The same for any number of threads.
     ///
     /// # Errors
-    /// [`CertaintyError`] if a place lies outside the zone, a motion is lost or the watcher says stop.
+    /// [`CertaintyError`] if a place lies outside the zone, a motion is lost or the monitor says stop.
     pub fn of(
         zone: &Zone,
         region: &Region,
         (places, starts): (&[f64], usize),
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Result<Self, CertaintyError> {
         let orbits = places.iter().map(|place| zone.orbit_at(*place));
         let orbits: Vec<Orbit> = orbits.collect::<Result<_, _>>()?;
@@ -161,7 +161,7 @@ impl ErosionProfile {
         let region = held;
         let states = region.starts(starts, SEED);
         let place = |(place, orbit): (&f64, &Orbit)| -> Result<Integrity, CertaintyError> {
-            let (certainty, radius) = integrity(orbit, &region, &states, watcher)?;
+            let (certainty, radius) = integrity(orbit, &region, &states, monitor)?;
             Ok(Integrity {
                 place: *place,
                 frequency: orbit.scene.excitation.frequency,
@@ -190,16 +190,16 @@ fn integrity(
     orbit: &Orbit,
     region: &Region,
     states: &[Start],
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<(Establishment, f64), SurveyError> {
     let basin_test = BasinTest::of(orbit)?;
-    let reached = basin_test.reached(states, watcher)?;
+    let reached = basin_test.reached(states, monitor)?;
     let certainty = Establishment::counted(&reached, region);
     let ball = StateBall::new(orbit, region);
     let mut radius = ball.nearest_lost(states, &reached, ball.edge(region));
     while radius > LEAST {
         let filling = ball.filling(radius, (states.len() / PART).max(FEWEST));
-        let reached = basin_test.reached(&filling, watcher)?;
+        let reached = basin_test.reached(&filling, monitor)?;
         let smaller = ball.nearest_lost(&filling, &reached, radius);
         if smaller == radius {
             return Ok((certainty, radius));

@@ -9,7 +9,7 @@ use super::basin_test::PERIODS_AT_ONCE;
 use super::survey::{BasinSurvey, CellOutcome, TILE};
 use crate::attractors::SurveyError;
 use crate::batch;
-use crate::watch::{PIECE, piece, stop_if};
+use crate::monitor::{PIECE, piece, stop_if};
 use softstop::Start;
 use softstop::internals::budget::Fork;
 use softstop_lanes::Job;

@@ -13,11 +13,11 @@
 //! ```
 //! use softstop::Ratios;
 //! use softstop_dynamics::basin::{Axis, Grid, Options, basins};
-//! use softstop_dynamics::watch::unwatched;
+//! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let scene = Ratios::unloaded().scene()?;
 //! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
-//! let basins = basins(&scene, &grid, &Options::default(), &unwatched, None)?;
+//! let basins = basins(&scene, &grid, &Options::default(), &unmonitored, None)?;
 //! // Point A: without impacts, and z = 1.
 //! let names: Vec<String> = basins.classes.iter().map(|class| class.motion.to_string()).collect();
 //! assert_eq!(names, ["z = 0", "z = 1"]);

@@ -9,7 +9,7 @@ use super::{Basins, Grid, Options};
 use crate::attractors::SurveyError;
 use crate::attractors::catalogue::{AttractorCatalogue, Status};
 use crate::attractors::ensemble::{Ensemble, EnsembleMember};
-use crate::watch::{Kept, Watcher, piece, stop_if};
+use crate::monitor::{Kept, Monitor, piece, stop_if};
 use softstop::internals::budget::Fork;
 use softstop::{MotionError, Scene, Start};
 
@@ -66,7 +66,7 @@ struct CellOutcomes {
     lost: Option<(usize, String)>,
 }
 
-/// The basins of a scene on a grid. The watcher is told of the cells done and of all cells; what is known is recalled.
+/// The basins of a scene on a grid. The monitor is told of the cells done and of all cells; what is known is recalled.
 ///
 /// # Errors
 /// [`SurveyError::Motion`] if the scene is invalid; [`SurveyError::Stopped`].
@@ -74,10 +74,10 @@ pub fn basins(
     scene: &Scene,
     grid: &Grid,
     options: &Options,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
     kept: Kept<'_>,
 ) -> Result<Basins, SurveyError> {
-    let mut ensemble = Ensemble::new(scene, watcher)?;
+    let mut ensemble = Ensemble::new(scene, monitor)?;
     ensemble.planned = grid.cells() as u64;
     let mut survey = BasinSurvey {
         scene,

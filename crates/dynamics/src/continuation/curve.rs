@@ -65,7 +65,7 @@ pub enum CurveEnd {
     Grazing,
     /// The impact dies in resonant grazing; the last point is there.
     ResonantGrazing,
-    /// The watcher asked for it.
+    /// The monitor asked for it.
     Stopped,
     /// It cannot be followed even with the smallest step.
     Lost(OrbitError),

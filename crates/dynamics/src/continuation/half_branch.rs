@@ -25,7 +25,7 @@ pub enum End {
     Grazing,
     /// The orbit becomes one of half as many periods, at its flip; the last point is that.
     Merged,
-    /// The watcher asked for it.
+    /// The monitor asked for it.
     Stopped,
     /// Just beyond the last point the orbit would meet something where the force jumps.
     Border(BorderCollision),

@@ -12,8 +12,8 @@ use super::half_branch::Limits;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
+use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
-use crate::watch::stop_if;
 
 /// Scaled distances from the flip at which the doubled branch is looked for.
 const DISTANCES: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];

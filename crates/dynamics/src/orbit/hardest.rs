@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use super::scan::{NEAR, RATIO, Singles, TIMES, apart, between, guesses, speeds};
 use super::{Orbit, OrbitError};
-use crate::watch::Watcher;
+use crate::monitor::Monitor;
 use softstop::Scene;
 
 /// Difference of times, in units of the period, and ratio of velocities, up to which Newton's method is followed from a cell to
@@ -19,7 +19,7 @@ const REACH: (f64, f64) = (4.0 / TIMES as f64, 4.0);
 pub(crate) fn hardest_single(
     scene: &Scene,
     least: f64,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Option<Orbit>, OrbitError> {
     scene.validate()?;
     let Some(mut singles) = Singles::new(scene) else {
@@ -27,7 +27,7 @@ pub(crate) fn hardest_single(
     };
     let mut speeds = speeds(scene);
     speeds.retain(|speed| RATIO * speed > least);
-    let mut guesses = guesses(&singles.shooting, (singles.period, &speeds), watcher)?;
+    let mut guesses = guesses(&singles.shooting, (singles.period, &speeds), monitor)?;
     guesses.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut hardest: Option<Orbit> = None;
     for guess in guesses {
@@ -37,7 +37,7 @@ pub(crate) fn hardest_single(
         if RATIO.sqrt() * guess.1 < known {
             break;
         }
-        singles.look_within(guess, watcher)?;
+        singles.look_within(guess, monitor)?;
         let stable = singles.found.iter().filter(|orbit| orbit.is_stable());
         hardest = stable.max_by(|a, b| a.compare_velocity(b)).cloned();
     }
@@ -47,8 +47,8 @@ pub(crate) fn hardest_single(
 impl Singles<'_> {
     /// Follows Newton's method from a guess as long as it stays near, and from there to another motion that may lie beside the
     /// one that it leads to.
-    fn look_within(&mut self, guess: (f64, f64), watcher: Watcher<'_>) -> Result<(), OrbitError> {
-        OrbitError::ask(watcher)?;
+    fn look_within(&mut self, guess: (f64, f64), monitor: Monitor<'_>) -> Result<(), OrbitError> {
+        OrbitError::ask(monitor)?;
         let (period, impacts) = (self.period, self.impacts());
         let is_near = |at: (f64, f64)| impacts.iter().any(|it| apart(*it, at, period) < NEAR);
         let leaves = |at: (f64, f64)| {
@@ -77,8 +77,8 @@ impl Singles<'_> {
 #[cfg(test)]
 mod tests {
     use super::{Orbit, hardest_single};
+    use crate::monitor::unmonitored;
     use crate::orbit::scan::all_single;
-    use crate::watch::unwatched;
     use softstop::{Machine, Parameter};
 
     #[test]
@@ -93,11 +93,11 @@ mod tests {
             machine.set(Parameter::Clearance, clearance);
             for step in 0..40 {
                 let scene = machine.scene.at_frequency(0.4 * 1.06_f64.powi(step));
-                let mut all = all_single(&scene, &unwatched).expect("a scene");
+                let mut all = all_single(&scene, &unmonitored).expect("a scene");
                 all.retain(Orbit::is_stable);
                 let hardest = all.last().map(Orbit::before_impact_velocity);
                 let above = |least| {
-                    let found = hardest_single(&scene, least, &unwatched).expect("a scene");
+                    let found = hardest_single(&scene, least, &unmonitored).expect("a scene");
                     found.map(|orbit| orbit.before_impact_velocity())
                 };
                 let Some(hardest) = hardest else {

@@ -43,7 +43,7 @@ use std::ops::ControlFlow;
 use nalgebra::{Complex, Matrix2};
 use thiserror::Error;
 
-use crate::watch::Watcher;
+use crate::monitor::Monitor;
 use softstop::{MotionError, SceneError};
 
 /// Why there is no orbit.
@@ -75,7 +75,7 @@ pub enum OrbitError {
         /// Impacts in the period.
         impacts: usize,
     },
-    /// The watcher asked for it.
+    /// The monitor asked for it.
     #[error("stopped")]
     Stopped,
     /// The motion cannot be computed.
@@ -84,9 +84,9 @@ pub enum OrbitError {
 }
 
 impl OrbitError {
-    /// [`OrbitError::Stopped`] if a watcher wants to stop.
-    pub(crate) fn ask(watcher: Watcher<'_>) -> Result<(), Self> {
-        match watcher(0, 0) {
+    /// [`OrbitError::Stopped`] if a monitor wants to stop.
+    pub(crate) fn ask(monitor: Monitor<'_>) -> Result<(), Self> {
+        match monitor(0, 0) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(Self::Stopped),
         }

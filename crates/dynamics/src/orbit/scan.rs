@@ -9,7 +9,7 @@ use super::beside::beside_frequency;
 use super::multi_segment_shooting::{MultiSegmentShooting, Nearest};
 use super::{Orbit, OrbitError};
 use crate::extremes::extremes;
-use crate::watch::{Watcher, unwatched};
+use crate::monitor::{Monitor, unmonitored};
 use softstop::Scene;
 
 /// Times in a drive period, and velocities, each so many times the one before.
@@ -45,8 +45,8 @@ const MOST: usize = 100;
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is none; [`OrbitError::Stopped`].
-pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbit>, OrbitError> {
-    Ok(scan(scene, watcher)?.map_or(Vec::new(), |singles| singles.found))
+pub(crate) fn all_single(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Orbit>, OrbitError> {
+    Ok(scan(scene, monitor)?.map_or(Vec::new(), |singles| singles.found))
 }
 
 /// The same, and before them those at frequencies within a share of the scene's that near misses lead to.
@@ -56,9 +56,9 @@ pub(crate) fn all_single(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Orbi
 pub(crate) fn all_about(
     scene: &Scene,
     share: f64,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Vec<Orbit>, OrbitError> {
-    let Some(singles) = scan(scene, watcher)? else {
+    let Some(singles) = scan(scene, monitor)? else {
         return Ok(Vec::new());
     };
     let beside = |impact| beside_frequency(scene, impact, share);
@@ -72,20 +72,20 @@ pub(crate) fn all_about(
 /// first to one and then, kept away from it, to others.
 pub(crate) fn singles_near(scene: &Scene, impact: (f64, f64)) -> Vec<Orbit> {
     Singles::new(scene).map_or(Vec::new(), |mut singles| {
-        singles.look(impact, &unwatched).unwrap_or_default();
+        singles.look(impact, &unmonitored).unwrap_or_default();
         singles.found
     })
 }
 
-fn scan<'a>(scene: &'a Scene, watcher: Watcher<'_>) -> Result<Option<Singles<'a>>, OrbitError> {
+fn scan<'a>(scene: &'a Scene, monitor: Monitor<'_>) -> Result<Option<Singles<'a>>, OrbitError> {
     scene.validate()?;
-    OrbitError::ask(watcher)?;
+    OrbitError::ask(monitor)?;
     let Some(mut singles) = Singles::new(scene) else {
         return Ok(None);
     };
     let lattice = (singles.period, &speeds(scene)[..]);
-    for guess in guesses(&singles.shooting, lattice, watcher)? {
-        singles.look(guess, watcher)?;
+    for guess in guesses(&singles.shooting, lattice, monitor)? {
+        singles.look(guess, monitor)?;
     }
     singles.found.sort_by(Orbit::compare_velocity);
     Ok(Some(singles))
@@ -116,8 +116,8 @@ impl<'a> Singles<'a> {
     }
 
     /// Follows Newton's method from a guess, and from there to others that may lie beside the motion that it leads to.
-    fn look(&mut self, guess: (f64, f64), watcher: Watcher<'_>) -> Result<(), OrbitError> {
-        OrbitError::ask(watcher)?;
+    fn look(&mut self, guess: (f64, f64), monitor: Monitor<'_>) -> Result<(), OrbitError> {
+        OrbitError::ask(monitor)?;
         let (period, impacts) = (self.period, self.impacts());
         let known = |at: &[f64]| {
             let near = |other| apart(other, (at[0], at[1]), period) < NEAR;
@@ -126,7 +126,7 @@ impl<'a> Singles<'a> {
         let settled = self.shooting.settle_new(&[guess], known);
         let mut next = settled.map_err(|failed| self.miss(failed.nearest));
         while let Ok(orbit) = next {
-            OrbitError::ask(watcher)?;
+            OrbitError::ask(monitor)?;
             if orbit.is_some_and(|orbit| !self.keep(orbit)) {
                 break;
             }
@@ -191,7 +191,7 @@ pub(super) fn between(one: f64, other: f64, period: f64) -> f64 {
 pub(super) fn guesses(
     shooting: &MultiSegmentShooting<'_>,
     (period, speeds): (f64, &[f64]),
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Vec<(f64, f64)>, OrbitError> {
     let width = period / TIMES as f64;
     let mut lattice = Lattice {
@@ -199,7 +199,7 @@ pub(super) fn guesses(
         width,
         known: vec![None; TIMES * speeds.len()],
         speeds,
-        watcher,
+        monitor,
     };
     let last = speeds.len().saturating_sub(1);
     let mut guesses = Vec::new();
@@ -231,7 +231,7 @@ struct Lattice<'a> {
     width: f64,
     speeds: &'a [f64],
     known: Vec<Option<Option<[f64; 2]>>>,
-    watcher: Watcher<'a>,
+    monitor: Monitor<'a>,
 }
 
 impl Lattice<'_> {
@@ -250,7 +250,7 @@ impl Lattice<'_> {
             *corner = match self.known[place] {
                 Some(known) => known,
                 None => {
-                    OrbitError::ask(self.watcher)?;
+                    OrbitError::ask(self.monitor)?;
                     let time = column as f64 * self.width;
                     *self.known[place].insert(self.shooting.gap(time, self.speeds[row]))
                 }

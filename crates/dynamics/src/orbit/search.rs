@@ -10,7 +10,7 @@ use super::periodic::STEEP;
 use super::scan::{FAINTEST, all_single};
 use super::trials::{Candidate, RETURNS, Trial, Trials, distance, least, settled};
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
-use crate::watch::{Watcher, unwatched};
+use crate::monitor::{Monitor, unmonitored};
 use softstop::internals::Scales;
 use softstop::{MotionError, Scene};
 use softstop_lanes::Machine;
@@ -36,16 +36,16 @@ const SAME_SPEED: f64 = 1e-9;
 /// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is
 /// invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
-    find_with_monitor(scene, &unwatched)
+    find_with_monitor(scene, &unmonitored)
 }
 
-/// The motion that [`find`] finds, as long as a watcher, which is not told how much is done, lets the search go on.
+/// The motion that [`find`] finds, as long as a monitor, which is not told how much is done, lets the search go on.
 ///
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
-pub fn find_with_monitor(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitError> {
-    let settled = search(from_ref(scene), usize::MAX, watcher).remove(0);
-    let mut all = all_single(scene, watcher)?;
+pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, OrbitError> {
+    let settled = search(from_ref(scene), usize::MAX, monitor).remove(0);
+    let mut all = all_single(scene, monitor)?;
     all.retain(Orbit::is_stable);
     match (settled, all.pop()) {
         (Ok(settled), Some(other)) if other.is_harder(&settled) => Ok(other),
@@ -72,13 +72,13 @@ impl Orbit {
 ///
 /// # Errors
 /// Each as of [`find`].
-pub(crate) fn find_batch(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Orbit, OrbitError>> {
-    search(scenes, 1, watcher)
+pub(crate) fn find_batch(scenes: &[Scene], monitor: Monitor<'_>) -> Vec<Result<Orbit, OrbitError>> {
+    search(scenes, 1, monitor)
 }
 
 /// The best of all motions that the first groups of states lead to; further groups are tried only as long as there is
 /// none. The motions of all scenes are followed together, and those no farther that lead to a stable one that was met.
-fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<Orbit, OrbitError>> {
+fn search(scenes: &[Scene], groups: usize, monitor: Monitor<'_>) -> Vec<Result<Orbit, OrbitError>> {
     let none = |scene: &Scene| OrbitError::NotFound {
         frequency: scene.excitation.frequency,
         clearance: scene.clearance,
@@ -99,7 +99,7 @@ fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<O
     let kept = STAGES.iter().flat_map(|(_, after)| *after).copied();
     let mut trials = Trials::new(scenes, kept.collect());
     for (until, after) in STAGES {
-        trials.follow(&machines, until, watcher);
+        trials.follow(&machines, until, monitor);
         for (machine, (index, fixed_points)) in searches.iter_mut().enumerate() {
             let trials = trials.of(machine);
             if !trials.iter().any(|trial| trial.is_open) {
@@ -111,7 +111,7 @@ fn search(scenes: &[Scene], groups: usize, watcher: Watcher<'_>) -> Vec<Result<O
                 continue;
             }
             let hardest = fixed_points
-                .search(trials, after, groups, watcher)
+                .search(trials, after, groups, monitor)
                 .transpose();
             let is_over = hardest.is_some();
             if let Some(hardest) = hardest {
@@ -178,15 +178,15 @@ impl<'a> FixedPoints<'a> {
         trials: &[Trial],
         after: &[u64],
         groups: usize,
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Result<Option<Orbit>, OrbitError> {
-        OrbitError::ask(watcher)?;
-        self.look_at(least(trials), watcher)?;
+        OrbitError::ask(monitor)?;
+        self.look_at(least(trials), monitor)?;
         if after.is_empty() {
             return Ok(None);
         }
         if groups > 1 || self.singles().next().is_none() {
-            self.look_at(settled(trials, after), watcher)?;
+            self.look_at(settled(trials, after), monitor)?;
         }
         self.tried.clear();
         Ok(self.hardest())
@@ -211,10 +211,10 @@ impl<'a> FixedPoints<'a> {
     fn look_at(
         &mut self,
         candidates: Vec<Candidate>,
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Result<(), OrbitError> {
         for candidate in candidates {
-            OrbitError::ask(watcher)?;
+            OrbitError::ask(monitor)?;
             let Candidate { moves, state, .. } = candidate;
             let stands = |other: &Vector2<f64>| self.apart(*other, state) < STANDS_FOR * moves;
             if !self.is_near(state)

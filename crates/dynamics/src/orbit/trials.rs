@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector2;
 
 use crate::batch::follow;
-use crate::watch::Watcher;
+use crate::monitor::Monitor;
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
 use softstop_lanes::{Job, Machine, Watch};
@@ -88,7 +88,7 @@ impl Trials {
     }
 
     /// Follows those that are open up to a number of drive periods in all.
-    pub(super) fn follow(&mut self, machines: &[Machine], until: u64, watcher: Watcher<'_>) {
+    pub(super) fn follow(&mut self, machines: &[Machine], until: u64, monitor: Monitor<'_>) {
         let mut open: Vec<&mut Trial> = self.all.iter_mut().filter(|it| it.is_open).collect();
         let job = |trial: &&mut Trial| Job {
             machine: trial.machine,
@@ -102,8 +102,8 @@ impl Trials {
             kept: &self.kept,
             since: self.cycle,
         };
-        // The caller asks the watcher itself.
-        let _ = follow(machines, &jobs, &mut recorder, || watcher(0, 0));
+        // The caller asks the monitor itself.
+        let _ = follow(machines, &jobs, &mut recorder, || monitor(0, 0));
         self.cycle = until;
     }
 }

@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::attractors::SurveyError;
 use crate::basin::{BasinTest, at_section};
+use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime};
 use crate::stroke::PeriodRecorder;
 use crate::sweep::{Chain, Plan};
-use crate::watch::{Watcher, stop_if};
 use softstop::{MotionError, Parameter, Scene, Start};
 
 pub use way::Way;
@@ -129,14 +129,14 @@ impl RunUp {
         orbit: &Orbit,
         settings: &Settings,
         angles: usize,
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Result<Self, SurveyError> {
         let basin_test = BasinTest::of(orbit)?;
         let tried = settings.ways.par_iter().map(|way| match way {
             Way::SwitchedOn => {
-                switched_on(orbit, &basin_test, (settings, angles), watcher).map(Some)
+                switched_on(orbit, &basin_test, (settings, angles), monitor).map(Some)
             }
-            _ => changed(orbit, &basin_test, (settings, *way), watcher),
+            _ => changed(orbit, &basin_test, (settings, *way), monitor),
         });
         let tried = tried.collect::<Result<Vec<Option<Attempt>>, SurveyError>>()?;
         Ok(Self {
@@ -197,7 +197,7 @@ fn switched_on(
     orbit: &Orbit,
     basin_test: &BasinTest,
     (settings, angles): (&Settings, usize),
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Attempt, SurveyError> {
     let (scene, rest) = (&orbit.scene, at_rest(&orbit.scene));
     let (phases, angles) = (scene.phases().into(), angles.max(1));
@@ -207,7 +207,7 @@ fn switched_on(
     let states = angles.iter();
     let states = states.map(|angle| at_section(&phases, scene.excitation, rest, *angle));
     let states = states.collect::<Result<Vec<Start>, _>>()?;
-    let reached = basin_test.reached(&states, watcher)?;
+    let reached = basin_test.reached(&states, monitor)?;
     let peaks = || {
         let mut peaks = Peaks::default();
         for state in states {
@@ -246,7 +246,7 @@ fn changed(
     orbit: &Orbit,
     basin_test: &BasinTest,
     (settings, way): (&Settings, Way),
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Option<Attempt>, SurveyError> {
     let scene = &orbit.scene;
     let Some((parameter, from, direction)) = way.change(scene) else {
@@ -267,13 +267,13 @@ fn changed(
         ..plan
     };
     let mut chains = [Chain::new(scene.clone(), direction)];
-    if !plan.run(&mut chains, &|_, _| stop_if(watcher(0, 0).is_break())) {
+    if !plan.run(&mut chains, &|_, _| stop_if(monitor(0, 0).is_break())) {
         return Err(SurveyError::Stopped);
     }
     let [chain] = chains;
     let last = chain.steps.last().filter(|_| chain.error.is_none());
     let reached = match last {
-        Some(last) => basin_test.reached(&[last.end], watcher)?[0],
+        Some(last) => basin_test.reached(&[last.end], monitor)?[0],
         None => false,
     };
     let peaks = || {
@@ -282,7 +282,7 @@ fn changed(
             let mut scene = scene.clone();
             parameter.set(&mut scene, plan.value(step, direction));
             state = peaks.take(&scene, state, periods)?;
-            OrbitError::ask(watcher)?;
+            OrbitError::ask(monitor)?;
         }
         peaks.take(scene, state, PERIODS)?;
         Ok::<_, OrbitError>(peaks)

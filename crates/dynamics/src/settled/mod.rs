@@ -4,11 +4,11 @@
 //! ```
 //! use softstop::{Ratios, Start};
 //! use softstop_dynamics::settled::Settling;
-//! use softstop_dynamics::watch::unwatched;
+//! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let scene = Ratios::unloaded().scene()?;
 //! let starts = [Start::REST, Start::new(0.0, 14.0)];
-//! let seen = Settling::default().follow(&starts.map(|start| (&scene, start)), &unwatched);
+//! let seen = Settling::default().follow(&starts.map(|start| (&scene, start)), &unmonitored);
 //! let seen = seen.unwrap_or_default();
 //! let regimes = seen.iter().map(|seen| Some(seen.as_ref().ok()?.regime()?.to_string()));
 //! assert_eq!(regimes.collect::<Vec<_>>(), [Some("0".to_owned()), Some("1".to_owned())]);
@@ -24,9 +24,9 @@ pub use seen::{Seen, wanders};
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::Region;
+use crate::monitor::Monitor;
 use crate::orbit::Regime;
 use crate::orbit::recurrence::RETURN;
-use crate::watch::Watcher;
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
@@ -56,11 +56,11 @@ impl Default for Settling {
 
 impl Settling {
     /// Follows a motion of each scene from its start; an error where the scene or the start cannot be, or the motion
-    /// cannot be computed. Nothing if the watcher, which is not told how much is done, wants to stop.
+    /// cannot be computed. Nothing if the monitor, which is not told how much is done, wants to stop.
     pub fn follow(
         &self,
         motions: &[(&Scene, Start)],
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Option<Vec<Result<Seen, MotionError>>> {
         let (mut machines, mut scenes, mut starts) = (Vec::new(), Vec::new(), Vec::new());
         let lowered: Vec<Result<(), MotionError>> = motions
@@ -75,7 +75,7 @@ impl Settling {
             })
             .collect();
         let mut seen = self
-            .seen((&machines, &scenes), starts, watcher)?
+            .seen((&machines, &scenes), starts, monitor)?
             .into_iter();
         let all = lowered.into_iter();
         Some(
@@ -91,14 +91,14 @@ impl Settling {
         &self,
         (machines, scenes): (&[Machine], &[&Scene]),
         mut starts: Vec<(usize, Start)>,
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Option<Vec<Result<Seen, MotionError>>> {
         let mut all: Vec<Option<Result<Seen, MotionError>>> = vec![None; starts.len()];
         let mut open: Vec<usize> = (0..starts.len()).collect();
         let (mut followed, mut next) = (0, self.periods);
         while !open.is_empty() && next >= self.watched {
             let settling = next - self.watched;
-            let records = watched(machines, &starts, settling, self.watched, || watcher(0, 0))?;
+            let records = watched(machines, &starts, settling, self.watched, || monitor(0, 0))?;
             followed += next;
             let mut further = Vec::new();
             for ((index, start), record) in open.iter().zip(&mut starts).zip(records) {
@@ -120,20 +120,20 @@ impl Settling {
 
     /// The share of so many starts, spread evenly over a region, that lead to z = 1; what cannot be computed does not.
     /// Without a region it is the box of the scene's own size that commands take starts from. Nothing if the scene is
-    /// invalid, or the watcher wants to stop.
+    /// invalid, or the monitor wants to stop.
     pub fn certainty(
         &self,
         scene: &Scene,
         starts: usize,
         region: Option<Region>,
-        watcher: Watcher<'_>,
+        monitor: Monitor<'_>,
     ) -> Option<f64> {
         let machine = [Machine::new(scene).ok()?];
         let region = region.unwrap_or_else(|| Region::box_with(scene, []));
         let starts = region.starts(starts, 0).into_iter();
         let starts: Vec<(usize, Start)> = starts.map(|start| (0, start)).collect();
         let count = starts.len() as f64;
-        let seen = self.seen((&machine, &[scene]), starts, watcher)?;
+        let seen = self.seen((&machine, &[scene]), starts, monitor)?;
         let regimes = seen.iter().flatten().map(Seen::regime);
         let come = regimes.filter(|regime| *regime == Some(Regime::ONE));
         Some(come.count() as f64 / count)

@@ -1,8 +1,8 @@
 //! The z = 1 motion on a straight way out from the nominal machine.
 
 use crate::continuation::{BranchPoint, Continuation, Family, Heading};
+use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
-use crate::watch::stop_if;
 use crate::zone::{Frequencies, LONGEST_BRANCH, Loss, ended};
 use softstop::{MotionError, Scene};
 

@@ -12,7 +12,7 @@
 //! ```
 //! use softstop::{Parameter, Ratios};
 //! use softstop_dynamics::sweep::{Chain, Direction, Plan, hysteresis};
-//! use softstop_dynamics::watch::unwatched;
+//! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let machine = Ratios::unloaded().scene()?;
 //! let plan = Plan::new(Parameter::Frequency, (1.01, 1.4), 40, 200)?;

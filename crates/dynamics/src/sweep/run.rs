@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::settle::Step;
 use super::{Chain, Plan};
+use crate::monitor::{Kept, Monitor, PIECE, piece};
 use crate::settled::{Seen, watched};
-use crate::watch::{Kept, PIECE, Watcher, piece};
 use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Scene};
 use softstop_lanes::Machine;
@@ -27,14 +27,14 @@ struct Made {
 }
 
 impl Plan {
-    /// Carries all chains on to their ends, from wherever they are, unless the watcher says stop: it is told of the
+    /// Carries all chains on to their ends, from wherever they are, unless the monitor says stop: it is told of the
     /// steps that are done of all. True if all came to their ends.
-    pub fn run(&self, chains: &mut [Chain], watcher: Watcher<'_>) -> bool {
-        self.run_for(Duration::MAX, chains, watcher)
+    pub fn run(&self, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
+        self.run_for(Duration::MAX, chains, monitor)
     }
 
     /// The same for about so long, to the ends of the steps that are under way then.
-    fn run_for(&self, time: Duration, chains: &mut [Chain], watcher: Watcher<'_>) -> bool {
+    fn run_for(&self, time: Duration, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
         let begin = Instant::now();
         let all = (self.steps * chains.len()) as u64;
         let groups = chains.len().div_ceil(Self::TOGETHER).max(1);
@@ -45,7 +45,7 @@ impl Plan {
         let fork = Fork::default();
         let run = |group: &mut [Chain]| {
             while !stopped.load(Ordering::Relaxed) {
-                let ask = || watcher(done.load(Ordering::Relaxed), all);
+                let ask = || monitor(done.load(Ordering::Relaxed), all);
                 let Some(steps) = self.step(group, &ask) else {
                     stopped.store(true, Ordering::Relaxed);
                     break;
@@ -84,16 +84,16 @@ impl Plan {
     }
 
     /// The same as [`Plan::run`], piece by piece: what is known of them is recalled, and what they come to is kept.
-    pub fn run_kept(&self, chains: &mut [Chain], watcher: Watcher<'_>, kept: Kept<'_>) -> bool {
+    pub fn run_kept(&self, chains: &mut [Chain], monitor: Monitor<'_>, kept: Kept<'_>) -> bool {
         if kept.is_none() {
-            return self.run(chains, watcher);
+            return self.run(chains, monitor);
         }
         let all = (self.steps * chains.len()) as u64;
         let of = self.identity(chains);
         loop {
             let before: Vec<usize> = chains.iter().map(|chain| chain.steps.len()).collect();
             let Ok(made) = piece(kept, &("sweep", &of, &before), || {
-                self.run_for(PIECE, chains, watcher);
+                self.run_for(PIECE, chains, monitor);
                 let made = chains.iter().zip(&before);
                 let made = made.map(|(chain, before)| Made {
                     steps: chain.steps[*before..].to_vec(),
@@ -110,7 +110,7 @@ impl Plan {
                 return true;
             }
             let done = chains.iter().map(|chain| chain.steps.len() as u64);
-            if watcher(done.sum(), all).is_break() || budget::is_spent() {
+            if monitor(done.sum(), all).is_break() || budget::is_spent() {
                 return false;
             }
         }

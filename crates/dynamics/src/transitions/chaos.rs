@@ -4,9 +4,9 @@ use super::TransitionError;
 use super::stage::{Explorer, FIRST, Gathering, is_clear, most};
 use crate::attractors::Arrival;
 use crate::continuation::Family;
+use crate::monitor::piece;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
-use crate::watch::piece;
 use serde::{Deserialize, Serialize};
 use softstop::Start;
 

@@ -6,8 +6,8 @@ use super::way::Way;
 use super::window::{Window, WindowEnd};
 use super::{Transition, TransitionError};
 use crate::continuation::{Continuation, Family, Limits, SpecialKind, Test};
+use crate::monitor::stop_if;
 use crate::motion::MotionKind;
-use crate::watch::stop_if;
 
 /// Share of a window within which the way back is tried.
 const INSIDE: f64 = 0.25;

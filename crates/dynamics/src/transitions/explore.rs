@@ -10,9 +10,9 @@ use super::window::Window;
 use super::{Transition, TransitionError};
 use crate::attractors::attractors;
 use crate::continuation::Family;
+use crate::monitor::piece;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
-use crate::watch::piece;
 use softstop::Start;
 
 /// A periodic motion to follow: where it was met, and its orbit.
@@ -39,7 +39,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     /// of the parameter.
     ///
     /// # Errors
-    /// [`TransitionError`] if a scene cannot be, or the watcher stopped it.
+    /// [`TransitionError`] if a scene cannot be, or the monitor stopped it.
     pub fn explore(&self, values: &[f64]) -> Result<Vec<Transition>, TransitionError> {
         let mut atlas = Atlas::default();
         let (mut met, mut seeds) = (Vec::new(), Vec::new());
@@ -77,7 +77,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     ) -> Result<(), TransitionError> {
         let scene = self.family.scene([value])?;
         let found: (Vec<Met>, Vec<Seed>) = piece(self.kept, &("survey", &scene), || {
-            let survey = attractors(&scene, &self.rules.survey, self.watcher)?;
+            let survey = attractors(&scene, &self.rules.survey, self.monitor)?;
             let (mut met, mut seeds) = (Vec::new(), Vec::new());
             for attractor in survey.attractors {
                 if attractor.motion.is_chaotic() {

@@ -51,7 +51,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
             periods: STRETCH,
         };
         for _ in 0..ENDURANCE / STRETCH {
-            let ask = || (self.watcher)(0, 0);
+            let ask = || (self.monitor)(0, 0);
             let outcomes = follow(&machine, &[job], &mut calm, ask).ok_or(SurveyError::Stopped)?;
             for outcome in outcomes {
                 outcome.error.map_or(Ok(()), Err)?;

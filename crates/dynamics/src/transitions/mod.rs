@@ -10,10 +10,10 @@
 //! use softstop::{Parameter, Ratios};
 //! use softstop_dynamics::ParameterFamily;
 //! use softstop_dynamics::transitions::{Explorer, Rules};
-//! use softstop_dynamics::watch::unwatched;
+//! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
-//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &unwatched);
+//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &unmonitored);
 //! let transitions = explorer.explore(&[1.2])?;
 //! // The grazing of z = 0 at g0 and the fold of z = 1, both with hysteresis.
 //! let symbols: Vec<String> = transitions.iter().map(|it| it.symbols()).collect();
@@ -135,7 +135,7 @@ impl Default for Rules {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TransitionError {
-    /// Motions cannot be found, or the watcher asked to stop.
+    /// Motions cannot be found, or the monitor asked to stop.
     #[error(transparent)]
     Survey(#[from] SurveyError),
     /// An orbit cannot be followed.

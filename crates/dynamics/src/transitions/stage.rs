@@ -3,9 +3,9 @@
 use super::{Rules, TransitionError};
 use crate::attractors::{Arrival, Options, settle};
 use crate::continuation::Family;
+use crate::monitor::{Kept, Monitor, piece};
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
-use crate::watch::{Kept, Watcher, piece};
 use serde::{Deserialize, Serialize};
 use softstop::Start;
 
@@ -20,7 +20,7 @@ pub struct Explorer<'a, F> {
     pub(super) family: &'a F,
     pub(super) range: (f64, f64),
     pub(super) rules: Rules,
-    pub(super) watcher: Watcher<'a>,
+    pub(super) monitor: Monitor<'a>,
     pub(super) kept: Kept<'a>,
 }
 
@@ -48,14 +48,14 @@ pub(super) fn is_clear(those: usize, all: usize) -> bool {
 }
 
 impl<'a, F: Family + Sync> Explorer<'a, F> {
-    /// A search in a range of the parameter. The watcher is told of the drive periods of one look at
+    /// A search in a range of the parameter. The monitor is told of the drive periods of one look at
     /// motions after the other.
-    pub fn new(family: &'a F, range: (f64, f64), rules: Rules, watcher: Watcher<'a>) -> Self {
+    pub fn new(family: &'a F, range: (f64, f64), rules: Rules, monitor: Monitor<'a>) -> Self {
         Self {
             family,
             range,
             rules,
-            watcher,
+            monitor,
             kept: None,
         }
     }
@@ -78,7 +78,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             ..self.rules.survey
         };
         let scene = self.family.scene([value])?;
-        Ok(settle(&scene, starts, &options, self.watcher)?)
+        Ok(settle(&scene, starts, &options, self.monitor)?)
     }
 
     /// What most of them do then.

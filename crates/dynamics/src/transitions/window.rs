@@ -2,9 +2,9 @@
 
 use super::{Rules, TransitionError};
 use crate::continuation::{Branch, BranchPoint, Continuation, Family, Limits, SpecialKind, Test};
+use crate::monitor::stop_if;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
-use crate::watch::stop_if;
 
 /// One end.
 #[derive(Debug, Clone)]

@@ -7,8 +7,8 @@ use super::stable_range::StableRange;
 use super::stable_ranges::find_stable_ranges;
 use super::{Frequencies, ZoneError};
 use crate::continuation::Continuation;
+use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{self, Orbit, OrbitError};
-use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
 /// The stable z = 1 motion of a scene with the highest before-impact velocity: of those on all ranges of stable z = 1
@@ -18,16 +18,16 @@ use softstop::Scene;
 /// # Errors
 /// [`OrbitError::NotFound`] if there is none; [`OrbitError::Motion`] if the scene is invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
-    find_with_monitor(scene, &unwatched)
+    find_with_monitor(scene, &unmonitored)
 }
 
-/// The motion that [`find`] finds, as long as a watcher, which is not told how much is done, lets the search go on.
+/// The motion that [`find`] finds, as long as a monitor, which is not told how much is done, lets the search go on.
 ///
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
-pub fn find_with_monitor(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, OrbitError> {
-    let stable_ranges = find_stable_ranges(scene, watcher)?;
-    find_among(scene, &stable_ranges, watcher)
+pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, OrbitError> {
+    let stable_ranges = find_stable_ranges(scene, monitor)?;
+    find_among(scene, &stable_ranges, monitor)
 }
 
 /// The motion that [`find`] finds, with the stable ranges of the scene, which do not depend on the frequency of its drive,
@@ -38,9 +38,9 @@ pub fn find_with_monitor(scene: &Scene, watcher: Watcher<'_>) -> Result<Orbit, O
 pub fn find_among(
     scene: &Scene,
     stable_ranges: &[StableRange],
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Orbit, OrbitError> {
-    let here = orbit::find_with_monitor(scene, watcher);
+    let here = orbit::find_with_monitor(scene, monitor);
     let on = stable_ranges
         .iter()
         .filter_map(|one| on_stable_range(scene, one));
@@ -59,11 +59,11 @@ pub fn find_among(
 pub fn find_zones(
     kind: ZoneKind,
     scenes: &[Scene],
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     match kind {
-        ZoneKind::Hysteresis => zones_of(scenes, UpperEnd::FoldOrGrazing, watcher),
-        ZoneKind::SingleImpact { between } => single_impact(scenes, between, watcher),
+        ZoneKind::Hysteresis => zones_of(scenes, UpperEnd::FoldOrGrazing, monitor),
+        ZoneKind::SingleImpact { between } => single_impact(scenes, between, monitor),
     }
 }
 

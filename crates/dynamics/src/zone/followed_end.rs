@@ -2,8 +2,8 @@
 
 use super::end::{EndKind, Loss, ZoneEnd, first_end};
 use crate::continuation::{BranchPoint, Continuation, Family, Heading, Limits, SpecialKind, Test};
+use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
-use crate::watch::stop_if;
 
 /// Points after which a branch is given up.
 pub(crate) const LONGEST_BRANCH: usize = 2000;

@@ -7,8 +7,8 @@ use super::followed_end::{LONGEST_BRANCH, followed_to_end};
 use super::places::{AT_FOLD, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Continuation, Heading, SpecialKind, Test};
+use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_monitor};
-use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::Scene;
 use softstop::internals::budget::Fork;
 
@@ -29,17 +29,17 @@ const TOGETHER: usize = 8;
 /// # Errors
 /// [`ZoneError`] if there is no grazing boundary, no z = 1 motion at it, or no fold.
 pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
-    hysteresis_with_monitor(scene, &unwatched)
+    hysteresis_with_monitor(scene, &unmonitored)
 }
 
-/// The same, as long as a watcher, which is not told how much is done, lets it go on.
+/// The same, as long as a monitor, which is not told how much is done, lets it go on.
 ///
 /// # Errors
 /// As [`hysteresis`]; [`OrbitError::Stopped`].
-pub fn hysteresis_with_monitor(scene: &Scene, watcher: Watcher<'_>) -> Result<Zone, ZoneError> {
+pub fn hysteresis_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
-    let start = find_with_monitor(&scene.at_frequency(grazing.1), watcher);
-    from_start(scene, grazing, (start.ok(), UpperEnd::Fold), watcher)
+    let start = find_with_monitor(&scene.at_frequency(grazing.1), monitor);
+    from_start(scene, grazing, (start.ok(), UpperEnd::Fold), monitor)
 }
 
 /// What may end a zone above.
@@ -56,19 +56,19 @@ pub(super) enum UpperEnd {
 ///
 /// # Errors
 /// Each as [`hysteresis_with_monitor`].
-pub fn hysteresis_batch(scenes: &[Scene], watcher: Watcher<'_>) -> Vec<Result<Zone, ZoneError>> {
-    zones_of(scenes, UpperEnd::Fold, watcher)
+pub fn hysteresis_batch(scenes: &[Scene], monitor: Monitor<'_>) -> Vec<Result<Zone, ZoneError>> {
+    zones_of(scenes, UpperEnd::Fold, monitor)
 }
 
 /// The zones of [`hysteresis_batch`], or those that something else may end, too.
 pub(super) fn zones_of(
     scenes: &[Scene],
     upper: UpperEnd,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
     let chunks = scenes.par_chunks(TOGETHER);
-    let zones = chunks.flat_map_iter(|scenes| fork.part(|| together(scenes, upper, watcher)));
+    let zones = chunks.flat_map_iter(|scenes| fork.part(|| together(scenes, upper, monitor)));
     let zones = zones.collect();
     fork.join();
     zones
@@ -78,18 +78,18 @@ pub(super) fn zones_of(
 fn together(
     scenes: &[Scene],
     upper: UpperEnd,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     let grazing: Vec<_> = scenes.iter().map(grazing_frequencies).collect();
     let with_grazing = scenes.iter().zip(&grazing);
     let at_grazing: Vec<Scene> = with_grazing
         .filter_map(|(scene, grazing)| Some(scene.at_frequency(grazing.as_ref().ok()?.1)))
         .collect();
-    let mut starts = find_batch(&at_grazing, watcher).into_iter();
+    let mut starts = find_batch(&at_grazing, monitor).into_iter();
     let zones = scenes.iter().zip(grazing).map(|(scene, grazing)| {
         let grazing = grazing?;
         let start = starts.next().and_then(Result::ok);
-        from_start(scene, grazing, (start, upper), watcher)
+        from_start(scene, grazing, (start, upper), monitor)
     });
     zones.collect()
 }
@@ -99,16 +99,16 @@ fn from_start(
     scene: &Scene,
     (frequency_g0_below, frequency_g0): (Option<f64>, f64),
     (start, upper): (Option<Orbit>, UpperEnd),
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Zone, ZoneError> {
-    OrbitError::ask(watcher)?;
+    OrbitError::ask(monitor)?;
     let family = Frequencies(scene);
     let start = start.ok_or(ZoneError::NoOrbit {
         frequency: frequency_g0.into(),
     })?;
     let continuation = Continuation::new(&family, 1);
     let range = (frequency_g0, FARTHEST * frequency_g0);
-    let mut branch = upward(&continuation, &start, range, watcher)?;
+    let mut branch = upward(&continuation, &start, range, monitor)?;
     let high = match (highest_fold(&branch), upper) {
         (Some(fold), _) => fold,
         (None, UpperEnd::Fold) => return Err(no_fold(frequency_g0, &branch)),
@@ -139,16 +139,16 @@ pub(super) fn upward(
     continuation: &Continuation<'_, Frequencies<'_>>,
     start: &Orbit,
     (lowest, highest): (f64, f64),
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
     let mut branch = continuation.follow(start, lowest, Heading::Up, LONGEST_BRANCH, |point| {
         let flipped = !point.is_stable() && point.fold_test() > 0.0;
         let weak = point.before_impact_velocity() < WEAKEST * start.before_impact_velocity();
         let outside = point.parameter < lowest || point.parameter > highest;
         let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
-        stop_if(flipped || outside || ends_in_grazing || watcher(0, 0).is_break())
+        stop_if(flipped || outside || ends_in_grazing || monitor(0, 0).is_break())
     })?;
-    OrbitError::ask(watcher)?;
+    OrbitError::ask(monitor)?;
     insert_folds(continuation, &mut branch);
     Ok(branch)
 }

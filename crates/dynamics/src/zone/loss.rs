@@ -2,8 +2,8 @@
 
 use super::Frequencies;
 use crate::continuation::{BranchPoint, Continuation, Family, Heading, Test};
+use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
-use crate::watch::stop_if;
 
 /// Points after which a branch is given up.
 const LONGEST: usize = 400;

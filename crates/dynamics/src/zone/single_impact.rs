@@ -9,8 +9,8 @@ use super::stable_range::SAME;
 use super::stable_ranges::FOLLOWED;
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Continuation, Heading};
+use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError, hardest_single};
-use crate::watch::{Watcher, stop_if};
 use softstop::Scene;
 use softstop::internals::budget::Fork;
 
@@ -28,18 +28,18 @@ const HIGHEST: f64 = 4.0;
 pub fn single_impact(
     scenes: &[Scene],
     between: (f64, f64),
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
     let zones = scenes.par_iter();
-    let zones = zones.map(|scene| fork.part(|| of_scene(scene, between, watcher)));
+    let zones = zones.map(|scene| fork.part(|| of_scene(scene, between, monitor)));
     let zones = zones.collect();
     fork.join();
     zones
 }
 
 /// The range of one scene.
-fn of_scene(scene: &Scene, between: (f64, f64), watcher: Watcher<'_>) -> Result<Zone, ZoneError> {
+fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<Zone, ZoneError> {
     scene.validate()?;
     let mut zones: Vec<Zone> = Vec::new();
     for frequency in starts(scene, between) {
@@ -48,10 +48,10 @@ fn of_scene(scene: &Scene, between: (f64, f64), watcher: Watcher<'_>) -> Result<
             .filter_map(|zone| zone.point_at(zone.place_of(frequency)).ok());
         let known = known.map(|point| point.before_impact_velocity());
         let least = (1.0 + SAME) * known.fold(0.0, f64::max);
-        if let Some(start) = hardest_single(&scene.at_frequency(frequency), least, watcher)? {
-            zones.extend(about(scene, &start, between, watcher).ok().flatten());
+        if let Some(start) = hardest_single(&scene.at_frequency(frequency), least, monitor)? {
+            zones.extend(about(scene, &start, between, monitor).ok().flatten());
         }
-        OrbitError::ask(watcher)?;
+        OrbitError::ask(monitor)?;
     }
     let hardest = zones.into_iter().filter_map(|zone| {
         let velocity = hardest_between(&zone, between)?;
@@ -101,14 +101,14 @@ fn about(
     scene: &Scene,
     start: &Orbit,
     between: (f64, f64),
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Option<Zone>, ZoneError> {
     let frequency = start.scene.excitation.frequency;
     let rate = scene.scales().rate;
     let range = (FOLLOWED.0 * rate, FOLLOWED.1 * rate);
     let family = Frequencies(scene);
     let continuation = Continuation::new(&family, 1);
-    let mut above = upward(&continuation, start, (frequency, range.1), watcher)?;
+    let mut above = upward(&continuation, start, (frequency, range.1), monitor)?;
     let high = match highest_fold(&above) {
         Some(fold) => fold,
         None => ended(&continuation, &mut above, Heading::Up, range)?,
@@ -116,9 +116,9 @@ fn about(
     let mut branch =
         continuation.follow(start, frequency, Heading::Down, LONGEST_BRANCH, |point| {
             let ends = !point.is_stable() || point.parameter < range.0;
-            stop_if(ends || watcher(0, 0).is_break())
+            stop_if(ends || monitor(0, 0).is_break())
         })?;
-    OrbitError::ask(watcher)?;
+    OrbitError::ask(monitor)?;
     let low = ended(&continuation, &mut branch, Heading::Down, range)?;
     branch.reverse();
     branch.extend(above.into_iter().skip(1));

@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use super::stable_range::{StableRange, is_same, lies_between, sizes, stable};
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
+use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{Orbit, OrbitError, all_about, singles_near};
-use crate::watch::{Watcher, unwatched};
 use softstop::Scene;
 
 /// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row: closely
@@ -36,24 +36,24 @@ const MOST: usize = 200;
 /// # Errors
 /// [`ZoneError::Orbit`] for a scene that is none.
 pub fn stable_ranges(scene: &Scene) -> Result<Vec<StableRange>, ZoneError> {
-    stable_ranges_with_monitor(scene, &unwatched)
+    stable_ranges_with_monitor(scene, &unmonitored)
 }
 
-/// The same, as long as a watcher, which is not told how much is done, lets it go on.
+/// The same, as long as a monitor, which is not told how much is done, lets it go on.
 ///
 /// # Errors
 /// As [`stable_ranges`]; [`OrbitError::Stopped`].
 pub fn stable_ranges_with_monitor(
     scene: &Scene,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Vec<StableRange>, ZoneError> {
-    Ok(find_stable_ranges(scene, watcher)?)
+    Ok(find_stable_ranges(scene, monitor)?)
 }
 
 /// All stable ranges of a scene.
 pub(super) fn find_stable_ranges(
     scene: &Scene,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Vec<StableRange>, OrbitError> {
     scene.validate()?;
     let family = Frequencies(scene);
@@ -65,7 +65,7 @@ pub(super) fn find_stable_ranges(
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MOST) {
         next += 1;
-        let mut met = VecDeque::from(all_about(&scene.at_frequency(frequency), BETWEEN, watcher)?);
+        let mut met = VecDeque::from(all_about(&scene.at_frequency(frequency), BETWEEN, monitor)?);
         while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MOST) {
             let frequency = orbit.scene.excitation.frequency;
             let point = BranchPoint {
@@ -85,9 +85,9 @@ pub(super) fn find_stable_ranges(
             if is_known {
                 continue;
             }
-            let go_on = |_: &BranchPoint| watcher(0, 0);
+            let go_on = |_: &BranchPoint| monitor(0, 0);
             if let Ok(branch) = continuation.branch(frequency, orbit.state(), &limits, go_on) {
-                OrbitError::ask(watcher)?;
+                OrbitError::ask(monitor)?;
                 for border in borders(&branch) {
                     frequencies.extend(beside(border.parameter));
                     let border = continuation.orbit(border);

@@ -12,7 +12,7 @@ use clap::Args;
 use softstop::Machine;
 use softstop_dynamics::attractors::starting_box;
 use softstop_dynamics::basin::{Options, basins, establishing, zone_box};
-use softstop_dynamics::watch::Kept;
+use softstop_dynamics::monitor::Kept;
 use softstop_dynamics::zone;
 
 use plane::{Plane, Size};

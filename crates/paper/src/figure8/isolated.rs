@@ -3,7 +3,7 @@
 use anyhow::Result;
 use softstop::{Parameter, Ratios, Start};
 use softstop_dynamics::attractors::{Options, SurveyError, attractors};
-use softstop_dynamics::watch::piece;
+use softstop_dynamics::monitor::piece;
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
 use super::Diagram;

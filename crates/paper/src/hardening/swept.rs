@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use softstop::Parameter;
+use softstop_dynamics::monitor::Kept;
 use softstop_dynamics::motion::MotionClass;
-use softstop_dynamics::watch::Kept;
 use softstop_dynamics::{Chain, MotionKind, Plan, Step};
 
 use super::stops::{CLEARANCE, Law};

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use softstop::{Scene, Start};
 use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
 use softstop_dynamics::internals::evenly;
+use softstop_dynamics::monitor::{Kept, piece};
 use softstop_dynamics::points::blocks;
 use softstop_dynamics::settled::wanders;
-use softstop_dynamics::watch::{Kept, piece};
 use softstop_dynamics::{MotionKind, Orbit, StroboscopicMap};
 
 use super::{Map, STARTS};

@@ -3,8 +3,8 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::Parameter;
+use softstop_dynamics::monitor::{Kept, piece};
 use softstop_dynamics::points::blocks;
-use softstop_dynamics::watch::{Kept, piece};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan};
 
 use super::{Map, PERIODS, middle};

@@ -13,8 +13,8 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::ParameterFamily;
+use softstop_dynamics::monitor::{Kept, Memory};
 use softstop_dynamics::transitions::{Explorer, Rules, Transition};
-use softstop_dynamics::watch::{Kept, Memory};
 
 pub use markdown::markdown;
 use report::TableReport;

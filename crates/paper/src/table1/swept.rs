@@ -1,8 +1,8 @@
 //! What a sweep makes of a transition: it loses a motion later than it ends, and comes to the next later still.
 
 use softstop::{Parameter, Ratios};
+use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::transitions::Transition;
-use softstop_dynamics::watch::unwatched;
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
 
 /// A sweep over the end of a motion.
@@ -64,7 +64,7 @@ fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>
         ..plan
     };
     let mut chain = [Chain::new(Ratios::unloaded().scene().ok()?, way)];
-    let is_done = plan.run(&mut chain, &unwatched);
+    let is_done = plan.run(&mut chain, &unmonitored);
     let [chain] = chain;
     is_done.then_some(chain.steps)
 }

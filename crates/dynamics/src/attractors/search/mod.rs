@@ -10,9 +10,9 @@ use super::chaos::Chaos;
 use super::ensemble::{Ensemble, EnsembleMember};
 use super::lifetime::EscapeCounts;
 use super::{Arrival, Attractor, Options, Region, Survey, SurveyError};
+use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::returns;
 use crate::orbit::{self, Exponents};
-use crate::watch::{Watcher, stop_if, unwatched};
 use softstop::{Scene, Start};
 
 /// Starts of the pilot.
@@ -56,15 +56,15 @@ struct Search<'a> {
 }
 
 /// All motions on which a scene settles. The result depends on scene and options alone, not on the number of
-/// threads. The watcher is told of the drive periods.
+/// threads. The monitor is told of the drive periods.
 ///
 /// ```
 /// use softstop::Ratios;
 /// use softstop_dynamics::attractors::{Options, attractors};
-/// use softstop_dynamics::watch::unwatched;
+/// use softstop_dynamics::monitor::unmonitored;
 ///
 /// let options = Options { starts: 64, ..Options::default() };
-/// let survey = attractors(&Ratios::unloaded().scene()?, &options, &unwatched)?;
+/// let survey = attractors(&Ratios::unloaded().scene()?, &options, &unmonitored)?;
 /// // Point A: with impacts and without, by turns of the start.
 /// assert_eq!(survey.attractors.len(), 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -75,9 +75,9 @@ struct Search<'a> {
 pub fn attractors(
     scene: &Scene,
     options: &Options,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Survey, SurveyError> {
-    let mut search = Search::new(scene, options, watcher)?;
+    let mut search = Search::new(scene, options, monitor)?;
     let run = options.transient + search.logged() as u64;
     search.ensemble.planned = run * (options.starts + PILOT) as u64 + search.patience();
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
@@ -96,14 +96,14 @@ pub fn attractors(
 ///
 /// # Errors
 /// As [`attractors`].
-pub fn starting_box(scene: &Scene, watcher: Watcher<'_>) -> Result<Region, SurveyError> {
-    Ok(Region::box_with(scene, stays(scene, watcher)?))
+pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, SurveyError> {
+    Ok(Region::box_with(scene, stays(scene, monitor)?))
 }
 
 /// States of the motions that [`orbit::find`] or 64 starts from far and wide come to.
-pub(crate) fn stays(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Start>, SurveyError> {
+pub(crate) fn stays(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, SurveyError> {
     let options = Options::default();
-    let mut search = Search::new(scene, &options, watcher)?;
+    let mut search = Search::new(scene, &options, monitor)?;
     search.ensemble.planned = (options.transient + search.logged() as u64) * PILOT as u64;
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
     let go_on = |_, _| stop_if(search.ensemble.note(0).is_err());
@@ -118,7 +118,7 @@ pub(crate) fn stays(scene: &Scene, watcher: Watcher<'_>) -> Result<Vec<Start>, S
 /// # Errors
 /// [`SurveyError::Motion`] if the scene is invalid or the motion cannot be computed.
 pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Attractor, SurveyError> {
-    let mut search = Search::new(scene, options, &unwatched)?;
+    let mut search = Search::new(scene, options, &unmonitored)?;
     start.validate()?;
     search.launch(vec![start], true)?;
     if let Some(error) = &search.members[0].trajectory.error {
@@ -139,9 +139,9 @@ pub fn settle(
     scene: &Scene,
     starts: &[Start],
     options: &Options,
-    watcher: Watcher<'_>,
+    monitor: Monitor<'_>,
 ) -> Result<Vec<Arrival>, SurveyError> {
-    let mut search = Search::new(scene, options, watcher)?;
+    let mut search = Search::new(scene, options, monitor)?;
     search.launch(starts.to_vec(), true)?;
     let Search {
         members, catalogue, ..
@@ -160,11 +160,11 @@ pub fn settle(
 }
 
 impl<'a> Search<'a> {
-    fn new(scene: &'a Scene, options: &Options, watcher: Watcher<'a>) -> Result<Self, SurveyError> {
+    fn new(scene: &'a Scene, options: &Options, monitor: Monitor<'a>) -> Result<Self, SurveyError> {
         Ok(Self {
             scene,
             options: *options,
-            ensemble: Ensemble::new(scene, watcher)?,
+            ensemble: Ensemble::new(scene, monitor)?,
             catalogue: AttractorCatalogue::new(scene),
             members: Vec::new(),
             groups: BTreeMap::new(),

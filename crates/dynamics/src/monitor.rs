@@ -8,10 +8,10 @@ use serde::de::DeserializeOwned;
 use softstop::internals::budget;
 
 /// Told how much is done, and of how much at most; asked whether to go on.
-pub type Watcher<'a> = &'a (dyn Fn(u64, u64) -> ControlFlow<()> + Sync);
+pub type Monitor<'a> = &'a (dyn Fn(u64, u64) -> ControlFlow<()> + Sync);
 
-/// A [`Watcher`] that lets everything pass.
-pub fn unwatched(_: u64, _: u64) -> ControlFlow<()> {
+/// A [`Monitor`] that lets everything pass.
+pub fn unmonitored(_: u64, _: u64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
