@@ -30,7 +30,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use softstop_console::failure::Failure;
 use softstop_console::{output, schema};
 use softstop_explore::{
-    basin, continuation, fidelity, motions, orbit, simulate, stops, study, sweep, watch, zone,
+    basin, continuation, fidelity, motions, orbit, prove, simulate, stops, study, sweep, watch,
+    zone,
 };
 
 /// Exact dynamics and optimal design of impact oscillators with soft, preloaded and rigid stops.
@@ -49,6 +50,7 @@ Examples:
   softstop motions --set eta=0.9875                all motions: z = 2/3, (2/4)B, chaos
   softstop zone loaded --set clearance=10          where impacts and rest coexist
   softstop continue --parameter eta --from 0.9 --to 1.5   its branch with folds and flips
+  softstop prove A --output a.json                 point A by interval arithmetic, with a certificate
   softstop sweep --from 0.8 --to 1.8               bifurcation diagram, up and down
   softstop basin --size 1000                       which start leads to which motion
   softstop study docs/studies/map.toml             a map over two parameters, or millions of machines
@@ -76,6 +78,8 @@ pub enum Command {
     Continue(continuation::ContinueArguments),
     /// The hysteresis zone of a clearance: from grazing (g0) to the fold (s_SN)
     Zone(zone::ZoneArguments),
+    /// Prove a periodic motion, or its fold, flip or grazing, by interval arithmetic
+    Prove(prove::ProveArguments),
     /// A parameter up and down: bifurcation diagram, jumps, hysteresis
     Sweep(sweep::SweepArguments),
     /// Which initial states lead to which motion
@@ -132,6 +136,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Motions(arguments) => motions::run(&arguments),
         Command::Continue(arguments) => continuation::run(&arguments),
         Command::Zone(arguments) => zone::run(&arguments),
+        Command::Prove(arguments) => prove::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Basin(arguments) => basin::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),

@@ -1,7 +1,7 @@
 //! Which starts lead to z = 1 and which to rest.
 
 use softstop::Ratios;
-use softstop_dynamics::basin::{Options, basins};
+use softstop_dynamics::basin::{BasinOptions, basins};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::{Axis, Grid, Regime};
 
@@ -13,7 +13,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         Axis::velocity(-20.0, 20.0, 24),
         0.0,
     );
-    let basins = basins(&scene, &grid, &Options::default(), &unmonitored, None)?;
+    let basins = basins(&scene, &grid, &BasinOptions::default(), &unmonitored, None)?;
     for class in &basins.classes {
         println!("{}: {:.1} %", class.motion, 100.0 * class.share);
     }

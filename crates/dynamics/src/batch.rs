@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use softstop::Start;
 use softstop::internals::budget;
-use softstop_lanes::{Job, Machine, Outcome, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine, Outcome};
 
 /// Follows all jobs on this thread; none if they were stopped on the way.
-pub(crate) fn follow<W: Watch>(
+pub(crate) fn follow<W: BatchObserver>(
     machines: &[Machine],
     jobs: &[Job],
     watch: &mut W,
@@ -40,7 +40,7 @@ struct Asking<'a, W, A> {
     left: u64,
 }
 
-impl<W: Watch, A: FnMut() -> ControlFlow<()>> Watch for Asking<'_, W, A> {
+impl<W: BatchObserver, A: FnMut() -> ControlFlow<()>> BatchObserver for Asking<'_, W, A> {
     const IMPACTS: bool = W::IMPACTS;
     const PERIODS: bool = W::PERIODS;
 

@@ -1,7 +1,7 @@
 //! What a motion of a machine is judged by: one list of names, units, senses and meanings.
 
+use crate::cycle_metrics::CycleMetrics;
 use crate::orbit::Orbit;
-use crate::stroke::Stroke;
 use softstop::{Dimension, Stop};
 
 /// On which side of a bound a figure is good.
@@ -101,7 +101,7 @@ impl Figure {
 
     /// Its value in SI units, NaN if the motion has none; nothing if it takes more than the motion to tell it: a zone,
     /// trials, or the formula of a cost.
-    pub fn of_motion(self, orbit: &Orbit, stroke: &Stroke) -> Option<f64> {
+    pub fn of_motion(self, orbit: &Orbit, stroke: &CycleMetrics) -> Option<f64> {
         Some(match self {
             Self::Velocity => stroke.impact_velocity,
             Self::ImpactEnergy => stroke.impact_energy,

@@ -2,7 +2,7 @@
 //! multipliers, exponents) → [`continuation`] (branches, folds, flips, grazings) → [`zone`] (where
 //! impacts and rest coexist) → [`settled`], [`attractors`], [`basin`], [`sweep`], [`transitions`] (what is
 //! seen from many starts), told in one vocabulary ([`motion`]), and [`models`] (how simple a model of a scene may be). What a
-//! machine does in service: [`figure`] (their names), [`stroke`] (figures of a period), [`supply`] (missing strips), [`run_up`] (from rest to work).
+//! machine does in service: [`figure`] (their names), [`cycle_metrics`] (figures of a period), [`supply`] (missing strips), [`run_up`] (from rest to work).
 //!
 //! Records and errors that will grow are `non_exhaustive`; options, which a user fills in, and the enumerations that say
 //! what a motion, an end or a model is, are not, so that a match says what a new one asks for.
@@ -27,6 +27,7 @@ pub mod attractors;
 pub mod basin;
 mod batch;
 pub mod continuation;
+pub mod cycle_metrics;
 mod extremes;
 pub mod figure;
 pub mod models;
@@ -38,8 +39,7 @@ pub mod run_up;
 pub mod settled;
 pub mod slopes;
 pub mod spread;
-pub mod stroke;
-mod strokes;
+mod stroke_count;
 pub mod supply;
 pub mod sweep;
 pub mod transitions;
@@ -48,10 +48,10 @@ pub mod zone;
 pub use attractors::Survey;
 pub use basin::{Axis, Basins, Grid};
 pub use continuation::{Branch, BranchPoint, Continuation, Limits, ParameterFamily};
+pub use cycle_metrics::CycleMetrics;
 pub use motion::MotionKind;
 pub use orbit::{Exponents, Orbit, Regime, StroboscopicMap};
 pub use slopes::Slopes;
-pub use stroke::Stroke;
 pub use sweep::{Chain, Direction, Plan, Step};
 pub use zone::Zone;
 

@@ -11,7 +11,7 @@ use crate::attractors::SurveyError;
 use crate::basin::{BasinTest, TestResult, TestedMotion};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::Orbit;
-pub use crate::strokes::Strokes;
+pub use crate::stroke_count::StrokeCount;
 use softstop::internals::{Motion, Phases};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Piercing, Scene};
 use softstop_lanes::Machine;
@@ -60,14 +60,14 @@ pub struct Gap {
 /// What became of a motion after runs of missing strips.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Outlasting {
+pub struct StripSurvival {
     /// Strips missing in a row, one for each drive period.
     pub missing: u32,
     /// The runs, by the drive angle at which they begin.
     pub gaps: Vec<Gap>,
 }
 
-impl Outlasting {
+impl StripSurvival {
     /// Share of the drive angles after which the motion comes back.
     pub fn share(&self) -> f64 {
         let back = self.gaps.iter().filter(|gap| gap.comes_back).count();
@@ -92,13 +92,13 @@ const TOGETHER: usize = 256;
 ///
 /// # Errors
 /// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
-pub fn outlasts(
+pub fn survives_missing_strips(
     orbit: &Orbit,
     missing: u32,
     reading: Reading,
     angles: usize,
     monitor: Monitor<'_>,
-) -> Result<Outlasting, SurveyError> {
+) -> Result<StripSurvival, SurveyError> {
     let basin_test = BasinTest::of(orbit)?;
     let line = Line::new(&orbit.scene, reading)?;
     let (turn, angles) = (TAU * orbit.periods as f64, angles.max(1));
@@ -133,7 +133,7 @@ pub fn outlasts(
             };
             Ok(starts.into_iter().zip(results).map(gap).collect::<Vec<_>>())
         });
-    Ok(Outlasting {
+    Ok(StripSurvival {
         missing,
         gaps: gaps
             .collect::<Result<Vec<Vec<Gap>>, SurveyError>>()?
@@ -174,7 +174,7 @@ impl<'a> Line<'a> {
             clearance: self.scene.clearance,
             begin: clock.instant(turned / self.scene.excitation.frequency),
             periods: 0,
-            strokes: Strokes::after(before - orbit.periods as f64),
+            strokes: StrokeCount::after(before - orbit.periods as f64),
         };
         run.go_to(run.begin, false)?;
         run.change(&self.without)?;
@@ -195,7 +195,7 @@ struct Run {
     /// Whole ones so far.
     periods: u64,
     /// Its strokes, by times since the orbit's time 0.
-    strokes: Strokes,
+    strokes: StrokeCount,
 }
 
 impl Run {
@@ -243,7 +243,7 @@ impl Run {
 struct StrokeCounter<'a> {
     clearance: f64,
     period: f64,
-    strokes: &'a mut Strokes,
+    strokes: &'a mut StrokeCount,
     stops: bool,
     left: bool,
 }
@@ -253,7 +253,7 @@ impl Observer for StrokeCounter<'_> {
         self.left |= crossing.position == self.clearance && crossing.velocity_after < 0.0;
         if crossing.kind.is_impact() {
             let Instant { cycles, offset } = crossing.instant;
-            self.strokes.strike(cycles + offset / self.period);
+            self.strokes.record_impact(cycles + offset / self.period);
         }
     }
 

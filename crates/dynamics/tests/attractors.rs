@@ -3,11 +3,11 @@
 
 use softstop::{Scene, Start, Stop};
 use softstop_dynamics::Survey;
-use softstop_dynamics::attractors::{Attractor, Chaos, Options, attractors, classify};
+use softstop_dynamics::attractors::{Attractor, Chaos, SearchOptions, attractors, classify};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_testing::{assert_near, is_near, loaded, unloaded};
 
-const OPTIONS: Options = Options {
+const OPTIONS: SearchOptions = SearchOptions {
     starts: 96,
     seed: 0,
     transient: 500,
@@ -20,7 +20,7 @@ fn survey(scene: &Scene) -> Survey {
     survey_by(scene, &OPTIONS)
 }
 
-fn survey_by(scene: &Scene, options: &Options) -> Survey {
+fn survey_by(scene: &Scene, options: &SearchOptions) -> Survey {
     let survey = attractors(scene, options, &unmonitored).expect("a survey");
     assert_eq!(survey.lost, None);
     let starts: usize = survey.attractors.iter().map(|found| found.starts).sum();
@@ -52,7 +52,7 @@ fn chaos(survey: &Survey) -> &Chaos {
 
 #[test]
 fn below_grazing_chaos_lasts_long_but_not_for_ever() {
-    let options = Options {
+    let options = SearchOptions {
         patience: 3_000_000,
         ..OPTIONS
     };
@@ -110,7 +110,7 @@ fn the_half_order_motion_gives_way_to_chaos_at_its_flip() {
 
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
-    let options = Options {
+    let options = SearchOptions {
         starts: 200,
         patience: 100_000,
         ..OPTIONS

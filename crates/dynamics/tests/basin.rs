@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
 use softstop_dynamics::attractors::SurveyError;
-use softstop_dynamics::basin::{Options, basins, establishing};
+use softstop_dynamics::basin::{BasinOptions, basins, establishing};
 use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
 use softstop_testing::tolerance::DIFFERENCED;
@@ -28,7 +28,8 @@ fn states(size: usize) -> Grid {
 }
 
 fn on(scene: &Scene, grid: &Grid) -> Basins {
-    let found = basins(scene, grid, &Options::default(), &unmonitored, None).expect("there is one");
+    let found =
+        basins(scene, grid, &BasinOptions::default(), &unmonitored, None).expect("there is one");
     assert_eq!(found.cells.len(), grid.cells());
     let cells: usize = found.classes.iter().map(|class| class.cells).sum();
     assert_eq!(cells, grid.cells());
@@ -175,7 +176,7 @@ fn the_certainty_falls_along_the_zone() {
         &zone,
         &places,
         &states(30),
-        &Options::default(),
+        &BasinOptions::default(),
         &unmonitored,
         None,
     )
@@ -201,7 +202,7 @@ fn it_stops_when_told() {
     let stopped = basins(
         &unloaded(1.15),
         &states(80),
-        &Options::default(),
+        &BasinOptions::default(),
         &|done, all| {
             assert!(done <= all && all == 6400);
             stop_if(done >= 1000)

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use softstop::internals::budget;
 use softstop::{MotionError, Scene, Start};
-use softstop_dynamics::attractors::{Options, attractors};
+use softstop_dynamics::attractors::{SearchOptions, attractors};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::settled::Settling;
@@ -34,12 +34,12 @@ fn extreme() -> impl Strategy<Value = Scene> {
 /// What three searches come to within a budget each, in words, and what they cost; words only where the budget lasts.
 fn answers(scene: &Scene, windows: u64) -> [(Option<String>, u64); 3] {
     let told = |(words, spent): (String, u64)| ((spent < windows).then_some(words), spent);
-    let options = Options {
+    let options = SearchOptions {
         starts: 8,
         transient: 60,
         longest: 8,
         patience: 10_000,
-        ..Options::default()
+        ..SearchOptions::default()
     };
     let settling = Settling {
         periods: 60,

@@ -4,11 +4,11 @@ use rayon::ThreadPoolBuilder;
 use softstop::{Machine, Scene, Simulation, Start};
 use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{
-    BasinTest, ErosionProfile, Establishment, Options, basins, zone_box,
+    BasinOptions, BasinTest, ErosionProfile, Establishment, basins, zone_box,
 };
 use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::run_up::{RunUp, Settings, Way};
-use softstop_dynamics::supply::{Reading, outlasts};
+use softstop_dynamics::supply::{Reading, survives_missing_strips};
 use softstop_dynamics::{Axis, Grid, Orbit, Regime, Zone, orbit, zone};
 use softstop_testing::{loaded, unloaded};
 
@@ -38,7 +38,7 @@ fn who_comes_home_is_in_the_basin_of_z_1() {
         for place in [0.01, 0.3, 0.6, 0.97] {
             let orbit = zone.orbit_at(place).expect("z = 1");
             let grid = cells(&region, 40);
-            let options = Options::default();
+            let options = BasinOptions::default();
             let found = basins(&orbit.scene, &grid, &options, &unmonitored, None).expect("basins");
             let starts: Vec<_> = (0..grid.cells()).map(|cell| grid.start(cell).0).collect();
             let reached = BasinTest::of(&orbit).map(|home| home.reached(&starts, &unmonitored));
@@ -73,7 +73,8 @@ fn b_outlasts_missing_strips() {
     let b = one(&loaded());
     for missing in [0, 1, 2, 5, 25] {
         for reading in [Reading::Near, Reading::Fixed] {
-            let found = outlasts(&b, missing, reading, 64, &unmonitored).expect("computed");
+            let found =
+                survives_missing_strips(&b, missing, reading, 64, &unmonitored).expect("computed");
             assert_eq!((found.share(), found.gaps.len()), (1.0, 64));
             assert_eq!(found.missed(), 0, "{missing} {reading:?}");
         }
@@ -85,7 +86,8 @@ fn b_outlasts_missing_strips() {
 fn near_the_fold_missing_strips_end_the_motion() {
     let zone = zone_of(&loaded());
     let near = zone.orbit_at(0.995).expect("z = 1");
-    let found = outlasts(&near, 25, Reading::Near, 32, &unmonitored).expect("computed");
+    let found =
+        survives_missing_strips(&near, 25, Reading::Near, 32, &unmonitored).expect("computed");
     assert!(found.share() < 0.5, "{}", found.share());
     let lost = found.gaps.iter().filter(|gap| !gap.comes_back);
     assert!(lost.clone().count() > 0 && lost.clone().all(|gap| gap.missed > 3));
@@ -206,7 +208,7 @@ fn integrity_falls_to_nothing_at_the_fold() {
         let orbit = zone.orbit_at(place.place).expect("z = 1");
         assert_eq!(place.velocity, orbit.before_impact_velocity());
         // No cell of a survey lies in the ball but not in the basin, and one just outside of it is lost.
-        let options = Options::default();
+        let options = BasinOptions::default();
         let found = basins(&orbit.scene, &grid, &options, &unmonitored, None).expect("basins");
         let largest = found.largest_ball_of(Regime::ONE).expect("a basin").radius;
         assert!(
@@ -259,7 +261,7 @@ fn threads_and_watchers() {
         let region = starting_box(&a.scene, &unmonitored).expect("a box");
         (
             Establishment::of(&a, 2000, &unmonitored).expect("computed"),
-            outlasts(&b, 3, Reading::Near, 300, &unmonitored).expect("computed"),
+            survives_missing_strips(&b, 3, Reading::Near, 300, &unmonitored).expect("computed"),
             RunUp::of(&a, &Settings::default(), 32, &unmonitored).expect("computed"),
             ErosionProfile::of(&zone, &region, (&[0.2, 0.8], 700), &unmonitored).expect("computed"),
         )
@@ -273,7 +275,7 @@ fn threads_and_watchers() {
     let stop = |_, _| stop_if(true);
     assert!(Establishment::of(&a, 10, &stop).is_err());
     assert!(RunUp::of(&a, &Settings::default(), 4, &stop).is_err());
-    assert!(outlasts(&a, 1, Reading::Fixed, 4, &stop).is_err());
+    assert!(survives_missing_strips(&a, 1, Reading::Fixed, 4, &stop).is_err());
 }
 
 #[test]

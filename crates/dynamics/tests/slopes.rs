@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use proptest::prelude::*;
 use softstop::{Clock, Parameter, Ratios, Scene, Start, Stop};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::slopes::{self, Figure, Slopes};
+use softstop_dynamics::slopes::{self, DifferentiatedFigure, Slopes};
 use softstop_dynamics::{Orbit, zone};
 use softstop_testing::tolerance::{DIFFERENCED, SOLVED};
 use softstop_testing::{Meets, assert_near, cases, hertz, machines};
@@ -26,7 +26,7 @@ fn settled(scene: &Scene, start: Start) -> Option<Orbit> {
     })
 }
 
-fn figures(slopes: &Slopes) -> impl Iterator<Item = &Figure> {
+fn figures(slopes: &Slopes) -> impl Iterator<Item = &DifferentiatedFigure> {
     let strikes = slopes.impacts.iter();
     let strikes = strikes.flat_map(|strike| [&strike.time, &strike.velocity]);
     [

@@ -45,7 +45,7 @@ fn designs() -> impl Strategy<Value = (Scene, f64)> {
 }
 
 /// What a design is judged by: strength and time of its impact, X_m, lowest position, force, energy.
-fn figures(orbit: &Orbit, parameters: &[Parameter]) -> Option<Vec<slopes::Figure>> {
+fn figures(orbit: &Orbit, parameters: &[Parameter]) -> Option<Vec<slopes::DifferentiatedFigure>> {
     let found = slopes::of(orbit, parameters).ok()?;
     let strike = found.impacts.into_iter().next()?;
     let figures = [

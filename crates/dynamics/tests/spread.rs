@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::spread::{Model, Settled, Spread, along};
+use softstop_dynamics::spread::{PolynomialModel, Settled, ToleranceBox, along};
 use softstop_dynamics::zone::{Loss, hysteresis};
 use softstop_dynamics::{Continuation, Limits, Orbit};
 use softstop_testing::assert_relative;
@@ -14,7 +14,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 #[derive(Debug)]
 struct Shares(Scene, f64);
 
-impl Spread for Shares {
+impl ToleranceBox for Shares {
     fn dimensions(&self) -> usize {
         2
     }
@@ -91,9 +91,9 @@ fn a_model_of_a_polynomial_is_that_polynomial() -> Outcome {
         let turn = |step: f64| 2.0 * (step * index as f64).fract() - 1.0;
         [0.618_034, 0.754_878, 0.569_840].map(turn).to_vec()
     };
-    let places: Vec<Vec<f64>> = (0..Model::wanted(3)).map(place).collect();
+    let places: Vec<Vec<f64>> = (0..PolynomialModel::wanted(3)).map(place).collect();
     let known: Vec<[f64; 2]> = places.iter().map(|at| values(at)).collect();
-    let model = Model::fit(&places, &known).ok_or("a model")?;
+    let model = PolynomialModel::fit(&places, &known).ok_or("a model")?;
     for at in [[0.3, -0.9, 0.5], [1.0, 1.0, -1.0]] {
         for (found, value) in model.at(&at).into_iter().zip(values(&at)) {
             assert_relative_eq!(found, value, epsilon = 1e-10);

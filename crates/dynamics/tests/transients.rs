@@ -4,7 +4,7 @@
 use softstop::{Ratios, Scene, SceneError, Slope, Start, Stop};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::unmonitored;
-use softstop_dynamics::settled::{Seen, Settling};
+use softstop_dynamics::settled::{SettledMotion, Settling};
 use softstop_testing::assert_near;
 use softstop_testing::tolerance::printed;
 
@@ -42,7 +42,7 @@ fn starts() -> impl Iterator<Item = Start> {
         .flat_map(move |column| (0..5).map(move |row| Start::new(position(column), velocity(row))))
 }
 
-fn follow(scene: &Scene, settling: Settling) -> Vec<Seen> {
+fn follow(scene: &Scene, settling: Settling) -> Vec<SettledMotion> {
     let motions: Vec<_> = starts().map(|start| (scene, start)).collect();
     let seen = settling
         .follow(&motions, &unmonitored)
@@ -97,7 +97,7 @@ fn what_has_not_settled_is_told_as_that() -> Outcome {
     let scene = machine(1.3871499999999999)?;
     let longest = STUDY.periods;
     let seen = follow(&scene, Settling { longest, ..STUDY });
-    let open: Vec<&Seen> = seen.iter().filter(|seen| seen.periods.is_none()).collect();
+    let open: Vec<&SettledMotion> = seen.iter().filter(|seen| seen.periods.is_none()).collect();
     assert!(open.len() >= 2 && open.iter().all(|seen| seen.followed == longest));
     Ok(())
 }

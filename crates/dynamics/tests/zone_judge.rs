@@ -14,7 +14,7 @@ use softstop::{Piercing, Ratios, Release, Scene, Slope, Start, Stop};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{Loss, StableRange, stable_ranges};
 use softstop_dynamics::{BranchPoint, Orbit};
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine};
 use softstop_testing::random::{self, log_uniform};
 
 /// Machines of the test that runs every day, and after how many progress is shown.
@@ -111,7 +111,7 @@ fn machines() -> impl Strategy<Value = Scene> {
 /// Of each job the states at the ends of its last two drive periods.
 struct Ends(Vec<[Start; 2]>);
 
-impl Watch for Ends {
+impl BatchObserver for Ends {
     const PERIODS: bool = true;
 
     fn period(&mut self, job: usize, _: u64, state: Start) {

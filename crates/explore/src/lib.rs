@@ -14,6 +14,7 @@ pub mod fidelity;
 pub mod motions;
 pub mod orbit;
 pub mod palette;
+pub mod prove;
 pub mod simulate;
 pub mod stops;
 pub mod study;

@@ -15,7 +15,7 @@ const SOFTEST: f64 = 1e-2;
 const EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
 const CREEPING: f64 = 100.0;
 /// Where the safe engine has to decide, relative to the size of the motion.
-const GRAIN: f64 = 1e-10;
+const AMBIGUITY: f64 = 1e-10;
 /// Relative to the size of the velocity.
 const SLOW: f64 = 1e-5;
 
@@ -265,7 +265,7 @@ impl Constants {
         let size = finite(self.low)
             .max(finite(self.high))
             .max(self.swing + self.offset.abs());
-        self.grain = GRAIN * size;
+        self.ambiguity = AMBIGUITY * size;
         self.slow = SLOW * size * fastest;
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
     }

@@ -2,11 +2,11 @@
 
 use pulp::Simd;
 
+use super::decide_window::WindowEnd;
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
-use super::look::End;
-use super::power::{Place, Power};
+use super::power::{ContactPlace, Power};
 
 /// Lanes in contact wait until so many of eight are, or for so many rounds.
 const QUORUM: usize = 7;
@@ -19,8 +19,8 @@ const LEAST: f64 = 1.0 / 16.0;
 const BRIDGED: f64 = 1e-12;
 
 /// How far lanes have come in a contact, and what became of them.
-struct Way<S: Simd, const N: usize> {
-    place: Place<S, N>,
+struct ContactPath<S: Simd, const N: usize> {
+    place: ContactPlace<S, N>,
     /// Length of a step.
     step: Lanes<S, N>,
     going: Mask<S, N>,
@@ -69,14 +69,14 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let period = self.state.drive.period;
         let zero = due.like(0.0);
         let root = (self.state.x - law.low).max(zero).square_root();
-        let place = Place {
+        let place = ContactPlace {
             root,
             velocity: self.state.v,
             angle: self.state.angle,
             time: zero,
         };
         let moves = zero.below(root) | zero.below(place.velocity);
-        let mut way = Way {
+        let mut path = ContactPath {
             place,
             step: law.longest(&place),
             going: active & moves,
@@ -85,16 +85,16 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             doubtful: active.and_not(moves),
         };
         let mut steps = 0;
-        while way.going.any() && steps < MOST_STEPS {
-            power.expand(law, frequency, &way.place);
-            way.advance(law, power, due, period * due.like(BRIDGED));
+        while path.going.any() && steps < MOST_STEPS {
+            power.expand(law, frequency, &path.place);
+            path.advance(law, power, due, period * due.like(BRIDGED));
             steps += 1;
         }
-        let slow = way.going & way.place.time.below(period * due.like(LEAST));
-        let (left, arrived) = (way.left, way.arrived);
-        let doubtful = way.doubtful | slow;
-        let place = way.place;
-        let end = End {
+        let slow = path.going & path.place.time.below(period * due.like(LEAST));
+        let (left, arrived) = (path.left, path.arrived);
+        let doubtful = path.doubtful | slow;
+        let place = path.place;
+        let end = WindowEnd {
             x: left.choose(law.low, place.root.mul_add(place.root, law.low)),
             v: place.velocity,
             beyond: law.beyond_low,
@@ -107,7 +107,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     }
 }
 
-impl<S: Simd, const N: usize> Way<S, N> {
+impl<S: Simd, const N: usize> ContactPath<S, N> {
     /// One step.
     #[inline(always)]
     fn advance(
@@ -138,14 +138,14 @@ impl<S: Simd, const N: usize> Way<S, N> {
             let (sigma, found) = power.sigma_at(rest, (release.sigma, whole), late);
             let mut there = power.at(&self.place, sigma);
             there.time = due;
-            next = Place::choose(late, &there, &next);
+            next = ContactPlace::choose(late, &there, &next);
             self.doubtful = self.doubtful | late.and_not(found);
             self.arrived = self.arrived | (late & found);
             leaves = leaves.and_not(late);
         }
         let moved = (of & release.decided).and_not(self.doubtful);
         self.left = self.left | (leaves & moved);
-        self.place = Place::choose(moved, &next, &self.place);
+        self.place = ContactPlace::choose(moved, &next, &self.place);
         self.going = self.going.and_not(self.left | self.arrived | self.doubtful);
     }
 }
@@ -153,7 +153,7 @@ impl<S: Simd, const N: usize> Way<S, N> {
 impl<S: Simd, const N: usize> Law<S, N> {
     /// The longest step along which the drive and the suspension stay within a Taylor series.
     #[inline(always)]
-    fn longest(&self, place: &Place<S, N>) -> Lanes<S, N> {
+    fn longest(&self, place: &ContactPlace<S, N>) -> Lanes<S, N> {
         let four = self.window.like(4.0);
         let by_speed = (self.window * four / place.velocity.abs()).square_root();
         (self.window / place.root).min(by_speed)

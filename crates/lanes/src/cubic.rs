@@ -68,12 +68,12 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
     }
 
     /// Where the cubic rises from below to above zero near `root`, true if every function does that is nowhere
-    /// further from it than `slack`, and with its slope than 3.08 slack (Birkhoff and Priver 1967: 384 * 0.00802),
+    /// further from it than `error_bound`, and with its slope than 3.08 error bound (Birkhoff and Priver 1967: 384 * 0.00802),
     /// and if none of them rises through zero before. Those that leave zero at the left end fall there. For the lanes `of`.
     #[inline(always)]
     pub fn rises(
         &self,
-        slack: Lanes<S, N>,
+        error_bound: Lanes<S, N>,
         root: Lanes<S, N>,
         leaves: Mask<S, N>,
         of: Mask<S, N>,
@@ -85,19 +85,19 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         let (leaving, rising) = (of & leaves, of.and_not(leaves));
         let mut rises = of.and_not(of);
         if leaving.any() {
-            let convex = (slack * one.like(16.0)).below(first.min(curve));
+            let convex = (error_bound * one.like(16.0)).below(first.min(curve));
             rises = leaving & convex & zero.below(self.end);
         }
         if rising.any() {
             // Up, down and up again?
             let winds = zero.below(self.slope.min(self.last_slope)) & middle.below(zero);
-            let near = self.at(root).abs().below(slack * one.like(NEAR));
+            let near = self.at(root).abs().below(error_bound * one.like(NEAR));
             let slope = self.slope_at(root);
             let curvature = first.abs().max(curve.abs());
             let least = slope.mul_add(one.like(SLOPE), curvature * one.like(BAND));
-            let steep = (slack * least).below(slope * slope) & zero.below(slope);
-            let behind = (slack * one.like(2.2)).below(slope * (one - root));
-            let apart = self.value.below(-slack) & near & steep & behind;
+            let steep = (error_bound * least).below(slope * slope) & zero.below(slope);
+            let behind = (error_bound * one.like(2.2)).below(slope * (one - root));
+            let apart = self.value.below(-error_bound) & near & steep & behind;
             rises = rises | (rising & apart).and_not(winds);
         }
         rises
@@ -113,8 +113,8 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
     }
 }
 
-/// About the zero the function may vanish where the cubic is within its slack, at most 2 slack / slope away: there
-/// its slope is at least slope - 2 curvature slack / slope - 3.08 slack, positive with these factors (the curvature
+/// About the zero the function may vanish where the cubic is within its error bound, at most 2 error bound / slope away: there
+/// its slope is at least slope - 2 curvature error bound / slope - 3.08 error bound, positive with these factors (the curvature
 /// is twice the difference of two slopes).
 const SLOPE: f64 = 3.3;
 const BAND: f64 = 4.6;

@@ -8,7 +8,7 @@ use std::ops::Range;
 use nalgebra::{Complex, Matrix2, RowVector2, Vector2};
 
 use super::law::Constants;
-use super::place::{Derivatives, Drive, Face, Jet, Passage, Place};
+use super::place::{CyclePlace, Derivatives, Drive, Face, Jet, Passage};
 use super::window::Windows;
 use softstop::internals::Modes;
 
@@ -29,7 +29,7 @@ type Instant<'a> = (&'a Passage, Complex<f64>);
 pub(super) struct CycleArc {
     phase: usize,
     /// The cycle and cos + i sin of the drive's angle at its start, its length in s, and its way out.
-    start: Place,
+    start: CyclePlace,
     angle: Complex<f64>,
     duration: f64,
     entry: Face,
@@ -175,7 +175,7 @@ impl Cycle {
 }
 
 /// What rounding may change of a state: one unit in the last place of each term that it is the sum of, and of the time.
-fn rounding(law: &Constants, place: &Place, period: f64) -> Vector2<f64> {
+fn rounding(law: &Constants, place: &CyclePlace, period: f64) -> Vector2<f64> {
     let [x, v, a, _] = place.jet.map(f64::abs);
     let free = place.free.abs();
     let steady = Vector2::new(law.swing + law.offset.abs(), place.steady_rate.x.abs());
@@ -184,7 +184,7 @@ fn rounding(law: &Constants, place: &Place, period: f64) -> Vector2<f64> {
 
 impl CycleArc {
     /// The derivatives at a place of the arc, with the transition up to there.
-    fn derivatives(&self, transition: Matrix2<f64>, place: &Place) -> Derivatives {
+    fn derivatives(&self, transition: Matrix2<f64>, place: &CyclePlace) -> Derivatives {
         let response = place.steady_rate - transition * self.start.steady_rate;
         Derivatives {
             transition,

@@ -5,8 +5,8 @@ use pulp::{Simd, WithSimd};
 use super::engine::Engine;
 use super::job::{Instructions, Job, Outcome};
 use super::machine::Machine;
+use super::observer::ObserverHandle;
 use super::task::Task;
-use super::watch::Listener;
 
 /// Registers that go side by side.
 pub(super) const ABREAST: usize = 2;
@@ -15,7 +15,7 @@ pub(super) const ABREAST: usize = 2;
 pub(super) fn run<'a>(
     machines: &'a [Machine],
     jobs: &'a [Job],
-    watch: Listener<'a>,
+    watch: ObserverHandle<'a>,
     instructions: Instructions,
 ) -> Vec<Outcome> {
     let task = Task {

@@ -10,7 +10,7 @@ use super::outline::Outline;
 use super::power::Power;
 use super::returns::Returns;
 use super::round::round;
-use super::safe::{self, Place, Resumed};
+use super::safe::{self, Resumed, SafeStart};
 use super::state::State;
 use super::task::Task;
 use softstop::Start;
@@ -166,7 +166,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     fn step<const GUARDED: bool>(&mut self, phase: usize, active: Mask<S, N>) {
         let due = self.due();
         let active = if GUARDED {
-            self.dash(phase, active, due)
+            self.direct_step(phase, active, due)
         } else {
             active
         };
@@ -182,7 +182,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         if !GUARDED {
             self.leap(phase, active, &mut reached);
         }
-        let (ended, doubtful) = self.look::<GUARDED>(phase, active, &reached, due);
+        let (ended, doubtful) = self.decide_window::<GUARDED>(phase, active, &reached, due);
         if (ended | doubtful).any() {
             self.serve(ended, doubtful);
         }
@@ -207,7 +207,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             let job = self.next;
             self.next += 1;
             let Job { machine, start, .. } = self.task.jobs[job];
-            let place = Place {
+            let place = SafeStart {
                 job,
                 cycle: 0,
                 offset: 0.0,
@@ -270,7 +270,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     }
 
     /// Lets the safe engine follow a job; where it can go on in a lane, unless it has come to its end.
-    fn follow(&mut self, place: Place) -> Option<Resumed> {
+    fn follow(&mut self, place: SafeStart) -> Option<Resumed> {
         let Job {
             machine, periods, ..
         } = self.task.jobs[place.job];
@@ -292,7 +292,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         };
         let offset = self.state.offset.get(lane);
         let begun = cycle > 0 || offset > 0.0;
-        let place = Place {
+        let place = SafeStart {
             job,
             cycle,
             offset,

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::judge::Stretch;
+use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::parts::{Hull, Parts};
@@ -25,9 +25,9 @@ pub(super) struct Guard<S: Simd, const N: usize> {
     pub position: Lanes<S, N>,
     pub velocity: Lanes<S, N>,
     pub level: Lanes<S, N>,
-    pub grain: Lanes<S, N>,
+    pub ambiguity: Lanes<S, N>,
     pub slow: Lanes<S, N>,
-    pub slack: Lanes<S, N>,
+    pub error_bound: Lanes<S, N>,
     /// The lower end of the phase, or the further guard; else the upper end.
     pub is_low: Mask<S, N>,
     pub is_further: Mask<S, N>,
@@ -59,28 +59,28 @@ impl<S: Simd, const N: usize> Guard<S, N> {
     pub fn of<const GUARDED: bool>(
         law: &Law<S, N>,
         ahead: &Ahead<S, N>,
-        slack: Lanes<S, N>,
+        error_bound: Lanes<S, N>,
     ) -> Self {
-        let slack = slack * ahead.scale;
+        let error_bound = error_bound * ahead.scale;
         if GUARDED {
-            Self::of_several(law, ahead, slack)
+            Self::of_several(law, ahead, error_bound)
         } else {
-            Self::of_one(law, slack)
+            Self::of_one(law, error_bound)
         }
     }
 
     /// The one that ends the phase.
     #[inline(always)]
-    fn of_one(law: &Law<S, N>, slack: Lanes<S, N>) -> Self {
-        let zero = slack.like(0.0);
+    fn of_one(law: &Law<S, N>, error_bound: Lanes<S, N>) -> Self {
+        let zero = error_bound.like(0.0);
         let never = zero.below(zero);
         Self {
-            position: slack.like(1.0),
+            position: error_bound.like(1.0),
             velocity: zero,
             level: zero,
-            grain: law.grain,
+            ambiguity: law.ambiguity,
             slow: law.slow,
-            slack,
+            error_bound,
             is_low: law.side.below(zero),
             is_further: never,
             none: never,
@@ -90,12 +90,12 @@ impl<S: Simd, const N: usize> Guard<S, N> {
 
     /// The one that may be met.
     #[inline(always)]
-    fn of_several(law: &Law<S, N>, ahead: &Ahead<S, N>, slack: Lanes<S, N>) -> Self {
-        let one = slack.like(1.0);
+    fn of_several(law: &Law<S, N>, ahead: &Ahead<S, N>, error_bound: Lanes<S, N>) -> Self {
+        let one = error_bound.like(1.0);
         let third = ahead.span * one.like(1.0 / 3.0);
         let [x0, v0, a0] = ahead.state(law, &ahead.here);
         let [x1, v1, a1] = ahead.state(law, &ahead.there);
-        let hull = Hull::of((x0, v0), (x1, v1), third, slack);
+        let hull = Hull::of((x0, v0), (x1, v1), third, error_bound);
         let is_low = law.low.below(hull.low).not();
         let is_high = hull.high.below(law.high).not();
         let mut guard = Self {
@@ -104,19 +104,20 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             is_low,
             none: (is_low | is_high).not(),
             several: is_low & is_high,
-            ..Self::of_one(law, slack)
+            ..Self::of_one(law, error_bound)
         };
-        let rate_slack = law.rate_slack(&ahead.here) * ahead.scale;
+        let rate_error_bound = law.rate_error_bound(&ahead.here) * ahead.scale;
         let ends = [[x0, v0, a0], [x1, v1, a1]];
-        let stretch = Stretch::of_further(law, ends, ahead.span, (slack, rate_slack));
-        let further = stretch.stays_below().not();
-        guard.turn_to_further(law, further, rate_slack);
+        let interval =
+            GuardInterval::of_further(law, ends, ahead.span, (error_bound, rate_error_bound));
+        let further = interval.stays_below().not();
+        guard.turn_to_further(law, further, rate_error_bound);
         guard
     }
 
     /// Looks at the further guard in the lanes `at` instead.
     #[inline(always)]
-    fn turn_to_further(&mut self, law: &Law<S, N>, at: Mask<S, N>, rate_slack: Lanes<S, N>) {
+    fn turn_to_further(&mut self, law: &Law<S, N>, at: Mask<S, N>, rate_error_bound: Lanes<S, N>) {
         let (a, b) = (law.by_position, law.by_velocity);
         self.several = self.several | at.and_not(self.none);
         self.none = self.none.and_not(at);
@@ -125,8 +126,11 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         self.position = at.choose(a, self.position);
         self.velocity = at.choose(b, self.velocity);
         self.level = at.choose(law.level, self.level);
-        self.slack = at.choose(a.abs() * self.slack + b.abs() * rate_slack, self.slack);
-        self.grain = at.choose(self.grain * law.guard_scale, self.grain);
+        self.error_bound = at.choose(
+            a.abs() * self.error_bound + b.abs() * rate_error_bound,
+            self.error_bound,
+        );
+        self.ambiguity = at.choose(self.ambiguity * law.guard_scale, self.ambiguity);
         self.slow = at.choose(self.slow * law.guard_scale, self.slow);
     }
 

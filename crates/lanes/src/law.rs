@@ -125,6 +125,6 @@ law! {
     amplitude,
     push,
     /// Positions closer than this to a guard are not decided here, nor velocities below `slow`.
-    grain,
+    ambiguity,
     slow,
 }

@@ -14,7 +14,7 @@ const LAST: f64 = 4.0;
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Moves the active lanes that stand before nothing, or only before the end of a period, on to the last periods of
     /// their job if they never meet anything: the free motion dies away, and the largest that it and the steady one can
-    /// be together lies below the guard. A watcher of periods hears of those that are left out.
+    /// be together lies below the guard. An observer of periods is told of those that are left out.
     #[inline(always)]
     pub fn leap(&mut self, phase: usize, active: Mask<S, N>, reached: &mut Reached<S, N>) {
         let law = &self.laws[phase];
@@ -22,8 +22,10 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let left = self.state.left;
         let (zero, last) = (left.like(0.0), left.like(LAST));
         let far = law.longest.mul_add(parts.u.abs(), parts.y.abs()) + law.swing;
-        let calm =
-            active & zero.below(reached.count) & far.below(law.edge - law.grain) & last.below(left);
+        let calm = active
+            & zero.below(reached.count)
+            & far.below(law.edge - law.ambiguity)
+            & last.below(left);
         if !calm.any() {
             return;
         }

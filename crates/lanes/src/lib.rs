@@ -3,7 +3,7 @@
 //! The lanes go in lock-step through the same work, phase after phase: those that are in a phase scan windows of time
 //! until each stands before one that may hold the phase's end; then all decide about that window, guess the crossing
 //! from the cubic through its ends, take the exact flow to the guess and a step of Newton's method from there. Through a
-//! phase with several ends they dash, where the velocity keeps its sign up to the one that it leads to. Contacts under
+//! phase with several ends they take a direct step, where the velocity keeps its sign up to the one that it leads to. Contacts under
 //! a power law (n = 3/2, 2 or 5/2) go in Taylor steps, and wait for each other, since they take long. What a
 //! lane concludes it concludes by certificates as the safe engine does, [`Motion`](softstop::internals::Motion); what
 //! lies within rounding of two answers, or is not a plain crossing (rest, sticking, chatter), is handed to the safe
@@ -23,18 +23,19 @@ mod contact;
 mod contraction;
 mod cubic;
 mod cycle;
-mod dash;
+mod decide_window;
+mod direct_step;
 mod dispatch;
 mod engine;
 mod guard;
+mod guard_interval;
 mod job;
-mod judge;
 mod lanes;
 mod law;
 mod leap;
 mod local;
-mod look;
 mod machine;
+mod observer;
 mod outline;
 mod parts;
 mod place;
@@ -53,11 +54,10 @@ mod search;
 mod state;
 mod task;
 mod taylor;
-mod watch;
 mod window;
 
 pub use job::{Instructions, Job, Outcome};
 pub use machine::Machine;
+pub use observer::BatchObserver;
 pub use registers::Registers;
 pub use run::{run, run_parallel, run_with};
-pub use watch::Watch;

@@ -31,12 +31,12 @@ impl Machine {
         let phases = scene.phases();
         let count = phases.phases.len();
         let drive = scene.excitation;
-        let hum = Hum {
+        let trains = BounceTrains {
             phases: &phases,
             drive,
         };
-        let for_lanes = count <= MOST_PHASES && hum.is_short();
-        let laws = if for_lanes { hum.laws() } else { None };
+        let for_lanes = count <= MOST_PHASES && trains.is_short();
+        let laws = if for_lanes { trains.laws() } else { None };
         let kept = OnceLock::new();
         if laws.is_none() {
             let _ = kept.set(Arc::new(phases));
@@ -75,7 +75,7 @@ impl Machine {
     pub(super) fn is_free_at(&self, position: f64) -> bool {
         let free = self.laws.iter().flatten().next();
         free.is_some_and(|free| {
-            free.low + free.grain < position && position < free.high - free.grain
+            free.low + free.ambiguity < position && position < free.high - free.ambiguity
         })
     }
 
@@ -87,21 +87,21 @@ impl Machine {
 
 /// Restitution above which bounces go on beyond counting.
 const ELASTIC: f64 = 1.0 - 1.0 / 65_536.0;
-/// Shortest bounce that lanes follow at a face that hums, in drive periods.
+/// Shortest bounce that lanes follow at a face with trains of bounces, in drive periods.
 const SHORTEST: f64 = 1e-2;
-/// Most that damping may take of a motion in a drive period, as an exponent, where faces hum: bounces that are longer
+/// Most that damping may take of a motion in a drive period, as an exponent, where faces bring trains of bounces: bounces that are longer
 /// do not become a row without end before the drive lifts the mass.
 const MOST_DAMPING: f64 = 6.0;
 
-/// Faces that hum: the drive can press the mass onto them while they throw it back with hardly any loss, by a jump of
+/// Faces with trains of bounces: the drive can press the mass onto them while they throw it back with hardly any loss, by a jump of
 /// the force that is larger than the press, or as a wall that is nearly elastic. Bounces there may form rows without
 /// end, whose end the safe engine decides from the whole row.
-struct Hum<'a> {
+struct BounceTrains<'a> {
     phases: &'a Phases,
     drive: Excitation,
 }
 
-impl Hum<'_> {
+impl BounceTrains<'_> {
     /// The laws of all phases, if lanes can follow them.
     fn laws(&self) -> Option<Vec<Constants>> {
         let mut laws = vec![Constants::default(); self.phases.phases.len()];
@@ -140,7 +140,7 @@ impl Hum<'_> {
         elastic && before + self.drive.amplitude > 0.0
     }
 
-    /// True if no row of bounces that lanes follow comes to its end: the drive lifts the mass from all faces that hum,
+    /// True if no row of bounces that lanes follow comes to its end: the drive lifts the mass from all such faces,
     /// before damping has taken much.
     fn is_short(&self) -> bool {
         let damping = self.phases.phases.iter().map(|phase| phase.law.damping);

@@ -24,18 +24,18 @@ pub(super) struct Hull<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Hull<S, N> {
-    /// Of a motion with these positions and velocities at both ends, |x''''| span^4 / 384 <= slack.
+    /// Of a motion with these positions and velocities at both ends, |x''''| span^4 / 384 <= error bound.
     #[inline(always)]
     pub fn of(
         left: (Lanes<S, N>, Lanes<S, N>),
         right: (Lanes<S, N>, Lanes<S, N>),
         third: Lanes<S, N>,
-        slack: Lanes<S, N>,
+        error_bound: Lanes<S, N>,
     ) -> Self {
         let (b1, b2) = (third.mul_add(left.1, left.0), right.0 - third * right.1);
         Self {
-            low: left.0.min(right.0).min(b1.min(b2)) - slack,
-            high: left.0.max(right.0).max(b1.max(b2)) + slack,
+            low: left.0.min(right.0).min(b1.min(b2)) - error_bound,
+            high: left.0.max(right.0).max(b1.max(b2)) + error_bound,
         }
     }
 }
@@ -120,7 +120,7 @@ impl<S: Simd, const N: usize> Law<S, N> {
     /// |x''''| window^4 / 384 over the next window, of a motion whose free part is (y, u). In phases that only
     /// a position ends, over all windows of a scan.
     #[inline(always)]
-    pub fn slack(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
+    pub fn error_bound(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
         let Parts { y, u, .. } = *parts;
         let fourth = self.fourth_x.mul_add(y, self.fourth_v * u).abs();
         let fifth = self.fifth_x.mul_add(y, self.fifth_v * u).abs();
@@ -129,7 +129,7 @@ impl<S: Simd, const N: usize> Law<S, N> {
 
     /// The same of |v''''|.
     #[inline(always)]
-    pub fn rate_slack(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
+    pub fn rate_error_bound(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
         let Parts { y, u, .. } = *parts;
         let fifth = self.rate_fifth_x.mul_add(y, self.rate_fifth_v * u).abs();
         let sixth = self.rate_sixth_x.mul_add(y, self.rate_sixth_v * u).abs();

@@ -32,7 +32,7 @@ pub(super) type Jet = [f64; 4];
 
 /// A motion in one phase at one instant.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct CyclePlace {
     pub jet: Jet,
     /// The free part, position and velocity, and the rate of the steady part.
     pub free: Vector2<f64>,
@@ -71,17 +71,17 @@ impl Constants {
         Vector2::new(p, q) * self.side
     }
 
-    pub fn place(&self, drive: &Drive, (x, v): (f64, f64), angle: Complex<f64>) -> Place {
+    pub fn place(&self, drive: &Drive, (x, v): (f64, f64), angle: Complex<f64>) -> CyclePlace {
         let steady = self.steady_at(angle);
         self.place_of(drive, Vector2::new(x - self.offset, v) - steady, steady)
     }
 
-    pub fn place_of(&self, drive: &Drive, free: Vector2<f64>, steady: Vector2<f64>) -> Place {
+    pub fn place_of(&self, drive: &Drive, free: Vector2<f64>, steady: Vector2<f64>) -> CyclePlace {
         let square = drive.frequency * drive.frequency;
         let second = self.stiffness * free.x + self.damping * free.y;
         let third = self.stiffness * free.y + self.damping * second;
         let state = free + steady;
-        Place {
+        CyclePlace {
             jet: [
                 state.x + self.offset,
                 state.y,

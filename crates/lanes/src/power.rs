@@ -30,7 +30,7 @@ pub(super) type Series<S, const N: usize> = [Lanes<S, N>; DEGREE + 1];
 
 /// Where lanes stand along sigma.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place<S: Simd, const N: usize> {
+pub(super) struct ContactPlace<S: Simd, const N: usize> {
     pub root: Lanes<S, N>,
     pub velocity: Lanes<S, N>,
     /// cos and sin of the drive angle.
@@ -80,7 +80,7 @@ impl<S: Simd, const N: usize> Exponents<S, N> {
     }
 }
 
-impl<S: Simd, const N: usize> Place<S, N> {
+impl<S: Simd, const N: usize> ContactPlace<S, N> {
     #[inline(always)]
     pub fn choose(mask: Mask<S, N>, yes: &Self, no: &Self) -> Self {
         Self {
@@ -115,7 +115,7 @@ impl<S: Simd, const N: usize> Power<S, N> {
 
     /// The series about a place, two orders at a time: what is fetched serves both.
     #[inline(always)]
-    pub fn expand(&mut self, law: &Law<S, N>, frequency: Lanes<S, N>, from: &Place<S, N>) {
+    pub fn expand(&mut self, law: &Law<S, N>, frequency: Lanes<S, N>, from: &ContactPlace<S, N>) {
         let zero = frequency.like(0.0);
         let exponents = Exponents::of(law);
         (self.root[0], self.depth[0]) = (from.root, from.root * from.root);

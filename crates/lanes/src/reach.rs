@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::lanes::{Lanes, Mask};
-use super::power::{DEGREE, Place, Power, RECIPROCALS};
+use super::power::{ContactPlace, DEGREE, Power, RECIPROCALS};
 
 /// What the last term of the velocity may amount to, relative to its first.
 const SMALLEST: f64 = f64::EPSILON / 2.0;
@@ -78,7 +78,7 @@ impl<S: Simd, const N: usize> Power<S, N> {
 
     /// Where the lanes come to after sigma.
     #[inline(always)]
-    pub fn at(&self, from: &Place<S, N>, sigma: Lanes<S, N>) -> Place<S, N> {
+    pub fn at(&self, from: &ContactPlace<S, N>, sigma: Lanes<S, N>) -> ContactPlace<S, N> {
         let zero = sigma.like(0.0);
         let (mut way, mut rise, mut time) = (zero, zero, zero);
         let (mut cos, mut sin) = (zero, zero);
@@ -92,7 +92,7 @@ impl<S: Simd, const N: usize> Power<S, N> {
                 sin = sin.mul_add(sigma, self.sin[k]);
             }
         }
-        Place {
+        ContactPlace {
             root: way.mul_add(sigma, from.root),
             velocity: rise.mul_add(sigma, from.velocity),
             angle: (

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::dispatch;
 use super::job::{Instructions, Job, Outcome};
 use super::machine::Machine;
-use super::watch::{Listener, Watch};
+use super::observer::{BatchObserver, ObserverHandle};
 use softstop::Start;
 
 /// Jobs of a part. Lanes that go together round together, so the parts may not depend on how many threads
@@ -18,7 +18,7 @@ const PART: usize = 128;
 ///
 /// # Panics
 /// If a job names a machine that is not there.
-pub fn run(machines: &[Machine], jobs: &[Job], watch: &mut impl Watch) -> Vec<Outcome> {
+pub fn run(machines: &[Machine], jobs: &[Job], watch: &mut impl BatchObserver) -> Vec<Outcome> {
     run_with(Instructions::Widest, machines, jobs, watch)
 }
 
@@ -27,18 +27,18 @@ pub fn run_with(
     instructions: Instructions,
     machines: &[Machine],
     jobs: &[Job],
-    watch: &mut impl Watch,
+    watch: &mut impl BatchObserver,
 ) -> Vec<Outcome> {
-    dispatch::run(machines, jobs, Listener::of(watch), instructions)
+    dispatch::run(machines, jobs, ObserverHandle::of(watch), instructions)
 }
 
 /// Follows all jobs on the threads of rayon's pool, part by part, with the same result for any number of
 /// threads. Each part has a watcher of its own, which `watch` makes for the jobs in this range; they come
-/// back in order. They hear of jobs by their number in `jobs`.
+/// back in order. They are told of jobs by their number in `jobs`.
 ///
 /// # Panics
 /// If a job names a machine that is not there.
-pub fn run_parallel<W: Watch + Send>(
+pub fn run_parallel<W: BatchObserver + Send>(
     instructions: Instructions,
     machines: &[Machine],
     jobs: &[Job],
@@ -67,7 +67,7 @@ struct Numbered<W> {
     watch: W,
 }
 
-impl<W: Watch> Watch for Numbered<W> {
+impl<W: BatchObserver> BatchObserver for Numbered<W> {
     const IMPACTS: bool = W::IMPACTS;
     const PERIODS: bool = W::PERIODS;
 

@@ -4,13 +4,13 @@ use std::ops::ControlFlow;
 
 use super::job::Outcome;
 use super::machine::Machine;
-use super::watch::Listener;
+use super::observer::ObserverHandle;
 use softstop::internals::{Mode, Motion};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Start};
 
 /// A motion somewhere on its way.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct SafeStart {
     pub job: usize,
     /// Whole drive periods so far, and seconds into the present one.
     pub cycle: u64,
@@ -54,9 +54,9 @@ fn lane_phase(machine: &Machine, motion: &Motion) -> Option<usize> {
 /// follow; none if that is not before its end after `periods`.
 pub(super) fn follow(
     machine: &Machine,
-    place: Place,
+    place: SafeStart,
     periods: u64,
-    watch: &mut Listener<'_>,
+    watch: &mut ObserverHandle<'_>,
     outcome: &mut Outcome,
 ) -> Result<Option<Resumed>, MotionError> {
     let at = Instant {
@@ -109,7 +109,7 @@ const A_PERIOD: u64 = 16;
 
 struct Counter<'a, 'b> {
     job: usize,
-    watch: &'a mut Listener<'b>,
+    watch: &'a mut ObserverHandle<'b>,
     impacts: u64,
     crossings: u64,
 }

@@ -22,7 +22,7 @@ pub(super) struct Reached<S: Simd, const N: usize> {
     /// A window from there.
     pub next: Parts<S, N>,
     /// |x''''| window^4 / 384.
-    pub slack: Lanes<S, N>,
+    pub error_bound: Lanes<S, N>,
     /// Windows scanned.
     pub count: Lanes<S, N>,
     /// Lanes that may go on.
@@ -52,7 +52,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         Reached {
             parts,
             next: parts.next(law),
-            slack: law.slack(&parts),
+            error_bound: law.error_bound(&parts),
             count: parts.y.like(0.0),
             go: active.and_not(active),
         }
@@ -67,18 +67,18 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let Reached {
             mut parts,
             mut next,
-            slack,
+            error_bound,
             ..
         } = reached;
         let (x, v) = (parts.y + parts.p, parts.u + parts.q);
-        let mut apart = (law.edge - law.grain).below(x).not();
+        let mut apart = (law.edge - law.ambiguity).below(x).not();
         let leaves = v.below(-law.slow);
         let mut go = active & self.state.share.equals(one) & (apart | leaves);
-        let limit = law.edge - slack;
+        let limit = law.edge - error_bound;
         let mut top = law.third.mul_add(v, x);
         // On the edge the first two Bernstein coefficients need no proof.
         top = apart.choose(top.max(x), one.like(f64::NEG_INFINITY));
-        let leaving = slack.mul_add(one.like(-LEAVING), law.edge);
+        let leaving = error_bound.mul_add(one.like(-LEAVING), law.edge);
         let mut below = apart.choose(limit, leaving);
         let capped = (go & cap.below(one.like(MOST_WINDOWS as f64))).any();
         // All lanes move on, those that have stopped too, or each window would wait for the verdict on the one before.

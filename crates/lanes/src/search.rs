@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use super::cubic::Cubic;
 use super::guard::{Ahead, Guard};
-use super::judge::Stretch;
+use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::local;
@@ -63,8 +63,8 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             pending
         };
         let cubic = Cubic::new(left, right, ahead.span);
-        let touches = (-self.grain).below(left.0);
-        let leaves = touches & left.1.below(-self.slow) & left.0.at_most(self.grain);
+        let touches = (-self.ambiguity).below(left.0);
+        let leaves = touches & left.1.below(-self.slow) & left.0.at_most(self.ambiguity);
         let root = guess(&cubic, leaves, single);
         let sound = single.and_not(touches) | (single & leaves);
         let mut goal = Goal {
@@ -73,7 +73,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             } else {
                 pending.and_not(pending)
             },
-            rises: cubic.rises(self.slack, root, leaves, sound),
+            rises: cubic.rises(self.error_bound, root, leaves, sound),
             humps: pending.and_not(pending),
             doubtful: single & touches.and_not(leaves),
             end: ahead.span,
@@ -81,13 +81,13 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         };
         let open = single.and_not(goal.rises | goal.doubtful);
         if open.any() {
-            let stretch = Stretch {
+            let interval = GuardInterval {
                 left,
                 right,
                 span: ahead.span,
-                slack: self.slack,
+                error_bound: self.error_bound,
             };
-            let verdict = stretch.judge(touches, leaves);
+            let verdict = interval.decide(touches, leaves);
             goal.clear = goal.clear | (open & verdict.clear);
             goal.rises = goal.rises | (open & verdict.rises);
             goal.humps = open & verdict.hump;
@@ -95,7 +95,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             goal.at = goal.humps.choose(top, goal.at);
         }
         // A crossing within rounding of the end: before it or after?
-        let ends_there = (-self.grain).below(right.0) & left.0.like(0.0).below(right.1);
+        let ends_there = (-self.ambiguity).below(right.0) & left.0.like(0.0).below(right.1);
         goal.doubtful = goal.doubtful | (goal.clear & single & ends_there);
         goal.rises = goal.rises.and_not(goal.doubtful);
         goal.clear = goal.clear.and_not(goal.doubtful);
@@ -171,8 +171,8 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         span: Lanes<S, N>,
         goal: &mut Goal<S, N>,
     ) {
-        let over = tops & self.grain.below(height);
-        let under = tops & height.below(-self.grain);
+        let over = tops & self.ambiguity.below(height);
+        let under = tops & height.below(-self.ambiguity);
         let none = height.like(0.0);
         goal.humps = goal.humps.and_not(tops);
         goal.clear = goal.clear | under;

@@ -35,12 +35,12 @@ pub(super) struct State<S: Simd, const N: usize> {
     pub noted: Lanes<S, N>,
     /// Share of a window that is looked at next: 1, or less where a whole one could not be decided.
     pub share: Lanes<S, N>,
-    pub drive: Drive<S, N>,
+    pub drive: DriveLanes<S, N>,
 }
 
 /// The drive's clock.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Drive<S: Simd, const N: usize> {
+pub(super) struct DriveLanes<S: Simd, const N: usize> {
     pub frequency: Lanes<S, N>,
     /// A drive period in s, and its reciprocal.
     pub period: Lanes<S, N>,
@@ -66,7 +66,7 @@ impl<S: Simd, const N: usize> State<S, N> {
             crossings: none,
             noted: none,
             share: one,
-            drive: Drive {
+            drive: DriveLanes {
                 frequency: one,
                 period: one,
                 per_period: one,

@@ -2,13 +2,13 @@
 
 use super::job::Job;
 use super::machine::Machine;
-use super::watch::Listener;
+use super::observer::ObserverHandle;
 
 /// Motions to follow.
 pub(super) struct Task<'a> {
     pub machines: &'a [Machine],
     pub jobs: &'a [Job],
-    pub watch: Listener<'a>,
+    pub watch: ObserverHandle<'a>,
     /// Most lanes to use.
     pub at_once: usize,
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector4;
 
 use super::law::{Constants, SPAN};
-use super::place::{Derivatives, Face, Place};
+use super::place::{CyclePlace, Derivatives, Face};
 
 /// Error of the first and second derivative of a cubic Hermite interpolant over a step h, in units of its own error
 /// M h^4 / 384: sqrt(3)/216 M h^3 and M h^2 / 12 (Birkhoff and Priver 1967).
@@ -57,7 +57,7 @@ impl Windows {
     pub fn add(
         &mut self,
         law: &Constants,
-        (from, to): (&Place, &Place),
+        (from, to): (&CyclePlace, &CyclePlace),
         step: f64,
         (entry, exit): (Option<Face>, Option<Face>),
         at_start: Derivatives,
@@ -68,18 +68,26 @@ impl Windows {
         let longer = share.max(1.0);
         let (y, u) = (from.free.x, from.free.y);
         let fifth = (law.fifth_x * y + law.fifth_v * u).abs() * longer;
-        let slack = scale * (law.steady + (law.fourth_x * y + law.fourth_v * u).abs() + fifth);
+        let error_bound =
+            scale * (law.steady + (law.fourth_x * y + law.fourth_v * u).abs() + fifth);
         let rate_fifth = (law.rate_fifth_x * y + law.rate_fifth_v * u).abs();
         let rate_sixth = (law.rate_sixth_x * y + law.rate_sixth_v * u).abs() * longer;
-        let rate_slack = scale * (law.rate_steady + rate_fifth + rate_sixth);
+        let rate_error_bound = scale * (law.rate_steady + rate_fifth + rate_sixth);
         let margin = |face: Face| {
-            let slack = face.position.abs() * slack + face.velocity.abs() * rate_slack;
-            let grain = match face.velocity {
-                0.0 => law.grain,
-                _ => law.grain * law.guard_scale,
+            let error_bound =
+                face.position.abs() * error_bound + face.velocity.abs() * rate_error_bound;
+            let ambiguity = match face.velocity {
+                0.0 => law.ambiguity,
+                _ => law.ambiguity * law.guard_scale,
             };
             let [is_entry, is_exit] = [entry, exit].map(|it| it.is_some_and(|it| it.is(&face)));
-            Margin::new(&face, (from, to), step, (slack, grain), (is_entry, is_exit))
+            Margin::new(
+                &face,
+                (from, to),
+                step,
+                (error_bound, ambiguity),
+                (is_entry, is_exit),
+            )
         };
         let faces = law.faces().into_iter();
         let within_reach = faces.filter(|face| face.level < f64::INFINITY);
@@ -119,9 +127,9 @@ impl Face {
 impl Margin {
     fn new(
         face: &Face,
-        (from, to): (&Place, &Place),
+        (from, to): (&CyclePlace, &CyclePlace),
         step: f64,
-        (slack, grain): (f64, f64),
+        (error_bound, ambiguity): (f64, f64),
         (is_entry, is_exit): (bool, bool),
     ) -> Self {
         let Face {
@@ -141,23 +149,31 @@ impl Margin {
         let rate = |[_, v, a, _]: [f64; 4]| position * v + velocity * a;
         let (g0, g1) = (value(from.jet), value(to.jet));
         let (r0, r1) = (rate(from.jet), rate(to.jet));
-        let is_start = is_entry && g0 >= -grain;
+        let is_start = is_entry && g0 >= -ambiguity;
         let third = step / 3.0;
         let (b1, b2) = (g0 + third * r0, g1 - third * r1);
-        margin.clear = -(g0.max(g1).max(b1.max(b2)) + slack) - grain;
-        let start = if is_start { f64::INFINITY } else { -g0 - grain };
-        let end = if is_exit { f64::INFINITY } else { -g1 - grain };
+        margin.clear = -(g0.max(g1).max(b1.max(b2)) + error_bound) - ambiguity;
+        let start = if is_start {
+            f64::INFINITY
+        } else {
+            -g0 - ambiguity
+        };
+        let end = if is_exit {
+            f64::INFINITY
+        } else {
+            -g1 - ambiguity
+        };
         margin.ends = start.min(end);
         // The rate's Bernstein coefficients are three times the differences of the value's.
         let differences = [b1 - g0, b2 - b1, g1 - b2].map(|difference| difference / third);
         let [d0, d1, d2] = differences;
         if is_start {
-            margin.slope = -d0.max(d1).max(d2) - FIRST * slack / step;
+            margin.slope = -d0.max(d1).max(d2) - FIRST * error_bound / step;
         } else if is_exit {
-            margin.slope = d0.min(d1).min(d2) - FIRST * slack / step;
+            margin.slope = d0.min(d1).min(d2) - FIRST * error_bound / step;
         }
         let second = (d1 - d0).min(d2 - d1) * 2.0 / step;
-        margin.convex = second - SECOND * slack / (step * step);
+        margin.convex = second - SECOND * error_bound / (step * step);
         margin
     }
 

@@ -8,7 +8,7 @@ use softstop_testing::tolerance::{GROWN, SOLVED};
 use std::collections::HashMap;
 
 use softstop::{Clock, Crossing, Observer, Ratios, Release, Scene, Slope, Start, Stop};
-use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run, run_with};
+use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run, run_with};
 use softstop_testing::{Meets, assert_near, kelvin_voigt, preloaded, rigid_stop};
 
 const PERIODS: u64 = 20;
@@ -235,7 +235,7 @@ fn the_watcher_hears_of_every_impact_and_period() {
         periods: HashMap<usize, Vec<(u64, Start)>>,
         period: f64,
     }
-    impl Watch for Heard {
+    impl BatchObserver for Heard {
         const IMPACTS: bool = true;
         const PERIODS: bool = true;
         fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {

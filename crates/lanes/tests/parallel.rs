@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use rayon::ThreadPoolBuilder;
 use softstop::{Ratios, Scene, Start};
-use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run, run_parallel};
+use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run, run_parallel};
 use softstop_testing::tolerance::SOLVED;
 use softstop_testing::{assert_near, hertz};
 
@@ -34,7 +34,7 @@ fn fleet() -> (Vec<Machine>, Vec<Job>) {
 /// Counts the impacts of each job that it hears of.
 struct Heard(Vec<(usize, f64)>);
 
-impl Watch for Heard {
+impl BatchObserver for Heard {
     const IMPACTS: bool = true;
 
     fn impact(&mut self, job: usize, _: u64, _: f64, velocity: f64) {
@@ -58,7 +58,7 @@ fn on(threads: usize) -> (Vec<Outcome>, Vec<(usize, f64)>) {
 /// Ends its batch.
 struct Ends;
 
-impl Watch for Ends {
+impl BatchObserver for Ends {
     fn goes_on(&mut self) -> ControlFlow<()> {
         ControlFlow::Break(())
     }

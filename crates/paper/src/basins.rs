@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use anyhow::{Error, Result};
 use serde::Deserialize;
 use softstop::{Machine, Ratios, Scene};
-use softstop_dynamics::basin::{Class, Clearing, Options, basins};
+use softstop_dynamics::basin::{BasinOptions, Class, Clearing, basins};
 use softstop_dynamics::{Axis, Basins, Grid, MotionKind, StroboscopicMap};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
@@ -58,7 +58,13 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         let machine = Machine::of_ratios(&Ratios::unloaded().at_frequency(plane.eta))?;
         let (scene, watcher) = (&machine.scene, progress.watcher());
         let grid = plane.grid(cells);
-        let basins = basins(scene, &grid, &Options::default(), &watcher, studio.kept)?;
+        let basins = basins(
+            scene,
+            &grid,
+            &BasinOptions::default(),
+            &watcher,
+            studio.kept,
+        )?;
         let wandering = wandering(scene, &basins)?;
         Ok((plane, machine, basins, wandering))
     });

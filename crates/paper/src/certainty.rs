@@ -14,7 +14,7 @@ use softstop_console::export::csv;
 use softstop_console::machine::Regime;
 use softstop_console::progress::Progress;
 use softstop_draw::{Axis, Chart, Corner, Layer, Legend, Mark, Panel, Stroke, style};
-use softstop_dynamics::basin::{Establishing, Options, establishing};
+use softstop_dynamics::basin::{BasinOptions, Establishing, establishing};
 use softstop_dynamics::{self as dynamics, Grid, zone};
 use softstop_explore::basin::certainty::{SHARES, layers};
 
@@ -98,7 +98,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         let zone = zone::hysteresis(&scene);
         let zone = zone.with_context(|| format!("no hysteresis zone at rho = {clearance}"))?;
         let (grid, watcher) = (starts.grid(clearance, cells), progress.watcher());
-        let options = Options::default();
+        let options = BasinOptions::default();
         Ok(Curve {
             machine,
             clearance,

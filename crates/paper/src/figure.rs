@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use softstop_console::column::Column;
 use softstop_console::record::Record;
-use softstop_dynamics::attractors::Options;
+use softstop_dynamics::attractors::SearchOptions;
 use softstop_dynamics::monitor::{Kept, piece};
 use softstop_dynamics::transitions::{Rules, Transition};
 
@@ -142,7 +142,7 @@ impl<'a> Studio<'a> {
     pub(crate) fn rules(&self) -> Rules {
         let full = Rules::default();
         let draft = Rules {
-            survey: Options {
+            survey: SearchOptions {
                 starts: 64,
                 patience: 20_000,
                 ..full.survey

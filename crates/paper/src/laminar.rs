@@ -9,7 +9,7 @@ use softstop::{Ratios, Start};
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::monitor::piece;
 use softstop_dynamics::transitions::Transition;
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::table1::{matching, paper};
@@ -206,7 +206,7 @@ struct Together<'a> {
     left: &'a [usize],
 }
 
-impl Watch for Together<'_> {
+impl BatchObserver for Together<'_> {
     const IMPACTS: bool = true;
     const PERIODS: bool = true;
 

@@ -1,7 +1,7 @@
 //! Rows of the paper's Table 1, found from a few frequencies. The whole table takes longer than a test may:
 //! `softstop-lab table1`.
 
-use softstop_dynamics::attractors::Options;
+use softstop_dynamics::attractors::SearchOptions;
 use softstop_dynamics::transitions::Rules;
 use softstop_paper::table1::paper::{INTERVALS, ROWS};
 use softstop_paper::table1::report::{RowReport, TableReport};
@@ -14,10 +14,10 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 /// Few motions, watched for a short time; the lifetimes of 8 would scatter more than the rows of chaos allow.
 fn quick() -> Rules {
     Rules {
-        survey: Options {
+        survey: SearchOptions {
             starts: 64,
             patience: 20_000,
-            ..Options::default()
+            ..SearchOptions::default()
         },
         motions: 32,
         patience: 1000,

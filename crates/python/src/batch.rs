@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use softstop::Start;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
-use softstop_lanes::{Instructions, Job, Machine as Lowered, Outcome, Watch, run_parallel};
+use softstop_lanes::{BatchObserver, Instructions, Job, Machine as Lowered, Outcome, run_parallel};
 
 use crate::errors::of_scene;
 use crate::machine::Machine;
@@ -44,7 +44,7 @@ struct Impacts {
     kept: Vec<Impact>,
 }
 
-impl Watch for Impacts {
+impl BatchObserver for Impacts {
     const IMPACTS: bool = true;
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
@@ -61,7 +61,7 @@ impl Watch for Impacts {
 /// Nothing is kept.
 struct Ends;
 
-impl Watch for Ends {
+impl BatchObserver for Ends {
     fn goes_on(&mut self) -> ControlFlow<()> {
         interrupt::go_on()
     }

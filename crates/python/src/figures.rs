@@ -7,7 +7,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::zone::find_with_monitor;
-use softstop_dynamics::{Orbit, Stroke, slopes};
+use softstop_dynamics::{CycleMetrics, Orbit, slopes};
 use softstop_optimize::robust::rates;
 
 use crate::errors::{MachineError, SoftstopError, of_failure, of_machine};
@@ -48,7 +48,7 @@ pub fn figures(
         Budget::MACHINE.limit(|| {
             let orbit =
                 find_with_monitor(&stated.scene, &interrupt::watch).map_err(anyhow::Error::from)?;
-            let stroke = Stroke::of(&orbit)?;
+            let stroke = CycleMetrics::of(&orbit)?;
             Ok::<_, Failure>((orbit, stroke))
         })
     })?;
@@ -114,7 +114,7 @@ fn direction(machine: &Stated, key: &str) -> PyResult<Direction> {
 /// Derivatives of figures in SI units along directions.
 fn derivatives(
     figures: &[Figure],
-    (orbit, stroke): (&Orbit, &Stroke),
+    (orbit, stroke): (&Orbit, &CycleMetrics),
     directions: &[Direction],
 ) -> PyResult<Vec<Vec<f64>>> {
     let mut parameters: Vec<Parameter> = directions.iter().flatten().map(|(it, _)| *it).collect();

@@ -5,7 +5,7 @@
 use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::slopes::Border;
-use softstop_dynamics::spread::{Spread, critical_normal, free_normal};
+use softstop_dynamics::spread::{ToleranceBox, critical_normal, free_normal};
 use softstop_dynamics::zone::{EndKind, grazing_frequencies};
 use softstop_dynamics::{BranchPoint, Zone};
 

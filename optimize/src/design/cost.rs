@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use softstop::{Machine, Parameter};
 use softstop_dynamics::slopes::Slopes;
-use softstop_dynamics::{Orbit, Stroke};
+use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::expression::{Expression, chained};
 use super::figure::Figure;
@@ -60,7 +60,7 @@ impl Term {
     }
 
     /// Its value in SI units; NaN if there is none.
-    fn value(self, (orbit, stroke): (&Orbit, &Stroke)) -> f64 {
+    fn value(self, (orbit, stroke): (&Orbit, &CycleMetrics)) -> f64 {
         let own = |parameter: Parameter| parameter.get(&orbit.scene).unwrap_or(f64::NAN);
         match self {
             Self::Figure(figure) => figure.of_motion(orbit, stroke).unwrap_or(f64::NAN),
@@ -109,14 +109,14 @@ impl Cost {
     }
 
     /// Its value and its derivatives by its terms, each in its own unit.
-    fn at(&self, motion: (&Orbit, &Stroke)) -> Slope {
+    fn at(&self, motion: (&Orbit, &CycleMetrics)) -> Slope {
         let values = self.0.terms.iter();
         let values = values.map(|(term, unit)| term.value(motion) / unit);
         self.0.expression.at(&values.collect::<Vec<f64>>())
     }
 
     /// Its value; NaN if it has none.
-    pub fn value(&self, orbit: &Orbit, stroke: &Stroke) -> f64 {
+    pub fn value(&self, orbit: &Orbit, stroke: &CycleMetrics) -> f64 {
         self.at((orbit, stroke)).value
     }
 
@@ -124,7 +124,7 @@ impl Cost {
     pub fn rates(
         &self,
         slopes: &Slopes,
-        (orbit, stroke): (&Orbit, &Stroke),
+        (orbit, stroke): (&Orbit, &CycleMetrics),
         rates: impl Fn(Figure) -> Option<Vec<f64>>,
     ) -> Option<Vec<f64>> {
         let outer = self.at((orbit, stroke)).by;
@@ -143,7 +143,7 @@ impl Cost {
 pub fn value_of_motion(
     (figure, cost): (Figure, Option<&Cost>),
     orbit: &Orbit,
-    stroke: &Stroke,
+    stroke: &CycleMetrics,
 ) -> Option<f64> {
     let value = match figure {
         Figure::Cost => cost?.value(orbit, stroke),

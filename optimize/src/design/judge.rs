@@ -8,7 +8,7 @@ use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{end_along, find_zones, free_amplitude, loss_of_stability};
-use softstop_dynamics::{Orbit, ParameterFamily, Stroke, Zone};
+use softstop_dynamics::{CycleMetrics, Orbit, ParameterFamily, Zone};
 
 use super::cost::value_of_motion;
 use super::figure::Figure;
@@ -27,7 +27,7 @@ pub struct Judged<'a> {
     /// The motion.
     pub orbit: &'a Orbit,
     /// What it does in a stroke.
-    pub stroke: Stroke,
+    pub stroke: CycleMetrics,
 }
 
 impl<'a> Judged<'a> {
@@ -46,7 +46,7 @@ impl<'a> Judged<'a> {
             zone,
             place,
             orbit,
-            stroke: Stroke::of(orbit)?,
+            stroke: CycleMetrics::of(orbit)?,
         })
     }
 
@@ -299,7 +299,7 @@ impl Problem {
         value_of_motion(
             (figure, self.cost.as_ref()),
             orbit,
-            &Stroke::of(orbit).ok()?,
+            &CycleMetrics::of(orbit).ok()?,
         )
     }
 

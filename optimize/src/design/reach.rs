@@ -5,7 +5,7 @@ use softstop::Scene;
 use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::slopes::Border;
-use softstop_dynamics::spread::{Reached, Spread, along};
+use softstop_dynamics::spread::{Reached, ToleranceBox, along};
 use softstop_dynamics::zone::Loss;
 
 use super::box_window::Edge;

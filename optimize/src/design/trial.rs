@@ -7,7 +7,7 @@ use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::{Region, SurveyError, starting_box};
 use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::run_up::RunUp;
-use softstop_dynamics::supply::{Reading, outlasts};
+use softstop_dynamics::supply::{Reading, survives_missing_strips};
 
 use super::conflict::{conflict, violated_within};
 use super::critical::CriticalMachines;
@@ -315,7 +315,8 @@ impl Problem {
 fn survived(requirement: &Requirement, orbit: &Orbit, angles: usize) -> Result<u32, SurveyError> {
     let most = requirement.least.unwrap_or(0.0) as u32;
     for missing in 1..=most {
-        let gaps = outlasts(orbit, missing, Reading::Fixed, angles, &interrupt::watch)?;
+        let gaps =
+            survives_missing_strips(orbit, missing, Reading::Fixed, angles, &interrupt::watch)?;
         if gaps.share() < 1.0 {
             return Ok(missing - 1);
         }

@@ -2,7 +2,7 @@
 
 use softstop::{Parameter, Scene};
 use softstop_dynamics::slopes::Border;
-use softstop_dynamics::spread::Spread;
+use softstop_dynamics::spread::ToleranceBox;
 
 use super::exact::Linearization;
 use super::space::Space;

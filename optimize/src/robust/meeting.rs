@@ -7,7 +7,7 @@ use softstop::MotionError;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
-use softstop_dynamics::spread::{Reached, Spread, along, critical_normal, free_normal};
+use softstop_dynamics::spread::{Reached, ToleranceBox, along, critical_normal, free_normal};
 use softstop_dynamics::zone::{Loss, grazing_frequencies, loss_of_stability};
 use softstop_dynamics::{BranchPoint, Orbit};
 
@@ -56,7 +56,7 @@ impl Meeting {
 }
 
 pub(super) struct Search<'a> {
-    pub spread: &'a dyn Spread,
+    pub spread: &'a dyn ToleranceBox,
     pub nominal: &'a Orbit,
     pub norm: Norm,
     pub farthest: f64,

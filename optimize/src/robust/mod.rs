@@ -34,8 +34,8 @@ pub use rates::rates;
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes::Slopes;
-use softstop_dynamics::spread::Spread;
-use softstop_dynamics::{Orbit, Stroke};
+use softstop_dynamics::spread::ToleranceBox;
+use softstop_dynamics::{CycleMetrics, Orbit};
 
 use crate::design::cost::{Cost, value_of_motion};
 
@@ -90,7 +90,7 @@ impl Tolerances {
 
     /// The value of a figure of a motion of one of the machines; none if it has none, or not by itself.
     pub(crate) fn value(&self, figure: Figure, orbit: &Orbit) -> Option<f64> {
-        self.value_of_stroke(figure, orbit, &Stroke::of(orbit).ok()?)
+        self.value_of_stroke(figure, orbit, &CycleMetrics::of(orbit).ok()?)
     }
 
     /// [`Tolerances::value`] of a motion whose stroke is known.
@@ -98,14 +98,14 @@ impl Tolerances {
         &self,
         figure: Figure,
         orbit: &Orbit,
-        stroke: &Stroke,
+        stroke: &CycleMetrics,
     ) -> Option<f64> {
         value_of_motion((figure, self.cost.as_ref()), orbit, stroke)
     }
 
     /// The derivatives of a figure of a motion by the parameters of its slopes; none if it has no exact ones.
     pub(crate) fn rates(&self, figure: Figure, slopes: &Slopes, orbit: &Orbit) -> Option<Vec<f64>> {
-        let stroke = Stroke::of(orbit).ok()?;
+        let stroke = CycleMetrics::of(orbit).ok()?;
         rates((figure, self.cost.as_ref()), slopes, (orbit, &stroke))
     }
 
@@ -140,7 +140,7 @@ impl Tolerances {
     }
 }
 
-impl Spread for Tolerances {
+impl ToleranceBox for Tolerances {
     fn dimensions(&self) -> usize {
         self.tolerances.len()
     }

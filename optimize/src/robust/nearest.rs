@@ -11,7 +11,7 @@ use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
-use softstop_dynamics::spread::{Spread, along};
+use softstop_dynamics::spread::{ToleranceBox, along};
 use softstop_dynamics::zone::Loss;
 
 use super::corners::corners;
@@ -44,7 +44,7 @@ pub struct Nearest {
 /// # Errors
 /// [`OrbitError::Stopped`]; [`OrbitError`] if the nominal motion is not one to start from.
 pub fn nearest(
-    spread: &dyn Spread,
+    spread: &dyn ToleranceBox,
     nominal: &Orbit,
     norm: Norm,
     farthest: f64,
@@ -82,7 +82,7 @@ const CORNERS: usize = 32;
 const AROUND: usize = 16;
 
 /// Where the motion is lost on the ways to corners of the box and to places all over it.
-pub(crate) fn first_losses(spread: &dyn Spread, nominal: &Orbit) -> Vec<(Vec<f64>, Loss)> {
+pub(crate) fn first_losses(spread: &dyn ToleranceBox, nominal: &Orbit) -> Vec<(Vec<f64>, Loss)> {
     let dimensions = spread.dimensions();
     let mut ends = corners(dimensions, CORNERS);
     ends.extend((0..AROUND).map(|index| place(index, dimensions)));

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes;
-use softstop_dynamics::spread::{Settled, Spread, along, in_coordinates, varied};
+use softstop_dynamics::spread::{Settled, ToleranceBox, along, in_coordinates, varied};
 
 use super::Tolerances;
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use softstop::Parameter;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes::Slopes;
-use softstop_dynamics::{Orbit, Stroke};
+use softstop_dynamics::{CycleMetrics, Orbit};
 
 use crate::design::cost::Cost;
 
@@ -17,7 +17,7 @@ const SAME: f64 = 1e-9;
 pub fn rates(
     (figure, cost): (Figure, Option<&Cost>),
     slopes: &Slopes,
-    (orbit, stroke): (&Orbit, &Stroke),
+    (orbit, stroke): (&Orbit, &CycleMetrics),
 ) -> Option<Vec<f64>> {
     let scene = &orbit.scene;
     let mass = scene.mass;

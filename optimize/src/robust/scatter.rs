@@ -4,7 +4,9 @@ use softstop_dynamics::continuation::Test;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, place};
-use softstop_dynamics::spread::{Fate, Guide, Model, Spread, critical_normal, free_normal};
+use softstop_dynamics::spread::{
+    MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, critical_normal, free_normal,
+};
 use softstop_dynamics::zone::{ZoneError, ZoneKind, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 
@@ -71,7 +73,7 @@ pub struct Scatter {
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from; [`OrbitError::Stopped`].
 pub fn scatter(
-    spread: &dyn Spread,
+    spread: &dyn ToleranceBox,
     (nominal, kind): (&Orbit, ZoneKind),
     effort: Effort,
     watcher: Monitor<'_>,
@@ -79,9 +81,9 @@ pub fn scatter(
     let dimensions = spread.dimensions();
     // Of a sequence that the points do not use.
     let first = effort.sequences.max(2) * BLOCK;
-    let known = first..first + Model::wanted(dimensions);
+    let known = first..first + PolynomialModel::wanted(dimensions);
     let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
-    let guide = Guide::new(spread, nominal, &known)?;
+    let guide = Surrogate::new(spread, nominal, &known)?;
     let scenes: Vec<_> = known.iter().map(|at| spread.scene(at)).collect();
     let zones = find_zones(kind, &scenes, watcher).into_iter();
     let ends: Result<Vec<_>, _> = zones
@@ -90,15 +92,18 @@ pub fn scatter(
     if watcher(0, 0).is_break() {
         return Err(OrbitError::Stopped);
     }
-    let Some(ends) = ends.ok().and_then(|ends| Model::fit(&known, &ends)) else {
+    let Some(ends) = ends
+        .ok()
+        .and_then(|ends| PolynomialModel::fit(&known, &ends))
+    else {
         return Ok(None);
     };
     let outputs = |at: &[f64]| {
         let [low, high] = ends.at(at);
         let share = (spread.scene(at).excitation.frequency - low) / (high - low);
         match guide.fate(at) {
-            Fate::Kept(settled) => Some([settled.velocity, share]),
-            Fate::Lost { .. } => None,
+            MotionOutcome::Kept(settled) => Some([settled.velocity, share]),
+            MotionOutcome::Lost { .. } => None,
         }
     };
     let found = indices(dimensions, effort, outputs, watcher);

@@ -2,8 +2,10 @@
 
 use rayon::prelude::*;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::spread::{Fate, Guide, Model, Spread, is_inside};
-use softstop_dynamics::{Orbit, Stroke};
+use softstop_dynamics::spread::{
+    MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, is_inside,
+};
+use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::Tolerances;
 use crate::design::requirement::Requirement;
@@ -14,10 +16,10 @@ const RESERVE: f64 = 10.0;
 /// Judges the machines of a spread.
 pub(super) struct Screen<'a> {
     spread: &'a Tolerances,
-    guide: Guide<'a>,
+    guide: Surrogate<'a>,
     required: &'a [Requirement],
     /// For two requirements each, with their largest misfits; none if too few of the machines that are known keep the motion.
-    models: Option<Vec<(Model, [f64; 2])>>,
+    models: Option<Vec<(PolynomialModel, [f64; 2])>>,
 }
 
 impl<'a> Screen<'a> {
@@ -31,7 +33,7 @@ impl<'a> Screen<'a> {
     ) -> Result<Self, OrbitError> {
         let mut screen = Self {
             spread,
-            guide: Guide::new(spread, nominal, places)?,
+            guide: Surrogate::new(spread, nominal, places)?,
             required,
             models: None,
         };
@@ -52,26 +54,26 @@ impl<'a> Screen<'a> {
     }
 
     /// What becomes of a machine, and whether it violates each requirement.
-    pub fn judge(&self, at: &[f64]) -> (Fate, Vec<bool>) {
+    pub fn judge(&self, at: &[f64]) -> (MotionOutcome, Vec<bool>) {
         let fate = self.guide.fate(at);
         let violated = self.violated(at, &fate);
         (fate, violated)
     }
 
     /// The figures of a machine in the order of the requirements; none if it has lost the motion, or one has no value.
-    fn values(&self, at: &[f64], fate: &Fate) -> Option<Vec<f64>> {
-        let Fate::Kept(settled) = fate else {
+    fn values(&self, at: &[f64], fate: &MotionOutcome) -> Option<Vec<f64>> {
+        let MotionOutcome::Kept(settled) = fate else {
             return None;
         };
         let orbit = Orbit::near(&self.spread.scene(at), settled.state).ok()?;
-        let stroke = Stroke::of(&orbit).ok()?;
+        let stroke = CycleMetrics::of(&orbit).ok()?;
         let spread = self.spread;
         let value = |it: &Requirement| spread.value_of_stroke(it.figure, &orbit, &stroke);
         self.required.iter().map(value).collect()
     }
 
-    fn violated(&self, at: &[f64], fate: &Fate) -> Vec<bool> {
-        if matches!(fate, Fate::Kept(_)) && self.is_clear(at) {
+    fn violated(&self, at: &[f64], fate: &MotionOutcome) -> Vec<bool> {
+        if matches!(fate, MotionOutcome::Kept(_)) && self.is_clear(at) {
             return vec![false; self.required.len()];
         }
         match self.values(at, fate) {
@@ -102,11 +104,11 @@ fn models(
     places: &[Vec<f64>],
     values: &[Vec<f64>],
     count: usize,
-) -> Option<Vec<(Model, [f64; 2])>> {
+) -> Option<Vec<(PolynomialModel, [f64; 2])>> {
     let pair = |first: usize| {
         let of = |row: &Vec<f64>| [row[first], row[(first + 1).min(count - 1)]];
         let pairs: Vec<[f64; 2]> = values.iter().map(of).collect();
-        let model = Model::fit(places, &pairs)?;
+        let model = PolynomialModel::fit(places, &pairs)?;
         let mut misfit = [0.0_f64; 2];
         for (at, pair) in places.iter().zip(&pairs) {
             for ((misfit, own), fitted) in misfit.iter_mut().zip(pair).zip(model.at(at)) {

@@ -8,7 +8,7 @@ use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, blocks, place};
-use softstop_dynamics::spread::{Fate, Model, Settled, Spread};
+use softstop_dynamics::spread::{MotionOutcome, PolynomialModel, Settled, ToleranceBox};
 use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;
@@ -103,10 +103,10 @@ pub struct CaseVerdict {
 }
 
 impl CaseVerdict {
-    fn take(&mut self, (fate, violated): (Fate, Vec<bool>)) {
+    fn take(&mut self, (fate, violated): (MotionOutcome, Vec<bool>)) {
         match fate {
-            Fate::Lost { .. } => self.lost += 1,
-            Fate::Kept(settled) => self.slowest = self.slowest.min(settled.velocity),
+            MotionOutcome::Lost { .. } => self.lost += 1,
+            MotionOutcome::Kept(settled) => self.slowest = self.slowest.min(settled.velocity),
         }
         count(&mut self.violating, &violated);
     }
@@ -202,7 +202,7 @@ pub fn verify_in_cases(
     let dimensions = spread.dimensions();
     // A sequence of their own: the first that the machines do not use.
     let first = settings.first + settings.machines.next_multiple_of(BLOCK);
-    let known = first..first + Model::wanted(dimensions);
+    let known = first..first + PolynomialModel::wanted(dimensions);
     let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
     let screen = |(spread, nominal)| Screen::new((spread, nominal), (&known, required));
     let screens = points
@@ -245,8 +245,8 @@ pub fn verify_in_cases(
             break;
         };
         for (index, judged) in machines.zip(fates.into_iter().flatten()) {
-            let is_rejected = |(fate, violated): &(Fate, Vec<bool>)| {
-                matches!(fate, Fate::Lost { .. }) || violated.contains(&true)
+            let is_rejected = |(fate, violated): &(MotionOutcome, Vec<bool>)| {
+                matches!(fate, MotionOutcome::Lost { .. }) || violated.contains(&true)
             };
             verdict.rejected += usize::from(judged.iter().any(is_rejected));
             let mut judged = judged.into_iter();
@@ -268,7 +268,7 @@ pub fn verify_in_cases(
 }
 
 /// The coordinates of a machine that is drawn.
-fn drawn(spread: &dyn Spread, index: usize) -> Vec<f64> {
+fn drawn(spread: &dyn ToleranceBox, index: usize) -> Vec<f64> {
     spread.draw(&place(index, spread.dimensions()))
 }
 
@@ -278,21 +278,21 @@ impl Verdict {
         self.lost + self.cases.iter().map(|it| it.lost).sum::<usize>()
     }
 
-    fn take(&mut self, index: usize, spread: &dyn Spread, fate: Fate) {
+    fn take(&mut self, index: usize, spread: &dyn ToleranceBox, fate: MotionOutcome) {
         if index.is_multiple_of(BLOCK) {
             self.sequences.push(Vec::new());
         }
         self.machines += 1;
         let here = || drawn(spread, index);
         match fate {
-            Fate::Lost { share, loss } => {
+            MotionOutcome::Lost { share, loss } => {
                 self.lost += 1;
                 if self.examples.len() < TOLD {
                     let at = here();
                     self.examples.push(LostMachine { at, share, loss });
                 }
             }
-            Fate::Kept(settled) => {
+            MotionOutcome::Kept(settled) => {
                 let is_least = |known: &Option<(Vec<f64>, Settled)>, less: fn(&Settled) -> f64| {
                     known
                         .as_ref()

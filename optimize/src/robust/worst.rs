@@ -6,7 +6,7 @@ use softstop_dynamics::figure::{Figure, Sense};
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::slopes;
-use softstop_dynamics::spread::{Spread, in_coordinates, varied};
+use softstop_dynamics::spread::{ToleranceBox, in_coordinates, varied};
 
 use super::Tolerances;
 use super::corners::corners;

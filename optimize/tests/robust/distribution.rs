@@ -6,8 +6,8 @@ use softstop_dynamics::basin::wilson;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::points::random;
-use softstop_dynamics::spread::Spread;
-use softstop_dynamics::{Orbit, Stroke};
+use softstop_dynamics::spread::ToleranceBox;
+use softstop_dynamics::{CycleMetrics, Orbit};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::problem::{Tolerance, Width};
 use softstop_optimize::design::requirement::Requirement;
@@ -82,7 +82,7 @@ fn the_share_that_is_reported_is_that_of_machines_by_chance() -> Outcome {
         let scene = spread.scene(&machine(&spread, index));
         let orbit = Orbit::near(&scene, design.orbit.state()).ok();
         let orbit = orbit.filter(|it| it.is_stable() && it.impacts.len() == 1);
-        let stroke = orbit.as_ref().and_then(|it| Stroke::of(it).ok());
+        let stroke = orbit.as_ref().and_then(|it| CycleMetrics::of(it).ok());
         !stroke.is_some_and(|it| required[0].is_met(it.stop_force))
     };
     let trials = 50_000;

@@ -6,8 +6,8 @@ use softstop::Parameter;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
-use softstop_dynamics::spread::{Spread, along};
-use softstop_dynamics::{Orbit, Stroke, zone};
+use softstop_dynamics::spread::{ToleranceBox, along};
+use softstop_dynamics::{CycleMetrics, Orbit, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::robust::{
     Settings, Tolerances, Worst, sensitivities, shares, verify, worst,
@@ -38,7 +38,7 @@ fn no_machine_is_beyond_the_worst() -> Outcome {
         for index in 0..512 {
             let scene = tolerances.scene(&place(index, tolerances.dimensions()));
             let orbit = Orbit::near(&scene, nominal.state())?;
-            let stroke = Stroke::of(&orbit)?;
+            let stroke = CycleMetrics::of(&orbit)?;
             for ((figure, sense), worst) in figures.iter().zip(&all) {
                 let value = figure.of_motion(&orbit, &stroke).ok_or("a figure")?;
                 let is_within = match sense {

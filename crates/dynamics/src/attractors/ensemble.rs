@@ -10,7 +10,7 @@ use crate::batch::follow;
 use crate::monitor::{Monitor, stop_if};
 use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Scene, Start};
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine};
 
 /// Motions that one thread follows at a time: several times as many as there are lanes.
 const MEMBERS_AT_ONCE: usize = 64;
@@ -129,7 +129,7 @@ impl<'a> Ensemble<'a> {
         &self,
         members: &mut [&mut EnsembleMember],
         periods: u64,
-        watch: &mut impl Watch,
+        watch: &mut impl BatchObserver,
     ) -> Result<(), SurveyError> {
         let job = |member: &&mut EnsembleMember| Job {
             machine: 0,
@@ -151,7 +151,7 @@ impl<'a> Ensemble<'a> {
 /// Keeps all states.
 struct Log(Vec<Vec<Start>>);
 
-impl Watch for Log {
+impl BatchObserver for Log {
     const PERIODS: bool = true;
 
     fn period(&mut self, job: usize, _: u64, state: Start) {

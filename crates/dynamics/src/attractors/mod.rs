@@ -81,7 +81,7 @@ pub struct Survey {
 
 /// How to look for motions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
+pub struct SearchOptions {
     /// Starts in the region.
     pub starts: usize,
     /// Shifts the starts.
@@ -96,7 +96,7 @@ pub struct Options {
     pub region: Option<Region>,
 }
 
-impl Default for Options {
+impl Default for SearchOptions {
     fn default() -> Self {
         Self {
             starts: 256,

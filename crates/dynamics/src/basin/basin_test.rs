@@ -11,12 +11,12 @@ use crate::batch::follow;
 use crate::monitor::Monitor;
 use crate::orbit::Orbit;
 use crate::orbit::recurrence::{distance, size};
-use crate::strokes::Strokes;
+use crate::stroke_count::StrokeCount;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
 use softstop::internals::budget::Fork;
 use softstop::{Excitation, MotionError, Scene, Start};
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine};
 
 /// Motions that go together: enough for all lanes to be busy. It may not depend on how many threads there are.
 const TOGETHER: usize = 512;
@@ -56,7 +56,7 @@ pub(crate) struct TestedMotion {
     /// When that is, in drive periods.
     pub time: f64,
     /// Its strokes so far.
-    pub strokes: Strokes,
+    pub strokes: StrokeCount,
 }
 
 /// What became of a tested motion.
@@ -117,7 +117,7 @@ impl BasinTest {
             angle: self.drive.phase,
             state: *state,
             time: 0.0,
-            strokes: Strokes::after(0.0),
+            strokes: StrokeCount::after(0.0),
         };
         let follow_motions = |starts: &[Start]| {
             let motions: Vec<TestedMotion> = starts.iter().map(motion).collect();
@@ -225,12 +225,12 @@ struct Counter<'a, const COUNTS: bool> {
     open: &'a [usize],
 }
 
-impl<const COUNTS: bool> Watch for Counter<'_, COUNTS> {
+impl<const COUNTS: bool> BatchObserver for Counter<'_, COUNTS> {
     const IMPACTS: bool = COUNTS;
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, _: f64) {
         let motion = &mut self.motions[self.open[job]];
         let time = motion.time + cycle as f64 + offset / self.period;
-        motion.strokes.strike(time);
+        motion.strokes.record_impact(time);
     }
 }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{Basins, Grid, Options, basins};
+use super::{BasinOptions, Basins, Grid, basins};
 use crate::attractors::SurveyError;
 use crate::monitor::{Kept, Monitor};
 use crate::orbit::Regime;
@@ -47,7 +47,7 @@ pub fn establishing(
     zone: &Zone,
     places: &[f64],
     grid: &Grid,
-    options: &Options,
+    options: &BasinOptions,
     monitor: Monitor<'_>,
     kept: Kept<'_>,
 ) -> Result<Vec<Establishing>, CertaintyError> {

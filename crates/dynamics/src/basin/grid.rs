@@ -7,7 +7,7 @@ use softstop::Start;
 /// What changes along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Quantity {
+pub enum AxisQuantity {
     /// Position in m.
     Position,
     /// Velocity in m/s.
@@ -20,7 +20,7 @@ pub enum Quantity {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// What changes.
-    pub quantity: Quantity,
+    pub quantity: AxisQuantity,
     /// Where the first cell begins and the last one ends.
     pub range: [f64; 2],
     /// Number of cells.
@@ -31,7 +31,7 @@ impl Axis {
     /// Positions in m.
     pub const fn position(from: f64, to: f64, cells: usize) -> Self {
         Self {
-            quantity: Quantity::Position,
+            quantity: AxisQuantity::Position,
             range: [from, to],
             cells,
         }
@@ -40,7 +40,7 @@ impl Axis {
     /// Velocities in m/s.
     pub const fn velocity(from: f64, to: f64, cells: usize) -> Self {
         Self {
-            quantity: Quantity::Velocity,
+            quantity: AxisQuantity::Velocity,
             range: [from, to],
             cells,
         }
@@ -49,7 +49,7 @@ impl Axis {
     /// Drive angles in rad.
     pub const fn angle(from: f64, to: f64, cells: usize) -> Self {
         Self {
-            quantity: Quantity::Angle,
+            quantity: AxisQuantity::Angle,
             range: [from, to],
             cells,
         }
@@ -107,9 +107,9 @@ impl Grid {
         for (axis, place) in places {
             let value = axis.value(place);
             match axis.quantity {
-                Quantity::Position => state.position = value,
-                Quantity::Velocity => state.velocity = value,
-                Quantity::Angle => angle = value,
+                AxisQuantity::Position => state.position = value,
+                AxisQuantity::Velocity => state.velocity = value,
+                AxisQuantity::Angle => angle = value,
             }
         }
         (state, angle)

@@ -12,12 +12,12 @@
 //!
 //! ```
 //! use softstop::Ratios;
-//! use softstop_dynamics::basin::{Axis, Grid, Options, basins};
+//! use softstop_dynamics::basin::{Axis, Grid, BasinOptions, basins};
 //! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let scene = Ratios::unloaded().scene()?;
 //! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
-//! let basins = basins(&scene, &grid, &Options::default(), &unmonitored, None)?;
+//! let basins = basins(&scene, &grid, &BasinOptions::default(), &unmonitored, None)?;
 //! // Point A: without impacts, and z = 1.
 //! let names: Vec<String> = basins.classes.iter().map(|class| class.motion.to_string()).collect();
 //! assert_eq!(names, ["z = 0", "z = 1"]);
@@ -40,7 +40,7 @@ pub use basin_test::BasinTest;
 pub(crate) use basin_test::{TestResult, TestedMotion};
 pub use certainty::{CertaintyError, Establishing, establishing};
 pub use erosion::{ErosionProfile, Establishment, Integrity, zone_box};
-pub use grid::{Axis, Grid, Quantity};
+pub use grid::{Axis, AxisQuantity, Grid};
 pub use integrity::{Clearing, clearing};
 pub(crate) use section::at_section;
 pub use share::wilson;
@@ -110,14 +110,14 @@ impl Basins {
 
 /// How to follow the cells' motions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Options {
+pub struct BasinOptions {
     /// Drive periods after which a motion that no ball has caught is looked at.
     pub transient: u64,
     /// Longest period looked for, in drive periods.
     pub longest: usize,
 }
 
-impl Default for Options {
+impl Default for BasinOptions {
     fn default() -> Self {
         Self {
             transient: 512,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ball::ContractionBall;
 use super::section::at_section;
-use super::{Basins, Grid, Options};
+use super::{BasinOptions, Basins, Grid};
 use crate::attractors::SurveyError;
 use crate::attractors::catalogue::{AttractorCatalogue, Status};
 use crate::attractors::ensemble::{Ensemble, EnsembleMember};
@@ -40,7 +40,7 @@ pub(super) enum CellOutcome {
 pub(super) struct BasinSurvey<'a> {
     pub scene: &'a Scene,
     pub grid: &'a Grid,
-    pub options: Options,
+    pub options: BasinOptions,
     /// Counts cells.
     pub ensemble: Ensemble<'a>,
     pub catalogue: AttractorCatalogue<'a>,
@@ -73,7 +73,7 @@ struct CellOutcomes {
 pub fn basins(
     scene: &Scene,
     grid: &Grid,
-    options: &Options,
+    options: &BasinOptions,
     monitor: Monitor<'_>,
     kept: Kept<'_>,
 ) -> Result<Basins, SurveyError> {

@@ -39,7 +39,7 @@ impl Contact {
         }
         let bare = bare(scene);
         let start = Start::new(bare.clearance, velocity);
-        let mut exit = Exit {
+        let mut exit = ExitRecorder {
             clearance: bare.clearance,
             found: None,
         };
@@ -76,13 +76,13 @@ fn bare(scene: &Scene) -> Scene {
 }
 
 /// Waits for the mass to come back through the clearance.
-struct Exit {
+struct ExitRecorder {
     clearance: f64,
     /// When, and how fast.
     found: Option<(Instant, f64)>,
 }
 
-impl Observer for Exit {
+impl Observer for ExitRecorder {
     fn crossing(&mut self, crossing: &Crossing) {
         let leaves = match crossing.kind {
             CrossingKind::Surface { forward, .. } => !forward,

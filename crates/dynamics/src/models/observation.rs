@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
+use crate::cycle_metrics::peak;
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
-use crate::stroke::peak;
 use softstop::internals::work;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start, Work,

@@ -1,9 +1,9 @@
-//! The orbit that legs from impact to impact close to.
+//! The orbit to which segments from impact to impact close.
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::contact::Passing;
-use super::multi_segment_shooting::{Attempt, MultiSegmentShooting, Unknowns};
+use super::contact::ContactPassage;
+use super::multi_segment_shooting::{MultiSegmentShooting, ShootingEvaluation, Unknowns};
 use super::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 use softstop::internals::{Flow, Motion, Outlook, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Tangent, Touch};
@@ -13,16 +13,20 @@ const EARLY: f64 = 1e-4;
 
 impl MultiSegmentShooting<'_> {
     /// The orbit through impacts that fit.
-    pub(super) fn orbit(&self, at: &Unknowns, attempt: &Attempt) -> Result<Orbit, OrbitError> {
-        self.check(at, attempt)?;
+    pub(super) fn orbit(
+        &self,
+        at: &Unknowns,
+        evaluation: &ShootingEvaluation,
+    ) -> Result<Orbit, OrbitError> {
+        self.check(at, evaluation)?;
         let clock = self.face.clock;
-        let mut impacts: Vec<(f64, f64, &Passing)> = attempt
-            .passings
+        let mut impacts: Vec<(f64, f64, &ContactPassage)> = evaluation
+            .passages
             .iter()
             .enumerate()
-            .map(|(leg, passing)| {
-                let time = at[2 * leg].rem_euclid(self.span());
-                (time, at[2 * leg + 1], passing)
+            .map(|(segment, passing)| {
+                let time = at[2 * segment].rem_euclid(self.span());
+                (time, at[2 * segment + 1], passing)
             })
             .collect();
         impacts.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -47,7 +51,7 @@ impl MultiSegmentShooting<'_> {
         let lost: f64 = contacts
             .map(|passing| passing.tangent.damping_integral)
             .sum();
-        let touch = |&(time, velocity, _): &(f64, f64, &Passing)| Touch {
+        let touch = |&(time, velocity, _): &(f64, f64, &ContactPassage)| Touch {
             instant: clock.instant(time),
             before_impact_velocity: velocity,
         };
@@ -66,12 +70,12 @@ impl MultiSegmentShooting<'_> {
     }
 
     /// Refuses impacts between which the free motion hits the stop.
-    fn check(&self, at: &Unknowns, attempt: &Attempt) -> Result<(), OrbitError> {
-        let count = attempt.passings.len();
-        for (leg, passing) in attempt.passings.iter().enumerate() {
-            let next = (leg + 1) % count;
-            let around = if next <= leg { self.span() } else { 0.0 };
-            let flight = at[2 * next] + around - at[2 * leg] - passing.lasting;
+    fn check(&self, at: &Unknowns, evaluation: &ShootingEvaluation) -> Result<(), OrbitError> {
+        let count = evaluation.passages.len();
+        for (segment, passing) in evaluation.passages.iter().enumerate() {
+            let next = (segment + 1) % count;
+            let around = if next <= segment { self.span() } else { 0.0 };
+            let flight = at[2 * next] + around - at[2 * segment] - passing.lasting;
             let (course, guards) = (&passing.course, &self.face.phases[PhaseId::FREE].guards);
             let early = flight - EARLY * self.face.clock.period();
             if let Outlook::Crossing(found) = first_crossing(course, guards, course.start(), flight)
@@ -84,7 +88,7 @@ impl MultiSegmentShooting<'_> {
     }
 
     /// From right after the last impact to the end of the period: the state there, and the tangent.
-    fn tail(&self, time: f64, last: &Passing) -> Result<(Vector2<f64>, Factor), OrbitError> {
+    fn tail(&self, time: f64, last: &ContactPassage) -> Result<(Vector2<f64>, Factor), OrbitError> {
         let from = self.face.clock.instant(time);
         let mut motion = self.face.motion(from, last.velocity_after)?;
         let tangent = advanced(&mut motion, Clock::at_cycle(self.periods))?;
@@ -115,7 +119,7 @@ fn factor(tangent: &Tangent) -> Factor {
     (tangent.matrix, tangent.determinant)
 }
 
-fn entry(passing: &Passing) -> Factor {
+fn entry(passing: &ContactPassage) -> Factor {
     (passing.entry, passing.entry.determinant())
 }
 

@@ -16,7 +16,7 @@ const MOST_WORK: u64 = 1 << 18;
 
 /// The phases of a scene, as seen by a mass that comes to the clearance.
 #[derive(Debug, Clone)]
-pub(super) struct Face {
+pub(super) struct ContactFace {
     pub phases: Shared<Phases>,
     pub clock: Clock,
     surface: Surface,
@@ -24,7 +24,7 @@ pub(super) struct Face {
 
 /// A contact from its impact on.
 #[derive(Debug, Clone)]
-pub(super) struct Passing {
+pub(super) struct ContactPassage {
     /// Change of the state right after the impact with its time, seen at a fixed time.
     pub by_time: Vector2<f64>,
     /// The same with its velocity.
@@ -43,7 +43,7 @@ pub(super) struct Passing {
     pub course: Course,
 }
 
-impl Face {
+impl ContactFace {
     /// None if there is no surface at the clearance.
     pub(super) fn new(phases: Shared<Phases>, clock: Clock) -> Option<Self> {
         let surface = *phases
@@ -86,7 +86,7 @@ impl Face {
         at: Instant,
         velocity: f64,
         longest: f64,
-    ) -> Result<Option<Passing>, MotionError> {
+    ) -> Result<Option<ContactPassage>, MotionError> {
         let before = self.free_acceleration(at, velocity);
         let Some(entry) = self.enter(at, velocity)? else {
             return Ok(None);
@@ -105,7 +105,7 @@ impl Face {
             return Ok(None);
         };
         let by_time = -Vector2::new(velocity_after, after);
-        Ok(Some(Passing {
+        Ok(Some(ContactPassage {
             by_time,
             by_velocity: Vector2::new(0.0, velocity_after / velocity),
             entry: saltation,
@@ -132,11 +132,11 @@ impl Face {
     }
 
     /// The impact that a contact begins with; none if the mass rests from there on.
-    fn enter(&self, at: Instant, velocity: f64) -> Result<Option<Entry>, MotionError> {
+    fn enter(&self, at: Instant, velocity: f64) -> Result<Option<ContactEntry>, MotionError> {
         let entry = match self.surface.above {
             Beyond::Wall { restitution } => {
                 let velocity_after = -restitution * velocity;
-                Entry {
+                ContactEntry {
                     kind: CrossingKind::Rebound {
                         impact: true,
                         pierces: false,
@@ -151,7 +151,7 @@ impl Face {
                 let Mode::Moving(phase) = motion.mode() else {
                     return Ok(None);
                 };
-                Entry {
+                ContactEntry {
                     kind: CrossingKind::Surface {
                         forward: true,
                         impact: true,
@@ -170,9 +170,9 @@ impl Face {
     fn exit<T: Observer + Default>(
         &self,
         at: Instant,
-        entry: Entry,
+        entry: ContactEntry,
         longest: f64,
-    ) -> Result<Option<Exit<T>>, MotionError> {
+    ) -> Result<Option<ContactExit<T>>, MotionError> {
         let (gathered, found) = match entry.contact {
             None => (T::default(), Some((at, entry.velocity_after))),
             Some(motion) => self.follow(motion, longest)?,
@@ -180,7 +180,7 @@ impl Face {
         let Some((instant, velocity)) = found.filter(|(_, velocity)| *velocity < 0.0) else {
             return Ok(None);
         };
-        Ok(Some(Exit {
+        Ok(Some(ContactExit {
             gathered,
             instant,
             course: self.motion(instant, velocity)?.arc().course.clone(),
@@ -194,7 +194,7 @@ impl Face {
         longest: f64,
     ) -> Result<(T, Option<(Instant, f64)>), MotionError> {
         let at = motion.now();
-        let mut contact = Contact {
+        let mut contact = ContactRecorder {
             position: self.position(),
             gathered: T::default(),
             found: None,
@@ -206,7 +206,7 @@ impl Face {
 }
 
 /// An impact, and the motion in contact after it, unless the face is rigid.
-struct Entry {
+struct ContactEntry {
     kind: CrossingKind,
     /// Velocity in m/s right after it.
     velocity_after: f64,
@@ -216,21 +216,21 @@ struct Entry {
 }
 
 /// The end of a contact: what was gathered up to there, when the mass is free, and its free motion from there on.
-struct Exit<T> {
+struct ContactExit<T> {
     gathered: T,
     instant: Instant,
     course: Course,
 }
 
 /// Gathers until the mass is free again.
-struct Contact<T> {
+struct ContactRecorder<T> {
     position: f64,
     gathered: T,
     found: Option<(Instant, f64)>,
     effort: Effort,
 }
 
-impl<T: Observer> Observer for Contact<T> {
+impl<T: Observer> Observer for ContactRecorder<T> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         if self.found.is_none() {
             self.gathered.arc(arc, elapsed);

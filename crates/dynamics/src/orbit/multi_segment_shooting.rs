@@ -14,7 +14,7 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use super::contact::{Face, Passing};
+use super::contact::{ContactFace, ContactPassage};
 use super::deflation::factor;
 use super::{NOTHING_LEFT, Orbit, OrbitError};
 use softstop::internals::Scales;
@@ -37,13 +37,13 @@ pub(super) type Unknowns = DVector<f64>;
 pub(super) struct MultiSegmentShooting<'a> {
     pub(super) scene: &'a Scene,
     scales: Scales,
-    pub(super) face: Face,
+    pub(super) face: ContactFace,
     pub(super) periods: u64,
 }
 
-/// The legs that belong to impacts, with what does not fit yet and how it changes with them.
-pub(super) struct Attempt {
-    pub passings: Vec<Passing>,
+/// The segments that belong to impacts, with what does not fit yet and how it changes with them.
+pub(super) struct ShootingEvaluation {
+    pub passages: Vec<ContactPassage>,
     residual: DVector<f64>,
     jacobian: DMatrix<f64>,
 }
@@ -84,7 +84,7 @@ impl From<Failed> for OrbitError {
 impl<'a> MultiSegmentShooting<'a> {
     /// None if the scene has no stop.
     pub(super) fn new(scene: &'a Scene, periods: u64) -> Option<Self> {
-        let face = Face::new(Shared::new(scene.phases()), scene.clock())?;
+        let face = ContactFace::new(Shared::new(scene.phases()), scene.clock())?;
         Some(Self {
             scene,
             scales: scene.scales(),
@@ -133,11 +133,11 @@ impl<'a> MultiSegmentShooting<'a> {
     ) -> Result<Option<Orbit>, Failed> {
         let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
         let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
-        let mut attempt = self.attempt(&at).ok_or(diverged(f64::NAN))?;
+        let mut evaluation = self.evaluate(&at).ok_or(diverged(f64::NAN))?;
         let (mut least, mut idle) = (f64::INFINITY, 0);
         let mut nearest = Nearest::NONE;
         for _ in 0..STEPS {
-            let residual = attempt.residual.norm();
+            let residual = evaluation.residual.norm();
             if residual < nearest.residual {
                 let impact = (at[0], at[1]);
                 nearest = Nearest { impact, residual };
@@ -149,7 +149,7 @@ impl<'a> MultiSegmentShooting<'a> {
             if idle > PATIENCE {
                 break;
             }
-            let step = attempt.jacobian.clone().lu().solve(&attempt.residual);
+            let step = evaluation.jacobian.clone().lu().solve(&evaluation.residual);
             let Some(step) = step.map(|step| -step) else {
                 break;
             };
@@ -159,19 +159,19 @@ impl<'a> MultiSegmentShooting<'a> {
                 break;
             };
             let whole = share == 1.0;
-            let shrinks = tried.residual.norm() < attempt.residual.norm();
-            if whole && !shrinks && self.fits(&at, &attempt, 1.0) {
-                return Ok(Some(self.orbit(&at, &attempt)?));
+            let shrinks = tried.residual.norm() < evaluation.residual.norm();
+            if whole && !shrinks && self.fits(&at, &evaluation, 1.0) {
+                return Ok(Some(self.orbit(&at, &evaluation)?));
             }
-            (at, attempt) = (next, tried);
+            (at, evaluation) = (next, tried);
             if whole && known(at.as_slice()) {
                 return Ok(None);
             }
-            if self.fits(&at, &attempt, NOTHING_LEFT) {
-                return Ok(Some(self.orbit(&at, &attempt)?));
+            if self.fits(&at, &evaluation, NOTHING_LEFT) {
+                return Ok(Some(self.orbit(&at, &evaluation)?));
             }
         }
-        let error = diverged(attempt.residual.norm());
+        let error = diverged(evaluation.residual.norm());
         Err(Failed { error, nearest })
     }
 
@@ -194,22 +194,22 @@ impl<'a> MultiSegmentShooting<'a> {
     }
 
     /// True if the residual is no more than a share of what rounding alone may leave.
-    fn fits(&self, at: &Unknowns, attempt: &Attempt, share: f64) -> bool {
+    fn fits(&self, at: &Unknowns, evaluation: &ShootingEvaluation, share: f64) -> bool {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
         let scales = &self.scales;
         let state = self.face.position().abs() / scales.length + fastest / scales.speed();
-        let mut jacobian = attempt.jacobian.clone();
+        let mut jacobian = evaluation.jacobian.clone();
         let units = [1.0 / scales.rate, scales.speed()].into_iter().cycle();
         for (mut column, unit) in jacobian.column_iter_mut().zip(units) {
             column *= unit;
         }
         let rounding = 1e-14 * (1.0 + state) * (1.0 + jacobian.norm());
-        attempt.residual.norm() <= share * rounding
+        evaluation.residual.norm() <= share * rounding
     }
 
     /// The unknowns after as much of a step as can be taken.
-    fn step(&self, at: &Unknowns, step: &Unknowns) -> Option<(f64, Unknowns, Attempt)> {
+    fn step(&self, at: &Unknowns, step: &Unknowns) -> Option<(f64, Unknowns, ShootingEvaluation)> {
         let mut share = 1.0f64;
         for (index, (value, change)) in at.iter().zip(step).enumerate() {
             let (most, taken) = if index % 2 == 0 {
@@ -224,26 +224,26 @@ impl<'a> MultiSegmentShooting<'a> {
         (0..HALVINGS).find_map(|halvings| {
             let share = share / f64::from(1 << halvings);
             let next = at + share * step;
-            let attempt = self.attempt(&next)?;
-            Some((share, next, attempt))
+            let evaluation = self.evaluate(&next)?;
+            Some((share, next, evaluation))
         })
     }
 
-    /// All legs; none where there is no such motion.
-    fn attempt(&self, at: &Unknowns) -> Option<Attempt> {
+    /// All segments; none where there is no such motion.
+    fn evaluate(&self, at: &Unknowns) -> Option<ShootingEvaluation> {
         let count = at.len() / 2;
-        let mut attempt = Attempt {
-            passings: Vec::with_capacity(count),
+        let mut evaluation = ShootingEvaluation {
+            passages: Vec::with_capacity(count),
             residual: DVector::zeros(2 * count),
             jacobian: DMatrix::zeros(2 * count, 2 * count),
         };
-        for leg in 0..count {
-            let next = (leg + 1) % count;
-            let around = if next <= leg { self.span() } else { 0.0 };
+        for segment in 0..count {
+            let next = (segment + 1) % count;
+            let around = if next <= segment { self.span() } else { 0.0 };
             let clock = &self.face.clock;
-            let (from, to) = (clock.instant(at[2 * leg]), at[2 * next] + around);
-            let longest = to - at[2 * leg];
-            let passing = self.face.pass(from, at[2 * leg + 1], longest).ok()??;
+            let (from, to) = (clock.instant(at[2 * segment]), at[2 * next] + around);
+            let longest = to - at[2 * segment];
+            let passing = self.face.pass(from, at[2 * segment + 1], longest).ok()??;
             let to = clock.instant(to);
             let flight = clock.elapsed(passing.free_from, to);
             if flight <= 0.0 {
@@ -255,21 +255,21 @@ impl<'a> MultiSegmentShooting<'a> {
             let push = course.flow.amplitude * drive.cos;
             let acceleration = course.flow.acceleration(position, velocity, push);
             let through = course.flow.transition(flight) * passing.tangent.matrix;
-            let (rows, column, ahead) = (2 * leg, 2 * leg, 2 * next);
-            let mut fit = attempt.residual.fixed_rows_mut::<2>(rows);
+            let (rows, column, ahead) = (2 * segment, 2 * segment, 2 * next);
+            let mut fit = evaluation.residual.fixed_rows_mut::<2>(rows);
             fit.copy_from(&self.off((position, velocity), at[ahead + 1]));
             let mut add = |column: usize, by: Vector2<f64>| {
                 let by = self.scales.state(&by);
-                attempt.jacobian[(rows, column)] += by.x;
-                attempt.jacobian[(rows + 1, column)] += by.y;
+                evaluation.jacobian[(rows, column)] += by.x;
+                evaluation.jacobian[(rows + 1, column)] += by.y;
             };
             add(column, through * passing.by_time);
             add(column + 1, through * passing.by_velocity);
             add(ahead, Vector2::new(velocity, acceleration));
             add(ahead + 1, Vector2::new(0.0, -1.0));
-            attempt.passings.push(passing);
+            evaluation.passages.push(passing);
         }
-        Some(attempt)
+        Some(evaluation)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::batch::follow;
 use crate::monitor::Monitor;
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine};
 
 /// Speeds of the starts, in units of w times the length of the motion.
 const SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
@@ -96,7 +96,7 @@ impl Trials {
             periods: until - self.cycle,
         };
         let jobs: Vec<Job> = open.iter().map(job).collect();
-        let mut recorder = Recorder {
+        let mut recorder = TrialRecorder {
             trials: &mut open,
             scales: &self.scales,
             kept: &self.kept,
@@ -141,7 +141,7 @@ pub(super) fn settled(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
 }
 
 /// Keeps of each trial what becomes a candidate.
-struct Recorder<'a, 'b> {
+struct TrialRecorder<'a, 'b> {
     trials: &'a mut [&'b mut Trial],
     scales: &'a [Scales],
     kept: &'a [u64],
@@ -149,7 +149,7 @@ struct Recorder<'a, 'b> {
     since: u64,
 }
 
-impl Watch for Recorder<'_, '_> {
+impl BatchObserver for TrialRecorder<'_, '_> {
     const IMPACTS: bool = true;
     const PERIODS: bool = true;
 

@@ -11,10 +11,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::attractors::SurveyError;
 use crate::basin::{BasinTest, at_section};
+use crate::cycle_metrics::PeriodRecorder;
 use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime};
-use crate::stroke::PeriodRecorder;
 use crate::sweep::{Chain, Plan};
 use softstop::{MotionError, Parameter, Scene, Start};
 

@@ -16,10 +16,10 @@
 //! ```
 
 mod record;
-mod seen;
+mod settled_motion;
 
 pub(crate) use record::watched;
-pub use seen::{Seen, wanders};
+pub use settled_motion::{SettledMotion, wanders};
 
 use serde::{Deserialize, Serialize};
 
@@ -61,7 +61,7 @@ impl Settling {
         &self,
         motions: &[(&Scene, Start)],
         monitor: Monitor<'_>,
-    ) -> Option<Vec<Result<Seen, MotionError>>> {
+    ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
         let (mut machines, mut scenes, mut starts) = (Vec::new(), Vec::new(), Vec::new());
         let lowered: Vec<Result<(), MotionError>> = motions
             .iter()
@@ -92,8 +92,8 @@ impl Settling {
         (machines, scenes): (&[Machine], &[&Scene]),
         mut starts: Vec<(usize, Start)>,
         monitor: Monitor<'_>,
-    ) -> Option<Vec<Result<Seen, MotionError>>> {
-        let mut all: Vec<Option<Result<Seen, MotionError>>> = vec![None; starts.len()];
+    ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
+        let mut all: Vec<Option<Result<SettledMotion, MotionError>>> = vec![None; starts.len()];
         let mut open: Vec<usize> = (0..starts.len()).collect();
         let (mut followed, mut next) = (0, self.periods);
         while !open.is_empty() && next >= self.watched {
@@ -103,8 +103,9 @@ impl Settling {
             let mut further = Vec::new();
             for ((index, start), record) in open.iter().zip(&mut starts).zip(records) {
                 let scene = scenes[start.0];
-                let seen = record.map(|record| Seen::of(scene, record, self.tolerance, followed));
-                if let Ok(Seen {
+                let seen =
+                    record.map(|record| SettledMotion::of(scene, record, self.tolerance, followed));
+                if let Ok(SettledMotion {
                     periods: None, end, ..
                 }) = seen
                 {
@@ -134,7 +135,7 @@ impl Settling {
         let starts: Vec<(usize, Start)> = starts.map(|start| (0, start)).collect();
         let count = starts.len() as f64;
         let seen = self.seen((&machine, &[scene]), starts, monitor)?;
-        let regimes = seen.iter().flatten().map(Seen::regime);
+        let regimes = seen.iter().flatten().map(SettledMotion::regime);
         let come = regimes.filter(|regime| *regime == Some(Regime::ONE));
         Some(come.count() as f64 / count)
     }

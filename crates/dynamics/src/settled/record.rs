@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::batch::follow;
 use softstop::internals::budget;
 use softstop::{Instant, MotionError, Start};
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine};
 
 /// Follows motions, each of the machine with this number from a state, first unwatched, then watched; none if they were
 /// stopped on the way.
@@ -15,7 +15,7 @@ pub(crate) fn watched(
     settling: u64,
     watched: u64,
     ask: impl Fn() -> ControlFlow<()>,
-) -> Option<Vec<Result<Record, MotionError>>> {
+) -> Option<Vec<Result<MotionRecord, MotionError>>> {
     let job = |(machine, start): &(usize, Start)| Job {
         machine: *machine,
         start: *start,
@@ -27,11 +27,11 @@ pub(crate) fn watched(
         job.start = outcome.end;
         job.periods = watched;
     }
-    let mut log = Log {
+    let mut log = RecordLog {
         periods: watched as usize,
         records: jobs
             .iter()
-            .map(|job| Record::new(job.start, watched as usize))
+            .map(|job| MotionRecord::new(job.start, watched as usize))
             .collect(),
     };
     let outcomes = follow(machines, &jobs, &mut log, &ask)?;
@@ -44,14 +44,14 @@ pub(crate) fn watched(
 
 /// What is seen of one motion.
 #[derive(Debug, Clone)]
-pub(crate) struct Record {
+pub(crate) struct MotionRecord {
     /// States at drive angle phi: that at the beginning, and one after each drive period.
     pub states: Vec<Start>,
     /// When, from the beginning on, and before-impact velocity in m/s of each impact.
     pub impacts: Vec<(Instant, f64)>,
 }
 
-impl Record {
+impl MotionRecord {
     fn new(start: Start, periods: usize) -> Self {
         let mut states = Vec::with_capacity(periods + 1);
         states.push(start);
@@ -66,13 +66,13 @@ impl Record {
 const KEPT: u64 = 32;
 
 /// Keeps records.
-struct Log {
+struct RecordLog {
     /// How long they are.
     periods: usize,
-    records: Vec<Record>,
+    records: Vec<MotionRecord>,
 }
 
-impl Watch for Log {
+impl BatchObserver for RecordLog {
     const IMPACTS: bool = true;
     const PERIODS: bool = true;
 

@@ -2,7 +2,7 @@
 
 /// A figure of a motion with its derivatives.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Figure {
+pub struct DifferentiatedFigure {
     /// The figure.
     pub value: f64,
     /// Its derivatives in SI units, in the order of [`Slopes::parameters`](super::Slopes).
@@ -12,9 +12,9 @@ pub struct Figure {
 /// An impact.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Strike {
+pub struct DifferentiatedImpact {
     /// Time in s.
-    pub time: Figure,
+    pub time: DifferentiatedFigure,
     /// Before-impact velocity in m/s.
-    pub velocity: Figure,
+    pub velocity: DifferentiatedFigure,
 }

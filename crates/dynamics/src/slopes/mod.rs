@@ -19,12 +19,12 @@
 mod border;
 mod figure;
 mod peak;
+mod recorder;
 mod stability;
 mod variation;
-mod watch;
 
 pub use border::{Border, BorderKind};
-pub use figure::{Figure, Strike};
+pub use figure::{DifferentiatedFigure, DifferentiatedImpact};
 pub use stability::{Stability, stability};
 
 use softstop::Parameter;
@@ -39,19 +39,19 @@ pub struct Slopes {
     /// What they are derivatives by.
     pub parameters: Vec<Parameter>,
     /// Position in m at time 0.
-    pub position: Figure,
+    pub position: DifferentiatedFigure,
     /// Velocity in m/s at time 0.
-    pub velocity: Figure,
+    pub velocity: DifferentiatedFigure,
     /// Its impacts within the period, in order of time from 0 on.
-    pub impacts: Vec<Strike>,
+    pub impacts: Vec<DifferentiatedImpact>,
     /// Largest position in m: X_m.
-    pub max_position: Figure,
+    pub max_position: DifferentiatedFigure,
     /// Lowest position in m.
-    pub min_position: Figure,
+    pub min_position: DifferentiatedFigure,
     /// Largest force in N of stop and strip, impacts on a rigid stop left out; none where nothing is touched.
-    pub peak_force: Option<Figure>,
+    pub peak_force: Option<DifferentiatedFigure>,
     /// Energy in J that the drive supplies in the motion's period, and that is dissipated in it.
-    pub supplied: Figure,
+    pub supplied: DifferentiatedFigure,
 }
 
 /// The derivatives of a periodic motion, stable or not, by parameters of its machine.
@@ -62,7 +62,7 @@ pub struct Slopes {
 pub fn of(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError> {
     let variation = Variation::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
     let starts = variation.starts()?;
-    let figure = |found: &Figure| Figure {
+    let figure = |found: &DifferentiatedFigure| DifferentiatedFigure {
         value: found.value,
         by: variation.along(found, &starts),
     };
@@ -76,7 +76,7 @@ pub fn of(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError>
         impacts: watched
             .impacts
             .iter()
-            .map(|[time, velocity]| Strike {
+            .map(|[time, velocity]| DifferentiatedImpact {
                 time: figure(time),
                 velocity: figure(velocity),
             })

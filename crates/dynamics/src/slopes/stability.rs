@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use softstop::{Parameter, Scene};
 
-use super::figure::Figure;
+use super::figure::DifferentiatedFigure;
 use super::variation::{Variation, none};
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
@@ -19,14 +19,14 @@ const APART: f64 = 0.01;
 #[non_exhaustive]
 pub struct Stability {
     /// The trace.
-    pub trace: Figure,
+    pub trace: DifferentiatedFigure,
     /// The determinant.
-    pub determinant: Figure,
+    pub determinant: DifferentiatedFigure,
 }
 
 impl Stability {
     /// The larger modulus of the two multipliers; at a double one, where it has none, its derivatives are infinite.
-    pub fn largest(&self) -> Figure {
+    pub fn largest(&self) -> DifferentiatedFigure {
         let (trace, determinant) = (self.trace.value, self.determinant.value);
         let half = 0.5 * trace;
         let square = half * half - determinant;
@@ -34,14 +34,14 @@ impl Stability {
         if square < 0.0 {
             let value = determinant.sqrt();
             let by = pairs.map(|(_, by)| 0.5 * by / value).collect();
-            return Figure { value, by };
+            return DifferentiatedFigure { value, by };
         }
         let root = square.sqrt().copysign(half);
         let value = half + root;
         let rate = |(trace, determinant): (&f64, &f64)| {
             value.signum() * (value * trace - determinant) / (2.0 * root)
         };
-        Figure {
+        DifferentiatedFigure {
             value: value.abs(),
             by: pairs.map(rate).collect(),
         }
@@ -57,7 +57,7 @@ impl Stability {
 pub fn stability(orbit: &Orbit, parameters: &[Parameter]) -> Result<Stability, OrbitError> {
     let variation = Variation::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
     let rates = variation.stability_rates(&orbit.scene, orbit.periods)?;
-    let figure = |value: f64, which: usize| Figure {
+    let figure = |value: f64, which: usize| DifferentiatedFigure {
         value,
         by: rates.iter().map(|rates| rates[which]).collect(),
     };

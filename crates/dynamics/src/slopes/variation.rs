@@ -5,8 +5,8 @@ use nalgebra::{Vector2, Vector3};
 use softstop::internals::{Lowered, Motion, Phases};
 use softstop::{Clock, MotionError, Parameter, Scene, Start, Tangent};
 
-use super::figure::Figure;
-use super::watch::{Watch, Watched};
+use super::figure::DifferentiatedFigure;
+use super::recorder::{FigureRecorder, RecordedFigures};
 use crate::orbit::{Monodromy, OrbitError};
 
 /// 1 - tr + det in units of the size of the monodromy matrix up to which a motion is at a fold to rounding.
@@ -21,8 +21,8 @@ pub(super) struct Variation {
     pub monodromy: Monodromy,
     /// As [`Influence`](softstop::internals::Influence) has them in the end.
     pub columns: Vec<Vector3<f64>>,
-    pub watched: Watched,
-    pub supplied: Figure,
+    pub watched: RecordedFigures,
+    pub supplied: DifferentiatedFigure,
 }
 
 /// The changes of a scene's phases with each parameter.
@@ -56,14 +56,17 @@ impl Variation {
         let begin = Start::from(start);
         begin.validate()?;
         let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), begin)?;
-        let mut watch = Watch::new(&phases, &by, clock);
+        let mut recorder = FigureRecorder::new(&phases, &by, clock);
         let mut tangent = Tangent::default();
-        let observer = &mut (&mut watch, &mut tangent);
+        let observer = &mut (&mut recorder, &mut tangent);
         motion.advance(Clock::at_cycle(periods), observer)?;
         motion.tell_arc(observer);
-        let columns = watch.influence.columns().ok_or_else(|| none(parameters))?;
-        let supplied = Figure {
-            value: watch.influence.supplied,
+        let columns = recorder
+            .influence
+            .columns()
+            .ok_or_else(|| none(parameters))?;
+        let supplied = DifferentiatedFigure {
+            value: recorder.influence.supplied,
             by: columns.iter().map(|column| column.z).collect(),
         };
         Ok(Self {
@@ -73,7 +76,7 @@ impl Variation {
             monodromy: Monodromy::from(&tangent),
             columns: columns.to_vec(),
             supplied,
-            watched: watch.watched,
+            watched: recorder.watched,
         })
     }
 
@@ -94,25 +97,25 @@ impl Variation {
     }
 
     /// A figure's derivatives along the motion.
-    pub fn along(&self, row: &Figure, starts: &[Vector2<f64>]) -> Vec<f64> {
+    pub fn along(&self, row: &DifferentiatedFigure, starts: &[Vector2<f64>]) -> Vec<f64> {
         let own = row.by[2..].iter().zip(starts);
         own.map(|(own, start)| own + row.by[0] * start.x + row.by[1] * start.y)
             .collect()
     }
 
     /// The state at time 0.
-    pub fn state(&self, starts: &[Vector2<f64>]) -> (Figure, Figure) {
+    pub fn state(&self, starts: &[Vector2<f64>]) -> (DifferentiatedFigure, DifferentiatedFigure) {
         let faster = |parameter: &Parameter| match parameter {
             Parameter::Frequency => self.start.y / self.frequency,
             _ => 0.0,
         };
         let own = self.parameters.iter().map(faster);
         (
-            Figure {
+            DifferentiatedFigure {
                 value: self.start.x,
                 by: starts.iter().map(|start| start.x).collect(),
             },
-            Figure {
+            DifferentiatedFigure {
                 value: self.start.y,
                 by: starts
                     .iter()

@@ -1,29 +1,29 @@
 //! Machines spread about a nominal one, as makers and wear leave them: does the z = 1 motion that goes on from the
 //! nominal machine's still exist there, is it stable, and how hard does it strike?
 //!
-//! A [`Spread`] makes machines from coordinates: 0 is the nominal one, -1 and 1 are the bounds of each. [`along`]
+//! A [`ToleranceBox`] makes machines from coordinates: 0 is the nominal one, -1 and 1 are the bounds of each. [`along`]
 //! follows the motion on a straight way out from the nominal machine, to the first fold, flip or grazing; that is what
-//! it means to go on. A [`Guide`] knows some of these motions and tells in a step or two of Newton's method what
+//! it means to go on. A [`Surrogate`] knows some of these motions and tells in a step or two of Newton's method what
 //! becomes of any other machine between the bounds.
 
-mod guide;
-mod look;
-mod model;
+mod homotopy;
 mod normal;
-mod ray;
+mod polynomial_model;
+mod return_map;
+mod surrogate;
 
-pub use guide::{Fate, Guide, is_inside};
-pub use look::Settled;
-pub use model::Model;
+pub use homotopy::{Reached, along};
 pub use normal::{critical_normal, free_normal, in_coordinates, varied};
-pub use ray::{Reached, along};
+pub use polynomial_model::PolynomialModel;
+pub use return_map::Settled;
+pub use surrogate::{MotionOutcome, Surrogate, is_inside};
 
 use std::fmt::Debug;
 
 use softstop::Scene;
 
 /// Machines spread about a nominal one.
-pub trait Spread: Debug + Sync {
+pub trait ToleranceBox: Debug + Sync {
     /// How many coordinates there are.
     fn dimensions(&self) -> usize;
 
@@ -40,9 +40,9 @@ pub trait Spread: Debug + Sync {
 
 /// The same machines with bounds so many times as wide.
 #[derive(Debug, Clone, Copy)]
-pub struct Scaled<'a>(pub &'a dyn Spread, pub f64);
+pub struct Scaled<'a>(pub &'a dyn ToleranceBox, pub f64);
 
-impl Spread for Scaled<'_> {
+impl ToleranceBox for Scaled<'_> {
     fn dimensions(&self) -> usize {
         self.0.dimensions()
     }

@@ -1,6 +1,6 @@
 //! Exact derivatives by the coordinates of a spread: normals of borders, and the chain rule for all else.
 
-use super::Spread;
+use super::ToleranceBox;
 use crate::continuation::{BranchPoint, Test};
 use crate::orbit::OrbitError;
 use crate::slopes::Border;
@@ -15,7 +15,7 @@ const CHANGE: f64 = 0.125;
 ///
 /// # Errors
 /// [`ZoneError`] as of [`Border::free`].
-pub fn free_normal(spread: &dyn Spread, at: &[f64]) -> Result<Vec<f64>, ZoneError> {
+pub fn free_normal(spread: &dyn ToleranceBox, at: &[f64]) -> Result<Vec<f64>, ZoneError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
     let border = Border::free(&scene, true, &parameters)?;
     Ok(in_coordinates(
@@ -32,7 +32,7 @@ pub fn free_normal(spread: &dyn Spread, at: &[f64]) -> Result<Vec<f64>, ZoneErro
 /// # Errors
 /// [`OrbitError`] as of [`Border::critical`].
 pub fn critical_normal(
-    spread: &dyn Spread,
+    spread: &dyn ToleranceBox,
     at: &[f64],
     (test, point): (Test, &BranchPoint),
 ) -> Result<Vec<f64>, OrbitError> {
@@ -47,7 +47,7 @@ pub fn critical_normal(
 }
 
 /// The machines on both sides of one along a coordinate.
-fn beside(spread: &dyn Spread, at: &[f64], index: usize) -> [Scene; 2] {
+fn beside(spread: &dyn ToleranceBox, at: &[f64], index: usize) -> [Scene; 2] {
     [-CHANGE, CHANGE].map(|change| {
         let mut at = at.to_vec();
         at[index] += change;
@@ -62,7 +62,7 @@ fn rate([below, above]: &[Scene; 2], parameter: Parameter) -> f64 {
 }
 
 /// The parameters that change with the coordinates, in the order of [`Parameter::ALL`].
-pub fn varied(spread: &dyn Spread, at: &[f64]) -> Vec<Parameter> {
+pub fn varied(spread: &dyn ToleranceBox, at: &[f64]) -> Vec<Parameter> {
     let pairs: Vec<_> = (0..at.len())
         .map(|index| beside(spread, at, index))
         .collect();
@@ -72,7 +72,7 @@ pub fn varied(spread: &dyn Spread, at: &[f64]) -> Vec<Parameter> {
 
 /// Derivatives by parameters as derivatives by the coordinates, at some coordinates.
 pub fn in_coordinates(
-    spread: &dyn Spread,
+    spread: &dyn ToleranceBox,
     at: &[f64],
     parameters: &[Parameter],
     by: &[f64],

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::settle::Step;
 use super::{Chain, Plan};
 use crate::monitor::{Kept, Monitor, PIECE, piece};
-use crate::settled::{Seen, watched};
+use crate::settled::{SettledMotion, watched};
 use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Scene};
 use softstop_lanes::Machine;
@@ -148,7 +148,7 @@ impl Plan {
         for ((index, scene), record) in moved.into_iter().zip(records) {
             let chain = &mut group[index];
             let made = record.and_then(|record| {
-                let seen = Seen::of(&scene, record, self.tolerance, self.periods);
+                let seen = SettledMotion::of(&scene, record, self.tolerance, self.periods);
                 let value = self.value(step, chain.direction);
                 Step::new(value, &scene, seen, self.heights)
             });

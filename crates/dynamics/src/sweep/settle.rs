@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::motion::MotionKind;
-use crate::settled::Seen;
+use crate::settled::SettledMotion;
 use softstop::{MotionError, Scene, Start};
 
 /// One step of a sweep.
@@ -31,7 +31,7 @@ impl Step {
     pub(super) fn new(
         value: f64,
         scene: &Scene,
-        seen: Seen,
+        seen: SettledMotion,
         heights: bool,
     ) -> Result<Self, MotionError> {
         let map = seen.map(scene)?;

@@ -39,7 +39,7 @@ impl Cause {
 
 /// What goes before a transition.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Course<'a> {
+pub(super) struct TransitionContext<'a> {
     /// By what the motion ends.
     pub end: SpecialKind,
     /// By what the motion doubled from it ends, if it ends by a flip.
@@ -52,7 +52,7 @@ pub(super) struct Course<'a> {
     pub hysteresis: bool,
 }
 
-impl Course<'_> {
+impl TransitionContext<'_> {
     /// The causes, in order.
     pub(super) fn causes(&self) -> Vec<Cause> {
         let test = match self.end {

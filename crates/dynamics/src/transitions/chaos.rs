@@ -1,7 +1,7 @@
 //! Where chaos ends: by its lifetime.
 
 use super::TransitionError;
-use super::stage::{Explorer, FIRST, Gathering, is_clear, most};
+use super::explorer::{Explorer, FIRST, Gathering, is_clear, most};
 use crate::attractors::Arrival;
 use crate::continuation::Family;
 use crate::monitor::piece;
@@ -48,7 +48,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
                 let mut going = self.fill(&states);
                 let first = if all == 0 { FIRST } else { going.len() };
                 let waiting = going.split_off(first.min(going.len()));
-                let arrivals = self.hold(value, &going, self.rules.lifetime)?;
+                let arrivals = self.settle_at(value, &going, self.rules.lifetime)?;
                 all += arrivals.len();
                 let wandering = arrivals.iter().filter(|it| it.orbit.is_none());
                 still += wandering.clone().count();
@@ -103,7 +103,8 @@ impl<F: Family + Sync> Explorer<'_, F> {
         let Some(after) = bad else {
             return Ok((good, None));
         };
-        let arrivals: Vec<Arrival> = self.hold(after, &self.fill(&states), self.rules.patience)?;
+        let arrivals: Vec<Arrival> =
+            self.settle_at(after, &self.fill(&states), self.rules.patience)?;
         let settled = arrivals.into_iter().filter(|it| it.orbit.is_some());
         let end = ChaosEnd {
             value: end.unwrap_or(0.5 * (good + after)),

@@ -1,8 +1,8 @@
 //! What follows beyond the end of a window, and whether the way back leads into it again.
 
-use super::cause::Course;
-use super::stage::{Explorer, Gathering};
-use super::way::Way;
+use super::cause::TransitionContext;
+use super::departure_path::DeparturePath;
+use super::explorer::{Explorer, Gathering};
 use super::window::{Window, WindowEnd};
 use super::{Transition, TransitionError};
 use crate::continuation::{Continuation, Family, Limits, SpecialKind, Test};
@@ -35,9 +35,9 @@ impl<F: Family + Sync> Explorer<'_, F> {
         };
         let flips = kind == SpecialKind::Critical(Test::Flip);
         let sign = if upper { 1.0 } else { -1.0 };
-        let mut way = Way {
+        let mut way = DeparturePath {
             states: self.fill(&[end.point.state().into()]),
-            ..Way::default()
+            ..DeparturePath::default()
         };
         for distance in self.distances(end.point.parameter) {
             let value = end.point.parameter + sign * distance;
@@ -64,7 +64,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
             true => self.end_of_doubled(&way, window, end, upper)?,
             false => None,
         };
-        let course = Course {
+        let course = TransitionContext {
             end: kind,
             doubled: doubled.and_then(|it| it.0),
             is_soft: doubled.is_some_and(|it| sign * (it.1 - end.point.parameter) > 0.0),
@@ -96,7 +96,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     /// it is known no better where it is not clear whether most motions of the rules come to it.
     fn settling(
         &self,
-        way: &Way,
+        way: &DeparturePath,
         end: f64,
         sign: f64,
     ) -> Result<Option<(f64, f64)>, TransitionError> {
@@ -130,7 +130,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     /// How the last doubled motion on the way ends.
     fn end_of_doubled(
         &self,
-        way: &Way,
+        way: &DeparturePath,
         window: &Window,
         end: &WindowEnd,
         upper: bool,

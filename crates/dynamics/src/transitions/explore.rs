@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::cause::Cause;
 use super::departure::Departure;
-use super::stage::Explorer;
-use super::way::is_doubled;
+use super::departure_path::is_doubled;
+use super::explorer::Explorer;
 use super::window::Window;
 use super::{Transition, TransitionError};
 use crate::attractors::attractors;
@@ -22,7 +22,7 @@ type Seed = (f64, Vec<Start>);
 
 /// What is known so far.
 #[derive(Default)]
-struct Atlas {
+struct KnownMotions {
     windows: Vec<Window>,
     /// Values over which chaos has been followed.
     chaos: Vec<(f64, f64)>,
@@ -41,7 +41,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     /// # Errors
     /// [`TransitionError`] if a scene cannot be, or the monitor stopped it.
     pub fn explore(&self, values: &[f64]) -> Result<Vec<Transition>, TransitionError> {
-        let mut atlas = Atlas::default();
+        let mut atlas = KnownMotions::default();
         let (mut met, mut seeds) = (Vec::new(), Vec::new());
         for value in values {
             self.survey(*value, &mut met, &mut seeds)?;
@@ -93,7 +93,11 @@ impl<F: Family + Sync> Explorer<'_, F> {
     }
 
     /// Follows new motions to their ends and beyond.
-    fn follow(&self, atlas: &mut Atlas, met: Vec<Met>) -> Result<Vec<Departure>, TransitionError> {
+    fn follow(
+        &self,
+        atlas: &mut KnownMotions,
+        met: Vec<Met>,
+    ) -> Result<Vec<Departure>, TransitionError> {
         let mut fresh = Vec::new();
         for (value, orbit) in met {
             let motion = MotionKind::of(&orbit);
@@ -118,7 +122,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     /// Follows chaos both ways.
     fn follow_chaos(
         &self,
-        atlas: &mut Atlas,
+        atlas: &mut KnownMotions,
         (value, states): &Seed,
         met: &mut Vec<Met>,
     ) -> Result<(), TransitionError> {
@@ -161,7 +165,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     }
 }
 
-impl Atlas {
+impl KnownMotions {
     /// True if chaos is known to follow on a motion, or on one of which it is doubled, near a value, without
     /// hysteresis.
     fn has_reverse(&self, motion: &MotionKind, value: f64) -> bool {

@@ -3,14 +3,14 @@
 use std::collections::VecDeque;
 
 use super::TransitionError;
-use super::stage::Explorer;
+use super::explorer::Explorer;
 use crate::attractors::SurveyError;
 use crate::batch::follow;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
 use softstop::Start;
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine};
 
 /// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
 const ENDURANCE: u64 = 400_000;
@@ -41,9 +41,9 @@ impl<F: Family + Sync> Explorer<'_, F> {
             return Ok(false);
         }
         let machine = [Machine::new(&scene).map_err(SurveyError::from)?];
-        let mut calm = Calm {
+        let mut calm = BurstCounter {
             periods: periods as usize,
-            ..Calm::default()
+            ..BurstCounter::default()
         };
         let mut job = Job {
             machine: 0,
@@ -60,7 +60,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
             if let Some(is_intermittent) = calm.verdict() {
                 return Ok(is_intermittent);
             }
-            let arrivals = self.hold(value, &[job.start], 0)?;
+            let arrivals = self.settle_at(value, &[job.start], 0)?;
             if arrivals.iter().any(|arrival| arrival.orbit.is_some()) {
                 return Ok(false);
             }
@@ -80,7 +80,7 @@ fn leaving(orbit: &Orbit) -> f64 {
 
 /// Counts how often the order of impacts ceases to be that of the first period.
 #[derive(Default)]
-struct Calm {
+struct BurstCounter {
     /// Impacts in each of the last drive periods.
     last: VecDeque<usize>,
     /// Impacts in the present one.
@@ -100,7 +100,7 @@ struct Calm {
     is_elsewhere: bool,
 }
 
-impl Watch for Calm {
+impl BatchObserver for BurstCounter {
     const IMPACTS: bool = true;
     const PERIODS: bool = true;
 
@@ -116,7 +116,7 @@ impl Watch for Calm {
     }
 }
 
-impl Calm {
+impl BurstCounter {
     /// Whether there are bursts over and over, once that is known.
     fn verdict(&self) -> Option<bool> {
         let is_known = self.bursts >= BURSTS || self.is_elsewhere;

@@ -25,18 +25,18 @@
 mod cause;
 mod chaos;
 mod departure;
+mod departure_path;
 mod explore;
+mod explorer;
 mod intermittent;
-mod stage;
-mod way;
 mod window;
 
 pub use cause::Cause;
-pub use stage::Explorer;
+pub use explorer::Explorer;
 
 use thiserror::Error;
 
-use crate::attractors::{Options, SurveyError};
+use crate::attractors::{SearchOptions, SurveyError};
 use crate::motion::MotionKind;
 use crate::orbit::OrbitError;
 use softstop::{MotionError, Start};
@@ -98,7 +98,7 @@ impl Transition {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rules {
     /// How motions are searched for at the values given.
-    pub survey: Options,
+    pub survey: SearchOptions,
     /// Motions started beside an end or on chaos: sixteen go first, the others where those disagree.
     pub motions: usize,
     /// Drive periods for which they go on beside an end before they are looked at.
@@ -117,9 +117,9 @@ pub struct Rules {
 impl Default for Rules {
     fn default() -> Self {
         Self {
-            survey: Options {
+            survey: SearchOptions {
                 patience: 400_000,
-                ..Options::default()
+                ..SearchOptions::default()
             },
             motions: 64,
             patience: 5000,

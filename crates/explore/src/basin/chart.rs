@@ -2,7 +2,7 @@
 
 use softstop::{Dimension, Machine};
 use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, style};
-use softstop_dynamics::basin::{Class, Quantity};
+use softstop_dynamics::basin::{AxisQuantity, Class};
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Axis as BasinAxis, Basins, Regime};
 
@@ -55,7 +55,7 @@ pub fn panel(machine: &Machine, basins: &Basins, wandering: &[(f64, f64)]) -> Pa
         Layer::ring(ball.centre.into(), half.into()).named(name)
     }));
     let shown = (grid.across.quantity, grid.up.quantity);
-    if shown == (Quantity::Position, Quantity::Velocity)
+    if shown == (AxisQuantity::Position, AxisQuantity::Velocity)
         && grid.angle == machine.scene.excitation.phase
     {
         let orbits = classes().filter_map(|class| class.orbit.as_deref());
@@ -76,9 +76,9 @@ pub fn panel(machine: &Machine, basins: &Basins, wandering: &[(f64, f64)]) -> Pa
 
 fn name(machine: &Machine, axis: &BasinAxis) -> String {
     match axis.quantity {
-        Quantity::Position => machine.label("initial position", "X", Dimension::Length),
-        Quantity::Velocity => machine.label("initial velocity", "X′", Dimension::Velocity),
-        Quantity::Angle => "initial drive angle φ in rad".to_owned(),
+        AxisQuantity::Position => machine.label("initial position", "X", Dimension::Length),
+        AxisQuantity::Velocity => machine.label("initial velocity", "X′", Dimension::Velocity),
+        AxisQuantity::Angle => "initial drive angle φ in rad".to_owned(),
     }
 }
 

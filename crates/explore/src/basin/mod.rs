@@ -11,7 +11,7 @@ use anyhow::{Context, Error, anyhow};
 use clap::Args;
 use softstop::Machine;
 use softstop_dynamics::attractors::starting_box;
-use softstop_dynamics::basin::{Options, basins, establishing, zone_box};
+use softstop_dynamics::basin::{BasinOptions, basins, establishing, zone_box};
 use softstop_dynamics::monitor::Kept;
 use softstop_dynamics::zone;
 
@@ -77,10 +77,10 @@ pub struct BasinArguments {
     #[arg(long, value_name = "LOW:HIGH", value_parser = range::rising, allow_hyphen_values = true)]
     pub phi: Option<[f64; 2]>,
     /// Drive periods after which what has not arrived is looked at, 1 to 1000000
-    #[arg(long, value_name = "N", default_value_t = Options::default().transient)]
+    #[arg(long, value_name = "N", default_value_t = BasinOptions::default().transient)]
     pub transient: u64,
     /// Longest period looked for, in drive periods, 1 to 10000
-    #[arg(long, value_name = "N", default_value_t = Options::default().longest)]
+    #[arg(long, value_name = "N", default_value_t = BasinOptions::default().longest)]
     pub longest: usize,
     /// Instead of one picture: the certainty of z = 1 at so many places of the hysteresis zone,
     /// 2 to 1000
@@ -133,13 +133,13 @@ pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
 /// Most cells on a side: each takes 125 bytes.
 const LARGEST: usize = 4000;
 
-fn options(arguments: &BasinArguments) -> Result<Options, Failure> {
+fn options(arguments: &BasinArguments) -> Result<BasinOptions, Failure> {
     within("size", arguments.size.across, 2..=LARGEST)?;
     within("size", arguments.size.up, 2..=LARGEST)?;
     within("transient", arguments.transient, 1..=1_000_000)?;
     within("longest", arguments.longest, 1..=10_000)?;
     within("along-zone", arguments.along_zone.unwrap_or(2), 2..=1000)?;
-    Ok(Options {
+    Ok(BasinOptions {
         transient: arguments.transient,
         longest: arguments.longest,
     })
@@ -148,7 +148,7 @@ fn options(arguments: &BasinArguments) -> Result<Options, Failure> {
 /// The basins of one machine.
 fn picture(
     arguments: &BasinArguments,
-    options: &Options,
+    options: &BasinOptions,
     machine: &Machine,
 ) -> Result<(), Failure> {
     let scene = &machine.scene;
@@ -185,7 +185,7 @@ fn picture(
 /// The certainty of z = 1 along the hysteresis zone.
 fn along(
     arguments: &BasinArguments,
-    options: &Options,
+    options: &BasinOptions,
     machine: &Machine,
     places: usize,
 ) -> Result<(), Failure> {

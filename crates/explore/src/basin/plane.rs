@@ -6,7 +6,7 @@ use std::str::FromStr;
 use anyhow::Error;
 use softstop::{Allowed, Dimension, Machine, Scene};
 use softstop_dynamics::attractors::{Region, SurveyError};
-use softstop_dynamics::basin::Quantity;
+use softstop_dynamics::basin::AxisQuantity;
 use softstop_dynamics::{Axis, Grid, zone};
 
 use super::BasinArguments;
@@ -16,8 +16,8 @@ use softstop_console::interrupt;
 /// Two different quantities: across and upwards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Plane {
-    across: Quantity,
-    up: Quantity,
+    across: AxisQuantity,
+    up: AxisQuantity,
 }
 
 impl FromStr for Plane {
@@ -25,9 +25,9 @@ impl FromStr for Plane {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let quantity = |name: &str| match name.trim() {
-            "x" => Some(Quantity::Position),
-            "v" => Some(Quantity::Velocity),
-            "phi" => Some(Quantity::Angle),
+            "x" => Some(AxisQuantity::Position),
+            "v" => Some(AxisQuantity::Velocity),
+            "phi" => Some(AxisQuantity::Angle),
             _ => None,
         };
         let pair = text.split_once(',');
@@ -83,16 +83,16 @@ pub(super) fn check(arguments: &BasinArguments) -> Result<(), Failure> {
 }
 
 /// The ranges that are given, with their flags.
-fn ranges(arguments: &BasinArguments) -> [(&'static str, Option<[f64; 2]>, Quantity); 3] {
+fn ranges(arguments: &BasinArguments) -> [(&'static str, Option<[f64; 2]>, AxisQuantity); 3] {
     [
-        ("x", arguments.x, Quantity::Position),
-        ("v", arguments.v, Quantity::Velocity),
-        ("phi", arguments.phi, Quantity::Angle),
+        ("x", arguments.x, AxisQuantity::Position),
+        ("v", arguments.v, AxisQuantity::Velocity),
+        ("phi", arguments.phi, AxisQuantity::Angle),
     ]
 }
 
 impl Plane {
-    fn shows(self, quantity: Quantity) -> bool {
+    fn shows(self, quantity: AxisQuantity) -> bool {
         self.across == quantity || self.up == quantity
     }
 }
@@ -112,9 +112,9 @@ pub(super) fn grid(
     };
     let axis = |quantity, cells| {
         let range = match quantity {
-            Quantity::Position => arguments.x.or(region.map(|region| region.position)),
-            Quantity::Velocity => arguments.v.or(region.map(|region| region.velocity)),
-            Quantity::Angle => arguments.phi,
+            AxisQuantity::Position => arguments.x.or(region.map(|region| region.position)),
+            AxisQuantity::Velocity => arguments.v.or(region.map(|region| region.velocity)),
+            AxisQuantity::Angle => arguments.phi,
         };
         Axis {
             quantity,
@@ -131,9 +131,9 @@ pub(super) fn grid(
         axis(up, rows),
         scene.excitation.phase,
     );
-    if !shows(Quantity::Position) {
+    if !shows(AxisQuantity::Position) {
         grid.state.position = arguments.at;
-    } else if !shows(Quantity::Velocity) {
+    } else if !shows(AxisQuantity::Velocity) {
         grid.state.velocity = arguments.at;
     } else {
         grid.angle = arguments.at;
@@ -146,15 +146,15 @@ pub(super) fn grid(
 pub(super) fn beyond(machine: &Machine, grid: &Grid) -> Option<String> {
     let is_own = grid.angle == machine.scene.excitation.phase;
     let shows = [grid.across.quantity, grid.up.quantity];
-    if !is_own || shows.contains(&Quantity::Angle) {
+    if !is_own || shows.contains(&AxisQuantity::Angle) {
         return None;
     }
     let orbit = zone::find_with_monitor(&machine.scene, &interrupt::watch).ok()?;
     let outside = |axis: &Axis| {
         let value = match axis.quantity {
-            Quantity::Position => orbit.position,
-            Quantity::Velocity => orbit.velocity,
-            Quantity::Angle => return false,
+            AxisQuantity::Position => orbit.position,
+            AxisQuantity::Velocity => orbit.velocity,
+            AxisQuantity::Angle => return false,
         };
         !(axis.range[0]..=axis.range[1]).contains(&value)
     };

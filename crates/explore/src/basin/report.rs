@@ -8,7 +8,7 @@ use softstop_console::columns;
 use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MachineReport, MotionName};
-use softstop_dynamics::basin::{Class, Clearing, Establishing, Quantity};
+use softstop_dynamics::basin::{AxisQuantity, Class, Clearing, Establishing};
 use softstop_dynamics::{Axis, Basins, Grid, Regime};
 
 /// The basins of one machine.
@@ -130,9 +130,9 @@ fn head(machine: &Machine, grid: &Grid) -> String {
 /// Where the cells lie along an axis.
 fn range(machine: &Machine, axis: &Axis) -> String {
     let (name, dimension) = match axis.quantity {
-        Quantity::Position => ("x", Dimension::Length),
-        Quantity::Velocity => ("x'", Dimension::Velocity),
-        Quantity::Angle => ("phi", Dimension::Angle),
+        AxisQuantity::Position => ("x", Dimension::Length),
+        AxisQuantity::Velocity => ("x'", Dimension::Velocity),
+        AxisQuantity::Angle => ("phi", Dimension::Angle),
     };
     let ([low, high], unit) = (axis.range, machine.unit(dimension));
     format!("{low:.4} <= {name} <= {high:.4} {unit}")

@@ -3,7 +3,7 @@
 use anyhow::{Error, anyhow};
 use nalgebra::Vector2;
 use softstop::Scene;
-use softstop_dynamics::attractors::{Options, attractors};
+use softstop_dynamics::attractors::{SearchOptions, attractors};
 use softstop_dynamics::zone::find_with_monitor;
 use softstop_dynamics::{Orbit, Regime};
 
@@ -54,10 +54,10 @@ pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
     {
         return Ok(orbit);
     }
-    let options = Options {
+    let options = SearchOptions {
         longest: LONGEST as usize,
         patience: PATIENCE,
-        ..Options::default()
+        ..SearchOptions::default()
     };
     let bar = Progress::new(1, "drive periods at most, in search of the orbit");
     let survey = attractors(scene, &options, &|done, planned| {

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use anyhow::Error;
 use clap::Args;
-use softstop_dynamics::attractors::{Options, attractors, starting_box};
+use softstop_dynamics::attractors::{SearchOptions, attractors, starting_box};
 
 use report::MotionsReport;
 use softstop_console::arguments::MachineArguments;
@@ -53,20 +53,20 @@ const FILES: [(&str, &str); 2] = [("json", "motions.json"), ("svg", "motions.svg
 #[command(after_help = EXAMPLES)]
 pub struct MotionsArguments {
     /// Starts, 1 to 1000000
-    #[arg(long, value_name = "N", default_value_t = Options::default().starts)]
+    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().starts)]
     pub starts: usize,
     /// Shifts the starts: another seed, other starts
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     pub seed: u64,
     /// Drive periods before a motion is looked at, 1 to 1000000
-    #[arg(long, value_name = "N", default_value_t = Options::default().transient)]
+    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().transient)]
     pub transient: u64,
     /// Longest period looked for, in drive periods, 1 to 10000
-    #[arg(long, value_name = "N", default_value_t = Options::default().longest)]
+    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().longest)]
     pub longest: usize,
     /// Drive periods for which motions that do not repeat are watched, all together; 20 times
     /// fewer for stops with power laws
-    #[arg(long, value_name = "N", default_value_t = Options::default().patience)]
+    #[arg(long, value_name = "N", default_value_t = SearchOptions::default().patience)]
     pub patience: u64,
     /// Folder for motions.json and motions.svg, a picture of all motions; none without it
     #[arg(long, value_name = "DIR")]
@@ -109,12 +109,12 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     export.finish(&report, arguments.format)
 }
 
-fn options(arguments: &MotionsArguments) -> Result<Options, Failure> {
+fn options(arguments: &MotionsArguments) -> Result<SearchOptions, Failure> {
     within("starts", arguments.starts, 1..=1_000_000)?;
     within("transient", arguments.transient, 1..=1_000_000)?;
     within("longest", arguments.longest, 1..=10_000)?;
     within("patience", arguments.patience, 1..=1_000_000_000_000)?;
-    Ok(Options {
+    Ok(SearchOptions {
         starts: arguments.starts,
         seed: arguments.seed,
         transient: arguments.transient,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::json;
 use softstop::{Dimension, Machine};
-use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, Options};
+use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, SearchOptions};
 use softstop_dynamics::{Exponents, MotionKind, Orbit, Survey};
 
 use softstop_console::arguments::title;
@@ -54,7 +54,7 @@ struct SettledReport {
 }
 
 impl MotionsReport {
-    pub(super) fn new(machine: &Machine, options: &Options, survey: &Survey) -> Self {
+    pub(super) fn new(machine: &Machine, options: &SearchOptions, survey: &Survey) -> Self {
         let lost = survey.lost.as_ref();
         let motions = survey.attractors.iter().map(|attractor| SettledReport {
             share: attractor.share,

@@ -10,11 +10,13 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::figure::Figure;
-use softstop_dynamics::settled::Seen;
+use softstop_dynamics::settled::SettledMotion;
 use softstop_dynamics::zone::{
     free_amplitude, grazing_frequencies, hysteresis_batch, loss_of_stability,
 };
-use softstop_dynamics::{Exponents, MotionKind, Orbit, Regime, StroboscopicMap, Stroke, Zone};
+use softstop_dynamics::{
+    CycleMetrics, Exponents, MotionKind, Orbit, Regime, StroboscopicMap, Zone,
+};
 
 use super::file::Study;
 use super::outputs::{Output, Own, kind};
@@ -126,11 +128,11 @@ struct Look<'a> {
     study: &'a Study,
     machine: &'a Machine,
     is_valid: bool,
-    seen: Option<Seen>,
+    seen: Option<SettledMotion>,
     zone: Option<Zone>,
     map: OnceCell<Option<StroboscopicMap>>,
     motion: OnceCell<Option<(MotionKind, Option<f64>)>>,
-    orbit: OnceCell<Option<(Orbit, Stroke)>>,
+    orbit: OnceCell<Option<(Orbit, CycleMetrics)>>,
 }
 
 /// Where there is nothing.
@@ -237,12 +239,12 @@ impl Look<'_> {
     }
 
     /// The motion that returns, by Newton's method, and its figures.
-    fn periodic(&self) -> Option<&(Orbit, Stroke)> {
+    fn periodic(&self) -> Option<&(Orbit, CycleMetrics)> {
         let find = || {
             let seen = self.seen.as_ref()?;
             let orbit = Orbit::periodic(self.scene(), seen.end.into(), seen.periods?).ok()?;
             let is_same = Some(orbit.regime()) == seen.regime();
-            let stroke = Stroke::of(&orbit).ok()?;
+            let stroke = CycleMetrics::of(&orbit).ok()?;
             is_same.then_some((orbit, stroke))
         };
         self.orbit.get_or_init(find).as_ref()

@@ -7,7 +7,7 @@ use serde::Serialize;
 use softstop::{Clock, MotionError, Scene, SceneError, Start};
 use softstop_console::machine::Regime;
 use softstop_dynamics::internals::ImpactCounter;
-use softstop_lanes::{Instructions, Job, Machine, Outcome, Watch, run_parallel, run_with};
+use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run_parallel, run_with};
 
 /// The motions.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -119,7 +119,7 @@ impl Fleet {
     fn batch_watched(
         &self,
         instructions: Instructions,
-        watch: &mut impl Watch,
+        watch: &mut impl BatchObserver,
     ) -> Result<Count, MotionError> {
         let mut all = Count::default();
         for (scenes, jobs) in self.scenes.chunks(PART).zip(self.jobs.chunks(PART)) {
@@ -156,7 +156,7 @@ impl AddAssign for Count {
 /// Hears of each impact.
 struct EachImpact;
 
-impl Watch for EachImpact {
+impl BatchObserver for EachImpact {
     const IMPACTS: bool = true;
 }
 

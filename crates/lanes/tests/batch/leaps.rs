@@ -95,7 +95,7 @@ fn what_settles_slowly_ends_there_too() {
 /// Hears of impacts, and so of each.
 struct Impacts(Vec<u64>);
 
-impl Watch for Impacts {
+impl BatchObserver for Impacts {
     const IMPACTS: bool = true;
     fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
         self.0[job] += 1;

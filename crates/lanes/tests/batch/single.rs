@@ -30,7 +30,12 @@ fn what_lanes_cannot_follow_the_scalar_engine_does() {
 }
 
 /// A motion alone in a lane.
-pub fn in_a_lane(scene: &Scene, start: Start, periods: u64, watch: &mut impl Watch) -> Outcome {
+pub fn in_a_lane(
+    scene: &Scene,
+    start: Start,
+    periods: u64,
+    watch: &mut impl BatchObserver,
+) -> Outcome {
     let machines = [Machine::new(scene).expect("valid")];
     let job = Job {
         machine: 0,
@@ -46,7 +51,7 @@ pub fn one_by_one(
     scene: &Scene,
     start: Start,
     periods: u64,
-    watch: &mut impl Watch,
+    watch: &mut impl BatchObserver,
 ) -> (Start, u64) {
     let outcome = in_a_lane(scene, start, periods, watch);
     (outcome.end, outcome.impacts)
@@ -89,7 +94,7 @@ fn a_machine_without_a_stop_moves_on() {
 /// Hears of periods, so that lanes stop at their ends.
 pub struct Periods;
 
-impl Watch for Periods {
+impl BatchObserver for Periods {
     const PERIODS: bool = true;
 }
 
@@ -146,7 +151,7 @@ fn endless_bounces_under_a_slow_drive_are_left_to_the_safe_engine() {
 #[derive(Default)]
 struct EachPeriod(Vec<(u64, Start)>);
 
-impl Watch for EachPeriod {
+impl BatchObserver for EachPeriod {
     const PERIODS: bool = true;
 
     fn period(&mut self, _: usize, cycle: u64, state: Start) {

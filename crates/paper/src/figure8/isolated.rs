@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use softstop::{Parameter, Ratios, Start};
-use softstop_dynamics::attractors::{Options, SurveyError, attractors};
+use softstop_dynamics::attractors::{SearchOptions, SurveyError, attractors};
 use softstop_dynamics::monitor::piece;
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
@@ -47,10 +47,10 @@ pub(super) fn find(known: &[Diagram], studio: &Studio) -> Result<Vec<Step>> {
 /// Stable orbits at frequencies inside the paper's intervals that are on no sweep.
 fn seeds(known: &[Diagram], studio: &Studio) -> Result<Vec<(f64, Orbit)>> {
     let detail = studio.detail;
-    let options = Options {
+    let options = SearchOptions {
         starts: detail.pick(128, 32),
         patience: 20_000,
-        ..Options::default()
+        ..SearchOptions::default()
     };
     let some = detail.pick(values(&paper::INTERVALS), vec![0.9875]);
     let what = "frequencies searched for isolated motions";

@@ -8,7 +8,7 @@ use anyhow::{Result, anyhow};
 use serde::Deserialize;
 use softstop::Ratios;
 use softstop_dynamics::Survey;
-use softstop_dynamics::attractors::{Options, attractors};
+use softstop_dynamics::attractors::{SearchOptions, attractors};
 
 use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
 use found::Found;
@@ -111,10 +111,10 @@ fn found(asked: &[Asked], detail: Detail) -> Result<Vec<Found>> {
 /// All motions at a frequency.
 fn survey(frequency: f64, detail: Detail, progress: &Progress) -> Result<Survey> {
     let scene = Ratios::unloaded().at_frequency(frequency).scene()?;
-    let options = Options {
+    let options = SearchOptions {
         starts: detail.pick(256, 96),
         patience: detail.pick(4_000_000, 200_000),
-        ..Options::default()
+        ..SearchOptions::default()
     };
     let watcher = |_, _| {
         progress.beat();

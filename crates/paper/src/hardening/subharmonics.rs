@@ -3,7 +3,7 @@
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use softstop_dynamics::Orbit;
-use softstop_dynamics::attractors::{Options, attractors};
+use softstop_dynamics::attractors::{SearchOptions, attractors};
 
 use super::stops::{Law, grazing};
 use crate::figure::Studio;
@@ -51,11 +51,11 @@ fn at(index: usize, frequencies: usize) -> f64 {
 
 fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmonic>> {
     let (lower, upper) = grazing(NARROW);
-    let options = Options {
+    let options = SearchOptions {
         starts,
         transient: 300,
         patience: 2_000,
-        ..Options::default()
+        ..SearchOptions::default()
     };
     let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
     let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;

@@ -5,7 +5,7 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Scene, Start};
-use softstop_dynamics::attractors::{Arrival, Options, SurveyError, settle};
+use softstop_dynamics::attractors::{Arrival, SearchOptions, SurveyError, settle};
 use softstop_dynamics::internals::evenly;
 use softstop_dynamics::monitor::{Kept, piece};
 use softstop_dynamics::points::blocks;
@@ -46,10 +46,10 @@ pub(super) fn cells(
 }
 
 fn hardest(scene: &Scene) -> Result<MotionKind> {
-    let options = Options {
+    let options = SearchOptions {
         transient: OPTIONS.0,
         longest: OPTIONS.1,
-        ..Options::default()
+        ..SearchOptions::default()
     };
     let arrivals = settle(scene, &starts(scene.clearance), &options, &|_, _| {
         interrupt::go_on()

@@ -15,9 +15,9 @@ use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
 use softstop::{Ratios, Start};
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::supply::{Reading, Strokes};
+use softstop_dynamics::supply::{Reading, StrokeCount};
 use softstop_dynamics::zone::hysteresis;
-use softstop_lanes::{Job, Machine, Watch};
+use softstop_lanes::{BatchObserver, Job, Machine};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use softstop_console::output;
@@ -158,7 +158,7 @@ impl Press {
             state: self.start,
             is_supplied: self.is_supplied,
             tries: tries(seed as u64, mean, periods),
-            strokes: Strokes::after(self.impact - 1.0),
+            strokes: StrokeCount::after(self.impact - 1.0),
             impacts: 0,
         };
         let mut motions: Vec<Motion> = (0..seeds).map(motion).collect();
@@ -223,7 +223,7 @@ struct Motion {
     is_supplied: bool,
     /// The drive periods at which the supply may change, from the first to the end.
     tries: Vec<u64>,
-    strokes: Strokes,
+    strokes: StrokeCount,
     /// Impacts since the supply is steady.
     impacts: u64,
 }
@@ -244,7 +244,7 @@ struct Counter<'a> {
     spans: &'a [(usize, u64, u64)],
 }
 
-impl Watch for Counter<'_> {
+impl BatchObserver for Counter<'_> {
     const IMPACTS: bool = true;
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, _: f64) {
@@ -253,7 +253,7 @@ impl Watch for Counter<'_> {
         motion.impacts += 1;
         motion
             .strokes
-            .strike((from + cycle) as f64 + offset / self.period);
+            .record_impact((from + cycle) as f64 + offset / self.period);
     }
 }
 

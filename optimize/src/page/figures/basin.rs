@@ -6,7 +6,7 @@ use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Mark, Panel, Sign, style};
 use softstop_dynamics::attractors::{SurveyError, starting_box};
-use softstop_dynamics::basin::{Class, Options, basins};
+use softstop_dynamics::basin::{BasinOptions, Class, basins};
 use softstop_dynamics::{self as dynamics, Grid, Orbit};
 use softstop_explore::palette::distinct_colors;
 
@@ -34,7 +34,13 @@ pub(super) fn basin(design: &Design) -> Result<Figure, SurveyError> {
         dynamics::Axis::velocity(ends[1].0, ends[1].1, CELLS),
         scene.excitation.phase,
     );
-    let found = basins(scene, &grid, &Options::default(), &interrupt::watch, None)?;
+    let found = basins(
+        scene,
+        &grid,
+        &BasinOptions::default(),
+        &interrupt::watch,
+        None,
+    )?;
     let classes = || found.classes.iter();
     let own = classes().position(|it| is_own(it.orbit.as_deref(), &design.orbit));
     let name = |(index, class): (usize, &Class)| match own == Some(index) {

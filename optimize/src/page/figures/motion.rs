@@ -4,7 +4,7 @@ use softstop::Dimension;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Panel};
-use softstop_dynamics::Stroke;
+use softstop_dynamics::CycleMetrics;
 
 use super::portrait::{Period, faces};
 use crate::design::Design;
@@ -57,7 +57,7 @@ pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
         .collect();
     let position = panel(1, &position_label, faces);
     let drawn = points.iter().map(|it| it[3].abs()).fold(0.0, f64::max);
-    let stroke = Stroke::of(&design.orbit);
+    let stroke = CycleMetrics::of(&design.orbit);
     let largest = stroke.map_or(drawn, |it| machine.to_own(Dimension::Force, it.stop_force));
     let forces = (drawn > 0.0).then(|| panel(3, &force, Vec::new()));
     let of_forces = match &forces {

@@ -9,7 +9,7 @@ use super::catalogue::{AttractorCatalogue, Status};
 use super::chaos::Chaos;
 use super::ensemble::{Ensemble, EnsembleMember};
 use super::lifetime::EscapeCounts;
-use super::{Arrival, Attractor, Options, Region, Survey, SurveyError};
+use super::{Arrival, Attractor, Region, SearchOptions, Survey, SurveyError};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::returns;
 use crate::orbit::{self, Exponents};
@@ -48,7 +48,7 @@ struct Group {
 
 struct Search<'a> {
     scene: &'a Scene,
-    options: Options,
+    options: SearchOptions,
     ensemble: Ensemble<'a>,
     catalogue: AttractorCatalogue<'a>,
     members: Vec<SearchMember>,
@@ -60,10 +60,10 @@ struct Search<'a> {
 ///
 /// ```
 /// use softstop::Ratios;
-/// use softstop_dynamics::attractors::{Options, attractors};
+/// use softstop_dynamics::attractors::{SearchOptions, attractors};
 /// use softstop_dynamics::monitor::unmonitored;
 ///
-/// let options = Options { starts: 64, ..Options::default() };
+/// let options = SearchOptions { starts: 64, ..SearchOptions::default() };
 /// let survey = attractors(&Ratios::unloaded().scene()?, &options, &unmonitored)?;
 /// // Point A: with impacts and without, by turns of the start.
 /// assert_eq!(survey.attractors.len(), 2);
@@ -74,7 +74,7 @@ struct Search<'a> {
 /// [`SurveyError::Motion`] if the scene is invalid; [`SurveyError::Stopped`].
 pub fn attractors(
     scene: &Scene,
-    options: &Options,
+    options: &SearchOptions,
     monitor: Monitor<'_>,
 ) -> Result<Survey, SurveyError> {
     let mut search = Search::new(scene, options, monitor)?;
@@ -102,7 +102,7 @@ pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, Surve
 
 /// States of the motions that [`orbit::find`] or 64 starts from far and wide come to.
 pub(crate) fn stays(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, SurveyError> {
-    let options = Options::default();
+    let options = SearchOptions::default();
     let mut search = Search::new(scene, &options, monitor)?;
     search.ensemble.planned = (options.transient + search.logged() as u64) * PILOT as u64;
     search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
@@ -117,7 +117,11 @@ pub(crate) fn stays(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, S
 ///
 /// # Errors
 /// [`SurveyError::Motion`] if the scene is invalid or the motion cannot be computed.
-pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Attractor, SurveyError> {
+pub fn classify(
+    scene: &Scene,
+    start: Start,
+    options: &SearchOptions,
+) -> Result<Attractor, SurveyError> {
     let mut search = Search::new(scene, options, &unmonitored)?;
     start.validate()?;
     search.launch(vec![start], true)?;
@@ -138,7 +142,7 @@ pub fn classify(scene: &Scene, start: Start, options: &Options) -> Result<Attrac
 pub fn settle(
     scene: &Scene,
     starts: &[Start],
-    options: &Options,
+    options: &SearchOptions,
     monitor: Monitor<'_>,
 ) -> Result<Vec<Arrival>, SurveyError> {
     let mut search = Search::new(scene, options, monitor)?;
@@ -160,7 +164,11 @@ pub fn settle(
 }
 
 impl<'a> Search<'a> {
-    fn new(scene: &'a Scene, options: &Options, monitor: Monitor<'a>) -> Result<Self, SurveyError> {
+    fn new(
+        scene: &'a Scene,
+        options: &SearchOptions,
+        monitor: Monitor<'a>,
+    ) -> Result<Self, SurveyError> {
         Ok(Self {
             scene,
             options: *options,

@@ -1,7 +1,7 @@
 //! Several motions side by side, and what most of them do.
 
 use super::{Rules, TransitionError};
-use crate::attractors::{Arrival, Options, settle};
+use crate::attractors::{Arrival, SearchOptions, settle};
 use crate::continuation::Family;
 use crate::monitor::{Kept, Monitor, piece};
 use crate::motion::MotionKind;
@@ -67,13 +67,13 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
     }
 
     /// Holds the parameter and lets motions settle.
-    pub(super) fn hold(
+    pub(super) fn settle_at(
         &self,
         value: f64,
         starts: &[Start],
         periods: u64,
     ) -> Result<Vec<Arrival>, TransitionError> {
-        let options = Options {
+        let options = SearchOptions {
             transient: periods,
             ..self.rules.survey
         };
@@ -93,9 +93,9 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
 
     fn gather_anew(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
         let (first, rest) = starts.split_at(starts.len().min(FIRST));
-        let mut arrivals = self.hold(value, first, self.rules.patience)?;
+        let mut arrivals = self.settle_at(value, first, self.rules.patience)?;
         if !are_alike(&arrivals) {
-            arrivals.extend(self.hold(value, rest, self.rules.patience)?);
+            arrivals.extend(self.settle_at(value, rest, self.rules.patience)?);
         }
         let all = arrivals.len();
         let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =

@@ -1,14 +1,14 @@
-//! Straight through a phase, without a look: to the position that ends it in the direction of the velocity, or to where
+//! Straight through a phase, without windows: to the position that ends it in the direction of the velocity, or to where
 //! the velocity ends.
 
 use pulp::Simd;
 
+use super::decide_window::WindowEnd;
 use super::engine::Engine;
-use super::judge::Stretch;
+use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::local;
-use super::look::End;
 use super::parts::Parts;
 use super::scan::LEAVING;
 use super::taylor::MOMENT;
@@ -17,7 +17,7 @@ use super::taylor::MOMENT;
 const BEFORE: f64 = 1e-4;
 
 /// A way out of the phase, and what the lane is on it.
-struct Way<S: Simd, const N: usize> {
+struct DirectPath<S: Simd, const N: usize> {
     /// Forward, and from rest.
     up: Mask<S, N>,
     rests: Mask<S, N>,
@@ -33,18 +33,23 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Moves the lanes on whose velocity provably keeps its sign up to the end of the phase, and that meet no further
     /// guard before; those that are left.
     #[inline(always)]
-    pub fn dash(&mut self, phase: usize, active: Mask<S, N>, due: Lanes<S, N>) -> Mask<S, N> {
+    pub fn direct_step(
+        &mut self,
+        phase: usize,
+        active: Mask<S, N>,
+        due: Lanes<S, N>,
+    ) -> Mask<S, N> {
         let law = &self.laws[phase];
         let frequency = self.state.drive.frequency;
         let (x, v) = (self.state.x, self.state.v);
         let (zero, one) = (x.like(0.0), x.like(1.0));
         let here = self.parts(law);
-        let way = self.way(law, &here);
-        let turns = active & way.turns;
-        let parts = here.at(law, frequency, &here.next(law), way.time);
+        let path = self.path(law, &here);
+        let turns = active & path.turns;
+        let parts = here.at(law, frequency, &here.next(law), path.time);
         let derivatives = local::derivatives(law, frequency, &parts);
         let mut sought = local::guard::<S, N, false>(&derivatives, (one, zero, zero));
-        sought[0] = sought[0] - way.surface;
+        sought[0] = sought[0] - path.surface;
         if turns.any() {
             let velocity = local::guard::<S, N, true>(&derivatives, (zero, one, zero));
             for (sought, velocity) in sought.iter_mut().zip(velocity) {
@@ -53,29 +58,29 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
         let crossing = local::zero(&sought, law.window, active);
         let moment = crossing.time;
-        let time = way.time + moment;
+        let time = path.time + moment;
         let latest = law.window.min(due - law.window * due.like(BEFORE));
         let in_time = zero.below(time) & time.below(latest);
 
-        let (mut end_x, mut end_v) = (way.surface, crossing.slope);
+        let (mut end_x, mut end_v) = (path.surface, crossing.slope);
         let mut rate = local::second(&sought, moment);
-        let distance = (way.surface - x).abs();
-        let mut apart = law.grain.below(distance);
+        let distance = (path.surface - x).abs();
+        let mut apart = law.ambiguity.below(distance);
         if turns.any() {
             let (position, _) = local::state(&derivatives, moment);
-            let short = ((position - x).abs() + law.grain).below(distance);
+            let short = ((position - x).abs() + law.ambiguity).below(distance);
             apart = turns.choose_mask(short, apart);
             rate = turns.choose(crossing.slope, rate);
             end_x = turns.choose(position, end_x);
             end_v = turns.choose(zero, end_v);
         }
-        let ends = [(v, way.acceleration), (end_v, rate)];
-        let alone = way.is_straight(law, &here, time, ends);
+        let ends = [(v, path.acceleration), (end_v, rate)];
+        let alone = path.is_straight(law, &here, time, ends);
         let hits = active & crossing.sure & in_time & apart & alone;
 
-        let at_high = way.up.and_not(turns);
-        let beyond = way.up.choose(law.beyond_high, law.beyond_low);
-        let end = End {
+        let at_high = path.up.and_not(turns);
+        let beyond = path.up.choose(law.beyond_high, law.beyond_low);
+        let end = WindowEnd {
             x: end_x,
             v: end_v * at_high.choose(law.bounce, one),
             beyond: turns.choose(law.beyond_guard, beyond),
@@ -90,7 +95,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 
     /// The way that the lanes would go if their acceleration changed at a constant rate.
     #[inline(always)]
-    fn way(&self, law: &Law<S, N>, here: &Parts<S, N>) -> Way<S, N> {
+    fn path(&self, law: &Law<S, N>, here: &Parts<S, N>) -> DirectPath<S, N> {
         let (x, v) = (self.state.x, self.state.v);
         let frequency = self.state.drive.frequency;
         let (zero, half) = (x.like(0.0), x.like(0.5));
@@ -118,7 +123,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             let slope = start.mul_add(start.mul_add(snap * half, jerk), acceleration);
             time = turns.choose(start - off / slope, time);
         }
-        Way {
+        DirectPath {
             up,
             rests,
             turns,
@@ -129,7 +134,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     }
 }
 
-impl<S: Simd, const N: usize> Way<S, N> {
+impl<S: Simd, const N: usize> DirectPath<S, N> {
     /// True where the velocity, with the acceleration as `ends` say now and after `time`, keeps its sign, and the
     /// further guard is not met.
     #[inline(always)]
@@ -145,13 +150,13 @@ impl<S: Simd, const N: usize> Way<S, N> {
         let third = time * one.like(1.0 / 3.0);
         let share = time * law.per_window;
         let square = share * share;
-        let slack = law.rate_slack(here) * (square * square);
+        let error_bound = law.rate_error_bound(here) * (square * square);
         let side = self.up.choose(one, -one);
         let (b1, b2) = (side * third.mul_add(a0, v0), side * (v1 - third * a1));
         // At an end where it is zero its first Bernstein coefficient needs no proof.
         let first = self.rests.choose(b1, side * v0);
         let last = self.turns.choose(b2, side * v1);
-        let margin = (self.rests | self.turns).choose(slack * one.like(LEAVING), slack);
+        let margin = (self.rests | self.turns).choose(error_bound * one.like(LEAVING), error_bound);
         let keeps = (law.slow + margin).below(first.min(last).min(b1.min(b2)));
         let reverses = law.reverses();
         let away = (side * law.by_velocity).below(one.like(0.0));
@@ -160,9 +165,9 @@ impl<S: Simd, const N: usize> Way<S, N> {
             let [(v0, a0), (v1, a1)] = ends;
             let x = here.y + (here.p - law.edge);
             let ends = [[x, v0, a0], [self.surface, v1, a1]];
-            let slacks = (law.slack(here) * (square * square), slack);
-            let stretch = Stretch::of_further(law, ends, time, slacks);
-            alone = alone | stretch.is_clear(law).and_not(reverses);
+            let error_bounds = (law.error_bound(here) * (square * square), error_bound);
+            let interval = GuardInterval::of_further(law, ends, time, error_bounds);
+            alone = alone | interval.is_clear(law).and_not(reverses);
         }
         keeps & alone
     }

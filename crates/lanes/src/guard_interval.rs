@@ -8,13 +8,13 @@ use pulp::Simd;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 
-/// A guard function g on [0, span]: values and rates at both ends, and slack = |g''''| span^4 / 384.
+/// A guard function g on [0, span]: values and rates at both ends, and error bound = |g''''| span^4 / 384.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stretch<S: Simd, const N: usize> {
+pub(super) struct GuardInterval<S: Simd, const N: usize> {
     pub left: (Lanes<S, N>, Lanes<S, N>),
     pub right: (Lanes<S, N>, Lanes<S, N>),
     pub span: Lanes<S, N>,
-    pub slack: Lanes<S, N>,
+    pub error_bound: Lanes<S, N>,
 }
 
 /// What a stretch is; a lane in which nothing is true has to be looked at more closely.
@@ -28,22 +28,22 @@ pub(super) struct Verdict<S: Simd, const N: usize> {
     pub hump: Mask<S, N>,
 }
 
-impl<S: Simd, const N: usize> Stretch<S, N> {
-    /// The further guard's, between two ends with their positions, velocities and accelerations; `slacks`: of position
+impl<S: Simd, const N: usize> GuardInterval<S, N> {
+    /// The further guard's, between two ends with their positions, velocities and accelerations; `error_bounds`: of position
     /// and velocity.
     #[inline(always)]
     pub fn of_further(
         law: &Law<S, N>,
         [left, right]: [[Lanes<S, N>; 3]; 2],
         span: Lanes<S, N>,
-        (slack, rate_slack): (Lanes<S, N>, Lanes<S, N>),
+        (error_bound, rate_error_bound): (Lanes<S, N>, Lanes<S, N>),
     ) -> Self {
         let (a, b) = (law.by_position.abs(), law.by_velocity.abs());
         Self {
             left: law.further(left),
             right: law.further(right),
             span,
-            slack: a.mul_add(slack, b * rate_slack),
+            error_bound: a.mul_add(error_bound, b * rate_error_bound),
         }
     }
 
@@ -60,7 +60,7 @@ impl<S: Simd, const N: usize> Stretch<S, N> {
     pub fn stays_below(&self) -> Mask<S, N> {
         let (b1, b2) = self.inner();
         let high = self.left.0.max(self.right.0).max(b1.max(b2));
-        (high + self.slack).below(high.like(0.0))
+        (high + self.error_bound).below(high.like(0.0))
     }
 
     /// True where the further guard provably does not rise through zero, nor comes within rounding of it at the end.
@@ -68,31 +68,34 @@ impl<S: Simd, const N: usize> Stretch<S, N> {
     pub fn is_clear(&self, law: &Law<S, N>) -> Mask<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let (zero, scale) = (g0.like(0.0), law.guard_scale);
-        let (grain, slow) = (law.grain * scale, law.slow * scale);
-        let touches = (-grain).below(g0);
-        let leaves = touches & d0.below(-slow) & g0.at_most(grain);
-        let ends_there = (-grain).below(g1) & zero.below(d1);
-        let slack = touches.choose(self.slack, self.slack + grain);
-        let stretch = Self { slack, ..*self };
-        stretch.judge(touches, leaves).clear.and_not(ends_there)
+        let (ambiguity, slow) = (law.ambiguity * scale, law.slow * scale);
+        let touches = (-ambiguity).below(g0);
+        let leaves = touches & d0.below(-slow) & g0.at_most(ambiguity);
+        let ends_there = (-ambiguity).below(g1) & zero.below(d1);
+        let error_bound = touches.choose(self.error_bound, self.error_bound + ambiguity);
+        let interval = Self {
+            error_bound,
+            ..*self
+        };
+        interval.decide(touches, leaves).clear.and_not(ends_there)
     }
 
     /// Judges all lanes. `touches`: the guard begins within rounding of zero; `leaves`: and it falls there.
     #[inline(always)]
-    pub fn judge(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> Verdict<S, N> {
+    pub fn decide(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> Verdict<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let zero = g0.like(0.0);
         let (b1, b2) = self.inner();
         let inverse = g0.like(1.0) / self.span;
         let slopes = [d0, (b2 - b1) * inverse * g0.like(3.0), d1];
         // sqrt(3)/216 |g''''| span^3 (Birkhoff and Priver 1967), and |g''''| span^2 / 12.
-        let slope_slack = self.slack * inverse * g0.like(384.0 * 0.00802);
-        let falls = (slopes[0].max(slopes[1]).max(slopes[2]) + slope_slack).below(zero);
-        let climbs = zero.below(slopes[0].min(slopes[1]).min(slopes[2]) - slope_slack);
+        let slope_error_bound = self.error_bound * inverse * g0.like(384.0 * 0.00802);
+        let falls = (slopes[0].max(slopes[1]).max(slopes[2]) + slope_error_bound).below(zero);
+        let climbs = zero.below(slopes[0].min(slopes[1]).min(slopes[2]) - slope_error_bound);
         let curvatures = [slopes[1] - slopes[0], slopes[2] - slopes[1]];
-        let slack = self.slack * inverse * g0.like(16.0);
-        let convex = zero.below(curvatures[0].min(curvatures[1]) - slack);
-        let concave = (curvatures[0].max(curvatures[1]) + slack).below(zero);
+        let error_bound = self.error_bound * inverse * g0.like(16.0);
+        let convex = zero.below(curvatures[0].min(curvatures[1]) - error_bound);
+        let concave = (curvatures[0].max(curvatures[1]) + error_bound).below(zero);
 
         let apart = touches.not();
         let sound = apart | leaves;

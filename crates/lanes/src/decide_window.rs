@@ -18,7 +18,7 @@ const LEAST: f64 = 1e-12;
 const SHORTEST: f64 = 1.0 / 512.0;
 
 /// Where a lane comes to, and if it crosses there, the phase beyond and the impacts that it makes.
-pub(super) struct End<S: Simd, const N: usize> {
+pub(super) struct WindowEnd<S: Simd, const N: usize> {
     pub x: Lanes<S, N>,
     pub v: Lanes<S, N>,
     pub beyond: Lanes<S, N>,
@@ -32,7 +32,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// came to the end of their job, and those that the safe engine has to take. `due`: time to where each has to
     /// stop.
     #[inline(always)]
-    pub fn look<const GUARDED: bool>(
+    pub fn decide_window<const GUARDED: bool>(
         &mut self,
         phase: usize,
         active: Mask<S, N>,
@@ -46,7 +46,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let least = law.window * due.like(LEAST);
         let span = (self.state.share * law.window).min(remaining).max(least);
         let ahead = self.ahead(law, reached, pending, span);
-        let guard = Guard::of::<GUARDED>(law, &ahead, reached.slack);
+        let guard = Guard::of::<GUARDED>(law, &ahead, reached.error_bound);
         let found = guard.search::<GUARDED>(law, &ahead, pending);
         let (hits, doubtful) = self.move_on::<GUARDED>(phase, active, &guard, &found, scanned);
         let arrived = found.clear & remaining.at_most(span);
@@ -116,7 +116,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             let turned = turns.choose(zero, v);
             let x = at_further.choose(found.position, x);
             let beyond = is_high.choose(law.beyond_high, law.beyond_low);
-            End {
+            WindowEnd {
                 x: at_high.choose(law.high, (hits & guard.is_low).choose(law.low, x)),
                 v: at_high.choose(v * law.bounce, turned),
                 beyond: guard.is_further.choose(law.beyond_guard, beyond),
@@ -124,7 +124,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
                 before: v,
             }
         } else {
-            End {
+            WindowEnd {
                 x: hits.choose(law.end, x),
                 v: hits.choose(v * law.end_bounce, v),
                 beyond: law.beyond_end,
@@ -142,7 +142,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     pub fn settle(
         &mut self,
         (moved, hits): (Mask<S, N>, Mask<S, N>),
-        end: &End<S, N>,
+        end: &WindowEnd<S, N>,
         (cos, sin): (Lanes<S, N>, Lanes<S, N>),
         time: Lanes<S, N>,
     ) {

@@ -3,12 +3,12 @@
 /// Counts the strokes that a motion misses: an impact that comes n drive periods after the last one and not one has
 /// missed n - 1, whatever the drive angles at which they come.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Strokes {
+pub struct StrokeCount {
     last: f64,
     missed: u64,
 }
 
-impl Strokes {
+impl StrokeCount {
     /// From an impact on, at a time in drive periods.
     pub const fn after(impact: f64) -> Self {
         Self {
@@ -18,7 +18,7 @@ impl Strokes {
     }
 
     /// An impact happens, at a time in drive periods.
-    pub fn strike(&mut self, time: f64) {
+    pub fn record_impact(&mut self, time: f64) {
         self.missed = self.missed(time);
         self.last = time;
     }

@@ -3,13 +3,13 @@
 use proptest::prelude::*;
 use softstop::internals::Phase;
 use softstop::{Arc, Clock, Observer, PhaseKind, Ratios, Scene, Simulation};
-use softstop_dynamics::{Orbit, Regime, Stroke, orbit};
+use softstop_dynamics::{CycleMetrics, Orbit, Regime, orbit};
 use softstop_testing::machines::{machines, start_below};
 use softstop_testing::{assert_near, cases, loaded, rigid_stop, unloaded};
 
 /// What many points of a period show.
 #[derive(Default)]
-struct Seen {
+struct SettledMotion {
     lowest: f64,
     highest: f64,
     force: f64,
@@ -21,7 +21,7 @@ struct Seen {
 /// Points of an arc.
 const POINTS: u32 = 400;
 
-impl Observer for Seen {
+impl Observer for SettledMotion {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         for point in 0..=POINTS {
             let after = elapsed * f64::from(point) / f64::from(POINTS);
@@ -40,14 +40,14 @@ impl Observer for Seen {
     }
 }
 
-fn seen(orbit: &Orbit) -> Seen {
+fn seen(orbit: &Orbit) -> SettledMotion {
     let mut motion = orbit.scene.motion(orbit.state().into()).expect("valid");
-    let mut seen = Seen {
+    let mut seen = SettledMotion {
         lowest: orbit.position,
         highest: orbit.position,
         amplitude: orbit.scene.excitation.amplitude,
         stiffness: orbit.scene.stiffness,
-        ..Seen::default()
+        ..SettledMotion::default()
     };
     motion
         .advance(Clock::at_cycle(orbit.periods), &mut seen)
@@ -69,7 +69,7 @@ proptest! {
     #[test]
     fn what_is_supplied_is_dissipated_and_no_point_lies_beyond(scene in machines()) {
         let Some(orbit) = settled(&scene) else { return Ok(()) };
-        let stroke = Stroke::of(&orbit).expect("computed");
+        let stroke = CycleMetrics::of(&orbit).expect("computed");
         let defect = stroke.supplied - stroke.losses.total();
         let size = 1.0 + stroke.supplied.abs();
         prop_assert!(defect.abs() <= 1e-10 * size, "{defect:e} of {size}: {scene:?}");
@@ -92,7 +92,7 @@ proptest! {
 fn a_running_machine_tallies_the_same() {
     for scene in [unloaded(1.15), loaded()] {
         let orbit = orbit::find(&scene).expect("z = 1");
-        let stroke = Stroke::of(&orbit).expect("computed");
+        let stroke = CycleMetrics::of(&orbit).expect("computed");
         let mut machine =
             Simulation::new(&scene, softstop::Start::from(orbit.state())).expect("valid");
         machine.advance(scene.period()).expect("bounded");
@@ -105,7 +105,8 @@ fn a_running_machine_tallies_the_same() {
 /// A and B (Peterka 2003, fig. 7): docs/paper.md has the same X_m, velocities and energies from the pictures' data.
 #[test]
 fn points_a_and_b() {
-    let of = |scene: &Scene| Stroke::of(&orbit::find(scene).expect("z = 1")).expect("computed");
+    let of =
+        |scene: &Scene| CycleMetrics::of(&orbit::find(scene).expect("z = 1")).expect("computed");
     let (a, b) = (of(&unloaded(1.15)), of(&loaded()));
     assert_near(a.highest, 10.260_591, 1e-6);
     assert_near(b.highest, 11.155_995, 1e-6);
@@ -115,7 +116,7 @@ fn points_a_and_b() {
     assert_eq!((a.strips, b.strips, a.beyond_strip), (0, 1, None));
     assert_near(b.beyond_strip.expect("a strip"), 0.755_995, 1e-6);
     // The preload and 7 times the way beyond the stop, but for the damper.
-    let stop = |stroke: &Stroke, behind: f64| 7.0 * (stroke.highest - 10.0 - behind);
+    let stop = |stroke: &CycleMetrics, behind: f64| 7.0 * (stroke.highest - 10.0 - behind);
     assert!(
         a.stop_force_above_preload >= stop(&a, 0.0) && b.stop_force_above_preload >= stop(&b, 0.9)
     );
@@ -140,7 +141,7 @@ fn a_rigid_stop_behind() {
     };
     let of = |travel| {
         let scene = far(travel).scene().expect("valid");
-        Stroke::of(&orbit::find(&scene).expect("z = 1")).expect("computed")
+        CycleMetrics::of(&orbit::find(&scene).expect("z = 1")).expect("computed")
     };
     assert_near(
         of(5.0).before_wall.expect("a wall"),

@@ -14,7 +14,7 @@ use softstop::{MotionError, Stop};
 /// forces and powers from their peaks on each arc.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Stroke {
+pub struct CycleMetrics {
     /// How long it lasts, in s: the drive periods after which the motion repeats.
     pub duration: f64,
     /// Before-impact velocity of the hardest impact, in m/s; 0 without impacts.
@@ -81,7 +81,7 @@ impl Losses {
     }
 }
 
-impl Stroke {
+impl CycleMetrics {
     /// The figures of an orbit.
     ///
     /// # Errors

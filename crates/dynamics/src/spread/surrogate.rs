@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use rayon::prelude::*;
 
-use super::{Model, Reached, Settled, Spread, along};
+use super::{PolynomialModel, Reached, Settled, ToleranceBox, along};
 use crate::orbit::{Orbit, OrbitError};
 use crate::zone::Loss;
 
@@ -16,17 +16,17 @@ const FIRST: usize = 64;
 
 /// Knows the z = 1 motions of some machines of a spread, and by them where those of the others are.
 #[derive(Debug)]
-pub struct Guide<'a> {
-    spread: &'a dyn Spread,
+pub struct Surrogate<'a> {
+    spread: &'a dyn ToleranceBox,
     nominal: &'a Orbit,
-    states: Model,
+    states: PolynomialModel,
     /// How far from where a motion should be it may be found, in the scales of the motion.
     reach: f64,
 }
 
 /// What becomes of the nominal motion in another machine.
 #[derive(Debug, Clone)]
-pub enum Fate {
+pub enum MotionOutcome {
     /// It goes on.
     Kept(Settled),
     /// It ends on the way there.
@@ -43,14 +43,14 @@ pub fn is_inside(at: &[f64]) -> bool {
     at.iter().all(|at| at.abs() <= 1.0)
 }
 
-impl<'a> Guide<'a> {
-    /// Looks at machines at some places between the bounds; [`Model::wanted`] says how many serve best. To the first of
+impl<'a> Surrogate<'a> {
+    /// Looks at machines at some places between the bounds; [`PolynomialModel::wanted`] says how many serve best. To the first of
     /// them the motion is followed; what those tell leads to the others.
     ///
     /// # Errors
     /// [`OrbitError::NotIsolated`] if the nominal motion is not one to start from.
     pub fn new(
-        spread: &'a dyn Spread,
+        spread: &'a dyn ToleranceBox,
         nominal: &'a Orbit,
         places: &[Vec<f64>],
     ) -> Result<Self, OrbitError> {
@@ -65,7 +65,7 @@ impl<'a> Guide<'a> {
         let scales = nominal.scene.motion_scales();
         let guide = |known: &[(Vec<f64>, [f64; 2])]| {
             let (places, states): (Vec<_>, Vec<_>) = known.iter().cloned().unzip();
-            let model = Model::fit(&places, &states).ok_or(OrbitError::NotIsolated)?;
+            let model = PolynomialModel::fit(&places, &states).ok_or(OrbitError::NotIsolated)?;
             let missed = |(place, state): (&Vec<f64>, &[f64; 2])| {
                 let miss = Vector2::from(model.at(place)) - Vector2::from(*state);
                 scales.state(&miss).norm()
@@ -80,8 +80,8 @@ impl<'a> Guide<'a> {
         };
         let rough: Self = guide(&known)?;
         let led = |place: &Vec<f64>| match rough.fate(place) {
-            Fate::Kept(settled) => Some((place.clone(), settled.state.into())),
-            Fate::Lost { .. } => None,
+            MotionOutcome::Kept(settled) => Some((place.clone(), settled.state.into())),
+            MotionOutcome::Lost { .. } => None,
         };
         known.par_extend(others.par_iter().filter_map(led));
         guide(&known)
@@ -89,22 +89,22 @@ impl<'a> Guide<'a> {
 
     /// What becomes of the nominal motion at some coordinates: by Newton's method from where the motion should be, and
     /// where that is in any doubt or outside the bounds, by following it there.
-    pub fn fate(&self, at: &[f64]) -> Fate {
+    pub fn fate(&self, at: &[f64]) -> MotionOutcome {
         let settled = || {
             let guess = Vector2::from(self.states.at(at));
             Settled::near(&self.spread.scene(at), guess, self.reach)
         };
         if let Some(settled) = is_inside(at).then(settled).flatten() {
-            return Fate::Kept(settled);
+            return MotionOutcome::Kept(settled);
         }
         match along(self.spread, self.nominal, at, 1.0) {
             Ok(Reached {
                 share,
                 loss: Some(loss),
                 ..
-            }) => Fate::Lost { share, loss },
-            Ok(reached) => Fate::Kept(Settled::of(&reached.point)),
-            Err(error) => Fate::Lost {
+            }) => MotionOutcome::Lost { share, loss },
+            Ok(reached) => MotionOutcome::Kept(Settled::of(&reached.point)),
+            Err(error) => MotionOutcome::Lost {
                 share: 0.0,
                 loss: Loss::Lost(error),
             },

@@ -5,24 +5,24 @@ use nalgebra::Vector3;
 use softstop::internals::{Influence, Lowered, Phase, PhaseId, Phases};
 use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKind};
 
-use super::figure::Figure;
+use super::figure::DifferentiatedFigure;
 use super::peak::peaks;
 use crate::orbit::turn::turns;
 
 /// What was seen, with derivatives by position and velocity at time 0, then by the parameters.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Watched {
+pub(super) struct RecordedFigures {
     /// Times and before-impact velocities.
-    pub impacts: Vec<[Figure; 2]>,
-    pub highest: Option<Figure>,
-    pub lowest: Option<Figure>,
-    pub force: Option<Figure>,
+    pub impacts: Vec<[DifferentiatedFigure; 2]>,
+    pub highest: Option<DifferentiatedFigure>,
+    pub lowest: Option<DifferentiatedFigure>,
+    pub force: Option<DifferentiatedFigure>,
 }
 
 /// Watches a motion.
-pub(super) struct Watch<'a> {
+pub(super) struct FigureRecorder<'a> {
     pub influence: Influence<'a>,
-    pub watched: Watched,
+    pub watched: RecordedFigures,
     phases: &'a Phases,
     by: &'a [Lowered],
     clock: Clock,
@@ -33,11 +33,11 @@ pub(super) struct Watch<'a> {
     edge: Option<(Vec<f64>, f64)>,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> FigureRecorder<'a> {
     pub fn new(phases: &'a Phases, by: &'a [Lowered], clock: Clock) -> Self {
         Self {
             influence: Influence::new(phases, by),
-            watched: Watched::default(),
+            watched: RecordedFigures::default(),
             phases,
             by,
             clock,
@@ -48,17 +48,17 @@ impl<'a> Watch<'a> {
     }
 
     /// A row, with what it changes by with the drive's frequency where the drive angle is held, too.
-    fn row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> Figure {
+    fn row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> DifferentiatedFigure {
         for (part, by) in by.iter_mut().skip(2).zip(self.by) {
             if by.parameter == Parameter::Frequency {
                 *part += with_time / self.frequency;
             }
         }
-        Figure { value, by }
+        DifferentiatedFigure { value, by }
     }
 
     fn sees_position(&mut self, value: f64, by: impl FnOnce(&Self) -> Option<Vec<f64>>) {
-        let beats = |known: &Option<Figure>, sign: f64| {
+        let beats = |known: &Option<DifferentiatedFigure>, sign: f64| {
             known
                 .as_ref()
                 .is_none_or(|known| sign * (value - known.value) > 0.0)
@@ -71,7 +71,7 @@ impl<'a> Watch<'a> {
             return;
         }
         let by = by(self).unwrap_or_else(|| vec![f64::NAN; 2 + self.by.len()]);
-        let row = Figure { value, by };
+        let row = DifferentiatedFigure { value, by };
         if high {
             self.watched.highest = Some(row.clone());
         }
@@ -104,7 +104,7 @@ impl<'a> Watch<'a> {
                 .map_or(0.0, |index| self.by[index].contact_force(phase, x, v));
             stiffness * (column.x + v * delay) + damping * (column.y + a * delay) + own
         });
-        let row = Figure {
+        let row = DifferentiatedFigure {
             value,
             by: parts.collect(),
         };
@@ -123,14 +123,14 @@ pub(super) fn contact_slopes(phases: &Phases, phase: &Phase, x: f64, v: f64) -> 
     (stiffness - free.stiffness, damping - free.damping)
 }
 
-impl Observer for Watch<'_> {
+impl Observer for FigureRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let along = (arc.course, arc.phase);
-        let within = |watch: &Self, elapsed: f64| watch.influence.within(along, elapsed);
+        let within = |recorder: &Self, elapsed: f64| recorder.influence.within(along, elapsed);
         let back = arc.course.departure.velocity > 0.0;
         for turn in turns(arc.course, elapsed, back) {
-            self.sees_position(turn.position, |watch| {
-                let columns = within(watch, turn.elapsed)?;
+            self.sees_position(turn.position, |recorder| {
+                let columns = within(recorder, turn.elapsed)?;
                 Some(columns.iter().map(|column| column.x).collect())
             });
         }
@@ -143,7 +143,7 @@ impl Observer for Watch<'_> {
                 self.sees_force(phase.id, state, Self::columns, Some(delays));
             }
             for (time, state) in peaks(self.phases, phase, arc, elapsed) {
-                self.sees_force(phase.id, state, |watch| within(watch, time), None);
+                self.sees_force(phase.id, state, |recorder| within(recorder, time), None);
             }
         }
         self.influence.arc(arc, elapsed);

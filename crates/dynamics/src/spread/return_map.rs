@@ -18,7 +18,7 @@ const CLEAR: f64 = 1e3;
 
 /// A period from a state on.
 #[derive(Default)]
-struct Look {
+struct ReturnMap {
     /// The state after it.
     end: Vector2<f64>,
     /// The exact Jacobian.
@@ -31,7 +31,7 @@ struct Look {
     by_state: RowVector2<f64>,
 }
 
-impl Look {
+impl ReturnMap {
     /// The period of a machine, with its phases, from a state on.
     ///
     /// # Errors
@@ -43,11 +43,11 @@ impl Look {
         let start = Start::from(state);
         start.validate()?;
         let mut motion = Motion::new(phases.clone(), scene.clock(), Clock::at_cycle(0), start)?;
-        let mut look = Self::default();
-        carry_on(&mut motion, Clock::at_cycle(1), &mut look)?;
-        motion.tell_arc(&mut look);
-        look.end = motion.state().into();
-        Ok(look)
+        let mut once = Self::default();
+        carry_on(&mut motion, Clock::at_cycle(1), &mut once)?;
+        motion.tell_arc(&mut once);
+        once.end = motion.state().into();
+        Ok(once)
     }
 
     /// From the state to the fixed point, as the Jacobian has it.
@@ -57,7 +57,7 @@ impl Look {
     }
 }
 
-impl Observer for Look {
+impl Observer for ReturnMap {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.tangent.arc(arc, elapsed);
     }
@@ -103,20 +103,20 @@ impl Settled {
         let (phases, scales) = (Shared::new(scene.phases()), scene.motion_scales());
         let mut state = guess;
         for _ in 0..LOOKS {
-            let look = Look::at((scene, &phases), state).ok()?;
-            let step = look.step(state).filter(|_| look.impacts == 1)?;
+            let once = ReturnMap::at((scene, &phases), state).ok()?;
+            let step = once.step(state).filter(|_| once.impacts == 1)?;
             state += step;
             if scales.state(&(state - guess)).norm() > reach {
                 return None;
             }
             let far = scales.state(&step).norm();
-            let monodromy = Monodromy::from(&look.tangent);
+            let monodromy = Monodromy::from(&once.tangent);
             let clear = |test: Test| test.value(&monodromy) > CLEAR * far;
             let sure = far <= SHORT && clear(Test::Fold) && clear(Test::Flip);
             if sure && monodromy.is_stable() {
                 return Some(Self {
                     state,
-                    velocity: look.velocity + (look.by_state * step).x,
+                    velocity: once.velocity + (once.by_state * step).x,
                     multiplier: monodromy.multipliers()[0].norm(),
                 });
             }

@@ -6,7 +6,7 @@ use crate::orbit::{Orbit, OrbitError};
 use crate::zone::{Frequencies, LONGEST_BRANCH, Loss, ended};
 use softstop::{MotionError, Scene};
 
-use super::Spread;
+use super::ToleranceBox;
 
 /// Typical change of the share of the way, the unit of steps.
 const TYPICAL: f64 = 2.0;
@@ -28,12 +28,12 @@ pub struct Reached {
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from.
 pub fn along(
-    spread: &dyn Spread,
+    spread: &dyn ToleranceBox,
     nominal: &Orbit,
     to: &[f64],
     farthest: f64,
 ) -> Result<Reached, OrbitError> {
-    let family = Ray {
+    let family = Homotopy {
         spread,
         to,
         state_scales: Frequencies(&nominal.scene).state_scales(),
@@ -52,13 +52,13 @@ pub fn along(
 }
 
 /// The machines on a way.
-struct Ray<'a> {
-    spread: &'a dyn Spread,
+struct Homotopy<'a> {
+    spread: &'a dyn ToleranceBox,
     to: &'a [f64],
     state_scales: [f64; 2],
 }
 
-impl Family for Ray<'_> {
+impl Family for Homotopy<'_> {
     fn scene(&self, [share]: [f64; 1]) -> Result<Scene, MotionError> {
         let at: Vec<f64> = self.to.iter().map(|to| share * to).collect();
         let scene = self.spread.scene(&at);

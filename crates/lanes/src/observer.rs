@@ -1,11 +1,11 @@
-//! Who hears of impacts and of the ends of drive periods.
+//! Who is told of impacts and of the ends of drive periods.
 
 use std::ops::ControlFlow;
 
 use softstop::Start;
 
 /// Watches the motions of a batch. To add one, implement what it needs and say so in the constants.
-pub trait Watch {
+pub trait BatchObserver {
     /// True if it wants to know of impacts.
     const IMPACTS: bool = false;
     /// True if it wants to know of the ends of drive periods.
@@ -28,12 +28,12 @@ pub trait Watch {
 }
 
 /// Watches nothing.
-impl Watch for () {}
+impl BatchObserver for () {}
 
 /// A watcher of any kind, so that the engine is compiled once for all.
-pub(super) struct Listener<'a> {
-    watch: &'a mut dyn Hear,
-    /// What it wants to hear of.
+pub(super) struct ObserverHandle<'a> {
+    watch: &'a mut dyn DynamicObserver,
+    /// What it wants to be told.
     pub impacts: bool,
     pub periods: bool,
     /// Work in scan windows since it was asked whether the batch goes on.
@@ -45,9 +45,9 @@ pub(super) struct Listener<'a> {
 /// Work after which the watcher is asked again, in scan windows: a millisecond, or a few.
 const ASKED: u64 = 1 << 15;
 
-impl<'a> Listener<'a> {
+impl<'a> ObserverHandle<'a> {
     /// What the engine tells a watcher.
-    pub fn of<W: Watch>(watch: &'a mut W) -> Self {
+    pub fn of<W: BatchObserver>(watch: &'a mut W) -> Self {
         Self {
             watch,
             impacts: W::IMPACTS,
@@ -61,39 +61,39 @@ impl<'a> Listener<'a> {
     pub fn worked(&mut self, windows: u64) -> ControlFlow<()> {
         self.work += windows;
         if self.work >= ASKED && self.answer.is_continue() {
-            (self.work, self.answer) = (0, self.watch.hear_end());
+            (self.work, self.answer) = (0, self.watch.ask());
         }
         self.answer
     }
 
-    /// As [`Watch::impact`].
+    /// As [`BatchObserver::impact`].
     pub fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
-        self.watch.hear_impact(job, cycle, offset, velocity);
+        self.watch.tell_impact(job, cycle, offset, velocity);
     }
 
-    /// As [`Watch::period`].
+    /// As [`BatchObserver::period`].
     pub fn period(&mut self, job: usize, cycle: u64, state: Start) {
-        self.watch.hear_period(job, cycle, state);
+        self.watch.tell_period(job, cycle, state);
     }
 }
 
-/// [`Watch`] without its constants.
-trait Hear {
-    fn hear_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64);
-    fn hear_period(&mut self, job: usize, cycle: u64, state: Start);
-    fn hear_end(&mut self) -> ControlFlow<()>;
+/// [`BatchObserver`] without its constants.
+trait DynamicObserver {
+    fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64);
+    fn tell_period(&mut self, job: usize, cycle: u64, state: Start);
+    fn ask(&mut self) -> ControlFlow<()>;
 }
 
-impl<W: Watch> Hear for W {
-    fn hear_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+impl<W: BatchObserver> DynamicObserver for W {
+    fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         self.impact(job, cycle, offset, velocity);
     }
 
-    fn hear_period(&mut self, job: usize, cycle: u64, state: Start) {
+    fn tell_period(&mut self, job: usize, cycle: u64, state: Start) {
         self.period(job, cycle, state);
     }
 
-    fn hear_end(&mut self) -> ControlFlow<()> {
+    fn ask(&mut self) -> ControlFlow<()> {
         self.goes_on()
     }
 }

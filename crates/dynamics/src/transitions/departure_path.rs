@@ -1,13 +1,13 @@
 //! What a motion meets beyond the end of its window.
 
-use super::stage::Gathering;
+use super::explorer::Gathering;
 use crate::motion::MotionKind;
 use crate::orbit::Orbit;
 use softstop::Start;
 
 /// What a motion has met beyond the end of its window.
 #[derive(Default)]
-pub(super) struct Way {
+pub(super) struct DeparturePath {
     pub states: Vec<Start>,
     pub path: Vec<MotionKind>,
     /// The last doubled motion and its distance.
@@ -23,7 +23,7 @@ pub(super) struct Way {
     pub last_seen: Option<(f64, Vec<Start>)>,
 }
 
-impl Way {
+impl DeparturePath {
     /// Enters what is met at a distance beyond an end of a window, which is a flip or not; true if that is where it settles.
     pub fn meet(
         &mut self,

@@ -11,13 +11,13 @@ const VALUES: usize = 3;
 
 /// A polynomial in the coordinates, of a total degree, as a sum of products of Legendre's polynomials, with two values.
 #[derive(Debug, Clone)]
-pub struct Model {
+pub struct PolynomialModel {
     degree: usize,
     /// Of each term, as [`each_term`] tells them.
     factors: Vec<[f64; 2]>,
 }
 
-impl Model {
+impl PolynomialModel {
     /// How many values to know at best, for so many coordinates.
     pub fn wanted(dimensions: usize) -> usize {
         VALUES * count(dimensions, degree(dimensions, usize::MAX))

@@ -1,6 +1,6 @@
 //! What a motion is seen to have come to.
 
-use super::record::Record;
+use super::record::MotionRecord;
 use crate::motion::MotionKind;
 use crate::orbit::recurrence::settles_on;
 use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};
@@ -12,7 +12,7 @@ const MUCH: f64 = 4.605_170_185_988_092;
 /// What a motion has come to.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub struct Seen {
+pub struct SettledMotion {
     /// Drive periods after which it returns, if it does.
     pub periods: Option<u64>,
     /// Before-impact velocities in m/s, ascending: of one period of what returns, else of all watched drive
@@ -30,10 +30,10 @@ pub struct Seen {
     pub followed: u64,
 }
 
-impl Seen {
+impl SettledMotion {
     /// What the record of a motion shows that was followed for so many drive periods in all.
-    pub(crate) fn of(scene: &Scene, record: Record, tolerance: f64, followed: u64) -> Self {
-        let Record { states, impacts } = record;
+    pub(crate) fn of(scene: &Scene, record: MotionRecord, tolerance: f64, followed: u64) -> Self {
+        let MotionRecord { states, impacts } = record;
         let watched = states.len() - 1;
         let found = settles_on(scene.excitation.frequency, &states, tolerance)
             .map(|periods| smallest_period(scene, &states, periods));

@@ -1,0 +1,249 @@
+//! `softstop prove`: a periodic motion or its bifurcation, proven.
+
+use std::path::PathBuf;
+
+use anyhow::anyhow;
+use clap::{Args, ValueEnum};
+use nalgebra::Vector2;
+use serde::Serialize;
+use softstop::{Language, Machine, Parameter, Scene};
+use softstop_dynamics::continuation::{Special, SpecialKind, Test};
+use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, Regime};
+use softstop_prove::machine::Machine as Laws;
+use softstop_prove::{Certificate, Claim, Interval, ProofError, Touch};
+
+use crate::continuation::seed;
+use softstop_console::arguments::MachineArguments;
+use softstop_console::budget::BudgetArguments;
+use softstop_console::column::Units;
+use softstop_console::export::{Export, Report};
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::output::{Format, folder_and_file};
+use softstop_console::report::{self, MachineReport};
+use softstop_console::table::{aligned, heading};
+
+const EXAMPLES: &str = "\
+Examples:
+  softstop prove A
+      the paper's point A exists, is the only motion near, is stable, and crosses nothing else
+  softstop prove B --output b.json
+      its point B, with six crossings
+  softstop prove --at fold
+      the fold s_SN at which the motion of point A ends
+  softstop prove --set eta=0.9885 --orbit 1/2 --at flip
+      the flip of z = 1/2, row 13 of the paper's Table 1
+  softstop prove docs/scenes/kelvin-voigt.toml --set excitation.frequency=1.1
+      any machine whose laws are linear, in SI units
+  python examples/check_certificate.py proof.json
+      proves it again, from the equations alone
+
+Floating point finds the motion; interval arithmetic with outward rounding proves it. docs/proof.md says
+what that means, and what is assumed. A motion that cannot be proven is an error: nothing is written.";
+
+/// Arguments of `softstop prove`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct ProveArguments {
+    /// Motion to prove: p impacts in n drive periods, stable, found from scratch
+    #[arg(long, value_name = "p/n", default_value = "1/1", value_parser = seed::regime)]
+    pub orbit: Regime,
+    /// Prove the orbit of n drive periods (--orbit p/n) nearest to this state at drive angle 0, stable or not
+    #[arg(long, value_name = "X,V", value_parser = seed::state)]
+    pub state: Option<Vector2<f64>>,
+    /// Prove a bifurcation of the motion: the one at the nearest frequency of the drive on its branch
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub at: Option<Bifurcation>,
+    /// The certificate to write
+    #[arg(long, value_name = "FILE.json", default_value = "proof.json")]
+    pub output: PathBuf,
+    /// How to print the result; the JSON is the certificate
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// The machine.
+    #[command(flatten)]
+    pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
+}
+
+/// Where a motion begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Bifurcation {
+    /// A saddle-node: a multiplier is 1
+    Fold,
+    /// A period doubling: a multiplier is -1
+    Flip,
+    /// A turning point of the motion touches a surface
+    Grazing,
+}
+
+/// Frequencies, in units of the machine's own, between which a branch is followed, and its points in each direction.
+const BRANCH: ((f64, f64), usize) = ((0.5, 2.0), 2000);
+
+/// Proves the motion, writes the certificate and prints what it says.
+pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
+    arguments.machine.refuse_start()?;
+    let machine = arguments.machine.machine()?;
+    Laws::new(&machine.scene).map_err(|error| Failure::usage(error.to_string()))?;
+    let (folder, file) = folder_and_file(&arguments.output)?;
+    if !file.ends_with(".json") {
+        return Err(Failure::usage(format!(
+            "--output {file}: must end with .json"
+        )));
+    }
+    let export = Export::of_file("json", folder, file)?;
+    let certificate = arguments
+        .limit
+        .budget
+        .limit(|| prove(arguments, &machine.scene))?;
+    let report = ProofReport {
+        certificate,
+        stated: MachineReport::of(&machine),
+        machine: &machine,
+    };
+    export.finish(&report, arguments.format)
+}
+
+fn prove(arguments: &ProveArguments, scene: &Scene) -> Result<Certificate, Failure> {
+    let periods = arguments.orbit.periods;
+    let orbit = match arguments.state {
+        None => seed::find(scene, arguments.orbit)?,
+        Some(state) => Orbit::periodic(scene, state, periods)
+            .map_err(|error| anyhow!(error).context("no orbit to prove"))?,
+    };
+    let proven = match arguments.at {
+        None => Certificate::new(scene, orbit.state(), orbit.periods, Claim::Orbit),
+        Some(wanted) => {
+            let special = nearest(wanted, scene, &orbit)?;
+            let claim = claim(scene, &special)
+                .ok_or_else(|| anyhow!("no proof: the surface that is touched is not known"))?;
+            let scene = scene.at_frequency(special.point.parameter);
+            Certificate::new(&scene, special.point.state(), orbit.periods, claim)
+        }
+    };
+    proven.map_err(|error: ProofError| anyhow!(error).into())
+}
+
+/// The special point of a kind on the branch of an orbit at the frequency nearest to that of its scene.
+fn nearest(wanted: Bifurcation, scene: &Scene, orbit: &Orbit) -> Result<Special, Failure> {
+    let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency])
+        .map_err(|error| anyhow!(error))?;
+    let own = scene.excitation.frequency;
+    let ((low, high), points) = BRANCH;
+    let limits = Limits {
+        range: (low * own, high * own),
+        points,
+    };
+    let follower = Continuation::new(&family, orbit.periods);
+    let branch = follower.branch(own, orbit.state(), &limits, |_| interrupt::go_on());
+    let branch = branch.map_err(|error| anyhow!(error).context("no branch to follow"))?;
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
+    }
+    let away = |it: &Special| (it.point.parameter - own).abs();
+    let specials = branch
+        .specials
+        .into_iter()
+        .filter(|it| kind(it) == Some(wanted));
+    let none = || anyhow!("no {} found on the branch of the motion", name(wanted));
+    let nearest = specials.min_by(|a, b| away(a).total_cmp(&away(b)));
+    Ok(nearest.ok_or_else(none)?)
+}
+
+fn kind(special: &Special) -> Option<Bifurcation> {
+    match special.kind {
+        SpecialKind::Critical(Test::Fold) => Some(Bifurcation::Fold),
+        SpecialKind::Critical(Test::Flip) => Some(Bifurcation::Flip),
+        SpecialKind::Grazing(_) => Some(Bifurcation::Grazing),
+        SpecialKind::Critical(Test::NeimarkSacker) => None,
+    }
+}
+
+fn name(what: Bifurcation) -> &'static str {
+    match what {
+        Bifurcation::Fold => "fold",
+        Bifurcation::Flip => "flip",
+        Bifurcation::Grazing => "grazing",
+    }
+}
+
+/// What is to be proven of a special point.
+fn claim(scene: &Scene, special: &Special) -> Option<Claim> {
+    match special.kind {
+        SpecialKind::Critical(Test::Fold) => Some(Claim::Fold),
+        SpecialKind::Critical(Test::Flip) => Some(Claim::Flip),
+        SpecialKind::Critical(Test::NeimarkSacker) => None,
+        SpecialKind::Grazing(graze) => Some(Claim::Grazing(Touch {
+            angle: graze.angle,
+            position: graze.face.position(scene)?,
+        })),
+    }
+}
+
+/// What `softstop prove` reports: the certificate, and the machine as its user states it.
+#[derive(Debug, Serialize)]
+struct ProofReport<'a> {
+    #[serde(flatten)]
+    certificate: Certificate,
+    #[serde(rename = "machine")]
+    stated: MachineReport,
+    #[serde(skip)]
+    machine: &'a Machine,
+}
+
+fn shown(interval: Interval) -> String {
+    format!("[{:?}, {:?}]", interval.low(), interval.high())
+}
+
+impl Report for ProofReport<'_> {
+    fn text(&self) -> String {
+        let proof = &self.certificate;
+        let regime = Regime {
+            impacts: proof.impacts as u64,
+            periods: proof.periods,
+        };
+        let unit = |unit: &str| match self.machine.speaks {
+            Language::Ratios => String::new(),
+            Language::Si | Language::Hertz => format!(" ({unit})"),
+        };
+        let figures = report::machine(self.machine, &[Parameter::Frequency])
+            .with(
+                "frequency",
+                &format!("drive frequency{}", unit("rad/s")),
+                shown(proof.frequency),
+            )
+            .with("trace", "trace of the monodromy", shown(proof.trace))
+            .with("determinant", "its determinant", shown(proof.determinant))
+            .with("stability", "stability", proof.stability);
+        let heads = [
+            "from".to_owned(),
+            "to".to_owned(),
+            "drive angle (rad)".to_owned(),
+            format!("position{}", unit("m")),
+            format!("velocity{}", unit("m/s")),
+            "parts of the arc after it".to_owned(),
+        ];
+        let count = proof.events.len();
+        let rows = proof.events.iter().enumerate().map(|(index, it)| {
+            let before = proof.events[(index + count - 1) % count].event.phase;
+            let name = |phase: usize| proof.laws.phases[phase].name.clone();
+            let boxes = proof.enclosure[3 * index..3 * index + 3]
+                .iter()
+                .map(|it| shown(*it));
+            let parts = (it.division.len() - 1).to_string();
+            let words = [name(before), name(it.event.phase)].into_iter();
+            words.chain(boxes).chain([parts]).collect()
+        });
+        let rows: Vec<Vec<String>> = [heads.to_vec()].into_iter().chain(rows).collect();
+        let title = match proof.claim {
+            "orbit" => format!("Proven: a motion z = {regime}"),
+            claim => format!("Proven: a {claim} of a motion z = {regime}"),
+        };
+        heading(&title)
+            + &figures.text(&Units::of(self.machine))
+            + "\nCrossings, the only ones\n"
+            + &aligned(&rows, |index| index < 2)
+    }
+}

@@ -1,0 +1,287 @@
+//! Numbers with exact derivatives: intervals, gradients of intervals, and tangents of either (forward differentiation).
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use crate::elementary::even_series;
+use crate::interval::Interval;
+
+/// What the equations of a motion are written in.
+pub trait Number:
+    Clone
+    + From<Interval>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Neg<Output = Self>
+{
+    /// 1/x.
+    fn reciprocal(&self) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(&self) -> (Self, Self);
+    /// [`Decay::at`] a time.
+    fn decay(&self, decay: &Decay) -> (Self, Self);
+    /// The same number times a constant.
+    fn times(&self, factor: Interval) -> Self {
+        self.clone() * Self::from(factor)
+    }
+}
+
+/// The free motion of x'' + 2 a x' + b x = 0.
+#[derive(Debug, Clone, Copy)]
+pub struct Decay {
+    /// a, in 1/s.
+    pub rate: Interval,
+    /// b, in 1/s^2.
+    pub stiffness: Interval,
+}
+
+impl Decay {
+    /// b - a^2.
+    fn square_frequency(&self) -> Interval {
+        self.stiffness - self.rate.square()
+    }
+
+    /// u = exp(-a t) cos(w t) and s = exp(-a t) sin(w t)/w with w^2 = b - a^2 of either sign, or zero. The free motion is
+    /// x = u x0 + s (a x0 + v0), and u' = -a u - w^2 s, s' = u - a s.
+    fn at(&self, time: Interval) -> (Interval, Interval) {
+        let square = self.square_frequency();
+        let z = square * time.square();
+        let decay = || (-(self.rate * time)).exp();
+        if z.magnitude() <= 1.0 {
+            let (cosine, ratio) = even_series(z);
+            let decay = decay();
+            return (decay * cosine, decay * time * ratio);
+        }
+        if square.is_positive() {
+            let frequency = square.sqrt();
+            let (sine, cosine) = (frequency * time).sin_cos();
+            let decay = decay();
+            return (decay * cosine, decay * sine / frequency);
+        }
+        if square.is_negative() {
+            // Both exponents without cancellation: their product is b.
+            let root = (-square).sqrt();
+            let fast = self.rate + root;
+            let slow = self.stiffness / fast;
+            let (slow, fast) = ((-(slow * time)).exp(), (-(fast * time)).exp());
+            let half = Interval::point(0.5);
+            return (half * (slow + fast), half * (slow - fast) / root);
+        }
+        (Interval::WHOLE, Interval::WHOLE)
+    }
+
+    /// The derivatives of both by the time.
+    fn slope<T: Number>(&self, (u, s): &(T, T)) -> (T, T) {
+        (
+            -(u.times(self.rate) + s.times(self.square_frequency())),
+            u.clone() - s.times(self.rate),
+        )
+    }
+}
+
+impl Number for Interval {
+    fn reciprocal(&self) -> Self {
+        Self::ONE / *self
+    }
+
+    fn sin_cos(&self) -> (Self, Self) {
+        Interval::sin_cos(*self)
+    }
+
+    fn decay(&self, decay: &Decay) -> (Self, Self) {
+        decay.at(*self)
+    }
+}
+
+/// A number with its derivative in one direction.
+#[derive(Debug, Clone)]
+pub struct Tangent<T> {
+    /// The number.
+    pub value: T,
+    /// Its derivative.
+    pub slope: T,
+}
+
+impl<T: Number> From<Interval> for Tangent<T> {
+    fn from(value: Interval) -> Self {
+        Self {
+            value: value.into(),
+            slope: Interval::ZERO.into(),
+        }
+    }
+}
+
+impl<T: Number> Add for Tangent<T> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            slope: self.slope + other.slope,
+        }
+    }
+}
+
+impl<T: Number> Sub for Tangent<T> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl<T: Number> Neg for Tangent<T> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            value: -self.value,
+            slope: -self.slope,
+        }
+    }
+}
+
+impl<T: Number> Mul for Tangent<T> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self {
+            slope: self.slope * other.value.clone() + self.value.clone() * other.slope,
+            value: self.value * other.value,
+        }
+    }
+}
+
+impl<T: Number> Number for Tangent<T> {
+    fn reciprocal(&self) -> Self {
+        let value = self.value.reciprocal();
+        Self {
+            slope: -(value.clone() * value.clone() * self.slope.clone()),
+            value,
+        }
+    }
+
+    fn sin_cos(&self) -> (Self, Self) {
+        let (sine, cosine) = self.value.sin_cos();
+        let slope = &self.slope;
+        let by_sine = cosine.clone() * slope.clone();
+        let by_cosine = -(sine.clone() * slope.clone());
+        (
+            Self {
+                value: sine,
+                slope: by_sine,
+            },
+            Self {
+                value: cosine,
+                slope: by_cosine,
+            },
+        )
+    }
+
+    fn decay(&self, decay: &Decay) -> (Self, Self) {
+        let pair = self.value.decay(decay);
+        let (u, s) = decay.slope(&pair);
+        let with = |value, slope: T| Self {
+            value,
+            slope: slope * self.slope.clone(),
+        };
+        (with(pair.0, u), with(pair.1, s))
+    }
+}
+
+/// A number with its derivatives by all unknowns; a constant has none.
+#[derive(Debug, Clone)]
+pub struct Gradient {
+    /// The number.
+    pub value: Interval,
+    /// Its derivatives.
+    pub slopes: Vec<Interval>,
+}
+
+impl Gradient {
+    /// The unknown of this index among `count`.
+    pub fn unknown(value: Interval, index: usize, count: usize) -> Self {
+        let mut slopes = vec![Interval::ZERO; count];
+        slopes[index] = Interval::ONE;
+        Self { value, slopes }
+    }
+
+    /// Its derivative by an unknown.
+    pub fn slope(&self, index: usize) -> Interval {
+        self.slopes.get(index).copied().unwrap_or(Interval::ZERO)
+    }
+
+    /// A function of this number with a value and a derivative.
+    fn chain(&self, value: Interval, slope: Interval) -> Self {
+        Self {
+            value,
+            slopes: self.slopes.iter().map(|it| *it * slope).collect(),
+        }
+    }
+}
+
+impl From<Interval> for Gradient {
+    fn from(value: Interval) -> Self {
+        Self {
+            value,
+            slopes: Vec::new(),
+        }
+    }
+}
+
+impl Add for Gradient {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let count = self.slopes.len().max(other.slopes.len());
+        let slopes = (0..count).map(|it| self.slope(it) + other.slope(it));
+        Self {
+            slopes: slopes.collect(),
+            value: self.value + other.value,
+        }
+    }
+}
+
+impl Neg for Gradient {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self.chain(-self.value, -Interval::ONE)
+    }
+}
+
+impl Sub for Gradient {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Gradient {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let value = self.value * other.value;
+        let sum = self.chain(value, other.value) + other.chain(value, self.value);
+        Self { value, ..sum }
+    }
+}
+
+impl Number for Gradient {
+    fn reciprocal(&self) -> Self {
+        let value = self.value.reciprocal();
+        self.chain(value, -value.square())
+    }
+
+    fn sin_cos(&self) -> (Self, Self) {
+        let (sine, cosine) = self.value.sin_cos();
+        (self.chain(sine, cosine), self.chain(cosine, -sine))
+    }
+
+    fn decay(&self, decay: &Decay) -> (Self, Self) {
+        let pair = self.value.decay(decay);
+        let (u, s) = decay.slope(&pair);
+        (self.chain(pair.0, u), self.chain(pair.1, s))
+    }
+}

@@ -1,0 +1,3 @@
+//! Proofs and what they rest on.
+
+mod proofs;
