@@ -137,6 +137,26 @@ pub enum MachineError {
         /// The value.
         value: String,
     },
+    /// An expression that gives no value of a parameter.
+    #[error("{}{key} = {text:?}: {what}", at(*line))]
+    Expression {
+        /// Its line in the file.
+        line: Option<usize>,
+        /// The key.
+        key: String,
+        /// The expression.
+        text: String,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// A parameter that cannot be changed by itself.
+    #[error("{key}: follows others, as {text:?}; change those, or state it as a number")]
+    Follows {
+        /// The key.
+        key: &'static str,
+        /// Its expression.
+        text: String,
+    },
     /// A text that would act on a terminal, or break a file that it stands in.
     #[error("{key} = {value:?}: must have no control characters")]
     ControlCharacters {

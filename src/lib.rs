@@ -33,6 +33,7 @@
 pub mod budget;
 mod error;
 mod events;
+mod expression;
 mod flow;
 mod integrator;
 #[doc(hidden)]

@@ -19,3 +19,4 @@ mod sensitivities;
 mod snapshots;
 mod stops_reference;
 mod strip;
+mod ties;

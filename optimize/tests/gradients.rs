@@ -1,11 +1,11 @@
 //! The derivatives of the gradient stage against central differences, over random designs.
 
 use proptest::prelude::*;
+use softstop::internals::Expression;
 use softstop::{Machine, Parameter};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::cost::{Cost, Term};
 use softstop_optimize::design::critical::{CriticalMachines, Extreme, Target};
-use softstop_optimize::design::expression::Expression;
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::local::{Local, local};
 use softstop_optimize::design::operating_point::At;
@@ -33,7 +33,7 @@ const FIGURES: &[Figure] = &[
     Figure::FrequencyPd,
 ];
 
-/// The paper's machines, a press in SI units, a soft stop; all parameters that may be searched.
+/// The paper's machines, a press in SI units, a soft stop, one with parameters that follow others; all parameters that may be searched.
 fn machines() -> Vec<Machine> {
     let press = "name = \"press\"\nmass = 120.0\nstiffness = 2.4e6\ndamping = 680.0\nclearance = 0.012\n\
                  contact.damping = 3060.0\n[excitation]\namplitude = 9000.0\nfrequency_hz = 27.0\n[stop]\n\
@@ -42,11 +42,18 @@ fn machines() -> Vec<Machine> {
     let mut soft = Machine::named("unloaded").expect("the paper's machine");
     let model = [("stop.model", "kelvinVoigt"), ("stop.stiffness", "20")];
     soft.apply(model).expect("a soft stop");
+    let mut tied = Machine::named("unloaded").expect("the paper's machine");
+    let ties = [
+        ("stop.preload", "26.5 * stop.stiffness^0.5"),
+        ("contact.damping", "0.0009 * rho^2"),
+    ];
+    tied.apply(ties).expect("parameters that follow others");
     vec![
         Machine::named("unloaded").expect("the paper's machine"),
         Machine::named("loaded").expect("the paper's machine"),
         Machine::from_toml(press).expect("a press"),
         soft,
+        tied,
     ]
 }
 
@@ -80,7 +87,10 @@ fn problem(machine: Machine) -> Problem {
         Parameter::Thickness,
     ];
     let axis = |parameter: Parameter| {
-        let value = machine.value(parameter).filter(|value| *value != 0.0)?;
+        let (value, follows) = (machine.value(parameter)?, machine.expression(parameter));
+        if value == 0.0 || follows.is_some() {
+            return None;
+        }
         let range = Interval {
             low: 0.8 * value,
             high: 1.25 * value,

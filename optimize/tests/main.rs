@@ -21,6 +21,7 @@ mod robust;
 mod simulate;
 mod study;
 mod sweep;
+mod ties;
 mod tolerated;
 mod watch;
 

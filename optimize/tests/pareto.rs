@@ -1,11 +1,11 @@
 //! Fronts of designs: against all designs of a grid, against searches by one objective alone, and as files; what a design costs.
 
 use rayon::prelude::*;
+use softstop::internals::Expression;
 use softstop::{Machine, Parameter};
 use softstop_dynamics::zone;
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::cost::{Cost, Term};
-use softstop_optimize::design::expression::Expression;
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::judge::{Judged, Met};
 use softstop_optimize::design::pareto::Pareto;

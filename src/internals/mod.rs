@@ -5,6 +5,7 @@ pub mod samples;
 pub use crate::budget;
 pub use crate::error::{did_you_mean, plain};
 pub use crate::events::{Guard, Outlook, first_crossing};
+pub use crate::expression::{Differentiated, Expression, chained};
 pub use crate::flow::{Course, Departure, Flow, Hertz, Modes, Polynomial};
 pub use crate::integrator::{Evaluations, Motion, Shares, Walk, mechanical_energy, shares, work};
 pub use crate::machine::nearest;

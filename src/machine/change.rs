@@ -28,16 +28,36 @@ impl Machine {
         {
             self.rebuild_stop(&changes)?;
         }
-        let mut done = Vec::new();
+        let (mut done, mut ties) = (Vec::new(), Vec::new());
         for (key, value) in &changes {
-            let name = self.apply_one(key, value)?;
+            let name = match self.expression_of(key, value)? {
+                None => self.apply_one(key, value)?,
+                Some(parameter) => {
+                    ties.push((key.clone(), (*value).to_owned(), None));
+                    parameter.name()
+                }
+            };
             if done.contains(&name) {
                 return Err(MachineError::Twice(name));
             }
             done.push(name);
         }
+        self.tie(&ties)?;
         self.validate()?;
         self.check_texts()
+    }
+
+    /// The parameter of a key that is set to an expression.
+    fn expression_of(&self, key: &str, text: &str) -> Result<Option<Parameter>, MachineError> {
+        let is_of_start = key.starts_with("initial.") || key.starts_with("start.");
+        let is_word = keys::WORDS.contains(&key) || ["name", "description"].contains(&key);
+        if is_of_start || is_word || text.parse::<f64>().is_ok() || !keys::is_expression(text) {
+            return Ok(None);
+        }
+        if keys::stated_otherwise(key) == Some(Parameter::Preload) {
+            self.known(keys::DEFLECTION)?;
+        }
+        self.known(key).map(Some)
     }
 
     /// Sets one key; its name.
@@ -68,11 +88,13 @@ impl Machine {
         match keys::stated_otherwise(key) {
             Some(Parameter::Frequency) if self.speaks != Language::Ratios => {
                 self.speaks = Language::Hertz;
+                self.untie(Parameter::Frequency);
                 self.set(Parameter::Frequency, number()?);
                 return Ok(Parameter::Frequency.name());
             }
             Some(Parameter::Preload) => {
                 self.known(keys::DEFLECTION)?;
+                self.untie(Parameter::Preload);
                 self.preload_deflection = Some(0.0);
                 self.set(Parameter::Preload, number()?);
                 return Ok(Parameter::Preload.name());
@@ -81,10 +103,12 @@ impl Machine {
         }
         let parameter = self.known(key)?;
         let value = number()?;
+        self.untie(parameter);
         match parameter {
             Parameter::Preload => self.preload_deflection = None,
             Parameter::Frequency if self.speaks == Language::Hertz => {
                 parameter.set(&mut self.scene, value);
+                self.follow();
                 return Ok(parameter.name());
             }
             _ => {}
@@ -112,10 +136,14 @@ impl Machine {
             self.preload_deflection = None;
         }
         for (key, value) in changes {
-            let lettered = |parameter: &&Parameter| parameter.about().letter == key;
+            let lettered = |it: &&Parameter| it.about().letter == key || it.name() == key;
             let named = Parameter::ALL.iter().find(lettered).map(|it| it.name());
             match named.unwrap_or(key).strip_prefix("stop.") {
                 Some("preload_deflection") => stop.insert("preload".into(), Value::Float(0.0)),
+                // What follows others is set after them.
+                Some(field) if named.is_some() && value.parse::<f64>().is_err() => {
+                    stop.insert(field.to_owned(), Value::Float(1.0))
+                }
                 Some(field) => stop.insert(field.to_owned(), value_of(value)),
                 None => None,
             };
@@ -126,6 +154,7 @@ impl Machine {
                 error.message().replace("field `", "key `stop.")
             ))
         })?;
+        self.untie_missing();
         Ok(())
     }
 }

@@ -54,12 +54,18 @@ impl Machine {
             Some(_) => Language::Ratios,
             None => Language::Si,
         };
-        let mut places = Vec::new();
-        walk(table.get_ref(), "", &Lines::new(text), &mut places);
+        let (mut places, mut ties) = (Vec::new(), Vec::new());
+        walk(
+            table.get_mut(),
+            "",
+            &Lines::new(text),
+            &mut places,
+            &mut ties,
+        );
         places.sort_by_key(|place| place.line);
         known(&places, language)?;
         numbers(&places)?;
-        let machine = read(table, language).map_err(|error| match error {
+        let mut machine = read(table, language).map_err(|error| match error {
             Trouble::Toml(error) => syntax(error),
             Trouble::Machine(error) => error,
         })?;
@@ -70,6 +76,7 @@ impl Machine {
             }
             _ => {}
         }
+        machine.tie(&ties)?;
         machine.validate().map_err(|source| MachineError::Value {
             line: line_of(&source, &places),
             source,
@@ -89,8 +96,14 @@ impl Scene {
     }
 }
 
-/// The keys of a table and of those in it.
-fn walk(table: &DeTable<'_>, path: &str, lines: &Lines<'_>, places: &mut Vec<Place>) {
+/// The keys of a table and of those in it. Expressions are taken out, each with its key and line.
+fn walk(
+    table: &mut DeTable<'_>,
+    path: &str,
+    lines: &Lines<'_>,
+    places: &mut Vec<Place>,
+    ties: &mut Vec<(String, String, Option<usize>)>,
+) {
     for (name, value) in table {
         let key = match (path, name.get_ref().as_ref()) {
             ("", RATIOS) => String::new(),
@@ -99,18 +112,43 @@ fn walk(table: &DeTable<'_>, path: &str, lines: &Lines<'_>, places: &mut Vec<Pla
             ("", name) => name.to_owned(),
             (path, name) => format!("{path}.{name}"),
         };
-        match value.get_ref() {
-            DeValue::Table(inner) => walk(inner, &key, lines, places),
-            _ => places.push(Place {
-                key,
-                line: lines.number(name.span().start),
-                word: match value.get_ref() {
-                    DeValue::Integer(_) | DeValue::Float(_) => None,
-                    _ => Some(lines.text[value.span()].to_owned()),
-                },
-            }),
+        let line = lines.number(name.span().start);
+        let text = &lines.text[value.span()];
+        if let DeValue::Table(inner) = value.get_mut() {
+            walk(inner, &key, lines, places, ties);
+            continue;
         }
+        let expression = match value.get_ref() {
+            DeValue::String(text) if is_number(&key) && keys::is_expression(text) => {
+                Some(text.to_string())
+            }
+            _ => None,
+        };
+        if let Some(text) = expression {
+            ties.push((key.clone(), text, Some(line)));
+            *value.get_mut() = number_to_be();
+        }
+        places.push(Place {
+            key,
+            line,
+            word: match value.get_ref() {
+                DeValue::Integer(_) | DeValue::Float(_) => None,
+                _ => Some(text.to_owned()),
+            },
+        });
     }
+}
+
+/// Stands for the value of an expression until that is known.
+fn number_to_be() -> DeValue<'static> {
+    let table = DeTable::parse("number = 1.0").map(Spanned::into_inner);
+    let value = table.ok().and_then(|mut table| table.remove("number"));
+    value.map_or(DeValue::Boolean(false), Spanned::into_inner)
+}
+
+/// True if a number stands under this key.
+fn is_number(key: &str) -> bool {
+    Parameter::named(key).is_some() || [keys::FREQUENCY_HZ, keys::DEFLECTION].contains(&key)
 }
 
 /// Refuses a key that no machine has. A table in whose place something else stands is left to be found by

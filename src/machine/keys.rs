@@ -119,6 +119,15 @@ pub(super) fn stated_otherwise(key: &str) -> Option<Parameter> {
     }
 }
 
+/// True if a text may be meant as an expression: it is more than a word, or the name of a parameter.
+pub(super) fn is_expression(text: &str) -> bool {
+    let is_of_word = |it: char| it.is_alphanumeric() || "_.".contains(it);
+    let is_parameter = |it: &Parameter| it.is_called(text);
+    !text.chars().all(is_of_word)
+        || stated_otherwise(text).is_some()
+        || Parameter::ALL.iter().any(is_parameter)
+}
+
 /// True if a key is the letter of a ratio of what machines in SI units have.
 fn is_ratio(key: &str, parameter: Parameter) -> bool {
     let about = parameter.about();

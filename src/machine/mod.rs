@@ -4,9 +4,11 @@ mod change;
 mod file;
 mod keys;
 mod lines;
+mod ties;
 mod write;
 
 pub use keys::nearest;
+pub use ties::Ties;
 
 use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
@@ -35,6 +37,9 @@ impl Language {
 }
 
 /// A machine as its user states it: a scene, where it starts, its name, and the units that it speaks.
+///
+/// A value in a file may be an expression of other keys, in their units: `amplitude = "0.7 * excitation.frequency^2"`. What
+/// follows others so is set with them.
 ///
 /// The same names stand in TOML files ([`Machine::from_toml`]), on command lines ([`Machine::apply`]), in
 /// messages and in the FMU: those of [`Parameter`]. The scene is the same to the engine whatever the units.
@@ -72,6 +77,8 @@ pub struct Machine {
     pub speaks: Language,
     /// The preload as a deflection, if it is stated so: the force follows the stiffness of the stop.
     pub preload_deflection: Option<f64>,
+    /// The parameters that follow others.
+    pub ties: Ties,
 }
 
 /// A scene in SI units.
@@ -84,6 +91,7 @@ impl From<Scene> for Machine {
             start: Start::REST,
             speaks: Language::Si,
             preload_deflection: None,
+            ties: Ties::default(),
         }
     }
 }
@@ -131,10 +139,11 @@ impl Machine {
         }
     }
 
-    /// Sets a parameter, in its own units; nothing happens if it does not have it. The value is not checked:
-    /// [`Machine::validate`] does that. A preload stated as a deflection stays one, and follows the stiffness.
+    /// Sets a parameter, in its own units, and those that follow it; nothing happens if it does not have it, or if it follows
+    /// others itself. The value is not checked: [`Machine::validate`] does that. A preload stated as a deflection stays one,
+    /// and follows the stiffness.
     pub fn set(&mut self, parameter: Parameter, value: f64) {
-        if self.value(parameter).is_none() {
+        if self.value(parameter).is_none() || self.expression(parameter).is_some() {
             return;
         }
         match (parameter, &mut self.preload_deflection) {
@@ -144,6 +153,12 @@ impl Machine {
                 parameter.set(&mut self.scene, value);
             }
         }
+        self.follow_stiffness();
+        self.follow();
+    }
+
+    /// Sets the preload of a deflection.
+    fn follow_stiffness(&mut self) {
         let stiffness = Parameter::StopStiffness.get(&self.scene);
         if let (Some(deflection), Some(stiffness)) = (self.preload_deflection, stiffness) {
             Parameter::Preload.set(&mut self.scene, deflection * stiffness);

@@ -75,11 +75,12 @@ impl Machine {
         let mut lines = Vec::new();
         for parameter in self.parameters() {
             if let Some(value) = self.value(parameter) {
-                let value = number(match self.name(parameter) {
-                    keys::FREQUENCY_HZ => self.hertz(value),
-                    _ => value,
-                });
-                lines.push(Line(self.name(parameter), value, self.label_of(parameter)));
+                let (key, value) = match (self.tie_of(parameter), self.name(parameter)) {
+                    (Some((key, text)), _) => (key, Value::String(text.to_owned()).to_string()),
+                    (None, key @ keys::FREQUENCY_HZ) => (key, number(self.hertz(value))),
+                    (None, key) => (key, number(value)),
+                };
+                lines.push(Line(key, value, self.label_of(parameter)));
             }
         }
         let is_stops = |line: &Line| line.0.starts_with("stop.");

@@ -125,7 +125,7 @@ impl MachineArguments {
             let frequency = Parameter::Frequency;
             return Ok((frequency, machine.to_own(frequency.about().dimension, own)));
         }
-        let found = machine.stated(name);
+        let found = machine.free(name);
         found.map_err(|error| Failure::usage(format!("--{flag} {name}: {error}")))
     }
 
@@ -137,6 +137,21 @@ impl MachineArguments {
             .map(|change| change.key().to_owned())
             .collect()
     }
+}
+
+/// Refuses a machine of which something follows the drive's frequency, where that is looked for and all else stays.
+///
+/// # Errors
+/// [`Failure::Usage`] naming what follows.
+pub fn refuse_followers_of_frequency(machine: &Machine) -> Result<(), Failure> {
+    let Some(follower) = machine.follower(Parameter::Frequency) else {
+        return Ok(());
+    };
+    let name = machine.name(follower);
+    Err(Failure::usage(format!(
+        "{name}: follows the drive's frequency, which is looked for here while all else stays; state {name} as a number, or \
+         use sweep, continue or study"
+    )))
 }
 
 /// The coordinate of the start that a key sets.

@@ -162,7 +162,7 @@ fn require_all(section: &mut Value) {
     }
 }
 
-/// A parameter: a number in its range.
+/// A parameter: a number in its range, or an expression.
 fn number(parameter: Parameter, language: Language) -> Value {
     let about = parameter.about();
     let what = match (language, about.dimension.unit()) {
@@ -170,7 +170,9 @@ fn number(parameter: Parameter, language: Language) -> Value {
         (_, "") => about.meaning.to_owned(),
         (_, unit) => format!("{} in {unit}", about.meaning),
     };
-    within(about.allowed, &(what + &pace(parameter)))
+    let mut number = within(about.allowed, &(what + &pace(parameter)));
+    number["type"] = json!(["number", "string"]);
+    number
 }
 
 /// How far its time scale may lie from the drive's.

@@ -13,7 +13,7 @@ use softstop_prove::machine::Machine as Laws;
 use softstop_prove::{Certificate, Claim, Interval, ProofError, Touch};
 
 use crate::continuation::seed;
-use softstop_console::arguments::MachineArguments;
+use softstop_console::arguments::{MachineArguments, refuse_followers_of_frequency};
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column::Units;
 use softstop_console::export::{Export, Report};
@@ -87,6 +87,9 @@ pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
     Laws::new(&machine.scene).map_err(|error| Failure::usage(error.to_string()))?;
+    if arguments.at.is_some() {
+        refuse_followers_of_frequency(&machine)?;
+    }
     let (folder, file) = folder_and_file(&arguments.output)?;
     if !file.ends_with(".json") {
         return Err(Failure::usage(format!(

@@ -90,11 +90,12 @@ impl Own<'_> {
 /// What changes of all parameters, in SI units, as a key of the machine goes on by one of its own units.
 type Direction = Vec<(Parameter, f64)>;
 
-/// All parameters are linear in each key, so a difference is the derivative.
+/// All parameters are linear in each key, so a difference is the derivative; what follows others by expressions is smooth.
 fn direction(machine: &Stated, key: &str) -> PyResult<Direction> {
-    let (parameter, factor) = machine.stated(key).map_err(|error| of_machine(&error))?;
+    let (parameter, factor) = machine.free(key).map_err(|error| of_machine(&error))?;
     let value = machine.value(parameter).unwrap_or(0.0);
-    let step = if value == 0.0 { 1.0 } else { 0.5 * value.abs() };
+    let share = if machine.ties.is_empty() { 0.5 } else { 1e-5 };
+    let step = if value == 0.0 { 2.0 } else { value.abs() } * share;
     let moved = |by: f64| {
         let mut machine = machine.clone();
         machine.set(parameter, value + by);

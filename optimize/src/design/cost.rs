@@ -3,13 +3,12 @@
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
+use softstop::internals::{Differentiated, Expression, chained};
 use softstop::{Machine, Parameter};
 use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
-use super::expression::{Expression, chained};
 use super::figure::Figure;
-use super::slope::Slope;
 
 /// A cost, a bare number.
 #[derive(Clone)]
@@ -109,7 +108,7 @@ impl Cost {
     }
 
     /// Its value and its derivatives by its terms, each in its own unit.
-    fn at(&self, motion: (&Orbit, &CycleMetrics)) -> Slope {
+    fn at(&self, motion: (&Orbit, &CycleMetrics)) -> Differentiated {
         let values = self.0.terms.iter();
         let values = values.map(|(term, unit)| term.value(motion) / unit);
         self.0.expression.at(&values.collect::<Vec<f64>>())

@@ -31,8 +31,9 @@ pub(super) struct Linearization<'a> {
 }
 
 /// Change of a parameter, as a share of its range, by which what follows it is told: links are linear in what they
-/// follow, or its product with one more parameter.
+/// follow, or its product with one more parameter; expressions are smooth.
 const CHANGE: f64 = 1e-2;
+const SMALL_CHANGE: f64 = 1e-5;
 
 impl<'a> Linearization<'a> {
     /// Of a drawing's motion, or of a case's, with the derivatives of the drawing's frequency by the coordinates. None where the
@@ -154,6 +155,10 @@ fn directions(problem: &Problem, at: &At<'_>) -> Vec<Vec<f64>> {
         .filter(|index| !problem.axes[*index].range.is_held())
         .collect();
     let values = Space(&problem.axes).values(at.unit);
+    let change = match problem.machine.ties.is_empty() {
+        true => CHANGE,
+        false => SMALL_CHANGE,
+    };
     let aside = |axis: usize, by: f64| {
         let mut values = values.clone();
         values[axis] += by * problem.axes[axis].rate(values[axis]);
@@ -162,10 +167,10 @@ fn directions(problem: &Problem, at: &At<'_>) -> Vec<Vec<f64>> {
     };
     let row = |index: &usize| {
         let axis = free[*index];
-        let (before, after) = (aside(axis, -CHANGE), aside(axis, CHANGE));
+        let (before, after) = (aside(axis, -change), aside(axis, change));
         let pairs = before.iter().zip(&after);
         pairs
-            .map(|(before, after)| (after - before) / (2.0 * CHANGE))
+            .map(|(before, after)| (after - before) / (2.0 * change))
             .collect()
     };
     at.moved.iter().map(row).collect()

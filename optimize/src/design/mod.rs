@@ -19,7 +19,6 @@ pub mod cost;
 pub mod critical;
 mod differences;
 mod exact;
-pub mod expression;
 mod found;
 pub mod front;
 mod improve_catalogue;

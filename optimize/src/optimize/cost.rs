@@ -1,11 +1,10 @@
 //! What a design costs: the formula `objective.cost`.
 
 use softstop::Machine;
-use softstop::internals::{did_you_mean, nearest};
+use softstop::internals::{Expression, did_you_mean, nearest};
 use softstop_console::failure::Failure;
 
 use crate::design::cost::{Cost, Term};
-use crate::design::expression::Expression;
 use crate::design::figure::Figure;
 
 /// Reads a formula of parameters, in the machine's own units, and figures of its motion.

@@ -68,7 +68,7 @@ impl Stated {
 pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Tolerance>, Failure> {
     let mut found: Vec<Tolerance> = Vec::new();
     for (name, value) in leaves(table) {
-        let stated = machine.stated(&name);
+        let stated = machine.free(&name);
         let (parameter, unit) =
             stated.map_err(|error| Failure::usage(format!("tolerance.{error}")))?;
         let said = number(value).map_or_else(|| value.to_string(), plain);

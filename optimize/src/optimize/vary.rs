@@ -197,7 +197,7 @@ fn wrong(key: &str, what: &str) -> Failure {
 
 /// The parameter of a key and the key's unit in the machine's own.
 fn stated(machine: &Machine, key: &str) -> Result<(Parameter, f64), Failure> {
-    let stated = machine.stated(key);
+    let stated = machine.free(key);
     stated.map_err(|error| Failure::usage(format!("vary.{error}")))
 }
 
@@ -234,9 +234,12 @@ fn axis(machine: &Machine, variable: &Variable) -> Result<Option<Axis>, Failure>
     }
 }
 
-/// A usual axis in the machine's own units; none if it has no such parameter.
+/// A usual axis in the machine's own units; none if it has no such parameter, or one that follows others.
 fn usual_axis(machine: &Machine, parameter: Parameter, ends: [f64; 2]) -> Option<Axis> {
     machine.value(parameter)?;
+    if machine.expression(parameter).is_some() {
+        return None;
+    }
     let scene = &machine.scene;
     let unit = match parameter.about().dimension {
         Dimension::Stiffness => scene.stiffness,

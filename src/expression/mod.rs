@@ -3,10 +3,9 @@
 mod parser;
 mod step;
 
-use super::slope::Slope;
 use parser::Parser;
 use step::Step;
-pub(super) use step::chained;
+pub use step::{Differentiated, chained};
 
 /// Characters of an expression at most.
 const MAX_LENGTH: usize = 1000;
@@ -37,9 +36,9 @@ impl Expression {
     }
 
     /// Its value, and its derivatives by the named values.
-    pub fn at(&self, values: &[f64]) -> Slope {
-        let mut stack: Vec<Slope> = Vec::new();
-        let constant = |value| Slope {
+    pub fn at(&self, values: &[f64]) -> Differentiated {
+        let mut stack: Vec<Differentiated> = Vec::new();
+        let constant = |value| Differentiated {
             value,
             by: vec![0.0; values.len()],
         };

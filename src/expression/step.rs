@@ -1,6 +1,13 @@
 //! The steps of an expression, with the derivatives of each.
 
-use crate::design::slope::Slope;
+/// A value with its derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Differentiated {
+    /// The value.
+    pub value: f64,
+    /// Its derivatives by the named values.
+    pub by: Vec<f64>,
+}
 
 /// A step of a stack machine.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +42,7 @@ pub enum Binary {
 }
 
 impl Unary {
-    pub fn at(self, of: &Slope) -> Slope {
+    pub fn at(self, of: &Differentiated) -> Differentiated {
         let x = of.value;
         let (value, by) = match self {
             Self::Minus => (-x, -1.0),
@@ -44,7 +51,7 @@ impl Unary {
             Self::Ln => (x.ln(), x.recip()),
             Self::Sqrt => (x.sqrt(), 0.5 / x.sqrt()),
         };
-        Slope {
+        Differentiated {
             value,
             by: of.by.iter().map(|own| chained(by, *own)).collect(),
         }
@@ -52,7 +59,7 @@ impl Unary {
 }
 
 impl Binary {
-    pub fn at(self, first: &Slope, second: &Slope) -> Slope {
+    pub fn at(self, first: &Differentiated, second: &Differentiated) -> Differentiated {
         let (x, y) = (first.value, second.value);
         let pick = |is_first: bool| match is_first {
             _ if x.is_nan() || y.is_nan() => (f64::NAN, f64::NAN, f64::NAN),
@@ -71,7 +78,7 @@ impl Binary {
         let pairs = first.by.iter().zip(&second.by);
         let by =
             pairs.map(|(first, second)| chained(by_first, *first) + chained(by_second, *second));
-        Slope {
+        Differentiated {
             value,
             by: by.collect(),
         }

@@ -1,0 +1,119 @@
+//! Machines with parameters that follow others, in the commands: their answers are those of machines that state each value
+//! by hand.
+
+use std::fs;
+
+use softstop_testing::{assert_near, number};
+
+use crate::{Outcome, SOFTSTOP};
+
+/// An impact rig whose drive is an unbalance: F0 = 0.7 w^2.
+const RIG: &str = "mass = 1.0\nstiffness = 1.0\ndamping = 0.04\nclearance = 3.0\ncontact.damping = 0.18\n\
+    excitation = { amplitude = \"0.7 * excitation.frequency^2\", frequency = 1.15 }\n\
+    stop = { model = \"preloaded\", stiffness = 29.0, preload = 5.0 }\ninitial.velocity = 5.0\n";
+
+/// Each command along the frequency of an unbalance.
+#[test]
+fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let rig = folder.path().join("rig.toml");
+    fs::write(&rig, RIG)?;
+    let rig = rig.display();
+    let by_hand = |frequency: f64| {
+        let amplitude = 0.7 * frequency * frequency;
+        format!(
+            "{rig} --set excitation.frequency={frequency} --set excitation.amplitude={amplitude}"
+        )
+    };
+    let study = folder.path().join("study.toml");
+    fs::write(
+        &study,
+        format!(
+            "machine = \"{rig}\"\noutputs = [\"z\", \"velocity\"]\n[[axis]]\nparameter = \"excitation.frequency\"\n\
+             values = [1.1, 1.2, 1.3]\n"
+        ),
+    )?;
+    let report = SOFTSTOP.report(&format!("study {} --csv", study.display()));
+    let text = fs::read_to_string(report.path("study.csv"))?;
+    for line in text.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let frequency: f64 = cells[0].parse()?;
+        let motions = SOFTSTOP.value(&format!("orbit {}", by_hand(frequency)));
+        let velocity: f64 = cells[cells.len() - 1].parse()?;
+        assert_near(velocity, number(&motions, "before_impact_velocity"), 1e-9);
+    }
+    // At a special point of the branch the machine by hand has it, too, along another parameter.
+    let branch = SOFTSTOP.value(&format!(
+        "continue {rig} --parameter excitation.frequency --from 0.9 --to 2.5"
+    ));
+    let specials = branch["branches"][0]["specials"].as_array().ok_or("none")?;
+    let fold = specials
+        .iter()
+        .find(|it| it["symbol"] == "SN")
+        .ok_or("no fold")?;
+    let (frequency, state) = (
+        number(fold, "value"),
+        [number(fold, "position"), number(fold, "velocity")],
+    );
+    let line = by_hand(frequency) + &format!(" --state={},{}", state[0], state[1]);
+    let other = SOFTSTOP.value(&format!(
+        "continue {line} --parameter clearance --from 2 --to 4"
+    ));
+    let specials = other["branches"][0]["specials"].as_array().ok_or("none")?;
+    let nearest = specials.iter().filter(|it| it["symbol"] == "SN");
+    let nearest = nearest
+        .map(|it| (number(it, "value") - 3.0).abs())
+        .fold(1.0, f64::min);
+    assert_near(nearest, 0.0, 1e-9);
+    // What follows is not varied, and no zone is looked for.
+    for (command, says) in [
+        (
+            format!("sweep {rig} --parameter excitation.amplitude --from 0.5 --to 1"),
+            "follows others, as \"0.7 *",
+        ),
+        (
+            format!("zone {rig}"),
+            "excitation.amplitude: follows the drive's frequency",
+        ),
+        (
+            format!("optimize {rig}"),
+            "excitation.amplitude: follows the drive's frequency",
+        ),
+    ] {
+        let words: Vec<&str> = softstop_testing::words(&command);
+        SOFTSTOP.refuses(&words, &[says]);
+    }
+    Ok(())
+}
+
+/// A preload that is ten times the stiffness, as an expression, as a link and as a deflection of 10 m.
+#[test]
+fn a_design_with_an_expression_is_that_of_a_link() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let task = |name: &str, preload: &str, vary: &str| -> Outcome<serde_json::Value> {
+        let path = folder.path().join(name);
+        let text = format!(
+            "mass = 1.0\nstiffness = 1.0\ndamping = 0.04\nclearance = 10.0\ncontact.damping = 0.18\n\
+             excitation = {{ amplitude = 1.0, frequency = 1.15 }}\n\
+             stop = {{ model = \"preloaded\", stiffness = 7.0, {preload} }}\n\
+             [vary]\nstop.stiffness = [2.0, 30.0]\nclearance = [4.0, 20.0]\n{vary}\n[require]\nmargin = 0.1\n"
+        );
+        fs::write(&path, text)?;
+        Ok(SOFTSTOP.value(&format!("optimize {} --no-report", path.display())))
+    };
+    let designs = [
+        task("tie.toml", "preload = \"10 * stop.stiffness\"", "")?,
+        task(
+            "link.toml",
+            "preload = 70.0",
+            "stop.preload = { follows = \"stop.stiffness\", factor = 10 }",
+        )?,
+        task("deflection.toml", "preload_deflection = 10.0", "")?,
+    ];
+    let velocity = designs
+        .each_ref()
+        .map(|it| number(it, "design/before_impact_velocity"));
+    assert_near(velocity[0], velocity[1], 1e-9);
+    assert_near(velocity[0], velocity[2], 1e-9);
+    Ok(())
+}
