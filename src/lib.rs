@@ -13,7 +13,7 @@
 //!   what it may cost. [`Simulation::sensitivity`] and [`Simulation::rates`] say how the outputs change.
 //!
 //! Enumerations and records that will grow are `non_exhaustive`; [`Stop`], [`PhaseKind`], [`CrossingKind`] and
-//! [`Language`] are not, so that a match says what a new law asks for. Periodic motions and all that follows from
+//! [`UnitSystem`] are not, so that a match says what a new law asks for. Periodic motions and all that follows from
 //! them are in the crate `softstop-dynamics`. What this crate's siblings share beyond this page is in
 //! `softstop::internals`, hidden and without any promise.
 //!
@@ -52,7 +52,7 @@ pub use integrator::{
     Arc, Begin, Clock, Contacts, Crossing, CrossingKind, Effort, Energy, Impact, Instant, Observer,
     Rate, Rates, Sample, Simulation, Snapshot, Start, Work,
 };
-pub use machine::{Language, Machine};
+pub use machine::{Machine, UnitSystem};
 pub use phases::PhaseKind;
 pub use scene::{
     About, Allowed, Dimension, Excitation, Parameter, Piercing, Ratios, Release, RigidStop, Scene,

@@ -2,7 +2,7 @@
 //! tiny stiffness, exact and near resonance, short and long times.
 
 use softstop::Drive;
-use softstop::internals::{Course, Departure, Flow, Polynomial};
+use softstop::internals::{ArcSolution, Departure, LinearLaw, Polynomial};
 use softstop_testing::reference::{FLOW, number};
 
 /// Rounding errors, in units of the 2^-53 sensitivity of the case to its own inputs, that an
@@ -17,7 +17,7 @@ fn flow_agrees_with_forty_digits() {
     for case in cases {
         let get = |key| number(case, key);
         let w = get("drive_frequency");
-        let flow = Flow::new(
+        let flow = LinearLaw::new(
             1.0,
             2.0 * get("decay"),
             get("stiffness"),
@@ -33,7 +33,7 @@ fn flow_agrees_with_forty_digits() {
         };
         let elapsed = get("elapsed");
         let drive = Drive::at(get("drive_angle") + w * elapsed);
-        let (x, v) = Course::new(&flow, departure).at(elapsed, drive);
+        let (x, v) = ArcSolution::new(&flow, departure).at(elapsed, drive);
         let checks = [
             (x, "expected_position", "position_sensitivity"),
             (v, "expected_velocity", "velocity_sensitivity"),

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use approx::assert_relative_eq;
 use softstop::{
-    Allowed, Dimension, Language, Machine, MachineError, Parameter, Ratios, Scene, Stop,
+    Allowed, Dimension, Machine, MachineError, Parameter, Ratios, Scene, Stop, UnitSystem,
 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -72,7 +72,7 @@ fn every_parameter_is_set_by_its_name_its_letter_and_its_older_names() -> Outcom
                     assert_eq!(machine.parameter(&alias.replace('_', "-"))?, found);
                 }
                 match machine.parameter(about.letter) {
-                    Err(MachineError::Ratio(_, key)) if machine.speaks == Language::Si => {
+                    Err(MachineError::Ratio(_, key)) if machine.unit_system == UnitSystem::Si => {
                         assert_eq!(key, about.name);
                     }
                     found => assert_eq!(found?.about().letter, about.letter),
@@ -122,7 +122,7 @@ fn the_files_of_docs_are_read_as_before() -> Outcome {
         let path = entry?.path();
         let text = fs::read_to_string(&path)?;
         let machine = Machine::from_toml(&text).map_err(|error| format!("{path:?}: {error}"))?;
-        assert_eq!(machine.speaks, Language::Si);
+        assert_eq!(machine.unit_system, UnitSystem::Si);
         let older = text
             .replace("contact.damping", "contact_damping")
             .replace("[initial]", "[start]");

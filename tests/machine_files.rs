@@ -1,7 +1,7 @@
 //! Machine files that the program writes are the machines that they were written of.
 
 use proptest::prelude::*;
-use softstop::{Language, Machine, Parameter, Scene, Start, Units};
+use softstop::{Machine, Parameter, Scene, Start, UnitSystem, Units};
 use softstop_testing::machines::machines;
 use softstop_testing::random::cases;
 
@@ -36,7 +36,7 @@ proptest! {
 
     #[test]
     fn in_ratios_and_si(scene in machines(), words in words(), mass in 0.1..500.0f64, stiffness in 1e3..1e7f64) {
-        let ratios = Machine { speaks: Language::Ratios, ..machine(scene.clone(), words.clone()) };
+        let ratios = Machine { unit_system: UnitSystem::Ratios, ..machine(scene.clone(), words.clone()) };
         comes_back(&ratios)?;
         let units = Units { mass, stiffness, force: 1e3 };
         comes_back(&machine(scene.in_units(units)?, words))?;
@@ -46,7 +46,7 @@ proptest! {
     fn in_hertz_with_a_preload_as_a_deflection(
         scene in machines(), words in words(), hertz in 0.05..400.0f64, deflection in 0.0..0.5f64,
     ) {
-        let mut machine = Machine { speaks: Language::Hertz, ..machine(scene, words) };
+        let mut machine = Machine { unit_system: UnitSystem::Hertz, ..machine(scene, words) };
         machine.set(Parameter::Frequency, hertz);
         if machine.value(Parameter::Preload).is_some() {
             machine.preload_deflection = Some(0.0);
@@ -61,7 +61,7 @@ proptest! {
 fn a_frequency_that_no_number_of_hertz_gives_is_rounded_once()
 -> Result<(), Box<dyn std::error::Error>> {
     let mut machine = Machine::named("unloaded").ok_or("the paper's")?;
-    machine.speaks = Language::Hertz;
+    machine.unit_system = UnitSystem::Hertz;
     let mut frequency = 1.15f64;
     for _ in 0..1_000 {
         frequency = frequency.next_up();

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::internals::Detuning;
+use softstop::internals::FrequencySensitivity;
 use softstop::{Clock, Perturbation, Ratios, Scene, Sensitivity, Simulation, Start, Stop};
 use softstop_testing::{Meets, cases, is_near, machines, start_below};
 
@@ -51,7 +51,7 @@ fn detuned(scene: &Scene, change: f64) -> Scene {
 fn turned(scene: &Scene, start: Start, turns: f64) -> (Vector2<f64>, Option<Vector2<f64>>) {
     let clock = scene.clock();
     let mut motion = scene.motion(start).expect("valid");
-    let mut watch = Detuning::default();
+    let mut watch = FrequencySensitivity::default();
     let until = clock.after(Clock::at_cycle(0), turns * clock.period());
     motion.advance(until, &mut watch).expect("bounded");
     motion.tell_arc(&mut watch);

@@ -1,6 +1,6 @@
 //! Parameters that follow others by an expression.
 
-use softstop::{Language, Machine, MachineError, Parameter};
+use softstop::{Machine, MachineError, Parameter, UnitSystem};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -57,7 +57,7 @@ fn expressions_are_in_the_units_of_their_keys() -> Outcome {
         ("clearance", "excitation.frequency / 1000"),
         ("stop.preload_deflection", "clearance / 4"),
     ])?;
-    assert_eq!(hertz.speaks, Language::Hertz);
+    assert_eq!(hertz.unit_system, UnitSystem::Hertz);
     assert_eq!(value(&hertz, "excitation.amplitude"), 3.0);
     let clearance = 1.5 * std::f64::consts::TAU / 1000.0;
     assert!((value(&hertz, "clearance") / clearance - 1.0).abs() < 1e-15);

@@ -12,7 +12,7 @@ use crate::drive::Drive;
 use crate::machine::{Machine, More};
 use crate::start::StartValues;
 use crate::start::slot::{self, SLOTS};
-use crate::table::GROUPS;
+use crate::table::{GROUPS, STATE_SPACE, TERMINALS};
 use crate::tangent::Tangent;
 use crate::units::{ENUMERATIONS, QUANTITIES};
 
@@ -46,7 +46,9 @@ static ABOUT: About<Machine> = About {
     ],
     quantities: QUANTITIES,
     enumerations: ENUMERATIONS,
+    terminals: TERMINALS,
     table: softstop_fmi::Table::new(GROUPS),
+    state_space: Some(&STATE_SPACE),
     page: include_str!("../assets/page.html"),
     files: &FILES,
     guid: OnceLock::new(),
@@ -134,6 +136,23 @@ impl Unit for Machine {
 
     fn next_event(&self) -> Option<f64> {
         self.next_crossing()
+    }
+
+    fn at_states(&self, time: f64, states: &[f64]) -> Outcome<Self> {
+        self.placed(time, states)
+    }
+
+    fn keep_law(&mut self, of: &Self) {
+        let of = of.simulation().clone();
+        self.change().keep_law(&of);
+    }
+
+    fn nominals(&self) -> Vec<f64> {
+        self.scales().into()
+    }
+
+    fn is_passing(&self) -> bool {
+        self.simulation().is_chattering()
     }
 
     fn drive(&mut self, signal: usize, derivatives: &Derivatives) -> Outcome<()> {

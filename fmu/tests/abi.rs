@@ -79,6 +79,18 @@ fn functions_have_the_types_of_the_standard() {
     let _: unsafe extern "C" fn(Component, *const c_uint, usize, *const c_int, *mut f64) -> Status =
         fmi2GetRealOutputDerivatives;
     let _: unsafe extern "C" fn(Component, f64, f64, c_int) -> Status = fmi2DoStep;
+    let _: [Only; 2] = [fmi2EnterEventMode, fmi2EnterContinuousTimeMode];
+    let _: unsafe extern "C" fn(Component, *mut EventInfo) -> Status = fmi2NewDiscreteStates;
+    let _: unsafe extern "C" fn(Component, c_int, *mut c_int, *mut c_int) -> Status =
+        fmi2CompletedIntegratorStep;
+    let _: unsafe extern "C" fn(Component, f64) -> Status = fmi2SetTime;
+    let _: unsafe extern "C" fn(Component, *const f64, usize) -> Status = fmi2SetContinuousStates;
+    let _: [unsafe extern "C" fn(Component, *mut f64, usize) -> Status; 4] = [
+        fmi2GetDerivatives,
+        fmi2GetEventIndicators,
+        fmi2GetContinuousStates,
+        fmi2GetNominalsOfContinuousStates,
+    ];
     let _: Kind<Status> = fmi2GetStatus;
     let _: Kind<f64> = fmi2GetRealStatus;
     let _: Kind<c_int> = fmi2GetIntegerStatus;
@@ -95,6 +107,10 @@ fn callbacks_lie_as_in_the_standard() {
     assert_eq!(offset_of!(CallbackFunctions, free_memory), 2 * pointer);
     assert_eq!(offset_of!(CallbackFunctions, step_finished), 3 * pointer);
     assert_eq!(offset_of!(CallbackFunctions, environment), 4 * pointer);
+    let flag = size_of::<c_int>();
+    assert_eq!(offset_of!(EventInfo, next_event_time_defined), 4 * flag);
+    assert_eq!(offset_of!(EventInfo, next_event_time), 6 * flag);
+    assert_eq!(size_of::<EventInfo>(), 6 * flag + size_of::<f64>());
 }
 
 #[test]

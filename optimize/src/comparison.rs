@@ -1,6 +1,6 @@
 //! A design beside its references: one table, a record for each quantity.
 
-use softstop::{Dimension, Language, Machine, Parameter};
+use softstop::{Dimension, Machine, Parameter, UnitSystem};
 use softstop_console::record::Record;
 use softstop_dynamics::Orbit;
 
@@ -51,8 +51,8 @@ impl Table<'_> {
         value: impl Fn(&Machine, &Orbit) -> Option<f64>,
     ) {
         let head = Record::default().with("quantity", "", name);
-        let head = match self.machine.speaks {
-            Language::Ratios => head.with("symbol", "", symbol).hidden("unit", unit),
+        let head = match self.machine.unit_system {
+            UnitSystem::Ratios => head.with("symbol", "", symbol).hidden("unit", unit),
             _ => head.hidden("symbol", "").with("unit", "", unit),
         };
         let mut record = head.with("chosen", "", chosen);

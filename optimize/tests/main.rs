@@ -15,6 +15,7 @@ mod motions;
 mod optimum;
 mod pareto;
 mod pile_driver;
+mod prove;
 mod refusals;
 mod report;
 mod robust;

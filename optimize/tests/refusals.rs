@@ -118,6 +118,7 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
         ("zone", ""),
         ("motions", ""),
         ("continue --parameter eta", &range),
+        ("prove", &output),
         ("sweep", &range),
         ("basin", &output),
         ("fidelity", &output),

@@ -1,6 +1,6 @@
 //! What ends a phase: a linear function of state and push that rises through zero.
 
-use crate::flow::{Course, DEGREE, Node, Taylor};
+use crate::flow::{ArcSolution, DEGREE, Node, Taylor};
 
 /// g = `position` x + `velocity` v + `push` q - `level`; the event is g rising through zero.
 ///
@@ -111,7 +111,7 @@ impl Guard {
     }
 
     /// True if g stays below zero for ever after `node`.
-    pub(crate) fn is_out_of_reach(&self, course: &Course, node: &Node) -> bool {
+    pub(crate) fn is_out_of_reach(&self, course: &ArcSolution, node: &Node) -> bool {
         if self.velocity != 0.0 {
             return false;
         }

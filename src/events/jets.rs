@@ -2,7 +2,7 @@
 
 use super::guard::Guard;
 use super::isolate::Point;
-use crate::flow::{Course, Flow, Node, Window};
+use crate::flow::{ArcSolution, LinearLaw, Node, Window};
 
 /// Derivatives of position (0..=6) and push (0..=4) at a node.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +25,7 @@ pub(super) struct Ends {
 
 impl Jets {
     #[inline(always)]
-    pub fn new(course: &Course, node: Node) -> Self {
+    pub fn new(course: &ArcSolution, node: Node) -> Self {
         let flow = &course.flow;
         let (constant, ramp) = course.push_at(node.elapsed);
         let (w, a) = (flow.frequency, flow.amplitude);
@@ -94,7 +94,7 @@ impl Jets {
 
     /// Bound on |g''| over `span` seconds from this node, as in [`Jets::bound`]. Under heavy damping
     /// it is the sharper one: high derivatives drown in the rounding of the damper's force.
-    pub fn low_bound(&self, flow: &Flow, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
+    pub fn low_bound(&self, flow: &LinearLaw, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
         let x = &self.position;
         let square = flow.frequency * flow.frequency;
         let drive = self.drive * square;
@@ -111,7 +111,7 @@ impl Jets {
     /// derivative of the push, which is at most A w^4: variation of constants with the bounds on
     /// the fundamental solutions gives |x''''| <= |x4| C + |x5| S + A w^4 span S.
     #[inline(always)]
-    pub fn bound(&self, flow: &Flow, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
+    pub fn bound(&self, flow: &LinearLaw, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
         let x = &self.position;
         let square = flow.frequency * flow.frequency;
         let drive = self.drive * square * square;
@@ -127,7 +127,7 @@ impl Jets {
 
     /// True if g < 0 for `span` seconds, at most a scan window, from this node on, or from right after it on if g = 0
     /// there, for a guard that does not ask for the push.
-    pub fn stays_below(&self, flow: &Flow, guard: &Guard, span: f64) -> bool {
+    pub fn stays_below(&self, flow: &LinearLaw, guard: &Guard, span: f64) -> bool {
         let [value, rate, second, third, ..] = self.guard_series(guard);
         let fourth = self.bound(flow, guard, span, flow.window_bounds) / 24.0;
         let bend = span * (second.max(0.0) + span * (third.max(0.0) + span * fourth));
@@ -206,7 +206,7 @@ impl Ends {
 }
 
 /// True if no guard rises up to `until`, a scan window from the departure at most, by the departure's derivatives alone.
-pub(crate) fn is_clear_soon(course: &Course, guards: &[Guard], until: f64) -> bool {
+pub(crate) fn is_clear_near_start(course: &ArcSolution, guards: &[Guard], until: f64) -> bool {
     if !course.is_bounded() {
         return false;
     }

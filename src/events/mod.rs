@@ -12,12 +12,12 @@ mod pinpoint;
 mod step;
 
 pub use guard::Guard;
-pub(crate) use jets::is_clear_soon;
+pub(crate) use jets::is_clear_near_start;
 
 use serde::{Deserialize, Serialize};
 
 use crate::budget;
-use crate::flow::{Course, Node, Window};
+use crate::flow::{ArcSolution, Node, Window};
 use isolate::{Candidate, Point, Verdict, judge};
 use jets::{Ends, Jets};
 use pinpoint::pinpoint;
@@ -37,7 +37,7 @@ pub struct Found {
 
 /// What is known of a course's first crossing.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Outlook {
+pub enum NextEvent {
     /// It is this one.
     Crossing(Found),
     /// There is none up to the node that the search has reached.
@@ -58,13 +58,13 @@ const WINDOWS_PER_LOOK: u32 = 8;
 ///
 /// The windows are laid from the departure, so the answer does not depend on how a search is
 /// divided into calls. Where a [`budget`] is spent on the way, it means nothing.
-pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
+pub fn first_crossing(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) -> NextEvent {
     let begin = node.elapsed;
     let outlook = search(course, guards, node, until);
     let reached = match &outlook {
-        Outlook::Crossing(found) => found.elapsed,
-        Outlook::ClearUntil(node) | Outlook::Unbounded(node) => node.elapsed,
-        Outlook::Ends(_) | Outlook::Never => begin,
+        NextEvent::Crossing(found) => found.elapsed,
+        NextEvent::ClearUntil(node) | NextEvent::Unbounded(node) => node.elapsed,
+        NextEvent::Ends(_) | NextEvent::Never => begin,
     };
     budget::charge(match course.segment() {
         Some(_) => budget::TAYLOR_STEP,
@@ -74,12 +74,12 @@ pub fn first_crossing(course: &Course, guards: &[Guard], node: Node, until: f64)
 }
 
 /// Where a course first meets a guard, as far as it is looked at; what that costs is not counted.
-fn search(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook {
+fn search(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) -> NextEvent {
     if let Some(segment) = course.segment() {
         return step::first_crossing(segment, guards, node);
     }
     if let Some(chatter) = course.chatter() {
-        return Outlook::Ends(chatter.duration);
+        return NextEvent::Ends(chatter.duration);
     }
     let scan = Scan { course, guards };
     let window = course.flow.window;
@@ -89,20 +89,21 @@ fn search(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook 
     while node.elapsed < until {
         if node.elapsed > looked + f64::from(WINDOWS_PER_LOOK) * window {
             if scan.is_out_of_reach(&node) {
-                return Outlook::Never;
+                return NextEvent::Never;
             }
             looked = node.elapsed;
         }
         let mut ahead = None;
         if watches_position {
-            let doubtful = course.coast(&mut node, until, |window| scan.stays_short(window));
+            let doubtful =
+                course.skip_clear_windows(&mut node, until, |window| scan.stays_short(window));
             if node.elapsed >= until {
                 break;
             }
             if let Some((next, bound)) = doubtful {
                 let (left, right) = (&node, &next);
                 match scan.glance(&Window { left, right, bound }) {
-                    Some(Some(found)) => return Outlook::Crossing(found),
+                    Some(Some(found)) => return NextEvent::Crossing(found),
                     Some(None) => {
                         node = next;
                         continue;
@@ -115,7 +116,7 @@ fn search(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook 
         let left = Jets::new(course, node);
         let right = Jets::new(course, ahead.unwrap_or_else(|| course.next(&left.node)));
         if !(right.node.position.is_finite() && right.node.velocity.is_finite()) {
-            return Outlook::Unbounded(left.node);
+            return NextEvent::Unbounded(left.node);
         }
         let span = right.node.elapsed - left.node.elapsed;
         let bounds = if span < 2.0 * window {
@@ -126,15 +127,15 @@ fn search(course: &Course, guards: &[Guard], node: Node, until: f64) -> Outlook 
         if (ahead.is_some() || !scan.stays_below(&left, &right, bounds))
             && let Some(found) = scan.search(&left, &right, bounds)
         {
-            return Outlook::Crossing(found);
+            return NextEvent::Crossing(found);
         }
         node = right.node;
     }
-    Outlook::ClearUntil(node)
+    NextEvent::ClearUntil(node)
 }
 
 struct Scan<'a> {
-    course: &'a Course,
+    course: &'a ArcSolution,
     guards: &'a [Guard],
 }
 
@@ -176,7 +177,7 @@ impl Scan<'_> {
         self.single_rise((0, guard), (left, right), ends, (bound, rounding))
     }
 
-    /// The same of one guard, which does not ask for the push, by its values at the ends and a bound on its fourth
+    /// The first rise of one guard, which does not ask for the push, by its values at the ends and a bound on its fourth
     /// derivative.
     #[inline]
     fn single_rise(
@@ -248,7 +249,7 @@ impl Scan<'_> {
             .or_else(|| self.search(&middle, right, bounds))
     }
 
-    /// The same within the reach of a Taylor polynomial. A single rise, as the nodes prove it, needs none.
+    /// The first crossing within the reach of a Taylor polynomial. A single rise, as the nodes prove it, needs none.
     fn search_window(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
         let can_rise = |(_, guard): &(usize, &Guard)| !self.cannot_rise(guard, left, right, bounds);
         let alone = match self.guards {

@@ -6,7 +6,7 @@
 use super::Guard;
 use super::isolate::{Point, guess};
 use super::jets::Jets;
-use crate::flow::{Course, Node};
+use crate::flow::{ArcSolution, Node};
 
 /// Share of a flow's reach over which a polynomial of degree 5 is exact.
 const CLOSE: f64 = 1.0 / 512.0;
@@ -16,7 +16,7 @@ const LOOKS: usize = 4;
 /// Time since departure, position and velocity where `guard`, which does not ask for the push, rises through zero
 /// between `left` and `right`, where it rises once at most; none if it takes more to tell.
 pub(super) fn pinpoint(
-    course: &Course,
+    course: &ArcSolution,
     guard: &Guard,
     (left, right): (&Node, &Node),
     (low, high): (Point, Point),
@@ -38,12 +38,12 @@ pub(super) fn pinpoint(
         if !within(at) {
             return None;
         }
-        let Look {
+        let StateNearRise {
             near,
             series,
             from,
             change,
-        } = Look::new(course, guard, start, at);
+        } = StateNearRise::new(course, guard, start, at);
         let rest = match reverted(&series) {
             Some(rest) => rest,
             None => newton(&series, 0.0, 0.25 * f64::EPSILON * near.node.elapsed)?,
@@ -65,7 +65,7 @@ pub(super) fn pinpoint(
 
 /// A state beside the rise: soon after the departure as what has changed since, so that what is small against
 /// the position keeps its digits.
-struct Look {
+struct StateNearRise {
     near: Jets,
     /// The guard there.
     series: [f64; 6],
@@ -75,11 +75,11 @@ struct Look {
     change: (f64, f64),
 }
 
-impl Look {
+impl StateNearRise {
     /// `at` seconds after a start.
-    fn new(course: &Course, guard: &Guard, start: f64, at: f64) -> Self {
+    fn new(course: &ArcSolution, guard: &Guard, start: f64, at: f64) -> Self {
         if start == 0.0
-            && let Some((node, change)) = course.node_soon(at)
+            && let Some((node, change)) = course.node_near_start(at)
         {
             let near = Jets::new(course, node);
             let mut series = near.guard_series(guard);
@@ -126,7 +126,7 @@ fn reverted(c: &[f64; 6]) -> Option<f64> {
 
 /// Relative size of the terms of a series whose fourth power is below rounding.
 const SMALL: f64 = 1.0 / (1u64 << 14) as f64;
-/// The same of the eighth power.
+/// Relative size of the terms of a series whose eighth power is below rounding.
 const MODEST: f64 = 1.0 / (1u64 << 7) as f64;
 
 /// Newton's method from `at` to a zero through which the series rises, until a next step, foreseen from the

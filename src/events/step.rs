@@ -1,18 +1,18 @@
 //! The first crossing on one Taylor step.
 
 use super::isolate::Candidate;
-use super::{Found, Guard, Outlook, earliest};
-use crate::flow::{DEGREE, Node, Segment, value};
+use super::{Found, Guard, NextEvent, earliest};
+use crate::flow::{DEGREE, Node, TaylorStep, value};
 
 /// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
 /// the coefficients of the polynomial, which is the motion to round-off.
-pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) -> Outlook {
+pub(super) fn first_crossing(segment: &TaylorStep, guards: &[Guard], node: Node) -> NextEvent {
     let (from, to) = (segment.parameter_at(node.elapsed), segment.reach);
     let (position, velocity) = segment.last_state();
     let finite = position.is_finite() && velocity.is_finite();
     let held = segment.is_still() && !segment.push_at(to).is_finite();
     if !(to > 0.0 && finite) || held {
-        return Outlook::Unbounded(node);
+        return NextEvent::Unbounded(node);
     }
     let rise = |guard: &Guard| {
         if guard.asks_for_position() && segment.stays_short(guard.position, guard.level, to) {
@@ -31,10 +31,10 @@ pub(super) fn first_crossing(segment: &Segment, guards: &[Guard], node: Node) ->
         candidate.first_rise(candidate.point(from), candidate.point(to))
     };
     match earliest(guards, rise) {
-        None => Outlook::Ends(segment.end),
+        None => NextEvent::Ends(segment.end),
         Some((guard, sigma)) => {
             let (position, velocity) = segment.state_at(sigma);
-            Outlook::Crossing(Found {
+            NextEvent::Crossing(Found {
                 elapsed: segment.time_at(sigma),
                 guard,
                 position,

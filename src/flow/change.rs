@@ -4,11 +4,11 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::budget;
 
-use super::course::{Course, Form};
+use super::arc_solution::{ArcSolution, Form};
 use super::linearized::Linearized;
 use super::response::Responses;
-use super::segment::Segment;
 use super::series::{Series, derivative, integral_of_product, product, value};
+use super::taylor_step::TaylorStep;
 
 /// Derivatives of the state along a course.
 #[derive(Debug, Clone, Copy)]
@@ -23,7 +23,7 @@ pub(crate) struct Transition {
 
 impl Transition {
     /// Along a course that is held.
-    pub fn held(course: &Course) -> Self {
+    pub fn held(course: &ArcSolution) -> Self {
         Self {
             matrix: Matrix2::new(1.0, 0.0, 0.0, 0.0),
             damping: 0.0,
@@ -41,14 +41,14 @@ pub(crate) struct Change {
     pub push: f64,
 }
 
-impl Course {
+impl ArcSolution {
     /// The change of position and velocity, `elapsed` seconds after departure, that a change there
     /// brings. A held mass stays where it is.
     pub(crate) fn changed(&self, elapsed: f64, by: Change) -> (f64, f64) {
         match &self.form {
             Form::Held | Form::Chatter(_) => (by.position, 0.0),
-            Form::Segment(segment) if segment.is_still() => (by.position, 0.0),
-            Form::Segment(segment) => {
+            Form::TaylorStep(segment) if segment.is_still() => (by.position, 0.0),
+            Form::TaylorStep(segment) => {
                 let sigma = segment.parameter_at(elapsed);
                 let [position, velocity] = segment.changed(by);
                 (value(&position, sigma), value(&velocity, sigma))
@@ -68,7 +68,7 @@ impl Course {
     /// How the state after `elapsed` changes with that at departure and, if that is `since` seconds after the instant at
     /// which the drive's angle is held, with the drive's frequency.
     pub(crate) fn transition(&self, elapsed: f64, since: Option<f64>) -> Transition {
-        if let Form::Segment(step) = &self.form {
+        if let Form::TaylorStep(step) = &self.form {
             let force = since.and_then(|since| self.detuning_force(step, since));
             return step.transition(elapsed, force.as_ref());
         }
@@ -92,7 +92,7 @@ impl Course {
     /// The force -A t sin(angle) per mass and d(time)/d(sigma) along a step under its drive and a constant push: by sigma,
     /// that push changes by -A sin(angle) w d(time)/d(sigma). None in slow motion, whose changes are those by a constant
     /// push.
-    fn detuning_force(&self, step: &Segment, since: f64) -> Option<Series> {
+    fn detuning_force(&self, step: &TaylorStep, since: f64) -> Option<Series> {
         let push = &self.departure.push;
         if step.creep.is_some() || !push.is_linear() || push.rate() != 0.0 {
             return None;
@@ -108,8 +108,8 @@ impl Course {
     pub(crate) fn changed_supply(&self, elapsed: f64, by: Change, law: f64) -> f64 {
         match &self.form {
             Form::Held | Form::Chatter(_) => 0.0,
-            Form::Segment(segment) if segment.is_still() => 0.0,
-            Form::Segment(segment) => segment.changed_supply(elapsed, by, law),
+            Form::TaylorStep(segment) if segment.is_still() => 0.0,
+            Form::TaylorStep(segment) => segment.changed_supply(elapsed, by, law),
             Form::Particular { .. } | Form::Responses => {
                 self.changed_supply_of_linear(elapsed, by, law)
             }
@@ -118,7 +118,7 @@ impl Course {
 
     /// The push per mass in m/s^2, `elapsed` seconds after departure.
     pub(crate) fn push(&self, elapsed: f64) -> f64 {
-        if let Form::Segment(segment) = &self.form {
+        if let Form::TaylorStep(segment) = &self.form {
             return value(&segment.push, segment.parameter_at(elapsed));
         }
         self.push_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
@@ -148,7 +148,7 @@ impl Course {
     }
 }
 
-impl Segment {
+impl TaylorStep {
     /// How the state changes with that at the start and under a force per mass and d(time)/d(sigma).
     fn transition(&self, elapsed: f64, force: Option<&Series>) -> Transition {
         budget::charge(budget::TANGENT);

@@ -3,9 +3,9 @@
 
 use nalgebra::{Matrix4x2, SMatrix, SVector, Vector4};
 
-use super::Flow;
-use super::answers::{Answer, Answers};
+use super::LinearLaw;
 use super::modes::Modes;
+use super::parameter_response::{Answer, ParameterResponse};
 use super::place::Departure;
 
 /// What a start with position 1, with velocity 1, and rest under the forces 1, cos(w t), sin(w t) lead to: position y,
@@ -17,11 +17,11 @@ const TERMS: usize = 12;
 /// Largest (fastest rate) x (time) that they have to bridge.
 const REACH: f64 = 0.125;
 
-type Series = [f64; TERMS];
+type ResponseSeries = [f64; TERMS];
 
-impl Flow {
+impl LinearLaw {
     /// The answers of a motion from a departure under a constant push.
-    pub(super) fn answers(&self, from: &Departure, elapsed: f64) -> Answers {
+    pub(super) fn answers(&self, from: &Departure, elapsed: f64) -> ParameterResponse {
         let (modes, w) = (&self.modes, self.frequency);
         let found = self.doubled(elapsed);
         let Departure {
@@ -54,7 +54,7 @@ impl Flow {
             answer(drive.sin * cosine + drive.cos * sine),
         ]);
         let [first, second] = [own(0), own(1)].map(answer);
-        Answers {
+        ParameterResponse {
             free: SMatrix::from_columns(&[first, second]),
             forced,
             travel: (
@@ -121,7 +121,7 @@ fn by_series(modes: &Modes, w: f64, time: f64) -> Doubled {
     let mut one = [0.0; TERMS];
     one[0] = 1.0;
     let zero = [0.0; TERMS];
-    let solve = |start: (f64, f64), force: &Series| -> Series {
+    let solve = |start: (f64, f64), force: &ResponseSeries| -> ResponseSeries {
         let mut y = [0.0; TERMS];
         (y[0], y[1]) = (start.0, start.1 * time);
         let (damping, stiffness) = (2.0 * modes.decay * time, modes.stiffness * time * time);
@@ -132,12 +132,12 @@ fn by_series(modes: &Modes, w: f64, time: f64) -> Doubled {
         }
         y
     };
-    let summed = |y: &Series| {
-        let velocity: Series = std::array::from_fn(|n| match y.get(n + 1) {
+    let summed = |y: &ResponseSeries| {
+        let velocity: ResponseSeries = std::array::from_fn(|n| match y.get(n + 1) {
             Some(next) => (n + 1) as f64 * next,
             None => 0.0,
         });
-        let against = |wave: &Series| -> f64 {
+        let against = |wave: &ResponseSeries| -> f64 {
             let power = |n: usize| -> f64 { (0..=n).map(|j| wave[j] * velocity[n - j]).sum() };
             (0..TERMS).rev().map(|n| power(n) / (n + 1) as f64).sum()
         };

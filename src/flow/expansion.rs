@@ -1,27 +1,27 @@
 //! How a Taylor step of a nonlinear phase comes about: its series, and how far they hold.
 
-use super::creep::Equation;
 use super::hertz::Hertz;
-use super::segment::Segment;
 use super::series::{Series, majorant, value};
+use super::slow_manifold::Equation;
 use super::sphere::is_spherical;
 use super::taylor::{DEGREE, RECIPROCALS, push_series};
-use super::{Departure, Flow};
+use super::taylor_step::TaylorStep;
+use super::{Departure, LinearLaw};
 
 /// What the last coefficients may amount to, relative to the first: well below rounding.
 const SMALLEST: f64 = f64::EPSILON / 64.0;
 /// Its binary logarithm.
 pub(super) const TRUNCATION: f64 = -58.0;
-/// The same of a sphere: what follows on the last coefficients is an eighth of the rounding together.
+/// That bound for a sphere: what follows on the last coefficients is an eighth of the rounding together.
 const OF_SPHERE: f64 = -54.0;
 /// Share of the way to the face that a slow step covers at most.
 const NEAR: f64 = 0.15;
 /// How much longer than a usual step a slow one must be to be worth its price.
 const LONGER: f64 = 20.0;
 
-impl Segment {
+impl TaylorStep {
     /// The step from a departure that lies `deflection` m beyond the face.
-    pub fn new(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+    pub fn new(flow: &LinearLaw, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
         let mut segment = if deflection <= 0.0 && from.velocity == 0.0 {
             Self::without_press(flow, hertz, from, 0.0)
         } else if is_spherical(hertz, from) {
@@ -46,7 +46,7 @@ impl Segment {
 
     /// A step of slow motion, where one is possible and much longer than `usual`.
     fn creeping(
-        flow: &Flow,
+        flow: &LinearLaw,
         hertz: &Hertz,
         from: &Departure,
         deflection: f64,
@@ -84,7 +84,7 @@ impl Segment {
 
     /// The linear law's motion from a deflection next to nothing, in time itself, as long as the power law's part of it
     /// is below rounding.
-    fn without_press(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+    fn without_press(flow: &LinearLaw, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
         let start = (hertz.origin + deflection, from.velocity);
         let mut segment = Self::in_time(flow, hertz, from, start);
         segment.depth[0] = deflection;
@@ -153,12 +153,12 @@ pub(super) fn converges(series: &Series) -> f64 {
     falls_below(TRUNCATION, series, DEGREE.div_ceil(2))
 }
 
-/// The same, where no more than every other coefficient may vanish.
+/// True if a series converges of which no more than every other coefficient may vanish.
 pub(super) fn converges_densely(series: &Series) -> f64 {
     falls_below(TRUNCATION, series, LAST)
 }
 
-/// The same of a sphere's velocity, of which at least every fifth coefficient does not vanish.
+/// True if the series of a sphere's velocity converges, of which at least every fifth coefficient does not vanish.
 pub(super) fn converges_of_sphere(series: &Series) -> f64 {
     falls_below(OF_SPHERE, series, LAST)
 }

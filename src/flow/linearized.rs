@@ -1,9 +1,9 @@
 //! The linear equation that small changes along a Taylor step obey.
 
 use super::pairs::Products;
-use super::segment::Segment;
 use super::series::{Series, ZERO, integral, power, product};
 use super::taylor::{DEGREE, RECIPROCALS};
+use super::taylor_step::TaylorStep;
 
 /// With y the change of the position and u that of the velocity, by sigma, r = d(time)/d(sigma):
 ///
@@ -22,7 +22,7 @@ pub(super) struct Linearized {
 }
 
 impl Linearized {
-    pub fn of(step: &Segment) -> Self {
+    pub fn of(step: &TaylorStep) -> Self {
         let (rate, hertz) = (step.rate(), &step.hertz);
         let mut stiffness = rate.map(|rate| step.stiffness * rate);
         let mut grip = None;

@@ -1,54 +1,54 @@
 //! The exact motion inside one phase.
 //!
-//! Every linear phase obeys x'' + 2 a x' + b x = p(t) + A cos(angle + w t). [`Flow`] holds a, b, A and w
-//! and what can be computed once; a [`Course`] is one motion along it. Three evaluations share the
+//! Every linear phase obeys x'' + 2 a x' + b x = p(t) + A cos(angle + w t). [`LinearLaw`] holds a, b, A and w
+//! and what can be computed once; a [`ArcSolution`] is one motion along it. Three evaluations share the
 //! work, each where it is free of cancellation: a Taylor series for short times, the particular
 //! solution plus the free modes for ordinary ones, and zero-state responses by doubling
 //! where the particular solution blows up. They answer a push p = c + r t. Under a [`Polynomial`] of higher
 //! degree, and in a phase with a power law ([`Hertz`]), the motion is followed in Taylor steps, each a course
 //! of its own.
 
-mod answers;
+mod arc_solution;
 mod change;
 mod chatter;
-mod course;
-mod creep;
 mod doubled;
 mod expansion;
+mod forcing_series;
 mod gauss;
 mod hertz;
 mod linearized;
 mod modes;
+mod near_start;
 mod node;
 mod pairs;
+mod parameter_response;
 mod particular;
 mod place;
 mod polynomial;
 mod power;
 mod pressed;
 mod pushed;
+mod regularized_time;
 mod response;
-mod rungs;
-mod segment;
 mod series;
-mod soon;
+mod slow_manifold;
 mod sphere;
-mod stretch;
 mod taylor;
+mod taylor_step;
 mod variation;
 
-pub(crate) use answers::{Answer, Forces, Source};
+pub use arc_solution::ArcSolution;
 pub(crate) use change::{Change, Transition};
 pub(crate) use chatter::{Chatter, Pressing};
-pub use course::Course;
 pub(crate) use gauss::gauss_nodes;
 pub use hertz::Hertz;
 pub use modes::Modes;
 pub(crate) use node::Window;
+pub(crate) use parameter_response::{Answer, Forces, Source};
 pub use place::{Departure, Drive, Node};
 pub use polynomial::{HIGHEST_ORDER, Polynomial};
-pub(crate) use segment::{Finer, Segment};
 pub(crate) use taylor::{DEGREE, Taylor, evaluate, value};
+pub(crate) use taylor_step::{Finer, TaylorStep};
 
 use nalgebra::Matrix2;
 
@@ -57,7 +57,7 @@ const LARGEST_LOSS: f64 = 64.0;
 
 /// One linear law under the harmonic drive, per unit of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flow {
+pub struct LinearLaw {
     /// The free motion.
     pub modes: Modes,
     /// A = F0/m in m/s^2.
@@ -66,11 +66,11 @@ pub struct Flow {
     pub frequency: f64,
     /// Steady state per drive, x = .0 cos(angle) + .1 sin(angle), where it is well conditioned.
     steady: Option<(f64, f64)>,
-    /// The same wherever it exists, and the time in s after which nothing else is left.
+    /// The steady state wherever it exists, and the time in s after which nothing else is left.
     late: Option<((f64, f64), f64)>,
     /// Time in s that one scan step spans.
     pub(crate) window: f64,
-    /// The same once the free motion has died out.
+    /// Time in s that one scan step spans once the free motion has died out.
     pub(crate) long_window: f64,
     /// Bounds on the fundamental solutions over one window.
     pub(crate) window_bounds: (f64, f64),
@@ -80,7 +80,7 @@ pub struct Flow {
     window_turn: Drive,
 }
 
-impl Flow {
+impl LinearLaw {
     /// The flow of m x'' + `damping` x' + `stiffness` x = `amplitude` cos(w t) + ..., all SI, with
     /// `mass` > 0, `damping` >= 0, `frequency` > 0.
     pub fn new(mass: f64, damping: f64, stiffness: f64, amplitude: f64, frequency: f64) -> Self {
@@ -88,12 +88,12 @@ impl Flow {
         Self::of(modes, amplitude / mass, frequency)
     }
 
-    /// The same under a drive of another frequency.
+    /// This law under a drive of another frequency.
     pub(crate) fn tuned(&self, frequency: f64) -> Self {
         Self::of(self.modes, self.amplitude, frequency)
     }
 
-    /// The same under another drive, of this amplitude per mass.
+    /// This law under another drive, of this amplitude per mass.
     pub(crate) fn driven(&self, amplitude: f64, frequency: f64) -> Self {
         Self::of(self.modes, amplitude, frequency)
     }

@@ -1,9 +1,9 @@
 //! From node to node: a course is scanned window by window.
 
-use super::course::{Course, Form};
+use super::arc_solution::{ArcSolution, Form};
+use super::near_start::near_start;
 use super::particular::Particular;
 use super::place::{Drive, Node};
-use super::soon::soon;
 
 /// What is known of a scan window.
 pub(crate) struct Window<'a> {
@@ -23,7 +23,7 @@ const LONG: f64 = 4.0;
 /// Free motion, relative to the whole, that counts as none.
 const SETTLED: f64 = 16.0 * f64::EPSILON;
 
-impl Course {
+impl ArcSolution {
     /// The departure as a node.
     pub fn start(&self) -> Node {
         let from = &self.departure;
@@ -36,12 +36,12 @@ impl Course {
         self.placed(elapsed, drive, self.at(elapsed, drive))
     }
 
-    /// The same of a linear law within half a reach, with what position and velocity have changed by.
-    pub(crate) fn node_soon(&self, elapsed: f64) -> Option<(Node, (f64, f64))> {
+    /// The node of a linear law within half a reach, with what position and velocity have changed by.
+    pub(crate) fn node_near_start(&self, elapsed: f64) -> Option<(Node, (f64, f64))> {
         if elapsed > 0.5 * self.flow.reach || !self.is_quick() {
             return None;
         }
-        let (way, rise) = soon(&self.flow, &self.departure, elapsed);
+        let (way, rise) = near_start(&self.flow, &self.departure, elapsed);
         let state = (
             self.departure.position + way,
             self.departure.velocity + rise,
@@ -129,7 +129,7 @@ impl Course {
     /// Passes the scan windows that are reached by rotation and `is_clear` of something, up to `until`. Where one is
     /// not, it ends at its left end, and tells its right end and its bound.
     #[inline(never)]
-    pub(crate) fn coast(
+    pub(crate) fn skip_clear_windows(
         &self,
         node: &mut Node,
         until: f64,

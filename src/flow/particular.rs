@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, Vector2};
 
-use super::{Departure, Drive, Flow};
+use super::{Departure, Drive, LinearLaw};
 
 /// The particular solution offset + slope t + cosine cos(angle) + sine sin(angle).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +16,7 @@ pub(super) struct Particular {
 
 impl Particular {
     /// With offset + slope t = (c + r t)/b - 2 a r/b^2.
-    pub fn new(flow: &Flow, from: &Departure, (cosine, sine): (f64, f64)) -> Self {
+    pub fn new(flow: &LinearLaw, from: &Departure, (cosine, sine): (f64, f64)) -> Self {
         let b = flow.modes.stiffness;
         let slope = from.push.rate() / b;
         let offset = (from.push.value() - 2.0 * flow.modes.decay * slope) / b;
@@ -40,7 +40,7 @@ impl Particular {
 
     /// What the harmonic part changes by with the drive's frequency, `time` seconds after the instant at which the
     /// drive's angle is held: the answer Re((c1 t + c0) e^(i angle)) to the force -A t sin(angle).
-    pub fn detuned(&self, flow: &Flow, time: f64, Drive { cos, sin }: Drive) -> Vector2<f64> {
+    pub fn detuned(&self, flow: &LinearLaw, time: f64, Drive { cos, sin }: Drive) -> Vector2<f64> {
         if flow.amplitude == 0.0 {
             return Vector2::zeros();
         }

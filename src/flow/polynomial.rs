@@ -28,7 +28,7 @@ impl Polynomial {
         &self.derivatives
     }
 
-    /// The same with another derivative of one order, at most [`HIGHEST_ORDER`].
+    /// This polynomial with another derivative of one order, at most [`HIGHEST_ORDER`].
     pub const fn with(mut self, order: usize, derivative: f64) -> Self {
         self.derivatives[order] = derivative;
         self
@@ -62,7 +62,7 @@ impl Polynomial {
         }
     }
 
-    /// The same polynomial seen from t = `t`: its derivatives there, each summed anew, so that only
+    /// This polynomial seen from t = `t`: its derivatives there, each summed anew, so that only
     /// their own rounding is added.
     pub fn shifted(&self, t: f64) -> Self {
         if self.is_linear() {

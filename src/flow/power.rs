@@ -2,12 +2,12 @@
 
 use nalgebra::Complex;
 
-use super::course::{Course, Form};
+use super::arc_solution::{ArcSolution, Form};
 use super::gauss::gauss_nodes;
 use super::particular::Particular;
 use super::place::{Drive, Node};
-use super::segment::Segment;
 use super::series::{ZERO, integral_of_product, value};
+use super::taylor_step::TaylorStep;
 
 /// Integrals along a course, per unit of mass, in m^2/s^2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -20,14 +20,14 @@ pub(crate) struct Power {
     pub pressed: f64,
 }
 
-impl Course {
+impl ArcSolution {
     /// Work from departure to a node; `law` is the part of the constant push that is the phase's own
     /// force.
     pub(crate) fn power(&self, to: &Node, law: f64) -> Power {
         let elapsed = to.elapsed;
         match &self.form {
             Form::Held | Form::Chatter(_) => Power::default(),
-            Form::Segment(segment) => segment.work(elapsed, law),
+            Form::TaylorStep(segment) => segment.work(elapsed, law),
             &Form::Particular {
                 particular,
                 deviation,
@@ -155,7 +155,7 @@ impl Course {
     }
 }
 
-impl Segment {
+impl TaylorStep {
     /// Work up to `elapsed`; `law` is the part of the constant push that is the phase's own force.
     pub fn work(&self, elapsed: f64, law: f64) -> Power {
         if self.stretch.is_none() && !self.is_pressed {
@@ -177,7 +177,7 @@ impl Segment {
         done
     }
 
-    /// The same of a linear law: the integrals of the very polynomials, whatever their degree.
+    /// The integrals of a linear law: those of the very polynomials, whatever their degree.
     fn work_in_time(&self, elapsed: f64, law: f64) -> Power {
         let mut force = self.push;
         force[0] -= law;

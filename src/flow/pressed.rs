@@ -5,19 +5,19 @@
 use super::expansion::{converges_densely, outgrown};
 use super::hertz::Hertz;
 use super::pairs::Products;
-use super::segment::Segment;
 use super::series::{Series, ZERO};
 use super::taylor::{DEGREE, RECIPROCALS, push_series};
-use super::{Departure, Flow};
+use super::taylor_step::TaylorStep;
+use super::{Departure, LinearLaw};
 
 /// Ways to the face that a step may be as long as, at the present speed.
 const WAYS: f64 = 1.25;
 
-impl Segment {
+impl TaylorStep {
     /// The step from a departure beyond the face, by the deflection in m and its n-th power; none so close to the
     /// face that the coefficients of a fast mass overflow.
     pub(super) fn pressed(
-        flow: &Flow,
+        flow: &LinearLaw,
         hertz: &Hertz,
         from: &Departure,
         (deflection, raised): (f64, f64),
@@ -35,8 +35,13 @@ impl Segment {
         Some(segment)
     }
 
-    /// The same where n = 2: the law is regular at the face, too.
-    pub(super) fn squared(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+    /// The step where n = 2: the law is regular at the face, too.
+    pub(super) fn squared(
+        flow: &LinearLaw,
+        hertz: &Hertz,
+        from: &Departure,
+        deflection: f64,
+    ) -> Self {
         let mut segment = Self::blank(flow, hertz);
         segment.push = push_series(flow, from);
         segment.is_pressed = true;
@@ -56,7 +61,7 @@ impl Segment {
     }
 
     /// The series of the deflection where n = 2; that of the velocity is returned.
-    fn press_squared(&mut self, flow: &Flow, (deflection, velocity): (f64, f64)) -> Series {
+    fn press_squared(&mut self, flow: &LinearLaw, (deflection, velocity): (f64, f64)) -> Series {
         let (kappa, pull) = (self.hertz.rate(), flow.modes.stiffness);
         let grip = kappa * self.hertz.dissipation;
         let mut v = ZERO;
@@ -81,7 +86,11 @@ impl Segment {
     }
 
     /// The series of the deflection; that of the velocity is returned.
-    fn press(&mut self, flow: &Flow, (deflection, velocity, raised): (f64, f64, f64)) -> Series {
+    fn press(
+        &mut self,
+        flow: &LinearLaw,
+        (deflection, velocity, raised): (f64, f64, f64),
+    ) -> Series {
         let (kappa, pull) = (self.hertz.rate(), flow.modes.stiffness);
         let grip = kappa * self.hertz.dissipation;
         let (inverse, above) = (1.0 / deflection, self.hertz.exponent + 1.0);

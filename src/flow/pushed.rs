@@ -8,14 +8,14 @@
 
 use super::expansion::{TRUNCATION, outgrown};
 use super::hertz::Hertz;
-use super::segment::Segment;
 use super::series::{Series, ZERO};
 use super::taylor::{DEGREE, Taylor, push_series};
-use super::{Departure, Flow};
+use super::taylor_step::TaylorStep;
+use super::{Departure, LinearLaw};
 
-impl Segment {
+impl TaylorStep {
     /// The step of a linear law; `low` is what rounding took from the position before.
-    pub fn pushed(flow: &Flow, from: &Departure, low: f64) -> Self {
+    pub fn pushed(flow: &LinearLaw, from: &Departure, low: f64) -> Self {
         let mut segment = Self::in_time(
             flow,
             &Hertz::default(),
@@ -28,7 +28,7 @@ impl Segment {
     }
 
     /// The step of a mass that is held while the push changes.
-    pub fn held(flow: &Flow, from: &Departure) -> Self {
+    pub fn held(flow: &LinearLaw, from: &Departure) -> Self {
         let mut segment = Self::blank(flow, &Hertz::default());
         segment.depth[0] = from.position;
         segment.push = push_series(flow, from);
@@ -37,7 +37,12 @@ impl Segment {
     }
 
     /// The linear law's motion from `start`, in time itself.
-    pub(super) fn in_time(flow: &Flow, hertz: &Hertz, from: &Departure, start: (f64, f64)) -> Self {
+    pub(super) fn in_time(
+        flow: &LinearLaw,
+        hertz: &Hertz,
+        from: &Departure,
+        start: (f64, f64),
+    ) -> Self {
         let taylor = Taylor::under(flow, start, push_series(flow, from));
         let taylor = match from.acceleration {
             Some(acceleration) => taylor.with_acceleration(flow, acceleration),
@@ -52,7 +57,7 @@ impl Segment {
     /// Time in s over which series in time hold to rounding, and over which no power of the force
     /// outgrows what the motion begins with: a crossing early in a step would drown in the rounding of
     /// its end.
-    pub(super) fn reach_in_time(&self, flow: &Flow, from: &Departure) -> f64 {
+    pub(super) fn reach_in_time(&self, flow: &LinearLaw, from: &Departure) -> f64 {
         let reach = flow.reach;
         if from.push.is_linear() {
             return reach;
@@ -74,7 +79,7 @@ impl Segment {
 
 /// A bound on the first coefficient of the position that is left out, as far as the curved part of the force
 /// brings it about.
-fn left_out(flow: &Flow, from: &Departure) -> f64 {
+fn left_out(flow: &LinearLaw, from: &Departure) -> f64 {
     let rate = flow.modes.fastest_rate();
     let answer = |k: usize| (DEGREE - k) as f64 * rate.powi((DEGREE - 1 - k) as i32);
     let derivatives = from.push.derivatives().iter().enumerate().skip(2);

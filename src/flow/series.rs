@@ -10,9 +10,9 @@ pub(super) const ZERO: Series = [0.0; DEGREE + 1];
 
 /// A series from its last coefficient to its first: products with others then run along both.
 #[derive(Debug, Clone)]
-pub(super) struct Turned(Series);
+pub(super) struct ReversedSeries(Series);
 
-impl Turned {
+impl ReversedSeries {
     /// The series that vanishes.
     pub const ZERO: Self = Self(ZERO);
 
@@ -83,7 +83,7 @@ pub(super) fn curved_part(series: &Series, span: f64) -> f64 {
 
 /// A power of a series that is known coefficient by coefficient.
 #[derive(Debug, Clone)]
-pub(super) enum Power {
+pub(super) enum PowerRecurrence {
     /// The zeroth.
     One,
     /// A whole number m > 0: the powers 2 to m.
@@ -97,7 +97,7 @@ pub(super) enum Power {
 /// Largest whole exponent that is built up by products.
 const MOST_PRODUCTS: f64 = 12.0;
 
-impl Power {
+impl PowerRecurrence {
     /// The power of a series that begins with `first` >= 0.
     pub fn new(exponent: f64, first: f64) -> Self {
         let start = first.powf(exponent);
@@ -116,7 +116,7 @@ impl Power {
 
     /// The k-th coefficient, from those of `base`, also turned, up to the k-th. To be asked for in order.
     #[inline]
-    pub fn coefficient(&mut self, base: &Series, turned: &Turned, k: usize) -> f64 {
+    pub fn coefficient(&mut self, base: &Series, turned: &ReversedSeries, k: usize) -> f64 {
         match self {
             Self::One if k == 0 => 1.0,
             Self::Whole(powers) => {
@@ -142,14 +142,14 @@ impl Power {
 
 /// All coefficients of a power.
 pub(super) fn power(base: &Series, exponent: f64) -> Series {
-    let mut power = Power::new(exponent, base[0]);
-    let turned = Turned::of(base);
+    let mut power = PowerRecurrence::new(exponent, base[0]);
+    let turned = ReversedSeries::of(base);
     std::array::from_fn(|k| power.coefficient(base, &turned, k))
 }
 
 /// The product of two series.
 pub(super) fn product(a: &Series, b: &Series) -> Series {
-    let turned = Turned::of(a);
+    let turned = ReversedSeries::of(a);
     std::array::from_fn(|k| turned.times(b, k))
 }
 

@@ -8,27 +8,27 @@
 
 use super::hertz::Hertz;
 use super::pairs::Products;
-use super::segment::{Segment, Stretch};
 use super::taylor::{DEGREE, RECIPROCALS};
-use super::{Departure, Flow};
+use super::taylor_step::{RegularizedTime, TaylorStep};
+use super::{Departure, LinearLaw};
 
 /// True if it is this law, under a constant push beside the drive.
 pub(super) fn is_spherical(hertz: &Hertz, from: &Departure) -> bool {
     hertz.exponent == 1.5 && from.push.is_linear() && from.push.rate() == 0.0
 }
 
-impl Segment {
+impl TaylorStep {
     /// The series in sigma; `GRIPS`: the law dissipates.
     pub(super) fn along_sphere<const GRIPS: bool>(
         &mut self,
-        flow: &Flow,
+        flow: &LinearLaw,
         from: &Departure,
         deflection: f64,
-    ) -> Box<Stretch> {
+    ) -> Box<RegularizedTime> {
         let (kappa, b, w) = (self.hertz.rate(), flow.modes.stiffness, flow.frequency);
         let grip = kappa * self.hertz.dissipation;
         let constant = from.push.value() - b * self.hertz.origin;
-        let mut stretch = Box::<Stretch>::default();
+        let mut stretch = Box::<RegularizedTime>::default();
         stretch.index = 2.0;
         let start = deflection.sqrt();
         let (mut cos, mut sin) = (

@@ -1,8 +1,8 @@
 //! Local Taylor polynomials of the exact motion: they locate crossings without cancellation.
 
-use super::{Departure, Drive, Flow};
+use super::{Departure, Drive, LinearLaw};
 
-/// Degree of the polynomials (odd): over one [`reach`](Flow::reach) the remainder is far below rounding, and a contact
+/// Degree of the polynomials (odd): over one [`reach`](LinearLaw::reach) the remainder is far below rounding, and a contact
 /// under a power law costs least.
 pub(crate) const DEGREE: usize = 25;
 
@@ -28,7 +28,7 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
 
 impl Taylor {
     /// Expands the motion from (x, v) under a push.
-    pub fn under(flow: &Flow, (x, v): (f64, f64), push: [f64; DEGREE + 1]) -> Self {
+    pub fn under(flow: &LinearLaw, (x, v): (f64, f64), push: [f64; DEGREE + 1]) -> Self {
         let mut position = [0.0; DEGREE + 1];
         position[0] = x;
         position[1] = v;
@@ -38,7 +38,7 @@ impl Taylor {
     }
 
     /// Coefficients of the position from the `first` + 2 before them.
-    fn follow(&mut self, flow: &Flow, first: usize) {
+    fn follow(&mut self, flow: &LinearLaw, first: usize) {
         let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
         let position = &mut self.position;
         for n in first..DEGREE - 1 {
@@ -48,15 +48,15 @@ impl Taylor {
         }
     }
 
-    /// The same drive, with the mass at rest at `position`.
+    /// This drive, with the mass at rest at `position`.
     pub fn at_rest(mut self, position: f64) -> Self {
         self.position = [0.0; DEGREE + 1];
         self.position[0] = position;
         self
     }
 
-    /// The same motion where the initial acceleration is known.
-    pub fn with_acceleration(mut self, flow: &Flow, acceleration: f64) -> Self {
+    /// This motion where the initial acceleration is known.
+    pub fn with_acceleration(mut self, flow: &LinearLaw, acceleration: f64) -> Self {
         self.position[2] = 0.5 * acceleration;
         self.follow(flow, 1);
         self
@@ -82,7 +82,7 @@ impl Taylor {
 }
 
 /// Coefficients of the push p(t) + A cos(angle + w t) at a departure.
-pub(super) fn push_series(flow: &Flow, from: &Departure) -> [f64; DEGREE + 1] {
+pub(super) fn push_series(flow: &LinearLaw, from: &Departure) -> [f64; DEGREE + 1] {
     let (value, rate) = (from.push.value(), from.push.rate());
     let mut push = linear_push_series(flow, from.drive, (value, rate));
     if !from.push.is_linear() {
@@ -96,7 +96,7 @@ pub(super) fn push_series(flow: &Flow, from: &Departure) -> [f64; DEGREE + 1] {
 
 /// Coefficients of the push `constant` + `ramp` t + A cos(angle + w t) with drive (cos, sin).
 pub(super) fn linear_push_series(
-    flow: &Flow,
+    flow: &LinearLaw,
     Drive { cos, sin }: Drive,
     (constant, ramp): (f64, f64),
 ) -> [f64; DEGREE + 1] {
@@ -136,7 +136,7 @@ pub(crate) fn evaluate(coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {
     evaluate_from(coefficients[0], coefficients, s)
 }
 
-/// The same with another constant: Horner on four parts of it, side by side.
+/// A polynomial and its derivative, with another constant: Horner on four parts of it, side by side.
 #[inline]
 pub(super) fn evaluate_from(first: f64, coefficients: &[f64; DEGREE + 1], s: f64) -> (f64, f64) {
     let square = s * s;

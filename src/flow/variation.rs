@@ -3,22 +3,22 @@
 
 use nalgebra::{Matrix3x2, Vector3};
 
-use super::answers::{Answer, Answers};
-use super::course::{Course, Form};
+use super::arc_solution::{ArcSolution, Form};
 use super::gauss::gauss_nodes;
 use super::linearized::Linearized;
-use super::segment::Segment;
+use super::parameter_response::{Answer, ParameterResponse};
 use super::series::{Series, ZERO, convolve, product, value};
+use super::taylor_step::TaylorStep;
 
 /// Halvings of a step towards the face, where d^n ln d is not smooth.
 const HALVINGS: i32 = 16;
 
-impl Course {
+impl ArcSolution {
     /// The answers `elapsed` seconds after departure, that to d^n ln d only if `logarithm` is asked for. None where
     /// they are not known: in bounces summed, in slow motion under heavy damping, under a force that is not constant.
-    pub(crate) fn answers(&self, elapsed: f64, logarithm: bool) -> Option<Answers> {
+    pub(crate) fn answers(&self, elapsed: f64, logarithm: bool) -> Option<ParameterResponse> {
         match &self.form {
-            Form::Held => Some(Answers {
+            Form::Held => Some(ParameterResponse {
                 free: Matrix3x2::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0),
                 forced: [Answer::zeros(); 9],
                 travel: (0.0, 0.0),
@@ -26,7 +26,9 @@ impl Course {
             Form::Particular { .. } | Form::Responses if self.departure.push.rate() == 0.0 => {
                 Some(self.flow.answers(&self.departure, elapsed))
             }
-            Form::Segment(segment) if segment.creep.is_none() && segment.hertz.stiffness > 0.0 => {
+            Form::TaylorStep(segment)
+                if segment.creep.is_none() && segment.hertz.stiffness > 0.0 =>
+            {
                 Some(self.answers_of_step(segment, segment.parameter_at(elapsed), logarithm))
             }
             _ => None,
@@ -35,7 +37,7 @@ impl Course {
 
     /// With Y the transition from the start and J the row of its work, d(end) = (Y, J) d(start) + the integral of
     /// (Y, J) Y(s)^-1 (0, f(s)) - (0, J(s) Y(s)^-1 (0, f(s))).
-    fn answers_of_step(&self, step: &Segment, to: f64, logarithm: bool) -> Answers {
+    fn answers_of_step(&self, step: &TaylorStep, to: f64, logarithm: bool) -> ParameterResponse {
         let law = Linearized::of(step);
         let rate = law.rate;
         let (cos, sin) = self.turning(&rate);
@@ -88,7 +90,7 @@ impl Course {
             travel.1 += time * sin * velocity;
         }
         let free = free(to);
-        Answers {
+        ParameterResponse {
             free,
             forced: sums.map(|sum| free * sum.xy() - Answer::new(0.0, 0.0, sum.z)),
             travel,
@@ -109,7 +111,7 @@ impl Course {
     }
 }
 
-impl Segment {
+impl TaylorStep {
     /// Nodes and weights of Gauss's rule from 0 to `to`; at a face, if asked for, in pieces halved towards both ends.
     fn nodes(&self, to: f64, halved: bool) -> Vec<(f64, f64)> {
         if !halved || self.stretch.is_none() {

@@ -6,13 +6,13 @@ use std::ops::ControlFlow;
 
 use super::clock::Instant;
 use super::effort;
-use super::landing::Landing;
 use super::motion::Motion;
 use super::observer::{Arc, Crossing, CrossingKind, Observer};
+use super::reset::Reset;
 use super::start::Start;
 use crate::budget;
 use crate::error::MotionError;
-use crate::events::{Found, Guard, Outlook, first_crossing};
+use crate::events::{Found, Guard, NextEvent, first_crossing};
 use crate::flow::{Drive, Finer, Node};
 use crate::phases::{Mode, Phase};
 
@@ -42,7 +42,7 @@ impl Motion {
         self.watch(until, observer).map(drop)
     }
 
-    /// The same, and whether `observer` stopped it. The present time is then that of a crossing, or lies on a
+    /// Advances, and says whether `observer` stopped it. The present time is then that of a crossing, or lies on a
     /// long arc.
     ///
     /// # Errors
@@ -70,10 +70,10 @@ impl Motion {
         }
         let mut at_once = 0;
         let (mut cycle, mut work) = (self.now.cycles, 0);
-        while !self.glide(until)? {
+        while !self.advance_if_clear(until)? {
             let (elapsed, counts) = match self.outlook {
-                Outlook::Crossing(Found { elapsed, .. }) => (elapsed, 1),
-                Outlook::Ends(elapsed) => (elapsed, STEP_AT_ONCE),
+                NextEvent::Crossing(Found { elapsed, .. }) => (elapsed, 1),
+                NextEvent::Ends(elapsed) => (elapsed, STEP_AT_ONCE),
                 _ => (0.0, 0),
             };
             at_once = match self.is_instant(elapsed) {
@@ -90,20 +90,20 @@ impl Motion {
                 return Ok(ControlFlow::Break(()));
             }
             let windows = match self.outlook {
-                Outlook::Crossing(found) => {
+                NextEvent::Crossing(found) => {
                     self.cross(found, observer);
                     budget::charge(budget::CROSSING);
                     budget::CROSSING
                 }
-                Outlook::Ends(elapsed) => {
+                NextEvent::Ends(elapsed) => {
                     self.go_on(elapsed, observer);
                     budget::TAYLOR_STEP
                 }
-                Outlook::ClearUntil(node) => {
+                NextEvent::ClearUntil(node) => {
                     self.now = self.clock.after(self.start, node.elapsed);
                     effort::CHUNK.into()
                 }
-                Outlook::Never | Outlook::Unbounded(_) => 0,
+                NextEvent::Never | NextEvent::Unbounded(_) => 0,
             };
             if observer.progress(windows).is_break() {
                 return Ok(ControlFlow::Break(()));
@@ -130,7 +130,7 @@ impl Motion {
     ///
     /// # Errors
     /// [`MotionError::Unbounded`].
-    pub(super) fn glide(&mut self, until: Instant) -> Result<bool, MotionError> {
+    pub(super) fn advance_if_clear(&mut self, until: Instant) -> Result<bool, MotionError> {
         let horizon = self.clock.elapsed(self.start, until);
         if self.is_clear_at_once(horizon) {
             self.now = until;
@@ -139,10 +139,10 @@ impl Motion {
         self.look_ahead(horizon)?;
         // Written such that a time that is not a number stops nothing.
         let ends = match &self.outlook {
-            Outlook::Crossing(found) => found.elapsed <= horizon,
-            Outlook::Ends(elapsed) => *elapsed <= horizon,
-            Outlook::ClearUntil(node) => node.elapsed < horizon,
-            Outlook::Never | Outlook::Unbounded(_) => false,
+            NextEvent::Crossing(found) => found.elapsed <= horizon,
+            NextEvent::Ends(elapsed) => *elapsed <= horizon,
+            NextEvent::ClearUntil(node) => node.elapsed < horizon,
+            NextEvent::Never | NextEvent::Unbounded(_) => false,
         };
         if ends {
             return Ok(false);
@@ -180,7 +180,7 @@ impl Motion {
     }
 
     fn look_ahead(&mut self, horizon: f64) -> Result<(), MotionError> {
-        if let Outlook::ClearUntil(node) = self.outlook
+        if let NextEvent::ClearUntil(node) = self.outlook
             && node.elapsed < horizon
         {
             let sight = node.elapsed + f64::from(effort::CHUNK) * self.course.flow.window;
@@ -195,7 +195,7 @@ impl Motion {
             let found = found.filter(|_| !budget::is_spent());
             self.outlook = found.ok_or_else(|| self.over_budget())?;
         }
-        if let Outlook::Unbounded(node) = &self.outlook
+        if let NextEvent::Unbounded(node) = &self.outlook
             && node.elapsed < horizon
         {
             let time = self.clock.time(self.clock.after(self.start, node.elapsed));
@@ -207,7 +207,7 @@ impl Motion {
         Ok(())
     }
 
-    fn search(&self, node: Node, horizon: f64) -> Outlook {
+    fn search(&self, node: Node, horizon: f64) -> NextEvent {
         first_crossing(&self.course, &self.guards(), node, horizon)
     }
 
@@ -233,7 +233,7 @@ impl Motion {
         let position = self.course.departure.position;
         let speed = self.course.chatter().map_or(0.0, |chatter| chatter.speed);
         let mode = self.phases.leave(hold, position, self.push(drive));
-        let rest = Landing::new(position, 0.0, mode, CrossingKind::Rest);
+        let rest = Reset::new(position, 0.0, mode, CrossingKind::Rest);
         self.take_up(rest, Start::new(position, speed), drive, observer);
     }
 
@@ -287,7 +287,7 @@ impl Motion {
     /// Goes on from a crossing at the start of the next arc, and tells of it.
     fn take_up(
         &mut self,
-        landing: Landing,
+        landing: Reset,
         before: Start,
         drive: Drive,
         observer: &mut impl Observer,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::clock::{Clock, Instant};
 use super::impact::Impact;
 use super::observer::{Arc, Crossing, CrossingKind, Observer};
-use super::review::integral;
+use super::replay::integral;
 use super::simulation::Simulation;
 use super::start::Start;
 use crate::error::MotionError;
@@ -58,20 +58,20 @@ impl Simulation {
             return Ok(Contacts::default());
         }
         let (motion, from) = self.marked();
-        let mut watch = Watch {
+        let mut watch = ContactRecorder {
             scene: &self.scene,
             clock: *motion.clock(),
             epoch: self.epoch,
             from,
             contacts: Contacts::default(),
         };
-        self.review(&mut watch)?;
+        self.replay(&mut watch)?;
         Ok(watch.contacts)
     }
 }
 
 /// Gathers contacts from an instant on.
-struct Watch<'a> {
+struct ContactRecorder<'a> {
     scene: &'a Scene,
     clock: Clock,
     epoch: f64,
@@ -79,7 +79,7 @@ struct Watch<'a> {
     contacts: Contacts,
 }
 
-impl Observer for Watch<'_> {
+impl Observer for ContactRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let from = self.clock.elapsed(arc.start, self.from).max(0.0);
         if arc.kind == PhaseKind::Free || elapsed <= from {

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::checkpoint::Checkpoint;
 use super::clock::Clock;
 use super::force::polynomial;
-use super::mark::Mark;
 use super::simulation::Simulation;
 use crate::error::MotionError;
 
@@ -49,7 +49,7 @@ impl Simulation {
             self.tallies.counts.work += work;
         }
         self.scene = scene;
-        self.mark = Mark::OnArc(self.motion.now());
+        self.mark = Checkpoint::OnArc(self.motion.now());
         Ok(())
     }
 

@@ -2,13 +2,13 @@
 
 use std::ops::ControlFlow;
 
+use super::checkpoint::{Checkpoint, CheckpointState};
 use super::clock::Instant;
-use super::mark::{Mark, Origin};
 use super::motion::Motion;
 use super::simulation::Simulation;
 use super::{Effort, Observer};
 use crate::error::MotionError;
-use crate::events::Outlook;
+use crate::events::NextEvent;
 use crate::phases::Mode;
 
 /// Share of the drive period within which two instants are one and the same but for rounding.
@@ -22,8 +22,8 @@ impl Motion {
     /// When the crossing happens that ends the present arc, as far as it is known.
     pub(super) fn next_crossing(&self) -> Option<Instant> {
         let elapsed = match (self.outlook, self.mode) {
-            (Outlook::Crossing(found), _) => found.elapsed,
-            (Outlook::Ends(elapsed), Mode::Chattering(_)) => elapsed,
+            (NextEvent::Crossing(found), _) => found.elapsed,
+            (NextEvent::Ends(elapsed), Mode::Chattering(_)) => elapsed,
             _ => return None,
         };
         Some(self.clock.after(self.start, elapsed))
@@ -42,8 +42,8 @@ impl Motion {
     /// Lets the crossing happen that the motion stands before.
     fn cross_now(&mut self, observer: &mut impl Observer) {
         match self.outlook {
-            Outlook::Crossing(found) => self.cross(found, observer),
-            Outlook::Ends(elapsed) => self.go_on(elapsed, observer),
+            NextEvent::Crossing(found) => self.cross(found, observer),
+            NextEvent::Ends(elapsed) => self.go_on(elapsed, observer),
             _ => {}
         }
     }
@@ -105,12 +105,12 @@ impl Simulation {
         if !self.motion.is_at_crossing() {
             return false;
         }
-        if let Mark::OnArc(now) = self.mark {
+        if let Checkpoint::OnArc(now) = self.mark {
             let motion = Motion {
                 now,
                 ..self.motion.clone()
             };
-            self.mark = Mark::Before(Box::new(Origin {
+            self.mark = Checkpoint::Before(Box::new(CheckpointState {
                 motion,
                 counts: self.tallies.counts,
                 now: self.time_of(now),

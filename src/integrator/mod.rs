@@ -1,6 +1,8 @@
 //! The exact integrator: from crossing to crossing.
 
 mod advance;
+mod bounce_train;
+mod checkpoint;
 mod clock;
 mod contacts;
 mod drive;
@@ -9,20 +11,19 @@ mod energy;
 mod evaluations;
 mod event;
 mod force;
-mod hum;
 mod impact;
-mod landing;
-mod mark;
+mod last_advance;
 mod motion;
 mod observer;
 mod outputs;
+mod placed;
 mod rates;
+mod replay;
+mod reset;
 mod resume;
-mod review;
 mod simulation;
 mod snapshot;
 mod start;
-mod stretch;
 mod tallies;
 mod walk;
 mod work;

@@ -2,15 +2,15 @@
 
 use std::sync::Arc as Shared;
 
+use super::bounce_train::BounceTrain;
 use super::clock::{Clock, Instant};
 use super::force::Force;
-use super::hum::Hum;
 use super::observer::Arc;
 use super::start::Start;
 use crate::error::MotionError;
-use crate::events::{Outlook, is_clear_soon};
-use crate::flow::{Chatter, Course, Departure, Drive, Finer, Polynomial};
-use crate::phases::{Hold, Mode, Phase, PhaseId, PhaseKind, Phases, Store};
+use crate::events::{NextEvent, is_clear_near_start};
+use crate::flow::{ArcSolution, Chatter, Departure, Drive, Finer, Polynomial};
+use crate::phases::{Mode, Phase, PhaseId, PhaseKind, Phases, Sticking, Store};
 
 /// The exact motion of a scene, arc by arc.
 ///
@@ -27,9 +27,9 @@ pub struct Motion {
     pub(super) force: Force,
     pub(super) start: Instant,
     pub(super) now: Instant,
-    pub(super) course: Course,
-    pub(super) outlook: Outlook,
-    pub(super) hum: Hum,
+    pub(super) course: ArcSolution,
+    pub(super) outlook: NextEvent,
+    pub(super) hum: BounceTrain,
 }
 
 impl Motion {
@@ -46,7 +46,7 @@ impl Motion {
         Self::with(phases, clock, at, start, Polynomial::default(), true)
     }
 
-    /// The same under an external force in N that begins with the motion, with or without a strip.
+    /// A motion under an external force in N that begins with the motion, with or without a strip.
     ///
     /// # Errors
     /// As [`Motion::new`].
@@ -71,10 +71,10 @@ impl Motion {
             push: Polynomial::default(),
             acceleration: None,
         };
-        let course = Course::held(&phases.held(), departure);
+        let course = ArcSolution::held(&phases.held(), departure);
         let push = phases.push(drive, &force);
         let mode = phases.locate(start.position, start.velocity, push, fed);
-        let outlook = Outlook::Never;
+        let outlook = NextEvent::Never;
         let mut motion = Self {
             phases,
             clock,
@@ -86,7 +86,7 @@ impl Motion {
             now: at,
             course,
             outlook,
-            hum: Hum::default(),
+            hum: BounceTrain::default(),
         };
         motion.depart(start, drive, mode);
         Ok(motion)
@@ -126,8 +126,8 @@ impl Motion {
         };
         horizon <= self.course.flow.window
             && self.now == self.start
-            && matches!(self.outlook, Outlook::ClearUntil(_))
-            && is_clear_soon(&self.course, &self.phases[phase].guards, horizon)
+            && matches!(self.outlook, NextEvent::ClearUntil(_))
+            && is_clear_near_start(&self.course, &self.phases[phase].guards, horizon)
     }
 
     /// The clock of its drive.
@@ -158,10 +158,10 @@ impl Motion {
     /// What the stop stores now.
     pub fn store(&self) -> &Store {
         let (Mode::Moving(phase)
-        | Mode::Held(Hold {
+        | Mode::Held(Sticking {
             backward: phase, ..
         })
-        | Mode::Chattering(Hold {
+        | Mode::Chattering(Sticking {
             backward: phase, ..
         })) = self.mode;
         &self.phases[phase].store
@@ -176,8 +176,11 @@ impl Motion {
     pub fn state(&self) -> Start {
         let drive = self.clock.drive(self.now);
         let (position, velocity) = self.course.at(self.elapsed(), drive);
+        // A motion that was put beyond a surface is not brought back.
+        let begin = self.course.departure.position;
+        let bounding = self.phase().filter(|phase| phase.confine(begin) == begin);
         let confine = |phase: &Phase| phase.confine(position);
-        Start::new(self.phase().map_or(position, confine), velocity)
+        Start::new(bounding.map_or(position, confine), velocity)
     }
 
     /// The arc that is under way.
@@ -256,19 +259,19 @@ impl Motion {
                             .renew_nonlinear(&phase.flow, hertz, departure, deflection);
                     }
                     (None, Some(Finer { low, .. })) => {
-                        self.course = Course::resumed(&phase.flow, departure, low);
+                        self.course = ArcSolution::resumed(&phase.flow, departure, low);
                     }
                     (None, None) => self.course.renew(&phase.flow, departure),
                 }
             }
             (Mode::Chattering(_), Some(chatter)) => {
-                self.course = Course::chattering(&held(), departure, chatter);
+                self.course = ArcSolution::chattering(&held(), departure, chatter);
             }
             (Mode::Held(_) | Mode::Chattering(_), _) => {
-                self.course = Course::held(&held(), departure);
+                self.course = ArcSolution::held(&held(), departure);
             }
         }
         self.mode = mode;
-        self.outlook = Outlook::ClearUntil(self.course.start());
+        self.outlook = NextEvent::ClearUntil(self.course.start());
     }
 }

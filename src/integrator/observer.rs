@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::clock::{Clock, Instant};
 use super::start::Start;
-use crate::flow::{Course, Drive, Node};
+use crate::flow::{ArcSolution, Drive, Node};
 use crate::phases::{Phase, PhaseKind};
 
 /// A stretch of motion in one phase.
@@ -17,7 +17,7 @@ pub struct Arc<'a> {
     pub clock: &'a Clock,
     /// Its exact motion.
     #[doc(hidden)]
-    pub course: &'a Course,
+    pub course: &'a ArcSolution,
     /// Its phase; none while the mass is held.
     #[doc(hidden)]
     pub phase: Option<&'a Phase>,

@@ -6,7 +6,7 @@ use super::motion::Motion;
 use super::start::Start;
 use crate::error::MotionError;
 use crate::flow::Polynomial;
-use crate::phases::{Hold, Mode, Phases};
+use crate::phases::{Mode, Phases, Sticking};
 
 impl Motion {
     /// This motion, taken up at its present state through other phases.
@@ -37,7 +37,7 @@ impl Motion {
         true
     }
 
-    /// The same under another drive as well, by the same laws under that drive and its clock, which says that it is now
+    /// Goes on under another drive as well, by the same laws under that drive and its clock, which says that it is now
     /// `at`.
     pub(super) fn set_drive(
         &mut self,
@@ -68,7 +68,7 @@ impl Motion {
                 let push = self.push(drive);
                 self.mode = self.phases.leave(hold, state.position, push);
             }
-            Mode::Chattering(Hold { backward, .. }) => {
+            Mode::Chattering(Sticking { backward, .. }) => {
                 self.mode = Mode::Moving(if state.velocity > 0.0 {
                     self.phases.forward_of(backward)
                 } else {
@@ -113,7 +113,7 @@ impl Motion {
         Ok(())
     }
 
-    /// The same motion at a time on its present arc, with an arc of its own from there on.
+    /// This motion at a time on its present arc, with an arc of its own from there on.
     pub(crate) fn departed_at(&self, now: Instant) -> Self {
         let mut motion = Self {
             now,

@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use super::checkpoint::{Checkpoint, CheckpointState};
 use super::clock::{Clock, Instant};
 use super::force::polynomial;
 use super::impact::Impact;
-use super::mark::{Mark, Origin};
 use super::motion::Motion;
 use super::start::Start;
 use super::tallies::{Counts, Tallies};
@@ -25,7 +25,7 @@ pub struct Simulation {
     pub(super) tallies: Tallies,
     /// Absolute time at which the machine started.
     pub(super) begin: f64,
-    pub(super) mark: Mark,
+    pub(super) mark: Checkpoint,
     /// The last impact before the clock's time 0.
     pub(super) earlier: Option<Impact>,
 }
@@ -53,13 +53,13 @@ impl From<Start> for Begin {
 }
 
 impl Begin {
-    /// The same at another absolute time in s.
+    /// These options at another absolute time in s.
     #[must_use]
     pub const fn at_time(self, time: f64) -> Self {
         Self { time, ..self }
     }
 
-    /// The same with a strip or without.
+    /// These options with a strip or without.
     #[must_use]
     pub const fn fed(self, fed: bool) -> Self {
         Self { fed, ..self }
@@ -100,7 +100,7 @@ impl Simulation {
             now: time,
             tallies,
             begin: time,
-            mark: Mark::OnArc(at),
+            mark: Checkpoint::OnArc(at),
             earlier: None,
         })
     }
@@ -124,7 +124,7 @@ impl Simulation {
         self.watch(until, &mut ()).map(drop)
     }
 
-    /// The same, watched by an observer, which may stop it: then the present time tells how far it is. An
+    /// Advances, watched by an observer, which may stop it: then the present time tells how far it is. An
     /// [`Effort`](super::Effort) limits what it may cost. [`Simulation::time_of`] gives the times of crossings.
     ///
     /// # Errors
@@ -155,15 +155,15 @@ impl Simulation {
             stop = Some(clock.instant(halt - rounding - self.epoch));
         }
         // Equal times may be written as instants that differ in the last digit.
-        if instant <= before || self.motion.glide(end)? {
+        if instant <= before || self.motion.advance_if_clear(end)? {
             if halt.is_some() && instant > before {
                 self.motion.now = instant;
             }
-            self.mark = Mark::OnArc(before);
+            self.mark = Checkpoint::OnArc(before);
             self.now = until;
             return Ok(ControlFlow::Continue(()));
         }
-        let origin = Origin {
+        let origin = CheckpointState {
             motion: self.motion.clone(),
             counts: self.tallies.counts,
             now: self.now,
@@ -172,7 +172,7 @@ impl Simulation {
         let mut observers = (&mut self.tallies, observer);
         match self.motion.watch_before(end, stop, &mut observers) {
             Ok(flow) => {
-                self.mark = Mark::Before(origin);
+                self.mark = Checkpoint::Before(origin);
                 self.now = if flow.is_continue() {
                     if halt.is_some() && instant > self.motion.start {
                         self.motion.now = instant;
@@ -227,7 +227,7 @@ impl Simulation {
             if self.motion.set_force(force) {
                 self.tallies.counts.work += work;
             }
-            self.mark = Mark::OnArc(self.motion.now());
+            self.mark = Checkpoint::OnArc(self.motion.now());
         }
         Ok(())
     }
@@ -264,7 +264,7 @@ impl Simulation {
             self.restart();
         }
         (self.motion, self.scene) = (motion, scene.clone());
-        self.mark = Mark::OnArc(self.motion.now());
+        self.mark = Checkpoint::OnArc(self.motion.now());
         self.tallies.mass = scene.mass;
         let mechanical = mechanical_energy(scene, &self.motion);
         self.tallies.counts.work.supplied += mechanical - before;

@@ -8,19 +8,19 @@ use std::sync::Arc as Shared;
 
 use serde::{Deserialize, Serialize};
 
+use super::bounce_train::BounceTrain;
+use super::checkpoint::Checkpoint;
 use super::clock::{Clock, Instant};
 use super::force::Force;
-use super::hum::Hum;
 use super::impact::Impact;
-use super::mark::Mark;
 use super::motion::Motion;
 use super::simulation::Simulation;
 use super::start::Start;
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
-use crate::events::Outlook;
-use crate::flow::{Chatter, Departure, Finer, Polynomial, Segment};
-use crate::phases::{Hold, Mode, Phases};
+use crate::events::NextEvent;
+use crate::flow::{Chatter, Departure, Finer, Polynomial, TaylorStep};
+use crate::phases::{Mode, Phases, Sticking};
 use crate::scene::Scene;
 
 /// A running machine at one time. Written to bytes and read back, in this process or another, it goes
@@ -33,7 +33,7 @@ pub struct Snapshot {
     begin: f64,
     counts: Counts,
     motion: Moving,
-    mark: Mark<Moving>,
+    mark: Checkpoint<Moving>,
     earlier: Option<Impact>,
 }
 
@@ -52,8 +52,8 @@ struct Moving {
     /// What is known of the departure beyond its rounded position.
     finer: Option<Finer>,
     chatter: Option<Chatter>,
-    outlook: Outlook,
-    hum: Hum,
+    outlook: NextEvent,
+    hum: BounceTrain,
 }
 
 impl Moving {
@@ -67,7 +67,7 @@ impl Moving {
             start: motion.start,
             now: motion.now,
             departure: motion.course.departure,
-            finer: motion.course.segment().map(Segment::finer_start),
+            finer: motion.course.segment().map(TaylorStep::finer_start),
             chatter: motion.course.chatter().copied(),
             outlook: motion.outlook,
             hum: motion.hum,
@@ -90,14 +90,14 @@ impl Moving {
         motion.begin(self.departure, self.mode, self.finer, self.chatter);
         motion.outlook = self.outlook;
         let guards = motion.guards().len();
-        if matches!(self.outlook, Outlook::Crossing(found) if found.guard >= guards) {
+        if matches!(self.outlook, NextEvent::Crossing(found) if found.guard >= guards) {
             return Err(broken("a crossing of a surface that does not exist"));
         }
         Ok(motion)
     }
 
     fn validate(&self, phases: &Phases) -> Result<(), MotionError> {
-        let held = self.mode.hold().into_iter().flat_map(Hold::phases);
+        let held = self.mode.hold().into_iter().flat_map(Sticking::phases);
         let mut named = self.mode.phase().into_iter().chain(held);
         if named.any(|phase| phase.index() >= phases.phases.len()) {
             return Err(broken("a phase that does not exist"));

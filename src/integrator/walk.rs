@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::hum::Hum;
-use super::landing::Ground;
+use super::bounce_train::BounceTrain;
+use super::reset::ResetContext;
 use super::{Impact, Start};
 use crate::error::MotionError;
 use crate::events::{Found, Guard};
@@ -28,7 +28,7 @@ pub struct Walk<'a> {
     releases: Vec<Guard>,
     time: f64,
     state: Start,
-    hum: Hum,
+    hum: BounceTrain,
     at_once: u32,
     impacts: Vec<Impact>,
 }
@@ -43,7 +43,7 @@ impl<'a> Walk<'a> {
         Ok(Self::through(scene, start, Cow::Owned(scene.phases())))
     }
 
-    /// The same for a scene and a start that make sense, through the scene's phases.
+    /// A walk for a scene and a start that make sense, through the scene's phases.
     pub fn through(scene: &'a Scene, start: Start, phases: Cow<'a, Phases>) -> Self {
         let mut walk = Self {
             scene,
@@ -52,7 +52,7 @@ impl<'a> Walk<'a> {
             releases: Vec::new(),
             time: 0.0,
             state: start,
-            hum: Hum::default(),
+            hum: BounceTrain::default(),
             at_once: 0,
             impacts: Vec::new(),
         };
@@ -92,7 +92,7 @@ impl<'a> Walk<'a> {
         &self.impacts
     }
 
-    /// The same, at the end.
+    /// The impacts, at the end.
     pub fn into_impacts(self) -> Vec<Impact> {
         self.impacts
     }
@@ -129,7 +129,7 @@ impl<'a> Walk<'a> {
         }
         let moved = self.state.velocity != 0.0 || found.elapsed > 0.0;
         let force = Polynomial::default();
-        let ground = Ground {
+        let ground = ResetContext {
             phases: &self.phases,
             fed: true,
             pierced: false,

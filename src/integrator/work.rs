@@ -43,7 +43,7 @@ pub fn work(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Work {
     }
 }
 
-/// The same in its shares.
+/// Work from the start of an arc to `elapsed` seconds later, by what took it.
 pub fn shares(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Shares {
     if let Some(chatter) = arc.course.chatter() {
         let (_, velocity) = chatter.at(elapsed);

@@ -4,13 +4,13 @@ pub mod samples;
 
 pub use crate::budget;
 pub use crate::error::{did_you_mean, plain};
-pub use crate::events::{Guard, Outlook, first_crossing};
+pub use crate::events::{Guard, NextEvent, first_crossing};
 pub use crate::expression::{Differentiated, Expression, chained};
-pub use crate::flow::{Course, Departure, Flow, Hertz, Modes, Polynomial};
+pub use crate::flow::{ArcSolution, Departure, Hertz, LinearLaw, Modes, Polynomial};
 pub use crate::integrator::{Evaluations, Motion, Shares, Walk, mechanical_energy, shares, work};
 pub use crate::machine::nearest;
 pub use crate::peak::{highest, largest};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow;
 pub use crate::scene::{FASTEST, HEAVIEST, Scales, force_of};
-pub use crate::tangent::{Detuning, Influence, Lowered, saltation};
+pub use crate::tangent::{FrequencySensitivity, Lowered, ParameterSensitivity, saltation};

@@ -4,7 +4,7 @@ use crate::scene::Ratios;
 
 /// A machine in its z = 1 motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample {
+pub struct MachineSample {
     /// The machine.
     pub ratios: Ratios,
     /// Position at drive angle 0, in units of the static deflection.
@@ -18,7 +18,7 @@ pub struct Sample {
 }
 
 /// Point A of Peterka 2003: the unloaded machine, eta = 1.15, rho = 10.
-pub const UNLOADED: Sample = Sample {
+pub const UNLOADED: MachineSample = MachineSample {
     ratios: Ratios::unloaded(),
     position: 6.901_267_951_548,
     velocity: 9.516_655_745_459,
@@ -27,7 +27,7 @@ pub const UNLOADED: Sample = Sample {
 };
 
 /// Point B of Peterka 2003: the loaded machine, eta = 1.15, rho = 10.
-pub const LOADED: Sample = Sample {
+pub const LOADED: MachineSample = MachineSample {
     ratios: Ratios::loaded(),
     position: 4.818_747_634_046,
     velocity: 11.908_301_592_746,

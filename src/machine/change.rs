@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::{Language, Machine, keys};
+use super::{Machine, UnitSystem, keys};
 use crate::error::MachineError;
 use crate::scene::{Parameter, Stop};
 
@@ -86,8 +86,8 @@ impl Machine {
             _ => {}
         }
         match keys::stated_otherwise(key) {
-            Some(Parameter::Frequency) if self.speaks != Language::Ratios => {
-                self.speaks = Language::Hertz;
+            Some(Parameter::Frequency) if self.unit_system != UnitSystem::Ratios => {
+                self.unit_system = UnitSystem::Hertz;
                 self.untie(Parameter::Frequency);
                 self.set(Parameter::Frequency, number()?);
                 return Ok(Parameter::Frequency.name());
@@ -106,7 +106,7 @@ impl Machine {
         self.untie(parameter);
         match parameter {
             Parameter::Preload => self.preload_deflection = None,
-            Parameter::Frequency if self.speaks == Language::Hertz => {
+            Parameter::Frequency if self.unit_system == UnitSystem::Hertz => {
                 parameter.set(&mut self.scene, value);
                 self.follow();
                 return Ok(parameter.name());

@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer, Error, ValueDeserializer};
 
 use super::lines::Lines;
-use super::{Language, Machine, keys};
+use super::{Machine, UnitSystem, keys};
 use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
 use crate::scene::{Parameter, Scene, Stop};
@@ -51,8 +51,8 @@ impl Machine {
             table.get_mut().remove(task);
         }
         let language = match table.get_ref().get(RATIOS) {
-            Some(_) => Language::Ratios,
-            None => Language::Si,
+            Some(_) => UnitSystem::Ratios,
+            None => UnitSystem::Si,
         };
         let (mut places, mut ties) = (Vec::new(), Vec::new());
         walk(
@@ -153,7 +153,7 @@ fn is_number(key: &str) -> bool {
 
 /// Refuses a key that no machine has. A table in whose place something else stands is left to be found by
 /// its type.
-fn known(places: &[Place], language: Language) -> Result<(), MachineError> {
+fn known(places: &[Place], language: UnitSystem) -> Result<(), MachineError> {
     let keys = keys::all(language);
     let is_known = |place: &&Place| {
         let inner = format!("{}.", place.key);
@@ -235,7 +235,7 @@ fn put(table: &mut DeTable<'_>, lines: &'static str) -> Result<(), Error> {
     Ok(())
 }
 
-fn read(mut file: Spanned<DeTable<'_>>, language: Language) -> Result<Machine, Trouble> {
+fn read(mut file: Spanned<DeTable<'_>>, language: UnitSystem) -> Result<Machine, Trouble> {
     let table = file.get_mut();
     let name = take(table, "name")?;
     let description = take(table, "description")?;
@@ -271,11 +271,11 @@ fn read(mut file: Spanned<DeTable<'_>>, language: Language) -> Result<Machine, T
         name,
         description,
         start: Start::new(position, velocity),
-        speaks: hertz.map_or(language, |_| Language::Hertz),
+        unit_system: hertz.map_or(language, |_| UnitSystem::Hertz),
         preload_deflection: deflection,
         ..Machine::from(Scene::deserialize(Deserializer::from(file))?)
     };
-    if language == Language::Ratios {
+    if language == UnitSystem::Ratios {
         machine.scene.damping *= 2.0;
         machine.scene.contact_damping *= 2.0;
     }

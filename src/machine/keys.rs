@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Language, Machine};
+use super::{Machine, UnitSystem};
 use crate::error::MachineError;
 use crate::scene::{Dimension, Parameter, Stop};
 
@@ -43,9 +43,9 @@ pub(super) const TASK: [&str; 7] = [
     "report",
 ];
 
-/// All keys of a file in a language.
-pub(super) fn all(speaks: Language) -> Vec<&'static str> {
-    let ratios = speaks == Language::Ratios;
+/// All keys of a file in a system of units.
+pub(super) fn all(unit_system: UnitSystem) -> Vec<&'static str> {
+    let ratios = unit_system == UnitSystem::Ratios;
     let numbers = Parameter::ALL
         .into_iter()
         .filter(|it| !(ratios && it.is_unit()));
@@ -146,7 +146,7 @@ impl Machine {
     pub fn parameter(&self, name: &str) -> Result<Parameter, MachineError> {
         let name = name.replace('-', "_");
         let known = |parameter: &Parameter| match parameter {
-            Parameter::Frequency => self.speaks != Language::Ratios,
+            Parameter::Frequency => self.unit_system != UnitSystem::Ratios,
             _ => true,
         };
         let otherwise = stated_otherwise(&name).filter(known);
@@ -158,7 +158,7 @@ impl Machine {
             .or_else(|| self.parameters().find(called));
         match found {
             None => Err(self.unknown(&name, self.numbers())),
-            Some(found) if self.speaks != Language::Ratios && is_ratio(&name, found) => {
+            Some(found) if self.unit_system != UnitSystem::Ratios && is_ratio(&name, found) => {
                 Err(MachineError::Ratio(name, self.name(found)))
             }
             Some(found) => Ok(found),
@@ -166,7 +166,7 @@ impl Machine {
     }
 
     /// The parameter of a key, and the unit of that key in the machine's own one: `excitation.frequency` is
-    /// in rad/s and `excitation.frequency_hz` in Hz, whichever of the two the machine speaks.
+    /// in rad/s and `excitation.frequency_hz` in Hz, whichever of the two the machine is stated in.
     ///
     /// # Errors
     /// As [`Machine::parameter`]; [`MachineError::Lacks`] if the machine states its preload otherwise.
@@ -174,12 +174,12 @@ impl Machine {
         let parameter = self.parameter(key)?;
         let key = key.replace('-', "_");
         let otherwise = stated_otherwise(&key).is_some();
-        match (parameter, self.speaks) {
+        match (parameter, self.unit_system) {
             (Parameter::Preload, _) if otherwise != self.preload_deflection.is_some() => {
                 Err(self.unknown(&key, self.numbers()))
             }
-            (Parameter::Frequency, Language::Hertz) if !otherwise => Ok((parameter, 1.0 / TAU)),
-            (Parameter::Frequency, Language::Si) if otherwise => Ok((parameter, TAU)),
+            (Parameter::Frequency, UnitSystem::Hertz) if !otherwise => Ok((parameter, 1.0 / TAU)),
+            (Parameter::Frequency, UnitSystem::Si) if otherwise => Ok((parameter, TAU)),
             _ => Ok((parameter, 1.0)),
         }
     }
@@ -192,7 +192,7 @@ impl Machine {
     /// All keys of a file that it has.
     pub(super) fn keys(&self) -> Vec<&'static str> {
         let has = |key: &&str| match *key {
-            FREQUENCY_HZ => self.speaks == Language::Si,
+            FREQUENCY_HZ => self.unit_system == UnitSystem::Si,
             DEFLECTION => {
                 self.preload_deflection.is_none() && self.value(Parameter::Preload).is_some()
             }

@@ -14,9 +14,9 @@ use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
 use crate::scene::{Allowed, Dimension, Parameter, Ratios, Scene};
 
-/// The units that a machine speaks.
+/// The units in which a machine is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Language {
+pub enum UnitSystem {
     /// SI units.
     Si,
     /// SI units, but the drive's frequency in Hz.
@@ -25,7 +25,7 @@ pub enum Language {
     Ratios,
 }
 
-impl Language {
+impl UnitSystem {
     /// The sign of its unit; empty for bare numbers.
     pub const fn unit(self, dimension: Dimension) -> &'static str {
         match (self, dimension) {
@@ -36,7 +36,7 @@ impl Language {
     }
 }
 
-/// A machine as its user states it: a scene, where it starts, its name, and the units that it speaks.
+/// A machine as its user states it: a scene, where it starts, its name, and the units that it is stated in.
 ///
 /// A value in a file may be an expression of other keys, in their units: `amplitude = "0.7 * excitation.frequency^2"`. What
 /// follows others so is set with them.
@@ -69,12 +69,12 @@ pub struct Machine {
     pub name: Option<String>,
     /// What it is, in a sentence, if its user has said so.
     pub description: Option<String>,
-    /// The machine in SI units; with m = k1 = F0 = 1 if it speaks ratios.
+    /// The machine in SI units; with m = k1 = F0 = 1 if it is stated in ratios.
     pub scene: Scene,
     /// The state at time 0; at rest at position 0 unless its user says otherwise.
     pub start: Start,
-    /// The units that it speaks.
-    pub speaks: Language,
+    /// The units that it is stated in.
+    pub unit_system: UnitSystem,
     /// The preload as a deflection, if it is stated so: the force follows the stiffness of the stop.
     pub preload_deflection: Option<f64>,
     /// The parameters that follow others.
@@ -89,7 +89,7 @@ impl From<Scene> for Machine {
             description: None,
             scene,
             start: Start::REST,
-            speaks: Language::Si,
+            unit_system: UnitSystem::Si,
             preload_deflection: None,
             ties: Ties::default(),
         }
@@ -117,12 +117,12 @@ impl Machine {
     pub fn of_ratios(ratios: &Ratios) -> Result<Self, SceneError> {
         Ok(Self {
             start: Start::new(0.0, 14.0),
-            speaks: Language::Ratios,
+            unit_system: UnitSystem::Ratios,
             ..Self::from(ratios.scene()?)
         })
     }
 
-    /// The parameters that it has. One that speaks ratios has no mass, suspension and drive amplitude of its
+    /// The parameters that it has. One that is stated in ratios has no mass, suspension and drive amplitude of its
     /// own.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter> + '_ {
         let mut all = Parameter::ALL.into_iter();
@@ -133,7 +133,7 @@ impl Machine {
     pub fn value(&self, parameter: Parameter) -> Option<f64> {
         let value = parameter.get(&self.scene)?;
         match parameter {
-            unit if unit.is_unit() && self.speaks == Language::Ratios => None,
+            unit if unit.is_unit() && self.unit_system == UnitSystem::Ratios => None,
             Parameter::Preload => Some(self.preload_deflection.unwrap_or(value)),
             _ => Some(self.to_own(parameter.about().dimension, value)),
         }
@@ -227,9 +227,9 @@ impl Machine {
         }
     }
 
-    /// Its dimensionless figures, if it speaks ratios and is a machine like the paper's.
+    /// Its dimensionless figures, if it is stated in ratios and is a machine like the paper's.
     pub fn ratios(&self) -> Option<Ratios> {
-        if self.speaks != Language::Ratios || self.scene.excitation.phase != 0.0 {
+        if self.unit_system != UnitSystem::Ratios || self.scene.excitation.phase != 0.0 {
             return None;
         }
         let value = |parameter| self.value(parameter);
@@ -248,7 +248,7 @@ impl Machine {
     /// The name of a parameter in its own units.
     pub fn name(&self, parameter: Parameter) -> &'static str {
         match parameter {
-            Parameter::Frequency if self.speaks == Language::Hertz => keys::FREQUENCY_HZ,
+            Parameter::Frequency if self.unit_system == UnitSystem::Hertz => keys::FREQUENCY_HZ,
             Parameter::Preload if self.preload_deflection.is_some() => keys::DEFLECTION,
             _ => parameter.name(),
         }
@@ -266,16 +266,16 @@ impl Machine {
 
     /// Its own unit of a quantity, in SI units.
     const fn in_si(&self, dimension: Dimension) -> f64 {
-        match (self.speaks, dimension) {
-            (Language::Ratios, Dimension::Damping) => 2.0,
-            (Language::Hertz, Dimension::Frequency) => std::f64::consts::TAU,
+        match (self.unit_system, dimension) {
+            (UnitSystem::Ratios, Dimension::Damping) => 2.0,
+            (UnitSystem::Hertz, Dimension::Frequency) => std::f64::consts::TAU,
             _ => 1.0,
         }
     }
 
     /// The sign of its own unit; empty for bare numbers.
     pub const fn unit(&self, dimension: Dimension) -> &'static str {
-        self.speaks.unit(dimension)
+        self.unit_system.unit(dimension)
     }
 
     /// The sign of the unit in which it states a parameter; empty for bare numbers.
@@ -290,7 +290,7 @@ impl Machine {
     }
 
     /// The label of an axis or a column: what it is, with its unit in brackets, or with the paper's symbol
-    /// if the machine speaks ratios.
+    /// if the machine is stated in ratios.
     pub fn label(&self, what: &str, symbol: &str, dimension: Dimension) -> String {
         self.labelled(what, symbol, self.unit(dimension))
     }
@@ -316,8 +316,8 @@ impl Machine {
     }
 
     fn labelled(&self, what: &str, symbol: &str, unit: &str) -> String {
-        match (self.speaks, unit) {
-            (Language::Ratios, _) if !symbol.is_empty() => format!("{what} {symbol}"),
+        match (self.unit_system, unit) {
+            (UnitSystem::Ratios, _) if !symbol.is_empty() => format!("{what} {symbol}"),
             (_, "") => what.to_owned(),
             (_, unit) => format!("{what} ({unit})"),
         }

@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use super::{Language, Machine, keys};
+use super::{Machine, UnitSystem, keys};
 use crate::scene::{Dimension, Release, Slope, Stop};
 
 /// Where the comments begin.
@@ -46,7 +46,7 @@ impl Machine {
             }
         }
         for (table, lines) in sections {
-            let inside = self.speaks == Language::Ratios && table != "initial";
+            let inside = self.unit_system == UnitSystem::Ratios && table != "initial";
             let heading = match (inside, table) {
                 (true, "") => "\n[ratios]\n".to_owned(),
                 (true, table) => format!("\n[ratios.{table}]\n"),

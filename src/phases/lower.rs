@@ -5,7 +5,7 @@ use super::{
     Beyond, Exit, Law, Layer, Phase, PhaseId, PhaseKind, Phases, Stack, Store, Surface, SurfaceId,
 };
 use crate::events::Guard;
-use crate::flow::{Flow, Hertz};
+use crate::flow::{Hertz, LinearLaw};
 use crate::scene::Scene;
 
 pub(super) fn lower(scene: &Scene) -> Phases {
@@ -63,7 +63,7 @@ impl Builder<'_> {
                 stiffness: law.stiffness - scene.stiffness,
                 force: law.force,
             },
-            flow: Flow::new(
+            flow: LinearLaw::new(
                 scene.mass,
                 law.damping,
                 law.stiffness,

@@ -12,7 +12,7 @@ mod store;
 
 pub use id::{PhaseId, SurfaceId};
 pub(crate) use settle::Threshold;
-pub use settle::{Hold, Mode};
+pub use settle::{Mode, Sticking};
 pub use store::{Spring, Store};
 
 use std::ops::Index;
@@ -20,7 +20,7 @@ use std::ops::Index;
 use serde::{Deserialize, Serialize};
 
 use crate::events::Guard;
-use crate::flow::{Drive, Flow, Hertz, Polynomial};
+use crate::flow::{Drive, Hertz, LinearLaw, Polynomial};
 use crate::scene::Scene;
 
 /// What a phase is in the machine.
@@ -71,7 +71,7 @@ pub struct Phase {
     /// What stop and strip add to the suspension's law.
     pub(crate) contact: Law,
     /// The exact flow of the linear law.
-    pub flow: Flow,
+    pub flow: LinearLaw,
     /// The nonlinear part of the law.
     pub hertz: Option<Hertz>,
     /// Its guards.
@@ -246,8 +246,8 @@ impl Phases {
     }
 
     /// The drive alone, for a mass that is held.
-    pub(crate) fn held(&self) -> Flow {
-        Flow::new(1.0, 0.0, 0.0, self.amplitude, self.frequency)
+    pub(crate) fn held(&self) -> LinearLaw {
+        LinearLaw::new(1.0, 0.0, 0.0, self.amplitude, self.frequency)
     }
 
     /// Push of drive and external force per mass, in m/s^2.

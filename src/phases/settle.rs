@@ -34,21 +34,21 @@ pub enum Mode {
     /// It moves in this phase.
     Moving(PhaseId),
     /// It is held.
-    Held(Hold),
+    Held(Sticking),
     /// It bounces on a rigid stop until it rests there.
-    Chattering(Hold),
+    Chattering(Sticking),
 }
 
 /// The phases in which a mass at rest would leave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Hold {
+pub struct Sticking {
     /// Phase of the way forward; none before a rigid stop.
     pub forward: Option<PhaseId>,
     /// Phase of the way back.
     pub backward: PhaseId,
 }
 
-impl Hold {
+impl Sticking {
     /// Between two laws that give way.
     pub(crate) const fn between(forward: PhaseId, backward: PhaseId) -> Self {
         Self {
@@ -78,7 +78,7 @@ impl Mode {
     }
 
     /// The phases in which it would leave, where it does not move in one.
-    pub(crate) fn hold(self) -> Option<Hold> {
+    pub(crate) fn hold(self) -> Option<Sticking> {
         match self {
             Self::Moving(_) => None,
             Self::Held(hold) | Self::Chattering(hold) => Some(hold),
@@ -88,12 +88,12 @@ impl Mode {
 
 impl Surface {
     /// A mass at rest on it, with this above it.
-    pub(crate) fn hold(&self, above: Beyond) -> Hold {
+    pub(crate) fn hold(&self, above: Beyond) -> Sticking {
         let forward = match above {
             Beyond::Phase(phase) => Some(phase),
             Beyond::Wall { .. } => None,
         };
-        Hold {
+        Sticking {
             forward,
             backward: self.below,
         }
@@ -117,7 +117,9 @@ impl Phases {
             }
             _ => match self.laws_at(position, velocity, fed) {
                 [forward, backward] if forward == backward => Mode::Moving(forward),
-                [forward, backward] => self.leave(Hold::between(forward, backward), position, push),
+                [forward, backward] => {
+                    self.leave(Sticking::between(forward, backward), position, push)
+                }
             },
         }
     }
@@ -189,7 +191,7 @@ impl Phases {
     }
 
     /// The mode of a mass at rest between two laws.
-    pub(crate) fn leave(&self, hold: Hold, position: f64, push: f64) -> Mode {
+    pub(crate) fn leave(&self, hold: Sticking, position: f64, push: f64) -> Mode {
         let acceleration = |phase| self.acceleration(phase, position, 0.0, push);
         match hold.forward {
             Some(phase) if acceleration(phase) > 0.0 => Mode::Moving(phase),
@@ -200,7 +202,7 @@ impl Phases {
 
     /// The mode of a mass that has come to rest under dry friction. Within rounding of a balance it is
     /// held: a creep that ends there would else turn back and forth for ever.
-    pub(crate) fn turn(&self, hold: Hold, position: f64, push: f64) -> Mode {
+    pub(crate) fn turn(&self, hold: Sticking, position: f64, push: f64) -> Mode {
         let balanced = |id: PhaseId| {
             let phase = &self[id];
             let pull = phase.flow.modes.stiffness * position;
@@ -213,8 +215,8 @@ impl Phases {
         self.leave(hold, position, push)
     }
 
-    /// The guards that let a mass go that is held since the push was `push`; [`Hold::released`] says where.
-    pub(crate) fn releases(&self, hold: Hold, position: f64, push: f64) -> Vec<Guard> {
+    /// The guards that let a mass go that is held since the push was `push`; [`Sticking::released`] says where.
+    pub(crate) fn releases(&self, hold: Sticking, position: f64, push: f64) -> Vec<Guard> {
         let balance = |phase| -self.acceleration(phase, position, 0.0, 0.0);
         // A hold may begin within rounding of a balance; the guard then begins at zero.
         let on = |phase| Guard::push_above(balance(phase).max(push));
@@ -246,7 +248,7 @@ impl Phases {
         match mode {
             Mode::Moving(phase) => self[phase].kind,
             Mode::Chattering(_) => PhaseKind::Chatter,
-            Mode::Held(Hold { forward, backward }) => {
+            Mode::Held(Sticking { forward, backward }) => {
                 let kind = |phase: PhaseId| self[phase].kind;
                 if forward.map(kind) == Some(kind(backward)) {
                     PhaseKind::Stuck

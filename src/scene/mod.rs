@@ -156,7 +156,7 @@ impl Scene {
         })
     }
 
-    /// The same machine at another frequency of its drive, in rad/s.
+    /// This machine at another frequency of its drive, in rad/s.
     #[must_use]
     pub fn at_frequency(&self, frequency: f64) -> Self {
         let mut scene = self.clone();

@@ -6,7 +6,7 @@ use crate::error::SceneError;
 /// Rates sqrt(k/m) in units of the drive's frequency up to which a contact keeps eight digits of the motion: positions
 /// are rounded to 2^-53 of the clearance, a contact is this many times shallower than a motion is wide.
 pub const FASTEST: f64 = 1e7;
-/// The same for rates b/m, beyond which nothing is left of a contact: a mass that creeps back leaves so slowly that
+/// Rates b/m in units of the drive's frequency beyond which nothing is left of a contact: a mass that creeps back leaves so slowly that
 /// only its position tells when. Up to 1e6 eight digits hold.
 pub const HEAVIEST: f64 = 1e9;
 

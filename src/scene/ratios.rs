@@ -52,13 +52,13 @@ impl Ratios {
         ratios
     }
 
-    /// The same machine at another frequency eta.
+    /// This machine at another frequency eta.
     #[must_use]
     pub const fn at_frequency(self, frequency: f64) -> Self {
         Self { frequency, ..self }
     }
 
-    /// The same machine with another clearance rho.
+    /// This machine with another clearance rho.
     #[must_use]
     pub const fn at_clearance(self, clearance: f64) -> Self {
         Self { clearance, ..self }

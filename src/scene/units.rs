@@ -54,7 +54,7 @@ impl Units {
 }
 
 impl Scene {
-    /// The same scene with every quantity multiplied by its unit.
+    /// The scene with every quantity multiplied by its unit.
     ///
     /// # Errors
     /// [`SceneError`] if a unit is not positive or a product leaves its range.

@@ -1,13 +1,13 @@
 //! The exact Jacobian of a motion: free transitions joined by saltation matrices.
 
-mod detuning;
-mod influence;
+mod frequency_sensitivity;
 mod lowered;
+mod parameter_sensitivity;
 mod sensitivity;
 
-pub use detuning::Detuning;
-pub use influence::Influence;
+pub use frequency_sensitivity::FrequencySensitivity;
 pub use lowered::Lowered;
+pub use parameter_sensitivity::ParameterSensitivity;
 pub use sensitivity::{Perturbation, Sensitivity};
 
 use nalgebra::Matrix2;

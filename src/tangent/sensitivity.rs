@@ -53,12 +53,12 @@ impl Simulation {
         let (scene, now) = (self.scene(), self.motion());
         let mut motion = self.motion_at_mark();
         let stored = change_of_energy(scene, &motion, by.position, by.velocity);
-        let mut watch = Watch {
+        let mut watch = SensitivityRecorder {
             mass: scene.mass,
             force: by.force,
             position: by.position,
             velocity: by.velocity,
-            ..Watch::default()
+            ..SensitivityRecorder::default()
         };
         motion.advance_like(now, &mut watch)?;
         if motion.elapsed() > 0.0 {
@@ -92,7 +92,7 @@ fn change_of_energy(scene: &Scene, motion: &Motion, position: f64, velocity: f64
 
 /// Carries a change along a motion.
 #[derive(Debug, Default)]
-struct Watch {
+struct SensitivityRecorder {
     mass: f64,
     force: f64,
     position: f64,
@@ -104,7 +104,7 @@ struct Watch {
     impact: (f64, f64),
 }
 
-impl Observer for Watch {
+impl Observer for SensitivityRecorder {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let by = Change {
             position: self.position,
@@ -135,7 +135,7 @@ impl Observer for Watch {
     }
 }
 
-impl Watch {
+impl SensitivityRecorder {
     /// Changes of acceleration and contact force.
     fn forces(&self, scene: &Scene, motion: &Motion) -> (f64, f64) {
         let Some(phase) = motion.phase() else {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use crate::error::MotionError;
-use crate::flow::Course;
+use crate::flow::ArcSolution;
 use crate::integrator::{
     Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, mechanical_energy, polynomial,
     work,
@@ -23,7 +23,7 @@ pub struct KeptArc {
     pub duration: f64,
     /// Its exact motion.
     #[doc(hidden)]
-    pub course: Course,
+    pub course: ArcSolution,
     /// What the mass does on it.
     pub kind: PhaseKind,
 }

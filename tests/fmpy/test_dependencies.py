@@ -67,7 +67,9 @@ def excite(unit, description, known, value):
 
 @pytest.fixture(scope="module")
 def listed(description):
-    return {u.variable.name: {d.name for d in u.dependencies} for u in description.outputs}
+    """The inputs that outputs depend on; states are of model exchange."""
+    inputs = {v.name for v in description.modelVariables if v.causality == "input"}
+    return {u.variable.name: {d.name for d in u.dependencies} & inputs for u in description.outputs}
 
 
 @pytest.mark.parametrize("scene", SCENES)

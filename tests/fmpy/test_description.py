@@ -74,9 +74,9 @@ def test_contract(description):
         "energy.dissipated": "continuous",
         "drive.angle": "continuous", "drive.force": "continuous", "drive.power": "continuous",
         "drive.work": "continuous", "frame.force": "continuous",
-        "contact.peak": "discrete", "contact.impulse": "discrete", "impact.step.count": "discrete",
-        "impact.step.first.time": "discrete", "impact.step.first.velocity": "discrete",
-        "impact.step.hardest.time": "discrete", "impact.step.hardest.velocity": "discrete",
+        "contact.peak": "continuous", "contact.impulse": "continuous", "impact.step.count": "discrete",
+        "impact.step.first.time": "continuous", "impact.step.first.velocity": "continuous",
+        "impact.step.hardest.time": "continuous", "impact.step.hardest.velocity": "continuous",
         "pierce.step.count": "discrete",
     }
 
@@ -120,7 +120,7 @@ def test_initial_unknowns_depend_on_nothing_else(make, description, model):
     unknowns = {u.variable.name: {d.name for d in u.dependencies}
                 for u in description.initialUnknowns}
     names = list(unknowns)
-    knowns = [v for v in description.modelVariables if v.causality != "output"]
+    knowns = [v for v in description.modelVariables if v.causality in ("input", "parameter")]
     for position, velocity in STATES:
         base = CHAIN | {
             "stop.model": model, "rigid.travel": 0.5,

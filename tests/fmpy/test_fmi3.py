@@ -9,6 +9,7 @@ import lxml.etree
 import numpy as np
 import pytest
 from conftest import PERIOD, UNLOADED
+from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 from packages import TOP, UNITS, package, package_3
 
@@ -36,10 +37,50 @@ def test_validation_finds_nothing(each_3):
     ("modelDescription.xml", "fmi3ModelDescription.xsd"),
     ("terminalsAndIcons/terminalsAndIcons.xml", "fmi3TerminalsAndIcons.xsd"),
 ])
-def test_schema(path_3, file, schema):
+def test_schema(each_3, file, schema):
     judge = lxml.etree.XMLSchema(lxml.etree.parse(str(FMPY / "schema" / "fmi3" / schema)))
-    with zipfile.ZipFile(path_3) as archive:
+    with zipfile.ZipFile(each_3) as archive:
         judge.assertValid(lxml.etree.fromstring(archive.read(file)).getroottree())
+
+
+def members(package):
+    """The member of a terminal that a variable is, by the variable's name."""
+    with zipfile.ZipFile(package) as archive:
+        root = lxml.etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+    return {member.get("variableName"): (terminal.get("name"), member.get("memberName"))
+            for terminal in root.iter("Terminal") for member in terminal.iter("TerminalMemberVariable")}
+
+
+def test_terminals_connect_the_units_as_the_machine_does(path):
+    units = {"press": "softstop", "drive": "drive", "feeder": "feeder"}
+    terminals = {name: members(package_3(path, unit)) for name, unit in units.items()}
+    for name, unit in units.items():
+        variables = fmpy.read_model_description(package_3(path, unit)).modelVariables
+        assert set(terminals[name]) <= {v.name for v in variables}
+    structure = lxml.etree.parse(TOP / "xtask" / "assets" / "SystemStructure.ssd")
+    connections = list(structure.iter("{*}Connection"))
+    assert len(connections) == 5
+    for one in connections:
+        start, end = (terminals[one.get(side + "Element")][one.get(side + "Connector")] for side in ("start", "end"))
+        assert start == end
+
+
+def test_reference_results_inside(each_3, tmp_path):
+    folder = tmp_path / "extra" / "org.fmi-standard.fmi-ls-ref"
+    fmpy.extract(each_3, unzipdir=tmp_path)
+    manifest = lxml.etree.parse(folder / "fmi-ls-manifest.xml").getroot()
+    assert "org.fmi-standard.fmi-ls-ref" in manifest.attrib.values()
+    sources = {file.get("role"): folder / file.get("source") for file in manifest.iter("Related")}
+    experiment = lxml.etree.parse(sources["experiment/smoke-test"]).find("Experiment")
+    times = {name: float(value) for name, value in experiment.find("TransientSimulation").attrib.items()}
+    assert folder / experiment.find("References").get("source") == sources["result"]
+    expected = read_csv(sources["result"])
+    rows = fmpy.simulate_fmu(each_3, start_time=times["startTime"], stop_time=times["stopTime"],
+                             output_interval=times["stepSize"], use_event_mode=False, early_return_allowed=False)
+    assert set(expected.dtype.names) == set(rows.dtype.names)
+    assert len(rows) == len(expected) == 101
+    for name in rows.dtype.names:
+        np.testing.assert_allclose(rows[name].astype(float), expected[name], rtol=1e-9, atol=1e-9)
 
 
 TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "Enumeration": "Enumeration"}
@@ -61,7 +102,7 @@ def test_variables_are_those_of_the_unit_for_fmi_2(path, unit):
 
     for before, after in zip(two.modelVariables, variables, strict=True):
         assert fields(before, TYPES[before.type]) == fields(after, after.type)
-    for kind in ("outputs", "initialUnknowns"):
+    for kind in ("outputs", "derivatives", "initialUnknowns"):
         listed = [[(u.variable.name, [d.name for d in u.dependencies]) for u in getattr(of, kind)]
                   for of in (two, three)]
         assert listed[0] == listed[1]
@@ -107,7 +148,7 @@ def library_functions():
     """The functions as the library's source has them, its macros written out."""
     folder = TOP / "crates" / "fmi" / "src" / "v3"
     functions = {}
-    for file in ("functions.rs", "absent.rs", "values.rs"):
+    for file in ("functions.rs", "exchange.rs", "absent.rs", "values.rs"):
         text = re.sub(r"//.*", "", (folder / file).read_text())
         split = lambda arguments: [one.split(":", 1)[1].strip() for one in arguments.split(",") if ":" in one]
         for name, arguments, result in re.findall(r"fn (fmi3\w+)<U>\(([^)]*)\)(?: -> ([^{]*?))? \{", text):

@@ -183,16 +183,33 @@ def indices(unknown):
     return [int(i) for i in unknown.get("dependencies", "").split()]
 
 
-@pytest.mark.parametrize("part", ["Outputs", "InitialUnknowns"])
+def states(variables):
+    """Indices of the continuous states, and of their derivatives."""
+    derivatives = [(int(real.get("derivative")), i) for i, v in enumerate(variables, 1)
+                   for real in v.findall("Real") if real.get("derivative")]
+    return [state for state, _ in derivatives], [i for _, i in derivatives]
+
+
+def test_derivatives_are_listed_with_the_states_that_may_change_at_events(root, variables):
+    listed = [int(u.get("index")) for u in root.findall("ModelStructure/Derivatives/Unknown")]
+    own, derivatives = states(variables)
+    assert listed == derivatives
+    assert (root.find("ModelExchange") is not None) == bool(listed)
+    reinit = [i for i, v in enumerate(variables, 1) for real in v.findall("Real") if real.get("reinit") == "true"]
+    assert reinit == own
+
+
+@pytest.mark.parametrize("part", ["Outputs", "Derivatives", "InitialUnknowns"])
 def test_model_structure(root, variables, part):
     unknowns = root.findall(f"ModelStructure/{part}/Unknown")
     listed = [int(u.get("index")) for u in unknowns]
     outputs = [i for i, v in enumerate(variables, 1) if v.get("causality") == "output"]
     if part == "InitialUnknowns":
         outputs = [i for i in outputs if variables[i - 1].get("initial") != "exact"]
-    assert listed == outputs
-    kinds = {"Outputs": {"dependent", "constant", "fixed", "tunable", "discrete"},
-             "InitialUnknowns": {"dependent", "constant"}}[part]
+    assert listed == (states(variables)[1] if part == "Derivatives" else outputs)
+    kinds = {"dependent", "constant"}
+    if part != "InitialUnknowns":
+        kinds |= {"fixed", "tunable", "discrete"}
     for unknown in unknowns:
         dependencies = indices(unknown)
         assert dependencies == sorted(set(dependencies))
@@ -200,7 +217,7 @@ def test_model_structure(root, variables, part):
         assert len(given) == len(dependencies) and set(given) <= kinds
         for index in dependencies:
             known = variables[index - 1]
-            allowed = known.get("causality") in ("input", "independent")
+            allowed = known.get("causality") in ("input", "independent") or index in states(variables)[0]
             if part == "InitialUnknowns":
                 allowed |= known.get("initial") == "exact"
             assert 1 <= index <= len(variables) and allowed, known.get("name")

@@ -1,3 +1,7 @@
 //! The library of drive.fmu for FMI 3.0.
 
-softstop_fmi::export_fmi3!(softstop_units::Drive);
+mod functions {
+    softstop_fmi::fmi3_functions!(softstop_units::Drive);
+}
+
+softstop_fmi::export_fmi3!(functions);

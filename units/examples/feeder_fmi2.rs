@@ -1,3 +1,7 @@
 //! The library of feeder.fmu for FMI 2.0.
 
-softstop_fmi::export_fmi2!(softstop_units::Feeder);
+mod functions {
+    softstop_fmi::fmi2_functions!(softstop_units::Feeder);
+}
+
+softstop_fmi::export_fmi2!(functions);

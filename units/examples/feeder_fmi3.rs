@@ -1,3 +1,7 @@
 //! The library of feeder.fmu for FMI 3.0.
 
-softstop_fmi::export_fmi3!(softstop_units::Feeder);
+mod functions {
+    softstop_fmi::fmi3_functions!(softstop_units::Feeder);
+}
+
+softstop_fmi::export_fmi3!(functions);

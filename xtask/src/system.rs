@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use softstop::internals::samples::{LOADED, Sample, UNLOADED};
+use softstop::internals::samples::{LOADED, MachineSample, UNLOADED};
 use softstop::{Begin, Machine, Scene, Simulation, Start};
 use softstop_fmi::package::{self, Library};
 use softstop_fmi::variable::Kind;
@@ -35,7 +35,7 @@ struct Variant {
 /// Writes the system; the units inside begin as the machine B.
 pub fn write(path: &Path, libraries: &Libraries) -> Result<()> {
     let sample =
-        |of: &Sample| anyhow::Ok((of.ratios.scene()?, Start::new(of.position, of.velocity)));
+        |of: &MachineSample| anyhow::Ok((of.ratios.scene()?, Start::new(of.position, of.velocity)));
     let design = Machine::from_toml(DESIGN)?;
     let variants = [
         variant("B", sample(&LOADED)?)?,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::{Language, Machine, Parameter};
+use softstop::{Machine, Parameter, UnitSystem};
 
 use crate::change::Change;
 use crate::failure::Failure;
@@ -121,7 +121,7 @@ impl MachineArguments {
         name: &str,
     ) -> Result<(Parameter, f64), Failure> {
         let own = (machine.scene.stiffness / machine.scene.mass).sqrt();
-        if name == "eta" && machine.speaks != Language::Ratios && own > 0.0 {
+        if name == "eta" && machine.unit_system != UnitSystem::Ratios && own > 0.0 {
             let frequency = Parameter::Frequency;
             return Ok((frequency, machine.to_own(frequency.about().dimension, own)));
         }
@@ -163,8 +163,8 @@ fn of_start(key: &str) -> Option<&str> {
 pub fn title(machine: &Machine) -> String {
     let name = machine.name.as_deref().unwrap_or("machine");
     let scene = &machine.scene;
-    match machine.speaks {
-        Language::Ratios => {
+    match machine.unit_system {
+        UnitSystem::Ratios => {
             let (eta, rho) = (scene.excitation.frequency, scene.clearance);
             format!("the {name} machine at η = {eta}, ρ = {rho}")
         }
@@ -175,8 +175,8 @@ pub fn title(machine: &Machine) -> String {
 /// The machine in a few words where its drive has many frequencies.
 pub fn title_over_frequency(machine: &Machine) -> String {
     let name = machine.name.as_deref().unwrap_or("machine");
-    match machine.speaks {
-        Language::Ratios => format!("the {name} machine, ρ = {}", machine.scene.clearance),
+    match machine.unit_system {
+        UnitSystem::Ratios => format!("the {name} machine, ρ = {}", machine.scene.clearance),
         _ => name.to_owned(),
     }
 }

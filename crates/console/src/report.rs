@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Complex;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
-use softstop::{Language, Machine, Parameter, Ratios, Stop};
+use softstop::{Machine, Parameter, Ratios, Stop, UnitSystem};
 use softstop_dynamics::{MotionKind, Orbit, orbit};
 
 use crate::column::{Cell, Column, Told};
@@ -48,10 +48,10 @@ impl MachineReport {
         let numbers = machine.parameters().filter_map(number);
         Self {
             name: machine.name.clone(),
-            language: match machine.speaks {
-                Language::Si => "si",
-                Language::Hertz => "hertz",
-                Language::Ratios => "ratios",
+            language: match machine.unit_system {
+                UnitSystem::Si => "si",
+                UnitSystem::Hertz => "hertz",
+                UnitSystem::Ratios => "ratios",
             },
             units: units::names(machine),
             parameters: law(&machine.scene.stop).chain(numbers).collect(),

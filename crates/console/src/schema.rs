@@ -5,7 +5,7 @@ use crate::older::PaperRatios;
 use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
 use softstop::internals::{FASTEST, HEAVIEST};
-use softstop::{Allowed, Language, Machine, Parameter, Release, Scene, Stop};
+use softstop::{Allowed, Machine, Parameter, Release, Scene, Stop, UnitSystem};
 
 /// The draft in which schemas are written.
 pub const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
@@ -41,7 +41,7 @@ pub fn shorthands() -> Value {
 /// The schema of machine files (draft 2020-12). Editors find it by a first line
 /// `#:schema ./machine.schema.json`.
 pub fn machine() -> Value {
-    let mut si = sections(Language::Si);
+    let mut si = sections(UnitSystem::Si);
     let mut required = required(&si);
     si.extend([
         ("name".to_owned(), text("Its name, also that of its FMU.")),
@@ -85,7 +85,7 @@ pub fn machine() -> Value {
 
 /// The table of ratios.
 fn ratios() -> Value {
-    let sections = sections(Language::Ratios);
+    let sections = sections(UnitSystem::Ratios);
     let required = required(&sections);
     let mut ratios = object(sections);
     ratios["required"] = required.into();
@@ -93,11 +93,11 @@ fn ratios() -> Value {
 }
 
 /// The keys of a machine in a language, by their tables.
-fn sections(language: Language) -> Map<String, Value> {
+fn sections(language: UnitSystem) -> Map<String, Value> {
     let mut all: Map<String, Value> = Map::new();
     for parameter in Parameter::ALL {
         match parameter.name().split_once('.') {
-            _ if language == Language::Ratios && parameter.is_unit() => {}
+            _ if language == UnitSystem::Ratios && parameter.is_unit() => {}
             None => {
                 all.insert(parameter.name().to_owned(), number(parameter, language));
             }
@@ -113,7 +113,7 @@ fn sections(language: Language) -> Map<String, Value> {
     }
     let drive = &mut all["excitation"];
     drive["required"] = json!(["amplitude", "frequency"]);
-    if language == Language::Ratios {
+    if language == UnitSystem::Ratios {
         drive["required"] = json!(["frequency"]);
     } else {
         let what =
@@ -163,10 +163,10 @@ fn require_all(section: &mut Value) {
 }
 
 /// A parameter: a number in its range, or an expression.
-fn number(parameter: Parameter, language: Language) -> Value {
+fn number(parameter: Parameter, language: UnitSystem) -> Value {
     let about = parameter.about();
     let what = match (language, about.dimension.unit()) {
-        (Language::Ratios, _) => format!("{} ({})", about.meaning, about.symbol),
+        (UnitSystem::Ratios, _) => format!("{} ({})", about.meaning, about.symbol),
         (_, "") => about.meaning.to_owned(),
         (_, unit) => format!("{} in {unit}", about.meaning),
     };
@@ -236,13 +236,13 @@ fn stops() -> [Stop; 6] {
     ]
 }
 
-fn stop(language: Language) -> Value {
+fn stop(language: UnitSystem) -> Value {
     let laws = stops().map(|stop| law(stop, language));
     json!({ "type": "object", "required": ["model"], "oneOf": laws })
 }
 
 /// The keys of one law.
-fn law(stop: Stop, language: Language) -> Value {
+fn law(stop: Stop, language: UnitSystem) -> Value {
     let model = stop.model();
     let chained = matches!(stop, Stop::PiecewiseLinear { .. });
     let released = matches!(stop, Stop::KelvinVoigt { .. });

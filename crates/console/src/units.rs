@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use softstop::{Dimension, Language, Machine, Parameter};
+use softstop::{Dimension, Machine, Parameter, UnitSystem};
 
 /// What a number is one of; [`Units`] has the names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,15 +17,15 @@ pub enum Unit {
 
 /// The signs of the units that a machine speaks; empty where its numbers are ratios.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Units(Language);
+pub struct Units(UnitSystem);
 
 impl Units {
     /// Of a machine in SI units.
-    pub const SI: Self = Self(Language::Si);
+    pub const SI: Self = Self(UnitSystem::Si);
 
     /// Those that a machine speaks.
     pub const fn of(machine: &Machine) -> Self {
-        Self(machine.speaks)
+        Self(machine.unit_system)
     }
 
     /// The sign of a unit.
@@ -48,19 +48,19 @@ impl Units {
 
 /// The unit of a quantity by its name in JSON: that of a ratio, too.
 pub const fn name(machine: &Machine, dimension: Dimension) -> &'static str {
-    match (machine.speaks, dimension) {
-        (Language::Ratios, Dimension::Mass) => "m",
-        (Language::Ratios, Dimension::Stiffness) => "k1",
-        (Language::Ratios, Dimension::Damping) => "2 sqrt(m k1)",
-        (Language::Ratios, Dimension::Force) => "F0",
-        (Language::Ratios, Dimension::Frequency) => "sqrt(k1/m)",
-        (Language::Ratios, Dimension::Length) => "F0/k1",
-        (Language::Ratios, Dimension::Velocity) => "F0/sqrt(m k1)",
-        (Language::Ratios, Dimension::Time) => "sqrt(m/k1)",
-        (Language::Ratios, Dimension::Energy) => "F0^2/k1",
-        (Language::Ratios, Dimension::Power) => "F0^2/sqrt(m k1)",
-        (Language::Ratios, Dimension::Slowness) => "sqrt(m k1)/F0",
-        (Language::Ratios, other) => other.unit(),
+    match (machine.unit_system, dimension) {
+        (UnitSystem::Ratios, Dimension::Mass) => "m",
+        (UnitSystem::Ratios, Dimension::Stiffness) => "k1",
+        (UnitSystem::Ratios, Dimension::Damping) => "2 sqrt(m k1)",
+        (UnitSystem::Ratios, Dimension::Force) => "F0",
+        (UnitSystem::Ratios, Dimension::Frequency) => "sqrt(k1/m)",
+        (UnitSystem::Ratios, Dimension::Length) => "F0/k1",
+        (UnitSystem::Ratios, Dimension::Velocity) => "F0/sqrt(m k1)",
+        (UnitSystem::Ratios, Dimension::Time) => "sqrt(m/k1)",
+        (UnitSystem::Ratios, Dimension::Energy) => "F0^2/k1",
+        (UnitSystem::Ratios, Dimension::Power) => "F0^2/sqrt(m k1)",
+        (UnitSystem::Ratios, Dimension::Slowness) => "sqrt(m k1)/F0",
+        (UnitSystem::Ratios, other) => other.unit(),
         _ => machine.unit(dimension),
     }
 }
@@ -68,11 +68,11 @@ pub const fn name(machine: &Machine, dimension: Dimension) -> &'static str {
 /// The unit of a parameter by its name in JSON.
 pub fn of_parameter(machine: &Machine, parameter: Parameter) -> &'static str {
     let is_power = Parameter::Exponent.get(&machine.scene).is_some();
-    match (parameter, machine.speaks) {
+    match (parameter, machine.unit_system) {
         (Parameter::Preload, _) if machine.preload_deflection.is_some() => {
             name(machine, Dimension::Length)
         }
-        (Parameter::StopStiffness, Language::Ratios) if is_power => "F0 (k1/F0)^exponent",
+        (Parameter::StopStiffness, UnitSystem::Ratios) if is_power => "F0 (k1/F0)^exponent",
         (Parameter::StopStiffness, _) if is_power => "N/m^exponent",
         _ => name(machine, parameter.about().dimension),
     }

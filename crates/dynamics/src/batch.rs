@@ -20,16 +20,16 @@ pub(crate) fn follow<W: BatchObserver>(
         left: budget::left(),
     };
     let outcomes = softstop_lanes::run(machines, jobs, &mut asking);
-    budget::charge(BATCH + outcomes.len() as u64);
+    budget::charge(BATCH_COST + outcomes.len() as u64);
     asking.answer.is_continue().then_some(outcomes)
 }
 
 /// Work of the lanes, and of the engine that takes over from them, between two questions.
 const ASKED: u64 = 1 << 15;
 /// What a unit of the lanes' own work costs, in scan windows.
-const ROUND: u64 = 2;
+const WORK_COST: u64 = 2;
 /// What a batch costs besides, that may end before the first.
-const BATCH: u64 = 1 << 10;
+const BATCH_COST: u64 = 1 << 10;
 
 /// A watch that asks whether to go on.
 struct Asking<'a, W, A> {
@@ -55,7 +55,7 @@ impl<W: BatchObserver, A: FnMut() -> ControlFlow<()>> BatchObserver for Asking<'
     fn goes_on(&mut self) -> ControlFlow<()> {
         // The engine that motions are handed over to has charged its part.
         let charged = self.left.saturating_sub(budget::left());
-        let is_left = budget::charge(ROUND * ASKED.saturating_sub(charged));
+        let is_left = budget::charge(WORK_COST * ASKED.saturating_sub(charged));
         self.left = budget::left();
         self.answer = match is_left {
             true => (self.ask)(),

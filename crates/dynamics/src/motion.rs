@@ -178,7 +178,7 @@ classes! {
     Zero "z = 0";
     /// One impact in each drive period.
     One "z = 1";
-    /// The same number of impacts as drive periods, but two or more.
+    /// As many impacts as drive periods, but two or more.
     Doubled "z = n/n, n > 1";
     /// Other regimes between 1/2 and 1.
     Between "1/2 < z < 1 but 2/3";

@@ -17,7 +17,7 @@ pub const DIMENSIONS: u32 = 4 * sobol_burley::NUM_DIMENSION_SETS_4D;
 /// Half the distance between numbers of 24 bits in [0, 1).
 const HALF: f64 = 0.5 / (1 << 24) as f64;
 /// An odd number whose multiples are far apart: no two seeds share a sequence soon.
-const APART: u32 = 0x9e37_79b9;
+const SEED_STEP: u32 = 0x9e37_79b9;
 
 /// The points with these numbers in blocks of so many, on all threads, in order.
 pub fn blocks(
@@ -34,7 +34,7 @@ pub fn blocks(
 
 /// One coordinate of point `index`, between 0 and 1, under a seed; there are at most [`DIMENSIONS`].
 pub fn share(seed: u32, index: u64, dimension: u32) -> f64 {
-    let sequence = (index / BLOCK as u64) as u32 ^ seed.wrapping_mul(APART);
+    let sequence = (index / BLOCK as u64) as u32 ^ seed.wrapping_mul(SEED_STEP);
     let within = (index % BLOCK as u64) as u32;
     f64::from(sobol_burley::sample(within, dimension, sequence)) + HALF
 }

@@ -28,7 +28,7 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// The same machine without a strip.
+    /// The machine without a strip.
     pub fn without(self, scene: &Scene) -> Scene {
         let mut without = scene.clone();
         without.piercing = match self {
@@ -82,9 +82,9 @@ impl StripSurvival {
 }
 
 /// Drive periods for which the mass may stay beyond the clearance before strips change all the same.
-const LONGEST: u64 = 16;
+const MAX_PERIODS_BEYOND: u64 = 16;
 /// Runs that are followed together; it may not depend on how many threads there are.
-const TOGETHER: usize = 256;
+const RUNS_TOGETHER: usize = 256;
 
 /// A stable motion of a loaded machine from which `missing` strips are taken in a row: it runs as it does until one of
 /// so many drive angles, evenly spread over its period, then goes on without strips for as many drive periods, then
@@ -106,7 +106,7 @@ pub fn survives_missing_strips(
         .map(|index| turn * index as f64 / angles as f64)
         .collect();
     let gaps = angles
-        .par_chunks(TOGETHER)
+        .par_chunks(RUNS_TOGETHER)
         .map(|angles| -> Result<_, SurveyError> {
             let (mut machines, mut motions, mut starts) = (Vec::new(), Vec::new(), Vec::new());
             for (machine, turned) in angles.iter().enumerate() {
@@ -201,7 +201,7 @@ struct Run {
 impl Run {
     /// Goes on with or without strips from where the mass is clear of them.
     fn change(&mut self, to: &Shared<Phases>) -> Result<(), MotionError> {
-        let last = self.periods + LONGEST;
+        let last = self.periods + MAX_PERIODS_BEYOND;
         while self.motion.state().position >= self.clearance && self.periods < last {
             if self.go_on(true)? {
                 break;

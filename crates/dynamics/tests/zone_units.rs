@@ -1,7 +1,7 @@
 //! A machine in SI has the zone of the same machine in ratios, whatever its stop, and the same motions.
 
 use proptest::prelude::*;
-use softstop::{Language, Machine, Piercing, Ratios, Scene, Start, Stop};
+use softstop::{Machine, Piercing, Ratios, Scene, Start, Stop, UnitSystem};
 use softstop_dynamics::MotionKind;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::monitor::unmonitored;
@@ -99,7 +99,7 @@ fn a_zone_that_is_not_there_is_told_in_the_units_of_the_machine() {
     };
     let said = |machine: &Machine| error.clone().stated(machine).to_string();
     assert!(said(&machine).contains("up to excitation.frequency = 3.14159"));
-    machine.speaks = Language::Hertz;
+    machine.unit_system = UnitSystem::Hertz;
     assert_eq!(
         said(&machine),
         "no hysteresis: the hardest z = 1 motion at the grazing boundary, excitation.frequency_hz = 0.25, stays stable up \

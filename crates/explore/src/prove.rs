@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use nalgebra::Vector2;
 use serde::Serialize;
-use softstop::{Language, Machine, Parameter, Scene};
+use softstop::{Machine, Parameter, Scene, UnitSystem};
 use softstop_dynamics::continuation::{Special, SpecialKind, Test};
 use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, Regime};
 use softstop_prove::machine::Machine as Laws;
@@ -19,7 +19,7 @@ use softstop_console::column::Units;
 use softstop_console::export::{Export, Report};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::output::{Format, folder_and_file};
+use softstop_console::output::{self, Format, folder_and_file};
 use softstop_console::report::{self, MachineReport};
 use softstop_console::table::{aligned, heading};
 
@@ -91,11 +91,6 @@ pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
         refuse_followers_of_frequency(&machine)?;
     }
     let (folder, file) = folder_and_file(&arguments.output)?;
-    if !file.ends_with(".json") {
-        return Err(Failure::usage(format!(
-            "--output {file}: must end with .json"
-        )));
-    }
     let export = Export::of_file("json", folder, file)?;
     let certificate = arguments
         .limit
@@ -106,6 +101,9 @@ pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
         stated: MachineReport::of(&machine),
         machine: &machine,
     };
+    if !file.ends_with(".json") {
+        export.file("json", output::json(&report)?.as_bytes())?;
+    }
     export.finish(&report, arguments.format)
 }
 
@@ -207,9 +205,9 @@ impl Report for ProofReport<'_> {
             impacts: proof.impacts as u64,
             periods: proof.periods,
         };
-        let unit = |unit: &str| match self.machine.speaks {
-            Language::Ratios => String::new(),
-            Language::Si | Language::Hertz => format!(" ({unit})"),
+        let unit = |unit: &str| match self.machine.unit_system {
+            UnitSystem::Ratios => String::new(),
+            UnitSystem::Si | UnitSystem::Hertz => format!(" ({unit})"),
         };
         let figures = report::machine(self.machine, &[Parameter::Frequency])
             .with(

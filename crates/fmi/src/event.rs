@@ -1,5 +1,6 @@
 //! Events that an importer sees (FMI 3.0): steps that end at them, and event mode.
 
+use crate::exchange::Iteration;
 use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
@@ -7,7 +8,7 @@ use crate::step::{StepReport, rounding_of};
 use crate::unit::Unit;
 
 /// What an importer can do with events.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Handling {
     /// It handles them, in event mode.
     pub in_event_mode: bool,
@@ -74,6 +75,17 @@ impl<U: Unit> Instance<U> {
         })
     }
 
+    /// Goes on to right after the next event before `end` in s; whether there is one.
+    pub(crate) fn go_to_event(&mut self, point: f64, end: f64) -> Result<bool, Fault> {
+        let handling = Handling {
+            in_event_mode: false,
+            early: true,
+        };
+        let mut report = StepReport::new(false);
+        let ending = self.do_step_to_event(point, end - point, handling, &mut report)?;
+        Ok(ending.early && report.events.happened)
+    }
+
     /// The end of a step: where one was to end that an event has ended before, but for the rounding of who adds up what is
     /// left of it.
     fn intended_end(&self, end: f64, step: f64) -> f64 {
@@ -92,7 +104,7 @@ impl<U: Unit> Instance<U> {
     }
 
     /// Lets an event happen that is due.
-    fn pass_event(&mut self, report: &mut StepReport) -> Result<(), Fault> {
+    pub(crate) fn pass_event(&mut self, report: &mut StepReport) -> Result<(), Fault> {
         if let Some(unit) = self.unit.as_mut().filter(|_| self.awaits) {
             unit.pass_event(&mut report.events)?;
         }
@@ -112,25 +124,36 @@ impl<U: Unit> Instance<U> {
 
     /// Leaves event mode.
     pub(crate) fn enter_step_mode(&mut self) -> Result<(), Fault> {
-        self.require(&[Lifecycle::Event], "step mode is entered from event mode")?;
+        self.leave_event_mode()?;
+        self.lifecycle = Lifecycle::Running;
+        Ok(())
+    }
+
+    /// Takes over what was set in event mode.
+    pub(crate) fn leave_event_mode(&mut self) -> Result<(), Fault> {
+        self.require(&[Lifecycle::Event], "it is left from event mode")?;
         if self.awaits {
             return Err(Fault::WrongState {
                 state: self.lifecycle,
-                remedy: "an event is due: fmi3UpdateDiscreteStates must come first",
+                remedy: "an event is due: its handling must come first",
             });
         }
-        self.settle()?;
-        self.lifecycle = Lifecycle::Running;
-        Ok(())
+        self.settle().map(drop)
     }
 
     /// Lets an event happen that is due, takes over what was set, and tells when the next event comes.
     pub(crate) fn update_discrete_states(
         &mut self,
         report: &mut StepReport,
-    ) -> Result<Option<f64>, Fault> {
+    ) -> Result<Iteration, Fault> {
         self.require(&[Lifecycle::Event], "it belongs to event mode")?;
+        if self.exchange.is_some() {
+            return self.iterate_events(report);
+        }
         self.pass_event(report)?;
-        Ok(self.settle()?.next_event())
+        Ok(Iteration {
+            next: self.settle()?.next_event(),
+            has_new_states: false,
+        })
     }
 }

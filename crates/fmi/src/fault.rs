@@ -100,6 +100,12 @@ pub(crate) enum Fault {
         value: usize,
         wanted: usize,
     },
+    #[error("{value} {what}: there are {wanted}")]
+    Size {
+        what: &'static str,
+        value: usize,
+        wanted: usize,
+    },
     #[error("not offered: {0}")]
     NotOffered(&'static str),
     #[error("{0}")]

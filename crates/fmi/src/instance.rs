@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::fault::{Fault, Status};
 use crate::lifecycle::Lifecycle;
 use crate::signal::Signal;
+use crate::solving::Exchange;
 use crate::unit::Unit;
 
 /// One instance. Its clone is a snapshot from which it, or another one, can go on bit by bit.
@@ -30,6 +31,9 @@ pub(crate) struct Instance<U: Unit> {
     /// Where in s the last step was to end, if an event ended it before.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) aim: Option<f64>,
+    /// What an importer has set that integrates by itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) exchange: Option<Box<Exchange<U>>>,
 }
 
 /// What `fmi2SetupExperiment` said.
@@ -52,6 +56,7 @@ impl<U: Unit> Clone for Instance<U> {
             retreat: self.retreat.clone(),
             awaits: self.awaits,
             aim: self.aim,
+            exchange: self.exchange.clone(),
         }
     }
 
@@ -67,6 +72,7 @@ impl<U: Unit> Clone for Instance<U> {
         self.retreat.clone_from(&kept.retreat);
         self.awaits = kept.awaits;
         self.aim = kept.aim;
+        self.exchange.clone_from(&kept.exchange);
     }
 }
 
@@ -84,6 +90,7 @@ impl<U: Unit> Instance<U> {
             retreat: None,
             awaits: false,
             aim: None,
+            exchange: None,
         }
     }
 
@@ -101,8 +108,11 @@ impl<U: Unit> Instance<U> {
         self.lifecycle = Lifecycle::Failed;
     }
 
-    /// The time that the unit has reached, in s.
+    /// The time that the unit has reached, in s, or the importer that integrates.
     pub(crate) fn time(&self) -> f64 {
+        if let Some(exchange) = &self.exchange {
+            return exchange.time;
+        }
         match (&self.unit, self.experiment) {
             (Some(unit), _) => unit.time(),
             (None, Some(experiment)) => experiment.start,
@@ -167,12 +177,15 @@ impl<U: Unit> Instance<U> {
     /// Ends the experiment; values can still be read.
     pub(crate) fn terminate(&mut self) -> Result<(), Fault> {
         self.require(
-            &[Lifecycle::Running, Lifecycle::Event, Lifecycle::Failed],
+            &[
+                Lifecycle::Running,
+                Lifecycle::Event,
+                Lifecycle::Continuous,
+                Lifecycle::Failed,
+            ],
             "only an initialised unit can be terminated",
         )?;
-        if self.lifecycle.is_under_way() {
-            self.settle()?;
-        }
+        self.ready_for_outputs()?;
         self.lifecycle = Lifecycle::Terminated;
         Ok(())
     }

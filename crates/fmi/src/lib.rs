@@ -1,4 +1,4 @@
-//! The boundary of FMI 2.0 and 3.0 co-simulation for any unit, and the packager that writes its FMU.
+//! The boundary of FMI 2.0 and 3.0 for any unit, for co-simulation and model exchange, and the packager that writes its FMU.
 //!
 //! A [`Unit`] is a table of variables ([`variable`]) and a motion that can be advanced. The XML
 //! ([`description`]), the documentation, the package ([`package`]) and its parameters as a file of their own
@@ -15,6 +15,7 @@ mod derivatives;
 pub mod description;
 mod document;
 mod event;
+mod exchange;
 mod fault;
 mod guid;
 mod imprint;
@@ -25,14 +26,17 @@ pub mod package;
 pub mod parameter_set;
 mod quantity;
 mod reading;
+mod reference;
 pub mod rows;
 mod sensitivity;
 mod setting;
 pub mod si;
 mod signal;
+mod solving;
 mod standard;
 mod step;
 mod table;
+mod terminal;
 mod unit;
 pub mod v2;
 pub mod v3;
@@ -46,4 +50,5 @@ pub use sensitivity::slope;
 pub use signal::{Derivatives, HIGHEST_ORDER};
 pub use standard::Standard;
 pub use table::Table;
-pub use unit::{About, Advance, Events, Known, Outcome, Row, Unit};
+pub use terminal::{Flow, Terminal};
+pub use unit::{About, Advance, Events, Known, Outcome, Row, State, StateSpace, Unit};

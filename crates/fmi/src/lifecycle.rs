@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Where an instance stands between instantiation and its end (FMI 2.0, 4.2.4; FMI 3.0, 2.3 and 4.2.1).
+/// Where an instance stands between instantiation and its end (FMI 2.0, 3.2.3 and 4.2.4; FMI 3.0, 2.3, 3.2 and 4.2.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Lifecycle {
     /// Made or reset.
@@ -17,16 +17,25 @@ pub(crate) enum Lifecycle {
     Failed,
     /// Ended by the importer.
     Terminated,
-    /// At an event that the importer handles (FMI 3.0).
+    /// At an event that the importer handles.
     Event,
     /// A call has failed (FMI 3.0).
     Erred,
+    /// Between events, while the importer integrates.
+    Continuous,
+    /// At an event within a step, where outputs can be read (FMI 3.0).
+    Intermediate,
 }
 
 impl Lifecycle {
+    /// Whether initialisation is not over.
+    pub(crate) const fn is_before_start(self) -> bool {
+        matches!(self, Self::Instantiated | Self::Initializing)
+    }
+
     /// Whether initialisation is over and the end is not reached.
     pub(crate) const fn is_under_way(self) -> bool {
-        matches!(self, Self::Running | Self::Event)
+        matches!(self, Self::Running | Self::Event | Self::Continuous)
     }
 }
 
@@ -37,6 +46,8 @@ impl fmt::Display for Lifecycle {
             Self::Initializing => "during initialisation",
             Self::Running => "after initialisation",
             Self::Event => "in event mode",
+            Self::Continuous => "in continuous-time mode",
+            Self::Intermediate => "in intermediate update mode",
             Self::Erred => "after fmi3Error",
             Self::Failed => "after an internal error",
             Self::Terminated => "after fmi2Terminate",

@@ -15,7 +15,7 @@ use zip::{CompressionMethod, DateTime};
 use crate::imprint::Imprint;
 use crate::standard::Standard;
 use crate::unit::Unit;
-use crate::{description, document, guid};
+use crate::{description, document, guid, reference};
 
 /// Folder in `binaries/` of the machine that this program runs on.
 pub const HOST_PLATFORM: &str = if cfg!(target_os = "windows") {
@@ -210,9 +210,12 @@ pub fn archive<U: Unit>(
         };
         (name.to_owned(), bytes.to_vec())
     }));
-    if standard == Standard::Fmi3 && about.files.iter().any(|(name, _)| *name == ICON) {
-        let icons = description::v3::icons()?.into_bytes();
-        entries.push(("terminalsAndIcons/terminalsAndIcons.xml".to_owned(), icons));
+    if standard == Standard::Fmi3 {
+        let has_icon = about.files.iter().any(|(name, _)| *name == ICON);
+        let text = description::v3::terminals_and_icons(about.terminals, has_icon)?;
+        let name = "terminalsAndIcons/terminalsAndIcons.xml".to_owned();
+        entries.push((name, text.into_bytes()));
+        entries.extend(reference::files(imprint)?);
     }
     for library in libraries {
         let bytes = library.with_imprint(imprint)?;

@@ -109,7 +109,7 @@ impl<U: Unit> Instance<U> {
     ) -> Result<(), Fault> {
         let mut outputs = false;
         for &reference in references {
-            outputs |= find::<U>(reference, wanted)?.is_output();
+            outputs |= find::<U>(reference, wanted)?.is_calculated();
         }
         if outputs {
             self.ready_for_outputs()?;
@@ -126,7 +126,9 @@ impl<U: Unit> Instance<U> {
             Access::Parameter { slot, .. } | Access::Input(slot) => Ok(self.values[slot.0]),
             Access::Time => Ok(self.time()),
             Access::Signal(number) => Ok(self.signals[*number].at(self.time())),
-            Access::Continuous { value, .. } | Access::Discrete { value, .. } => Ok(value(unit()?)),
+            Access::Continuous { value, .. }
+            | Access::Discrete { value, .. }
+            | Access::Local(value) => Ok(value(unit()?)),
             Access::Integer { value, .. } => Ok(f64::from(value(unit()?))),
         }
     }
@@ -144,7 +146,11 @@ impl<U: Unit> Instance<U> {
             Lifecycle::Initializing | Lifecycle::Running | Lifecycle::Event => {
                 self.settle().map(drop)
             }
-            Lifecycle::Failed | Lifecycle::Erred | Lifecycle::Terminated => Ok(()),
+            Lifecycle::Continuous => self.show(),
+            Lifecycle::Intermediate
+            | Lifecycle::Failed
+            | Lifecycle::Erred
+            | Lifecycle::Terminated => Ok(()),
         }
     }
 }

@@ -37,7 +37,8 @@ impl<U: Unit> Instance<U> {
                 .slot()
                 .is_some_and(|slot| self.values[slot.0] != value);
         }
-        if changes {
+        // Between events discrete variables stay as they are.
+        if changes && self.lifecycle != Lifecycle::Continuous {
             let mut after = self.values.clone();
             for (&reference, value) in all() {
                 if let Some(slot) = find::<U>(reference, wanted)?.slot() {
@@ -57,9 +58,12 @@ impl<U: Unit> Instance<U> {
     }
 
     pub(crate) fn require_settable(&self) -> Result<(), Fault> {
-        use Lifecycle::{Event, Initializing, Instantiated, Running};
+        use Lifecycle::{Continuous, Event, Initializing, Instantiated, Running};
         let remedy = "values can be set again after fmi2Reset";
-        self.require(&[Instantiated, Initializing, Running, Event], remedy)
+        self.require(
+            &[Instantiated, Initializing, Running, Event, Continuous],
+            remedy,
+        )
     }
 
     fn check_settable(&self, variable: &Row<U>) -> Result<(), Fault> {
@@ -99,6 +103,20 @@ impl<U: Unit> Instance<U> {
 
     /// A continuous input from now on; setting what holds anyway changes nothing.
     pub(crate) fn push(&mut self, number: usize, derivatives: Derivatives) {
+        if let Some(exchange) = self.exchange.as_mut()
+            && self.lifecycle == Lifecycle::Continuous
+        {
+            let own = exchange.inputs[number];
+            let changed = Signal {
+                derivatives,
+                since: exchange.time,
+                pending: true,
+            };
+            let is_own = own.is_same_value(derivatives[0]);
+            self.signals[number] = if is_own { own } else { changed };
+            exchange.is_shown = false;
+            return;
+        }
         if let Some(unit) = self.unit.as_mut().filter(|_| !self.awaits) {
             unit.mark();
         }

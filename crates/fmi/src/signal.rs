@@ -8,6 +8,9 @@ pub const HIGHEST_ORDER: usize = 7;
 /// Derivatives of an input at one time, of order 0 (the value itself) to [`HIGHEST_ORDER`].
 pub type Derivatives = [f64; HIGHEST_ORDER + 1];
 
+/// Share of a value by which interpolating between two equal ones may miss it.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// A continuous input: its derivatives p_k at a time, from which it goes on as sum of p_k t^k / k!.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Signal {
@@ -26,6 +29,12 @@ impl Signal {
             since,
             pending: derivatives != Derivatives::default(),
         }
+    }
+
+    /// Whether a value is that of this constant input but for the rounding of who interpolates it.
+    pub(crate) fn is_same_value(&self, value: f64) -> bool {
+        let own = self.derivatives[0];
+        (value - own).abs() <= ROUNDING * own.abs()
     }
 
     /// Its value at `time` in s.

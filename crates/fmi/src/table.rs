@@ -45,6 +45,17 @@ impl<U, T> Table<U, T> {
         *self.by_reference.get(usize::try_from(reference).ok()?)?
     }
 
+    /// The value of a real variable that follows from the motion; of another one it is not a number.
+    pub(crate) fn number(&self, unit: &U, reference: u32) -> f64 {
+        match self
+            .by_reference(reference)
+            .map(|variable| &variable.access)
+        {
+            Some(Access::Continuous { value, .. } | Access::Local(value)) => value(unit),
+            _ => f64::NAN,
+        }
+    }
+
     /// The variable of this name.
     pub fn by_name(&self, name: &str) -> Option<&'static Variable<U, T>> {
         self.rows().find(|variable| variable.name == name)

@@ -11,16 +11,19 @@ use crate::block::Block;
 use crate::quantity::{Enumeration, Quantity};
 use crate::signal::Derivatives;
 use crate::table::Table;
+use crate::terminal::Terminal;
 use crate::variable::{Slot, Variable};
 
 /// What a unit can refuse, with a text for the importer's log that names the variable.
 pub type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// A unit under way. Lifecycle, values and inputs are kept for it, and
-/// [`export_fmi2`](crate::export_fmi2) and [`export_fmi3`](crate::export_fmi3) give it the C functions of a standard.
+/// [`fmi2_functions`](crate::fmi2_functions) and [`fmi3_functions`](crate::fmi3_functions) give it the functions of a
+/// standard.
 ///
 /// To make another unit, write its [`About`] with the table of variables and its [`Block`] as two
-/// statics, implement the methods without a body, and call each of these macros in a `cdylib` of its own.
+/// statics, implement the methods without a body, call a macro of functions and then `export_fmi2!`
+/// or `export_fmi3!` in a `cdylib` for each standard.
 /// `tests/tank/mod.rs` is one in a page.
 ///
 /// Its clone, and what is read back from its bytes, must go on bit for bit.
@@ -63,6 +66,28 @@ pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
     /// When the next event happens if nothing is set, in s, as far as it can be told now.
     fn next_event(&self) -> Option<f64> {
         None
+    }
+
+    /// The unit at another time in s in other states of [`StateSpace`], under the law that holds, wherever that leads.
+    ///
+    /// # Errors
+    /// By default always: a unit without states.
+    fn at_states(&self, _time: f64, _states: &[f64]) -> Outcome<Self> {
+        Err("the unit has no continuous states".into())
+    }
+
+    /// Goes on by the law of another one, whatever the inputs ask for, and stands before the event that ends it if that is
+    /// passed.
+    fn keep_law(&mut self, _of: &Self) {}
+
+    /// What is much of each state.
+    fn nominals(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Whether the law that holds is over before an importer could tell: its end belongs to the event that it began with.
+    fn is_passing(&self) -> bool {
+        false
     }
 
     /// Takes the derivatives that a continuous input has from now on.
@@ -142,6 +167,26 @@ impl Events {
     }
 }
 
+/// What an importer integrates in model exchange, by value references.
+#[derive(Debug)]
+pub struct StateSpace {
+    /// The continuous states.
+    pub states: &'static [State],
+    /// Variables whose sign tells of an event.
+    pub indicators: &'static [u32],
+}
+
+/// A continuous state, by value references.
+#[derive(Debug)]
+pub struct State {
+    /// The state.
+    pub value: u32,
+    /// Its time derivative.
+    pub derivative: u32,
+    /// The parameter that it begins with.
+    pub start: u32,
+}
+
 /// What a unit says of itself, in the XML and in the documentation.
 pub struct About<U: Unit> {
     /// `modelIdentifier`: the name of the binaries' files.
@@ -166,8 +211,12 @@ pub struct About<U: Unit> {
     pub quantities: &'static [&'static Quantity],
     /// All enumeration types in use.
     pub enumerations: &'static [&'static Enumeration],
+    /// What is connected together in FMI 3.0, one terminal at least.
+    pub terminals: &'static [Terminal],
     /// Its variables.
     pub table: Table<U, U::Tangent>,
+    /// What model exchange needs; nothing for a unit that is for co-simulation only.
+    pub state_space: Option<&'static StateSpace>,
     /// The documentation page, with marks for name, version, capabilities and variables.
     pub page: &'static str,
     /// Further files of the package: (path, content).

@@ -165,6 +165,8 @@ pub enum Access<U: 'static, T> {
         /// What it depends on.
         depends: Dependencies,
     },
+    /// A real number that varies continuously between events and that no other unit is meant to read.
+    Local(fn(&U) -> f64),
     /// A real output that changes at events only.
     Discrete {
         /// Its value.
@@ -201,6 +203,7 @@ impl<U, T> Variable<U, T> {
             Access::Parameter { .. } => "parameter",
             Access::Time => "independent",
             Access::Signal(_) | Access::Input(_) => "input",
+            Access::Local(_) => "local",
             _ => "output",
         }
     }
@@ -210,7 +213,9 @@ impl<U, T> Variable<U, T> {
         match self.access {
             Access::Parameter { tunable: true, .. } => "tunable",
             Access::Parameter { tunable: false, .. } => "fixed",
-            Access::Signal(_) | Access::Continuous { .. } | Access::Time => "continuous",
+            Access::Signal(_) | Access::Continuous { .. } | Access::Local(_) | Access::Time => {
+                "continuous"
+            }
             Access::Input(_) | Access::Discrete { .. } | Access::Integer { .. } => "discrete",
         }
     }
@@ -221,6 +226,11 @@ impl<U, T> Variable<U, T> {
             Access::Parameter { slot, .. } | Access::Input(slot) => Some(slot),
             _ => None,
         }
+    }
+
+    /// Whether its value follows from the motion.
+    pub const fn is_calculated(&self) -> bool {
+        self.is_output() || matches!(self.access, Access::Local(_))
     }
 
     /// Whether this is an output.

@@ -6,12 +6,25 @@ mod three;
 #[path = "tank/mod.rs"]
 mod unit;
 
+mod functions {
+    pub mod fmi2 {
+        softstop_fmi::fmi2_functions!(crate::unit::Tank);
+    }
+    pub mod fmi3 {
+        softstop_fmi::fmi3_functions!(crate::unit::Tank);
+    }
+}
+
 mod fmi2 {
-    softstop_fmi::export_fmi2!(super::unit::Tank);
+    use crate::functions::fmi2;
+
+    softstop_fmi::export_fmi2!(fmi2);
 }
 
 mod fmi3 {
-    softstop_fmi::export_fmi3!(super::unit::Tank);
+    use crate::functions::fmi3;
+
+    softstop_fmi::export_fmi3!(fmi3);
 }
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};

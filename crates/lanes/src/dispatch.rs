@@ -39,7 +39,7 @@ pub(super) fn dispatch<T: WithSimd>(task: T, instructions: Instructions) -> T::O
     vectorize(task, instructions).unwrap_or_else(|task| Simd::vectorize(pulp::Scalar, task))
 }
 
-/// The same, or the task back where only the portable instructions are left.
+/// Runs a task with vector instructions, or gives it back where only the portable instructions are left.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Output, T> {
     use pulp::x86::{V3, V4};

@@ -193,7 +193,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         self.progress_with(lane, self.state.left.get(lane))
     }
 
-    /// The same with so many periods left.
+    /// The job of a lane and its drive periods so far, with so many left.
     pub fn progress_with(&self, lane: usize, left: f64) -> Option<(usize, u64)> {
         let job = self.lanes[lane]?;
         Some((job, self.task.jobs[job].periods - left as u64))

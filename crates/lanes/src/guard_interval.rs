@@ -1,6 +1,6 @@
 //! What is proven of a guard function over a stretch of time, lane by lane.
 //!
-//! The same certificates as those of the safe engine: the cubic Hermite interpolant with the bound on
+//! The certificates are those of the safe engine: the cubic Hermite interpolant with the bound on
 //! the fourth derivative encloses the function, its slope and its curvature.
 
 use pulp::Simd;

@@ -20,7 +20,7 @@ macro_rules! law {
             pub response: [f64; TERMS],
         }
 
-        /// The same in all lanes.
+        /// The constants of the laws in all lanes.
         #[derive(Debug, Clone, Copy)]
         pub(super) struct Law<S: Simd, const N: usize> {
             $(pub $field: Lanes<S, N>,)*
@@ -87,7 +87,7 @@ law! {
     /// The free motion is never larger than |y| + longest |y'| in a phase that one position ends, the steady one than swing.
     longest,
     swing,
-    /// The same for |v''''|: rate_steady + |fifth_x y + ...| times bounds + ...
+    /// Parts of the bound on |v''''|: rate_steady + |fifth_x y + ...| times bounds + ...
     rate_steady,
     rate_fifth_x,
     rate_fifth_v,
@@ -110,7 +110,7 @@ law! {
     bounce,
     /// 1 where passing high is an impact.
     impact,
-    /// The same of the one end of a phase that only one position ends: where it is, what lies beyond, and how
+    /// The one end of a phase that only one position ends: where it is, what lies beyond, and how
     /// velocity and count of impacts change there.
     end,
     beyond_end,

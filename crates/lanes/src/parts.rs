@@ -91,7 +91,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         .turned::<HALF_WINDOW>(frequency, time)
     }
 
-    /// The same with the drive turned on for a `time` that this many terms are enough for.
+    /// These parts with the drive turned on for a `time` that this many terms are enough for.
     #[inline(always)]
     pub fn turned<const TERMS: usize>(&self, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
         let angle = frequency * time;
@@ -127,7 +127,7 @@ impl<S: Simd, const N: usize> Law<S, N> {
         self.steady + fourth + fifth
     }
 
-    /// The same of |v''''|.
+    /// Bound on the error of the interpolated velocity, by |v''''|.
     #[inline(always)]
     pub fn rate_error_bound(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
         let Parts { y, u, .. } = *parts;

@@ -37,7 +37,7 @@ impl<S: Simd, const N: usize> Power<S, N> {
         (reach, of.and_not(open))
     }
 
-    /// The same judged at a length `near`, and where that is near enough.
+    /// The reach judged at a length `near`, and where that is near enough.
     #[inline(always)]
     fn reach_about(&self, near: Lanes<S, N>) -> (Lanes<S, N>, Mask<S, N>) {
         let one = near.like(1.0);

@@ -22,7 +22,7 @@ pub fn run(machines: &[Machine], jobs: &[Job], watch: &mut impl BatchObserver) -
     run_with(Instructions::Widest, machines, jobs, watch)
 }
 
-/// The same with the instruction set chosen.
+/// Runs a batch on this thread with the instruction set chosen.
 pub fn run_with(
     instructions: Instructions,
     machines: &[Machine],

@@ -72,9 +72,19 @@ pub(crate) fn motion(
         let angle = drive.phase + (touch.angle - drive.phase).rem_euclid(span);
         let at = guesses.partition_point(|it| it.unknowns[0] < angle);
         let below = touch.position - SAME * touch.position.abs();
+        let phase = machine.phase_at(below, 0.0);
+        if machine.phases[phase]
+            .guards
+            .iter()
+            .any(|it| it.position == 0.0)
+        {
+            return Err(ProofError::Unsupported(
+                "under dry friction the mass turns on the very surface that it grazes",
+            ));
+        }
         let guess = Guess {
             kind: Kind::Touch,
-            phase: machine.phase_at(below, 0.0),
+            phase,
             unknowns: [angle, touch.position, 0.0],
         };
         guesses.insert(at, guess);

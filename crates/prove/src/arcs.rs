@@ -47,16 +47,17 @@ impl Arc<'_> {
     }
 
     fn jet(&self, position: Interval, velocity: Interval, angle: Interval) -> Jet {
-        let machine = &self.enclosed.motion.machine;
+        let (machine, frequency) = (&self.enclosed.motion.machine, self.enclosed.frequency);
         let (sine, cosine) = angle.sin_cos();
         let acceleration = machine.acceleration(self.law, &position, &velocity, &cosine);
-        let push = -(machine.amplitude * self.enclosed.frequency * sine);
-        let force = push - self.law.damping * acceleration - self.law.stiffness * velocity;
+        let force = (frequency * sine).times(machine.amplitude)
+            + acceleration.times(self.law.damping)
+            + velocity.times(self.law.stiffness);
         Jet {
             position,
             velocity,
             acceleration,
-            jerk: force / machine.mass,
+            jerk: -force / Interval::point(machine.mass),
         }
     }
 
@@ -69,11 +70,7 @@ impl Arc<'_> {
         let position = center.position + center.velocity * away + rough.acceleration * half_square;
         let velocity = center.velocity + center.acceleration * away + rough.jerk * half_square;
         let angle = self.start.angle + self.enclosed.frequency * elapsed;
-        self.jet(
-            position.intersection(rough.position).unwrap_or(position),
-            velocity.intersection(rough.velocity).unwrap_or(velocity),
-            angle,
-        )
+        self.jet(position, velocity, angle)
     }
 }
 
@@ -88,7 +85,7 @@ struct Watched<'a> {
 impl Watched<'_> {
     /// True if it stays below zero on a part of an arc; at the first and the last part it may be zero at the very end.
     fn stays_below(&self, jet: &Jet, is_first: bool, is_last: bool) -> bool {
-        let (p, q) = (self.guard.position, self.guard.velocity);
+        let [p, q] = [self.guard.position, self.guard.velocity].map(Interval::point);
         let slope = p * jet.velocity + q * jet.acceleration;
         let curvature = p * jet.acceleration + q * jet.jerk;
         let falls = match self.start {
@@ -155,6 +152,8 @@ impl Enclosed<'_> {
         let watched = guards.map(|(number, guard)| Watched {
             guard,
             start: match begin_guard {
+                // Without any restitution the mass starts at rest.
+                Some(zero) if guard.is_zero_with(zero) && zero.factor == 0.0 => 2,
                 Some(zero) if guard.is_zero_with(zero) => order(begin.event),
                 _ => 0,
             },
@@ -248,24 +247,17 @@ impl Enclosed<'_> {
                 .machine
                 .acceleration(law, &at.position, &velocity, &cosine)
         };
-        let after = at.velocity * guard.factor;
+        let [p, q, factor] = [guard.position, guard.velocity, guard.factor].map(Interval::point);
+        let after = at.velocity * factor;
         let before_acceleration = acceleration(motion.law(arc), at.velocity);
         let after_acceleration = acceleration(motion.law((arc + 1) % count), after);
-        let rate = guard.position * at.velocity + guard.velocity * before_acceleration;
+        let rate = p * at.velocity + q * before_acceleration;
         let jumps = [
             (after - at.velocity) / rate,
-            (after_acceleration - guard.factor * before_acceleration) / rate,
+            (after_acceleration - factor * before_acceleration) / rate,
         ];
-        let row = |own: [Interval; 2], jump: Interval| {
-            [
-                own[0] + jump * guard.position,
-                own[1] + jump * guard.velocity,
-            ]
-        };
-        let matrix = [
-            row([one, zero], jumps[0]),
-            row([zero, guard.factor], jumps[1]),
-        ];
+        let row = |own: [Interval; 2], jump: Interval| [own[0] + jump * p, own[1] + jump * q];
+        let matrix = [row([one, zero], jumps[0]), row([zero, factor], jumps[1])];
         let determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
         (matrix, determinant)
     }

@@ -54,7 +54,6 @@ pub struct Certificate {
     /// Its events in order of time.
     pub events: Vec<ProvenEvent>,
     /// The component of the tangent that is 1, at a fold and a flip.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub pinned: Option<usize>,
     /// A box that holds exactly one solution: drive angle in rad, position in m and velocity in m/s of each event, at a fold and a flip the tangent, and but for an orbit the drive's frequency in rad/s.
     pub unique: Vec<Interval>,
@@ -66,8 +65,8 @@ pub struct Certificate {
     pub trace: Interval,
     /// Its determinant.
     pub determinant: Interval,
-    /// `stable` if both multipliers are proven to lie inside the unit circle, `unstable` if one is proven to lie outside, else
-    /// `undecided`, as at a fold and a flip.
+    /// Of an orbit `stable` if both multipliers are proven to lie inside the unit circle, `unstable` if one is proven to lie
+    /// outside; else, and at a bifurcation, `undecided`.
     pub stability: &'static str,
 }
 
@@ -128,6 +127,9 @@ impl Certificate {
                 _ => zero.enclosure[zero.enclosure.len() - 1],
             },
         };
+        if !motion.has_no_shorter_period(enclosed.unknowns) {
+            return Err(ProofError::ShorterPeriod);
+        }
         let divisions = enclosed.divisions()?;
         let (trace, determinant) = enclosed.monodromy();
         let events = motion.events.iter().zip(divisions);
@@ -156,7 +158,10 @@ impl Certificate {
             enclosure: zero.enclosure,
             trace,
             determinant,
-            stability: stability(trace, determinant),
+            stability: match claim {
+                Claim::Orbit => stability(trace, determinant),
+                Claim::Fold | Claim::Flip | Claim::Grazing(_) => "undecided",
+            },
         })
     }
 }

@@ -36,6 +36,9 @@ pub enum ProofError {
     /// Krawczyk's test fails.
     #[error("no proof: Krawczyk's test holds in no box around the motion")]
     NoBox,
+    /// The motion may repeat after fewer drive periods.
+    #[error("no proof: the motion may repeat after fewer drive periods")]
+    ShorterPeriod,
     /// An arc does not lead to the event at its end.
     #[error("no proof: arc {arc} does not lead to the event at its end")]
     Sequence {

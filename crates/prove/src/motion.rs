@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::elementary::full_turn;
 use crate::interval::Interval;
 use crate::machine::{Guard, Law, Machine};
-use crate::number::{Number, Tangent};
+use crate::number::{Dual, Number};
 
 /// What happens where one arc ends and the next one begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -86,6 +86,17 @@ impl Motion {
         crossings.filter(|it| self.guard(*it).impact).count()
     }
 
+    /// True if no event may be the first one, whole drive periods later, before the period is over.
+    pub fn has_no_shorter_period(&self, unknowns: &[Interval]) -> bool {
+        let angles = unknowns.iter().step_by(UNKNOWNS);
+        let apart = |angle: &Interval, periods: u64| {
+            let turns = full_turn() * Interval::point(periods as f64);
+            !(*angle - unknowns[0] - turns).contains(0.0)
+        };
+        let mut later = angles.skip(1);
+        later.all(|angle| (1..self.periods).all(|periods| apart(angle, periods)))
+    }
+
     /// The number of unknowns of its events.
     pub fn unknowns(&self) -> usize {
         UNKNOWNS * self.events.len()
@@ -164,21 +175,21 @@ impl Motion {
             Problem::Flip { pinned } => (-Interval::ONE, pinned),
         };
         let tangents = &unknowns[own..2 * own];
-        let along = |factor: Interval| -> Vec<Tangent<T>> {
+        let along = |factor: Interval| -> Vec<Dual<T>> {
             let pairs = unknowns[..own].iter().zip(tangents);
-            let with = |(value, slope): (&T, &T)| Tangent {
+            let with = |(value, slope): (&T, &T)| Dual {
                 value: value.clone(),
-                slope: slope.times(factor),
+                slopes: vec![slope.times(factor)],
             };
             pairs.map(with).collect()
         };
-        let frequency = Tangent {
+        let frequency = Dual {
             value: last(),
-            slope: Interval::ZERO.into(),
+            slopes: Vec::new(),
         };
         let misses = self.misses(&along(Interval::ONE), &along(multiplier), &frequency);
-        let (mut values, slopes): (Vec<T>, Vec<T>) =
-            misses.into_iter().map(|it| (it.value, it.slope)).unzip();
+        let slopes: Vec<T> = misses.iter().map(|it| it.slope(0)).collect();
+        let mut values: Vec<T> = misses.into_iter().map(|it| it.value).collect();
         values.extend(slopes);
         values.push(tangents[pinned].clone() - T::from(Interval::ONE));
         values
@@ -222,14 +233,13 @@ struct Steady<T> {
 impl<T: Number> Steady<T> {
     fn new(machine: &Machine, law: &Law, frequency: &T) -> Self {
         let square = frequency.clone() * frequency.clone();
-        let elastic = T::from(law.stiffness) - square.times(machine.mass);
+        let elastic = T::constant(law.stiffness) - square.times(machine.mass);
         let damping = frequency.times(law.damping);
         let sum = elastic.clone() * elastic.clone() + damping.clone() * damping.clone();
         let scale = sum.reciprocal().times(machine.amplitude);
-        let rest = if law.force == Interval::ZERO {
-            Interval::ZERO
-        } else {
-            law.force / law.stiffness
+        let rest = match law.force {
+            0.0 => Interval::ZERO,
+            force => Interval::point(force) / Interval::point(law.stiffness),
         };
         Self {
             rest,

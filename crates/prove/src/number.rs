@@ -1,4 +1,4 @@
-//! Numbers with exact derivatives: intervals, gradients of intervals, and tangents of either (forward differentiation).
+//! Intervals, and numbers with exact derivatives (forward differentiation), which may be nested.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -20,9 +20,13 @@ pub trait Number:
     fn sin_cos(&self) -> (Self, Self);
     /// [`Decay::at`] a time.
     fn decay(&self, decay: &Decay) -> (Self, Self);
+    /// A double.
+    fn constant(value: f64) -> Self {
+        Self::from(Interval::point(value))
+    }
     /// The same number times a constant.
-    fn times(&self, factor: Interval) -> Self {
-        self.clone() * Self::from(factor)
+    fn times(&self, factor: impl Into<Interval>) -> Self {
+        self.clone() * Self::from(factor.into())
     }
 }
 
@@ -93,109 +97,33 @@ impl Number for Interval {
     }
 }
 
-/// A number with its derivative in one direction.
+/// A number with some derivatives; a constant has none.
 #[derive(Debug, Clone)]
-pub struct Tangent<T> {
+pub struct Dual<T> {
     /// The number.
     pub value: T,
-    /// Its derivative.
-    pub slope: T,
+    /// Its derivatives; those that are missing are zero.
+    pub slopes: Vec<T>,
 }
 
-impl<T: Number> From<Interval> for Tangent<T> {
-    fn from(value: Interval) -> Self {
-        Self {
-            value: value.into(),
-            slope: Interval::ZERO.into(),
-        }
+/// A number with its derivatives by all unknowns.
+pub type Gradient = Dual<Interval>;
+
+impl<T: Number> Dual<T> {
+    /// A derivative.
+    pub fn slope(&self, index: usize) -> T {
+        let zero = || Interval::ZERO.into();
+        self.slopes.get(index).cloned().unwrap_or_else(zero)
     }
-}
 
-impl<T: Number> Add for Tangent<T> {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
+    /// A function of this number with a value and a derivative.
+    fn chain(&self, value: T, slope: T) -> Self {
+        let slopes = self.slopes.iter().map(|it| it.clone() * slope.clone());
         Self {
-            value: self.value + other.value,
-            slope: self.slope + other.slope,
-        }
-    }
-}
-
-impl<T: Number> Sub for Tangent<T> {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl<T: Number> Neg for Tangent<T> {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        Self {
-            value: -self.value,
-            slope: -self.slope,
-        }
-    }
-}
-
-impl<T: Number> Mul for Tangent<T> {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        Self {
-            slope: self.slope * other.value.clone() + self.value.clone() * other.slope,
-            value: self.value * other.value,
-        }
-    }
-}
-
-impl<T: Number> Number for Tangent<T> {
-    fn reciprocal(&self) -> Self {
-        let value = self.value.reciprocal();
-        Self {
-            slope: -(value.clone() * value.clone() * self.slope.clone()),
+            slopes: slopes.collect(),
             value,
         }
     }
-
-    fn sin_cos(&self) -> (Self, Self) {
-        let (sine, cosine) = self.value.sin_cos();
-        let slope = &self.slope;
-        let by_sine = cosine.clone() * slope.clone();
-        let by_cosine = -(sine.clone() * slope.clone());
-        (
-            Self {
-                value: sine,
-                slope: by_sine,
-            },
-            Self {
-                value: cosine,
-                slope: by_cosine,
-            },
-        )
-    }
-
-    fn decay(&self, decay: &Decay) -> (Self, Self) {
-        let pair = self.value.decay(decay);
-        let (u, s) = decay.slope(&pair);
-        let with = |value, slope: T| Self {
-            value,
-            slope: slope * self.slope.clone(),
-        };
-        (with(pair.0, u), with(pair.1, s))
-    }
-}
-
-/// A number with its derivatives by all unknowns; a constant has none.
-#[derive(Debug, Clone)]
-pub struct Gradient {
-    /// The number.
-    pub value: Interval,
-    /// Its derivatives.
-    pub slopes: Vec<Interval>,
 }
 
 impl Gradient {
@@ -205,31 +133,18 @@ impl Gradient {
         slopes[index] = Interval::ONE;
         Self { value, slopes }
     }
-
-    /// Its derivative by an unknown.
-    pub fn slope(&self, index: usize) -> Interval {
-        self.slopes.get(index).copied().unwrap_or(Interval::ZERO)
-    }
-
-    /// A function of this number with a value and a derivative.
-    fn chain(&self, value: Interval, slope: Interval) -> Self {
-        Self {
-            value,
-            slopes: self.slopes.iter().map(|it| *it * slope).collect(),
-        }
-    }
 }
 
-impl From<Interval> for Gradient {
+impl<T: Number> From<Interval> for Dual<T> {
     fn from(value: Interval) -> Self {
         Self {
-            value,
+            value: value.into(),
             slopes: Vec::new(),
         }
     }
 }
 
-impl Add for Gradient {
+impl<T: Number> Add for Dual<T> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -242,15 +157,15 @@ impl Add for Gradient {
     }
 }
 
-impl Neg for Gradient {
+impl<T: Number> Neg for Dual<T> {
     type Output = Self;
 
     fn neg(self) -> Self {
-        self.chain(-self.value, -Interval::ONE)
+        self.chain(-self.value.clone(), (-Interval::ONE).into())
     }
 }
 
-impl Sub for Gradient {
+impl<T: Number> Sub for Dual<T> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -258,25 +173,29 @@ impl Sub for Gradient {
     }
 }
 
-impl Mul for Gradient {
+impl<T: Number> Mul for Dual<T> {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
-        let value = self.value * other.value;
-        let sum = self.chain(value, other.value) + other.chain(value, self.value);
+        let value = self.value.clone() * other.value.clone();
+        let sum = self.chain(value.clone(), other.value.clone())
+            + other.chain(value.clone(), self.value.clone());
         Self { value, ..sum }
     }
 }
 
-impl Number for Gradient {
+impl<T: Number> Number for Dual<T> {
     fn reciprocal(&self) -> Self {
         let value = self.value.reciprocal();
-        self.chain(value, -value.square())
+        self.chain(value.clone(), -(value.clone() * value))
     }
 
     fn sin_cos(&self) -> (Self, Self) {
         let (sine, cosine) = self.value.sin_cos();
-        (self.chain(sine, cosine), self.chain(cosine, -sine))
+        (
+            self.chain(sine.clone(), cosine.clone()),
+            self.chain(cosine, -sine),
+        )
     }
 
     fn decay(&self, decay: &Decay) -> (Self, Self) {

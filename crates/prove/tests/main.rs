@@ -1,3 +1,4 @@
 //! Proofs and what they rest on.
 
+mod intervals;
 mod proofs;

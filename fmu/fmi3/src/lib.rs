@@ -1,3 +1,5 @@
 //! The library of softstop.fmu for FMI 3.0: the C functions of the standard, and no others.
 
-softstop_fmi::export_fmi3!(softstop_fmu::Machine);
+use softstop_fmu::fmi3;
+
+softstop_fmi::export_fmi3!(fmi3);

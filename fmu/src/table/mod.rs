@@ -1,12 +1,16 @@
 //! The table of variables, group by group.
 
 mod drive;
+mod exchange;
 mod outputs;
 mod parameters;
 mod rows;
 mod stops;
+mod terminals;
 
+pub(crate) use exchange::STATE_SPACE;
 use rows::Row;
+pub(crate) use terminals::TERMINALS;
 
 /// All variables, in the order of the XML.
 pub(crate) const GROUPS: &[&[Row]] = &[
@@ -22,4 +26,5 @@ pub(crate) const GROUPS: &[&[Row]] = &[
     stops::RIGID,
     parameters::STRIP_AND_START,
     outputs::OUTPUTS,
+    exchange::INDICATORS,
 ];

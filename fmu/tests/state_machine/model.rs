@@ -170,7 +170,7 @@ impl Model {
         let outputs = references.iter().any(|vr| {
             table()
                 .by_reference(*vr)
-                .is_some_and(|variable| variable.is_output())
+                .is_some_and(|variable| variable.is_calculated())
         });
         if_all(&[
             references.is_empty() || null == Null::Nothing,

@@ -20,9 +20,10 @@ enum Life {
     Initializing,
     Event,
     Step,
+    Continuous,
     Terminated,
 }
-use Life::{Event, Initializing, Instantiated, Step, Terminated};
+use Life::{Continuous, Event, Initializing, Instantiated, Step, Terminated};
 
 #[derive(Debug, Clone, Copy)]
 enum Call {
@@ -31,6 +32,11 @@ enum Call {
     EnterEvent,
     EnterStep,
     Update,
+    EnterContinuous,
+    Complete,
+    SetTime(f64),
+    SetStates(&'static [f64]),
+    GetStates(Vector, usize),
     Terminate,
     Reset,
     Get(&'static str),
@@ -57,6 +63,15 @@ enum Where {
     Beyond,
 }
 
+/// What has as many elements as there are states, or event indicators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Vector {
+    States,
+    Derivatives,
+    Nominals,
+    Indicators,
+}
+
 /// An instance as its importer must imagine it.
 #[derive(Debug, Clone, Copy)]
 struct Model {
@@ -66,6 +81,11 @@ struct Model {
     awaits: bool,
     /// Initialisation was left, so that there are outputs whatever comes.
     begun: bool,
+    /// The importer integrates.
+    is_for_exchange: bool,
+    /// When event mode was entered last, and whether events were updated since.
+    event: f64,
+    updated: bool,
 }
 
 const FRESH: Model = Model {
@@ -73,6 +93,14 @@ const FRESH: Model = Model {
     time: 0.0,
     awaits: false,
     begun: false,
+    is_for_exchange: false,
+    event: 0.0,
+    updated: true,
+};
+
+const FRESH_FOR_EXCHANGE: Model = Model {
+    is_for_exchange: true,
+    ..FRESH
 };
 
 /// What may come of a call.
@@ -104,8 +132,51 @@ impl Model {
         }
     }
 
+    /// Whether a state was kept by an instance of the other interface type.
+    fn is_of_other_type(&self, kept: &Self) -> bool {
+        let is_of_exchange = kept.is_for_exchange && kept.begun;
+        match self.is_for_exchange {
+            true => !is_of_exchange && !kept.is(&[Instantiated, Initializing]),
+            false => is_of_exchange,
+        }
+    }
+
     fn expected(&self, call: Call, handling: (bool, bool), kept: Option<&Self>) -> Statuses {
+        let exchanges = self.is_for_exchange;
         match call {
+            Call::EnterStep
+            | Call::DoStep(..)
+            | Call::Directional(_)
+            | Call::Adjoint(_)
+            | Call::OutputDerivative(_)
+                if exchanges =>
+            {
+                &[ERROR]
+            }
+            Call::EnterEvent if exchanges => if_all(&[self.life == Continuous]),
+            Call::EnterContinuous => match self.life == Event && exchanges {
+                // An event may be due.
+                true if !self.updated => &[OK, ERROR],
+                is_allowed => if_all(&[is_allowed]),
+            },
+            Call::Complete => if_all(&[self.life == Continuous]),
+            Call::SetTime(ahead) => if_all(&[
+                exchanges && self.is(&[Event, Continuous]),
+                self.time + ahead >= self.event,
+                self.life == Continuous || ahead == 0.0,
+            ]),
+            Call::SetStates(states) => match self.life == Continuous && states.len() == 2 {
+                true if states.iter().any(|state| !state.is_finite()) => &[DISCARD],
+                is_allowed => if_all(&[is_allowed]),
+            },
+            Call::GetStates(of, count) => match (of, count) {
+                _ if !exchanges => &[ERROR],
+                (Vector::Nominals, 2) => &[OK],
+                (Vector::Indicators, 3) | (Vector::States | Vector::Derivatives, 2) => {
+                    self.of_outputs(&[Initializing, Event, Continuous, Terminated], &[ERROR])
+                }
+                _ => &[ERROR],
+            },
             Call::EnterInitialization(start) => {
                 if_all(&[self.life == Instantiated, start.is_finite()])
             }
@@ -113,16 +184,17 @@ impl Model {
             Call::EnterEvent => if_all(&[self.life == Step, handling.0]),
             Call::EnterStep => if_all(&[self.life == Event, !self.awaits]),
             Call::Update => if_all(&[self.life == Event]),
-            Call::Terminate => if_all(&[self.is(&[Event, Step])]),
+            Call::Terminate => if_all(&[self.is(&[Event, Step, Continuous])]),
             Call::Reset | Call::GetState(_) | Call::Logging(true) => &[OK],
             Call::Get("position" | "phase" | "impact.count") => {
-                self.of_outputs(&[Initializing, Event, Step, Terminated], &[DISCARD])
+                let lives = [Initializing, Event, Step, Continuous, Terminated];
+                self.of_outputs(&lives, &[DISCARD])
             }
             Call::Get(_) => &[OK],
             Call::Set(name, value) => match name {
                 _ if !self.is_settable() => &[ERROR],
                 "position" => &[ERROR],
-                "mass" if self.is(&[Event, Step]) => &[ERROR],
+                "mass" if self.is(&[Event, Step, Continuous]) => &[ERROR],
                 _ if value.is_finite() && value.abs() < 1e12 => &[OK],
                 _ => &[DISCARD],
             },
@@ -143,7 +215,8 @@ impl Model {
                 _ => &[ERROR],
             },
             Call::SetState(_) => if_all(&[
-                kept.is_some_and(|kept| handling.0 || !(kept.awaits || kept.life == Event))
+                kept.is_some_and(|kept| handling.0 || !(kept.awaits || kept.life == Event)),
+                kept.is_none_or(|kept| !self.is_of_other_type(kept)),
             ]),
             Call::Copy(_) => if_all(&[kept.is_some()]),
             Call::UnknownVariable
@@ -167,26 +240,25 @@ fn absent(instance: *mut c_void, number: usize) -> c_int {
             0 => fmi3EnterConfigurationMode(instance),
             1 => fmi3ExitConfigurationMode(instance),
             2 => fmi3EvaluateDiscreteStates(instance),
-            3 => fmi3EnterContinuousTimeMode(instance),
-            4 => fmi3SetTime(instance, 0.0),
-            5 => fmi3GetNumberOfContinuousStates(instance, count),
-            6 => fmi3GetContinuousStates(instance, real, 1),
-            7 => fmi3GetShiftDecimal(instance, none, 0, real),
-            8 => fmi3ActivateModelPartition(instance, 0, 0.0),
+            3 => fmi3GetShiftDecimal(instance, none, 0, real),
+            4 => fmi3ActivateModelPartition(instance, 0, 0.0),
             _ => fmi3GetNumberOfVariableDependencies(instance, no_number, count),
         }
     }
 }
 
 struct World {
-    units: [(Unit, Model); 4],
+    units: [(Unit, Model); 5],
     states: [Option<(*mut c_void, Model)>; STATES],
 }
 
 impl World {
     fn new() -> Self {
         Self {
-            units: HANDLINGS.map(|handling| (Unit::new(handling), FRESH)),
+            units: std::array::from_fn(|index| match HANDLINGS.get(index) {
+                Some(handling) => (Unit::new(*handling), FRESH),
+                None => (Unit::for_exchange(), FRESH_FOR_EXCHANGE),
+            }),
             states: [None; STATES],
         }
     }
@@ -243,6 +315,7 @@ impl World {
             match call {
                 Call::EnterInitialization(start) => {
                     (after.life, after.time) = (Initializing, start);
+                    (after.event, after.updated) = (start, false);
                     fmi3EnterInitializationMode(instance, 0, 0.0, start, 0, 0.0)
                 }
                 Call::ExitInitialization => {
@@ -251,17 +324,50 @@ impl World {
                     fmi3ExitInitializationMode(instance)
                 }
                 Call::EnterEvent => {
-                    after.life = Event;
+                    (after.life, after.event, after.updated) = (Event, model.time, false);
                     fmi3EnterEventMode(instance)
                 }
                 Call::EnterStep => {
                     after.life = Step;
                     fmi3EnterStepMode(instance)
                 }
+                Call::EnterContinuous => {
+                    after.life = Continuous;
+                    fmi3EnterContinuousTimeMode(instance)
+                }
+                Call::Complete => {
+                    let (mut enter, mut terminate) = (7, 7);
+                    let (enter, terminate) = (&raw mut enter, &raw mut terminate);
+                    fmi3CompletedIntegratorStep(instance, 1, enter, terminate)
+                }
+                Call::SetTime(ahead) => {
+                    after.time = model.time + ahead;
+                    fmi3SetTime(instance, model.time + ahead)
+                }
+                Call::SetStates(states) => {
+                    fmi3SetContinuousStates(instance, states.as_ptr(), states.len())
+                }
+                Call::GetStates(of, count) => {
+                    let mut values = [f64::NAN; 4];
+                    let place = values.as_mut_ptr();
+                    let status = match of {
+                        Vector::States => fmi3GetContinuousStates(instance, place, count),
+                        Vector::Derivatives => {
+                            fmi3GetContinuousStateDerivatives(instance, place, count)
+                        }
+                        Vector::Nominals => {
+                            fmi3GetNominalsOfContinuousStates(instance, place, count)
+                        }
+                        Vector::Indicators => fmi3GetEventIndicators(instance, place, count),
+                    };
+                    let is_finite = values[..count].iter().all(|value| value.is_finite());
+                    assert!(status != OK || is_finite, "{values:?}");
+                    status
+                }
                 Call::Update => {
                     let (status, next) = unit.try_update();
                     assert!(next.is_none_or(|next| next >= model.time));
-                    after.awaits = false;
+                    (after.awaits, after.updated) = (false, true);
                     status
                 }
                 Call::Terminate => {
@@ -269,7 +375,10 @@ impl World {
                     fmi3Terminate(instance)
                 }
                 Call::Reset => {
-                    after = FRESH;
+                    after = match model.is_for_exchange {
+                        true => FRESH_FOR_EXCHANGE,
+                        false => FRESH,
+                    };
                     fmi3Reset(instance)
                 }
                 Call::Get(name) => {
@@ -330,7 +439,11 @@ impl World {
                 }
                 Call::SetState(number) => {
                     if let Some((_, kept)) = self.states[number] {
-                        after = kept;
+                        let is_for_exchange = model.is_for_exchange;
+                        after = Model {
+                            is_for_exchange,
+                            ..kept
+                        };
                     }
                     fmi3SetFMUState(instance, self.state(number))
                 }
@@ -407,6 +520,21 @@ fn call() -> impl Strategy<Value = Call> {
         ("material", 0.0),
         ("stop.stiffness", 9.0),
     ]);
+    let ahead = prop_oneof![
+        20 => select(vec![0.0, 1e-3, 0.1, 0.7, 30.0]),
+        1 => select(vec![-0.05, -100.0, f64::NAN]),
+    ];
+    let states = prop_oneof![
+        9 => select(vec![&[6.0, 2.0][..], &[10.5, 9.0], &[10.0, -1.0], &[0.0, 0.0], &[-1e6, 1e9]]),
+        1 => select(vec![&[f64::NAN, 0.0][..], &[0.0, f64::INFINITY], &[1.0], &[]]),
+    ];
+    let vectors = select(vec![
+        Vector::States,
+        Vector::Derivatives,
+        Vector::Nominals,
+        Vector::Indicators,
+    ]);
+    let counts = prop_oneof![20 => 2..4usize, 1 => 0..5usize];
     let state = || 0..STATES;
     let known = || prop_oneof![9 => Just("force"), 1 => Just("clearance")];
     let orders = prop_oneof![9 => 1..3, 1 => select(vec![0, 3, -1])];
@@ -416,6 +544,11 @@ fn call() -> impl Strategy<Value = Call> {
         10 => select(vec![Call::EnterEvent, Call::EnterStep, Call::Update]),
         20 => Just(Call::Update),
         20 => Just(Call::EnterStep),
+        20 => Just(Call::EnterContinuous),
+        10 => Just(Call::Complete),
+        20 => ahead.prop_map(Call::SetTime),
+        14 => states.prop_map(Call::SetStates),
+        12 => (vectors, counts).prop_map(|(of, count)| Call::GetStates(of, count)),
         3 => Just(Call::Reset),
         1 => Just(Call::Terminate),
         14 => variable.prop_map(Call::Get),
@@ -437,7 +570,7 @@ fn call() -> impl Strategy<Value = Call> {
         3 => state().prop_map(Call::Copy),
         1 => state().prop_map(Call::DamagedBytes),
         2 => Just(Call::Logging(true)),
-        1 => (0..10usize).prop_map(Call::Absent),
+        1 => (0..6usize).prop_map(Call::Absent),
     ]
 }
 
@@ -458,8 +591,8 @@ proptest! {
 
     #[test]
     fn all_calls_have_the_status_of_the_standard(
-        lives in vec((0..4usize, life()), 1..4),
-        rest in vec((0..4usize, call()), 0..60),
+        lives in vec((0..5usize, life()), 1..4),
+        rest in vec((0..5usize, call()), 0..60),
     ) {
         let mut world = World::new();
         for (index, calls) in lives {

@@ -11,7 +11,7 @@ const PERIOD: f64 = std::f64::consts::TAU / 1.15;
 const SIZES: [f64; 5] = [1e-2, PERIOD / 100.0, 0.7, PERIOD, 10.0 * PERIOD];
 
 /// Machines that strike in different ways: values of their variables.
-const MACHINES: [&[(&str, f64)]; 6] = [
+pub const MACHINES: [&[(&str, f64)]; 6] = [
     &[],
     &[("piercing.thickness", 0.0), ("piercing.travel", 0.0)],
     // A rigid stop, with rows of bounces to rest.

@@ -4,4 +4,6 @@
 mod calls;
 mod derivatives;
 mod events;
+mod exchange;
+mod intermediate;
 mod unit;

@@ -39,11 +39,18 @@ pub struct Ending {
 pub struct Unit {
     pub instance: *mut c_void,
     pub handling: Handling,
+    /// The importer integrates.
+    pub is_for_exchange: bool,
     log: *mut Vec<String>,
 }
 
 impl Unit {
     pub fn new(handling: Handling) -> Self {
+        Self::with_update(handling, None)
+    }
+
+    /// An instance with a callback for intermediate update.
+    pub fn with_update(handling: Handling, update: IntermediateUpdateCallback) -> Self {
         let log = Box::into_raw(Box::<Vec<String>>::default());
         let token = CString::new(library_guid().expect("a token")).expect("no NUL");
         let (name, nothing) = (c"unit".as_ptr(), ptr::null());
@@ -62,29 +69,53 @@ impl Unit {
                 0,
                 log.cast(),
                 Some(log_message),
-                None,
+                update,
             )
         };
         assert!(!instance.is_null());
         Self {
             instance,
             handling,
+            is_for_exchange: false,
             log,
+        }
+    }
+
+    /// An instance for model exchange.
+    pub fn for_exchange() -> Self {
+        let log = Box::into_raw(Box::<Vec<String>>::default());
+        let token = CString::new(library_guid().expect("a token")).expect("no NUL");
+        let (name, token, nothing) = (c"unit".as_ptr(), token.as_ptr(), ptr::null());
+        // SAFETY: strings outlive the call, the log the instance.
+        let instance = unsafe {
+            fmi3InstantiateModelExchange(name, token, nothing, 0, 0, log.cast(), Some(log_message))
+        };
+        assert!(!instance.is_null());
+        Self {
+            instance,
+            handling: (true, false),
+            is_for_exchange: true,
+            log,
+        }
+    }
+
+    /// Sets these values and leaves initialisation at time 0.
+    pub fn initialize(&self, values: &[(&str, f64)]) {
+        for (name, value) in values {
+            assert_eq!(self.set(name, *value), OK, "{name}: {:?}", self.take_log());
+        }
+        // SAFETY: the instance is alive.
+        unsafe {
+            let entered = fmi3EnterInitializationMode(self.instance, 0, 0.0, 0.0, 0, 0.0);
+            assert_eq!(entered, OK);
+            assert_eq!(fmi3ExitInitializationMode(self.instance), OK);
         }
     }
 
     /// An instance in step mode at time 0 under these values.
     pub fn begun(handling: Handling, values: &[(&str, f64)]) -> Self {
         let unit = Self::new(handling);
-        for (name, value) in values {
-            assert_eq!(unit.set(name, *value), OK, "{name}: {:?}", unit.take_log());
-        }
-        // SAFETY: the instance is alive.
-        unsafe {
-            let entered = fmi3EnterInitializationMode(unit.instance, 0, 0.0, 0.0, 0, 0.0);
-            assert_eq!(entered, OK);
-            assert_eq!(fmi3ExitInitializationMode(unit.instance), OK);
-        }
+        unit.initialize(values);
         if handling.0 {
             unit.update();
             unit.leave_event_mode();
@@ -215,13 +246,20 @@ impl Unit {
     }
 
     pub fn try_update(&self) -> (c_int, Option<f64>) {
+        let (status, next, _) = self.try_update_states();
+        (status, next)
+    }
+
+    /// Status, time of the next event, and whether states have changed.
+    pub fn try_update_states(&self) -> (c_int, Option<f64>, bool) {
         let (mut flags, mut time) = ([7u8; 5], f64::NAN);
         let [a, b, c, d, defined] = flags.each_mut().map(|flag| &raw mut *flag);
         // SAFETY: places for the answers.
         let status =
             unsafe { fmi3UpdateDiscreteStates(self.instance, a, b, c, d, defined, &raw mut time) };
-        assert!(status != OK || flags[..4] == [0; 4]);
-        (status, (flags[4] == 1).then_some(time))
+        assert!(status != OK || flags[..3] == [0; 3]);
+        assert!(status != OK || self.is_for_exchange || flags[3] == 0);
+        (status, (flags[4] == 1).then_some(time), flags[3] == 1)
     }
 
     /// Goes to a time in steps of one size, and handles events if there is event mode; what `see` says of each.

@@ -21,6 +21,7 @@ pub const COMMANDS: &[(&str, Writes)] = &[
     ("motions --starts 16", Folder),
     ("continue --parameter eta --from 1.1 --to 1.2", Folder),
     ("zone", Nothing),
+    ("prove A", File),
     ("sweep --from 0.8 --to 1.8 --steps 100", Folder),
     ("basin --size 60", Folder),
     ("basin --along-zone 3 --size 20", Folder),

@@ -1,11 +1,12 @@
 //! The variables of the drive.
 
-use softstop_fmi::Quantity;
+use softstop_fmi::Flow::Signal;
 use softstop_fmi::rows::{
     LARGE, SMALL, after, bare, continuous, fixed, nominal, real, row, shown_in, tunable, within,
 };
 use softstop_fmi::si;
 use softstop_fmi::variable::{Access, Dependencies, Kind, Variable};
+use softstop_fmi::{Quantity, Terminal};
 
 use super::motor::MODEL;
 use super::{Drive, LOAD, VOLTAGE, slot};
@@ -24,6 +25,16 @@ pub(super) static QUANTITIES: &[&Quantity] = &[
     &si::POWER,
     &si::ENERGY,
 ];
+
+pub(super) const TERMINALS: &[Terminal] = &[Terminal {
+    name: "drive",
+    description: "Load of the rotating unbalance: softstop.fmu",
+    members: &[
+        ("speed", Signal, "speed"),
+        ("amplitude", Signal, "amplitude"),
+        ("work", Signal, "load.work"),
+    ],
+}];
 
 pub(super) const GROUPS: &[&[Row]] = &[INPUTS, PARAMETERS, OUTPUTS];
 

@@ -1,11 +1,12 @@
 //! The variables of the feeder.
 
-use softstop_fmi::Quantity;
+use softstop_fmi::Flow::Signal;
 use softstop_fmi::rows::{
     LARGE, bare, count, discrete, fixed, real, row, shown_in, tunable, within,
 };
 use softstop_fmi::si;
 use softstop_fmi::variable::{Access, Dependencies, Kind, Variable};
+use softstop_fmi::{Quantity, Terminal};
 
 use super::supply::MODEL;
 use super::{ANGLE, Feeder, PATTERN, slot};
@@ -14,6 +15,22 @@ use crate::difference::Direction;
 type Row = Variable<Feeder, Direction<Feeder>>;
 
 pub(super) static QUANTITIES: &[&Quantity] = &[&si::ANGLE, &si::ANGULAR_FREQUENCY, &si::TIME];
+
+pub(super) const TERMINALS: &[Terminal] = &[
+    Terminal {
+        name: "drive",
+        description: "Shaft that the feeder follows",
+        members: &[("angle", Signal, "angle")],
+    },
+    Terminal {
+        name: "strip",
+        description: "Feed of strips: softstop.fmu",
+        members: &[
+            ("material", Signal, "material"),
+            ("material_real", Signal, "material_real"),
+        ],
+    },
+];
 
 pub(super) const GROUPS: &[&[Row]] = &[INPUTS, FEED_AND_SUPPLY, STROKES, CHANCE_AND_JAMS, OUTPUTS];
 

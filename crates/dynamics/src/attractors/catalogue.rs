@@ -11,11 +11,11 @@ use softstop::{Scene, Start};
 const ARRIVED: f64 = 1e-6;
 /// Two orbits of the same period are one if two of their states are as near as the first of these, and the
 /// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows.
-const SAME: (f64, f64) = (1e-7, 1e-3);
+const SAME_ORBIT: (f64, f64) = (1e-7, 1e-3);
 /// Distance from 1 of the multiplier of a mass that creeps to rest.
 const CREEP: f64 = 1e-6;
 /// Distance at which a motion that returns is believed to return to an orbit at once.
-const NEAR: f64 = 1e-3;
+const NEAR_ORBIT: f64 = 1e-3;
 
 /// A stable orbit.
 #[derive(Debug, Clone)]
@@ -115,7 +115,7 @@ impl<'a> AttractorCatalogue<'a> {
         let orbit = self.enter(orbit, found.distance)?;
         let known = &self.orbits[orbit];
         let gap = self.gap(known, last);
-        let is_near = found.distance <= ARRIVED && gap <= NEAR * known.size;
+        let is_near = found.distance <= ARRIVED && gap <= NEAR_ORBIT * known.size;
         Ok(match is_near || self.reached(log).is_some() {
             true => Status::Arrived(orbit),
             false => Status::Approaching(orbit),
@@ -148,7 +148,7 @@ impl<'a> AttractorCatalogue<'a> {
                 && (0..known.states.len()).any(|shift| {
                     let (least, largest) = apart(known, shift);
                     // At rest at the origin there is no size to compare with.
-                    known.size == 0.0 || (least <= SAME.0 && largest <= SAME.1)
+                    known.size == 0.0 || (least <= SAME_ORBIT.0 && largest <= SAME_ORBIT.1)
                 })
         })
     }

@@ -17,7 +17,7 @@ struct EscapeCount {
 }
 
 /// Width to which the logarithm of the rate is known.
-const WIDTH: f64 = 1e-14;
+const RATE_WIDTH: f64 = 1e-14;
 /// Range of the logarithm of the rate per drive period.
 const RATES: (f64, f64) = (-40.0, 5.0);
 
@@ -67,7 +67,9 @@ impl EscapeCounts {
         };
         let at = |rate: f64| excess(rate.exp());
         let [low, high] = [RATES.0, RATES.1].map(|rate| (rate, at(rate)));
-        let found = narrow(low, high, WIDTH, |rate| Ok::<f64, Infallible>(at(rate)));
+        let found = narrow(low, high, RATE_WIDTH, |rate| {
+            Ok::<f64, Infallible>(at(rate))
+        });
         Some((-found.ok()?.middle()).exp())
     }
 }

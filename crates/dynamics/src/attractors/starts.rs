@@ -21,14 +21,14 @@ const FAR: f64 = 3.0;
 /// What is added on each side of the region in which motions stay, as a share of it.
 const MARGIN: f64 = 0.5;
 /// Least half-size of a region, in units of the motion's length.
-const LEAST: f64 = 0.1;
+const LEAST_HALF_SIZE: f64 = 0.1;
 /// Half-size of the box of all starts, at least, in units of the motion's length (and of w times it).
 const WIDE: f64 = 2.0;
 /// How much wider it is than the motions in it.
 const ROOM: f64 = 1.5;
 /// 1/g and 1/g^2 with g^3 = g + 1: of all pairs the one whose multiples fill a square most evenly
 /// (Roberts 2018).
-const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
+const SEQUENCE_STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
 impl Region {
     /// Far and wide about the origin.
@@ -55,8 +55,8 @@ impl Region {
             [low - margin, high + margin]
         };
         let region = Self {
-            position: widen(position, LEAST * length),
-            velocity: widen(velocity, LEAST * rate * length),
+            position: widen(position, LEAST_HALF_SIZE * length),
+            velocity: widen(velocity, LEAST_HALF_SIZE * rate * length),
         };
         position[0].is_finite().then(|| region.before(scene))
     }
@@ -146,7 +146,7 @@ impl Region {
 
 /// Places in the unit square, counted from 0: however many there are, they fill it evenly.
 pub fn evenly(shifts: [f64; 2], index: usize) -> [f64; 2] {
-    std::array::from_fn(|axis| (shifts[axis] + STEPS[axis] * (index + 1) as f64).fract())
+    std::array::from_fn(|axis| (shifts[axis] + SEQUENCE_STEPS[axis] * (index + 1) as f64).fract())
 }
 
 /// A number in 0..1 from a seed.

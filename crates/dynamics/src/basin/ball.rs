@@ -18,11 +18,11 @@ pub(super) struct ContractionBall {
 
 /// Shares of the radius on which the Jacobian is looked at, and points on each of these rings.
 const RINGS: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
-const POINTS: usize = 24;
+const RING_POINTS: usize = 24;
 /// What a radius that is too large is multiplied by.
 const SHRINK: f64 = 0.7;
 /// Least radius, in units of the orbit's size.
-const LEAST: f64 = 1e-5;
+const LEAST_RADIUS: f64 = 1e-5;
 /// Most terms of the series of the norm.
 const TERMS: usize = 20_000;
 
@@ -58,7 +58,7 @@ impl ContractionBall {
             return Ok(None);
         };
         let mut radius = size;
-        while radius > LEAST * size {
+        while radius > LEAST_RADIUS * size {
             let contracts = |point: Vector2<f64>| {
                 map.apply(centre + back * point).is_ok_and(|passage| {
                     let tangent = shape * passage.monodromy.matrix * back;
@@ -80,8 +80,8 @@ impl ContractionBall {
 
 fn ring_points(radius: f64) -> impl Iterator<Item = Vector2<f64>> {
     RINGS.into_iter().flat_map(move |share| {
-        (0..POINTS).map(move |k| {
-            let (sin, cos) = (TAU * k as f64 / POINTS as f64).sin_cos();
+        (0..RING_POINTS).map(move |k| {
+            let (sin, cos) = (TAU * k as f64 / RING_POINTS as f64).sin_cos();
             share * radius * Vector2::new(cos, sin)
         })
     })

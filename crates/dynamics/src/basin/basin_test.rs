@@ -19,17 +19,17 @@ use softstop::{Excitation, MotionError, Scene, Start};
 use softstop_lanes::{BatchObserver, Job, Machine};
 
 /// Motions that go together: enough for all lanes to be busy. It may not depend on how many threads there are.
-const TOGETHER: usize = 512;
+const MOTIONS_TOGETHER: usize = 512;
 /// Drive periods between two looks at where the motions are.
 pub(super) const PERIODS_AT_ONCE: u64 = 16;
 /// Drive periods that motions may take before they come near: this many, and as many as the slowest multiplier needs
 /// to take away all but this exponent of e; and never more than the last.
 const PATIENCE: u64 = 256;
 const SHRUNK: f64 = 28.0;
-const LONGEST: f64 = 20_000.0;
+const MAX_SETTLING: f64 = 20_000.0;
 /// Decay a drive period, as an exponent, below which an orbit is at a border to rounding, as at a fold: it attracts from
 /// one side alone, and ever more slowly. Drive periods that motions get there.
-const SLOWEST: f64 = 1e-5;
+const SLOWEST_DECAY: f64 = 1e-5;
 const AT_BORDER: u64 = 512;
 /// Distance from the orbit, in units of its size, at which a motion has arrived that no ball holds; and at a border.
 const ARRIVED: [f64; 2] = [1e-6, 2e-2];
@@ -80,11 +80,11 @@ impl BasinTest {
         let slowest = orbit.multipliers()[0].norm();
         let decay = -slowest.ln() / orbit.periods as f64;
         let (patience, arrived) = match decay {
-            _ if decay > SLOWEST => {
-                let settling = (SHRUNK / decay).min(LONGEST);
+            _ if decay > SLOWEST_DECAY => {
+                let settling = (SHRUNK / decay).min(MAX_SETTLING);
                 (PATIENCE + settling as u64, ARRIVED[0])
             }
-            _ if decay > -SLOWEST && !orbit.is_neutral() => (AT_BORDER, ARRIVED[1]),
+            _ if decay > -SLOWEST_DECAY && !orbit.is_neutral() => (AT_BORDER, ARRIVED[1]),
             _ => (0, 0.0),
         };
         let away = match without_impacts(scene).filter(|_| !orbit.impacts.is_empty()) {
@@ -123,7 +123,7 @@ impl BasinTest {
             let motions: Vec<TestedMotion> = starts.iter().map(motion).collect();
             self.follow_motions::<false>(&self.machine, motions, monitor)
         };
-        let (fork, chunks) = (Fork::default(), starts.par_chunks(TOGETHER));
+        let (fork, chunks) = (Fork::default(), starts.par_chunks(MOTIONS_TOGETHER));
         let chunks = chunks.map(|starts| fork.part(|| follow_motions(starts)));
         let chunks = chunks.collect::<Result<Vec<_>, SurveyError>>();
         fork.join();

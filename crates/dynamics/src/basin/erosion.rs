@@ -41,7 +41,7 @@ impl Establishment {
         Self::within(orbit, &region, starts, monitor)
     }
 
-    /// The same in another box.
+    /// That of a stable motion, in another box.
     ///
     /// # Errors
     /// As [`Establishment::of`].
@@ -89,7 +89,7 @@ const BOXED: [f64; 3] = [0.0, 0.5, 0.99];
 const PART: usize = 8;
 const FEWEST: usize = 64;
 /// Radius below which a ball counts as none.
-const LEAST: f64 = 1e-4;
+const LEAST_BALL: f64 = 1e-4;
 
 /// One box of starts for a whole hysteresis zone: that of the machine at its own frequency ([`starting_box`]), and whether
 /// it is wider, as motions that are found at the ends of the zone or in the middle lie outside that.
@@ -197,7 +197,7 @@ fn integrity(
     let certainty = Establishment::counted(&reached, region);
     let ball = StateBall::new(orbit, region);
     let mut radius = ball.nearest_lost(states, &reached, ball.edge(region));
-    while radius > LEAST {
+    while radius > LEAST_BALL {
         let filling = ball.filling(radius, (states.len() / PART).max(FEWEST));
         let reached = basin_test.reached(&filling, monitor)?;
         let smaller = ball.nearest_lost(&filling, &reached, radius);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::Family;
 use super::arclength::Node;
-use super::follow::{Continuation, WIDTH};
+use super::follow::{Continuation, LOCATED_WIDTH};
 use super::half_branch::Limits;
 use super::locate::{along_chord, locate, zero};
 use super::period_map::PeriodMap;
@@ -16,7 +16,7 @@ use crate::orbit::OrbitError;
 /// a point between them.
 pub(crate) const ASIDE: f64 = 0.2;
 /// Relative difference of a parameter within which it is the one asked for.
-const SAME: f64 = 1e-9;
+const SAME_PARAMETER: f64 = 1e-9;
 /// Most points that a branch is followed through between two neighbours.
 const WALK: usize = 200;
 
@@ -71,9 +71,9 @@ impl<F: Family> Continuation<'_, F> {
         test: Test,
     ) -> Result<BranchPoint, OrbitError> {
         let value = |round: &PeriodMap| test.value(&round.monodromy);
-        let node = zero(&self.shooting, ends, WIDTH, value).or_else(|_| {
+        let node = zero(&self.shooting, ends, LOCATED_WIDTH, value).or_else(|_| {
             let value = |node: &Node<PeriodMap>| value(&node.here.point);
-            locate(&self.shooting, ends, WIDTH, value).map(|(node, _)| node)
+            locate(&self.shooting, ends, LOCATED_WIDTH, value).map(|(node, _)| node)
         })?;
         self.point_at(&node)
     }
@@ -85,7 +85,7 @@ impl<F: Family> Continuation<'_, F> {
     ) -> Result<BranchPoint, OrbitError> {
         let value =
             |node: &Node<PeriodMap>| self.point_at(node).map_or(f64::NAN, |point| test(&point));
-        let (node, _) = locate(&self.shooting, ends, WIDTH, value)?;
+        let (node, _) = locate(&self.shooting, ends, LOCATED_WIDTH, value)?;
         self.point_at(&node)
     }
 
@@ -108,7 +108,11 @@ impl<F: Family> Continuation<'_, F> {
             }
         }
         match self.locate(from, to, |point| point.parameter - parameter) {
-            Ok(point) if (point.parameter - parameter).abs() <= SAME * parameter.abs() => Ok(point),
+            Ok(point)
+                if (point.parameter - parameter).abs() <= SAME_PARAMETER * parameter.abs() =>
+            {
+                Ok(point)
+            }
             other => {
                 let lost = other
                     .err()
@@ -118,7 +122,7 @@ impl<F: Family> Continuation<'_, F> {
         }
     }
 
-    /// The same, followed from one of the neighbours as the branch was, where no guess between them leads to it.
+    /// The point between two neighbours, followed from one of them as the branch was, where no guess between them leads to it.
     fn walked(&self, from: &BranchPoint, to: &BranchPoint, parameter: f64) -> Option<BranchPoint> {
         [from, to].into_iter().find_map(|end| {
             let limits = Limits {

@@ -7,7 +7,7 @@ use nalgebra::{DVector, Vector2};
 use super::Family;
 use super::arclength::Node;
 use super::curve::SHORTEST_LOOP;
-use super::follow::{Continuation, Heading, SectionChange, WIDTH};
+use super::follow::{Continuation, Heading, LOCATED_WIDTH, SectionChange};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{End, HalfBranch, Limits};
 use super::locate::locate;
@@ -275,7 +275,7 @@ impl<'a, F: Family> Continuation<'a, F> {
             (Some((_, true)), _) => return Ok(Some(End::Range)),
             (Some((bound, false)), _) => {
                 let test = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
-                let (node, _) = locate(&self.shooting, (from, to), WIDTH, test)?;
+                let (node, _) = locate(&self.shooting, (from, to), LOCATED_WIDTH, test)?;
                 let sequence = node.here.point.sequence;
                 let is_end = |end: &&Node<PeriodMap>| end.here.point.sequence.agrees(&sequence);
                 if ![from, to].iter().any(is_end) {

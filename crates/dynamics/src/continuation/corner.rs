@@ -15,9 +15,9 @@ use super::test::Test;
 use crate::orbit::OrbitError;
 
 /// Scaled distances beyond a corner at which the branch is taken up.
-const BEYOND: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
+const BEYOND_CORNER: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
 /// How many times as far from this side of the corner it may lie, and the touch from both.
-const NEAR: f64 = 10.0;
+const NEAR_CORNER: f64 = 10.0;
 
 impl<F: Family> Continuation<'_, F> {
     /// A node beyond the corner just ahead, and the direction in which the branch goes on from it. Whether the force jumps
@@ -28,7 +28,7 @@ impl<F: Family> Continuation<'_, F> {
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
     ) -> Option<(Node<PeriodMap>, DVector<f64>)> {
         let node = &stepper.node;
-        BEYOND.into_iter().find_map(|reach| {
+        BEYOND_CORNER.into_iter().find_map(|reach| {
             let at = &node.at + reach * &stepper.direction;
             let here = self.shooting.evaluate(&at).ok()?;
             let sequence = here.point.sequence;
@@ -40,7 +40,7 @@ impl<F: Family> Continuation<'_, F> {
             [along.clone(), -along].into_iter().find_map(|along| {
                 let ahead = &node.at + reach * &along;
                 let found = correct(&self.shooting, &ahead, Some(&along)).ok()?;
-                let near = (&found.at - &node.at).norm() < NEAR * reach;
+                let near = (&found.at - &node.at).norm() < NEAR_CORNER * reach;
                 let goes_on = keeps_sense(
                     (&stepper.direction, &node.here.point.monodromy),
                     (&along, &found.here.point.monodromy),
@@ -63,7 +63,7 @@ impl<F: Family> Continuation<'_, F> {
             let (kind, point) = (SpecialKind::Critical(test), self.point_at(from)?);
             found.push(Special { kind, point });
         }
-        let touch = self.graze_between((from, to), NEAR)?;
+        let touch = self.graze_between((from, to), NEAR_CORNER)?;
         found.extend(touch.map(|(_, special)| special));
         Ok(found)
     }

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::Family;
 use super::arclength::{Equations, Node, correct, tangent};
 use super::critical_impact::{CriticalImpact, CriticalPoint};
-use super::follow::WIDTH;
+use super::follow::LOCATED_WIDTH;
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
 use super::impact_section::ImpactSection;
 use super::locate::{along_chord, locate};
@@ -405,7 +405,7 @@ fn special_between<E: Codimension>(
         let value = direction(node).map(|(here, _)| equations.degeneracy(node, [begins, &here]).1);
         value.unwrap_or(f64::NAN)
     };
-    let (node, _) = locate(equations, (from, to), WIDTH, value)?;
+    let (node, _) = locate(equations, (from, to), LOCATED_WIDTH, value)?;
     // A curve that only turns sharply has its parameters change there, too.
     let is_found = match kind {
         CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < TURNING_BACK,
@@ -428,7 +428,7 @@ fn within<E: Codimension>(
         let bound = now.clamp(low, high);
         if bound != now && value(from) != bound {
             let test = |node: &Node<E::Point>| value(node) - bound;
-            let (node, _) = locate(equations, (from, &end.0), WIDTH, test)?;
+            let (node, _) = locate(equations, (from, &end.0), LOCATED_WIDTH, test)?;
             end = (node, true);
         }
     }

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::Family;
 use super::arclength::{Equations, Node};
 use super::curve::CLOSED;
-use super::follow::{Continuation, WIDTH};
+use super::follow::{Continuation, LOCATED_WIDTH};
 use super::grazing_test::GrazingTest;
 use super::half_branch::Limits;
 use super::locate::{Cubic, along_chord, locate};
@@ -75,7 +75,7 @@ impl<F: Family> Continuation<'_, F> {
         for test in Test::ALL {
             if test.passes(&a.monodromy, &b.monodromy) {
                 let value = |node: &Node<PeriodMap>| test.value(&node.here.point.monodromy);
-                let (node, share) = locate(&self.shooting, (from, to), WIDTH, value)?;
+                let (node, share) = locate(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
                 let point = self.point_at(&node)?;
                 let kind = SpecialKind::Critical(test);
                 found.push((share, Special { kind, point }));
@@ -121,7 +121,7 @@ impl<F: Family> Continuation<'_, F> {
         };
         let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
         let flips = halves.map(|(from, to, begins, ends)| {
-            let (node, own) = locate(&self.shooting, (from, to), WIDTH, value)?;
+            let (node, own) = locate(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
             let kind = SpecialKind::Critical(Test::Flip);
             let point = self.point_at(&node)?;
             Ok((begins + own * (ends - begins), Special { kind, point }))

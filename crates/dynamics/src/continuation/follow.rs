@@ -14,7 +14,7 @@ use super::test::Test;
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
 /// Scaled distance along a branch to which special points are located.
-pub(crate) const WIDTH: f64 = 1e-12;
+pub(crate) const LOCATED_WIDTH: f64 = 1e-12;
 
 /// Which way a branch is followed from its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,7 +55,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         Self { largest, ..self }
     }
 
-    /// The same for another number of drive periods.
+    /// This continuation over another number of drive periods.
     pub(super) fn over(&self, periods: u64) -> Self {
         Self {
             shooting: self.shooting.seen_at(self.shooting.turn, periods),
@@ -63,7 +63,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         }
     }
 
-    /// The same with its section so many drive periods after drive angle phi.
+    /// This continuation with its section so many drive periods after drive angle phi.
     pub(super) fn with_turn(&self, turn: f64) -> Self {
         Self {
             shooting: self.shooting.seen_at(turn, self.shooting.periods),

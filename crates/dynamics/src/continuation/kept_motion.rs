@@ -2,7 +2,7 @@
 
 use super::face::{Face, Touch};
 use crate::orbit::turn::turns;
-use softstop::internals::Course;
+use softstop::internals::ArcSolution;
 use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Scene};
 
 /// The arcs and crossings of a motion from time 0 on, in order of time.
@@ -21,7 +21,7 @@ struct KeptArc {
     start: f64,
     /// How long it lasts, in s.
     elapsed: f64,
-    course: Course,
+    course: ArcSolution,
 }
 
 #[derive(Debug, Clone)]

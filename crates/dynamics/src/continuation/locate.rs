@@ -53,8 +53,8 @@ pub(crate) fn locate<E: Equations>(
 }
 
 /// Most rounds, and nodes that the value of a test is followed back to zero through.
-const ROUNDS: usize = 12;
-const BACK: usize = 4;
+const MAX_ROUNDS: usize = 12;
+const VALUES_BACK: usize = 4;
 
 /// The node near the curve between two neighbours at which `test` vanishes. Each round is one evaluation: a step of
 /// Newton's method to the curve, and along the chord to where the last values of the test say that it vanishes.
@@ -74,11 +74,11 @@ pub(crate) fn zero<E: Equations>(
     ];
     let cubic = Cubic::between(equations, (from, to))?;
     let mut at = cubic.at(vanishes(&values) / along(&to.at));
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let here = equations.evaluate(&at)?;
         let (place, size) = (along(&at), here.residual.norm());
         values.push((place, test(&here.point)));
-        values.drain(..values.len().saturating_sub(BACK));
+        values.drain(..values.len().saturating_sub(VALUES_BACK));
         let onward = vanishes(&values) - place;
         if size <= here.tolerance && onward.abs() <= width {
             let is_between =
@@ -170,14 +170,14 @@ impl<'a, E: Equations> Cubic<'a, E> {
 
 /// Nodes that a guess between nodes is drawn through, and the shares of the way that they are apart at least.
 const SUPPORT: usize = 4;
-const APART: f64 = 1e-6;
+const LEAST_SPACING: f64 = 1e-6;
 
 /// The point at this share of the way on the polynomial (Lagrange) through the nodes nearest to it.
 fn interpolated<P>(known: &[(f64, f64, Node<P>)], share: f64) -> DVector<f64> {
     let mut near: Vec<(f64, &DVector<f64>)> =
         known.iter().map(|(at, _, node)| (*at, &node.at)).collect();
     near.sort_by(|a, b| (a.0 - share).abs().total_cmp(&(b.0 - share).abs()));
-    near.dedup_by(|a, b| (a.0 - b.0).abs() < APART);
+    near.dedup_by(|a, b| (a.0 - b.0).abs() < LEAST_SPACING);
     near.truncate(SUPPORT);
     let weight = |index: usize| -> f64 {
         let others = near.iter().enumerate().filter(|(other, _)| *other != index);

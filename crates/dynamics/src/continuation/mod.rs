@@ -12,13 +12,13 @@
 //!
 //! use nalgebra::Vector2;
 //! use softstop::{Parameter, Ratios};
-//! use softstop_dynamics::{ParameterFamily, Continuation, Limits};
+//! use softstop_dynamics::{Continuation, Limits, ParameterFamily};
 //!
 //! let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
 //! let limits = Limits { range: (1.1, 1.5), points: 500 };
 //! let state = Vector2::new(6.9, 9.5);
 //! let branch =
-//!     Follower::new(&family, 1).branch(1.15, state, &limits, |_| ControlFlow::Continue(()))?;
+//!     Continuation::new(&family, 1).branch(1.15, state, &limits, |_| ControlFlow::Continue(()))?;
 //! let fold = &branch.specials[0];
 //! assert_eq!(fold.kind.symbol(), "SN");
 //! assert!((fold.point.parameter - 1.369036).abs() < 1e-6);

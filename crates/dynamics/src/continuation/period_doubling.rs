@@ -18,7 +18,7 @@ use crate::orbit::OrbitError;
 /// Scaled distances from the flip at which the doubled branch is looked for.
 const DISTANCES: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
 /// Smallest share of such a distance by which half a round must lead away.
-const APART: f64 = 0.5;
+const HALF_PERIOD_GAP: f64 = 0.5;
 
 impl<F: Family> Continuation<'_, F> {
     /// The branch of orbits of twice the period from a flip of these orbits on, along the
@@ -44,7 +44,7 @@ impl<F: Family> Continuation<'_, F> {
             let along: DVector<f64> = &node.at - &at;
             let twice = node.here.point.impacts.len() == 2 * flip.impacts.len();
             let near = along.norm() < 2.0 * distance;
-            if twice && near && doubled.half_round(&node) > APART * distance {
+            if twice && near && doubled.half_round(&node) > HALF_PERIOD_GAP * distance {
                 return doubled.branch_along(node, &along, limits, &mut watch);
             }
         }

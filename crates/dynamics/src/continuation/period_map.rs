@@ -9,7 +9,7 @@ use super::face::{Face, Touch};
 use super::kept_motion::KeptMotion;
 use super::sequence::Sequence;
 use crate::orbit::Monodromy;
-use softstop::internals::{Detuning, Motion, Phases};
+use softstop::internals::{FrequencySensitivity, Motion, Phases};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
 };
@@ -46,7 +46,10 @@ impl PeriodMap {
         state: Vector2<f64>,
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
-        let (mut detuning, mut kept) = (Detuning::default(), KeptMotion::new(machine.0.clock()));
+        let (mut detuning, mut kept) = (
+            FrequencySensitivity::default(),
+            KeptMotion::new(machine.0.clock()),
+        );
         let (followed, by_frequency) = if by_frequency {
             let observer = &mut (&mut detuning, &mut kept);
             let (followed, motion) = follow(machine, periods, state, observer)?;
@@ -164,7 +167,7 @@ pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
 
 /// Work that an orbit may cost per drive period, in scan windows: 32,000 crossings. A mass that bounces more
 /// often is on its way to rest, and its motion is no orbit that could be followed.
-const MOST_WORK: u64 = 1 << 21;
+const MAX_PERIOD_WORK: u64 = 1 << 21;
 
 /// Carries a motion on by a drive period at most.
 pub(crate) fn carry_on(
@@ -172,7 +175,7 @@ pub(crate) fn carry_on(
     until: Instant,
     observer: &mut impl Observer,
 ) -> Result<(), MotionError> {
-    let mut effort = Effort::windows(MOST_WORK);
+    let mut effort = Effort::windows(MAX_PERIOD_WORK);
     if motion
         .watch(until, &mut (observer, &mut effort))?
         .is_continue()

@@ -18,17 +18,17 @@ use softstop::internals::{Motion, Phases};
 use softstop::{Clock, MotionError, Scene};
 
 /// Drive periods between the section and a crossing within which the crossing may stand in the way.
-const NEAR: f64 = 0.05;
+const NEAR_CROSSING: f64 = 0.05;
 /// How much farther from all crossings another section must be.
 const FARTHER: f64 = 2.0;
 /// Scaled distance back along a branch by which its direction is carried to another section.
-const BACK: f64 = 1e-6;
+const STEP_BACK: f64 = 1e-6;
 /// Scaled distance from where a motion is carried to within which it is found there: where it is wildly unstable, Newton's
 /// method may run off to another one.
 const FOUND: f64 = 1e-2;
 
 impl<'a, F: Family> Continuation<'a, F> {
-    /// The same branch seen where no crossing stands in the way; none if this section is as good as any.
+    /// The branch seen where no crossing stands in the way; none if this section is as good as any.
     pub(super) fn turned(
         &self,
         node: &Node<PeriodMap>,
@@ -38,7 +38,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         let by = continuation.shooting.turn - self.shooting.turn;
         let carried = |at: &DVector<f64>| self.carried(at, by);
         let at = carried(&node.at).ok()?;
-        let back = carried(&(&node.at - BACK * direction)).ok()?;
+        let back = carried(&(&node.at - STEP_BACK * direction)).ok()?;
         let along = (&at - back).normalize();
         let seen = correct(&continuation.shooting, &at, Some(&along)).ok()?;
         if (&seen.at - &at).norm() > FOUND {
@@ -60,7 +60,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     /// With the section in the middle of the orbit's longest flight; none if no crossing is near the present one.
     pub(super) fn clear_of(&self, node: &Node<PeriodMap>) -> Option<Self> {
         let margin = node.here.point.margin;
-        if margin > NEAR {
+        if margin > NEAR_CROSSING {
             return None;
         }
         let motion = &node.here.point.motion;

@@ -29,7 +29,7 @@ impl Sequence {
         self.hard() == other.hard() && self.rests == other.rests
     }
 
-    /// The same, with as many impacts.
+    /// True if the sequences agree and have as many impacts.
     pub fn goes_on(&self, other: &Self) -> bool {
         self.impacts == other.impacts && self.agrees(other)
     }

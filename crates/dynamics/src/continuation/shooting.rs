@@ -155,7 +155,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         let speed = self.velocity_scale();
         let touch = here.point.slowest.map_or(1.0, |touch| touch.amount / speed);
         let share = (STEEP / size).min(touch / SLOW).powi(2);
-        DIFFERENCE * share.clamp(LEAST, 1.0)
+        DIFFERENCE * share.clamp(LEAST_WIDTH, 1.0)
     }
 
     /// Small changes of the state grow a hundredfold and more, though it grazes nothing.
@@ -185,7 +185,7 @@ const UNSTABLE: f64 = 100.0;
 /// Scaled speed of a touch up to which it is.
 const SLOW: f64 = 0.01;
 /// The smallest share of the usual width that rounding leaves good for a difference.
-const LEAST: f64 = 1e-5;
+const LEAST_WIDTH: f64 = 1e-5;
 
 /// What rounding alone may leave of P(s) - s in units of `sizes`.
 pub(crate) fn round_off(

@@ -12,10 +12,10 @@ use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::orbit::OrbitError;
 
-/// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR`
+/// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR_GRAZING`
 /// (scaled).
 const SHARE_LEFT: f64 = 0.3;
-const NEAR: f64 = 1e-4;
+const NEAR_GRAZING: f64 = 1e-4;
 /// Length of the steps up to which a grazing orbit is looked for ahead: nothing but a fold or a flip is on so short a way.
 const CLOSE: f64 = 1e-3;
 /// Shares of that way at which a fold is looked for behind.
@@ -25,7 +25,7 @@ const RIGHT_BEFORE: [f64; 3] = [0.9, 0.99, 0.999];
 const AHEAD: f64 = 1e-2;
 /// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
 const JUST_AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
-/// The same ahead, where the orbits of a branch come to lie side by side.
+/// Scaled distances ahead, where the orbits of a branch come to lie side by side.
 const HELD_AHEAD: [f64; 3] = [1e-4, 1e-3, 1e-2];
 /// Monodromy beyond which an orbit is within rounding of a grazing: on which side of it, rounding decides.
 const WILD: f64 = 1e8;
@@ -57,7 +57,7 @@ impl<F: Family> Continuation<'_, F> {
             return;
         }
         let dies = grazing_test
-            .dies_within(NEAR)
+            .dies_within(NEAR_GRAZING)
             .then_some(BorderCollision::Surface);
         way.end = match self.border_ahead(stepper, &error).or(dies) {
             Some(border) => End::Border(border),
@@ -110,7 +110,7 @@ impl<F: Family> Continuation<'_, F> {
         }
         Test::change_little(&from.monodromy, &to.monodromy)
             && same
-            && ahead.leaves(now, SHARE_LEFT, NEAR)
+            && ahead.leaves(now, SHARE_LEFT, NEAR_GRAZING)
             && !now.may_graze_twice(ahead, stepper.step)
     }
 

@@ -15,9 +15,9 @@ const GENTLE_TURN: f64 = 0.995;
 /// Distance of the next node in steps beyond which it lies on another curve.
 const LONGEST_CHORD: f64 = 1.1;
 /// By what steps grow up to it.
-const GROWTH: f64 = 1.6;
+const STEP_GROWTH: f64 = 1.6;
 
-/// The same on quick ways: first and largest step, largest turn, the turn that steps are meant to make, how far a
+/// Settings of quick ways: first and largest step, largest turn, the turn that steps are meant to make, how far a
 /// guess is meant to be off (scaled), and the growth.
 const QUICK_STEPS: (f64, f64) = (0.05, 1.0);
 const QUICK_TURN: f64 = 0.85;
@@ -71,7 +71,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         })
     }
 
-    /// The same in few long steps, with guesses that bend as the curve did: for smooth curves.
+    /// This stepper in few long steps, with guesses that bend as the curve did: for smooth curves.
     pub fn quick(self) -> Self {
         let (step, largest) = QUICK_STEPS;
         Self {
@@ -93,7 +93,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         let leaps = (&node.at - &self.node.at).norm() > LONGEST_CHORD * self.step;
         let (largest, growth) = match self.accuracy {
             Accuracy::Quick => (QUICK_TURN, quick_growth(turn, (&node.at - guess).norm())),
-            _ if turn > GENTLE_TURN => (LARGEST_TURN, GROWTH),
+            _ if turn > GENTLE_TURN => (LARGEST_TURN, STEP_GROWTH),
             _ => (LARGEST_TURN, 1.0),
         };
         if turn <= largest || leaps {

@@ -21,7 +21,7 @@ pub struct CycleMetrics {
     pub impact_velocity: f64,
     /// Kinetic energy m v^2/2 of the mass right before that impact, in J.
     pub impact_energy: f64,
-    /// The same of all impacts together, per second, in W. Of complete chatter, the summed bounces are left out.
+    /// Kinetic energy of all impacts together, per second, in W. Of complete chatter, the summed bounces are left out.
     pub impact_power: f64,
     /// Largest position X_m, in m.
     pub highest: f64,
@@ -40,11 +40,11 @@ pub struct CycleMetrics {
     /// Largest force of contact, of strip or stop with what contact adds to the damping, in N: F in
     /// m x'' + b1 x' + k1 x + F = F0 cos(w t). Blows of rigid stops, which last no time, are not in it.
     pub contact_force: f64,
-    /// The same while the stop is touched, its preload included.
+    /// Largest force of contact in N while the stop is touched, its preload included.
     pub stop_force: f64,
-    /// The same without the stop's preload, by which the force jumps at first touch.
+    /// That force without the stop's preload, by which the force jumps at first touch.
     pub stop_force_above_preload: f64,
-    /// The same while the strip is touched: the force with which it is cut.
+    /// Largest force of contact in N while the strip is touched: the force with which it is cut.
     pub strip_force: f64,
     /// Largest change of momentum by a blow on a rigid stop, in N s; 0 without any.
     pub impulse: f64,

@@ -21,7 +21,7 @@ pub struct Contact {
 }
 
 /// Drive periods after which a mass that has not come back is taken not to.
-const LONGEST: u64 = 1024;
+const MAX_CONTACT_PERIODS: u64 = 1024;
 
 impl Contact {
     /// The contact of a scene's stop, and of the strip before it, at a before-impact velocity in m/s,
@@ -46,7 +46,7 @@ impl Contact {
         let mut motion = bare.motion(start)?;
         let clock = *motion.clock();
         let mut cycles = 0;
-        while exit.found.is_none() && cycles < LONGEST {
+        while exit.found.is_none() && cycles < MAX_CONTACT_PERIODS {
             cycles = (2 * cycles).max(1);
             motion.advance(Clock::at_cycle(cycles), &mut exit)?;
         }

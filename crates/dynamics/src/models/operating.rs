@@ -15,7 +15,7 @@ pub fn from_truth(observed: &Observation) -> Result<f64, FidelityError> {
 }
 
 /// Rounds of the fixed-point iteration.
-const ROUNDS: usize = 60;
+const MAX_ROUNDS: usize = 60;
 /// Relative change of the velocity at which it has settled.
 const SETTLED: f64 = 1e-9;
 
@@ -33,7 +33,7 @@ pub fn from_model(
     let truth = &ladder.truth;
     let mut velocity = truth.motion_scales().speed();
     let mut hint = None;
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let model = ladder.model(rung, velocity)?;
         let observed = Observation::settled(&model.scene, hint, start)?;
         if rung == Rung::Linear || model.scene == *truth {

@@ -7,11 +7,11 @@ use super::{Orbit, OrbitError};
 use softstop::Scene;
 
 /// Steps before giving up.
-const STEPS: usize = 20;
+const MAX_STEPS: usize = 20;
 /// Largest step in each unknown.
 const LARGEST: [f64; 3] = [0.1, 0.3, 0.02];
 /// Half-width of the differences.
-const WIDTH: f64 = 1e-6;
+const DIFFERENCE_WIDTH: f64 = 1e-6;
 
 /// The z = 1 orbit nearest to an impact of which little is missing, with its frequency free: steps of least norm
 /// (Gauss and Newton) in the time of the impact in drive periods and the logarithms of its velocity and of the frequency.
@@ -24,7 +24,7 @@ pub(super) fn beside_frequency(
     let beside = Beside(scene);
     let mut at = Vector3::new(time / scene.clock().period(), velocity.ln(), 0.0);
     let mut residual = beside.residual(at)?;
-    for _ in 0..STEPS {
+    for _ in 0..MAX_STEPS {
         let jacobian = beside.jacobian(at)?;
         let square = jacobian * jacobian.transpose();
         let step = -(jacobian.transpose() * square.lu().solve(&residual)?);
@@ -37,7 +37,7 @@ pub(super) fn beside_frequency(
         if next.z.abs() > share {
             return None;
         }
-        let settles = left.norm() >= 0.1 * residual.norm() && residual.norm() < WIDTH;
+        let settles = left.norm() >= 0.1 * residual.norm() && residual.norm() < DIFFERENCE_WIDTH;
         (at, residual) = (next, left);
         if settles {
             return beside.orbit(at).ok();
@@ -66,9 +66,9 @@ impl Beside<'_> {
     fn jacobian(&self, at: Vector3<f64>) -> Option<Matrix2x3<f64>> {
         let mut columns = [Vector2::zeros(); 3];
         for (index, column) in columns.iter_mut().enumerate() {
-            let shift = Vector3::ith(index, WIDTH);
+            let shift = Vector3::ith(index, DIFFERENCE_WIDTH);
             let [ahead, behind] = [at + shift, at - shift].map(|at| self.residual(at));
-            *column = (ahead? - behind?) / (2.0 * WIDTH);
+            *column = (ahead? - behind?) / (2.0 * DIFFERENCE_WIDTH);
         }
         Some(Matrix2x3::from_columns(&columns))
     }

@@ -3,7 +3,7 @@
 use softstop::Scene;
 
 use super::multi_segment_shooting::MultiSegmentShooting;
-use super::periodic::SAME;
+use super::periodic::SAME_AFTER_PART;
 use super::{Orbit, OrbitError};
 
 impl Orbit {
@@ -44,7 +44,7 @@ impl Orbit {
         let speed = self.scene.scales().speed();
         let pairs = impacts.iter().zip(&impacts[shift..]);
         let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, (b.1 - a.1) / speed));
-        let most = SAME * (1.0 + self.velocity.abs() / speed);
+        let most = SAME_AFTER_PART * (1.0 + self.velocity.abs() / speed);
         pairs.all(|(time, velocity)| time.hypot(velocity) <= most)
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::contact::ContactPassage;
 use super::multi_segment_shooting::{MultiSegmentShooting, ShootingEvaluation, Unknowns};
 use super::{Monodromy, Orbit, OrbitError, StroboscopicMap};
-use softstop::internals::{Flow, Motion, Outlook, PhaseId, first_crossing};
+use softstop::internals::{LinearLaw, Motion, NextEvent, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Tangent, Touch};
 
 /// Share of the drive period by which an impact found by its crossing may differ from the one looked for.
@@ -78,7 +78,8 @@ impl MultiSegmentShooting<'_> {
             let flight = at[2 * next] + around - at[2 * segment] - passing.lasting;
             let (course, guards) = (&passing.course, &self.face.phases[PhaseId::FREE].guards);
             let early = flight - EARLY * self.face.clock.period();
-            if let Outlook::Crossing(found) = first_crossing(course, guards, course.start(), flight)
+            if let NextEvent::Crossing(found) =
+                first_crossing(course, guards, course.start(), flight)
                 && found.elapsed < early
             {
                 return Err(OrbitError::OtherRegime { impacts: count + 1 });
@@ -124,7 +125,7 @@ fn entry(passing: &ContactPassage) -> Factor {
 }
 
 /// Free motion over a time in s.
-fn along(flow: &Flow, elapsed: f64) -> Factor {
+fn along(flow: &LinearLaw, elapsed: f64) -> Factor {
     (flow.transition(elapsed), (-flow.damping() * elapsed).exp())
 }
 

@@ -5,14 +5,14 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::internals::{Beyond, Course, Mode, Motion, PhaseId, Phases, Surface, saltation};
+use softstop::internals::{ArcSolution, Beyond, Mode, Motion, PhaseId, Phases, Surface, saltation};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Start, Tangent,
 };
 
 /// Work that a contact may cost, in scan windows, 4096 crossings: a mass that bounces longer within it does not come
 /// back.
-const MOST_WORK: u64 = 1 << 18;
+const MAX_CONTACT_WORK: u64 = 1 << 18;
 
 /// The phases of a scene, as seen by a mass that comes to the clearance.
 #[derive(Debug, Clone)]
@@ -27,7 +27,7 @@ pub(super) struct ContactFace {
 pub(super) struct ContactPassage {
     /// Change of the state right after the impact with its time, seen at a fixed time.
     pub by_time: Vector2<f64>,
-    /// The same with its velocity.
+    /// Change of the state right after the impact with its velocity.
     pub by_velocity: Vector2<f64>,
     /// The saltation of the impact.
     pub entry: Matrix2<f64>,
@@ -40,7 +40,7 @@ pub(super) struct ContactPassage {
     /// When it is.
     pub free_from: Instant,
     /// The free motion from there on, as if there were no stop.
-    pub course: Course,
+    pub course: ArcSolution,
 }
 
 impl ContactFace {
@@ -117,13 +117,13 @@ impl ContactFace {
         }))
     }
 
-    /// The same without its tangent: when the mass is free again, and its free motion from there on.
+    /// The contact without its tangent: when the mass is free again, and its free motion from there on.
     pub(super) fn leave(
         &self,
         at: Instant,
         velocity: f64,
         longest: f64,
-    ) -> Result<Option<(Instant, Course)>, MotionError> {
+    ) -> Result<Option<(Instant, ArcSolution)>, MotionError> {
         let Some(entry) = self.enter(at, velocity)? else {
             return Ok(None);
         };
@@ -198,7 +198,7 @@ impl ContactFace {
             position: self.position(),
             gathered: T::default(),
             found: None,
-            effort: Effort::windows(MOST_WORK),
+            effort: Effort::windows(MAX_CONTACT_WORK),
         };
         let _ = motion.watch(self.clock.after(at, longest), &mut contact)?;
         Ok((contact.gathered, contact.found))
@@ -219,7 +219,7 @@ struct ContactEntry {
 struct ContactExit<T> {
     gathered: T,
     instant: Instant,
-    course: Course,
+    course: ArcSolution,
 }
 
 /// Gathers until the mass is free again.

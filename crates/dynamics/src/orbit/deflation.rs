@@ -5,7 +5,7 @@
 //! 1 / (1 - grad(ln M) . step) (Farrell, Birkisson and Funke 2015, SIAM J. Sci. Comput. 37, A2026).
 
 /// Width w: a share of the drive period in time, and of the velocity in velocity.
-const WIDTH: f64 = 0.05;
+const DEFLATION_WIDTH: f64 = 0.05;
 
 /// An impact: its time in s and its before-impact velocity in m/s.
 type Impact = (f64, f64);
@@ -18,7 +18,8 @@ pub(super) fn factor(at: Impact, step: Impact, known: &[Impact], period: f64) ->
         let moved = [step.0 / period, step.1 / velocity];
         let square = apart[0] * apart[0] + apart[1] * apart[1];
         let change = 2.0 * (apart[0] * moved[0] + apart[1] * moved[1]);
-        -WIDTH * WIDTH * change / (square * (square + WIDTH * WIDTH))
+        -DEFLATION_WIDTH * DEFLATION_WIDTH * change
+            / (square * (square + DEFLATION_WIDTH * DEFLATION_WIDTH))
     };
     1.0 / (1.0 - known.iter().map(slope).sum::<f64>())
 }

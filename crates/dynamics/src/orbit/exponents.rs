@@ -10,12 +10,12 @@ const BATCHES: usize = 32;
 /// Drive periods in each of them at first and at most.
 pub(crate) const BATCH_PERIODS: (u64, u64) = (100, 1600);
 /// The exponent of a growth, or decay, that is for good: rounding to the size of the motion is 36.
-const GROWTH: f64 = 100.0;
+const LASTING_GROWTH: f64 = 100.0;
 /// Student's t of 31 degrees of freedom for a two-sided 95 % interval.
 const STUDENT: f64 = 2.039_5;
 /// Errors by which an exponent has to lie above zero to count as positive: beyond 3 half-widths of the
 /// 95 % interval chance is out of question.
-const SURE: f64 = 3.0;
+const SURE_ERRORS: f64 = 3.0;
 
 /// Both Lyapunov exponents of a motion of the state (x, x'): mean rates at which small differences grow.
 ///
@@ -80,8 +80,8 @@ impl Exponents {
             walk.add(&mut sums, batch, || Ok::<(), MotionError>(()))?;
             let found = walk.exponents(&sums, batch);
             let largest = found.per_period[0];
-            let is_clear = largest.abs() > SURE * found.error;
-            let is_much = largest.abs() * found.periods as f64 > GROWTH;
+            let is_clear = largest.abs() > SURE_ERRORS * found.error;
+            let is_much = largest.abs() * found.periods as f64 > LASTING_GROWTH;
             if (is_clear && is_much) || batch >= BATCH_PERIODS.1 {
                 return Ok(found.is_positive());
             }
@@ -113,7 +113,7 @@ impl Exponents {
 
     /// True if the larger one is positive beyond doubt.
     pub fn is_positive(&self) -> bool {
-        self.per_period[0] > SURE * self.error
+        self.per_period[0] > SURE_ERRORS * self.error
     }
 }
 

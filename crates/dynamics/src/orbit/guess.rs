@@ -7,7 +7,7 @@ use super::turn::turns;
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, PhaseKind, Scene};
 
 /// Distance from the face, in units of the largest position, within which a mass nearly hits it.
-const NEAR: f64 = 0.01;
+const NEAR_MISS: f64 = 0.01;
 
 /// Time in s and before-impact velocity in m/s of each impact.
 pub(super) type Impacts = Vec<(f64, f64)>;
@@ -32,7 +32,7 @@ pub(super) fn guesses(
         guesses.push(impacts.clone());
     }
     if let Some((depth, miss)) = miss
-        && depth <= NEAR * (scene.clearance.abs() + depth)
+        && depth <= NEAR_MISS * (scene.clearance.abs() + depth)
     {
         let at = impacts.partition_point(|impact| impact.0 < miss.0);
         let mut more = impacts.clone();

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::scan::{NEAR, RATIO, Singles, TIMES, apart, between, guesses, speeds};
+use super::scan::{NEAR_IMPACT, RATIO, Singles, TIMES, apart, between, guesses, speeds};
 use super::{Orbit, OrbitError};
 use crate::monitor::Monitor;
 use softstop::Scene;
@@ -50,7 +50,11 @@ impl Singles<'_> {
     fn look_within(&mut self, guess: (f64, f64), monitor: Monitor<'_>) -> Result<(), OrbitError> {
         OrbitError::ask(monitor)?;
         let (period, impacts) = (self.period, self.impacts());
-        let is_near = |at: (f64, f64)| impacts.iter().any(|it| apart(*it, at, period) < NEAR);
+        let is_near = |at: (f64, f64)| {
+            impacts
+                .iter()
+                .any(|it| apart(*it, at, period) < NEAR_IMPACT)
+        };
         let leaves = |at: (f64, f64)| {
             let ratio = (at.1 / guess.1).max(guess.1 / at.1);
             ratio > REACH.1 || between(at.0, guess.0, period) > REACH.0

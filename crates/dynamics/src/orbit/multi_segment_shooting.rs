@@ -21,10 +21,10 @@ use softstop::internals::Scales;
 use softstop::{Clock, Scene};
 
 /// Newton steps before giving up; and how many in a row may fail to halve the least residual so far.
-const STEPS: usize = 60;
-const PATIENCE: usize = 16;
+const MAX_STEPS: usize = 60;
+const MAX_IDLE_STEPS: usize = 16;
 /// Halvings of a step that leads nowhere.
-const HALVINGS: u32 = 8;
+const MAX_HALVINGS: u32 = 8;
 /// Share of a before-impact velocity that a step may take away.
 const LARGEST_FALL: f64 = 0.9;
 /// Share of the drive period by which a step may move an impact.
@@ -106,7 +106,7 @@ impl<'a> MultiSegmentShooting<'a> {
         found.ok_or(diverged(f64::NAN))
     }
 
-    /// The same of one impact, another than those that are known.
+    /// The orbit with one impact, another than those that are known.
     pub(super) fn settle_apart(
         &self,
         guess: (f64, f64),
@@ -116,7 +116,7 @@ impl<'a> MultiSegmentShooting<'a> {
         found.ok_or(diverged(f64::NAN))
     }
 
-    /// The same; none as soon as a whole step leads to impacts that are known.
+    /// The orbit that Newton's method settles on; none as soon as a whole step leads to impacts that are known.
     pub(super) fn settle_new(
         &self,
         guess: &[(f64, f64)],
@@ -136,7 +136,7 @@ impl<'a> MultiSegmentShooting<'a> {
         let mut evaluation = self.evaluate(&at).ok_or(diverged(f64::NAN))?;
         let (mut least, mut idle) = (f64::INFINITY, 0);
         let mut nearest = Nearest::NONE;
-        for _ in 0..STEPS {
+        for _ in 0..MAX_STEPS {
             let residual = evaluation.residual.norm();
             if residual < nearest.residual {
                 let impact = (at[0], at[1]);
@@ -146,7 +146,7 @@ impl<'a> MultiSegmentShooting<'a> {
                 true => (residual, 0),
                 false => (least, idle + 1),
             };
-            if idle > PATIENCE {
+            if idle > MAX_IDLE_STEPS {
                 break;
             }
             let step = evaluation.jacobian.clone().lu().solve(&evaluation.residual);
@@ -221,7 +221,7 @@ impl<'a> MultiSegmentShooting<'a> {
                 share = share.min(most / taken);
             }
         }
-        (0..HALVINGS).find_map(|halvings| {
+        (0..MAX_HALVINGS).find_map(|halvings| {
             let share = share / f64::from(1 << halvings);
             let next = at + share * step;
             let evaluation = self.evaluate(&next)?;

@@ -26,7 +26,7 @@ pub fn fixed_point(
     found.ok_or(OrbitError::Diverged { residual: f64::NAN })
 }
 
-/// The same; none as soon as a whole step leads to a state that is known.
+/// The fixed point that Newton's method finds; none as soon as a whole step leads to a state that is known.
 pub(super) fn find_new_fixed_point(
     map: &StroboscopicMap,
     start: Vector2<f64>,
@@ -73,7 +73,7 @@ pub(super) fn find_new_fixed_point(
 }
 
 /// Halvings of a step that leads beyond a rigid stop.
-const HALVINGS: i32 = 40;
+const MAX_HALVINGS: i32 = 40;
 
 /// The state after a step and its image; the step is shortened where it leads beyond a rigid stop.
 fn within_walls(
@@ -82,7 +82,7 @@ fn within_walls(
     step: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Passage), MotionError> {
     let mut last = None;
-    for halvings in 0..HALVINGS {
+    for halvings in 0..MAX_HALVINGS {
         let next = state + step * 0.5f64.powi(halvings);
         match map.apply(next) {
             Err(error @ MotionError::BeyondStop { .. }) => last = Some(error),

@@ -10,10 +10,10 @@ use softstop::{Instant, MotionError, Scene, Touch};
 
 /// Distance in units of 1 + |state| within which a state that has returned after n periods has also
 /// returned after a divisor of n. Newton's method leaves about 1e-13.
-pub(super) const SAME: f64 = 1e-9;
+pub(super) const SAME_AFTER_PART: f64 = 1e-9;
 
 /// Distance in units of 1 + |state| within which Newton's method looks for an orbit of a part of the period.
-const NEAR: f64 = 1e-3;
+const NEAR_PART: f64 = 1e-3;
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -74,7 +74,7 @@ impl Orbit {
         Self::of_impacts(scene, state, periods.max(1), MOST_IMPACTS)
     }
 
-    /// The same; from impact to impact it is sought with no more than `most` impacts.
+    /// The periodic orbit near a state; from impact to impact it is sought with no more than `most` impacts.
     fn of_impacts(
         scene: &Scene,
         state: Vector2<f64>,
@@ -127,7 +127,7 @@ impl Orbit {
             let shorter = StroboscopicMap::new(scene, part)?;
             let size = |state: &Vector2<f64>| map.scales().state(state).norm();
             let unit = 1.0 + size(&state);
-            if size(&(shorter.image(state)? - state)) > NEAR * unit {
+            if size(&(shorter.image(state)? - state)) > NEAR_PART * unit {
                 continue;
             }
             let Ok((own, once)) = fixed_point(&shorter, state) else {
@@ -135,7 +135,7 @@ impl Orbit {
             };
             let apart = size(&(own - state));
             let stays = once.monodromy.is_stable() || !passage.monodromy.is_stable();
-            if apart <= SAME * unit || apart <= map.doubt(state, &passage) && stays {
+            if apart <= SAME_AFTER_PART * unit || apart <= map.doubt(state, &passage) && stays {
                 return Self::on(scene, &shorter, own, &once);
             }
         }

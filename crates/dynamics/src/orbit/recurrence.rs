@@ -19,7 +19,7 @@ pub(crate) fn distance(frequency: f64, a: &Start, b: &Start) -> f64 {
     (frequency * (a.position - b.position)).hypot(a.velocity - b.velocity)
 }
 
-/// The same, squared.
+/// Squared distance of two states, as in [`distance`].
 fn square(frequency: f64, a: &Start, b: &Start) -> f64 {
     let (x, v) = (
         frequency * (a.position - b.position),
@@ -41,7 +41,7 @@ pub(crate) fn returns(frequency: f64, states: &[Start]) -> Option<Return> {
     returns_within(frequency, states, RETURN)
 }
 
-/// The same with another distance, in units of the motion's size.
+/// As [`returns`], with another distance, in units of the motion's size.
 pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Option<Return> {
     let longest = states.len().checked_sub(1)? / 2;
     let size = size(frequency, states);

@@ -17,7 +17,7 @@ pub struct Regime {
 }
 
 /// Most periods after which a state is looked for again.
-const LONGEST: u64 = 64;
+const LONGEST_PERIOD: u64 = 64;
 
 impl Regime {
     /// z = 1.
@@ -44,7 +44,7 @@ impl Regime {
         let settled = motion.state();
         let mut counter = ImpactCounter::default();
         let (mut states, mut counts) = (vec![settled], vec![0]);
-        for period in 1..=2 * LONGEST {
+        for period in 1..=2 * LONGEST_PERIOD {
             motion.advance(Clock::at_cycle(transient + period), &mut counter)?;
             states.push(motion.state());
             counts.push(counter.0);

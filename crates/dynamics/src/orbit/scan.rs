@@ -21,17 +21,17 @@ const COARSE: usize = 2;
 const SLACK: f64 = 1.0;
 const NARROW: f64 = 0.5;
 /// The slowest impact that is looked for, in units of the motion's speed.
-const SLOWEST: f64 = 0.005;
+const SLOWEST_IMPACT: f64 = 0.005;
 /// Below that, in the same units, an impact is no more than rounding about grazing.
 pub(crate) const FAINTEST: f64 = 1e-6;
 /// The fastest, in units of the speed at which free damping takes all that the drive gives to a harmonic motion.
 const FASTEST: f64 = 1.5;
-/// The same in units of the motion's speed, for machines with little damping or none.
+/// The fastest in units of the motion's speed, for machines with little damping or none.
 const UTMOST: f64 = 2000.0;
 /// Difference of times, in units of the period, and of velocities, in units of themselves, within which impacts are
 /// the same, and within which Newton's method leads from one to the other.
-const SAME: f64 = 1e-6;
-pub(super) const NEAR: f64 = 1e-3;
+const SAME_IMPACT: f64 = 1e-6;
+pub(super) const NEAR_IMPACT: f64 = 1e-3;
 
 /// Residual in units of the velocity, or of the motion's speed if that is higher, up to which a miss is a near one; and
 /// difference from another one, as above, within which it is none of its own.
@@ -39,7 +39,7 @@ const MISSED: f64 = 1.0;
 const TOLD: f64 = 0.05;
 
 /// Most motions at one frequency: where friction holds the mass at any of many places, there is no end to them.
-const MOST: usize = 100;
+const MAX_ORBITS: usize = 100;
 
 /// All z = 1 motions, those with the hardest impacts last.
 ///
@@ -49,7 +49,7 @@ pub(crate) fn all_single(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Orbi
     Ok(scan(scene, monitor)?.map_or(Vec::new(), |singles| singles.found))
 }
 
-/// The same, and before them those at frequencies within a share of the scene's that near misses lead to.
+/// All z = 1 motions, and before them those at frequencies within a share of the scene's that near misses lead to.
 ///
 /// # Errors
 /// As [`all_single`].
@@ -120,7 +120,7 @@ impl<'a> Singles<'a> {
         OrbitError::ask(monitor)?;
         let (period, impacts) = (self.period, self.impacts());
         let known = |at: &[f64]| {
-            let near = |other| apart(other, (at[0], at[1]), period) < NEAR;
+            let near = |other| apart(other, (at[0], at[1]), period) < NEAR_IMPACT;
             impacts.iter().copied().any(near)
         };
         let settled = self.shooting.settle_new(&[guess], known);
@@ -142,7 +142,7 @@ impl<'a> Singles<'a> {
             .found
             .iter()
             .any(|known| same(known, &orbit, self.period));
-        let is_kept = self.is_real(&orbit) && !is_known && self.found.len() < MOST;
+        let is_kept = self.is_real(&orbit) && !is_known && self.found.len() < MAX_ORBITS;
         if is_kept {
             self.found.push(orbit);
         }
@@ -168,7 +168,7 @@ impl<'a> Singles<'a> {
 
 /// True if two orbits have the same impact.
 fn same(a: &Orbit, b: &Orbit, period: f64) -> bool {
-    apart(impact(a), impact(b), period) < SAME
+    apart(impact(a), impact(b), period) < SAME_IMPACT
 }
 
 fn impact(orbit: &Orbit) -> (f64, f64) {
@@ -284,7 +284,7 @@ pub(super) fn speeds(scene: &Scene) -> Vec<f64> {
     let damping = scene.damping.min(scene.contact_damping);
     let most = FASTEST * scene.excitation.amplitude / damping;
     let highest = most.clamp(4.0 * unit, UTMOST * unit);
-    let count = (highest / (SLOWEST * unit)).ln() / RATIO.ln();
-    let speed = |index: usize| SLOWEST * unit * RATIO.powi(index as i32);
+    let count = (highest / (SLOWEST_IMPACT * unit)).ln() / RATIO.ln();
+    let speed = |index: usize| SLOWEST_IMPACT * unit * RATIO.powi(index as i32);
     (0..=count.ceil() as usize).map(speed).collect()
 }

@@ -21,7 +21,7 @@ use softstop_lanes::Machine;
 const STAGES: [(u64, &[u64]); 3] = [(4, &[]), (12, &[2, 12]), (60, &[60])];
 /// Distance, in scales of the motion, within which a state stands for a stable motion, and for an unstable one, which a
 /// stable one may be near to.
-const SAME: f64 = 0.02;
+const SAME_STABLE: f64 = 0.02;
 const SAME_UNSTABLE: f64 = 1e-3;
 /// Share of what a state moves within a period up to which it stands for another one in the search for an orbit.
 const STANDS_FOR: f64 = 0.5;
@@ -153,7 +153,11 @@ impl FixedPoint {
         Self {
             state,
             lead: monodromy.resolvent(),
-            reach: if is_stable { SAME } else { SAME_UNSTABLE },
+            reach: if is_stable {
+                SAME_STABLE
+            } else {
+                SAME_UNSTABLE
+            },
             is_stable,
         }
     }

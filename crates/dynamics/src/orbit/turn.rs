@@ -1,6 +1,6 @@
 //! Where a course turns.
 
-use softstop::internals::{Course, Guard, Outlook, budget, first_crossing};
+use softstop::internals::{ArcSolution, Guard, NextEvent, budget, first_crossing};
 
 /// A turning point of a course.
 #[derive(Debug, Clone, Copy)]
@@ -15,7 +15,7 @@ pub struct Turn {
 
 /// The turning points of a course within `duration` seconds, back and forward by turns: first the first `back` or
 /// forward.
-pub fn turns(course: &Course, duration: f64, back: bool) -> impl Iterator<Item = Turn> {
+pub fn turns(course: &ArcSolution, duration: f64, back: bool) -> impl Iterator<Item = Turn> {
     let moves = !course.is_held() && !course.is_chattering();
     let (mut node, mut back) = (course.start(), back);
     std::iter::from_fn(move || {
@@ -28,7 +28,7 @@ pub fn turns(course: &Course, duration: f64, back: bool) -> impl Iterator<Item =
             Guard::turning_forward()
         };
         match first_crossing(course, &[guard], node, duration) {
-            Outlook::Crossing(found) if found.elapsed <= duration => {
+            NextEvent::Crossing(found) if found.elapsed <= duration => {
                 let turn = Turn {
                     back,
                     elapsed: found.elapsed,

@@ -22,9 +22,9 @@ pub use way::Way;
 
 /// Steps of a slow way, drive periods of each, and the distance within which a state has returned in them, in units of
 /// the motion's size.
-const STEPS: usize = 256;
-const PERIODS: u64 = 64;
-const RETURN: f64 = 1e-2;
+const SLOW_STEPS: usize = 256;
+const STEP_PERIODS: u64 = 64;
+const SLOW_RETURN: f64 = 1e-2;
 
 /// Which ways are tried, and what is asked of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,10 +59,12 @@ impl Settings {
 
     /// Values of a parameter on the way, and drive periods of each.
     fn steps(&self, parameter: Parameter, (low, high): (f64, f64)) -> (usize, u64) {
-        let slow = (STEPS, PERIODS);
+        let slow = (SLOW_STEPS, STEP_PERIODS);
         let periods = self.ramp.map(|rate| ((high - low) / rate).ceil() + 1.0);
         match periods.filter(|_| parameter == Parameter::Frequency) {
-            Some(periods) if periods < (STEPS as u64 * PERIODS) as f64 => (periods as usize, 1),
+            Some(periods) if periods < (SLOW_STEPS as u64 * STEP_PERIODS) as f64 => {
+                (periods as usize, 1)
+            }
             _ => slow,
         }
     }
@@ -211,7 +213,7 @@ fn switched_on(
     let peaks = || {
         let mut peaks = Peaks::default();
         for state in states {
-            peaks.take(scene, state, PERIODS)?;
+            peaks.take(scene, state, STEP_PERIODS)?;
         }
         Ok::<_, MotionError>(peaks)
     };
@@ -261,7 +263,7 @@ fn changed(
         return Ok(None);
     };
     let plan = Plan {
-        tolerance: RETURN,
+        tolerance: SLOW_RETURN,
         heights: false,
         start: at_rest(scene),
         ..plan
@@ -284,7 +286,7 @@ fn changed(
             state = peaks.take(&scene, state, periods)?;
             OrbitError::ask(monitor)?;
         }
-        peaks.take(scene, state, PERIODS)?;
+        peaks.take(scene, state, STEP_PERIODS)?;
         Ok::<_, OrbitError>(peaks)
     };
     let is_one = |motion: &MotionKind| motion.regime() == Some(Regime::ONE);

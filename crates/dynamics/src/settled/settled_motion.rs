@@ -7,7 +7,7 @@ use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};
 use softstop::{Instant, MotionError, Scene, Start};
 
 /// ln of a hundredfold growth.
-const MUCH: f64 = 4.605_170_185_988_092;
+const HUNDREDFOLD: f64 = 4.605_170_185_988_092;
 
 /// What a motion has come to.
 #[derive(Debug, Clone, PartialEq)]
@@ -140,7 +140,7 @@ impl SettledMotion {
 pub fn wanders(map: &StroboscopicMap, from: Start) -> Result<(MotionKind, f64), MotionError> {
     let tangent = map.apply(from.into())?.monodromy;
     let growth = map.scales().jacobian(&tangent).norm().ln();
-    let motion = match growth > MUCH {
+    let motion = match growth > HUNDREDFOLD {
         true => MotionKind::Chaos,
         false => MotionKind::Unsettled,
     };

@@ -7,7 +7,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::internals::{Influence, Motion};
+use softstop::internals::{Motion, ParameterSensitivity};
 use softstop::{Clock, Parameter, Scene, SceneError, Start};
 
 use super::variation::{Variation, lowered, none};
@@ -148,7 +148,7 @@ impl Border {
         )
     }
 
-    /// The same border of a machine close by, by Newton's method from this one and along its normal.
+    /// This border of a machine close by, by Newton's method from this one and along its normal.
     ///
     /// # Errors
     /// [`ZoneError`] if it is not reached, or has no normal there.
@@ -276,7 +276,12 @@ fn touch(
     let start = Start::new(place, 0.0);
     let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), start)?;
     let until = Clock::at_cycle(periods);
-    let mut watch = LastArc::new(clock, graze.crossings, until, Influence::new(&phases, &by));
+    let mut watch = LastArc::new(
+        clock,
+        graze.crossings,
+        until,
+        ParameterSensitivity::new(&phases, &by),
+    );
     motion.advance(until, &mut watch)?;
     motion.tell_arc(&mut watch);
     let columns = watch.seen.columns().ok_or_else(missing)?;

@@ -6,7 +6,7 @@ use softstop::internals::{Phase, PhaseId, Phases, narrow};
 /// Pieces in which peaks are looked for: for each rad of the fastest rate, at least and at most.
 const PIECES: (f64, f64, f64) = (2.0, 4.0, 4096.0);
 /// Share of a piece to which a peak is located; its height is known to the square of that.
-const WIDTH: f64 = 1e-9;
+const PEAK_WIDTH: f64 = 1e-9;
 
 /// Times in s since the start of an arc at which the contact force is highest, with position, velocity and acceleration.
 pub(super) fn peaks<'a>(
@@ -40,7 +40,7 @@ pub(super) fn peaks<'a>(
             return None;
         }
         let ends = ((time - piece, last), (time, here));
-        let found = narrow(ends.0, ends.1, WIDTH * piece, |time| {
+        let found = narrow(ends.0, ends.1, PEAK_WIDTH * piece, |time| {
             Ok::<_, ()>(rate(time))
         });
         let time = found.ok()?.middle();

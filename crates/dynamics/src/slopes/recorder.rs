@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use softstop::internals::{Influence, Lowered, Phase, PhaseId, Phases};
+use softstop::internals::{Lowered, ParameterSensitivity, Phase, PhaseId, Phases};
 use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKind};
 
 use super::figure::DifferentiatedFigure;
@@ -21,7 +21,7 @@ pub(super) struct RecordedFigures {
 
 /// Watches a motion.
 pub(super) struct FigureRecorder<'a> {
-    pub influence: Influence<'a>,
+    pub influence: ParameterSensitivity<'a>,
     pub watched: RecordedFigures,
     phases: &'a Phases,
     by: &'a [Lowered],
@@ -36,7 +36,7 @@ pub(super) struct FigureRecorder<'a> {
 impl<'a> FigureRecorder<'a> {
     pub fn new(phases: &'a Phases, by: &'a [Lowered], clock: Clock) -> Self {
         Self {
-            influence: Influence::new(phases, by),
+            influence: ParameterSensitivity::new(phases, by),
             watched: RecordedFigures::default(),
             phases,
             by,

@@ -12,7 +12,7 @@ use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 /// else, or the map bends too much.
 const WIDTHS: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
 /// Share by which differences over one width and over twice that width may lie apart.
-const APART: f64 = 0.01;
+const SETTLED_SHARE: f64 = 0.01;
 
 /// Trace and determinant of the monodromy matrix, with their derivatives.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,7 +95,8 @@ impl Variation {
                 let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
                 let (wide, narrow) = (central(2.0 * width)?, central(width)?);
                 let found = (4.0 * narrow - wide) / 3.0;
-                let settled = (wide - narrow).norm() <= APART * found.norm() + SAME / size;
+                let settled =
+                    (wide - narrow).norm() <= SETTLED_SHARE * found.norm() + VANISHING / size;
                 settled.then_some([found.x, found.y])
             })
         });
@@ -105,7 +106,7 @@ impl Variation {
 }
 
 /// What rounding may leave of a derivative that vanishes, times the parameter.
-const SAME: f64 = 1e-7;
+const VANISHING: f64 = 1e-7;
 
 fn invariants(monodromy: &Monodromy) -> Vector2<f64> {
     Vector2::new(monodromy.trace(), monodromy.determinant())

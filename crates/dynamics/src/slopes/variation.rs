@@ -19,7 +19,7 @@ pub(super) struct Variation {
     frequency: f64,
     /// The Jacobian of the map.
     pub monodromy: Monodromy,
-    /// As [`Influence`](softstop::internals::Influence) has them in the end.
+    /// As [`ParameterSensitivity`](softstop::internals::ParameterSensitivity) has them in the end.
     pub columns: Vec<Vector3<f64>>,
     pub watched: RecordedFigures,
     pub supplied: DifferentiatedFigure,

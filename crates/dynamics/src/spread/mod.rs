@@ -38,7 +38,7 @@ pub trait ToleranceBox: Debug + Sync {
     }
 }
 
-/// The same machines with bounds so many times as wide.
+/// A tolerance box with bounds so many times as wide.
 #[derive(Debug, Clone, Copy)]
 pub struct Scaled<'a>(pub &'a dyn ToleranceBox, pub f64);
 

@@ -10,9 +10,9 @@ use crate::zone::Loss;
 /// How many times farther from where they should be other motions may be than those that are known, and so far anyway, in
 /// the scales of the motion.
 const FARTHER: f64 = 10.0;
-const NEAR: f64 = 1e-3;
+const NEAR_STATE: f64 = 1e-3;
 /// Machines to which the nominal motion is followed before others are led to.
-const FIRST: usize = 64;
+const FIRST_MACHINES: usize = 64;
 
 /// Knows the z = 1 motions of some machines of a spread, and by them where those of the others are.
 #[derive(Debug)]
@@ -59,7 +59,7 @@ impl<'a> Surrogate<'a> {
             let state = reached.point.state();
             (reached.loss.is_none()).then(|| (place.clone(), state.into()))
         };
-        let (first, others) = places.split_at(FIRST.min(places.len()));
+        let (first, others) = places.split_at(FIRST_MACHINES.min(places.len()));
         let mut known: Vec<(Vec<f64>, [f64; 2])> = first.par_iter().filter_map(followed).collect();
         known.push((vec![0.0; spread.dimensions()], nominal.state().into()));
         let scales = nominal.scene.motion_scales();
@@ -75,7 +75,7 @@ impl<'a> Surrogate<'a> {
                 spread,
                 nominal,
                 states: model,
-                reach: (FARTHER * farthest).max(NEAR),
+                reach: (FARTHER * farthest).max(NEAR_STATE),
             })
         };
         let rough: Self = guide(&known)?;

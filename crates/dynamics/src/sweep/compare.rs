@@ -8,7 +8,7 @@ use crate::motion::MotionKind;
 const LEAP: (f64, f64) = (0.1, 0.2);
 /// Difference of the largest before-impact velocities at one value, in units of the larger one, of two motions
 /// of the same regime that are not the same.
-const APART: f64 = 0.01;
+const APART_SHARE: f64 = 0.01;
 
 /// A change of the motion from one step to the next that has settled.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,7 +98,7 @@ pub fn hysteresis(up: &Chain, down: &Chain) -> Vec<Coexistence> {
     let mut zones: Vec<Coexistence> = Vec::new();
     let mut open = false;
     for (a, b) in pairs(up, down) {
-        let apart = a.is_settled() && b.is_settled() && differ(a, b, APART);
+        let apart = a.is_settled() && b.is_settled() && differ(a, b, APART_SHARE);
         let last = zones
             .last_mut()
             .filter(|zone| open && apart && zone.up == a.motion && zone.down == b.motion);

@@ -17,7 +17,7 @@
 //! let machine = Ratios::unloaded().scene()?;
 //! let plan = Plan::new(Parameter::Frequency, (1.01, 1.4), 40, 200)?;
 //! let mut chains = [Direction::Up, Direction::Down].map(|way| Chain::new(machine.clone(), way));
-//! plan.run(&mut chains, &unwatched);
+//! plan.run(&mut chains, &unmonitored);
 //! let zones = hysteresis(&chains[0], &chains[1]);
 //! // Between g0 = 1.04444 and s_SN = 1.369036 the way matters.
 //! assert_eq!(zones.len(), 1);

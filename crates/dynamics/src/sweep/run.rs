@@ -33,7 +33,7 @@ impl Plan {
         self.run_for(Duration::MAX, chains, monitor)
     }
 
-    /// The same for about so long, to the ends of the steps that are under way then.
+    /// Carries all chains on for about so long, to the ends of the steps that are under way then.
     fn run_for(&self, time: Duration, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
         let begin = Instant::now();
         let all = (self.steps * chains.len()) as u64;
@@ -83,7 +83,7 @@ impl Plan {
         (self.parameter.name(), plan, self.start, chains)
     }
 
-    /// The same as [`Plan::run`], piece by piece: what is known of them is recalled, and what they come to is kept.
+    /// [`Plan::run`], piece by piece: what is known of them is recalled, and what they come to is kept.
     pub fn run_kept(&self, chains: &mut [Chain], monitor: Monitor<'_>, kept: Kept<'_>) -> bool {
         if kept.is_none() {
             return self.run(chains, monitor);

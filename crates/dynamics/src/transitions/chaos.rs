@@ -1,7 +1,7 @@
 //! Where chaos ends: by its lifetime.
 
 use super::TransitionError;
-use super::explorer::{Explorer, FIRST, Gathering, is_clear, most};
+use super::explorer::{Explorer, FIRST_MOTIONS, Gathering, is_clear, most};
 use crate::attractors::Arrival;
 use crate::continuation::Family;
 use crate::monitor::piece;
@@ -15,7 +15,7 @@ const STRIDE: f64 = 2e-4;
 
 /// So many times the motions of the rules are asked at most whether they last, those that do going on: as many as tell
 /// the five digits that are printed.
-const MOST: usize = 32;
+const MAX_REQUESTS: usize = 32;
 
 /// An end of chaos.
 pub(super) struct ChaosEnd {
@@ -46,7 +46,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
             let (mut states, mut still, mut all) = (states.to_vec(), 0, 0);
             loop {
                 let mut going = self.fill(&states);
-                let first = if all == 0 { FIRST } else { going.len() };
+                let first = if all == 0 { FIRST_MOTIONS } else { going.len() };
                 let waiting = going.split_off(first.min(going.len()));
                 let arrivals = self.settle_at(value, &going, self.rules.lifetime)?;
                 all += arrivals.len();
@@ -55,7 +55,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
                 states = waiting;
                 states.extend(wandering.map(|it| it.state));
                 let is_clear = is_clear(still, all);
-                if is_clear || states.is_empty() || all >= MOST * self.rules.motions {
+                if is_clear || states.is_empty() || all >= MAX_REQUESTS * self.rules.motions {
                     return Ok(Lasting {
                         wandering: (2 * still >= all && !states.is_empty()).then_some(states),
                         is_clear,

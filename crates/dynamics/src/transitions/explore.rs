@@ -30,9 +30,9 @@ struct KnownMotions {
 }
 
 /// Rounds of new motions after which no more are followed.
-const ROUNDS: usize = 6;
+const MAX_ROUNDS: usize = 6;
 /// Distance of an end of chaos from that of a window, as a share of the parameter, at which they are one.
-const SAME: f64 = 1e-4;
+const SAME_CHAOS_END: f64 = 1e-4;
 
 impl<F: Family + Sync> Explorer<'_, F> {
     /// All transitions of the motions found at `values`, and of those to which they lead, in rising order
@@ -46,7 +46,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         for value in values {
             self.survey(*value, &mut met, &mut seeds)?;
         }
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             if met.is_empty() && seeds.is_empty() {
                 break;
             }
@@ -173,7 +173,7 @@ impl KnownMotions {
             !known.hysteresis
                 && known.to() == &MotionKind::Chaos
                 && (&known.from == motion || is_doubled(&known.from, motion))
-                && (known.value - value).abs() <= SAME * value.abs()
+                && (known.value - value).abs() <= SAME_CHAOS_END * value.abs()
         })
     }
 }

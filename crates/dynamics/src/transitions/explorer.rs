@@ -13,7 +13,7 @@ use softstop::Start;
 const SPREAD: f64 = 1e-9;
 /// Motions that go first, as many as there are lanes: if all of them do the same, so do most. Where half of all
 /// would not, and each went its own way, that is a chance of one in 2^15.
-pub(super) const FIRST: usize = 16;
+pub(super) const FIRST_MOTIONS: usize = 16;
 
 /// Finds transitions of a family's motions.
 pub struct Explorer<'a, F> {
@@ -38,13 +38,13 @@ pub(super) struct Gathering {
 }
 
 /// Standard deviations by which more or fewer than half of all motions have to do something for that to be clear.
-const SURE: f64 = 4.0;
+const CLEAR_DEVIATIONS: f64 = 4.0;
 
 /// True if it is clear whether more or fewer than half of motions do something, by the number of those that do: all or none
 /// of however few, or by far more than chance.
 pub(super) fn is_clear(those: usize, all: usize) -> bool {
     let lead = (2.0 * those as f64 - all as f64).abs();
-    lead >= (SURE * (all as f64).sqrt()).min(all as f64)
+    lead >= (CLEAR_DEVIATIONS * (all as f64).sqrt()).min(all as f64)
 }
 
 impl<'a, F: Family + Sync> Explorer<'a, F> {
@@ -60,7 +60,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         }
     }
 
-    /// The same search, in which what is known is recalled.
+    /// This search, in which what is known is recalled.
     #[must_use]
     pub fn recalling(self, kept: Kept<'a>) -> Self {
         Self { kept, ..self }
@@ -92,7 +92,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
     }
 
     fn gather_anew(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
-        let (first, rest) = starts.split_at(starts.len().min(FIRST));
+        let (first, rest) = starts.split_at(starts.len().min(FIRST_MOTIONS));
         let mut arrivals = self.settle_at(value, first, self.rules.patience)?;
         if !are_alike(&arrivals) {
             arrivals.extend(self.settle_at(value, rest, self.rules.patience)?);

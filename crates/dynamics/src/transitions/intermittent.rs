@@ -14,11 +14,11 @@ use softstop_lanes::{BatchObserver, Job, Machine};
 
 /// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
 const ENDURANCE: u64 = 400_000;
-const STRETCH: u64 = 10_000;
+const PERIODS_BETWEEN_LOOKS: u64 = 10_000;
 /// Bursts after which it counts as chaos.
 const BURSTS: usize = 3;
 /// Least difference of a motion from the orbit, in units of its size.
-const NEAR: f64 = 1e-9;
+const LEAST_DIFFERENCE: f64 = 1e-9;
 /// Periods of the old motion in a row that tell it from chance.
 const CALM: u64 = 5;
 
@@ -48,9 +48,9 @@ impl<F: Family + Sync> Explorer<'_, F> {
         let mut job = Job {
             machine: 0,
             start: *start,
-            periods: STRETCH,
+            periods: PERIODS_BETWEEN_LOOKS,
         };
-        for _ in 0..ENDURANCE / STRETCH {
+        for _ in 0..ENDURANCE / PERIODS_BETWEEN_LOOKS {
             let ask = || (self.monitor)(0, 0);
             let outcomes = follow(&machine, &[job], &mut calm, ask).ok_or(SurveyError::Stopped)?;
             for outcome in outcomes {
@@ -69,11 +69,11 @@ impl<F: Family + Sync> Explorer<'_, F> {
     }
 }
 
-/// Drive periods that a difference takes to grow to the size of the motion, from [`NEAR`] of it.
+/// Drive periods that a difference takes to grow to the size of the motion, from [`LEAST_DIFFERENCE`] of it.
 fn leaving(orbit: &Orbit) -> f64 {
     let growth = Exponents::of(orbit).per_period[0];
     match growth > 0.0 {
-        true => -NEAR.ln() / growth,
+        true => -LEAST_DIFFERENCE.ln() / growth,
         false => f64::INFINITY,
     }
 }

@@ -19,10 +19,10 @@ const WEAKEST: f64 = 0.2;
 /// it ends in grazing.
 const STEEPEST: f64 = -4.0;
 /// Frequency in units of g0 beyond which no fold is looked for.
-const FARTHEST: f64 = 8.0;
+const FARTHEST_FOLD: f64 = 8.0;
 
 /// Machines whose motions are followed together.
-const TOGETHER: usize = 8;
+const MACHINES_TOGETHER: usize = 8;
 
 /// The hysteresis zone of a scene with any stop; the frequency of its drive plays no part.
 ///
@@ -32,7 +32,7 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
     hysteresis_with_monitor(scene, &unmonitored)
 }
 
-/// The same, as long as a monitor, which is not told how much is done, lets it go on.
+/// The hysteresis zone of a scene, as long as a monitor, which is not told how much is done, lets it go on.
 ///
 /// # Errors
 /// As [`hysteresis`]; [`OrbitError::Stopped`].
@@ -67,7 +67,7 @@ pub(super) fn zones_of(
     monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
-    let chunks = scenes.par_chunks(TOGETHER);
+    let chunks = scenes.par_chunks(MACHINES_TOGETHER);
     let zones = chunks.flat_map_iter(|scenes| fork.part(|| together(scenes, upper, monitor)));
     let zones = zones.collect();
     fork.join();
@@ -107,7 +107,7 @@ fn from_start(
         frequency: frequency_g0.into(),
     })?;
     let continuation = Continuation::new(&family, 1);
-    let range = (frequency_g0, FARTHEST * frequency_g0);
+    let range = (frequency_g0, FARTHEST_FOLD * frequency_g0);
     let mut branch = upward(&continuation, &start, range, monitor)?;
     let high = match (highest_fold(&branch), upper) {
         (Some(fold), _) => fold,
@@ -191,7 +191,7 @@ fn no_fold(from: f64, branch: &[BranchPoint]) -> ZoneError {
     }
     let end = match last {
         _ if last < from => BranchEnd::Below,
-        _ if last > FARTHEST * from => BranchEnd::Range,
+        _ if last > FARTHEST_FOLD * from => BranchEnd::Range,
         _ if branch.len() >= LONGEST_BRANCH => BranchEnd::Budget,
         _ => BranchEnd::Regime,
     };

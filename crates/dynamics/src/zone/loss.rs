@@ -6,9 +6,9 @@ use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
 
 /// Points after which a branch is given up.
-const LONGEST: usize = 400;
+const MAX_POINTS: usize = 400;
 /// How far from the orbit's own value a loss is looked for, as a factor.
-const FARTHEST: f64 = 4.0;
+const FARTHEST_FACTOR: f64 = 4.0;
 
 /// The first orbit, up or down from a stable z = 1 orbit, at which a test passes zero: s_SN by
 /// [`Test::Fold`], s_PD by [`Test::Flip`]. None if stability is lost otherwise, or not at all.
@@ -53,7 +53,7 @@ pub fn end_along<F: Family>(
 }
 
 fn is_near(point: &BranchPoint, from: f64) -> bool {
-    (1.0 / FARTHEST..=FARTHEST).contains(&(point.parameter / from))
+    (1.0 / FARTHEST_FACTOR..=FARTHEST_FACTOR).contains(&(point.parameter / from))
 }
 
 /// The branch as long as it is stable.
@@ -63,7 +63,7 @@ fn stable<F: Family>(
     orbit: &Orbit,
     heading: Heading,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
-    continuation.follow(orbit, from, heading, LONGEST, |point| {
+    continuation.follow(orbit, from, heading, MAX_POINTS, |point| {
         stop_if(!point.is_stable() || !is_near(point, from))
     })
 }

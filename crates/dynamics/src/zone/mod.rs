@@ -94,7 +94,7 @@ pub enum ZoneError {
 }
 
 impl ZoneError {
-    /// The same with its frequency as a machine states it.
+    /// This error with its frequency as a machine states it.
     #[must_use]
     pub fn stated(mut self, machine: &Machine) -> Self {
         let (one, other) = match &mut self {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::followed_end::{LONGEST_BRANCH, ended};
 use super::hysteresis::{highest_fold, upward};
 use super::places::{Zone, ZoneKind};
-use super::stable_range::SAME;
+use super::stable_range::SAME_BUT_ROUNDING;
 use super::stable_ranges::FOLLOWED;
 use super::{Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Continuation, Heading};
@@ -47,7 +47,7 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
             .iter()
             .filter_map(|zone| zone.point_at(zone.place_of(frequency)).ok());
         let known = known.map(|point| point.before_impact_velocity());
-        let least = (1.0 + SAME) * known.fold(0.0, f64::max);
+        let least = (1.0 + SAME_BUT_ROUNDING) * known.fold(0.0, f64::max);
         if let Some(start) = hardest_single(&scene.at_frequency(frequency), least, monitor)? {
             zones.extend(about(scene, &start, between, monitor).ok().flatten());
         }

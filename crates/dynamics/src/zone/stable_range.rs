@@ -10,7 +10,7 @@ use softstop::Scene;
 use softstop::internals::highest;
 
 /// Share by which rounding may change a before-impact velocity or a state.
-pub(super) const SAME: f64 = 1e-6;
+pub(super) const SAME_BUT_ROUNDING: f64 = 1e-6;
 
 /// One end of a stable range.
 #[derive(Debug, Clone)]
@@ -67,7 +67,7 @@ impl StableRange {
     /// True if it is a part of another one, or the same.
     pub(super) fn is_within(&self, other: &Self, scene: &Scene) -> bool {
         let middle = &self.points[self.points.len() / 2];
-        let near = |frequency: f64| SAME * frequency.abs();
+        let near = |frequency: f64| SAME_BUT_ROUNDING * frequency.abs();
         self.low.frequency >= other.low.frequency - near(self.low.frequency)
             && self.high.frequency <= other.high.frequency + near(self.high.frequency)
             && other.contains(scene, middle).unwrap_or(false)
@@ -96,7 +96,7 @@ impl StableRange {
 /// True if a point is at a state of the same frequency but for rounding.
 pub(super) fn is_same(one: &BranchPoint, other: Vector2<f64>, scene: &Scene) -> bool {
     let size = other.norm().max(scene.scales().length);
-    (one.state() - other).norm() < SAME * size
+    (one.state() - other).norm() < SAME_BUT_ROUNDING * size
 }
 
 /// Units of positions, velocities and frequencies.
@@ -125,7 +125,7 @@ pub(super) fn lies_between(
     let gone = place(point) - from;
     let share = gone.dot(&way) / way.norm_squared();
     let off = (gone - share * way).norm();
-    (-ASIDE..=1.0 + ASIDE).contains(&share) && off <= ASIDE * way.norm() + SAME
+    (-ASIDE..=1.0 + ASIDE).contains(&share) && off <= ASIDE * way.norm() + SAME_BUT_ROUNDING
 }
 
 /// The stable ranges of a branch that was followed so.
@@ -221,7 +221,7 @@ impl Part {
 
 /// Share of the way between the neighbours of the hardest point to which the top is known: being flat, its height is
 /// then known to ten digits.
-const WIDTH: f64 = 1e-5;
+const TOP_WIDTH: f64 = 1e-5;
 
 /// The hardest motion along points in rising order: about the hardest of them, by golden section between its neighbours.
 fn hardest(
@@ -244,7 +244,7 @@ fn hardest(
     };
     let [low, high] = [below, above].map(|at| points[at].parameter);
     let height = |frequency: f64| between(frequency).map_or(f64::NEG_INFINITY, |it| velocity(&it));
-    let (top, _) = highest(low, high, WIDTH * (high - low), height);
+    let (top, _) = highest(low, high, TOP_WIDTH * (high - low), height);
     let top = between(top).filter(|top| velocity(top) > velocity(&points[best]));
     Some(top.unwrap_or_else(|| points[best].clone()))
 }

@@ -16,16 +16,16 @@ const LOOKED_AT: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
 /// resonance to resonance and more of them are not looked for.
 pub(super) const FOLLOWED: (f64, f64) = (0.25, 8.0);
 /// Points of a branch in each direction.
-const POINTS: usize = 20_000;
+const MAX_POINTS: usize = 20_000;
 
 /// Share of a frequency within which they are looked for where one there is nearly one: as far as the row is wide.
 const BETWEEN: f64 = 0.08;
 /// Share of a frequency by which motions are looked for beside one at which the regime changes.
 const BESIDE: f64 = 2e-3;
-/// The same where they are looked for by the impact that a branch ends with.
-const BEYOND: [f64; 3] = [1e-5, 1e-4, 1e-3];
+/// Those shares where motions are looked for by the impact that a branch ends with.
+const BEYOND_BORDER: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// Most frequencies at which motions are looked for, and most branches.
-const MOST: usize = 200;
+const MAX_BRANCHES: usize = 200;
 
 /// All stable ranges of a scene, in rising order of frequency; the frequency of its drive plays no part.
 ///
@@ -39,7 +39,7 @@ pub fn stable_ranges(scene: &Scene) -> Result<Vec<StableRange>, ZoneError> {
     stable_ranges_with_monitor(scene, &unmonitored)
 }
 
-/// The same, as long as a monitor, which is not told how much is done, lets it go on.
+/// All stable ranges of a scene, as long as a monitor, which is not told how much is done, lets it go on.
 ///
 /// # Errors
 /// As [`stable_ranges`]; [`OrbitError::Stopped`].
@@ -63,10 +63,10 @@ pub(super) fn find_stable_ranges(
     let mut branches: Vec<Branch> = Vec::new();
     let mut frequencies = frequencies(scene);
     let mut next = 0;
-    while let Some(&frequency) = frequencies.get(next).filter(|_| next < MOST) {
+    while let Some(&frequency) = frequencies.get(next).filter(|_| next < MAX_BRANCHES) {
         next += 1;
         let mut met = VecDeque::from(all_about(&scene.at_frequency(frequency), BETWEEN, monitor)?);
-        while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MOST) {
+        while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MAX_BRANCHES) {
             let frequency = orbit.scene.excitation.frequency;
             let point = BranchPoint {
                 parameter: frequency,
@@ -129,7 +129,7 @@ fn limits(scene: &Scene) -> Limits {
     let natural = scene.scales().rate;
     Limits {
         range: (FOLLOWED.0 * natural, FOLLOWED.1 * natural),
-        points: POINTS,
+        points: MAX_POINTS,
     }
 }
 
@@ -169,7 +169,7 @@ fn borders(branch: &Branch) -> Vec<&BranchPoint> {
 /// The motions beside a border with nearly the impact of the motion there.
 fn beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
     let impacts = border.timed_impacts();
-    let shares = BEYOND.into_iter().flat_map(|share| [-share, share]);
+    let shares = BEYOND_BORDER.into_iter().flat_map(|share| [-share, share]);
     let near = |share: f64| {
         let there = scene.at_frequency(border.scene.excitation.frequency * (1.0 + share));
         impacts.first().map(|impact| singles_near(&there, *impact))

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use softstop::{Dimension, Language, Machine, Parameter};
+use softstop::{Dimension, Machine, Parameter, UnitSystem};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
 
 use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, around, style};
@@ -145,8 +145,8 @@ impl<'a> SweepChart<'a> {
             let steps = chain.steps.iter();
             let highest = steps.max_by(|a, b| a.max_position.total_cmp(&b.max_position))?;
             let clearance = chain.machine.value(Parameter::Clearance)?;
-            let name = match self.machine.speaks {
-                Language::Ratios => format!("ρ = {clearance}"),
+            let name = match self.machine.unit_system {
+                UnitSystem::Ratios => format!("ρ = {clearance}"),
                 _ => format!("clearance {clearance} m"),
             };
             let place = (highest.value, highest.max_position);

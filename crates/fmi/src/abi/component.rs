@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ffi::{CStr, CString};
 
+use crate::exchange::Iteration;
 use crate::fault::{Fault, Status};
 use crate::guid::library_uuid;
 use crate::instance::Instance;
@@ -22,6 +23,9 @@ pub(crate) trait Host {
     fn has_event_mode(&self) -> bool {
         false
     }
+
+    /// Whether the importer integrates by itself.
+    fn is_for_exchange(&self) -> bool;
 
     /// What a call that failed does to the instance.
     fn note_error<U: Unit>(&self, _instance: &mut Instance<U>) {}
@@ -72,6 +76,39 @@ impl<U: Unit, H: Host> Component<U, H> {
             let text = text.replace("fmi2", H::PREFIX);
             send(&self.sink, status, category, &text);
         }
+    }
+
+    /// Refuses functions of model exchange to an instance for co-simulation.
+    pub(crate) fn require_exchange(&self) -> Result<(), Fault> {
+        match self.host.is_for_exchange() {
+            true => Ok(()),
+            false => Err(Fault::NotOffered("the instance is for co-simulation")),
+        }
+    }
+
+    /// Refuses functions of co-simulation to an instance for model exchange.
+    pub(crate) fn require_co_simulation(&self) -> Result<(), Fault> {
+        match self.host.is_for_exchange() {
+            true => Err(Fault::NotOffered("the instance is for model exchange")),
+            false => Ok(()),
+        }
+    }
+
+    /// Leaves initialisation, for event mode where the importer integrates.
+    pub(crate) fn exit_initialization(&mut self) -> Result<(), Fault> {
+        self.instance.exit_initialization()?;
+        match self.host.is_for_exchange() {
+            true => self.instance.begin_exchange(),
+            false => Ok(()),
+        }
+    }
+
+    /// Lets the events of event mode happen; when the next one comes, and whether states have changed.
+    pub(crate) fn update_discrete_states(&mut self) -> Result<Iteration, Fault> {
+        let mut report = StepReport::new(self.wanted.has(Category::Events));
+        let iteration = self.instance.update_discrete_states(&mut report);
+        self.tell(&report);
+        iteration
     }
 
     /// Tells of the events in a step, and of a gap before it.

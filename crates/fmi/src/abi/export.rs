@@ -49,7 +49,23 @@ macro_rules! c_functions {
         #[doc(hidden)]
         #[macro_export]
         macro_rules! $export {
-            ($dollar unit_type:ty) => {
+            (of $dollar unit_type:ty) => {
+                $(
+                    #[doc = concat!("`", stringify!($name), "` for this unit.")]
+                    #[allow(
+                        unsafe_code,
+                        non_snake_case,
+                        clippy::missing_safety_doc,
+                        clippy::too_many_arguments,
+                        reason = "as in the standard"
+                    )]
+                    pub unsafe fn $name($($argument: $type),*) -> $result {
+                        // SAFETY: the importer keeps to the standard.
+                        unsafe { $crate::$module::$name::<$dollar unit_type>($($argument),*) }
+                    }
+                )*
+            };
+            ($dollar functions:ident) => {
                 $(
                     #[doc = concat!("`", stringify!($name), "` of the standard.")]
                     #[allow(
@@ -61,7 +77,7 @@ macro_rules! c_functions {
                     #[unsafe(no_mangle)]
                     pub unsafe extern "C" fn $name($($argument: $type),*) -> $result {
                         // SAFETY: the importer keeps to the standard.
-                        unsafe { $crate::$module::$name::<$dollar unit_type>($($argument),*) }
+                        unsafe { $dollar functions::$name($($argument),*) }
                     }
                 )*
             };
@@ -69,29 +85,60 @@ macro_rules! c_functions {
     };
 }
 
-/// The C functions of FMI 2.0 for one type that is a [`Unit`](crate::Unit), with the types of their callbacks. To be
+/// The functions of FMI 2.0 for one type that is a [`Unit`](crate::Unit), in a module of their own: here they are compiled,
+/// in Rust.
+#[macro_export]
+macro_rules! fmi2_functions {
+    ($unit_type:ty) => {
+        use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
+        use $crate::v2::{CallbackFunctions, EventInfo};
+
+        $crate::export_v2!(of $unit_type);
+        $crate::export_v2_exchange!(of $unit_type);
+    };
+}
+
+/// The C functions of FMI 2.0, which call those of a module of [`fmi2_functions`], with the types of their callbacks. To be
 /// called once in a library, in a module of its own.
 #[macro_export]
 macro_rules! export_fmi2 {
+    ($functions:ident) => {
+        use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
+        pub use $crate::v2::{CallbackFunctions, EventInfo, Logger};
+
+        $crate::export_v2!($functions);
+        $crate::export_v2_exchange!($functions);
+    };
+}
+
+/// The functions of FMI 3.0, as [`fmi2_functions`] those of FMI 2.0.
+#[macro_export]
+macro_rules! fmi3_functions {
     ($unit_type:ty) => {
         use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
-        pub use $crate::v2::{CallbackFunctions, Logger};
+        use $crate::v3::{
+            ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,
+        };
 
-        $crate::export_v2!($unit_type);
+        $crate::export_v3!(of $unit_type);
+        $crate::export_v3_exchange!(of $unit_type);
+        $crate::export_v3_values!(of $unit_type);
+        $crate::export_v3_absent!(of $unit_type);
     };
 }
 
 /// The C functions of FMI 3.0, as [`export_fmi2`] those of FMI 2.0.
 #[macro_export]
 macro_rules! export_fmi3 {
-    ($unit_type:ty) => {
+    ($functions:ident) => {
         use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
         pub use $crate::v3::{
             ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,
         };
 
-        $crate::export_v3!($unit_type);
-        $crate::export_v3_values!($unit_type);
-        $crate::export_v3_absent!($unit_type);
+        $crate::export_v3!($functions);
+        $crate::export_v3_exchange!($functions);
+        $crate::export_v3_values!($functions);
+        $crate::export_v3_absent!($functions);
     };
 }

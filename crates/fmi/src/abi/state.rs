@@ -51,6 +51,13 @@ pub(crate) unsafe fn go_back<U: Unit, H: Host>(
 ) -> Result<(), Fault> {
     // SAFETY: by this function's contract.
     let kept = unsafe { kept::<U>(state) }?;
+    let is_other = match component.host.is_for_exchange() {
+        true => kept.exchange.is_none() && !kept.lifecycle.is_before_start(),
+        false => kept.exchange.is_some(),
+    };
+    if is_other {
+        return Err(Fault::Blob("is of another interface type"));
+    }
     let in_event_mode = kept.lifecycle == Lifecycle::Event || kept.awaits;
     if in_event_mode && !component.host.has_event_mode() {
         return Err(Fault::Blob("stands at an event, which is for event mode"));

@@ -14,9 +14,10 @@ use quick_xml::events::{BytesDecl, Event};
 use crate::imprint::Imprint;
 use crate::log::{Category, LOG_ALL};
 use crate::quantity::{Item, Quantity};
+use crate::solving::space_of;
 use crate::standard::Standard;
-use crate::unit::{About, Row, Unit};
-use crate::variable::{Access, Kind, RealKind};
+use crate::unit::{About, Row, State, Unit};
+use crate::variable::{Access, Dependencies, Kind, RealKind};
 
 /// The tool that writes units, and its version.
 const TOOL: &str = "softstop";
@@ -48,7 +49,7 @@ pub(crate) fn capabilities<U: Unit>(standard: Standard) -> Attributes {
 }
 
 /// Writes a whole document with this root.
-fn write_document<'a>(
+pub(crate) fn write_document<'a>(
     root: &'static str,
     attributes: impl IntoIterator<Item = (&'static str, &'a str)>,
     content: impl FnOnce(&mut Xml) -> io::Result<()>,
@@ -198,7 +199,7 @@ fn count_attributes(min: i32, max: Option<i32>) -> Attributes {
 pub(crate) fn start_value<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Option<String> {
     let value = match variable.slot() {
         Some(slot) => imprint.values()[slot.0],
-        None if variable.is_output() || matches!(variable.access, Access::Time) => return None,
+        None if variable.is_calculated() || matches!(variable.access, Access::Time) => return None,
         None => 0.0,
     };
     Some(match variable.kind {
@@ -261,23 +262,89 @@ fn typed<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Attributes {
         Kind::Boolean => vec![],
         Kind::Enumeration(items) => vec![("declaredType", items.type_name.to_owned())],
     };
+    let mut states = space_of::<U>().states.iter();
+    if states.any(|state| state.value == variable.reference) {
+        typed.push(("reinit", "true".to_owned()));
+    }
     typed.extend(start_value(variable, imprint).map(|value| ("start", value)));
     typed
 }
 
-/// What an output depends on, each with its row counted from 0, in the order of the rows.
-fn dependencies<U: Unit>(
-    variable: &Row<U>,
-    initial: bool,
-) -> Option<Vec<(usize, &'static Row<U>)>> {
-    let depends = variable.dependencies()?;
-    let names = if initial {
-        depends.initial
-    } else {
-        depends.inputs
-    };
+/// Lists of the model structure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Unknowns {
+    Outputs,
+    /// The derivatives of the states, in their order.
+    Derivatives,
+    /// Outputs at the start.
+    Initial,
+}
+
+/// A row counted from 0, and its variable.
+type Counted<U> = (usize, &'static Row<U>);
+/// The same with what the variable depends on.
+type Unknown<U> = (usize, &'static Row<U>, Vec<Counted<U>>);
+
+impl Unknowns {
+    /// Each with what it depends on, in the order of the rows.
+    fn each<U: Unit>(self) -> Vec<Unknown<U>> {
+        let listed: Vec<_> = match self {
+            Self::Derivatives => {
+                let states = space_of::<U>().states.iter();
+                states
+                    .filter_map(|state| row_of(state.derivative))
+                    .collect()
+            }
+            _ => U::about().table.rows().enumerate().collect(),
+        };
+        let with_dependencies = |(row, variable): Counted<U>| {
+            let depends = variable.dependencies()?;
+            let mut rows = match self {
+                Self::Initial => rows_of(depends.initial),
+                _ => rows_of(depends.inputs),
+            };
+            if self != Self::Initial {
+                rows.extend(states_behind(variable, depends, self));
+            }
+            rows.sort_unstable_by_key(|(row, _)| *row);
+            Some((row, variable, rows))
+        };
+        listed.into_iter().filter_map(with_dependencies).collect()
+    }
+}
+
+fn row_of<U: Unit>(reference: u32) -> Option<Counted<U>> {
+    let mut rows = U::about().table.rows().enumerate();
+    rows.find(|(_, row)| row.reference == reference)
+}
+
+fn rows_of<U: Unit>(names: &[&str]) -> Vec<Counted<U>> {
     let rows = names.iter().flat_map(|name| U::about().table.rows_of(name));
-    let mut rows: Vec<_> = rows.collect();
-    rows.sort_unstable_by_key(|(row, _)| *row);
-    Some(rows)
+    rows.collect()
+}
+
+/// The states that a variable depends on: those with whose start it begins. A state as an output depends on nothing else.
+fn states_behind<U: Unit>(
+    variable: &Row<U>,
+    depends: &Dependencies,
+    list: Unknowns,
+) -> Vec<Counted<U>> {
+    let states = space_of::<U>().states;
+    let is_state = states.iter().any(|it| it.value == variable.reference);
+    if is_state && list == Unknowns::Outputs {
+        return Vec::new();
+    }
+    let begins_with = |state: &&State| {
+        let start = U::about().table.by_reference(state.start);
+        start.is_some_and(|start| depends.initial.contains(&start.name))
+    };
+    let behind = states.iter().filter(begins_with);
+    behind.filter_map(|state| row_of(state.value)).collect()
+}
+
+/// The state that a variable is the derivative of.
+fn state_of<U: Unit>(variable: &Row<U>) -> Option<u32> {
+    let mut states = space_of::<U>().states.iter();
+    let state = states.find(|state| state.derivative == variable.reference)?;
+    Some(state.value)
 }

@@ -3,10 +3,11 @@
 use std::io;
 
 use super::{
-    Attributes, NONE, TOOL, VERSION, Xml, dependencies, element, empty, items, log_and_experiment,
-    named, real_type, root, typed, units, write_document,
+    Attributes, NONE, TOOL, Unknowns, VERSION, Xml, element, empty, items, log_and_experiment,
+    named, real_type, root, state_of, typed, units, write_document,
 };
 use crate::imprint::Imprint;
+use crate::solving::space_of;
 use crate::standard::Standard;
 use crate::unit::{About, Row, Unit};
 
@@ -14,8 +15,15 @@ use crate::unit::{About, Row, Unit};
 pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
     let about = U::about();
     let root = root("2.0", imprint, ("guid", guid));
-    let root = root.into_iter().chain([("numberOfEventIndicators", "0")]);
+    let indicators = space_of::<U>().indicators.len().to_string();
+    let root = root
+        .into_iter()
+        .chain([("numberOfEventIndicators", &*indicators)]);
     write_document("fmiModelDescription", root, |xml| {
+        if about.state_space.is_some() {
+            let flags = exchange_capabilities(about.identifier);
+            empty(xml, "ModelExchange", flags)?;
+        }
         empty(xml, "CoSimulation", capabilities(about))?;
         units(xml, about.quantities)?;
         element(xml, "TypeDefinitions", NONE, |xml| types(xml, about))?;
@@ -30,9 +38,16 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<Str
             rows.try_for_each(|variable| scalar_variable(xml, variable, imprint))
         })?;
         element(xml, "ModelStructure", NONE, |xml| {
-            element(xml, "Outputs", NONE, |xml| unknowns(xml, about, false))?;
+            element(xml, "Outputs", NONE, |xml| {
+                unknowns::<U>(xml, Unknowns::Outputs)
+            })?;
+            if about.state_space.is_some() {
+                element(xml, "Derivatives", NONE, |xml| {
+                    unknowns::<U>(xml, Unknowns::Derivatives)
+                })?;
+            }
             element(xml, "InitialUnknowns", NONE, |xml| {
-                unknowns(xml, about, true)
+                unknowns::<U>(xml, Unknowns::Initial)
             })
         })
     })
@@ -57,6 +72,20 @@ pub(super) fn capabilities<U: Unit>(about: &About<U>) -> Attributes {
     flags.map(|(name, value)| (name, value.to_owned())).into()
 }
 
+/// The attributes of the element `ModelExchange`.
+fn exchange_capabilities(identifier: &str) -> [(&'static str, &str); 8] {
+    [
+        ("modelIdentifier", identifier),
+        ("needsExecutionTool", "false"),
+        ("completedIntegratorStepNotNeeded", "false"),
+        ("canBeInstantiatedOnlyOncePerProcess", "false"),
+        ("canNotUseMemoryManagementFunctions", "true"),
+        ("canGetAndSetFMUstate", "true"),
+        ("canSerializeFMUstate", "true"),
+        ("providesDirectionalDerivative", "false"),
+    ]
+}
+
 fn types<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
     for of in about.quantities {
         let [name, rest @ ..] = real_type(of);
@@ -76,18 +105,24 @@ fn scalar_variable<U: Unit>(
     variable: &Row<U>,
     imprint: &Imprint<U>,
 ) -> io::Result<()> {
+    let table = &U::about().table;
     element(xml, "ScalarVariable", named(variable), |xml| {
         let name = variable.kind.type_name(Standard::Fmi2);
-        empty(xml, name, typed(variable, imprint))
+        let derived = state_of::<U>(variable).map(|state| {
+            let row = table.rows().position(|row| row.reference == state);
+            ("derivative", (row.unwrap_or_default() + 1).to_string())
+        });
+        empty(
+            xml,
+            name,
+            typed(variable, imprint).into_iter().chain(derived),
+        )
     })
 }
 
-/// One `Unknown` for each output, with its dependencies; indices count variables from 1.
-fn unknowns<U: Unit>(xml: &mut Xml, about: &About<U>, initial: bool) -> io::Result<()> {
-    for (row, variable) in about.table.rows().enumerate() {
-        let Some(rows) = dependencies(variable, initial) else {
-            continue;
-        };
+/// One `Unknown` for each, with its dependencies; indices count variables from 1.
+fn unknowns<U: Unit>(xml: &mut Xml, of: Unknowns) -> io::Result<()> {
+    for (row, _, rows) in of.each::<U>() {
         let indices: Vec<_> = rows.iter().map(|(row, _)| (row + 1).to_string()).collect();
         let kinds = vec!["dependent"; rows.len()];
         let known = [

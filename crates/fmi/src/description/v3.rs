@@ -1,16 +1,18 @@
-//! The model description by FMI 3.0, and where its packages have an icon.
+//! The model description by FMI 3.0, and its terminals and icon.
 
 use std::io;
 
 use super::{
-    Attributes, NONE, TOOL, VERSION, Xml, dependencies, element, empty, items, log_and_experiment,
-    named, real_type, root, typed, units, write_document,
+    Attributes, NONE, TOOL, Unknowns, VERSION, Xml, element, empty, items, log_and_experiment,
+    named, real_type, root, state_of, typed, units, write_document,
 };
 use crate::imprint::Imprint;
 use crate::instance::Instance;
 use crate::quantity::Quantity;
 use crate::si;
+use crate::solving::space_of;
 use crate::standard::Standard;
+use crate::terminal::Terminal;
 use crate::unit::{About, Unit};
 
 /// The XML of the FMU with this imprint and this instantiation token.
@@ -19,6 +21,10 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<St
     let quantities = quantities(about);
     let root = root("3.0", imprint, ("instantiationToken", token));
     write_document("fmiModelDescription", root, |xml| {
+        if about.state_space.is_some() {
+            let flags = exchange_capabilities(about.identifier);
+            empty(xml, "ModelExchange", flags)?;
+        }
         empty(xml, "CoSimulation", capabilities::<U>())?;
         units(xml, &quantities)?;
         element(xml, "TypeDefinitions", NONE, |xml| {
@@ -29,12 +35,23 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<St
             let mut rows = [&Instance::<U>::TIME].into_iter().chain(about.table.rows());
             rows.try_for_each(|variable| {
                 let name = variable.kind.type_name(Standard::Fmi3);
-                empty(xml, name, named(variable).chain(typed(variable, imprint)))
+                let state = state_of::<U>(variable);
+                let derived = state.map(|state| ("derivative", state.to_string()));
+                let typed = typed(variable, imprint).into_iter().chain(derived);
+                let is_told = U::HAS_EVENTS && variable.is_output();
+                let told = is_told.then(|| ("intermediateUpdate", "true".to_owned()));
+                empty(xml, name, named(variable).chain(typed).chain(told))
             })
         })?;
         element(xml, "ModelStructure", NONE, |xml| {
-            unknowns(xml, about, "Output")?;
-            unknowns(xml, about, "InitialUnknown")
+            unknowns::<U>(xml, "Output", Unknowns::Outputs)?;
+            unknowns::<U>(xml, "ContinuousStateDerivative", Unknowns::Derivatives)?;
+            unknowns::<U>(xml, "InitialUnknown", Unknowns::Initial)?;
+            let mut indicators = space_of::<U>().indicators.iter();
+            indicators.try_for_each(|reference| {
+                let reference = reference.to_string();
+                empty(xml, "EventIndicator", [("valueReference", reference)])
+            })
         })?;
         element(xml, "Annotations", NONE, |xml| {
             element(xml, "Annotation", [("type", TOOL)], |xml| {
@@ -56,6 +73,7 @@ pub(super) fn capabilities<U: Unit>() -> Attributes {
         ("maxOutputDerivativeOrder", &order),
         ("hasEventMode", &events),
         ("mightReturnEarlyFromDoStep", "true"),
+        ("providesIntermediateUpdate", &events),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canGetAndSetFMUState", "true"),
         ("canSerializeFMUState", "true"),
@@ -63,6 +81,18 @@ pub(super) fn capabilities<U: Unit>() -> Attributes {
         ("providesAdjointDerivatives", "true"),
     ];
     flags.map(|(name, value)| (name, value.to_owned())).into()
+}
+
+/// The attributes of the element `ModelExchange`.
+fn exchange_capabilities(identifier: &str) -> [(&'static str, &str); 6] {
+    [
+        ("modelIdentifier", identifier),
+        ("needsExecutionTool", "false"),
+        ("canBeInstantiatedOnlyOncePerProcess", "false"),
+        ("canGetAndSetFMUState", "true"),
+        ("canSerializeFMUState", "true"),
+        ("needsCompletedIntegratorStep", "true"),
+    ]
 }
 
 /// The quantities in use, that of time among them.
@@ -87,12 +117,9 @@ fn types<U: Unit>(
     Ok(())
 }
 
-/// One element for each output, with its dependencies by their value references.
-fn unknowns<U: Unit>(xml: &mut Xml, about: &About<U>, name: &'static str) -> io::Result<()> {
-    for variable in about.table.rows() {
-        let Some(rows) = dependencies(variable, name == "InitialUnknown") else {
-            continue;
-        };
+/// One element for each, with its dependencies by their value references.
+fn unknowns<U: Unit>(xml: &mut Xml, name: &'static str, of: Unknowns) -> io::Result<()> {
+    for (_, variable, rows) in of.each::<U>() {
         let references: Vec<_> = rows
             .iter()
             .map(|(_, of)| of.reference.to_string())
@@ -108,14 +135,40 @@ fn unknowns<U: Unit>(xml: &mut Xml, about: &About<U>, name: &'static str) -> io:
     Ok(())
 }
 
-/// The file that says where the icon is drawn.
-pub(crate) fn icons() -> io::Result<String> {
+/// The file that says where the icon is drawn, if there is one, and what the terminals are.
+pub(crate) fn terminals_and_icons(terminals: &[Terminal], has_icon: bool) -> io::Result<String> {
     let corners = [("x1", "-100"), ("y1", "-100"), ("x2", "100"), ("y2", "100")];
     let scale = [("suggestedScalingFactorTo_mm", "0.1")];
     write_document("fmiTerminalsAndIcons", [("fmiVersion", "3.0")], |xml| {
-        element(xml, "GraphicalRepresentation", NONE, |xml| {
-            empty(xml, "CoordinateSystem", corners.into_iter().chain(scale))?;
-            empty(xml, "Icon", corners)
+        if has_icon {
+            element(xml, "GraphicalRepresentation", NONE, |xml| {
+                empty(xml, "CoordinateSystem", corners.into_iter().chain(scale))?;
+                empty(xml, "Icon", corners)
+            })?;
+        }
+        element(xml, "Terminals", NONE, |xml| {
+            terminals.iter().try_for_each(|of| terminal(xml, of))
         })
+    })
+}
+
+fn terminal(xml: &mut Xml, terminal: &Terminal) -> io::Result<()> {
+    let named = [
+        ("name", terminal.name),
+        ("matchingRule", "bus"),
+        ("description", terminal.description),
+    ];
+    element(xml, "Terminal", named, |xml| {
+        terminal
+            .members
+            .iter()
+            .try_for_each(|(member, flow, variable)| {
+                let named = [
+                    ("variableName", *variable),
+                    ("memberName", *member),
+                    ("variableKind", flow.kind()),
+                ];
+                empty(xml, "TerminalMemberVariable", named)
+            })
     })
 }

@@ -94,7 +94,7 @@ functions! { $ export_v2 v2 Importer;
 
     /// Leaves initialisation.
     fn fmi2ExitInitializationMode<U>(component) {
-        component.instance.exit_initialization()
+        component.exit_initialization()
     }
 
     /// Ends the experiment.
@@ -206,6 +206,7 @@ functions! { $ export_v2 v2 Importer;
         let knowns = read("vKnown_ref", knowns, known_count)?;
         let seed = read("dvKnown", seed, known_count)?;
         let sensitivity = write("dvUnknown", sensitivity, unknown_count)?;
+        component.require_co_simulation()?;
         component.instance.directional_derivative(unknowns, knowns, seed, sensitivity)
     }
 
@@ -217,6 +218,7 @@ functions! { $ export_v2 v2 Importer;
         let references = read("vr", references, count)?;
         let orders = read("order", orders, count)?;
         let values = read("value", values, count)?;
+        component.require_co_simulation()?;
         component.instance.set_input_derivatives(references, orders, values)
     }
 
@@ -228,11 +230,13 @@ functions! { $ export_v2 v2 Importer;
         let references = read("vr", references, count)?;
         let orders = read("order", orders, count)?;
         let values = write("value", values, count)?;
+        component.require_co_simulation()?;
         component.instance.get_output_derivatives(references, orders, values)
     }
 
     /// Carries the motion on by one communication step.
     fn fmi2DoStep<U>(component, point: f64, step: f64, _no_set_state_prior: c_int) {
+        component.require_co_simulation()?;
         let mut report = StepReport::new(component.wanted.has(Category::Events));
         let outcome = component.instance.do_step(point, step, &mut report);
         component.tell(&report);

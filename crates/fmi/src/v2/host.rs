@@ -9,7 +9,8 @@ use crate::abi::pointers::{string, write_one};
 use crate::fault::Fault;
 use crate::unit::Unit;
 
-/// `fmi2CoSimulation` of `fmi2Type`.
+/// `fmi2ModelExchange` and `fmi2CoSimulation` of `fmi2Type`.
+const MODEL_EXCHANGE: c_int = 0;
 const CO_SIMULATION: c_int = 1;
 
 /// `fmi2CallbackLogger`: environment, instance name, status, category, format, arguments.
@@ -33,10 +34,20 @@ pub struct CallbackFunctions {
 }
 
 /// An importer by FMI 2.0.
-pub(crate) struct Importer;
+pub(crate) struct Importer {
+    is_for_exchange: bool,
+}
 
 impl Host for Importer {
     const PREFIX: &'static str = "fmi2";
+
+    fn has_event_mode(&self) -> bool {
+        self.is_for_exchange
+    }
+
+    fn is_for_exchange(&self) -> bool {
+        self.is_for_exchange
+    }
 }
 
 /// The importer's logger; its callbacks may be missing.
@@ -83,15 +94,23 @@ pub(super) unsafe fn instantiate<U: Unit>(
     };
     let own = CString::new(name.as_deref().unwrap_or_default()).unwrap_or_default();
     let checked = check_name(name)
-        .and_then(|()| check_type(fmu_type))
+        .and_then(|()| check_type::<U>(fmu_type))
         .and_then(|()| check_token::<U>("fmuGUID", guid));
     let sink = sink(own, functions);
-    Component::new("fmi2Instantiate", checked, logging_on, Importer, sink)
+    let is_for_exchange = fmu_type == MODEL_EXCHANGE;
+    let host = Importer { is_for_exchange };
+    Component::new("fmi2Instantiate", checked, logging_on, host, sink)
 }
 
-fn check_type(fmu_type: c_int) -> Result<(), Fault> {
+fn check_type<U: Unit>(fmu_type: c_int) -> Result<(), Fault> {
+    let exchanges = U::about().state_space.is_some();
     match fmu_type {
         CO_SIMULATION => Ok(()),
+        MODEL_EXCHANGE if exchanges => Ok(()),
+        _ if exchanges => Err(Fault::Instantiation(format!(
+            "fmuType = {fmu_type}: only fmi2CoSimulation ({CO_SIMULATION}) and fmi2ModelExchange \
+             ({MODEL_EXCHANGE}) are available"
+        ))),
         _ => Err(Fault::Instantiation(format!(
             "fmuType = {fmu_type}: only fmi2CoSimulation ({CO_SIMULATION}) is available"
         ))),

@@ -1,4 +1,4 @@
-//! FMI 2.0 for co-simulation: its 34 C functions, for any unit.
+//! FMI 2.0: its 34 C functions for co-simulation, and the 10 more for model exchange, for any unit.
 //!
 //! Here the functions are generic; [`export_fmi2`] makes the C functions of one unit.
 #![allow(
@@ -6,8 +6,10 @@
     reason = "the C interface: pointers of the importer and exported symbols"
 )]
 
+mod exchange;
 mod functions;
 mod host;
 
+pub use exchange::*;
 pub use functions::*;
 pub use host::{CallbackFunctions, Logger};

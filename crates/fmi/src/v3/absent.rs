@@ -59,18 +59,6 @@ absent_functions! { $
     );
     "providesEvaluateDiscreteStates is false":
     fmi3EvaluateDiscreteStates();
-    "the unit is for co-simulation only":
-    fmi3EnterContinuousTimeMode();
-    fmi3CompletedIntegratorStep(
-        no_set_state_prior: u8, enter_event_mode: *mut u8, terminate: *mut u8
-    );
-    fmi3SetTime(time: f64);
-    fmi3SetContinuousStates(states: *const f64, count: size_t);
-    fmi3GetContinuousStateDerivatives(derivatives: *mut f64, count: size_t);
-    fmi3GetEventIndicators(indicators: *mut f64, count: size_t);
-    fmi3GetContinuousStates(states: *mut f64, count: size_t);
-    fmi3GetNominalsOfContinuousStates(nominals: *mut f64, count: size_t);
-    fmi3GetNumberOfEventIndicators(count: *mut size_t);
-    fmi3GetNumberOfContinuousStates(count: *mut size_t);
+    "the unit is not for scheduled execution":
     fmi3ActivateModelPartition(clock: c_uint, time: f64);
 }

@@ -13,15 +13,17 @@
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
 use super::host::{
-    ClockUpdateCallback, Importer, IntermediateUpdateCallback, LogMessageCallback,
+    ClockUpdateCallback, Importer, Interface, IntermediateUpdateCallback, LogMessageCallback,
     PreemptionCallback, instantiate, refuse, sink,
 };
+use super::intermediate::tell_events_of_step;
 use super::values::{check_count, read_references};
-use crate::abi::component::Component;
+use crate::abi::component::{Component, Host};
 use crate::abi::guard::{guarded, silent};
 use crate::abi::pointers::{read, string, write, write_one};
 use crate::abi::state;
 use crate::event::Handling;
+use crate::exchange::Iteration;
 use crate::fault::Fault;
 use crate::log::Category;
 use crate::step::StepReport;
@@ -39,29 +41,33 @@ functions! { $ export_v3 v3 Importer;
         _resource_path: *const c_char, _visible: u8, logging_on: u8, event_mode_used: u8,
         early_return_allowed: u8, _required_intermediate_variables: *const c_uint,
         _required_count: size_t, environment: *mut c_void, log_message: LogMessageCallback,
-        _intermediate_update: IntermediateUpdateCallback
+        intermediate_update: IntermediateUpdateCallback
     ) -> *mut c_void {
         let handling = Handling {
             in_event_mode: event_mode_used != 0,
             early: early_return_allowed != 0,
         };
+        let update = intermediate_update.map(|callback| (callback, environment));
+        let interface = Interface::CoSimulation(handling, update);
         let sink = sink(environment, log_message);
         let make = || {
-            instantiate::<U>(instance_name, instantiation_token, logging_on != 0, handling, sink)
+            instantiate::<U>(instance_name, instantiation_token, logging_on != 0, interface, sink)
         };
         let made = silent(|| make().map(|made| Box::into_raw(made).cast()));
         made.ok().flatten().unwrap_or(std::ptr::null_mut())
     }
 
-    /// There are no instances for model exchange.
+    /// Makes an instance for model exchange, or returns NULL after one log line.
     fn fmi3InstantiateModelExchange<U>(
-        _instance_name: *const c_char, _instantiation_token: *const c_char,
-        _resource_path: *const c_char, _visible: u8, _logging_on: u8, environment: *mut c_void,
+        instance_name: *const c_char, instantiation_token: *const c_char,
+        _resource_path: *const c_char, _visible: u8, logging_on: u8, environment: *mut c_void,
         log_message: LogMessageCallback
     ) -> *mut c_void {
-        let refused = silent(|| refuse::<U>("fmi3InstantiateModelExchange", environment, log_message));
-        debug_assert!(refused.is_ok());
-        std::ptr::null_mut()
+        let sink = sink(environment, log_message);
+        let (name, token, interface) = (instance_name, instantiation_token, Interface::ModelExchange);
+        let make = || instantiate::<U>(name, token, logging_on != 0, interface, sink);
+        let made = silent(|| make().map(|made| Box::into_raw(made).cast()));
+        made.ok().flatten().unwrap_or(std::ptr::null_mut())
     }
 
     /// There are no instances for scheduled execution.
@@ -83,6 +89,32 @@ functions! { $ export_v3 v3 Importer;
             let freed = silent(|| drop(Box::from_raw(component.cast::<Component<U, Importer>>())));
             debug_assert!(freed.is_ok());
         }
+    }
+
+    /// Carries the motion on by one communication step, or to an event on the way.
+    fn fmi3DoStep<U>(
+        component: *mut c_void, current_communication_point: f64, communication_step_size: f64,
+        _no_set_state_prior: u8, event_handling_needed: *mut u8, terminate_simulation: *mut u8,
+        early_return: *mut u8, last_successful_time: *mut f64
+    ) -> c_int {
+        let component = component.cast::<Component<U, Importer>>();
+        let (point, step) = (current_communication_point, communication_step_size);
+        tell_events_of_step(component, point, step);
+        guarded(component.as_mut(), "fmi3DoStep", |component| {
+            let event = write_one("eventHandlingNeeded", event_handling_needed)?;
+            let terminate = write_one("terminateSimulation", terminate_simulation)?;
+            let early = write_one("earlyReturn", early_return)?;
+            let time = write_one("lastSuccessfulTime", last_successful_time)?;
+            component.require_co_simulation()?;
+            let mut report = StepReport::new(component.wanted.has(Category::Events));
+            let handling = component.host.handling();
+            let ending = component.instance.do_step_to_event(point, step, handling, &mut report);
+            component.tell(&report);
+            let ending = ending?;
+            (*event, *terminate) = (u8::from(ending.event), 0);
+            (*early, *time) = (u8::from(ending.early), component.instance.time());
+            Ok(())
+        })
     }
 
     ;
@@ -117,8 +149,8 @@ functions! { $ export_v3 v3 Importer;
 
     /// Leaves initialisation, for event mode if that is used.
     fn fmi3ExitInitializationMode<U>(component) {
-        component.instance.exit_initialization()?;
-        if component.host.handling.in_event_mode {
+        component.exit_initialization()?;
+        if component.host.handling().in_event_mode {
             component.instance.enter_event_mode()?;
         }
         Ok(())
@@ -126,7 +158,10 @@ functions! { $ export_v3 v3 Importer;
 
     /// Enters event mode.
     fn fmi3EnterEventMode<U>(component) {
-        if !component.host.handling.in_event_mode {
+        if component.host.is_for_exchange() {
+            return component.instance.enter_event_mode_of_exchange();
+        }
+        if !component.host.has_event_mode() {
             return Err(Fault::NotOffered("eventModeUsed was false"));
         }
         component.instance.enter_event_mode()
@@ -147,17 +182,15 @@ functions! { $ export_v3 v3 Importer;
             write_one("valuesOfContinuousStatesChanged", values_of_continuous_states_changed)?;
         let defined = write_one("nextEventTimeDefined", next_event_time_defined)?;
         let time = write_one("nextEventTime", next_event_time)?;
-        let mut report = StepReport::new(component.wanted.has(Category::Events));
-        let next = component.instance.update_discrete_states(&mut report);
-        component.tell(&report);
-        let next = next?;
-        (*need_update, *terminate, *nominals, *values) = (0, 0, 0, 0);
+        let Iteration { next, has_new_states } = component.update_discrete_states()?;
+        (*need_update, *terminate, *nominals, *values) = (0, 0, 0, has_new_states.into());
         (*defined, *time) = (u8::from(next.is_some()), next.unwrap_or(0.0));
         Ok(())
     }
 
     /// Enters step mode.
     fn fmi3EnterStepMode<U>(component) {
+        component.require_co_simulation()?;
         component.instance.enter_step_mode()
     }
 
@@ -219,6 +252,7 @@ functions! { $ export_v3 v3 Importer;
         let knowns = read("knowns", knowns, known_count)?;
         let seed = read("seed", seed, known_count)?;
         let sensitivity = write("sensitivity", sensitivity, unknown_count)?;
+        component.require_co_simulation()?;
         component.instance.directional_derivative(unknowns, knowns, seed, sensitivity)
     }
 
@@ -234,6 +268,7 @@ functions! { $ export_v3 v3 Importer;
         let knowns = read("knowns", knowns, known_count)?;
         let seed = read("seed", seed, unknown_count)?;
         let sensitivity = write("sensitivity", sensitivity, known_count)?;
+        component.require_co_simulation()?;
         component.instance.adjoint_derivative(unknowns, knowns, seed, sensitivity)
     }
 
@@ -246,27 +281,7 @@ functions! { $ export_v3 v3 Importer;
         let references = read_references(references, count)?;
         let orders = read("orders", orders, count)?;
         let values = write("values", values, count)?;
+        component.require_co_simulation()?;
         component.instance.get_output_derivatives(references, orders, values)
-    }
-
-    /// Carries the motion on by one communication step, or to an event on the way.
-    fn fmi3DoStep<U>(
-        component, current_communication_point: f64, communication_step_size: f64,
-        _no_set_state_prior: u8, event_handling_needed: *mut u8, terminate_simulation: *mut u8,
-        early_return: *mut u8, last_successful_time: *mut f64
-    ) {
-        let event = write_one("eventHandlingNeeded", event_handling_needed)?;
-        let terminate = write_one("terminateSimulation", terminate_simulation)?;
-        let early = write_one("earlyReturn", early_return)?;
-        let time = write_one("lastSuccessfulTime", last_successful_time)?;
-        let mut report = StepReport::new(component.wanted.has(Category::Events));
-        let (point, step) = (current_communication_point, communication_step_size);
-        let handling = component.host.handling;
-        let ending = component.instance.do_step_to_event(point, step, handling, &mut report);
-        component.tell(&report);
-        let ending = ending?;
-        (*event, *terminate) = (u8::from(ending.event), 0);
-        (*early, *time) = (u8::from(ending.early), component.instance.time());
-        Ok(())
     }
 }

@@ -15,9 +15,14 @@ use crate::unit::Unit;
 /// `fmi3LogMessageCallback`: environment, status, category, message.
 pub type LogMessageCallback =
     Option<unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char)>;
-/// `fmi3IntermediateUpdateCallback`. It is not called: see `providesIntermediateUpdate`.
+/// `fmi3IntermediateUpdateCallback`.
 pub type IntermediateUpdateCallback =
     Option<unsafe extern "C" fn(*mut c_void, f64, u8, u8, u8, u8, *mut u8, *mut f64)>;
+/// It, with what it is called with.
+type IntermediateUpdate = (
+    unsafe extern "C" fn(*mut c_void, f64, u8, u8, u8, u8, *mut u8, *mut f64),
+    *mut c_void,
+);
 /// `fmi3ClockUpdateCallback`, of scheduled execution.
 pub type ClockUpdateCallback = Option<unsafe extern "C" fn(*mut c_void)>;
 /// `fmi3LockPreemptionCallback` and `fmi3UnlockPreemptionCallback`, of scheduled execution.
@@ -25,14 +30,43 @@ pub type PreemptionCallback = Option<unsafe extern "C" fn()>;
 
 /// An importer by FMI 3.0.
 pub(crate) struct Importer {
-    pub(super) handling: Handling,
+    pub(super) interface: Interface,
+}
+
+/// `fmi3InterfaceType`, and what goes with it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Interface {
+    CoSimulation(Handling, Option<IntermediateUpdate>),
+    ModelExchange,
+}
+
+impl Importer {
+    /// What a step may come to.
+    pub(super) fn handling(&self) -> Handling {
+        match self.interface {
+            Interface::CoSimulation(handling, _) => handling,
+            Interface::ModelExchange => Handling::default(),
+        }
+    }
+
+    /// What to call at events within a step that may not end early.
+    pub(super) fn intermediate_update(&self) -> Option<IntermediateUpdate> {
+        match self.interface {
+            Interface::CoSimulation(Handling { early: false, .. }, update) => update,
+            _ => None,
+        }
+    }
 }
 
 impl Host for Importer {
     const PREFIX: &'static str = "fmi3";
 
     fn has_event_mode(&self) -> bool {
-        self.handling.in_event_mode
+        self.handling().in_event_mode || self.is_for_exchange()
+    }
+
+    fn is_for_exchange(&self) -> bool {
+        matches!(self.interface, Interface::ModelExchange)
     }
 
     /// By the standard an error ends the simulation: only a state that was kept, or a reset, leads back.
@@ -72,7 +106,7 @@ pub(super) unsafe fn instantiate<U: Unit>(
     name: *const c_char,
     token: *const c_char,
     logging_on: bool,
-    handling: Handling,
+    interface: Interface,
     sink: Sink,
 ) -> Option<Box<Component<U, Importer>>> {
     // SAFETY: by this function's contract.
@@ -84,28 +118,31 @@ pub(super) unsafe fn instantiate<U: Unit>(
     };
     let checked = check_name(name)
         .and_then(|()| check_token::<U>("instantiationToken", token))
-        .and_then(|()| check_event_mode::<U>(handling));
-    let call = "fmi3InstantiateCoSimulation";
-    Component::new(call, checked, logging_on, Importer { handling }, sink)
+        .and_then(|()| check_interface::<U>(interface));
+    let call = match interface {
+        Interface::CoSimulation(..) => "fmi3InstantiateCoSimulation",
+        Interface::ModelExchange => "fmi3InstantiateModelExchange",
+    };
+    Component::new(call, checked, logging_on, Importer { interface }, sink)
 }
 
-fn check_event_mode<U: Unit>(handling: Handling) -> Result<(), Fault> {
-    match handling.in_event_mode && !U::HAS_EVENTS {
-        true => Err(Fault::Instantiation(
-            "eventModeUsed is true, hasEventMode is false".to_owned(),
-        )),
-        false => Ok(()),
+fn check_interface<U: Unit>(interface: Interface) -> Result<(), Fault> {
+    match interface {
+        Interface::CoSimulation(handling, _) if handling.in_event_mode && !U::HAS_EVENTS => Err(
+            Fault::Instantiation("eventModeUsed is true, hasEventMode is false".to_owned()),
+        ),
+        Interface::ModelExchange if U::about().state_space.is_none() => {
+            Err(Fault::NotOffered("the unit is for co-simulation only"))
+        }
+        _ => Ok(()),
     }
 }
 
 /// Refuses to make an instance of an interface type that no unit has.
 pub(super) fn refuse<U: Unit>(call: &str, environment: *mut c_void, log: LogMessageCallback) {
-    let other = Fault::NotOffered("the unit is for co-simulation only");
-    let handling = Handling {
-        in_event_mode: false,
-        early: false,
-    };
+    let other = Fault::NotOffered("the unit is not for scheduled execution");
     let sink = sink(environment, log);
-    let made = Component::<U, _>::new(call, Err(other), false, Importer { handling }, sink);
+    let interface = Interface::CoSimulation(Handling::default(), None);
+    let made = Component::<U, _>::new(call, Err(other), false, Importer { interface }, sink);
     debug_assert!(made.is_none());
 }

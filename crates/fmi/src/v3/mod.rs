@@ -1,18 +1,21 @@
-//! FMI 3.0 for co-simulation: all 75 C functions of the standard, for any unit.
+//! FMI 3.0 for co-simulation and model exchange: all 75 C functions of the standard, for any unit.
 //!
-//! Here the functions are generic; [`export_fmi3`] makes the C functions of one unit. Those of the other
-//! interface types, and of what the units do not have, answer with an error and one log line.
+//! Here the functions are generic; [`export_fmi3`] makes the C functions of one unit. Those of scheduled
+//! execution, and of what the units do not have, answer with an error and one log line.
 #![allow(
     unsafe_code,
     reason = "the C interface: pointers of the importer and exported symbols"
 )]
 
 mod absent;
+mod exchange;
 mod functions;
 mod host;
+mod intermediate;
 mod values;
 
 pub use absent::*;
+pub use exchange::*;
 pub use functions::*;
 pub use host::{
     ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,

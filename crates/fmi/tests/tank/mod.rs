@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 use serde::{Deserialize, Serialize};
 use softstop_fmi::variable::{Access, Dependencies, Kind, RealKind, Slot, Variable};
 use softstop_fmi::{
-    About, Advance, Block, Derivatives, Events, Known, Outcome, Quantity, Table, Unit,
+    About, Advance, Block, Derivatives, Events, Flow, Known, Outcome, Quantity, Table, Terminal,
+    Unit,
 };
 
 const LEVEL: Slot = Slot(0);
@@ -81,7 +82,13 @@ static ABOUT: About<Tank> = About {
     experiment: &[("startTime", "0"), ("stopTime", "10")],
     quantities: &[&VOLUME],
     enumerations: &[],
+    terminals: &[Terminal {
+        name: "inlet",
+        description: "Where it is filled",
+        members: &[("flow", Flow::Inflow, "inflow")],
+    }],
     table: Table::new(&[ROWS]),
+    state_space: None,
     page: "<h1><!--name--></h1><table><!--variables--></table>",
     files: &[],
     guid: OnceLock::new(),

@@ -12,7 +12,7 @@ pub(super) type State = [f64; 2];
 
 /// What a solver is to follow.
 #[derive(Clone, Copy)]
-enum Course<'a> {
+enum ArcSolution<'a> {
     /// A phase's law under the drive.
     Moving(&'a Phase),
     /// A mass that is held: q'' = -w^2 q, q the drive per mass. So the solver has something to resolve
@@ -23,7 +23,7 @@ enum Course<'a> {
 /// A smooth law and its guards. Counts how often it is asked.
 pub(super) struct Leg<'a> {
     scene: &'a Scene,
-    course: Course<'a>,
+    course: ArcSolution<'a>,
     guards: &'a [Guard],
     evaluations: Cell<u64>,
 }
@@ -33,7 +33,7 @@ impl<'a> Leg<'a> {
     pub fn new(scene: &'a Scene, phase: Option<&'a Phase>, guards: &'a [Guard]) -> Self {
         Self {
             scene,
-            course: phase.map_or(Course::Held, Course::Moving),
+            course: phase.map_or(ArcSolution::Held, ArcSolution::Moving),
             guards,
             evaluations: Cell::new(0),
         }
@@ -53,11 +53,11 @@ impl<'a> Leg<'a> {
     pub fn rate(&self, time: f64, [position, velocity]: State) -> State {
         self.count();
         let acceleration = match self.course {
-            Course::Moving(phase) => {
+            ArcSolution::Moving(phase) => {
                 let (push, _) = drive(self.scene, time);
                 phase.acceleration(position, velocity, push, self.scene.mass)
             }
-            Course::Held => -self.scene.excitation.frequency.powi(2) * position,
+            ArcSolution::Held => -self.scene.excitation.frequency.powi(2) * position,
         };
         [velocity, acceleration]
     }
@@ -66,11 +66,11 @@ impl<'a> Leg<'a> {
     pub fn rate_along(&self, [position, velocity]: State, along: State) -> State {
         self.count();
         let (stiffness, damping) = match self.course {
-            Course::Moving(phase) => {
+            ArcSolution::Moving(phase) => {
                 let (stiffness, damping) = phase.slopes(position, velocity);
                 (stiffness / self.scene.mass, damping / self.scene.mass)
             }
-            Course::Held => (self.scene.excitation.frequency.powi(2), 0.0),
+            ArcSolution::Held => (self.scene.excitation.frequency.powi(2), 0.0),
         };
         [along[1], -stiffness * along[0] - damping * along[1]]
     }
@@ -79,8 +79,8 @@ impl<'a> Leg<'a> {
     pub fn guard(&self, index: usize, [first, second]: State) -> f64 {
         let guard = &self.guards[index];
         let weighted = match self.course {
-            Course::Moving(_) => guard.position * first + guard.velocity * second,
-            Course::Held => guard.push * first,
+            ArcSolution::Moving(_) => guard.position * first + guard.velocity * second,
+            ArcSolution::Held => guard.push * first,
         };
         weighted - guard.level
     }

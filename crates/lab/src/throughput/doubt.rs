@@ -7,7 +7,7 @@
 //! it than that, and wherever the errors have grown so far that the tangent says nothing of them.
 
 use nalgebra::Matrix2;
-use softstop::internals::Course;
+use softstop::internals::ArcSolution;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start, Stop, Tangent,
 };
@@ -144,7 +144,7 @@ impl Observer for Doubt {
 }
 
 /// Whether the mass turns back first, on its way from the start of a course.
-fn goes_on(course: &Course, duration: f64) -> bool {
+fn goes_on(course: &ArcSolution, duration: f64) -> bool {
     match course.start().velocity {
         0.0 => course.node(1e-6 * duration).velocity >= 0.0,
         velocity => velocity >= 0.0,

@@ -20,7 +20,7 @@ const PILOT: usize = 64;
 /// How much less a motion is watched that costs more.
 const DEAR: u64 = 20;
 /// How many times longer motions are watched from one look to the next.
-const GROWTH: u64 = 2;
+const BATCH_GROWTH: u64 = 2;
 /// Share of the transient after which motions that cost more, or take long, are looked at for the first time: those
 /// that have arrived by then need not be carried on.
 const FIRST_LOOK: u64 = 4;
@@ -261,7 +261,7 @@ impl<'a> Search<'a> {
                     group.escapes.note(periods, gone);
                 }
             }
-            periods *= GROWTH;
+            periods *= BATCH_GROWTH;
         }
         self.look_far()
     }

@@ -7,7 +7,7 @@ use super::super::catalogue::Status;
 use super::super::chaos::Chaos;
 use super::super::ensemble::EnsembleMember;
 use super::super::group::groups;
-use super::{GROWTH, Group, Search};
+use super::{BATCH_GROWTH, Group, Search};
 use crate::orbit::{BATCH_PERIODS, Exponents};
 use softstop::Start;
 
@@ -89,7 +89,7 @@ impl Search<'_> {
             let largest = exponents.per_period[0];
             let sharp = exponents.error < SHARP * largest;
             let hopeless = largest <= exponents.error;
-            batch *= GROWTH;
+            batch *= BATCH_GROWTH;
             if sharp || hopeless || batch > BATCH_PERIODS.1 {
                 return Ok(found);
             }

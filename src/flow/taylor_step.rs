@@ -13,19 +13,19 @@
 //! All are power series in sigma whose coefficients follow one from the other (Moore 1966). For
 //! other n, while the power law's part of the motion is below rounding, it is left out right at the face. So it is
 //! on a start from rest at the face, where sigma is time itself; and so it is in slow motion under heavy damping
-//! ([`super::creep`]) and where there is no power law ([`super::pushed`]).
+//! ([`super::slow_manifold`]) and where there is no power law ([`super::pushed`]).
 
 use serde::{Deserialize, Serialize};
 
-use super::Flow;
-use super::creep::Creep;
+use super::LinearLaw;
 use super::hertz::Hertz;
 use super::series::{Series, ZERO, curved_part, derivative, power, product, value};
+use super::slow_manifold::SlowManifold;
 use super::taylor::{evaluate, evaluate_from};
 
 /// The motion of one step, as series in sigma.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Segment {
+pub(crate) struct TaylorStep {
     /// Deflection in m at departure.
     pub(super) departed: f64,
     /// Deflection in m: of a linear law, from position zero.
@@ -35,14 +35,14 @@ pub(crate) struct Segment {
     /// Push per mass in m/s^2.
     pub(super) push: Series,
     /// What more there is where sigma is not time itself.
-    pub(super) stretch: Option<Box<Stretch>>,
+    pub(super) stretch: Option<Box<RegularizedTime>>,
     /// The power law acts.
     pub(super) is_pressed: bool,
     /// How far the series hold, in sigma.
     pub reach: f64,
     /// How far the mass stays beyond the face, in sigma: further on time would run back.
     pub(super) contact: f64,
-    /// The same in time, in s.
+    /// Length of the step in time, in s.
     pub end: f64,
     /// Where the step ends.
     pub(super) last: Moved,
@@ -52,12 +52,12 @@ pub(crate) struct Segment {
     /// Stiffness over mass in 1/s^2, the power law's left out.
     pub(super) stiffness: f64,
     /// What a slow motion remembers of its start.
-    pub(super) creep: Option<Box<Creep>>,
+    pub(super) creep: Option<Box<SlowManifold>>,
 }
 
 /// Series of a stretched time.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Stretch {
+pub(super) struct RegularizedTime {
     /// Which root: m >= 2.
     pub index: f64,
     /// m-th root of the deflection in m^(1/m).
@@ -89,9 +89,9 @@ pub(crate) struct Finer {
     pub low: f64,
 }
 
-impl Segment {
+impl TaylorStep {
     /// One without a motion yet.
-    pub(super) fn blank(flow: &Flow, hertz: &Hertz) -> Self {
+    pub(super) fn blank(flow: &LinearLaw, hertz: &Hertz) -> Self {
         Self {
             hertz: *hertz,
             damping: flow.damping(),
@@ -189,12 +189,12 @@ impl Segment {
         self.state_of(&self.moved(elapsed))
     }
 
-    /// The same at sigma.
+    /// Position and velocity at sigma.
     pub fn state_at(&self, sigma: f64) -> (f64, f64) {
         self.state_of(&self.moved_at(sigma))
     }
 
-    /// The same where the mass leaves contact, or else where the step ends.
+    /// Position and velocity where the mass leaves contact, or else where the step ends.
     pub fn last_state(&self) -> (f64, f64) {
         self.state_of(&self.last)
     }

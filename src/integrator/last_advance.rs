@@ -1,7 +1,7 @@
 //! The last advance: where it began, and how to take it back.
 
+use super::checkpoint::Checkpoint;
 use super::clock::Instant;
-use super::mark::Mark;
 use super::motion::Motion;
 use super::simulation::Simulation;
 use super::tallies::Counts;
@@ -12,11 +12,11 @@ impl Simulation {
     /// The machine as it was before the last advance, if that met a crossing or stopped on its way and
     /// nothing was set since.
     pub fn before_advance(&self) -> Option<Self> {
-        let Mark::Before(origin) = &self.mark else {
+        let Checkpoint::Before(origin) = &self.mark else {
             return None;
         };
         let mut machine = self.clone();
-        machine.mark = Mark::OnArc(origin.motion.now());
+        machine.mark = Checkpoint::OnArc(origin.motion.now());
         (machine.motion, machine.tallies.counts) = (origin.motion.clone(), origin.counts);
         machine.now = origin.now;
         Some(machine)
@@ -24,7 +24,7 @@ impl Simulation {
 
     /// Lets the stretch of [`Simulation::sensitivity`] begin at the present time.
     pub fn mark(&mut self) {
-        self.mark = Mark::OnArc(self.motion.now());
+        self.mark = Checkpoint::OnArc(self.motion.now());
     }
 
     /// True if that stretch reaches back to the start.
@@ -49,7 +49,7 @@ impl Simulation {
         let mut machine = self.clone();
         machine.now = self.time_of(motion.now());
         machine.tallies.counts.work = Work::default();
-        if let Mark::Before(origin) = &self.mark {
+        if let Checkpoint::Before(origin) = &self.mark {
             machine.now = origin.now;
             let work = machine.tallies.counts.work;
             machine.tallies.counts = Counts {
@@ -57,7 +57,7 @@ impl Simulation {
                 ..origin.counts
             };
         }
-        machine.mark = Mark::OnArc(motion.now());
+        machine.mark = Checkpoint::OnArc(motion.now());
         machine.motion = motion;
         if position != 0.0 || velocity != 0.0 {
             machine.motion.move_by(position, velocity)?;
@@ -68,8 +68,8 @@ impl Simulation {
     /// A motion that passes the mark, and when.
     pub(super) fn marked(&self) -> (&Motion, Instant) {
         match &self.mark {
-            Mark::OnArc(instant) => (&self.motion, *instant),
-            Mark::Before(origin) => (&origin.motion, origin.motion.now()),
+            Checkpoint::OnArc(instant) => (&self.motion, *instant),
+            Checkpoint::Before(origin) => (&origin.motion, origin.motion.now()),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! Each term obeys the law itself: with T_n = c_n t^n and Q_n = q_n t^n of position and push,
 //! (n + 1)(n + 2) T_(n+2) = t^2 Q_n - 2 a t (n + 1) T_(n+1) - b t^2 T_n.
 
-use super::{Departure, Flow};
+use super::{Departure, LinearLaw};
 
 /// Shares of the reach of a flow, each with the terms beyond which all others are below rounding of the third. From
 /// the fourth on they come in pairs.
@@ -13,7 +13,7 @@ const TERMS: [(f64, usize); 4] = [
     (1.0 / 8.0, 13),
     (1.0 / 4.0, 15),
 ];
-/// The same up to half of it.
+/// Terms up to half of the reach.
 const MOST_TERMS: usize = 17;
 
 /// 1/((n + 1)(n + 2)), 1/(n + 2) and n + 2, from n = 1 on, for two terms.
@@ -29,7 +29,7 @@ const FACTORS: [[[f64; 3]; 2]; (MOST_TERMS - 3) / 2] = {
 };
 
 /// What position and velocity have changed by under a linear push, up to half a reach after the departure.
-pub(super) fn soon(flow: &Flow, from: &Departure, elapsed: f64) -> (f64, f64) {
+pub(super) fn near_start(flow: &LinearLaw, from: &Departure, elapsed: f64) -> (f64, f64) {
     if elapsed == 0.0 {
         return (0.0, 0.0);
     }

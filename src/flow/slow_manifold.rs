@@ -34,7 +34,7 @@ pub(super) struct Equation<'a> {
 
 /// A slow motion.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Creep {
+pub(super) struct SlowManifold {
     /// Deflection in m.
     pub depth: Series,
     /// d(deflection)/d(deflection at the start); zero where not even that is remembered.
@@ -56,7 +56,7 @@ struct Slopes {
 impl Equation<'_> {
     /// The slow motion through a start (deflection, velocity), if the start lies on one and steps of
     /// length `span` are long against the modes that die out.
-    pub fn slow_motion(&self, (d, v): (f64, f64), span: f64) -> Option<Creep> {
+    pub fn slow_motion(&self, (d, v): (f64, f64), span: f64) -> Option<SlowManifold> {
         let hertz = self.hertz;
         let press = hertz.rate() * d.powf(hertz.exponent);
         let damping = self.twice_decay + press * hertz.dissipation;
@@ -148,7 +148,7 @@ impl Equation<'_> {
     }
 
     /// The motion with what it remembers of its start.
-    fn creep(&self, depth: Series, span: f64, forgets: bool) -> Creep {
+    fn creep(&self, depth: Series, span: f64, forgets: bool) -> SlowManifold {
         let slopes = self.slopes(&depth);
         let matrix = jacobian(&slopes, span, forgets).lu();
         let solve = |row: usize| -> Series {
@@ -170,7 +170,7 @@ impl Equation<'_> {
         for (answer, memory) in answer.iter_mut().zip(memory) {
             *answer -= lacks * memory;
         }
-        Creep {
+        SlowManifold {
             depth,
             memory,
             echo,

@@ -4,18 +4,18 @@ use std::sync::Arc;
 
 use nalgebra::Vector2;
 
+use super::near_start::near_start;
 use super::particular::Particular;
 use super::place::Node;
 use super::response::Responses;
-use super::soon::soon;
 use super::taylor::linear_push_series;
-use super::{Chatter, Departure, Drive, Flow, Hertz, LARGEST_LOSS, Segment, Taylor};
+use super::{Chatter, Departure, Drive, Hertz, LARGEST_LOSS, LinearLaw, Taylor, TaylorStep};
 
 /// The exact motion that follows from a departure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Course {
+pub struct ArcSolution {
     /// The flow it follows.
-    pub flow: Flow,
+    pub flow: LinearLaw,
     /// Where it started.
     pub departure: Departure,
     pub(super) form: Form,
@@ -34,16 +34,16 @@ pub(super) enum Form {
     /// The mass does not move.
     Held,
     /// One Taylor step: of a nonlinear law, or under a force that is not linear in time.
-    Segment(Arc<Segment>),
+    TaylorStep(Arc<TaylorStep>),
     /// Bounces summed.
     Chatter(Chatter),
 }
 
 impl Form {
-    fn new(flow: &Flow, departure: &Departure) -> Self {
+    fn new(flow: &LinearLaw, departure: &Departure) -> Self {
         match flow.steady {
             _ if !departure.push.is_linear() => {
-                Self::Segment(Arc::new(Segment::pushed(flow, departure, 0.0)))
+                Self::TaylorStep(Arc::new(TaylorStep::pushed(flow, departure, 0.0)))
             }
             Some(steady) if is_well_conditioned(flow, departure) => {
                 let particular = Particular::new(flow, departure, steady);
@@ -59,20 +59,20 @@ impl Form {
     }
 }
 
-impl Course {
+impl ArcSolution {
     /// The motion of `flow` from `departure`; under a push of degree 2 or higher, one step of it.
-    pub fn new(flow: &Flow, departure: Departure) -> Self {
+    pub fn new(flow: &LinearLaw, departure: Departure) -> Self {
         Self::of(flow, departure, Form::new(flow, &departure))
     }
 
-    /// The same in the place of this one.
-    pub(crate) fn renew(&mut self, flow: &Flow, departure: Departure) {
+    /// Replaces this one by the motion from another departure.
+    pub(crate) fn renew(&mut self, flow: &LinearLaw, departure: Departure) {
         self.form = Form::new(flow, &departure);
         self.flow = *flow;
         self.departure = departure;
     }
 
-    fn of(flow: &Flow, departure: Departure, form: Form) -> Self {
+    fn of(flow: &LinearLaw, departure: Departure, form: Form) -> Self {
         Self {
             flow: *flow,
             departure,
@@ -81,40 +81,40 @@ impl Course {
     }
 
     /// The next step of `flow`, where rounding took `low` from the position.
-    pub(crate) fn resumed(flow: &Flow, departure: Departure, low: f64) -> Self {
-        let segment = Segment::pushed(flow, &departure, low);
-        Self::of(flow, departure, Form::Segment(Arc::new(segment)))
+    pub(crate) fn resumed(flow: &LinearLaw, departure: Departure, low: f64) -> Self {
+        let segment = TaylorStep::pushed(flow, &departure, low);
+        Self::of(flow, departure, Form::TaylorStep(Arc::new(segment)))
     }
 
     /// One step of `flow` together with a power law, from `deflection` m beyond its face, in the place of this one.
     pub(crate) fn renew_nonlinear(
         &mut self,
-        flow: &Flow,
+        flow: &LinearLaw,
         hertz: &Hertz,
         departure: Departure,
         deflection: f64,
     ) {
-        let segment = Segment::new(flow, hertz, &departure, deflection);
-        if let Form::Segment(before) = &mut self.form
+        let segment = TaylorStep::new(flow, hertz, &departure, deflection);
+        if let Form::TaylorStep(before) = &mut self.form
             && let Some(place) = Arc::get_mut(before)
         {
             *place = segment;
         } else {
-            self.form = Form::Segment(Arc::new(segment));
+            self.form = Form::TaylorStep(Arc::new(segment));
         }
         self.flow = *flow;
         self.departure = departure;
     }
 
     /// The last bounces on a rigid stop at the departure's position.
-    pub(crate) fn chattering(flow: &Flow, departure: Departure, chatter: Chatter) -> Self {
+    pub(crate) fn chattering(flow: &LinearLaw, departure: Departure, chatter: Chatter) -> Self {
         Self::of(flow, departure, Form::Chatter(chatter))
     }
 
     /// The Taylor step that the motion is followed in, if it is.
-    pub(crate) fn segment(&self) -> Option<&Segment> {
+    pub(crate) fn segment(&self) -> Option<&TaylorStep> {
         match &self.form {
-            Form::Segment(segment) => Some(segment),
+            Form::TaylorStep(segment) => Some(segment),
             _ => None,
         }
     }
@@ -134,11 +134,11 @@ impl Course {
 
     /// A mass held at the departure's position while the drive turns; under a push of degree 2 or
     /// higher, for one step.
-    pub fn held(flow: &Flow, departure: Departure) -> Self {
+    pub fn held(flow: &LinearLaw, departure: Departure) -> Self {
         let form = if departure.push.is_linear() {
             Form::Held
         } else {
-            Form::Segment(Arc::new(Segment::held(flow, &departure)))
+            Form::TaylorStep(Arc::new(TaylorStep::held(flow, &departure)))
         };
         Self::of(flow, departure, form)
     }
@@ -150,14 +150,14 @@ impl Course {
 
     /// True if it is a series, which ends at its reach.
     pub fn is_series(&self) -> bool {
-        matches!(self.form, Form::Segment(_))
+        matches!(self.form, Form::TaylorStep(_))
     }
 
     /// True if nothing moves.
     pub fn is_held(&self) -> bool {
         match &self.form {
             Form::Held => true,
-            Form::Segment(segment) => segment.is_still(),
+            Form::TaylorStep(segment) => segment.is_still(),
             _ => false,
         }
     }
@@ -167,10 +167,10 @@ impl Course {
     pub fn at(&self, elapsed: f64, drive: Drive) -> (f64, f64) {
         match &self.form {
             Form::Held => return (self.departure.position, 0.0),
-            Form::Segment(_) if elapsed <= 0.0 => {
+            Form::TaylorStep(_) if elapsed <= 0.0 => {
                 return (self.departure.position, self.departure.velocity);
             }
-            Form::Segment(segment) => return segment.state(elapsed),
+            Form::TaylorStep(segment) => return segment.state(elapsed),
             Form::Chatter(chatter) => {
                 let (distance, velocity) = chatter.at(elapsed);
                 return (self.departure.position + distance, velocity);
@@ -178,7 +178,7 @@ impl Course {
             Form::Particular { .. } | Form::Responses => {}
         }
         if elapsed <= 0.5 * self.flow.reach {
-            let (way, rise) = soon(&self.flow, &self.departure, elapsed);
+            let (way, rise) = near_start(&self.flow, &self.departure, elapsed);
             return (
                 self.departure.position + way,
                 self.departure.velocity + rise,
@@ -245,7 +245,7 @@ impl Course {
                 of.slope == 0.0 && self.flow.modes.stiffness > 0.0 && size < MODEST
             }
             Form::Held | Form::Chatter(_) => true,
-            Form::Responses | Form::Segment(_) => false,
+            Form::Responses | Form::TaylorStep(_) => false,
         }
     }
 
@@ -286,7 +286,7 @@ fn around(centre: f64, radius: f64) -> (f64, f64) {
 }
 
 /// The static deflection must not dwarf the motion it has to describe.
-fn is_well_conditioned(flow: &Flow, from: &Departure) -> bool {
+fn is_well_conditioned(flow: &LinearLaw, from: &Departure) -> bool {
     let (b, w) = (flow.modes.stiffness.abs(), flow.frequency);
     let stiff = w * w <= LARGEST_LOSS * b;
     let (constant, ramp) = (from.push.value(), from.push.rate());

@@ -2,7 +2,7 @@
 //! resets change, too.
 
 use super::lowered::Lowered;
-use crate::flow::{Answer, Course, Source};
+use crate::flow::{Answer, ArcSolution, Source};
 use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
 use crate::phases::{Phase, Phases};
 
@@ -10,7 +10,7 @@ use crate::phases::{Phase, Phases};
 /// position in m, of velocity in m/s, as it were with the drive's frequency held, and of the energy in J that the drive
 /// has supplied. The first two columns are those by position and velocity at the start, then come the parameters.
 #[derive(Debug, Clone)]
-pub struct Influence<'a> {
+pub struct ParameterSensitivity<'a> {
     phases: &'a Phases,
     drive: f64,
     by: &'a [Lowered],
@@ -22,7 +22,7 @@ pub struct Influence<'a> {
     is_known: bool,
 }
 
-impl<'a> Influence<'a> {
+impl<'a> ParameterSensitivity<'a> {
     /// At the start of a motion of `phases`.
     pub fn new(phases: &'a Phases, by: &'a [Lowered]) -> Self {
         let mut columns = vec![Answer::zeros(); 2 + by.len()];
@@ -47,16 +47,16 @@ impl<'a> Influence<'a> {
     /// The columns `elapsed` seconds after the start of an arc that is not told yet.
     pub fn within(
         &self,
-        (course, phase): (&Course, Option<&Phase>),
+        (course, phase): (&ArcSolution, Option<&Phase>),
         elapsed: f64,
     ) -> Option<Vec<Answer>> {
         self.along((course, phase), elapsed).map(|found| found.0)
     }
 
-    /// The same, with the energy supplied meanwhile.
+    /// The columns along an arc, with the energy supplied meanwhile.
     fn along(
         &self,
-        (course, phase): (&Course, Option<&Phase>),
+        (course, phase): (&ArcSolution, Option<&Phase>),
         elapsed: f64,
     ) -> Option<(Vec<Answer>, f64)> {
         let mass = self.phases.mass;
@@ -120,7 +120,7 @@ impl<'a> Influence<'a> {
     }
 }
 
-impl Observer for Influence<'_> {
+impl Observer for ParameterSensitivity<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.cos = arc.drive(elapsed).cos;
         if arc.course.is_chattering() {

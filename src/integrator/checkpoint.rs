@@ -8,27 +8,27 @@ use super::tallies::Counts;
 
 /// Where the last advance began; the motion is itself, or data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) enum Mark<M = Motion> {
+pub(super) enum Checkpoint<M = Motion> {
     /// On the arc that is under way.
     OnArc(Instant),
     /// Some crossings ago.
-    Before(Box<Origin<M>>),
+    Before(Box<CheckpointState<M>>),
 }
 
 /// A machine as it was before an advance.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Origin<M = Motion> {
+pub(super) struct CheckpointState<M = Motion> {
     pub motion: M,
     pub counts: Counts,
     pub now: f64,
 }
 
-impl<M> Mark<M> {
-    /// The same with another motion.
-    pub fn with<N, E>(&self, motion: impl Fn(&M) -> Result<N, E>) -> Result<Mark<N>, E> {
+impl<M> Checkpoint<M> {
+    /// This checkpoint with another motion.
+    pub fn with<N, E>(&self, motion: impl Fn(&M) -> Result<N, E>) -> Result<Checkpoint<N>, E> {
         Ok(match self {
-            Self::OnArc(instant) => Mark::OnArc(*instant),
-            Self::Before(origin) => Mark::Before(Box::new(Origin {
+            Self::OnArc(instant) => Checkpoint::OnArc(*instant),
+            Self::Before(origin) => Checkpoint::Before(Box::new(CheckpointState {
                 motion: motion(&origin.motion)?,
                 counts: origin.counts,
                 now: origin.now,

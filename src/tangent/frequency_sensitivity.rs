@@ -8,13 +8,13 @@ use crate::integrator::{Arc, Crossing, Motion, Observer};
 /// Watches a motion from time 0 and gathers d(state)/d(w), the state at time 0 held: x' of the variational
 /// equation x'' + 2 a x' + b x = -A t sin(w t + phi), linearized along a power law, with the saltation matrices of the crossings.
 #[derive(Debug, Clone)]
-pub struct Detuning {
+pub struct FrequencySensitivity {
     /// d(state)/d(state at time 0), gathered on the same way.
     pub tangent: Tangent,
     change: Option<Vector2<f64>>,
 }
 
-impl Default for Detuning {
+impl Default for FrequencySensitivity {
     fn default() -> Self {
         Self {
             tangent: Tangent::default(),
@@ -23,7 +23,7 @@ impl Default for Detuning {
     }
 }
 
-impl Detuning {
+impl FrequencySensitivity {
     /// d(state)/d(w) in m s/rad and m/rad at the present drive angle, once the arc under way is told; none
     /// where a law has no closed form.
     pub fn at_drive_angle(&self, motion: &Motion) -> Option<Vector2<f64>> {
@@ -43,7 +43,7 @@ impl Detuning {
     }
 }
 
-impl Observer for Detuning {
+impl Observer for FrequencySensitivity {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let transition = self.tangent.along(arc, elapsed, Some(arc.begin()));
         let change = self.change.zip(transition.by_frequency);

@@ -7,7 +7,7 @@ use crate::phases::{SurfaceId, Threshold};
 /// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast
 /// as one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Hum {
+pub(crate) struct BounceTrain {
     surface: SurfaceId,
     crossings: u32,
     /// Highest and lowest speed in the row, in m/s.
@@ -15,7 +15,7 @@ pub(crate) struct Hum {
     slowest: f64,
 }
 
-impl Default for Hum {
+impl Default for BounceTrain {
     fn default() -> Self {
         Self {
             surface: SurfaceId::default(),
@@ -35,7 +35,7 @@ const PATIENCE: u32 = 10_000;
 /// the row ends after some millions of crossings at the latest.
 const FAINT: f64 = 1e-11;
 
-impl Hum {
+impl BounceTrain {
     /// Counts a crossing.
     pub fn count(&mut self, surface: SurfaceId, velocity: f64) {
         let speed = velocity.abs();

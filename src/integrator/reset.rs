@@ -5,14 +5,14 @@ use super::observer::CrossingKind;
 use super::start::Start;
 use crate::events::Found;
 use crate::flow::{Chatter, Drive, Polynomial, Pressing};
-use crate::phases::{Beyond, Exit, Hold, Mode, PhaseId, Phases, Surface, SurfaceId, Threshold};
+use crate::phases::{Beyond, Exit, Mode, PhaseId, Phases, Sticking, Surface, SurfaceId, Threshold};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded face.
 const ENDLESS: f64 = 1.0 - 1.0 / (1u64 << 16) as f64;
 
 /// State, mode and kind of a crossing, right after it.
-pub(crate) struct Landing {
+pub(crate) struct Reset {
     pub state: Start,
     pub mode: Mode,
     pub kind: CrossingKind,
@@ -20,7 +20,7 @@ pub(crate) struct Landing {
     pub chatter: Option<Chatter>,
 }
 
-impl Landing {
+impl Reset {
     pub fn new(position: f64, velocity: f64, mode: Mode, kind: CrossingKind) -> Self {
         Self {
             state: Start::new(position, velocity),
@@ -61,19 +61,19 @@ impl Motion {
         self.phases.endless_surface(self.mode.phase()?, guard)
     }
 
-    /// State and mode right after a crossing; `moved` as for [`Ground::leave`].
-    pub(super) fn land(&self, found: &Found, push: f64, moved: bool) -> Landing {
+    /// State and mode right after a crossing; `moved` as for [`ResetContext::leave`].
+    pub(super) fn land(&self, found: &Found, push: f64, moved: bool) -> Reset {
         match self.mode {
             Mode::Moving(phase) => self.ground().leave(phase, found, push, moved),
             Mode::Held(hold) | Mode::Chattering(hold) => {
                 let mode = hold.released(found.guard);
-                Landing::new(found.position, 0.0, mode, CrossingKind::Release)
+                Reset::new(found.position, 0.0, mode, CrossingKind::Release)
             }
         }
     }
 
-    fn ground(&self) -> Ground<'_> {
-        Ground {
+    fn ground(&self) -> ResetContext<'_> {
+        ResetContext {
             phases: &self.phases,
             fed: self.fed,
             pierced: self.pierced,
@@ -119,7 +119,7 @@ impl Motion {
 }
 
 /// What the rules of a landing ask for.
-pub(crate) struct Ground<'a> {
+pub(crate) struct ResetContext<'a> {
     pub phases: &'a Phases,
     /// A strip lies beyond the clearance.
     pub fed: bool,
@@ -133,22 +133,22 @@ pub(crate) struct Ground<'a> {
     pub period: f64,
 }
 
-impl Ground<'_> {
+impl ResetContext<'_> {
     /// State and mode right after a crossing out of a phase; `moved` is false for a mass that is back at
     /// once where it left rest.
-    pub(crate) fn leave(&self, phase: PhaseId, found: &Found, push: f64, moved: bool) -> Landing {
+    pub(crate) fn leave(&self, phase: PhaseId, found: &Found, push: f64, moved: bool) -> Reset {
         let onward = self.phases.onward(phase, found);
         let phase = &self.phases[phase];
         let position = phase.confine(found.position);
         match phase.exits[found.guard] {
             Exit::Reversal { forward, backward } => {
-                let hold = Hold::between(forward, backward);
+                let hold = Sticking::between(forward, backward);
                 let mode = self.phases.turn(hold, position, push);
-                Landing::new(position, 0.0, mode, CrossingKind::Reversal)
+                Reset::new(position, 0.0, mode, CrossingKind::Reversal)
             }
             Exit::Switch(to) => {
                 let mode = Mode::Moving(to);
-                Landing::new(position, onward, mode, CrossingKind::Switch)
+                Reset::new(position, onward, mode, CrossingKind::Switch)
             }
             Exit::Forward(surface) => {
                 let at = &self.phases[surface];
@@ -165,7 +165,7 @@ impl Ground<'_> {
         }
     }
 
-    fn pass(&self, at: &Surface, velocity: f64, push: f64, forward: bool) -> Landing {
+    fn pass(&self, at: &Surface, velocity: f64, push: f64, forward: bool) -> Reset {
         let mode = self
             .phases
             .at_surface(at, velocity, push, self.fed, self.threshold);
@@ -176,11 +176,11 @@ impl Ground<'_> {
             pierces: forward && self.pierces(at),
         };
         let velocity = if held { 0.0 } else { velocity };
-        Landing::new(at.position, velocity, mode, kind)
+        Reset::new(at.position, velocity, mode, kind)
     }
 
     /// Newton's impact law v+ = -R v-.
-    fn rebound(&self, at: &Surface, velocity: f64, push: f64, restitution: f64) -> Landing {
+    fn rebound(&self, at: &Surface, velocity: f64, push: f64, restitution: f64) -> Reset {
         let kind = CrossingKind::Rebound {
             impact: at.is_clearance,
             pierces: self.pierces(at),
@@ -194,16 +194,16 @@ impl Ground<'_> {
             speed < self.threshold.slowest || endless
         };
         if speed == 0.0 || (rests && faint()) {
-            return Landing::new(position, 0.0, held, kind);
+            return Reset::new(position, 0.0, held, kind);
         }
         let chatter = self.chatter(at, speed, push, restitution);
         let mode = match chatter {
             Some(_) => Mode::Chattering(hold),
             None => Mode::Moving(self.phases.pressing(at.below, position, -speed)),
         };
-        Landing {
+        Reset {
             chatter,
-            ..Landing::new(position, -speed, mode, kind)
+            ..Reset::new(position, -speed, mode, kind)
         }
     }
 

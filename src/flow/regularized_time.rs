@@ -1,17 +1,22 @@
 //! Taylor steps along a stretched time, at the face of a power law, and of a sphere throughout.
 
 use super::expansion::{converges, converges_of_sphere, outgrown, shell};
+use super::forcing_series::ForcingSeries;
 use super::hertz::Hertz;
-use super::rungs::Rungs;
-use super::segment::{Segment, Stretch};
-use super::series::{Power, Turned, ZERO, convolve, majorant, value};
+use super::series::{PowerRecurrence, ReversedSeries, ZERO, convolve, majorant, value};
 use super::sphere::is_spherical;
 use super::taylor::{DEGREE, RECIPROCALS, evaluate};
-use super::{Departure, Flow};
+use super::taylor_step::{RegularizedTime, TaylorStep};
+use super::{Departure, LinearLaw};
 
-impl Segment {
+impl TaylorStep {
     /// The step in sigma.
-    pub(super) fn from_root(flow: &Flow, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+    pub(super) fn from_root(
+        flow: &LinearLaw,
+        hertz: &Hertz,
+        from: &Departure,
+        deflection: f64,
+    ) -> Self {
         let mut segment = Self::blank(flow, hertz);
         let deflection = deflection.max(0.0);
         let (stretch, holds) = if is_spherical(hertz, from) {
@@ -43,15 +48,20 @@ impl Segment {
     }
 
     /// The series in sigma.
-    fn along_root(&mut self, flow: &Flow, from: &Departure, deflection: f64) -> Box<Stretch> {
+    fn along_root(
+        &mut self,
+        flow: &LinearLaw,
+        from: &Departure,
+        deflection: f64,
+    ) -> Box<RegularizedTime> {
         let hertz = self.hertz;
         let index = hertz.root_index().unwrap_or(2.0);
         let root = deflection.powf(1.0 / index);
         let (twice_decay, b, w) = (flow.damping(), flow.modes.stiffness, flow.frequency);
         let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
-        let mut stretch = Box::<Stretch>::default();
+        let mut stretch = Box::<RegularizedTime>::default();
         stretch.index = index;
-        let Stretch {
+        let RegularizedTime {
             root: s,
             velocity: v,
             time: t,
@@ -61,10 +71,14 @@ impl Segment {
         let (mut cos, mut sin) = (ZERO, ZERO);
         let (mut power, mut acceleration) = (ZERO, ZERO);
         (cos[0], sin[0]) = (from.drive.cos, from.drive.sin);
-        let (mut rate, mut roots, mut steepness) = (Turned::ZERO, Turned::ZERO, Turned::ZERO);
-        let mut rates = Power::new(index - 1.0, root);
-        let mut steepnesses = Power::new(index * (hertz.exponent - 1.0), root);
-        let mut rungs = Rungs::new(&from.push);
+        let (mut rate, mut roots, mut steepness) = (
+            ReversedSeries::ZERO,
+            ReversedSeries::ZERO,
+            ReversedSeries::ZERO,
+        );
+        let mut rates = PowerRecurrence::new(index - 1.0, root);
+        let mut steepnesses = PowerRecurrence::new(index * (hertz.exponent - 1.0), root);
+        let mut rungs = ForcingSeries::new(&from.push);
         let share = 1.0 / index;
         for k in 0..=DEGREE {
             roots.set(k, s[k]);
@@ -104,7 +118,7 @@ impl Segment {
     }
 }
 
-impl Stretch {
+impl RegularizedTime {
     /// Sigma up to which time stays within `limit`, and no power of a force that is not linear outgrows what the motion
     /// begins with.
     fn reach(&self, limit: f64, is_linear: bool) -> f64 {

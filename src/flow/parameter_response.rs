@@ -33,7 +33,7 @@ pub(crate) type Forces = [f64; 9];
 
 /// The answers at one time.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Answers {
+pub(crate) struct ParameterResponse {
     /// To changes of position and velocity at departure.
     pub free: Matrix3x2<f64>,
     /// From rest, to one of each source.
@@ -42,7 +42,7 @@ pub(crate) struct Answers {
     pub travel: (f64, f64),
 }
 
-impl Answers {
+impl ParameterResponse {
     /// The answer to a change at departure and to forces.
     pub fn to(&self, start: &Answer, forces: &Forces) -> Answer {
         let carried = self.free * start.xy() + Answer::new(0.0, 0.0, start.z);

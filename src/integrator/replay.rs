@@ -1,7 +1,7 @@
 //! The last advance, gone through again by whoever wants to know more of it.
 
+use super::checkpoint::Checkpoint;
 use super::clock::{Clock, Instant};
-use super::mark::Mark;
 use super::observer::{Arc, Observer};
 use super::simulation::Simulation;
 use crate::error::MotionError;
@@ -35,12 +35,12 @@ impl Simulation {
             force,
             work: 0.0,
         };
-        self.review(&mut watch)?;
+        self.replay(&mut watch)?;
         Ok(watch.work)
     }
 
     /// Tells of all arcs and crossings since the mark; the first arc may have begun before it.
-    pub(super) fn review(&self, observer: &mut impl Observer) -> Result<(), MotionError> {
+    pub(super) fn replay(&self, observer: &mut impl Observer) -> Result<(), MotionError> {
         let mut motion = self.marked().0.clone();
         motion.advance_like(&self.motion, observer)?;
         motion.tell_arc(observer);
@@ -49,7 +49,7 @@ impl Simulation {
 
     /// True if the mass was free all over the last advance, or since [`Simulation::mark`] was called or something was set.
     pub fn was_free(&self) -> bool {
-        matches!(self.mark, Mark::OnArc(_)) && self.motion.kind() == PhaseKind::Free
+        matches!(self.mark, Checkpoint::OnArc(_)) && self.motion.kind() == PhaseKind::Free
     }
 }
 

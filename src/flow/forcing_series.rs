@@ -2,13 +2,13 @@
 
 use super::Polynomial;
 use super::polynomial::HIGHEST_ORDER;
-use super::series::{Series, Turned, ZERO};
+use super::series::{ReversedSeries, Series, ZERO};
 
-/// The part of a force beyond its ramp, and its derivatives, as series in sigma: from rung to rung,
+/// The part of a force beyond its ramp, and its derivatives, as series in sigma: from one order to the next,
 /// d p^(j) / dsigma = p^(j+1) dt/dsigma.
-pub(super) struct Rungs([Series; HIGHEST_ORDER + 1]);
+pub(super) struct ForcingSeries([Series; HIGHEST_ORDER + 1]);
 
-impl Rungs {
+impl ForcingSeries {
     /// None if there is no such part.
     pub fn new(force: &Polynomial) -> Option<Self> {
         (!force.is_linear()).then(|| {
@@ -22,7 +22,7 @@ impl Rungs {
     }
 
     /// The force's k-th coefficient, from those of dt/dsigma before the k-th. To be asked for in order.
-    pub fn coefficient(&mut self, rate: &Turned, k: usize) -> f64 {
+    pub fn coefficient(&mut self, rate: &ReversedSeries, k: usize) -> f64 {
         if let Some(before) = k.checked_sub(1) {
             for j in 0..HIGHEST_ORDER {
                 self.0[j][k] = rate.times(&self.0[j + 1], before) / k as f64;
