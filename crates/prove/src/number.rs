@@ -18,7 +18,7 @@ pub trait Number:
     fn reciprocal(&self) -> Self;
     /// Sine and cosine.
     fn sin_cos(&self) -> (Self, Self);
-    /// [`Decay::at`] a time.
+    /// u and s of a free motion at this time: see [`Decay`].
     fn decay(&self, decay: &Decay) -> (Self, Self);
     /// A double.
     fn constant(value: f64) -> Self {
@@ -30,7 +30,8 @@ pub trait Number:
     }
 }
 
-/// The free motion of x'' + 2 a x' + b x = 0.
+/// The free motion x = u x0 + s (a x0 + v0) of x'' + 2 a x' + b x = 0: u = exp(-a t) cos(w t) and s = exp(-a t) sin(w t)/w with
+/// w^2 = b - a^2 of either sign, or zero. u' = -a u - w^2 s, s' = u - a s.
 #[derive(Debug, Clone, Copy)]
 pub struct Decay {
     /// a, in 1/s.
@@ -45,8 +46,7 @@ impl Decay {
         self.stiffness - self.rate.square()
     }
 
-    /// u = exp(-a t) cos(w t) and s = exp(-a t) sin(w t)/w with w^2 = b - a^2 of either sign, or zero. The free motion is
-    /// x = u x0 + s (a x0 + v0), and u' = -a u - w^2 s, s' = u - a s.
+    /// u and s.
     fn at(&self, time: Interval) -> (Interval, Interval) {
         let square = self.square_frequency();
         let z = square * time.square();
