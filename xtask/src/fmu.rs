@@ -41,7 +41,7 @@ pub fn write_shipped(standards: &[Standard]) -> Result<PathBuf> {
     write_all(standards, |artifact| Ok(vec![shipped(artifact)?]))
 }
 
-/// Writes the units, and the machine that those of FMI 2.0 make together.
+/// Writes the units, and the machine that those of each standard make together.
 fn write_all(
     standards: &[Standard],
     build: impl Fn(Artifact) -> Result<Vec<Library>>,
@@ -53,18 +53,16 @@ fn write_all(
         write::<Drive>(standard, &drive)?;
         write::<Feeder>(standard, &feeder)?;
         write::<Machine>(standard, &press)?;
-        if standard == Standard::Fmi2 {
-            let path = top().join("piercing-machine.ssp");
-            let libraries = system::Libraries {
-                drive,
-                feeder,
-                press,
-            };
-            system::write(&path, &libraries)?;
-            say(&path)?;
-        }
+        let path = place("piercing-machine", standard, "ssp");
+        let libraries = system::Libraries {
+            drive,
+            feeder,
+            press,
+        };
+        system::write(&path, standard, &libraries)?;
+        say(&path)?;
     }
-    Ok(path_of::<Machine>(Standard::Fmi2))
+    Ok(place(Machine::about().identifier, Standard::Fmi2, "fmu"))
 }
 
 fn shipped(artifact: Artifact) -> Result<Library> {
@@ -130,7 +128,7 @@ fn host_library(artifact: Artifact) -> Result<Library> {
 }
 
 fn write<U: Unit>(standard: Standard, libraries: &[Library]) -> Result<()> {
-    let path = path_of::<U>(standard);
+    let path = place(U::about().identifier, standard, "fmu");
     package::write(
         &path,
         &Imprint::<U>::library().with_standard(standard),
@@ -139,13 +137,13 @@ fn write<U: Unit>(standard: Standard, libraries: &[Library]) -> Result<()> {
     say(&path)
 }
 
-/// Where a unit's package is written.
-fn path_of<U: Unit>(standard: Standard) -> PathBuf {
+/// Where a unit or the machine is written.
+fn place(name: &str, standard: Standard, extension: &str) -> PathBuf {
     let version = match standard {
         Standard::Fmi2 => "",
         Standard::Fmi3 => "-fmi3",
     };
-    top().join(format!("{}{version}.fmu", U::about().identifier))
+    top().join(format!("{name}{version}.{extension}"))
 }
 
 fn say(path: &Path) -> Result<()> {

@@ -36,7 +36,8 @@ enum Task {
     /// Before each commit: format, clippy and the tests that take seconds
     Check,
     /// Write softstop.fmu, drive.fmu, feeder.fmu, the machine that they make (piercing-machine.ssp),
-    /// modelDescription.xml and, for FMI 3.0, softstop-fmi3.fmu, drive-fmi3.fmu and feeder-fmi3.fmu at the top level
+    /// modelDescription.xml and, for FMI 3.0, softstop-fmi3.fmu, drive-fmi3.fmu, feeder-fmi3.fmu and
+    /// piercing-machine-fmi3.ssp at the top level
     Fmu {
         /// Only those for this version of FMI
         #[arg(long, value_enum, value_name = "VERSION")]

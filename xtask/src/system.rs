@@ -8,7 +8,7 @@ use softstop::internals::samples::{LOADED, MachineSample, UNLOADED};
 use softstop::{Begin, Machine, Scene, Simulation, Start};
 use softstop_fmi::package::{self, Library};
 use softstop_fmi::variable::Kind;
-use softstop_fmi::{Imprint, Row, Unit, parameter_set};
+use softstop_fmi::{Imprint, Row, Standard, Unit, parameter_set};
 use softstop_fmu::StartValues;
 use softstop_units::{Drive, Feeder};
 
@@ -32,8 +32,9 @@ struct Variant {
     drive: Imprint<Drive>,
 }
 
-/// Writes the system; the units inside begin as the machine B.
-pub fn write(path: &Path, libraries: &Libraries) -> Result<()> {
+/// Writes the system, by SSP 1.0 with units for FMI 2.0 and by SSP 2.0 with those for FMI 3.0; the units inside begin as the
+/// machine B.
+pub fn write(path: &Path, standard: Standard, libraries: &Libraries) -> Result<()> {
     let sample =
         |of: &MachineSample| anyhow::Ok((of.ratios.scene()?, Start::new(of.position, of.velocity)));
     let design = Machine::from_toml(DESIGN)?;
@@ -44,23 +45,34 @@ pub fn write(path: &Path, libraries: &Libraries) -> Result<()> {
     ];
     let [Variant { press, drive, .. }, ..] = &variants;
     let feeder = with(Imprint::<Feeder>::library(), &[("feed.takes.angle", 1.0)])?;
-    let press_archive = package::archive(&press.clone().named("press")?, &libraries.press)?;
+    let version = match standard {
+        Standard::Fmi2 => "machine\" version=\"1.0\"",
+        Standard::Fmi3 => "machine\" version=\"2.0\"",
+    };
+    let structure = STRUCTURE.replace("machine\" version=\"1.0\"", version);
+    let press = press.clone().named("press")?;
     let mut entries = vec![
-        ("SystemStructure.ssd".to_owned(), STRUCTURE.into()),
-        ("resources/press.fmu".to_owned(), press_archive),
-        (
-            "resources/drive.fmu".to_owned(),
-            package::archive(drive, &libraries.drive)?,
-        ),
-        (
-            "resources/feeder.fmu".to_owned(),
-            package::archive(&feeder, &libraries.feeder)?,
-        ),
+        ("SystemStructure.ssd".to_owned(), structure.into_bytes()),
+        unit("press", standard, &press, &libraries.press)?,
+        unit("drive", standard, drive, &libraries.drive)?,
+        unit("feeder", standard, &feeder, &libraries.feeder)?,
     ];
     entries.extend(sets(&variants, "press", |of| &of.press)?);
     entries.extend(sets(&variants, "drive", |of| &of.drive)?);
     package::write_file(path, &package::zipped(entries)?)?;
     Ok(())
+}
+
+/// A unit of the system, with its place there.
+fn unit<U: Unit>(
+    name: &str,
+    standard: Standard,
+    imprint: &Imprint<U>,
+    libraries: &[Library],
+) -> Result<(String, Vec<u8>)> {
+    let imprint = imprint.clone().with_standard(standard);
+    let archive = package::archive(&imprint, libraries)?;
+    Ok((format!("resources/{name}.fmu"), archive))
 }
 
 /// A machine on a motor whose torque is, at the speed of the motion, what this motion takes.
