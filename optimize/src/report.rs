@@ -78,6 +78,9 @@ pub struct OptimizeReport {
     /// Ways to run the machine up.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     run_up: Vec<Record>,
+    /// What is proven of its motion, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<Record>,
     /// Stretches of stable z = 1 of the same machine outside its zone: the search leaves them out.
     left_out: Vec<Record>,
     search: SearchReport,
@@ -143,6 +146,7 @@ impl OptimizeReport {
                 .map(|it| FrontReport::new(problem, it)),
             tolerances: study.map(|it| Tolerated::of(problem, design, it)),
             run_up: ways.collect(),
+            proof: None,
             left_out: left_out(design),
             search: SearchReport::new(problem, evaluations, found),
             machine: machine.clone(),
@@ -188,7 +192,10 @@ impl Report for OptimizeReport {
     fn text(&self) -> String {
         let units = Units::of(&self.machine);
         let tolerances = self.tolerances.as_ref().map(|it| it.text(&units));
+        let proof = self.proof.as_ref();
+        let proof = proof.map_or_else(String::new, |it| it.text(&units));
         let tables = sections([
+            ("Proven by interval arithmetic", proof),
             ("What was required", below(&self.requirements, &units)),
             ("In each case", below(&self.cases, &units)),
             ("How to run the machine up", below(&self.run_up, &units)),

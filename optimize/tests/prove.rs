@@ -54,3 +54,32 @@ fn what_cannot_be_proven_is_told_and_nothing_written() -> Outcome {
     }
     Ok(())
 }
+
+#[test]
+fn a_design_comes_with_its_proof() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let output = folder.path().display().to_string();
+    let line = "optimize --evaluations 100 --no-report --samples 10 --prove --output";
+    let text = SOFTSTOP.text(&[&words(line)[..], &[&output]].concat());
+    assert!(text.contains("Proven by interval arithmetic\n"), "{text}");
+    let read = |name: &str| -> Outcome<serde_json::Value> {
+        Ok(serde_json::from_slice(&std::fs::read(
+            folder.path().join(name),
+        )?)?)
+    };
+    let (design, proof) = (read("design.json")?, read("proof.json")?);
+    assert_eq!(at(&design, "proof/stability"), "stable");
+    assert_eq!(
+        at(&design, "files/proof_json")
+            .as_str()
+            .map(|it| it.ends_with("proof.json")),
+        Some(true)
+    );
+    let velocity = at(&design, "design/before_impact_velocity").as_f64();
+    let bounds = [0, 1].map(|it| at(&proof, &format!("enclosure/2/{it}")).as_f64());
+    assert!(
+        bounds[0] <= velocity && velocity <= bounds[1],
+        "{velocity:?} {bounds:?}"
+    );
+    Ok(())
+}

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::anyhow;
+use anyhow::{Error, anyhow};
 use clap::{Args, ValueEnum};
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -10,7 +10,7 @@ use softstop::{Machine, Parameter, Scene, UnitSystem};
 use softstop_dynamics::continuation::{Special, SpecialKind, Test};
 use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, Regime};
 use softstop_prove::machine::Machine as Laws;
-use softstop_prove::{Certificate, Claim, Interval, ProofError, Touch};
+use softstop_prove::{Certificate, Claim, Interval, Touch};
 
 use crate::continuation::seed;
 use softstop_console::arguments::{MachineArguments, refuse_followers_of_frequency};
@@ -20,6 +20,7 @@ use softstop_console::export::{Export, Report};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output::{self, Format, folder_and_file};
+use softstop_console::record::Record;
 use softstop_console::report::{self, MachineReport};
 use softstop_console::table::{aligned, heading};
 
@@ -86,7 +87,7 @@ const BRANCH: ((f64, f64), usize) = ((0.5, 2.0), 2000);
 pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
-    Laws::new(&machine.scene).map_err(|error| Failure::usage(error.to_string()))?;
+    can_be_proven(&machine)?;
     if arguments.at.is_some() {
         refuse_followers_of_frequency(&machine)?;
     }
@@ -96,15 +97,21 @@ pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
         .limit
         .budget
         .limit(|| prove(arguments, &machine.scene))?;
-    let report = ProofReport {
-        certificate,
-        stated: MachineReport::of(&machine),
-        machine: &machine,
-    };
+    let report = ProofReport::new(certificate, &machine);
     if !file.ends_with(".json") {
         export.file("json", output::json(&report)?.as_bytes())?;
     }
     export.finish(&report, arguments.format)
+}
+
+/// Refuses a machine with a law that has no closed form.
+///
+/// # Errors
+/// [`Failure::Usage`] naming it.
+pub fn can_be_proven(machine: &Machine) -> Result<(), Failure> {
+    let laws = Laws::new(&machine.scene);
+    laws.map(drop)
+        .map_err(|error| Failure::usage(error.to_string()))
 }
 
 fn prove(arguments: &ProveArguments, scene: &Scene) -> Result<Certificate, Failure> {
@@ -124,7 +131,7 @@ fn prove(arguments: &ProveArguments, scene: &Scene) -> Result<Certificate, Failu
             Certificate::new(&scene, special.point.state(), orbit.periods, claim)
         }
     };
-    proven.map_err(|error: ProofError| anyhow!(error).into())
+    Ok(proven.map_err(Error::from)?)
 }
 
 /// The special point of a kind on the branch of an orbit at the frequency nearest to that of its scene.
@@ -185,7 +192,7 @@ fn claim(scene: &Scene, special: &Special) -> Option<Claim> {
 
 /// What `softstop prove` reports: the certificate, and the machine as its user states it.
 #[derive(Debug, Serialize)]
-struct ProofReport<'a> {
+pub struct ProofReport<'a> {
     #[serde(flatten)]
     certificate: Certificate,
     #[serde(rename = "machine")]
@@ -198,6 +205,44 @@ fn shown(interval: Interval) -> String {
     format!("[{:?}, {:?}]", interval.low(), interval.high())
 }
 
+/// A unit of the certificate, for people.
+fn unit(machine: &Machine, name: &str) -> String {
+    match machine.unit_system {
+        UnitSystem::Ratios => String::new(),
+        UnitSystem::Si | UnitSystem::Hertz => format!(" ({name})"),
+    }
+}
+
+impl<'a> ProofReport<'a> {
+    fn new(certificate: Certificate, machine: &'a Machine) -> Self {
+        Self {
+            certificate,
+            stated: MachineReport::of(machine),
+            machine,
+        }
+    }
+
+    /// A proof of the z = 1 motion of a machine through a state at drive angle 0.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if there is none.
+    pub fn of_single(machine: &'a Machine, state: Vector2<f64>) -> Result<Self, Failure> {
+        let proof = Certificate::new(&machine.scene, state, 1, Claim::Orbit);
+        Ok(Self::new(proof.map_err(Error::from)?, machine))
+    }
+
+    /// What is proven of the motion.
+    pub fn figures(&self) -> Record {
+        let proof = &self.certificate;
+        let frequency = format!("drive frequency{}", unit(self.machine, "rad/s"));
+        Record::default()
+            .with("frequency", &frequency, shown(proof.frequency))
+            .with("trace", "trace of the monodromy", shown(proof.trace))
+            .with("determinant", "its determinant", shown(proof.determinant))
+            .with("stability", "stability", proof.stability)
+    }
+}
+
 impl Report for ProofReport<'_> {
     fn text(&self) -> String {
         let proof = &self.certificate;
@@ -205,19 +250,8 @@ impl Report for ProofReport<'_> {
             impacts: proof.impacts as u64,
             periods: proof.periods,
         };
-        let unit = |unit: &str| match self.machine.unit_system {
-            UnitSystem::Ratios => String::new(),
-            UnitSystem::Si | UnitSystem::Hertz => format!(" ({unit})"),
-        };
-        let figures = report::machine(self.machine, &[Parameter::Frequency])
-            .with(
-                "frequency",
-                &format!("drive frequency{}", unit("rad/s")),
-                shown(proof.frequency),
-            )
-            .with("trace", "trace of the monodromy", shown(proof.trace))
-            .with("determinant", "its determinant", shown(proof.determinant))
-            .with("stability", "stability", proof.stability);
+        let figures = report::machine(self.machine, &[Parameter::Frequency]).and(self.figures());
+        let unit = |name| unit(self.machine, name);
         let heads = [
             "from".to_owned(),
             "to".to_owned(),

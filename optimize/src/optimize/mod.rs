@@ -30,9 +30,10 @@ use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
-use softstop_console::output::Format;
+use softstop_console::output::{self, Format};
 use softstop_console::scene_file;
 use softstop_dynamics::zone::ZoneKind;
+use softstop_explore::prove::{ProofReport, can_be_proven};
 
 use crate::design::Problem;
 use crate::fmu::{Standard, archive, library, parameters};
@@ -165,6 +166,9 @@ pub struct OptimizeArguments {
     /// Search alone: without report.html, the basin along the zone and the trade-offs
     #[arg(long)]
     pub no_report: bool,
+    /// Prove the design's motion by interval arithmetic, with a certificate, proof.json (see softstop prove)
+    #[arg(long)]
+    pub prove: bool,
     /// Whether it goes on with an earlier one.
     #[command(flatten)]
     pub keep: KeepArguments,
@@ -174,7 +178,7 @@ pub struct OptimizeArguments {
 }
 
 /// The files of a run by their kinds, besides the tables.
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 8] = [
     ("json", "design.json"),
     ("svg", "design.svg"),
     ("fmu", "design.fmu"),
@@ -182,12 +186,16 @@ const FILES: [(&str, &str); 7] = [
     ("ssv", "design.ssv"),
     ("html", "report.html"),
     ("pareto_svg", "pareto.svg"),
+    ("proof_json", "proof.json"),
 ];
 
 /// Searches, prints and writes the files.
 pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let mut job = Job::new(arguments)?;
     can_be_packed(&job.problem.machine)?;
+    if arguments.prove {
+        can_be_proven(&job.problem.machine)?;
+    }
     let mut export = Export::open(&job.output, &FILES)?;
     for ending in [".csv", ".svg"] {
         export.refuse_folders_called(ending)?;
@@ -213,16 +221,6 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     if let Some(study) = &looked.study {
         outcome.note_violating(study.violating());
     }
-    let report = looked.report(&job, &outcome);
-    if let Some(front) = &report.pareto {
-        export.sheets([&front.sheet])?;
-    }
-    let name = job.problem.machine.name.as_deref().unwrap_or_default();
-    export.file("svg", looked.response.document(name).as_bytes())?;
-    match &looked.pareto {
-        Some(picture) => export.file("pareto_svg", picture.document(name).as_bytes())?,
-        None => export.forgo("pareto_svg"),
-    }
     let start = Start::from(outcome.design.orbit.state());
     let machine = Machine {
         start,
@@ -232,6 +230,24 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     export.file("toml", text.as_bytes())?;
     // The same machine to the last bit, though no number of Hz may give the frequency that was found.
     let machine = Machine::from_toml(&text).map_err(anyhow::Error::from)?;
+    let mut report = looked.report(&job, &outcome);
+    match arguments.prove {
+        true => {
+            let proof = ProofReport::of_single(&machine, outcome.design.orbit.state())?;
+            export.file("proof_json", output::json(&proof)?.as_bytes())?;
+            report.proof = Some(proof.figures());
+        }
+        false => export.forgo("proof_json"),
+    }
+    if let Some(front) = &report.pareto {
+        export.sheets([&front.sheet])?;
+    }
+    let name = job.problem.machine.name.as_deref().unwrap_or_default();
+    export.file("svg", looked.response.document(name).as_bytes())?;
+    match &looked.pareto {
+        Some(picture) => export.file("pareto_svg", picture.document(name).as_bytes())?,
+        None => export.forgo("pareto_svg"),
+    }
     export.file("fmu", &archive(&library, &machine, start)?)?;
     export.file("ssv", parameters(&machine, start)?.as_bytes())?;
     match report.figures.is_empty() {
