@@ -172,6 +172,7 @@ fn number(parameter: Parameter, language: UnitSystem) -> Value {
     };
     let mut number = within(about.allowed, &(what + &pace(parameter)));
     number["type"] = json!(["number", "string"]);
+    number["pattern"] = json!("[^0-9.]");
     number
 }
 
