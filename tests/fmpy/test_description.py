@@ -74,9 +74,9 @@ def test_contract(description):
         "energy.dissipated": "continuous",
         "drive.angle": "continuous", "drive.force": "continuous", "drive.power": "continuous",
         "drive.work": "continuous", "frame.force": "continuous",
-        "contact.peak": "continuous", "contact.impulse": "continuous", "impact.step.count": "discrete",
-        "impact.step.first.time": "continuous", "impact.step.first.velocity": "continuous",
-        "impact.step.hardest.time": "continuous", "impact.step.hardest.velocity": "continuous",
+        "contact.peak": "discrete", "contact.impulse": "discrete", "impact.step.count": "discrete",
+        "impact.step.first.time": "discrete", "impact.step.first.velocity": "discrete",
+        "impact.step.hardest.time": "discrete", "impact.step.hardest.velocity": "discrete",
         "pierce.step.count": "discrete",
     }
 
