@@ -189,7 +189,7 @@ fn frequencies_are_spoken_in_hertz_if_stated_so() -> Outcome {
     Ok(())
 }
 
-/// The key decides the unit, whichever of the two a machine speaks.
+/// The key decides the unit, whichever of the two a machine is stated in.
 #[test]
 fn keys_have_one_unit_on_every_machine() -> Outcome {
     let si = full(STOPS[4])?;

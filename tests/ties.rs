@@ -56,7 +56,13 @@ fn expressions_are_in_the_units_of_their_keys() -> Outcome {
         ("excitation.amplitude", "excitation.frequency_hz * 2"),
         ("clearance", "excitation.frequency / 1000"),
         ("stop.preload_deflection", "clearance / 4"),
+        ("damping", "stop.preload_deflection + stop.preload / 100"),
     ])?;
+    assert_eq!(Machine::from_toml(&hertz.to_toml())?, hertz);
+    let mut by_key = Machine::from_toml(UNBALANCE)?;
+    by_key.apply([("excitation.frequency_hz", "mass / 2")])?;
+    assert_eq!(by_key.value(Parameter::Frequency), Some(1.0));
+    assert_eq!(Machine::from_toml(&by_key.to_toml())?, by_key);
     assert_eq!(hertz.unit_system, UnitSystem::Hertz);
     assert_eq!(value(&hertz, "excitation.amplitude"), 3.0);
     let clearance = 1.5 * std::f64::consts::TAU / 1000.0;
@@ -88,10 +94,8 @@ fn numbers_and_other_stops_let_go() -> Outcome {
         ("stop.stiffness", "8 * stiffness"),
     ])?;
     assert_eq!(value(&machine, "stop.stiffness"), 400.0);
-    assert_eq!(
-        machine.follower(Parameter::Suspension),
-        Some(Parameter::Clearance)
-    );
+    let followers = machine.followers(Parameter::Suspension);
+    assert_eq!(followers, [Parameter::Clearance, Parameter::StopStiffness]);
     machine.set(Parameter::Suspension, 60.0);
     assert_eq!(value(&machine, "stop.stiffness"), 480.0);
     Ok(())

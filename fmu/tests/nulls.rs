@@ -15,7 +15,7 @@ fn refused_instances() {
     for (name, kind, given, word) in [
         (None, 1, guid, "instanceName"),
         (Some(""), 1, guid, "instanceName"),
-        (Some("unit"), 2, guid, "fmuType = 2"),
+        (Some("unit"), 0, guid, "fmuType = 0"),
         (Some("unit"), 1, None, "fmuGUID"),
         (Some("unit"), 1, Some("{other}"), "{other}"),
     ] {

@@ -39,7 +39,7 @@ pub fn library(standard: Standard) -> Result<Library> {
     })
 }
 
-/// The bytes of the FMU that runs a machine (with m = 1 kg, k1 = 1 N/m, F0 = 1 N if it speaks ratios) from a
+/// The bytes of the FMU that runs a machine (with m = 1 kg, k1 = 1 N/m, F0 = 1 N if it is stated in ratios) from a
 /// state at time 0, under the machine's own name and description.
 ///
 /// # Errors
@@ -81,7 +81,7 @@ Examples:
   softstop fmu press.toml --fmi 3
       the machine for FMI 3.0, where the importer sees every impact as an event
 
-The FMU is for co-simulation and holds the library for this platform. It starts at the machine's
+The FMU holds the library for this platform. It starts at the machine's
 initial state at time 0; an importer may set parameters and inputs by the names of the machine's file.";
 
 /// Arguments of `softstop fmu`.
@@ -97,6 +97,9 @@ pub struct FmuArguments {
     /// Version of FMI
     #[arg(long, value_enum, value_name = "VERSION", default_value = "2")]
     pub fmi: Version,
+    /// Tell of model exchange by FMI 2.0, too, which some importers then choose; FMI 3.0 always does
+    #[arg(long)]
+    pub exchange: bool,
 }
 
 /// A version of FMI, as it is asked for.
@@ -129,7 +132,9 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
     };
     let imprint = imprint(&machine, machine.start);
     let imprint = imprint.map_err(|error| Failure::usage(format!("{error:#}")))?;
-    let imprint = imprint.with_standard(arguments.fmi.into());
+    let imprint = imprint
+        .with_standard(arguments.fmi.into())
+        .with_exchange(arguments.exchange);
     let (folder, file) = output::folder_and_file(&place)?;
     let folder = Folder::of_file(folder, file)?;
     folder.stage(file, &packed(&library(imprint.standard())?, &imprint)?)?;

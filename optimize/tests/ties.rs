@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use softstop_testing::{assert_near, number};
+use softstop_testing::{Report, assert_near, number};
 
 use crate::{Outcome, SOFTSTOP};
 
@@ -43,10 +43,10 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
         assert_near(velocity, number(&motions, "before_impact_velocity"), 1e-9);
     }
     // At a special point of the branch the machine by hand has it, too, along another parameter.
-    let branch = SOFTSTOP.value(&format!(
+    let branch = SOFTSTOP.report(&format!(
         "continue {rig} --parameter excitation.frequency --from 0.9 --to 2.5"
     ));
-    let specials = branch["branches"][0]["specials"].as_array().ok_or("none")?;
+    let specials = branch.list("branches/0/specials");
     let fold = specials
         .iter()
         .find(|it| it["symbol"] == "SN")
@@ -56,20 +56,27 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
         [number(fold, "position"), number(fold, "velocity")],
     );
     let line = by_hand(frequency) + &format!(" --state={},{}", state[0], state[1]);
-    let other = SOFTSTOP.value(&format!(
+    let other = SOFTSTOP.report(&format!(
         "continue {line} --parameter clearance --from 2 --to 4"
     ));
-    let specials = other["branches"][0]["specials"].as_array().ok_or("none")?;
+    let specials = other.list("branches/0/specials");
     let nearest = specials.iter().filter(|it| it["symbol"] == "SN");
     let nearest = nearest
         .map(|it| (number(it, "value") - 3.0).abs())
         .fold(1.0, f64::min);
     assert_near(nearest, 0.0, 1e-9);
     // What follows is not varied, and no zone is looked for.
+    let zone = folder.path().join("zone.toml");
+    let text = fs::read_to_string(&study)?.replace("\"velocity\"", "\"frequency_sn\"");
+    fs::write(&zone, text)?;
     for (command, says) in [
         (
             format!("sweep {rig} --parameter excitation.amplitude --from 0.5 --to 1"),
             "follows others, as \"0.7 *",
+        ),
+        (
+            format!("study {}", zone.display()),
+            "outputs: frequency_sn: excitation.amplitude: follows",
         ),
         (
             format!("zone {rig}"),
@@ -90,7 +97,7 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
 #[test]
 fn a_design_with_an_expression_is_that_of_a_link() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let task = |name: &str, preload: &str, vary: &str| -> Outcome<serde_json::Value> {
+    let task = |name: &str, preload: &str, vary: &str| -> Outcome<Report> {
         let path = folder.path().join(name);
         let text = format!(
             "mass = 1.0\nstiffness = 1.0\ndamping = 0.04\nclearance = 10.0\ncontact.damping = 0.18\n\
@@ -99,7 +106,7 @@ fn a_design_with_an_expression_is_that_of_a_link() -> Outcome {
              [vary]\nstop.stiffness = [2.0, 30.0]\nclearance = [4.0, 20.0]\n{vary}\n[require]\nmargin = 0.1\n"
         );
         fs::write(&path, text)?;
-        Ok(SOFTSTOP.value(&format!("optimize {} --no-report", path.display())))
+        Ok(SOFTSTOP.report(&format!("optimize {} --no-report", path.display())))
     };
     let designs = [
         task("tie.toml", "preload = \"10 * stop.stiffness\"", "")?,
@@ -112,7 +119,7 @@ fn a_design_with_an_expression_is_that_of_a_link() -> Outcome {
     ];
     let velocity = designs
         .each_ref()
-        .map(|it| number(it, "design/before_impact_velocity"));
+        .map(|it| it.number("design/before_impact_velocity"));
     assert_near(velocity[0], velocity[1], 1e-9);
     assert_near(velocity[0], velocity[2], 1e-9);
     Ok(())

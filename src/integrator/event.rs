@@ -100,7 +100,7 @@ impl Simulation {
     }
 
     /// Lets the crossing happen that the machine stands before, with those that follow at the same instant; false if it
-    /// stands before none.
+    /// stands before none. A motion that fails right after it fails in the next step.
     pub fn cross(&mut self, observer: &mut impl Observer) -> bool {
         if !self.motion.is_at_crossing() {
             return false;

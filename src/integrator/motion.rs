@@ -30,6 +30,8 @@ pub struct Motion {
     pub(super) course: ArcSolution,
     pub(super) outlook: NextEvent,
     pub(super) hum: BounceTrain,
+    /// The present arc begins where it was put, which may be beyond the surfaces of its phase.
+    pub(super) is_put: bool,
 }
 
 impl Motion {
@@ -87,6 +89,7 @@ impl Motion {
             course,
             outlook,
             hum: BounceTrain::default(),
+            is_put: false,
         };
         motion.depart(start, drive, mode);
         Ok(motion)
@@ -176,9 +179,7 @@ impl Motion {
     pub fn state(&self) -> Start {
         let drive = self.clock.drive(self.now);
         let (position, velocity) = self.course.at(self.elapsed(), drive);
-        // A motion that was put beyond a surface is not brought back.
-        let begin = self.course.departure.position;
-        let bounding = self.phase().filter(|phase| phase.confine(begin) == begin);
+        let bounding = self.phase().filter(|_| !self.is_put);
         let confine = |phase: &Phase| phase.confine(position);
         Start::new(bounding.map_or(position, confine), velocity)
     }
@@ -271,7 +272,7 @@ impl Motion {
                 self.course = ArcSolution::held(&held(), departure);
             }
         }
-        self.mode = mode;
+        (self.mode, self.is_put) = (mode, false);
         self.outlook = NextEvent::ClearUntil(self.course.start());
     }
 }

@@ -20,20 +20,23 @@ impl Motion {
     }
 
     /// Begins an arc in a state by the law that holds, wherever that is.
-    fn put(&mut self, state: Start) {
+    pub(super) fn put(&mut self, state: Start) {
         let drive = self.clock.drive(self.now);
         let departure = self.departure(state, drive, self.mode, None);
         let is_before_face = |phase: &&Phase| {
             let face = phase.hertz.map(|hertz| hertz.origin);
             face.is_some_and(|face| state.position < face)
         };
-        let Some(phase) = self.phase().filter(is_before_face) else {
-            return self.begin(departure, self.mode, None, None);
-        };
-        // There the power law does not press.
-        let flow = phase.flow;
-        self.course.renew(&flow, departure);
-        self.outlook = NextEvent::ClearUntil(self.course.start());
+        // There a power law does not press.
+        let linear = self.phase().filter(is_before_face).map(|phase| phase.flow);
+        match linear {
+            Some(flow) => {
+                self.course.renew(&flow, departure);
+                self.outlook = NextEvent::ClearUntil(self.course.start());
+            }
+            None => self.begin(departure, self.mode, None, None),
+        }
+        self.is_put = true;
     }
 
     /// Stands before the crossing of a guard that the state has passed already.

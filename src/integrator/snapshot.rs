@@ -54,6 +54,8 @@ struct Moving {
     chatter: Option<Chatter>,
     outlook: NextEvent,
     hum: BounceTrain,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    is_put: bool,
 }
 
 impl Moving {
@@ -71,13 +73,19 @@ impl Moving {
             chatter: motion.course.chatter().copied(),
             outlook: motion.outlook,
             hum: motion.hum,
+            is_put: motion.is_put,
         }
     }
 
     fn motion(&self, scene: &Scene, phases: &Shared<Phases>) -> Result<Motion, MotionError> {
         self.validate(phases)?;
         let clock = Clock::new(scene.excitation.frequency, self.angle);
-        let start = Start::new(self.departure.position, self.departure.velocity);
+        let given = Start::new(self.departure.position, self.departure.velocity);
+        // One that was put there may be beyond a rigid stop.
+        let start = match phases.wall().filter(|_| self.is_put) {
+            Some(wall) => Start::new(given.position.min(wall), given.velocity),
+            None => given,
+        };
         let force = Polynomial::default();
         let fresh = Motion::with(phases.clone(), clock, self.start, start, force, self.fed)?;
         let mut motion = Motion {
@@ -87,7 +95,13 @@ impl Moving {
             hum: self.hum,
             ..fresh
         };
-        motion.begin(self.departure, self.mode, self.finer, self.chatter);
+        if self.is_put {
+            (motion.mode, motion.now) = (self.mode, self.start);
+            motion.put(given);
+            motion.now = self.now;
+        } else {
+            motion.begin(self.departure, self.mode, self.finer, self.chatter);
+        }
         motion.outlook = self.outlook;
         let guards = motion.guards().len();
         if matches!(self.outlook, NextEvent::Crossing(found) if found.guard >= guards) {

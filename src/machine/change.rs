@@ -154,8 +154,7 @@ impl Machine {
                 error.message().replace("field `", "key `stop.")
             ))
         })?;
-        self.untie_missing();
-        Ok(())
+        self.untie_missing()
     }
 }
 

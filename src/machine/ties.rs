@@ -1,6 +1,6 @@
 //! Parameters that follow others by an expression.
 
-use super::{Machine, keys};
+use super::{Machine, UnitSystem, keys};
 use crate::error::MachineError;
 use crate::expression::Expression;
 use crate::scene::Parameter;
@@ -61,11 +61,15 @@ impl Machine {
         Some((tie.key, &tie.text))
     }
 
-    /// A parameter that follows another one, at once or by others.
-    pub fn follower(&self, of: Parameter) -> Option<Parameter> {
-        let follows = |tie: &&Tie| tie.terms.iter().any(|term| term.parameter == of);
-        let tie = self.ties.0.iter().find(follows)?;
-        Some(tie.quantity.parameter)
+    /// The parameters that follow another one, at once or by others.
+    pub fn followers(&self, of: Parameter) -> Vec<Parameter> {
+        let mut found = vec![of];
+        for tie in &self.ties.0 {
+            if tie.terms.iter().any(|term| found.contains(&term.parameter)) {
+                found.push(tie.quantity.parameter);
+            }
+        }
+        found.split_off(1)
     }
 
     /// The parameter of a key that may be changed by itself, and the key's unit, as [`Machine::stated`].
@@ -102,8 +106,13 @@ impl Machine {
             let parameter = self.parameter(key)?;
             self.untie(parameter);
             let otherwise = keys::stated_otherwise(&key.replace('-', "_"));
-            if parameter == Parameter::Preload {
-                self.preload_deflection = otherwise.map(|_| 0.0);
+            match (parameter, otherwise) {
+                (Parameter::Preload, _) => self.preload_deflection = otherwise.map(|_| 0.0),
+                (Parameter::Frequency, Some(_)) => self.unit_system = UnitSystem::Hertz,
+                (Parameter::Frequency, None) if self.unit_system == UnitSystem::Hertz => {
+                    self.unit_system = UnitSystem::Si;
+                }
+                _ => {}
             }
             let quantity = self.quantity(key)?;
             let terms = expression.names().iter().map(|name| {
@@ -129,9 +138,10 @@ impl Machine {
 
     /// Puts a tie after those that it follows and before those that follow it, else in the order of the parameters.
     fn insert(&mut self, tie: Tie) -> Result<(), &'static str> {
-        let mut waiting = std::mem::take(&mut self.ties.0);
+        let mut waiting = self.ties.0.clone();
         waiting.push(tie);
         waiting.sort_by_key(|it| it.quantity.parameter);
+        let mut ordered = Vec::new();
         while !waiting.is_empty() {
             let is_ready = |tie: &Tie| {
                 let mut others = waiting.iter();
@@ -142,9 +152,9 @@ impl Machine {
             };
             let place = waiting.iter().position(is_ready);
             let place = place.ok_or("follows itself, at once or by others")?;
-            let tie = waiting.remove(place);
-            self.ties.0.push(tie);
+            ordered.push(waiting.remove(place));
         }
+        self.ties = Ties(ordered);
         Ok(())
     }
 
@@ -153,13 +163,25 @@ impl Machine {
         self.ties.0.retain(|it| it.quantity.parameter != parameter);
     }
 
-    /// Lets go what this machine has no longer.
-    pub(super) fn untie_missing(&mut self) {
+    /// Forgets the expressions of parameters that this machine has no longer.
+    ///
+    /// # Errors
+    /// [`MachineError::Expression`] if another one follows such a parameter.
+    pub(super) fn untie_missing(&mut self) -> Result<(), MachineError> {
         let scene = &self.scene;
         let has = |it: &Quantity| it.parameter.get(scene).is_some();
-        self.ties
-            .0
-            .retain(|tie| has(&tie.quantity) && tie.terms.iter().all(has));
+        self.ties.0.retain(|tie| has(&tie.quantity));
+        for tie in &self.ties.0 {
+            if let Some(term) = tie.terms.iter().find(|term| !has(term)) {
+                return Err(MachineError::Expression {
+                    line: None,
+                    key: tie.key.to_owned(),
+                    text: tie.text.clone(),
+                    what: format!("this stop has no {}", term.parameter.name()),
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Sets all parameters that follow others.
@@ -177,12 +199,14 @@ impl Machine {
         }
     }
 
+    /// The quantity of a key; the preload has both names, whichever of them states it.
     fn quantity(&self, key: &str) -> Result<Quantity, MachineError> {
-        if keys::stated_otherwise(&key.replace('-', "_")) == Some(Parameter::Preload) {
-            let parameter = self.parameter(key)?;
+        let parameter = self.parameter(key)?;
+        if parameter == Parameter::Preload {
+            let otherwise = keys::stated_otherwise(&key.replace('-', "_"));
             return Ok(Quantity {
                 parameter,
-                unit: None,
+                unit: otherwise.is_none().then_some(1.0),
             });
         }
         let (parameter, unit) = self.stated(key)?;

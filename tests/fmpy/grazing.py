@@ -11,7 +11,7 @@ import fmpy
 import numpy as np
 from fmpy.fmi2 import FMU2Model
 from fmpy.fmi3 import FMU3Model
-from packages import TOP, package_3
+from packages import TOP
 from scipy.optimize import minimize_scalar
 
 UPDATES = {"2.0": (FMU2Model, "newDiscreteStates"), "3.0": (FMU3Model, "updateDiscreteStates")}
@@ -94,7 +94,7 @@ def missed(path, number, tolerance):
 
 if __name__ == "__main__":
     count = int(sys.argv[1])
-    for unit in [TOP / "softstop.fmu", package_3(TOP / "softstop.fmu", "softstop")]:
+    for unit in [TOP / "softstop-exchange.fmu", TOP / "softstop-fmi3.fmu"]:
         for given in (1e-5, 1e-8):
             none, without, other = missed(str(unit), count, given)
             print(f"{unit}, {count} machines, tolerance {given:g}: {none} missed, {other} not as in co-simulation; "

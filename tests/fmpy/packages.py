@@ -14,6 +14,12 @@ def package(path, name):
     return str(beside if beside.exists() else TOP / f"{name}.fmu")
 
 
+def package_exchange(path):
+    """The press for FMI 2.0 that tells of model exchange, too."""
+    beside = pathlib.Path(path).parent / "softstop-exchange.fmu"
+    return str(beside if beside.exists() else TOP / "softstop-exchange.fmu")
+
+
 def package_3(path, name):
     """The unit for FMI 3.0, beside the one for FMI 2.0 or at the top."""
     beside = pathlib.Path(path).parent / f"{name}-fmi3.fmu"

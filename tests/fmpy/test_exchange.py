@@ -4,10 +4,9 @@ import fmpy
 import numpy as np
 import pytest
 from conftest import UNLOADED
-from fmpy.fmi2 import FMU2Model
-from fmpy.fmi3 import FMU3Model
+from fmpy.validation import validate_fmu
 from grazing import missed
-from packages import package_3
+from packages import package_3, package_exchange
 
 GEOMETRY = {"piercing.thickness": 0.0, "piercing.travel": 0.0}
 MACHINES = {  # values, and how far CVODE may be off at a tolerance of 1e-8
@@ -30,7 +29,7 @@ EXACT = ["impact.count", "pierce.count", "impact.time", "impact.velocity"]
 
 @pytest.fixture(params=["2.0", "3.0"])
 def unit(request, path):
-    return path if request.param == "2.0" else package_3(path, "softstop")
+    return package_exchange(path) if request.param == "2.0" else package_3(path, "softstop")
 
 
 def simulated(unit, values, fmi_type, **options):
@@ -43,6 +42,24 @@ def at_the_same_times(rows, others):
     last = {round(time, 9): number for number, time in enumerate(rows["time"])}
     pairs = [(last[round(time, 9)], number) for number, time in enumerate(others["time"]) if round(time, 9) in last]
     return rows[[one for one, _ in pairs]], others[[other for _, other in pairs]]
+
+
+def test_validation_finds_nothing(unit):
+    assert validate_fmu(unit) == []
+
+
+def test_states_are_told_in_both_standards(path):
+    two, three = (fmpy.read_model_description(of) for of in (package_exchange(path), package_3(path, "softstop")))
+    assert two.guid != three.guid == fmpy.read_model_description(path).guid
+    assert two.numberOfEventIndicators == three.numberOfEventIndicators == 3
+
+    def listed(of):
+        return [(u.variable.name, u.variable.derivative.name, {d.name for d in u.dependencies})
+                for u in of.derivatives]
+
+    forces = {"force", "base.acceleration", "drive.amplitude"}
+    assert listed(two) == listed(three) == [
+        ("velocity", "position", {"velocity"}), ("acceleration", "velocity", forces | {"position", "velocity"})]
 
 
 @pytest.mark.parametrize("machine", MACHINES)

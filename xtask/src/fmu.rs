@@ -128,13 +128,18 @@ fn host_library(artifact: Artifact) -> Result<Library> {
 }
 
 fn write<U: Unit>(standard: Standard, libraries: &[Library]) -> Result<()> {
-    let path = place(U::about().identifier, standard, "fmu");
-    package::write(
-        &path,
-        &Imprint::<U>::library().with_standard(standard),
-        libraries,
-    )?;
-    say(&path)
+    let identifier = U::about().identifier;
+    let path = place(identifier, standard, "fmu");
+    let imprint = Imprint::<U>::library().with_standard(standard);
+    package::write(&path, &imprint, libraries)?;
+    say(&path)?;
+    let with_exchange = imprint.clone().with_exchange(true);
+    if with_exchange.has_exchange() != imprint.has_exchange() {
+        let path = top().join(format!("{identifier}-exchange.fmu"));
+        package::write(&path, &with_exchange, libraries)?;
+        say(&path)?;
+    }
+    Ok(())
 }
 
 /// Where a unit or the machine is written.

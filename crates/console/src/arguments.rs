@@ -120,13 +120,22 @@ impl MachineArguments {
         flag: &str,
         name: &str,
     ) -> Result<(Parameter, f64), Failure> {
+        let refused = |error| Failure::usage(format!("--{flag} {name}: {error}"));
         let own = (machine.scene.stiffness / machine.scene.mass).sqrt();
-        if name == "eta" && machine.unit_system != UnitSystem::Ratios && own > 0.0 {
-            let frequency = Parameter::Frequency;
-            return Ok((frequency, machine.to_own(frequency.about().dimension, own)));
+        if name != "eta" || machine.unit_system == UnitSystem::Ratios || own == 0.0 {
+            return machine.free(name).map_err(refused);
         }
-        let found = machine.free(name);
-        found.map_err(|error| Failure::usage(format!("--{flag} {name}: {error}")))
+        let key = Parameter::Frequency.name();
+        let (frequency, _) = machine.free(key).map_err(refused)?;
+        let followers = machine.followers(frequency);
+        if [Parameter::Mass, Parameter::Suspension]
+            .iter()
+            .any(|it| followers.contains(it))
+        {
+            let what = format!("its unit sqrt(k1/m) follows {key} here; say {key}");
+            return Err(Failure::usage(format!("--{flag} {name}: {what}")));
+        }
+        Ok((frequency, machine.to_own(frequency.about().dimension, own)))
     }
 
     /// The keys that the command line states.
@@ -144,7 +153,7 @@ impl MachineArguments {
 /// # Errors
 /// [`Failure::Usage`] naming what follows.
 pub fn refuse_followers_of_frequency(machine: &Machine) -> Result<(), Failure> {
-    let Some(follower) = machine.follower(Parameter::Frequency) else {
+    let Some(follower) = machine.followers(Parameter::Frequency).first().copied() else {
         return Ok(());
     };
     let name = machine.name(follower);
@@ -159,7 +168,7 @@ fn of_start(key: &str) -> Option<&str> {
     key.strip_prefix("initial.").or(key.strip_prefix("start."))
 }
 
-/// The machine in a few words: its name, and the paper's ratios if it speaks them.
+/// The machine in a few words: its name, and the paper's ratios if it is stated in them.
 pub fn title(machine: &Machine) -> String {
     let name = machine.name.as_deref().unwrap_or("machine");
     let scene = &machine.scene;

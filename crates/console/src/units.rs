@@ -15,7 +15,7 @@ pub enum Unit {
     Own(Dimension),
 }
 
-/// The signs of the units that a machine speaks; empty where its numbers are ratios.
+/// The signs of the units that a machine is stated in; empty where its numbers are ratios.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Units(UnitSystem);
 
@@ -23,7 +23,7 @@ impl Units {
     /// Of a machine in SI units.
     pub const SI: Self = Self(UnitSystem::Si);
 
-    /// Those that a machine speaks.
+    /// Those that a machine is stated in.
     pub const fn of(machine: &Machine) -> Self {
         Self(machine.unit_system)
     }

@@ -8,7 +8,7 @@ use quick_xml::Writer;
 use quick_xml::escape::escape;
 use quick_xml::events::BytesText;
 
-use crate::description::{capabilities, start_value};
+use crate::description::{capabilities, rows_told, start_value};
 use crate::imprint::Imprint;
 use crate::standard::Standard;
 use crate::unit::{Row, Unit};
@@ -107,7 +107,7 @@ fn variables<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
             "Meaning",
         ];
         cells(html, "th", &head)?;
-        let mut variables = U::about().table.rows();
+        let mut variables = rows_told::<U>(imprint.has_exchange());
         variables.try_for_each(|variable| row(html, variable, imprint))
     })
 }

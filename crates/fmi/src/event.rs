@@ -154,6 +154,8 @@ impl<U: Unit> Instance<U> {
         Ok(Iteration {
             next: self.settle()?.next_event(),
             has_new_states: false,
+            has_new_nominals: false,
+            is_unfinished: false,
         })
     }
 }

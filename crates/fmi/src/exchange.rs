@@ -24,8 +24,11 @@ const MOST_TOGETHER: u32 = 10_000;
 pub(crate) struct Iteration {
     /// When the next event comes, in s.
     pub next: Option<f64>,
-    /// States are others than before.
+    /// States, or what is much of them, are others than before.
     pub has_new_states: bool,
+    pub has_new_nominals: bool,
+    /// More events are due.
+    pub is_unfinished: bool,
 }
 
 /// The time from which on an importer that stands at `time` in s can tell another one.
@@ -113,15 +116,12 @@ impl<U: Unit> Instance<U> {
     /// Reads what is much of each state.
     pub(crate) fn get_nominals(&self, nominals: &mut [f64]) -> Result<(), Fault> {
         check_states::<U>(nominals.len())?;
-        let fresh;
-        let unit = match &self.unit {
-            Some(unit) => unit,
+        match &self.exchange {
+            Some(exchange) => nominals.copy_from_slice(&exchange.nominals),
             None => {
-                fresh = U::begin(&self.values, self.time())?;
-                &fresh
+                nominals.copy_from_slice(&U::begin(&self.values, self.time())?.nominals());
             }
-        };
-        nominals.copy_from_slice(&unit.nominals());
+        }
         Ok(())
     }
 
@@ -205,8 +205,12 @@ impl<U: Unit> Instance<U> {
         if due.is_none() && time <= unit.time() {
             return Ok(false);
         }
-        let until = due.unwrap_or(time).max(unit.time());
-        match unit.approach(until, until, events)? {
+        // One that is due is the first from here on.
+        let (until, halt) = match due {
+            Some(next) => (end_of_present(next.max(unit.time())), unit.time()),
+            None => (time, time),
+        };
+        match unit.approach(until, halt, events)? {
             Advance::Event => Ok(true),
             Advance::Arrived => Ok(due.is_some()),
             Advance::Short { reason, .. } => Err(Fault::Unit(reason.into())),
@@ -226,27 +230,41 @@ impl<U: Unit> Instance<U> {
                 break;
             }
         }
+        let (is_unfinished, next) = (self.awaits, self.go_on_from_event()?);
+        let exchange = self.exchange(&[Lifecycle::Event])?;
+        exchange.told = next;
+        let nominals = exchange.own.nominals();
+        let has_new_nominals = nominals != exchange.nominals;
+        exchange.nominals = nominals;
+        Ok(Iteration {
+            next,
+            has_new_states: exchange.states != before,
+            has_new_nominals,
+            is_unfinished,
+        })
+    }
+
+    /// Lets the unit's own motion begin where the unit is; when its next event comes.
+    fn go_on_from_event(&mut self) -> Result<Option<f64>, Fault> {
         let own = self.settle()?.clone();
-        let next = own.next_event();
-        let states = states_of(&own);
-        let has_new_states = states != before;
+        let (next, states) = (own.next_event(), states_of(&own));
         if let Some(exchange) = self.exchange.as_deref_mut() {
-            (exchange.states, exchange.own) = (states, own);
-            (exchange.next, exchange.told) = (next, next);
+            (exchange.own, exchange.states, exchange.next) = (own, states, next);
             exchange.inputs.clone_from(&self.signals);
             exchange.is_shown = false;
         }
-        Ok(Iteration {
-            next,
-            has_new_states,
-        })
+        Ok(next)
     }
 
     /// Leaves event mode for continuous-time mode.
     pub(crate) fn enter_continuous_time_mode(&mut self) -> Result<(), Fault> {
         let exchange = self.exchange(&[Lifecycle::Event])?;
         exchange.completed = exchange.time;
+        let is_changed = self.tuned || self.signals.iter().any(|signal| signal.pending);
         self.leave_event_mode()?;
+        if is_changed {
+            self.go_on_from_event()?;
+        }
         self.lifecycle = Lifecycle::Continuous;
         Ok(())
     }

@@ -15,6 +15,7 @@ pub struct Imprint<U> {
     description: String,
     values: Vec<f64>,
     standard: Standard,
+    exchange: bool,
     unit: PhantomData<U>,
 }
 
@@ -39,6 +40,7 @@ impl<U: Unit> Imprint<U> {
             description: block.description(),
             values: block.values(),
             standard: Standard::default(),
+            exchange: false,
             unit: PhantomData,
         }
     }
@@ -79,6 +81,19 @@ impl<U: Unit> Imprint<U> {
     #[must_use]
     pub fn with_standard(self, standard: Standard) -> Self {
         Self { standard, ..self }
+    }
+
+    /// The imprint for an FMU that tells of model exchange by FMI 2.0, too: importers that find both interface types may then
+    /// integrate by themselves. One for FMI 3.0 always tells of it.
+    #[must_use]
+    pub fn with_exchange(self, exchange: bool) -> Self {
+        Self { exchange, ..self }
+    }
+
+    /// Whether the FMU tells of model exchange.
+    pub fn has_exchange(&self) -> bool {
+        let is_told = self.exchange || self.standard == Standard::Fmi3;
+        is_told && U::about().state_space.is_some()
     }
 
     /// The standard that the FMU is packed by.

@@ -6,7 +6,7 @@ use crate::signal::Signal;
 use crate::unit::{Events, State, StateSpace, Unit};
 
 /// Share of its nominal value by which a state that an importer has integrated may miss the unit's own motion.
-const AGREEMENT: f64 = 1e-2;
+const AGREEMENT: f64 = 0.1;
 
 /// What the importer has set since the last event.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -24,6 +24,8 @@ pub(crate) struct Exchange<U> {
     /// When the next event comes, and when it does as the importer knows.
     pub(crate) next: Option<f64>,
     pub(crate) told: Option<f64>,
+    /// What is much of each state, as the importer knows.
+    pub(crate) nominals: Vec<f64>,
     /// The instance's unit is as these states say.
     pub(crate) is_shown: bool,
 }
@@ -54,7 +56,7 @@ pub(crate) fn derivatives_of<U: Unit>(unit: &U) -> Vec<f64> {
 impl<U: Unit> Exchange<U> {
     /// What an importer begins with.
     pub(crate) fn new(own: U, inputs: Vec<Signal>) -> Self {
-        let (time, states) = (own.time(), states_of(&own));
+        let (time, states, nominals) = (own.time(), states_of(&own), own.nominals());
         Self {
             own,
             inputs,
@@ -64,6 +66,7 @@ impl<U: Unit> Exchange<U> {
             completed: time,
             next: None,
             told: None,
+            nominals,
             is_shown: true,
         }
     }

@@ -61,7 +61,7 @@ impl Arc<'_> {
         }
     }
 
-    /// The same, tightened by Taylor's formula about the middle of the interval.
+    /// The motion at any time of an interval after the start, by Taylor's formula about its middle: tighter than [`Arc::at`].
     fn over(&self, elapsed: Interval) -> Jet {
         let middle = Interval::point(elapsed.middle());
         let (rough, center) = (self.at(elapsed), self.at(middle));
@@ -166,6 +166,17 @@ impl Enclosed<'_> {
         watched.collect()
     }
 
+    /// True if the guard of an event stays zero as the velocity jumps, and has no slope where it is touched: a guard of the
+    /// position alone.
+    fn keeps_its_guard(&self, index: usize) -> bool {
+        let guard = self.motion.guard(index);
+        match self.motion.events[index].event {
+            Kind::Crossing => guard.factor == 1.0 || guard.velocity == 0.0,
+            Kind::Touch => guard.velocity == 0.0,
+            Kind::Section => true,
+        }
+    }
+
     fn division(&self, index: usize) -> Result<Vec<f64>, ProofError> {
         let (end, _, elapsed) = self.end(index);
         let next = match end.event {
@@ -174,6 +185,9 @@ impl Enclosed<'_> {
         };
         if !next || !elapsed.is_positive() {
             return Err(ProofError::Sequence { arc: index });
+        }
+        if !self.keeps_its_guard(index) {
+            return Err(ProofError::NotClear { arc: index });
         }
         let (arc, watched) = (self.arc(index), self.watched(index));
         let longest = elapsed.high();

@@ -20,9 +20,9 @@ pub enum Claim {
     Orbit,
     /// That it ends in a fold at a frequency near its machine's own.
     Fold,
-    /// The same of a flip.
+    /// That it doubles its period in a flip at a frequency near its machine's own.
     Flip,
-    /// The same of a grazing.
+    /// That it touches a surface at a frequency near its machine's own.
     Grazing(Touch),
 }
 
@@ -132,6 +132,9 @@ impl Certificate {
         }
         let divisions = enclosed.divisions()?;
         let (trace, determinant) = enclosed.monodromy();
+        if !trace.is_bounded() || !determinant.is_bounded() {
+            return Err(ProofError::Unbounded);
+        }
         let events = motion.events.iter().zip(divisions);
         let events = events.map(|(event, division)| ProvenEvent {
             event: *event,

@@ -31,7 +31,7 @@ const LN_2: Constant = Constant {
     ),
 };
 /// Multiples of a constant up to which they are exact: 2^20.
-const MOST_MULTIPLES: f64 = 1_048_576.0;
+const MAX_MULTIPLES: f64 = 1_048_576.0;
 /// Terms of each series: 1/22! and 1/21! are below 1e-19.
 const TERMS: u32 = 10;
 
@@ -43,7 +43,7 @@ impl Constant {
     /// A whole number k and x - k c.
     fn reduce(&self, x: f64) -> Option<(f64, Interval)> {
         let multiple = (x / self.high).round();
-        if multiple.is_nan() || multiple.abs() >= MOST_MULTIPLES {
+        if multiple.is_nan() || multiple.abs() >= MAX_MULTIPLES {
             return None;
         }
         let k = Interval::point(multiple);
@@ -57,11 +57,14 @@ pub fn full_turn() -> Interval {
     HALF_PI.interval() * Interval::point(4.0)
 }
 
-/// Enclosures of cos(sqrt(z)) and sin(sqrt(z))/sqrt(z) for |z| <= 1, of either sign: entire functions of z.
+/// Enclosures of cos(sqrt(z)) and sin(sqrt(z))/sqrt(z) for |z| <= 1, of either sign: entire functions of z. The whole line
+/// for any other z.
 ///
 /// Their series are sum (-z)^n/(2n)! and sum (-z)^n/(2n + 1)!; the tail from n = 11 on is less than twice its first term.
 pub fn even_series(z: Interval) -> (Interval, Interval) {
-    debug_assert!(z.magnitude() <= 1.0);
+    if z.magnitude() > 1.0 {
+        return (Interval::WHOLE, Interval::WHOLE);
+    }
     let horner = |offset: u32| {
         (1..=TERMS).rev().fold(Interval::ONE, |sum, n| {
             let factor = f64::from((2 * n + offset) * (2 * n + offset - 1));

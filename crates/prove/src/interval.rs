@@ -90,17 +90,20 @@ impl Interval {
         high: f64::INFINITY,
     };
 
-    /// One double.
+    /// One double; the whole line if it is not finite.
     pub const fn point(value: f64) -> Self {
+        if !value.is_finite() {
+            return Self::WHOLE;
+        }
         Self {
             low: value,
             high: value,
         }
     }
 
-    /// From `low` to `high`; the whole line if they are not in this order.
+    /// From `low` to `high`; the whole line if no number lies between them.
     pub fn new(low: f64, high: f64) -> Self {
-        if low <= high {
+        if low <= high && low < f64::INFINITY && high > f64::NEG_INFINITY {
             Self { low, high }
         } else {
             Self::WHOLE
@@ -122,7 +125,7 @@ impl Interval {
         self.high
     }
 
-    /// A double inside, near the middle.
+    /// A double inside, near the middle, of an interval with bounds.
     pub fn middle(self) -> f64 {
         (0.5 * self.low + 0.5 * self.high).clamp(self.low, self.high)
     }
@@ -145,6 +148,11 @@ impl Interval {
     /// True if all of it is below zero.
     pub fn is_negative(self) -> bool {
         self.high < 0.0
+    }
+
+    /// True if both bounds are finite.
+    pub fn is_bounded(self) -> bool {
+        self.low.is_finite() && self.high.is_finite()
     }
 
     /// True if it holds a number.

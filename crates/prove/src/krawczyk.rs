@@ -15,7 +15,7 @@ use crate::number::Gradient;
 pub trait Equations {
     /// What is left of them at intervals of the unknowns.
     fn values(&self, unknowns: &[Interval]) -> Vec<Interval>;
-    /// The same with derivatives.
+    /// What is left of them, with its derivatives by the unknowns.
     fn gradients(&self, unknowns: &[Gradient]) -> Vec<Gradient>;
 }
 
@@ -29,11 +29,11 @@ pub struct Zero {
 }
 
 /// Newton steps at most: the start may be good to a few digits only.
-const MOST_STEPS: usize = 30;
+const MAX_STEPS: usize = 30;
 /// Step, in units of 1 + |unknown|, from which on steps that no longer halve are rounding.
 const SETTLED: f64 = 1e-8;
 /// Tightenings at most of an enclosure.
-const MOST_TIGHTENINGS: usize = 20;
+const MAX_TIGHTENINGS: usize = 20;
 /// Size of an unknown, in units of the largest one, below which boxes are no narrower.
 const SMALLEST: f64 = 1e-3;
 /// Largest and smallest relative radius tried for a box without another zero.
@@ -128,7 +128,7 @@ fn is_inside(inner: &[Interval], outer: &[Interval]) -> bool {
 pub fn approximate(equations: &impl Equations, guess: &[f64]) -> Option<Vec<f64>> {
     let mut at = DVector::from_column_slice(guess);
     let mut last = f64::INFINITY;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let rows = jacobian(equations, &points(at.as_slice()));
         let values = DVector::from_iterator(rows.len(), rows.iter().map(|it| it.value.middle()));
         let step = middles(&rows).lu().solve(&values)?;
@@ -185,7 +185,7 @@ fn enclose<E: Equations>(test: &Test<'_, E>, near: &[f64]) -> Option<Vec<Interva
         pairs.map(wider).collect()
     };
     let mut within = around(&test.image(&points(near)));
-    for _ in 0..MOST_TIGHTENINGS {
+    for _ in 0..MAX_TIGHTENINGS {
         let image = test.image(&within);
         if is_inside(&image, &within) {
             return Some(tighten(test, image));
@@ -197,7 +197,7 @@ fn enclose<E: Equations>(test: &Test<'_, E>, near: &[f64]) -> Option<Vec<Interva
 
 /// A box that holds a zero, made smaller as long as its image is.
 fn tighten<E: Equations>(test: &Test<'_, E>, mut within: Vec<Interval>) -> Vec<Interval> {
-    for _ in 0..MOST_TIGHTENINGS {
+    for _ in 0..MAX_TIGHTENINGS {
         let image = test.image(&within);
         let pairs = within.iter().zip(&image);
         let smaller: Option<Vec<_>> = pairs.map(|(a, b)| a.intersection(*b)).collect();

@@ -2,7 +2,7 @@
 //! cross nothing but what their sequence says; and of their folds, flips and grazings.
 //!
 //! [`Certificate::new`] takes a motion that floating point has found. [`motion`] writes it from event to event: the unknowns
-//! are drive angle and velocity of each event, the equations are the closed forms of the arcs between. [`krawczyk`] proves a
+//! are drive angle, position and velocity of each event, the equations are the closed forms of the arcs between. [`krawczyk`] proves a
 //! zero of these in [`interval`] arithmetic, [`arcs`] that the arcs end where the sequence says.
 #![forbid(unsafe_code)]
 
@@ -51,6 +51,9 @@ pub enum ProofError {
         /// The arc, counted from 0.
         arc: usize,
     },
+    /// Trace or determinant of the monodromy matrix have no bounds.
+    #[error("no proof: trace and determinant of the monodromy matrix have no bounds")]
+    Unbounded,
     /// The motion cannot be computed.
     #[error(transparent)]
     Motion(#[from] MotionError),

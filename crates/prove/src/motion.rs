@@ -71,7 +71,8 @@ pub enum Problem {
         /// The index of the component.
         pinned: usize,
     },
-    /// The same with the multiplier -1 and a tangent carried into its opposite.
+    /// The motion and the frequency at which a multiplier is -1, with the tangent that a period carries into its opposite; one
+    /// component of the tangent is 1.
     Flip {
         /// The index of the component.
         pinned: usize,
@@ -86,8 +87,12 @@ impl Motion {
         crossings.filter(|it| self.guard(*it).impact).count()
     }
 
-    /// True if no event may be the first one, whole drive periods later, before the period is over.
+    /// True if no event may be the first one, whole drive periods later, before the period is over. A section may be at every
+    /// drive period: a motion with one is proven for a single period alone.
     pub fn has_no_shorter_period(&self, unknowns: &[Interval]) -> bool {
+        if self.events.iter().any(|it| it.event == Kind::Section) {
+            return self.periods == 1;
+        }
         let angles = unknowns.iter().step_by(UNKNOWNS);
         let apart = |angle: &Interval, periods: u64| {
             let turns = full_turn() * Interval::point(periods as f64);

@@ -24,7 +24,7 @@ pub trait Number:
     fn constant(value: f64) -> Self {
         Self::from(Interval::point(value))
     }
-    /// The same number times a constant.
+    /// A multiple of this number.
     fn times(&self, factor: impl Into<Interval>) -> Self {
         self.clone() * Self::from(factor.into())
     }

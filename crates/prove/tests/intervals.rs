@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use softstop_prove::Interval;
-use softstop_prove::elementary::full_turn;
+use softstop_prove::elementary::{even_series, full_turn};
 use softstop_prove::number::{Decay, Dual, Number};
 use softstop_testing::random::cases;
 
@@ -66,14 +66,28 @@ proptest! {
             (x.sin_cos().1, point(u).sin_cos().1),
         ];
         for (outer, inner) in held {
-            // The same number, enclosed twice.
-            prop_assert!(outer.intersection(inner).is_some(), "{:?} {:?}", outer, inner);
-            prop_assert!(outer.high() >= inner.low() && outer.low() <= inner.high());
+            prop_assert!(outer.contains(inner.middle()), "{:?} {:?}", outer, inner);
         }
         if !y.contains(0.0) {
-            prop_assert!((x / y).intersection(point(u) / point(v)).is_some());
+            prop_assert!((x / y).contains((point(u) / point(v)).middle()));
         }
     }
+}
+
+/// What is not finite is no number: nothing is known of it.
+#[test]
+fn what_is_not_finite_is_the_whole_line() {
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let cases = [
+            point(value),
+            Interval::from(value),
+            Interval::new(value, value),
+            Interval::around(value, 1.0),
+        ];
+        assert_eq!(cases, [Interval::WHOLE; 4]);
+        assert!(!point(value).is_bounded());
+    }
+    assert_eq!(even_series(point(-2.0)), (Interval::WHOLE, Interval::WHOLE));
 }
 
 /// An argument with the doubles on both sides of its sine, cosine and exponential.

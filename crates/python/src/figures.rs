@@ -90,7 +90,8 @@ impl Own<'_> {
 /// What changes of all parameters, in SI units, as a key of the machine goes on by one of its own units.
 type Direction = Vec<(Parameter, f64)>;
 
-/// All parameters are linear in each key, so a difference is the derivative; what follows others by expressions is smooth.
+/// All parameters are linear in each key, so a difference is the derivative; where some follow others by expressions, a small
+/// central one is, to its square.
 fn direction(machine: &Stated, key: &str) -> PyResult<Direction> {
     let (parameter, factor) = machine.free(key).map_err(|error| of_machine(&error))?;
     let value = machine.value(parameter).unwrap_or(0.0);

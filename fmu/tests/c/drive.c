@@ -19,7 +19,7 @@ static void versions(void)
 static void refused_instances(void)
 {
     CHECK(!fmi2.Instantiate("unit", fmi2CoSimulation, "{other}", NULL, NULL, fmi2False, fmi2True));
-    CHECK(!fmi2.Instantiate("unit", (fmi2Type)2, own_guid(), NULL, NULL, fmi2False, fmi2True));
+    CHECK(!fmi2.Instantiate("unit", fmi2ModelExchange, own_guid(), NULL, NULL, fmi2False, fmi2True));
     CHECK(!fmi2.Instantiate(NULL, fmi2CoSimulation, own_guid(), NULL, NULL, fmi2False, fmi2True));
     fmi2Component silent =
         fmi2.Instantiate("unit", fmi2CoSimulation, own_guid(), "file:///", NULL, fmi2False, fmi2True);

@@ -194,7 +194,7 @@ fn birth() -> impl Strategy<Value = Call> {
         4 => Just(Birth::LoggingOn),
         2 => select(vec![Birth::NoCallbacks, Birth::NoLogger]),
         1 => select(vec![Birth::NullName, Birth::EmptyName, Birth::NullGuid, Birth::OtherGuid]),
-        1 => select(vec![Birth::Kind(2), Birth::Kind(-1), Birth::Kind(c_int::MAX)]),
+        1 => select(vec![Birth::Kind(0), Birth::Kind(2), Birth::Kind(-1), Birth::Kind(c_int::MAX)]),
     ]
     .prop_map(Call::Instantiate)
 }

@@ -53,6 +53,14 @@ impl Integrator {
         derivatives
     }
 
+    fn nominals(&self) -> States {
+        let mut nominals = [f64::NAN; 2];
+        let place = nominals.as_mut_ptr();
+        // SAFETY: a place for two numbers.
+        self.check(unsafe { fmi3GetNominalsOfContinuousStates(self.unit.instance, place, 2) });
+        nominals
+    }
+
     fn indicators(&self) -> [f64; 3] {
         let mut indicators = [f64::NAN; 3];
         let place = indicators.as_mut_ptr();
@@ -258,7 +266,8 @@ fn what_is_set_in_event_mode_is_predicted_as_in_co_simulation() {
             (OK, OK)
         );
         importer.leave_event_mode();
-        let next = unit.update();
+        let (next, [length, _]) = (unit.update(), importer.nominals());
+        assert!(length >= importer.states()[0].abs() && length < 100.0);
         assert_eq!(importer.next, next, "{name}");
         let at = next.expect("an event");
         importer.run(at, 0.01);
@@ -269,6 +278,23 @@ fn what_is_set_in_event_mode_is_predicted_as_in_co_simulation() {
         let states = ["position", "velocity"].map(|name| unit.get(name));
         assert_eq!(importer.states(), states, "{name}");
     }
+}
+
+#[test]
+fn what_is_set_after_the_update_holds_as_well() {
+    let mut importer = Integrator::begun(&[]);
+    importer.run(2.0, 0.01);
+    importer.enter_event_mode();
+    importer.unit.update();
+    assert_eq!(importer.unit.set("force", 0.5), OK);
+    // SAFETY: the instance is alive.
+    importer.check(unsafe { fmi3EnterContinuousTimeMode(importer.unit.instance) });
+    importer.run(2.5, 0.01);
+    let states = importer.states();
+    importer.enter_event_mode();
+    importer.leave_event_mode();
+    let missed = (importer.states()[0] - states[0]).abs();
+    assert!(missed > 0.0 && missed < 1e-8, "{missed}");
 }
 
 #[test]
@@ -330,15 +356,26 @@ fn the_unit_goes_on_from_states_that_are_not_its_own() {
 
 #[test]
 fn a_kept_state_leads_on_bit_for_bit() {
-    let (mut one, mut other) = (Integrator::begun(&[]), Integrator::begun(&[]));
-    one.run(2.0, 0.01);
-    one.step(0.01);
-    let mut state = std::ptr::null_mut();
-    // SAFETY: both are alive; the state is freed once.
+    let (mut one, mut other) = (Integrator::begun(&RESTING), Integrator::begun(&RESTING));
+    one.run(0.6, 0.01);
+    // Beyond the rigid stop, where an integrator may try a step.
+    one.put(one.time, [-0.5 + 1e-4, one.states()[1]]);
+    assert_eq!(one.unit.get("position"), -0.5 + 1e-4);
+    let (mut state, mut copy, mut size) = (std::ptr::null_mut(), std::ptr::null_mut(), 0);
+    // SAFETY: both are alive, places as long as is said; each state is freed once.
     unsafe {
         one.check(fmi3GetFMUState(one.unit.instance, &raw mut state));
-        other.check(fmi3SetFMUState(other.unit.instance, state));
-        one.check(fmi3FreeFMUState(one.unit.instance, &raw mut state));
+        let measured = fmi3SerializedFMUStateSize(one.unit.instance, state, &raw mut size);
+        one.check(measured);
+        let mut bytes = vec![0u8; size];
+        let place = bytes.as_mut_ptr();
+        one.check(fmi3SerializeFMUState(one.unit.instance, state, place, size));
+        let copied = fmi3DeserializeFMUState(other.unit.instance, place, size, &raw mut copy);
+        other.check(copied);
+        other.check(fmi3SetFMUState(other.unit.instance, copy));
+        for state in [&raw mut state, &raw mut copy] {
+            one.check(fmi3FreeFMUState(one.unit.instance, state));
+        }
     }
     (other.time, other.next) = (one.time, one.next);
     assert_eq!(one.unit.everything(), other.unit.everything());

@@ -257,8 +257,8 @@ impl Unit {
         // SAFETY: places for the answers.
         let status =
             unsafe { fmi3UpdateDiscreteStates(self.instance, a, b, c, d, defined, &raw mut time) };
-        assert!(status != OK || flags[..3] == [0; 3]);
-        assert!(status != OK || self.is_for_exchange || flags[3] == 0);
+        assert!(status != OK || flags[..2] == [0; 2]);
+        assert!(status != OK || self.is_for_exchange || flags[2..4] == [0; 2]);
         (status, (flags[4] == 1).then_some(time), flags[3] == 1)
     }
 

@@ -31,8 +31,9 @@ pub(super) struct Linearization<'a> {
 }
 
 /// Change of a parameter, as a share of its range, by which what follows it is told: links are linear in what they
-/// follow, or its product with one more parameter; expressions are smooth.
+/// follow, or its product with one more parameter.
 const CHANGE: f64 = 1e-2;
+/// Change by which what follows others by expressions is told: central differences of smooth ones are off by its square.
 const SMALL_CHANGE: f64 = 1e-5;
 
 impl<'a> Linearization<'a> {

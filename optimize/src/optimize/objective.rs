@@ -188,7 +188,7 @@ pub(super) fn lacks(machine: &Machine, goal: &Goal, figure: Figure) -> Option<St
         Figure::DriveForce
             if Parameter::Amplitude.is_unit() && machine.value(Parameter::Amplitude).is_none() =>
         {
-            Some("drive amplitude of its own: it unit_system ratios, whose unit of force is F0")
+            Some("drive amplitude of its own: it is stated in ratios, whose unit of force is F0")
         }
         _ => None,
     };

@@ -28,7 +28,7 @@ impl Reference {
     }
 }
 
-/// The references of a machine: both points of the paper for one that speaks its ratios, otherwise the
+/// The references of a machine: both points of the paper for one that is stated in its ratios, otherwise the
 /// machine itself, if it has a stable z = 1 motion as it is.
 pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
     if machine.ratios().is_none() {

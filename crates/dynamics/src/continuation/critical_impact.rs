@@ -16,7 +16,8 @@ use super::period_map::carry_on;
 use super::shooting::{TEST_TOLERANCE, round_off};
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError, PassageRecorder};
-use softstop::{Clock, Crossing, CrossingKind, MotionError, Observer, Parameter, Scene, Start};
+use softstop::internals::Phase;
+use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start};
 
 /// Orbits on which a test vanishes, in unknowns: drive angle of their slowest impact, its velocity and the parameters,
 /// scaled.
@@ -58,12 +59,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
             return Ok(None);
         };
         let face = Face::at(&scene, entry.position);
-        let serves = |face: &Face| match face {
-            Face::Clearance => scene.piercing.is_none() && !face.is_gentle(&scene),
-            Face::Pierced => false,
-            Face::Stop | Face::Wall => true,
-        };
-        let Some(face) = face.filter(serves) else {
+        let Some(face) = face.filter(|face| face.is_steep(&scene)) else {
             return Ok(None);
         };
         let is_told = matches!(entry.kind, CrossingKind::Rebound { .. });
@@ -126,11 +122,11 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
         }
         let (scene, position) = self.section.scene(at[0], self.parameters(at))?;
         let begin = Vector2::new(position, velocity);
-        let (drift, around) = self.section.around::<PassageRecorder>(&scene, begin)?;
+        let (drift, around) = self.section.around::<PassageAndLaws>(&scene, begin)?;
+        let entry = around.seen.entry(&scene, begin);
         let PassageRecorder {
             tangent, impacts, ..
-        } = around.seen;
-        let entry = entry(&scene, begin);
+        } = around.seen.passage;
         let is_impact = entry.is_some() && self.section.face == Face::Clearance;
         let told = impacts.iter().map(|it| it.before_impact_velocity);
         let impacts = is_impact
@@ -159,20 +155,39 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
     }
 }
 
-/// The saltation matrix of an entry into a preloaded stop, which a motion from there does not tell; none at a rigid stop,
-/// whose rebound it tells.
-fn entry(scene: &Scene, begin: Vector2<f64>) -> Option<Matrix2<f64>> {
-    if scene.wall().is_some_and(|wall| wall.position == begin.x) {
-        return None;
+/// A passage, and the laws of its first arc and of its last.
+#[derive(Default)]
+struct PassageAndLaws {
+    passage: PassageRecorder,
+    first: Option<Phase>,
+    last: Option<Phase>,
+}
+
+impl Observer for PassageAndLaws {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.passage.arc(arc, elapsed);
+        self.last = arc.phase.cloned();
+        if self.first.is_none() {
+            self.first.clone_from(&self.last);
+        }
     }
-    let preload = Parameter::Preload.get(scene).unwrap_or(0.0);
-    // Behind a strip the contact's damper acts already.
-    let damper = match scene.piercing {
-        None => (scene.contact_damping - scene.damping) * begin.y,
-        Some(_) => 0.0,
-    };
-    let jump = -(preload + damper) / scene.mass;
-    Some(Matrix2::new(1.0, 0.0, jump / begin.y, 1.0))
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.passage.crossing(crossing);
+    }
+}
+
+impl PassageAndLaws {
+    /// The saltation matrix of the entry from the last law into the first, which a motion from there does not tell; none at a
+    /// rigid stop, whose rebound it tells. Both have the drive's force, so that plays no part in the jump.
+    fn entry(&self, scene: &Scene, begin: Vector2<f64>) -> Option<Matrix2<f64>> {
+        if scene.wall().is_some_and(|wall| wall.position == begin.x) {
+            return None;
+        }
+        let acceleration = |phase: &Phase| phase.acceleration(begin.x, begin.y, 0.0, scene.mass);
+        let jump = acceleration(self.first.as_ref()?) - acceleration(self.last.as_ref()?);
+        Some(Matrix2::new(1.0, 0.0, jump / begin.y, 1.0))
+    }
 }
 
 /// Surfaces that a motion enters, and how often it crosses any.

@@ -133,7 +133,8 @@ pub fn curve<F: Family<2>>(
             let guess = shooting.scaled(point.state(), parameters);
             let critical = Critical { shooting, test };
             match CriticalImpact::at((family, periods), test, point.state(), parameters)? {
-                Some((critical, guess)) => follow(&critical, kind, &guess, region, &mut watch),
+                Some((at_impact, impact)) => follow(&at_impact, kind, &impact, region, &mut watch)
+                    .or_else(|_| follow(&critical, kind, &guess, region, &mut watch)),
                 None => follow(&critical, kind, &guess, region, &mut watch),
             }
         }
@@ -276,7 +277,7 @@ impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
         let scene = self
             .section
             .scene(0.0, GrazingOrbit::parameters(self, &node.at));
-        let is_hard = scene.is_ok_and(|(scene, _)| !self.section.face.is_gentle(&scene));
+        let is_hard = scene.is_ok_and(|(scene, _)| self.section.face.is_steep(&scene));
         let value = self.recurrence(&node.here.point);
         (
             CodimensionTwo::ResonantGrazing,
@@ -340,6 +341,7 @@ fn way<E: Codimension>(
         let last = stepper.node.clone();
         let ahead = stepper.step * &stepper.direction;
         if let Some(point) = equations.last(&last, &ahead) {
+            let _ = watch(&point);
             points.push(point.clone());
             specials.push((CodimensionTwo::ResonantGrazing, point));
             return Ok((points, specials, CurveEnd::ResonantGrazing));

@@ -1,6 +1,6 @@
 //! The surfaces that an orbit may graze.
 
-use softstop::{Scene, Stop};
+use softstop::{Parameter, Scene, Stop};
 
 /// A surface at which a scene's law of force changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +46,21 @@ impl Face {
                 Stop::Rigid { .. } => false,
             },
             _ => false,
+        }
+    }
+
+    /// True if a weak impact there has a square root, and a motion may begin there: at a rigid stop, and where the force jumps
+    /// against the mass or with it but for the strip's edges.
+    pub(crate) fn is_steep(self, scene: &Scene) -> bool {
+        match self {
+            Self::Clearance => scene.piercing.is_none() && !self.is_gentle(scene),
+            Self::Pierced => false,
+            Self::Stop => {
+                let cutting = scene.piercing.filter(|strip| strip.travel > 0.0);
+                let friction = cutting.map_or(0.0, |strip| strip.cut_force_forward());
+                friction != Parameter::Preload.get(scene).unwrap_or(0.0)
+            }
+            Self::Wall => true,
         }
     }
 

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use softstop::Machine;
-use softstop_console::arguments::MachineArguments;
+use softstop::{Machine, Parameter};
+use softstop_console::arguments::{MachineArguments, refuse_followers_of_frequency};
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
@@ -178,6 +178,14 @@ impl Study {
             )));
         };
         let outputs = outputs(&file.outputs)?;
+        if let Some(output) = outputs.iter().find(|it| it.is_of_other_frequencies()) {
+            refuse_followers_of_frequency(&machine).map_err(|failure| match failure {
+                Failure::Usage(what) => {
+                    Failure::usage(format!("outputs: {}: {what}", output.name()))
+                }
+                failure => failure,
+            })?;
+        }
         let mut study = Self {
             settling: settling(&file.motion)?,
             certainty: certainty(&file.certainty)?,
@@ -207,6 +215,7 @@ impl Study {
             machine.to_own(softstop::Dimension::Frequency, 1.0),
             machine.to_own(softstop::Dimension::Damping, 1.0),
             [machine.start.position, machine.start.velocity],
+            Parameter::ALL.map(|it| machine.expression(it).map(str::to_owned)),
         );
         let axes = self.axes.iter();
         let axes: Vec<_> = axes

@@ -164,6 +164,12 @@ impl Output {
         }
     }
 
+    /// True if it takes other drive frequencies than that of the point.
+    pub const fn is_of_other_frequencies(self) -> bool {
+        let is_grazing = matches!(self, Self::Own(Own::G0) | Self::Figure(Figure::FrequencyG0));
+        is_grazing || self.is_of_zone()
+    }
+
     /// Its numbers at a point over the budget.
     pub fn over_budget(self) -> [f64; 2] {
         let place = KINDS.iter().position(|kind| *kind == OVER_BUDGET);

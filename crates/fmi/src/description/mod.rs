@@ -35,7 +35,7 @@ pub(crate) const NONE: [(&str, &str); 0] = [];
 /// If writing to memory fails.
 pub fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
     match imprint.standard() {
-        Standard::Fmi2 => v2::write(imprint, guid),
+        Standard::Fmi2 => v2::write(imprint, guid, imprint.has_exchange()),
         Standard::Fmi3 => v3::write(imprint, guid),
     }
 }
@@ -262,10 +262,6 @@ fn typed<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Attributes {
         Kind::Boolean => vec![],
         Kind::Enumeration(items) => vec![("declaredType", items.type_name.to_owned())],
     };
-    let mut states = space_of::<U>().states.iter();
-    if states.any(|state| state.value == variable.reference) {
-        typed.push(("reinit", "true".to_owned()));
-    }
     typed.extend(start_value(variable, imprint).map(|value| ("start", value)));
     typed
 }
@@ -287,7 +283,7 @@ type Unknown<U> = (usize, &'static Row<U>, Vec<Counted<U>>);
 
 impl Unknowns {
     /// Each with what it depends on, in the order of the rows.
-    fn each<U: Unit>(self) -> Vec<Unknown<U>> {
+    fn each<U: Unit>(self, exchange: bool) -> Vec<Unknown<U>> {
         let listed: Vec<_> = match self {
             Self::Derivatives => {
                 let states = space_of::<U>().states.iter();
@@ -303,7 +299,7 @@ impl Unknowns {
                 Self::Initial => rows_of(depends.initial),
                 _ => rows_of(depends.inputs),
             };
-            if self != Self::Initial {
+            if exchange && self != Self::Initial {
                 rows.extend(states_behind(variable, depends, self));
             }
             rows.sort_unstable_by_key(|(row, _)| *row);
@@ -342,9 +338,18 @@ fn states_behind<U: Unit>(
     behind.filter_map(|state| row_of(state.value)).collect()
 }
 
-/// The state that a variable is the derivative of.
-fn state_of<U: Unit>(variable: &Row<U>) -> Option<u32> {
-    let mut states = space_of::<U>().states.iter();
-    let state = states.find(|state| state.derivative == variable.reference)?;
-    Some(state.value)
+/// What a variable says as a state, and as the derivative of one, which `name` tells.
+fn of_state<U: Unit>(variable: &Row<U>, name: impl Fn(u32) -> String) -> Attributes {
+    let states = || space_of::<U>().states.iter();
+    let is_state = states().any(|state| state.value == variable.reference);
+    let state = states().find(|state| state.derivative == variable.reference);
+    let derived = state.map(|state| ("derivative", name(state.value)));
+    let reinit = is_state.then(|| ("reinit", "true".to_owned()));
+    reinit.into_iter().chain(derived).collect()
+}
+
+/// The variables of a description: what is local is for model exchange.
+pub(crate) fn rows_told<U: Unit>(exchange: bool) -> impl Iterator<Item = &'static Row<U>> {
+    let is_told = move |row: &&Row<U>| exchange || !matches!(row.access, Access::Local(_));
+    U::about().table.rows().filter(is_told)
 }

@@ -4,7 +4,7 @@ use std::io;
 
 use super::{
     Attributes, NONE, TOOL, Unknowns, VERSION, Xml, element, empty, items, log_and_experiment,
-    named, real_type, root, state_of, typed, units, write_document,
+    named, of_state, real_type, root, rows_told, typed, units, write_document,
 };
 use crate::imprint::Imprint;
 use crate::solving::space_of;
@@ -12,15 +12,20 @@ use crate::standard::Standard;
 use crate::unit::{About, Row, Unit};
 
 /// The XML of the FMU with this imprint and this GUID.
-pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
+pub(crate) fn write<U: Unit>(
+    imprint: &Imprint<U>,
+    guid: &str,
+    exchange: bool,
+) -> io::Result<String> {
     let about = U::about();
     let root = root("2.0", imprint, ("guid", guid));
-    let indicators = space_of::<U>().indicators.len().to_string();
+    let indicators = usize::from(exchange) * space_of::<U>().indicators.len();
+    let indicators = indicators.to_string();
     let root = root
         .into_iter()
         .chain([("numberOfEventIndicators", &*indicators)]);
     write_document("fmiModelDescription", root, |xml| {
-        if about.state_space.is_some() {
+        if exchange {
             let flags = exchange_capabilities(about.identifier);
             empty(xml, "ModelExchange", flags)?;
         }
@@ -34,20 +39,20 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<Str
             })
         })?;
         element(xml, "ModelVariables", NONE, |xml| {
-            let mut rows = about.table.rows();
-            rows.try_for_each(|variable| scalar_variable(xml, variable, imprint))
+            let mut rows = rows_told(exchange);
+            rows.try_for_each(|variable| scalar_variable(xml, variable, imprint, exchange))
         })?;
         element(xml, "ModelStructure", NONE, |xml| {
             element(xml, "Outputs", NONE, |xml| {
-                unknowns::<U>(xml, Unknowns::Outputs)
+                unknowns::<U>(xml, Unknowns::Outputs, exchange)
             })?;
-            if about.state_space.is_some() {
+            if exchange {
                 element(xml, "Derivatives", NONE, |xml| {
-                    unknowns::<U>(xml, Unknowns::Derivatives)
+                    unknowns::<U>(xml, Unknowns::Derivatives, exchange)
                 })?;
             }
             element(xml, "InitialUnknowns", NONE, |xml| {
-                unknowns::<U>(xml, Unknowns::Initial)
+                unknowns::<U>(xml, Unknowns::Initial, exchange)
             })
         })
     })
@@ -104,25 +109,24 @@ fn scalar_variable<U: Unit>(
     xml: &mut Xml,
     variable: &Row<U>,
     imprint: &Imprint<U>,
+    exchange: bool,
 ) -> io::Result<()> {
     let table = &U::about().table;
     element(xml, "ScalarVariable", named(variable), |xml| {
         let name = variable.kind.type_name(Standard::Fmi2);
-        let derived = state_of::<U>(variable).map(|state| {
-            let row = table.rows().position(|row| row.reference == state);
-            ("derivative", (row.unwrap_or_default() + 1).to_string())
-        });
-        empty(
-            xml,
-            name,
-            typed(variable, imprint).into_iter().chain(derived),
-        )
+        let number = |reference| {
+            let row = table.rows().position(|row| row.reference == reference);
+            (row.unwrap_or_default() + 1).to_string()
+        };
+        let of_state = exchange.then(|| of_state::<U>(variable, number));
+        let typed = typed(variable, imprint).into_iter();
+        empty(xml, name, typed.chain(of_state.into_iter().flatten()))
     })
 }
 
 /// One `Unknown` for each, with its dependencies; indices count variables from 1.
-fn unknowns<U: Unit>(xml: &mut Xml, of: Unknowns) -> io::Result<()> {
-    for (row, _, rows) in of.each::<U>() {
+fn unknowns<U: Unit>(xml: &mut Xml, of: Unknowns, exchange: bool) -> io::Result<()> {
+    for (row, _, rows) in of.each::<U>(exchange) {
         let indices: Vec<_> = rows.iter().map(|(row, _)| (row + 1).to_string()).collect();
         let kinds = vec!["dependent"; rows.len()];
         let known = [

@@ -4,7 +4,7 @@ use std::io;
 
 use super::{
     Attributes, NONE, TOOL, Unknowns, VERSION, Xml, element, empty, items, log_and_experiment,
-    named, real_type, root, state_of, typed, units, write_document,
+    named, of_state, real_type, root, typed, units, write_document,
 };
 use crate::imprint::Imprint;
 use crate::instance::Instance;
@@ -35,9 +35,8 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<St
             let mut rows = [&Instance::<U>::TIME].into_iter().chain(about.table.rows());
             rows.try_for_each(|variable| {
                 let name = variable.kind.type_name(Standard::Fmi3);
-                let state = state_of::<U>(variable);
-                let derived = state.map(|state| ("derivative", state.to_string()));
-                let typed = typed(variable, imprint).into_iter().chain(derived);
+                let of_state = of_state::<U>(variable, |state| state.to_string());
+                let typed = typed(variable, imprint).into_iter().chain(of_state);
                 let is_told = U::HAS_EVENTS && variable.is_output();
                 let told = is_told.then(|| ("intermediateUpdate", "true".to_owned()));
                 empty(xml, name, named(variable).chain(typed).chain(told))
@@ -119,7 +118,7 @@ fn types<U: Unit>(
 
 /// One element for each, with its dependencies by their value references.
 fn unknowns<U: Unit>(xml: &mut Xml, name: &'static str, of: Unknowns) -> io::Result<()> {
-    for (_, variable, rows) in of.each::<U>() {
+    for (_, variable, rows) in of.each::<U>(true) {
         let references: Vec<_> = rows
             .iter()
             .map(|(_, of)| of.reference.to_string())

@@ -44,9 +44,9 @@ functions! { $ export_v2_exchange v2 Importer; ;
         component.require_exchange()?;
         let iteration = component.update_discrete_states()?;
         *info = EventInfo {
-            new_discrete_states_needed: 0,
+            new_discrete_states_needed: iteration.is_unfinished.into(),
             terminate_simulation: 0,
-            nominals_of_continuous_states_changed: 0,
+            nominals_of_continuous_states_changed: iteration.has_new_nominals.into(),
             values_of_continuous_states_changed: iteration.has_new_states.into(),
             next_event_time_defined: iteration.next.is_some().into(),
             next_event_time: iteration.next.unwrap_or(0.0),

@@ -1,5 +1,6 @@
 //! What an importer agrees on with an instance by FMI 2.0: callbacks, and what it is told of the last step.
 
+use std::borrow::Cow;
 use std::ffi::CString;
 
 use libc::{c_char, c_int, c_void, size_t};
@@ -7,6 +8,7 @@ use libc::{c_char, c_int, c_void, size_t};
 use crate::abi::component::{Component, Host, Sink, check_name, check_token};
 use crate::abi::pointers::{string, write_one};
 use crate::fault::Fault;
+use crate::guid::{exchange_uuid, library_uuid};
 use crate::unit::Unit;
 
 /// `fmi2ModelExchange` and `fmi2CoSimulation` of `fmi2Type`.
@@ -93,24 +95,26 @@ pub(super) unsafe fn instantiate<U: Unit>(
         )
     };
     let own = CString::new(name.as_deref().unwrap_or_default()).unwrap_or_default();
-    let checked = check_name(name)
-        .and_then(|()| check_type::<U>(fmu_type))
-        .and_then(|()| check_token::<U>("fmuGUID", guid));
+    let checked = check_name(name).and_then(|()| check_type_and_guid::<U>(fmu_type, guid));
     let sink = sink(own, functions);
     let is_for_exchange = fmu_type == MODEL_EXCHANGE;
     let host = Importer { is_for_exchange };
     Component::new("fmi2Instantiate", checked, logging_on, host, sink)
 }
 
-fn check_type<U: Unit>(fmu_type: c_int) -> Result<(), Fault> {
-    let exchanges = U::about().state_space.is_some();
+/// Model exchange is for FMUs that tell of it, by whose GUID one knows them.
+fn check_type_and_guid<U: Unit>(
+    fmu_type: c_int,
+    guid: Result<Cow<str>, Fault>,
+) -> Result<(), Fault> {
+    let guid = guid?;
+    let is_plain = guid == library_uuid::<U>()?.braced().to_string();
+    let is_for_exchange = !is_plain
+        && U::about().state_space.is_some()
+        && guid == exchange_uuid::<U>()?.braced().to_string();
     match fmu_type {
-        CO_SIMULATION => Ok(()),
-        MODEL_EXCHANGE if exchanges => Ok(()),
-        _ if exchanges => Err(Fault::Instantiation(format!(
-            "fmuType = {fmu_type}: only fmi2CoSimulation ({CO_SIMULATION}) and fmi2ModelExchange \
-             ({MODEL_EXCHANGE}) are available"
-        ))),
+        MODEL_EXCHANGE | CO_SIMULATION if is_for_exchange => Ok(()),
+        CO_SIMULATION => check_token::<U>("fmuGUID", Ok(guid)),
         _ => Err(Fault::Instantiation(format!(
             "fmuType = {fmu_type}: only fmi2CoSimulation ({CO_SIMULATION}) is available"
         ))),

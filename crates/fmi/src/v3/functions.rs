@@ -23,7 +23,6 @@ use crate::abi::guard::{guarded, silent};
 use crate::abi::pointers::{read, string, write, write_one};
 use crate::abi::state;
 use crate::event::Handling;
-use crate::exchange::Iteration;
 use crate::fault::Fault;
 use crate::log::Category;
 use crate::step::StepReport;
@@ -182,9 +181,12 @@ functions! { $ export_v3 v3 Importer;
             write_one("valuesOfContinuousStatesChanged", values_of_continuous_states_changed)?;
         let defined = write_one("nextEventTimeDefined", next_event_time_defined)?;
         let time = write_one("nextEventTime", next_event_time)?;
-        let Iteration { next, has_new_states } = component.update_discrete_states()?;
-        (*need_update, *terminate, *nominals, *values) = (0, 0, 0, has_new_states.into());
-        (*defined, *time) = (u8::from(next.is_some()), next.unwrap_or(0.0));
+        let iteration = component.update_discrete_states()?;
+        (*need_update, *terminate) = (iteration.is_unfinished.into(), 0);
+        *nominals = iteration.has_new_nominals.into();
+        *values = iteration.has_new_states.into();
+        *defined = iteration.next.is_some().into();
+        *time = iteration.next.unwrap_or(0.0);
         Ok(())
     }
 
