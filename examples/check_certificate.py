@@ -50,8 +50,8 @@ def free(a, b, t):
     if isinstance(t, Dual):
         u, s = free(a, b, t.value)
         return t.chain(u, (u * a + s * square) * -ONE), t.chain(s, u - s * a)
-    w = iv.sqrt(square if square > 0 else -square)
-    if square > 0:
+    w = iv.sqrt(square if square.a > 0 else -square)
+    if square.a > 0:
         return iv.exp(-a * t) * iv.cos(w * t), iv.exp(-a * t) * iv.sin(w * t) / w
     slow, fast = iv.exp(-b / (a + w) * t), iv.exp(-(a + w) * t)
     return (slow + fast) / 2, (slow - fast) / (2 * w)
@@ -67,9 +67,8 @@ class Motion:
 
     def event(self, index):
         """What happens, the guard that is zero, and the phase that follows; counted on into the next period."""
-        event, before = self.events[index % self.count], self.events[(index - 1) % self.count]
-        phase, last = (self.phases[it["phase"]] for it in (event, before))
-        return event["event"], last["guards"][event["guard"]], phase
+        event, last = self.events[index % self.count], self.phases[self.events[(index - 1) % self.count]["phase"]]
+        return event["event"], last["guards"][event["guard"]], self.phases[event["phase"]]
 
     def states(self, index, unknowns):
         """Drive angle, position and velocity before an event, and right after it."""
@@ -81,9 +80,9 @@ class Motion:
         """Position and velocity on an arc."""
         elastic, lossy = w * w * -self.mass + law["stiffness"], w * law["damping"]
         scale = inverse(elastic * elastic + lossy * lossy) * self.amplitude
-        p, q, rest = elastic * scale, lossy * scale, law["force"] / law["stiffness"] if law["force"] != 0 else ZERO
+        p, q, rest = elastic * scale, lossy * scale, ONE * law["force"] / law["stiffness"] if law["force"] != 0 else ZERO
         (c0, s0), (c1, s1) = free(ZERO, ONE, start[0]), free(ZERO, ONE, angle)
-        a, b = law["damping"] / (2 * self.mass), law["stiffness"] / self.mass
+        a, b = ONE * law["damping"] / (2 * self.mass), ONE * law["stiffness"] / self.mass
         u, s = free(a, b, elapsed)
         x, v = start[1] - (p * c0 + q * s0 + rest), start[2] - w * (q * c0 - p * s0)
         return p * c1 + q * s1 + rest + u * x + s * (x * a + v), w * (q * c1 - p * s1) + u * v - s * (x * b + v * a)
@@ -141,18 +140,18 @@ class Motion:
         start, parts = self.states(index, unknowns)[1], self.events[index]["division"]
         follows = any(then is self.phases[it] for it in leaves["to"]) if ends == "crossing" else then is phase
         elapsed = (self.states(index + 1, unknowns)[0][0] - start[0]) / w
-        whole = elapsed > 0 and parts[0] == 0 and elapsed.b <= parts[-1] and all(a < b for a, b in zip(parts, parts[1:]))
-        require(follows and whole, f"arc {index} is divided whole, and followed by its phase")
+        whole = elapsed.a > 0 and parts[0] == 0 and elapsed.b <= parts[-1] and all(a < b for a, b in zip(parts, parts[1:]))
+        keeps = begins == "section" or zero["velocity"] == 0 or begins == "crossing" and zero["factor"] == 1
+        require(follows and whole and keeps, f"arc {index} is divided whole, from a guard at zero, and followed by its phase")
         for since, until in zip(parts, parts[1:]):
             x, v, acceleration, jerk = self.jet(phase["law"], w, start, iv.mpf([since, until]))
             for guard in phase["guards"]:
                 (p, q, level), zeros = ([it[name] for name in ("position", "velocity", "level")] for it in (guard, zero))
                 value, slope, curvature = p * x + q * v - level, p * v + q * acceleration, p * acceleration + q * jerk
                 comes = since == 0 and begins != "section" and [p, q, level] in (zeros, [-it for it in zeros])
-                goes = until == parts[-1] and ends != "section" and guard is leaves
-                falls = comes and (slope < 0 if begins == "crossing" and zero["factor"] != 0 else curvature < 0)
-                rises = goes and (slope > 0 if ends == "crossing" else curvature < 0)
-                require(value < 0 or falls or rises, f"nothing else happens on arc {index}")
+                falls = comes and (slope if begins == "crossing" and zero["factor"] != 0 else curvature).b < 0
+                rises = until == parts[-1] and guard is leaves and {"crossing": slope.a > 0, "touch": curvature.b < 0}.get(ends)
+                require(value.b < 0 or falls or rises, f"nothing else happens on arc {index}")
 
     def multipliers(self, unknowns, w):
         """Trace, determinant: that of equations whose end is m times the start is a multiple of m^2 - trace m + determinant."""
@@ -177,20 +176,21 @@ def require(holds, what):
 def check(claimed):
     """Proves all that is claimed."""
     motion, boxes = Motion(claimed), [[iv.mpf(it) for it in claimed[name]] for name in ("unique", "enclosure")]
-    require(all(b in a for a, b in zip(*boxes)), "the motion is the one in the box")
-    image = [motion.image(it) for it in boxes][1]
+    require(motion.events and all(b in a for a, b in zip(*boxes)), "the motion is the one in the box")
+    kinds, guards, _ = zip(*map(motion.event, range(motion.count)))
+    require(kinds.count("touch") == (motion.claim == "grazing"), "a grazing touches once, all else never")
+    _, image = map(motion.image, boxes)
     unknowns, w = image[:3 * motion.count], motion.frequency if motion.claim == "orbit" else image[-1]
     for index in range(motion.count):
         motion.check_arc(index, unknowns, w)
-    impacts = sum(kind == "crossing" and guard["impact"] for kind, guard, _ in map(motion.event, range(motion.count)))
-    require(impacts == claimed["impacts"], "impacts")
+    require(sum(it["impact"] for it, kind in zip(guards, kinds) if kind == "crossing") == claimed["impacts"], "impacts")
     later = [it - unknowns[0] - TURN * shift for it in unknowns[3::3] for shift in range(1, motion.periods)]
-    require(all(it > 0 or it < 0 for it in later), "no shorter period")
+    require(motion.periods == 1 or "section" not in kinds and all(0 not in it for it in later), "no shorter period")
     a, b = motion.multipliers(unknowns, w)
     for name, it in ("frequency", w), ("trace", a), ("determinant", b):
         require(it in iv.mpf(claimed[name]), name)
     edges = 1 - a + b, 1 + a + b, 1 - b
-    proven = {"stable": all(it > 0 for it in edges), "unstable": any(it < 0 for it in edges), "undecided": True}
+    proven = {"stable": all(it.a > 0 for it in edges), "unstable": any(it.b < 0 for it in edges), "undecided": True}
     require(proven[claimed["stability"]], "stability")
     return f"{motion.claim}, z = {claimed['impacts']}/{motion.periods}, {motion.count} events"
 

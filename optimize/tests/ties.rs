@@ -42,29 +42,19 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
         let velocity: f64 = cells[cells.len() - 1].parse()?;
         assert_near(velocity, number(&motions, "before_impact_velocity"), 1e-9);
     }
-    // At a special point of the branch the machine by hand has it, too, along another parameter.
-    let branch = SOFTSTOP.report(&format!(
-        "continue {rig} --parameter excitation.frequency --from 0.9 --to 2.5"
-    ));
-    let specials = branch.list("branches/0/specials");
-    let fold = specials
-        .iter()
-        .find(|it| it["symbol"] == "SN")
-        .ok_or("no fold")?;
-    let (frequency, state) = (
-        number(fold, "value"),
-        [number(fold, "position"), number(fold, "velocity")],
-    );
-    let line = by_hand(frequency) + &format!(" --state={},{}", state[0], state[1]);
-    let other = SOFTSTOP.report(&format!(
-        "continue {line} --parameter clearance --from 2 --to 4"
-    ));
-    let specials = other.list("branches/0/specials");
-    let nearest = specials.iter().filter(|it| it["symbol"] == "SN");
-    let nearest = nearest
-        .map(|it| (number(it, "value") - 3.0).abs())
-        .fold(1.0, f64::min);
-    assert_near(nearest, 0.0, 1e-9);
+    // Where the branch folds, that of the machine with the amplitude there folds as well.
+    let fold_of = |machine: &str| {
+        let line =
+            format!("continue {machine} --parameter excitation.frequency --from 0.9 --to 2.5");
+        let branch = SOFTSTOP.report(&line);
+        let specials = branch.list("branches/0/specials").iter();
+        let mut folds = specials.filter(|it| it["symbol"] == "SN");
+        folds.next().map(|fold| number(fold, "value"))
+    };
+    let frequency = fold_of(&rig.to_string()).ok_or("no fold")?;
+    let amplitude = 0.7 * frequency * frequency;
+    let by_hand = fold_of(&format!("{rig} --set excitation.amplitude={amplitude}"));
+    assert_near(by_hand.ok_or("no fold")?, frequency, 1e-9);
     // What follows is not varied, and no zone is looked for.
     let zone = folder.path().join("zone.toml");
     let text = fs::read_to_string(&study)?.replace("\"velocity\"", "\"frequency_sn\"");
@@ -77,6 +67,22 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
         (
             format!("study {}", zone.display()),
             "outputs: frequency_sn: excitation.amplitude: follows",
+        ),
+        (
+            format!("fidelity {rig} --structure"),
+            "excitation.amplitude: follows the drive's frequency",
+        ),
+        (
+            format!("sweep {rig} --set mass=excitation.frequency --parameter eta --from 1 --to 2"),
+            "its unit sqrt(k1/m) follows",
+        ),
+        (
+            "optimize unloaded --set eta=1.15*rho/10".to_owned(),
+            "follows others",
+        ),
+        (
+            "sweep loaded --set rho=10*eta --from 1 --to 1.2 --clearances 8,9".to_owned(),
+            "follows others",
         ),
         (
             format!("zone {rig}"),

@@ -37,14 +37,12 @@ impl Ties {
 
 impl Quantity {
     fn value(self, machine: &Machine) -> f64 {
-        let value = self.parameter.get(&machine.scene).unwrap_or(f64::NAN);
-        let unit = match self.unit {
-            Some(unit) => unit,
-            None => Parameter::StopStiffness
-                .get(&machine.scene)
-                .unwrap_or(f64::NAN),
-        };
-        value / unit
+        let own = |parameter: Parameter| parameter.get(&machine.scene).unwrap_or(f64::NAN);
+        match (self.unit, machine.preload_deflection) {
+            (Some(unit), _) => own(self.parameter) / unit,
+            (None, Some(deflection)) => deflection,
+            (None, None) => own(self.parameter) / own(Parameter::StopStiffness),
+        }
     }
 }
 

@@ -110,7 +110,7 @@ impl MachineArguments {
     }
 
     /// The parameter of this key that the machine has, and the key's unit in the machine's own
-    /// ([`Machine::stated`]); `flag` asks for it. `eta` is the drive's frequency in units of sqrt(k1/m) of any machine.
+    /// ([`Machine::stated`]); `flag` asks for it. `eta` is the drive's frequency in units of the machine's own sqrt(k1/m).
     ///
     /// # Errors
     /// [`Failure::Usage`] naming the flag, and what the machine has instead.
@@ -148,12 +148,16 @@ impl MachineArguments {
     }
 }
 
-/// Refuses a machine of which something follows the drive's frequency, where that is looked for and all else stays.
+/// Refuses a machine whose drive's frequency follows something, or is followed, where that is looked for and all else stays.
 ///
 /// # Errors
 /// [`Failure::Usage`] naming what follows.
 pub fn refuse_followers_of_frequency(machine: &Machine) -> Result<(), Failure> {
-    let Some(follower) = machine.followers(Parameter::Frequency).first().copied() else {
+    let frequency = Parameter::Frequency;
+    machine
+        .free(machine.name(frequency))
+        .map_err(|error| Failure::usage(error.to_string()))?;
+    let Some(follower) = machine.followers(frequency).first().copied() else {
         return Ok(());
     };
     let name = machine.name(follower);

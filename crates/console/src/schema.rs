@@ -118,7 +118,7 @@ fn sections(language: UnitSystem) -> Map<String, Value> {
     } else {
         let what =
             "drive frequency in Hz, instead of frequency; text, charts and JSON then speak Hz";
-        drive["properties"]["frequency_hz"] = within(Allowed::Positive, what);
+        drive["properties"]["frequency_hz"] = or_expression(within(Allowed::Positive, what));
         drive["required"] = json!(["amplitude"]);
         drive["oneOf"] = json!([{ "required": ["frequency"] }, { "required": ["frequency_hz"] }]);
     }
@@ -170,7 +170,11 @@ fn number(parameter: Parameter, language: UnitSystem) -> Value {
         (_, "") => about.meaning.to_owned(),
         (_, unit) => format!("{} in {unit}", about.meaning),
     };
-    let mut number = within(about.allowed, &(what + &pace(parameter)));
+    or_expression(within(about.allowed, &(what + &pace(parameter))))
+}
+
+/// A number, or an expression of other parameters.
+fn or_expression(mut number: Value) -> Value {
     number["type"] = json!(["number", "string"]);
     number["pattern"] = json!("[^0-9.]");
     number
@@ -272,7 +276,7 @@ fn law(stop: Stop, language: UnitSystem) -> Value {
     if machine.value(Parameter::Preload).is_some() {
         required.retain(|key| key != "preload");
         let what = "preload as a deflection, instead of preload: the force follows the stiffness";
-        law["properties"]["preload_deflection"] = within(Allowed::NotNegative, what);
+        law["properties"]["preload_deflection"] = or_expression(within(Allowed::NotNegative, what));
         law["oneOf"] = json!([
             { "required": ["preload"] },
             { "required": ["preload_deflection"] },

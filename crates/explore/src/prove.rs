@@ -10,6 +10,7 @@ use softstop::{Machine, Parameter, Scene, UnitSystem};
 use softstop_dynamics::continuation::{Special, SpecialKind, Test};
 use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, Regime};
 use softstop_prove::machine::Machine as Laws;
+use softstop_prove::motion::Kind;
 use softstop_prove::{Certificate, Claim, Interval, Touch};
 
 use crate::continuation::seed;
@@ -46,10 +47,10 @@ what that means, and what is assumed. A motion that cannot be proven is an error
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ProveArguments {
-    /// Motion to prove: p impacts in n drive periods, stable, found from scratch
-    #[arg(long, value_name = "p/n", default_value = "1/1", value_parser = seed::regime)]
-    pub orbit: Regime,
-    /// Prove the orbit of n drive periods (--orbit p/n) nearest to this state at drive angle 0, stable or not
+    /// Motion to prove: p impacts in n drive periods, stable, found from scratch [default: 1/1]
+    #[arg(long, value_name = "p/n", value_parser = seed::regime)]
+    pub orbit: Option<Regime>,
+    /// Prove the orbit nearest to this state at time 0, stable or not: that of --orbit p/n if given, else of one drive period
     #[arg(long, value_name = "X,V", value_parser = seed::state)]
     pub state: Option<Vector2<f64>>,
     /// Prove a bifurcation of the motion: the one at the nearest frequency of the drive on its branch
@@ -115,11 +116,9 @@ pub fn can_be_proven(machine: &Machine) -> Result<(), Failure> {
 }
 
 fn prove(arguments: &ProveArguments, scene: &Scene) -> Result<Certificate, Failure> {
-    let periods = arguments.orbit.periods;
     let orbit = match arguments.state {
-        None => seed::find(scene, arguments.orbit)?,
-        Some(state) => Orbit::periodic(scene, state, periods)
-            .map_err(|error| anyhow!(error).context("no orbit to prove"))?,
+        None => seed::find(scene, arguments.orbit.unwrap_or(Regime::ONE))?,
+        Some(state) => near(state, scene, arguments.orbit)?,
     };
     let proven = match arguments.at {
         None => Certificate::new(scene, orbit.state(), orbit.periods, Claim::Orbit),
@@ -132,6 +131,20 @@ fn prove(arguments: &ProveArguments, scene: &Scene) -> Result<Certificate, Failu
         }
     };
     Ok(proven.map_err(Error::from)?)
+}
+
+/// The orbit nearest to a state; an error if a regime is wanted and it is another one.
+fn near(state: Vector2<f64>, scene: &Scene, wanted: Option<Regime>) -> Result<Orbit, Failure> {
+    let periods = wanted.unwrap_or(Regime::ONE).periods;
+    let orbit = Orbit::periodic(scene, state, periods)
+        .map_err(|error| anyhow!(error).context("no orbit to prove"))?;
+    let found = orbit.regime();
+    match wanted {
+        Some(wanted) if wanted != found => Err(Failure::Run(anyhow!(
+            "no orbit to prove: the one nearest to the state is z = {found}, not z = {wanted}"
+        ))),
+        _ => Ok(orbit),
+    }
 }
 
 /// The special point of a kind on the branch of an orbit at the frequency nearest to that of its scene.
@@ -222,7 +235,7 @@ impl<'a> ProofReport<'a> {
         }
     }
 
-    /// A proof of the z = 1 motion of a machine through a state at drive angle 0.
+    /// A proof of the motion of one drive period of a machine through a state at time 0.
     ///
     /// # Errors
     /// [`Failure::Run`] if there is none.
@@ -276,9 +289,13 @@ impl Report for ProofReport<'_> {
             "orbit" => format!("Proven: a motion z = {regime}"),
             claim => format!("Proven: a {claim} of a motion z = {regime}"),
         };
+        let events = match proof.events[0].event.event {
+            Kind::Section => "No crossings; the motion at drive angle 0",
+            Kind::Crossing | Kind::Touch => "Crossings and touches, the only ones",
+        };
         heading(&title)
             + &figures.text(&Units::of(self.machine))
-            + "\nCrossings, the only ones\n"
+            + &format!("\n{events}\n")
             + &aligned(&rows, |index| index < 2)
     }
 }

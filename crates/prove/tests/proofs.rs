@@ -155,6 +155,18 @@ fn what_is_not_treated_is_named() {
     assert!(Certificate::new(&free, Vector2::zeros(), 1, Claim::Orbit).is_err());
 }
 
+/// A motion without impacts repeats after one drive period.
+#[test]
+fn a_shorter_period_is_refused() {
+    let scene = Ratios::unloaded().scene().expect("a scene");
+    let scene = scene.at_frequency(1.05);
+    let orbit = Orbit::periodic(&scene, Vector2::new(-8.35, 3.59), 1).expect("an orbit");
+    let proof = |periods| Certificate::new(&scene, orbit.state(), periods, Claim::Orbit);
+    let proven = proof(1).expect("a proof");
+    assert_eq!((proven.impacts, proven.stability), (0, "stable"));
+    assert_eq!(proof(2).err(), Some(ProofError::ShorterPeriod));
+}
+
 /// A state that leads to no periodic motion near.
 #[test]
 fn what_is_not_there_is_not_proven() {

@@ -231,13 +231,22 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     // The same machine to the last bit, though no number of Hz may give the frequency that was found.
     let machine = Machine::from_toml(&text).map_err(anyhow::Error::from)?;
     let mut report = looked.report(&job, &outcome);
-    match arguments.prove {
-        true => {
-            let proof = ProofReport::of_single(&machine, outcome.design.orbit.state())?;
+    // The files of a design are written even if its motion cannot be proven.
+    let mut unproven = None;
+    let state = outcome.design.orbit.state();
+    match arguments
+        .prove
+        .then(|| ProofReport::of_single(&machine, state))
+    {
+        Some(Ok(proof)) => {
             export.file("proof_json", output::json(&proof)?.as_bytes())?;
             report.proof = Some(proof.figures());
         }
-        false => export.forgo("proof_json"),
+        Some(Err(failure)) => {
+            export.forgo("proof_json");
+            unproven = Some(failure);
+        }
+        None => export.forgo("proof_json"),
     }
     if let Some(front) = &report.pareto {
         export.sheets([&front.sheet])?;
@@ -270,7 +279,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         return Err(Failure::Interrupted);
     }
     keep.forget();
-    Ok(())
+    unproven.map_or(Ok(()), Err)
 }
 
 /// What is looked at of a design besides.

@@ -71,7 +71,8 @@ impl<const N: usize> Family<N> for ParameterFamily<N> {
 
     fn by_frequency(&self) -> [Option<f64>; N] {
         let unit = self.machine.to_si(Dimension::Frequency, 1.0);
+        let is_alone = self.machine.followers(Parameter::Frequency).is_empty();
         self.parameters
-            .map(|parameter| (parameter == Parameter::Frequency).then_some(unit))
+            .map(|parameter| (parameter == Parameter::Frequency && is_alone).then_some(unit))
     }
 }

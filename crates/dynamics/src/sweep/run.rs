@@ -13,7 +13,7 @@ use super::{Chain, Plan};
 use crate::monitor::{Kept, Monitor, PIECE, piece};
 use crate::settled::{SettledMotion, watched};
 use softstop::internals::budget::{self, Fork};
-use softstop::{MotionError, Scene};
+use softstop::{MotionError, Parameter, Scene};
 use softstop_lanes::Machine;
 
 /// Whether to go on.
@@ -73,7 +73,9 @@ impl Plan {
                  machine, direction, ..
              }| {
                 // What a value of the parameter means to the machine.
-                let meant = (machine.name(self.parameter), machine.preload_deflection);
+                let follow = Parameter::ALL.map(|it| machine.expression(it).map(str::to_owned));
+                let name = machine.name(self.parameter);
+                let meant = (name, machine.preload_deflection, follow);
                 (machine.scene.clone(), meant, direction.name())
             },
         );

@@ -148,6 +148,8 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let why = "is not used, for it is swept: --from and --to have its values";
     arguments.machine.refuse(&machine, parameter, why)?;
     if !arguments.clearances.is_empty() {
+        let name = Parameter::Clearance.name();
+        arguments.machine.parameter(&machine, "clearances", name)?;
         let why = "is not used, for --clearances has the values";
         arguments
             .machine
