@@ -8,6 +8,8 @@ use softstop::nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene, Start, Stop};
 use softstop_dynamics::continuation::{SpecialKind, Test};
 use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, orbit};
+use softstop_prove::arcs::Enclosed;
+use softstop_prove::motion::Motion;
 use softstop_prove::{Certificate, Claim, Interval, ProofError, Touch};
 use softstop_testing::machines::machines;
 use softstop_testing::random::cases;
@@ -165,6 +167,38 @@ fn a_shorter_period_is_refused() {
     let proven = proof(1).expect("a proof");
     assert_eq!((proven.impacts, proven.stability), (0, "stable"));
     assert_eq!(proof(2).err(), Some(ProofError::ShorterPeriod));
+}
+
+/// The motion z = 0 of point A's machine grazes its stop; a guard that weighs the velocity, too, is crossed there.
+#[test]
+fn a_graze_of_a_guard_of_the_velocity_is_refused() {
+    let frequency = 1.044_440_043_9_f64;
+    let scene = Ratios::unloaded().scene().expect("a scene");
+    let scene = scene.at_frequency(frequency);
+    let lag = (0.04 * frequency).atan2(1.0 - frequency * frequency);
+    let state = Vector2::new(10.0 * lag.cos(), 10.0 * frequency * lag.sin());
+    let touch = Touch {
+        angle: lag,
+        position: 10.0,
+    };
+    let proof = Certificate::new(&scene, state, 1, Claim::Grazing(touch)).expect("a proof");
+    let divisions = |velocity: f64| {
+        let mut machine = proof.laws.clone();
+        machine.phases[0].guards[0].velocity = velocity;
+        let motion = Motion {
+            machine,
+            periods: 1,
+            events: proof.events.iter().map(|it| it.event).collect(),
+        };
+        let enclosed = Enclosed {
+            motion: &motion,
+            unknowns: &proof.enclosure[..3],
+            frequency: proof.frequency,
+        };
+        enclosed.divisions()
+    };
+    assert_eq!(divisions(0.0), Ok(vec![proof.events[0].division.clone()]));
+    assert_eq!(divisions(0.1), Err(ProofError::NotClear { arc: 0 }));
 }
 
 /// A state that leads to no periodic motion near.
