@@ -169,7 +169,7 @@ impl Machine {
         }
     }
 
-    /// The same under a drive that changes.
+    /// Goes on under a drive that changes, piece by piece.
     fn go_in_pieces(
         &mut self,
         until: f64,

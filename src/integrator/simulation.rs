@@ -137,7 +137,7 @@ impl Simulation {
         self.watch_halting(until, None, observer)
     }
 
-    /// The same, where [`Simulation::watch_before`] says from when on it stops before crossings.
+    /// Advances the machine as [`Simulation::watch`], and from a time on stops before crossings, as [`Simulation::watch_before`].
     pub(super) fn watch_halting(
         &mut self,
         until: f64,

@@ -13,7 +13,7 @@ use crate::unit::{Advance, Events, Unit};
 
 /// Share of the time within which importers do not tell two times apart: FMPy and fmi-sim take 1e-9.
 const SAME_TIME: f64 = 2e-9;
-/// The same near time 0, in s.
+/// Times near 0 that importers do not tell apart, in s.
 const SAME_START: f64 = 1e-12;
 /// Integrator steps ahead within which an event that comes sooner than was told is worth a step event.
 const STEPS_AHEAD: f64 = 10.0;

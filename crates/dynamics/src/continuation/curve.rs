@@ -5,15 +5,14 @@ use std::ops::ControlFlow;
 use nalgebra::DVector;
 
 use super::Family;
-use super::arclength::{Equations, Node, correct, tangent};
-use super::critical_impact::{CriticalImpact, CriticalPoint};
+use super::arclength::{Node, correct, tangent};
+use super::codimension_two::{Codimension, CodimensionTwo, TURNING_BACK, along_parameters};
+use super::critical_impact::CriticalImpact;
 use super::follow::LOCATED_WIDTH;
-use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
+use super::grazing_orbit::GrazingOrbit;
 use super::impact_section::ImpactSection;
 use super::locate::{along_chord, locate};
-use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, SpecialKind};
-use super::sequence::Sequence;
 use super::shooting::{Critical, Shooting};
 use super::stepper::Stepper;
 use crate::orbit::{Monodromy, OrbitError};
@@ -71,35 +70,6 @@ pub enum CurveEnd {
     Lost(OrbitError),
 }
 
-/// A bifurcation of codimension two.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum CodimensionTwo {
-    /// Two curves of folds meet in a cusp (Kuznetsov 2004, section 9.2).
-    Cusp,
-    /// Curves of folds and flips end on a curve of grazing: a weak impact has no bearing on the next (Simpson and Ghosh,
-    /// arXiv 2602.22797).
-    ResonantGrazing,
-}
-
-impl CodimensionTwo {
-    /// In one word: CP, RG.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Cusp => "CP",
-            Self::ResonantGrazing => "RG",
-        }
-    }
-
-    /// In words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Cusp => "cusp",
-            Self::ResonantGrazing => "resonant grazing",
-        }
-    }
-}
-
 /// A curve of special points of one kind in two parameters.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -154,135 +124,6 @@ pub fn curve<F: Family<2>>(
             let guess = touching.scaled(angle, parameters);
             follow(&touching, kind, &guess, region, &mut watch)
         }
-    }
-}
-
-/// A system whose solutions are special points in two parameters, its last two unknowns.
-trait Codimension: Equations {
-    fn parameters(&self, at: &DVector<f64>) -> [f64; 2];
-    fn describe(&self, node: &Node<Self::Point>) -> Result<CurvePoint, OrbitError>;
-    fn sequence(&self, point: &Self::Point) -> Sequence;
-
-    /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a direction;
-    /// before, it had another one. At a cusp both parameters turn back.
-    fn degeneracy(
-        &self,
-        _: &Node<Self::Point>,
-        [before, here]: [&DVector<f64>; 2],
-    ) -> (CodimensionTwo, f64) {
-        let parameters = |of: &DVector<f64>| of.rows(of.len() - 2, 2).into_owned();
-        (
-            CodimensionTwo::Cusp,
-            parameters(before).dot(&parameters(here)),
-        )
-    }
-
-    /// The point of codimension two in which the curve ends within a step from a node, if it does.
-    fn last(&self, node: &Node<Self::Point>, step: &DVector<f64>) -> Option<CurvePoint> {
-        let _ = (node, step);
-        None
-    }
-}
-
-impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
-    fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        self.shooting.parameters(at)
-    }
-
-    fn describe(&self, node: &Node<PeriodMap>) -> Result<CurvePoint, OrbitError> {
-        let state = self.shooting.state(&node.at);
-        let round = &node.here.point;
-        Ok(CurvePoint {
-            parameters: self.parameters(&node.at),
-            position: state.x,
-            velocity: state.y,
-            impacts: round.impacts.clone(),
-            monodromy: round.monodromy,
-        })
-    }
-
-    fn sequence(&self, point: &PeriodMap) -> Sequence {
-        point.sequence
-    }
-}
-
-impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
-    fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        CriticalImpact::parameters(self, at)
-    }
-
-    fn describe(&self, node: &Node<CriticalPoint>) -> Result<CurvePoint, OrbitError> {
-        let state = self.state(&node.at)?;
-        let CriticalPoint {
-            monodromy, impacts, ..
-        } = node.here.point.clone();
-        Ok(CurvePoint {
-            parameters: CriticalImpact::parameters(self, &node.at),
-            position: state.x,
-            velocity: state.y,
-            impacts,
-            monodromy,
-        })
-    }
-
-    fn sequence(&self, point: &CriticalPoint) -> Sequence {
-        Sequence {
-            impacts: point.impacts.len(),
-            surfaces: usize::from(point.is_cut),
-            ..Sequence::default()
-        }
-    }
-
-    fn last(&self, node: &Node<CriticalPoint>, step: &DVector<f64>) -> Option<CurvePoint> {
-        let (velocity, change) = (node.at[1], step[1]);
-        if velocity + change > 0.0 {
-            return None;
-        }
-        let (resonant, guess) = self.resonant_grazing(&(&node.at - step * (velocity / change)));
-        let found = correct(&resonant, &guess, None).ok()?;
-        let is_near = (&found.at - node.at.clone().remove_row(1)).norm() <= step.norm();
-        is_near.then(|| resonant.0.describe(&found).ok()).flatten()
-    }
-}
-
-impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
-    fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        GrazingOrbit::parameters(self, at)
-    }
-
-    fn describe(&self, node: &Node<GrazingPoint>) -> Result<CurvePoint, OrbitError> {
-        let state = self.state(&node.at)?;
-        let contact = &node.here.point;
-        Ok(CurvePoint {
-            parameters: GrazingOrbit::parameters(self, &node.at),
-            position: state.x,
-            velocity: state.y,
-            impacts: contact.impacts.clone(),
-            monodromy: contact.monodromy,
-        })
-    }
-
-    fn sequence(&self, point: &GrazingPoint) -> Sequence {
-        Sequence {
-            impacts: point.impacts.len(),
-            ..Sequence::default()
-        }
-    }
-
-    fn degeneracy(
-        &self,
-        node: &Node<GrazingPoint>,
-        _: [&DVector<f64>; 2],
-    ) -> (CodimensionTwo, f64) {
-        let scene = self
-            .section
-            .scene(0.0, GrazingOrbit::parameters(self, &node.at));
-        let is_hard = scene.is_ok_and(|(scene, _)| self.section.face.is_steep(&scene));
-        let value = self.recurrence(&node.here.point);
-        (
-            CodimensionTwo::ResonantGrazing,
-            if is_hard { value } else { 0.0 },
-        )
     }
 }
 
@@ -381,14 +222,6 @@ fn way<E: Codimension>(
         }
     }
     Ok((points, specials, CurveEnd::Points))
-}
-
-/// Part of a direction along the parameters that is none.
-const TURNING_BACK: f64 = 1e-6;
-
-/// The part of a direction along the two parameters.
-fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
-    direction.rows(direction.len() - 2, 2).into_owned()
 }
 
 /// The point of codimension two between two nodes, if there is one; with the directions of the curve there.

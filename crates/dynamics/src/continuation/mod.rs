@@ -28,6 +28,7 @@
 mod arclength;
 mod between;
 mod branch;
+mod codimension_two;
 mod corner;
 mod critical_impact;
 mod curve;
@@ -53,7 +54,8 @@ mod test;
 
 pub(crate) use between::ASIDE;
 pub use branch::Branch;
-pub use curve::{CodimensionTwo, Curve, CurveEnd, CurveLimits, CurvePoint, curve};
+pub use codimension_two::CodimensionTwo;
+pub use curve::{Curve, CurveEnd, CurveLimits, CurvePoint, curve};
 pub use face::Face;
 pub use follow::{Continuation, Heading};
 pub(crate) use grazing_test::grazing;

@@ -278,7 +278,7 @@ enum Unknowns {
 
 /// A row counted from 0, and its variable.
 type Counted<U> = (usize, &'static Row<U>);
-/// The same with what the variable depends on.
+/// What a list tells of an unknown, and what that depends on.
 type Unknown<U> = (usize, &'static Row<U>, Vec<Counted<U>>);
 
 impl Unknowns {
