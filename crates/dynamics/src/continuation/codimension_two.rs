@@ -5,12 +5,34 @@ use nalgebra::DVector;
 use super::Family;
 use super::arclength::{Equations, Node, correct};
 use super::critical_impact::{CriticalImpact, CriticalPoint};
-use super::curve::CurvePoint;
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
 use super::period_map::PeriodMap;
 use super::sequence::Sequence;
 use super::shooting::Critical;
-use crate::orbit::OrbitError;
+use crate::orbit::{Monodromy, OrbitError};
+
+/// A point of a curve of special points.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct CurvePoint {
+    /// The parameters' values.
+    pub parameters: [f64; 2],
+    /// Position in m at time 0.
+    pub position: f64,
+    /// Velocity in m/s at time 0.
+    pub velocity: f64,
+    /// Before-impact velocities in m/s.
+    pub impacts: Vec<f64>,
+    /// Jacobian of the map over the periods from where it is computed: time 0, an impact or a touch, which is left out.
+    pub monodromy: Monodromy,
+}
+
+impl CurvePoint {
+    /// The highest before-impact velocity in m/s; 0 without any impact.
+    pub fn before_impact_velocity(&self) -> f64 {
+        self.impacts.iter().copied().fold(0.0, f64::max)
+    }
+}
 
 /// A bifurcation of codimension two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

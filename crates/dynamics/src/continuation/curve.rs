@@ -6,7 +6,9 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Node, correct, tangent};
-use super::codimension_two::{Codimension, CodimensionTwo, TURNING_BACK, along_parameters};
+use super::codimension_two::{
+    Codimension, CodimensionTwo, CurvePoint, TURNING_BACK, along_parameters,
+};
 use super::critical_impact::CriticalImpact;
 use super::follow::LOCATED_WIDTH;
 use super::grazing_orbit::GrazingOrbit;
@@ -15,7 +17,7 @@ use super::locate::{along_chord, locate};
 use super::point::{BranchPoint, Graze, SpecialKind};
 use super::shooting::{Critical, Shooting};
 use super::stepper::Stepper;
-use crate::orbit::{Monodromy, OrbitError};
+use crate::orbit::OrbitError;
 
 /// The part of the plane of two parameters in which a curve is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,29 +28,6 @@ pub struct CurveLimits {
     pub points: usize,
     /// Largest step, in units of the family's scales.
     pub step: f64,
-}
-
-/// A point of a curve of special points.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct CurvePoint {
-    /// The parameters' values.
-    pub parameters: [f64; 2],
-    /// Position in m at time 0.
-    pub position: f64,
-    /// Velocity in m/s at time 0.
-    pub velocity: f64,
-    /// Before-impact velocities in m/s.
-    pub impacts: Vec<f64>,
-    /// Jacobian of the map over the periods from where it is computed: time 0, an impact or a touch, which is left out.
-    pub monodromy: Monodromy,
-}
-
-impl CurvePoint {
-    /// The highest before-impact velocity in m/s; 0 without any impact.
-    pub fn before_impact_velocity(&self) -> f64 {
-        self.impacts.iter().copied().fold(0.0, f64::max)
-    }
 }
 
 /// Why a curve ends.

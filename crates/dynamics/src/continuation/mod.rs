@@ -54,8 +54,8 @@ mod test;
 
 pub(crate) use between::ASIDE;
 pub use branch::Branch;
-pub use codimension_two::CodimensionTwo;
-pub use curve::{Curve, CurveEnd, CurveLimits, CurvePoint, curve};
+pub use codimension_two::{CodimensionTwo, CurvePoint};
+pub use curve::{Curve, CurveEnd, CurveLimits, curve};
 pub use face::Face;
 pub use follow::{Continuation, Heading};
 pub(crate) use grazing_test::grazing;
