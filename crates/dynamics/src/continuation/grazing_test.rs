@@ -46,13 +46,12 @@ impl GrazingTest {
         let scene = shooting.scene(&node.at)?;
         let round = &node.here.point;
         let total = round.sequence.crossings();
-        let taken = round
-            .slowest
-            .map_or(0, |touch| round.motion.taken(touch.time));
+        let motion = shooting.kept_motion(&node.at)?;
+        let taken = round.slowest.map_or(0, |touch| motion.taken(touch.time));
         Ok(Self {
             dying: round.slowest,
             gentle: Face::ALL.map(|face| face.is_gentle(&scene)),
-            rising: round.motion.nearest_turn(&scene),
+            rising: motion.nearest_turn(&scene),
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
             drive: (scene.excitation.phase, scene.excitation.frequency),

@@ -1,9 +1,14 @@
 //! A motion that is kept, and what follows from it without running it again.
 
+use std::sync::Arc as Shared;
+
+use nalgebra::Vector2;
+
 use super::face::{Face, Touch};
+use super::period_map::follow;
 use crate::orbit::turn::turns;
-use softstop::internals::ArcSolution;
-use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Scene};
+use softstop::internals::{ArcSolution, Phases};
+use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene};
 
 /// The arcs and crossings of a motion from time 0 on, in order of time.
 #[derive(Debug, Clone)]
@@ -34,13 +39,21 @@ struct KeptCrossing {
 }
 
 impl KeptMotion {
-    pub fn new(clock: Clock) -> Self {
-        Self {
-            clock,
+    /// The motion of a valid scene, with its phases, from a state over a number of drive periods. Few of the points
+    /// that a continuation evaluates are asked for it, and keeping the arcs of them all costs more than a second run.
+    pub fn of(
+        machine: (&Scene, Shared<Phases>),
+        periods: u64,
+        state: Vector2<f64>,
+    ) -> Result<Self, MotionError> {
+        let mut motion = Self {
+            clock: machine.0.clock(),
             arcs: Vec::new(),
             crossings: Vec::new(),
             flies: true,
-        }
+        };
+        follow(machine, periods, state, &mut motion)?;
+        Ok(motion)
     }
 
     /// The turning point that comes nearest to a surface of the scene ahead of it, if any turns before one.

@@ -1,12 +1,10 @@
 //! The map over the drive periods of an orbit, with everything that a continuation looks at.
 
-use std::rc::Rc;
 use std::sync::Arc as Shared;
 
 use nalgebra::Vector2;
 
 use super::face::{Face, Touch};
-use super::kept_motion::KeptMotion;
 use super::sequence::Sequence;
 use crate::orbit::Monodromy;
 use softstop::internals::{FrequencySensitivity, Motion, Phases};
@@ -33,8 +31,6 @@ pub(crate) struct PeriodMap {
     pub slowest: Option<Touch>,
     /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
     pub margin: f64,
-    /// The motion itself.
-    pub motion: Rc<KeptMotion>,
 }
 
 impl PeriodMap {
@@ -46,17 +42,12 @@ impl PeriodMap {
         state: Vector2<f64>,
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
-        let (mut detuning, mut kept) = (
-            FrequencySensitivity::default(),
-            KeptMotion::new(machine.0.clock()),
-        );
+        let mut detuning = FrequencySensitivity::default();
         let (followed, by_frequency) = if by_frequency {
-            let observer = &mut (&mut detuning, &mut kept);
-            let (followed, motion) = follow(machine, periods, state, observer)?;
+            let (followed, motion) = follow(machine, periods, state, &mut detuning)?;
             (followed, detuning.at_drive_angle(&motion))
         } else {
-            let observer = &mut (&mut detuning.tangent, &mut kept);
-            let (followed, _) = follow(machine, periods, state, observer)?;
+            let (followed, _) = follow(machine, periods, state, &mut detuning.tangent)?;
             (followed, None)
         };
         let Followed {
@@ -79,7 +70,6 @@ impl PeriodMap {
             sequence: recorder.sequence,
             slowest: recorder.slowest,
             margin: recorder.margin,
-            motion: kept.into(),
         })
     }
 
@@ -100,14 +90,14 @@ pub(crate) fn image(
 }
 
 /// A motion from a state over the periods.
-struct Followed<'a> {
+pub(super) struct Followed<'a> {
     start: Vector2<f64>,
     ends: Vec<Vector2<f64>>,
     recorder: MapRecorder<'a>,
 }
 
 /// Follows a motion over the periods, which another observer watches, too.
-fn follow<'a>(
+pub(super) fn follow<'a>(
     (scene, phases): (&'a Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,

@@ -63,7 +63,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         if margin > NEAR_CROSSING {
             return None;
         }
-        let motion = &node.here.point.motion;
+        let motion = self.shooting.kept_motion(&node.at).ok()?;
         let (middle, gap) = motion.longest_flight(self.shooting.periods);
         (0.5 * gap > FARTHER * margin).then(|| self.with_turn(self.shooting.turn + middle))
     }
