@@ -56,7 +56,7 @@ pub use machine::{Machine, UnitSystem};
 pub use phases::PhaseKind;
 pub use scene::{
     About, Allowed, Dimension, Excitation, Parameter, Piercing, Ratios, Release, RigidStop, Scene,
-    Slope, Stop, Units, Wall,
+    Slope, Stop, Ties, Units, Wall,
 };
 pub use tangent::{Perturbation, Sensitivity, Tangent};
 pub use trajectory::{AppliedForce, KeptArc, Touch, Trajectory};

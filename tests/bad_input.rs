@@ -100,6 +100,7 @@ proptest! {
             rigid: None,
             stop: Stop::Preloaded { stiffness: k, preload: p },
             piercing: Some(Piercing { stiffness: k2, friction: k3, thickness, travel: 0.1 }),
+            followers: softstop::Ties::NONE,
         };
         if let Ok(mut motion) = scene.motion(Start::new(position, velocity)) {
             // Some ten turns of the fastest mode, however fast that is.

@@ -55,18 +55,13 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
     let amplitude = 0.7 * frequency * frequency;
     let by_hand = fold_of(&format!("{rig} --set excitation.amplitude={amplitude}"));
     assert_near(by_hand.ok_or("no fold")?, frequency, 1e-9);
-    // What follows is not varied, and no zone is looked for.
-    let zone = folder.path().join("zone.toml");
-    let text = fs::read_to_string(&study)?.replace("\"velocity\"", "\"frequency_sn\"");
-    fs::write(&zone, text)?;
+    // What follows is neither varied nor made within tolerances.
+    let task = folder.path().join("task.toml");
+    fs::write(&task, format!("{RIG}[tolerance]\nclearance = \"1 %\"\n"))?;
     for (command, says) in [
         (
             format!("sweep {rig} --parameter excitation.amplitude --from 0.5 --to 1"),
             "follows others, as \"0.7 *",
-        ),
-        (
-            format!("study {}", zone.display()),
-            "outputs: frequency_sn: excitation.amplitude: follows",
         ),
         (
             format!("fidelity {rig} --structure"),
@@ -85,17 +80,68 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
             "follows others",
         ),
         (
-            format!("zone {rig}"),
+            format!("prove {rig} --at fold"),
             "excitation.amplitude: follows the drive's frequency",
         ),
         (
-            format!("optimize {rig}"),
-            "excitation.amplitude: follows the drive's frequency",
+            format!("optimize {}", task.display()),
+            "tolerance.clearance: no machine with tolerances may have values that follow excitation.frequency",
+        ),
+        (
+            format!("zone {rig} --set excitation.frequency=mass"),
+            "excitation.frequency: follows others",
         ),
     ] {
         let words: Vec<&str> = softstop_testing::words(&command);
         SOFTSTOP.refuses(&words, &[says]);
     }
+    Ok(())
+}
+
+/// The zone, its outputs in a study and the best design of an unbalance, each beside machines with the amplitude there as a
+/// number: a fold and a grazing are those of the machine with the amplitude that they have.
+#[test]
+fn zones_and_designs_follow_what_follows_the_frequency() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let rig = folder.path().join("rig.toml");
+    fs::write(&rig, RIG)?;
+    let rig = rig.display().to_string();
+    let by_hand = |frequency: f64| {
+        let amplitude = 0.7 * frequency * frequency;
+        format!("{rig} --set excitation.amplitude={amplitude}")
+    };
+    let zone = SOFTSTOP.value(&format!("zone {rig}"));
+    let ends = ["frequency_g0", "frequency_sn"].map(|end| number(&zone, end));
+    for (end, frequency) in ["frequency_g0", "frequency_sn"].iter().zip(ends) {
+        let own = SOFTSTOP.value(&format!("zone {}", by_hand(frequency)));
+        assert_near(number(&own, end), frequency, 1e-9);
+    }
+    let study = folder.path().join("study.toml");
+    let text = format!(
+        "machine = \"{rig}\"\noutputs = [\"frequency_sn\"]\n[[axis]]\nparameter = \"clearance\"\nvalues = [3.0, 4.0]\n"
+    );
+    fs::write(&study, text)?;
+    let report = SOFTSTOP.report(&format!("study {} --csv", study.display()));
+    let text = fs::read_to_string(report.path("study.csv"))?;
+    let first = text
+        .lines()
+        .nth(1)
+        .and_then(|line| line.split(',').next_back());
+    assert_near(first.ok_or("no row")?.parse()?, ends[1], 1e-9);
+    // Along a zone the hardest impact at its margin is found by going there.
+    let line = format!(
+        "optimize {rig} --vary clearance=3:3 --vary stop.stiffness=29:29 --margin 0.1 --no-report"
+    );
+    let design = SOFTSTOP.report(&line);
+    let frequency = design.number("design/frequency");
+    assert_near(frequency, ends[0] + 0.9 * (ends[1] - ends[0]), 1e-9);
+    let machine = format!(
+        "{} --set excitation.frequency={frequency}",
+        by_hand(frequency)
+    );
+    let motion = SOFTSTOP.value(&format!("orbit {machine}"));
+    let velocity = design.number("design/before_impact_velocity");
+    assert_near(velocity, number(&motion, "before_impact_velocity"), 1e-9);
     Ok(())
 }
 

@@ -30,6 +30,14 @@ impl Expression {
         Ok(Self { steps, names })
     }
 
+    /// A number.
+    pub(crate) fn constant(value: f64) -> Self {
+        Self {
+            steps: vec![Step::Number(value)],
+            names: Vec::new(),
+        }
+    }
+
     /// The names in it, each once.
     pub fn names(&self) -> &[String] {
         &self.names

@@ -8,11 +8,10 @@ mod ties;
 mod write;
 
 pub use keys::nearest;
-pub use ties::Ties;
 
 use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
-use crate::scene::{Allowed, Dimension, Parameter, Ratios, Scene};
+use crate::scene::{Allowed, Dimension, Parameter, Ratios, Scene, Ties};
 
 /// The units in which a machine is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,6 +83,7 @@ pub struct Machine {
 /// A scene in SI units.
 impl From<Scene> for Machine {
     fn from(scene: Scene) -> Self {
+        let ties = scene.followers.clone();
         Self {
             name: None,
             description: None,
@@ -91,7 +91,7 @@ impl From<Scene> for Machine {
             start: Start::REST,
             unit_system: UnitSystem::Si,
             preload_deflection: None,
-            ties: Ties::default(),
+            ties,
         }
     }
 }
@@ -153,16 +153,14 @@ impl Machine {
                 parameter.set(&mut self.scene, value);
             }
         }
-        self.follow_stiffness();
         self.follow();
     }
 
-    /// Sets the preload of a deflection.
-    fn follow_stiffness(&mut self) {
-        let stiffness = Parameter::StopStiffness.get(&self.scene);
-        if let (Some(deflection), Some(stiffness)) = (self.preload_deflection, stiffness) {
-            Parameter::Preload.set(&mut self.scene, deflection * stiffness);
-        }
+    /// The machine at another frequency of its drive, in rad/s, with what follows it; nothing happens if that follows
+    /// others itself.
+    pub fn set_frequency(&mut self, frequency: f64) {
+        let dimension = Parameter::Frequency.about().dimension;
+        self.set(Parameter::Frequency, self.to_own(dimension, frequency));
     }
 
     /// Checks every value against its range, as its user states it.

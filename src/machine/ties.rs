@@ -3,71 +3,46 @@
 use super::{Machine, UnitSystem, keys};
 use crate::error::MachineError;
 use crate::expression::Expression;
-use crate::scene::Parameter;
-
-/// The parameters of a machine that follow others, each after those that it follows.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Ties(Vec<Tie>);
-
-/// A parameter that follows others.
-#[derive(Debug, Clone, PartialEq)]
-struct Tie {
-    key: &'static str,
-    quantity: Quantity,
-    text: String,
-    expression: Expression,
-    /// What the names of the expression stand for.
-    terms: Vec<Quantity>,
-}
-
-/// A parameter in the unit of a key.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Quantity {
-    parameter: Parameter,
-    /// In SI units; none for a preload as a deflection of the stop.
-    unit: Option<f64>,
-}
-
-impl Ties {
-    /// True if no parameter follows others.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-}
-
-impl Quantity {
-    fn value(self, machine: &Machine) -> f64 {
-        let own = |parameter: Parameter| parameter.get(&machine.scene).unwrap_or(f64::NAN);
-        match (self.unit, machine.preload_deflection) {
-            (Some(unit), _) => own(self.parameter) / unit,
-            (None, Some(deflection)) => deflection,
-            (None, None) => own(self.parameter) / own(Parameter::StopStiffness),
-        }
-    }
-}
+use crate::scene::{Parameter, Quantity, Tie, Ties};
 
 impl Machine {
-    /// The expression that a parameter follows, if it follows others.
-    pub fn expression(&self, parameter: Parameter) -> Option<&str> {
-        self.tie_of(parameter).map(|(_, text)| text)
-    }
-
     /// The key that is stated as an expression, and that.
     pub(super) fn tie_of(&self, parameter: Parameter) -> Option<(&'static str, &str)> {
-        let mut ties = self.ties.0.iter();
-        let tie = ties.find(|tie| tie.quantity.parameter == parameter)?;
-        Some((tie.key, &tie.text))
+        self.ties.of(parameter).map(|tie| (tie.key, &*tie.text))
+    }
+
+    /// The expression that a parameter follows, if it follows others.
+    pub fn expression(&self, parameter: Parameter) -> Option<&str> {
+        Some(&self.ties.of(parameter)?.text)
     }
 
     /// The parameters that follow another one, at once or by others.
     pub fn followers(&self, of: Parameter) -> Vec<Parameter> {
-        let mut found = vec![of];
-        for tie in &self.ties.0 {
-            if tie.terms.iter().any(|term| found.contains(&term.parameter)) {
-                found.push(tie.quantity.parameter);
+        let mut all: Vec<Parameter> = self.ties_to(of).parameters().collect();
+        all.sort();
+        all.dedup();
+        all
+    }
+
+    /// What follows a parameter, at once or by others: after the stiffness of the stop a preload stated as a deflection, too.
+    fn ties_to(&self, parameter: Parameter) -> Ties {
+        let tied = self.ties.0.iter().find(|tie| tie.quantity.unit.is_none());
+        let constant = || Some(Tie::of_deflection(self.preload_deflection?).into());
+        let deflection = tied.cloned().or_else(constant);
+        let (mut changed, mut found) = (vec![parameter], Vec::new());
+        for tie in self.ties.0.iter() {
+            if !tie.follows(&changed) {
+                continue;
+            }
+            let own = tie.quantity.parameter;
+            changed.push(own);
+            found.push(tie.clone());
+            if let (Parameter::StopStiffness, Some(deflection)) = (own, &deflection) {
+                changed.push(Parameter::Preload);
+                found.push(deflection.clone());
             }
         }
-        found.split_off(1)
+        Ties(found)
     }
 
     /// The parameter of a key that may be changed by itself, and the key's unit, as [`Machine::stated`].
@@ -123,8 +98,8 @@ impl Machine {
                     (Some(_), Parameter::Preload) => keys::DEFLECTION,
                     (Some(_), _) => keys::FREQUENCY_HZ,
                 },
-                quantity,
                 text: text.clone(),
+                quantity,
                 terms: terms.collect::<Result<_, _>>()?,
                 expression,
             };
@@ -137,18 +112,12 @@ impl Machine {
     /// Puts a tie after those that it follows and before those that follow it, else in the order of the parameters.
     fn insert(&mut self, tie: Tie) -> Result<(), &'static str> {
         let mut waiting = self.ties.0.clone();
-        waiting.push(tie);
+        waiting.push(tie.into());
         waiting.sort_by_key(|it| it.quantity.parameter);
         let mut ordered = Vec::new();
         while !waiting.is_empty() {
-            let is_ready = |tie: &Tie| {
-                let mut others = waiting.iter();
-                !others.any(|other| {
-                    let mut terms = tie.terms.iter();
-                    terms.any(|term| term.parameter == other.quantity.parameter)
-                })
-            };
-            let place = waiting.iter().position(is_ready);
+            let others: Vec<Parameter> = waiting.iter().map(|it| it.quantity.parameter).collect();
+            let place = waiting.iter().position(|tie| !tie.follows(&others));
             let place = place.ok_or("follows itself, at once or by others")?;
             ordered.push(waiting.remove(place));
         }
@@ -184,16 +153,23 @@ impl Machine {
 
     /// Sets all parameters that follow others.
     pub(super) fn follow(&mut self) {
+        self.follow_stiffness();
         for index in 0..self.ties.0.len() {
-            let tie = &self.ties.0[index];
-            let values: Vec<f64> = tie.terms.iter().map(|term| term.value(self)).collect();
-            let value = tie.expression.at(&values).value;
-            let Quantity { parameter, unit } = tie.quantity;
-            match unit {
-                Some(unit) => parameter.set(&mut self.scene, value * unit),
-                None => self.preload_deflection = Some(value),
+            let tie = self.ties.0[index].clone();
+            if tie.quantity.unit.is_none() {
+                self.preload_deflection = Some(tie.value(&self.scene));
             }
+            tie.follow(&mut self.scene);
             self.follow_stiffness();
+        }
+        self.scene.followers = self.ties_to(Parameter::Frequency);
+    }
+
+    /// Sets the preload of a deflection.
+    fn follow_stiffness(&mut self) {
+        let stiffness = Parameter::StopStiffness.get(&self.scene);
+        if let (Some(deflection), Some(stiffness)) = (self.preload_deflection, stiffness) {
+            Parameter::Preload.set(&mut self.scene, deflection * stiffness);
         }
     }
 

@@ -6,6 +6,7 @@ mod parameter;
 mod ratios;
 mod scales;
 mod stop;
+mod ties;
 mod units;
 mod validate;
 
@@ -16,6 +17,8 @@ pub use ratios::Ratios;
 pub use scales::Scales;
 pub(crate) use stop::stiffness_from;
 pub use stop::{Release, RigidStop, Slope, Stop, force_of};
+pub use ties::Ties;
+pub(crate) use ties::{Quantity, Tie};
 pub use units::Units;
 
 use serde::{Deserialize, Serialize};
@@ -59,6 +62,9 @@ pub struct Scene {
     /// A rigid stop behind the stop, if there is one.
     #[serde(default)]
     pub rigid: Option<RigidStop>,
+    /// What follows the frequency of the drive where that is varied.
+    #[serde(skip)]
+    pub followers: Ties,
 }
 
 /// The drive F0 cos(w t + phi).
@@ -134,6 +140,7 @@ impl Scene {
             stop,
             piercing: None,
             rigid: None,
+            followers: Ties::NONE,
         }
     }
 
@@ -154,14 +161,6 @@ impl Scene {
             position: self.stop_position() + travel,
             restitution,
         })
-    }
-
-    /// This machine at another frequency of its drive, in rad/s.
-    #[must_use]
-    pub fn at_frequency(&self, frequency: f64) -> Self {
-        let mut scene = self.clone();
-        scene.excitation.frequency = frequency;
-        scene
     }
 
     /// Period of the drive, 2 pi / w, in s.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Allowed, Dimension, Parameter, Scene, Stop};
+use super::{Allowed, Dimension, Parameter, Scene, Stop, Ties};
 use crate::error::SceneError;
 
 /// The three units that make dimensionless scenes dimensional.
@@ -54,7 +54,8 @@ impl Units {
 }
 
 impl Scene {
-    /// The scene with every quantity multiplied by its unit.
+    /// The scene with every quantity multiplied by its unit. No parameter follows the frequency any more: expressions are in
+    /// the units before.
     ///
     /// # Errors
     /// [`SceneError`] if a unit is not positive or a product leaves its range.
@@ -62,7 +63,10 @@ impl Scene {
         Allowed::Positive.check("mass", units.mass)?;
         Allowed::Positive.check("stiffness", units.stiffness)?;
         Allowed::Positive.check("excitation.amplitude", units.force)?;
-        let mut scene = self.clone();
+        let mut scene = Self {
+            followers: Ties::NONE,
+            ..self.clone()
+        };
         for parameter in Parameter::ALL {
             if let Some(value) = parameter.get(self) {
                 let value = units.of(parameter.about().dimension, value);

@@ -103,6 +103,7 @@ fn any(dice: &mut Dice) -> Case {
             travel: dice.log(1e-3, 2.0),
             restitution: share(dice),
         }),
+        followers: softstop::Ties::NONE,
     };
     let start = any_start(dice, &scene, rolling);
     let periods = dice.range(0.5, 4.0);

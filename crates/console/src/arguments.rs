@@ -148,15 +148,23 @@ impl MachineArguments {
     }
 }
 
+/// Refuses a machine whose drive's frequency follows others, where it is looked for.
+///
+/// # Errors
+/// [`Failure::Usage`] naming the frequency and its expression.
+pub fn refuse_tied_frequency(machine: &Machine) -> Result<(), Failure> {
+    let free = machine.free(machine.name(Parameter::Frequency));
+    free.map(|_| ())
+        .map_err(|error| Failure::usage(error.to_string()))
+}
+
 /// Refuses a machine whose drive's frequency follows something, or is followed, where that is looked for and all else stays.
 ///
 /// # Errors
 /// [`Failure::Usage`] naming what follows.
 pub fn refuse_followers_of_frequency(machine: &Machine) -> Result<(), Failure> {
+    refuse_tied_frequency(machine)?;
     let frequency = Parameter::Frequency;
-    machine
-        .free(machine.name(frequency))
-        .map_err(|error| Failure::usage(error.to_string()))?;
     let Some(follower) = machine.followers(frequency).first().copied() else {
         return Ok(());
     };

@@ -196,7 +196,7 @@ pub fn motion(machine: &Machine, orbit: &Orbit) -> Record {
     Record::of(&states(), &found).and(Record::of(&stabilities(), &found))
 }
 
-/// The machine for people: its name, its stop, and its parameters but for some.
+/// The machine for people: its name, its stop, and its parameters but for some; what follows those as its expression.
 pub fn machine(machine: &Machine, but: &[Parameter]) -> Record {
     let head = Record::default()
         .with(
@@ -205,8 +205,17 @@ pub fn machine(machine: &Machine, but: &[Parameter]) -> Record {
             machine.name.clone().unwrap_or_default(),
         )
         .with("stop", "stop", machine.scene.stop.model());
+    let of_left_out: Vec<Parameter> = but.iter().flat_map(|it| machine.followers(*it)).collect();
     let parameters = machine.parameters().filter(|it| !but.contains(it));
     parameters.fold(head, |record, it| {
-        record.with(it.name(), &machine.label_of(it), machine.value(it))
+        let label = machine.label_of(it);
+        match of_left_out.contains(&it) {
+            true => record.with(
+                it.name(),
+                &label,
+                machine.expression(it).unwrap_or_default().to_owned(),
+            ),
+            false => record.with(it.name(), &label, machine.value(it)),
+        }
     })
 }

@@ -31,6 +31,7 @@ fn machine(stop: Stop, contact_damping: f64) -> Scene {
         stop,
         piercing: None,
         rigid: None,
+        followers: softstop::Ties::NONE,
     }
 }
 

@@ -29,6 +29,7 @@ fn undriven(clearance: f64, stiffness: f64) -> Scene {
         stop: kelvin_voigt(stiffness, Release::Clearance),
         piercing: None,
         rigid: None,
+        followers: softstop::Ties::NONE,
     }
 }
 

@@ -21,8 +21,11 @@ pub(super) struct Linearization<'a> {
     pub(super) at: &'a At<'a>,
     pub(super) point: &'a OperatingPoint,
     slopes: Slopes,
-    /// By each coordinate, what changes of the parameters of `slopes`, in SI units.
+    /// By each coordinate, what changes of the parameters of `slopes` but the last, the frequency, while that stays, in SI
+    /// units.
     directions: Vec<Vec<f64>>,
+    /// Derivatives by the frequency of these parameters, which follow it, and of itself.
+    along: Vec<f64>,
     /// Derivatives of the drive's frequency by the coordinates, and of the upper end of the zone.
     pub(super) frequency: Vec<f64>,
     high: Vec<f64>,
@@ -44,23 +47,22 @@ impl<'a> Linearization<'a> {
         at: &'a At<'a>,
         (point, given): (&'a OperatingPoint, Option<&[f64]>),
     ) -> Option<Self> {
-        let mut parameters: Vec<Parameter> = Parameter::ALL.to_vec();
-        let all = directions(problem, at);
-        parameters.retain(|it| *it != Parameter::Frequency);
-        let is_moved =
-            |parameter: &Parameter| all.iter().any(|row| row[*parameter as usize] != 0.0);
-        parameters.retain(is_moved);
-        let part = |row: &Vec<f64>| {
-            parameters
-                .iter()
-                .map(|it| row[*it as usize])
-                .collect::<Vec<f64>>()
+        let followers = point.orbit.scene.rates_of_followers();
+        let all = directions(problem, at, (&Parameter::ALL, point.frequency()));
+        let is_moved = |parameter: &Parameter| {
+            let mut followers = followers.iter();
+            *parameter != Parameter::Frequency
+                && (all.iter().any(|row| row[*parameter as usize] != 0.0)
+                    || followers.any(|(follower, _)| follower == parameter))
         };
-        let mut directions: Vec<Vec<f64>> = all.iter().map(part).collect();
+        let mut parameters: Vec<Parameter> = Parameter::ALL.to_vec();
+        parameters.retain(is_moved);
+        let mut rows = directions(problem, at, (&parameters, point.frequency()));
         let moved = |end: fn(&Zone) -> &ZoneEnd| {
             let border = Border::end(&point.zone.scene, end(&point.zone), &parameters);
             let by_normal = |border: Border| {
-                let moved = directions.iter().map(|row| -dot(&border.normal, row));
+                let rows = directions(problem, at, (&parameters, border.frequency()));
+                let moved = rows.iter().map(|row| -dot(&border.normal, row));
                 moved.collect::<Vec<f64>>()
             };
             let frequency = |other: &OperatingPoint| Some(vec![end(&other.zone).frequency]);
@@ -69,7 +71,7 @@ impl<'a> Linearization<'a> {
         };
         let low = moved(|zone| &zone.low)?;
         let mut high = moved(|zone| &zone.high)?;
-        high.truncate(directions.len());
+        high.truncate(rows.len());
         let width = point.zone.width();
         let share = point.place;
         let ends = low.iter().zip(&high);
@@ -80,7 +82,7 @@ impl<'a> Linearization<'a> {
             None => vec![0.0; moved.len()],
         };
         if at.place.is_some() {
-            directions.push(vec![0.0; parameters.len()]);
+            rows.push(vec![0.0; parameters.len()]);
             high.push(0.0);
             moved.push(0.0);
             frequency.push(width);
@@ -90,16 +92,19 @@ impl<'a> Linearization<'a> {
         }
         let pairs = frequency.iter().zip(&moved);
         let place = pairs.map(|(own, moved)| (own - moved) / width).collect();
-        for (row, frequency) in directions.iter_mut().zip(&frequency) {
-            row.push(*frequency);
-        }
+        let rate = |parameter: &Parameter| {
+            let known = followers.iter().find(|(own, _)| own == parameter);
+            known.map_or(0.0, |(_, rate)| *rate)
+        };
+        let along = parameters.iter().map(rate).chain([1.0]).collect();
         parameters.push(Parameter::Frequency);
         Some(Self {
             problem,
             at,
             point,
             slopes: slopes::of(&point.orbit, &parameters).ok()?,
-            directions,
+            directions: rows,
+            along,
             frequency,
             high,
             place,
@@ -111,7 +116,12 @@ impl<'a> Linearization<'a> {
         let minus = |a: &[f64], b: &[f64]| Some(a.iter().zip(b).map(|(a, b)| a - b).collect());
         let (_, parameters) = self.slopes.parameters.split_last()?;
         let above = |border: &Border| {
-            let moved = self.directions.iter().map(|row| dot(&border.normal, row));
+            let rows = directions(self.problem, self.at, (parameters, border.frequency()));
+            let place = self.at.place.map(|_| Vec::new());
+            let moved = rows
+                .iter()
+                .chain(&place)
+                .map(|row| dot(&border.normal, row));
             let both = moved.zip(&self.frequency);
             both.map(|(moved, own)| own + moved).collect::<Vec<f64>>()
         };
@@ -142,7 +152,11 @@ impl<'a> Linearization<'a> {
 
     /// The chain rule.
     fn total(&self, by: &[f64]) -> Vec<f64> {
-        self.directions.iter().map(|row| dot(by, row)).collect()
+        let by_frequency = dot(by, &self.along);
+        let pairs = self.directions.iter().zip(&self.frequency);
+        pairs
+            .map(|(row, frequency)| dot(by, row) + frequency * by_frequency)
+            .collect()
     }
 }
 
@@ -150,8 +164,12 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// By each coordinate of the cube that is moved, the change of all parameters in SI units.
-fn directions(problem: &Problem, at: &At<'_>) -> Vec<Vec<f64>> {
+/// By each coordinate of the cube that is moved, the change of some parameters in SI units at a frequency of the drive.
+fn directions(
+    problem: &Problem,
+    at: &At<'_>,
+    (parameters, frequency): (&[Parameter], f64),
+) -> Vec<Vec<f64>> {
     let free: Vec<usize> = (0..problem.axes.len())
         .filter(|index| !problem.axes[*index].range.is_held())
         .collect();
@@ -163,8 +181,9 @@ fn directions(problem: &Problem, at: &At<'_>) -> Vec<Vec<f64>> {
     let aside = |axis: usize, by: f64| {
         let mut values = values.clone();
         values[axis] += by * problem.axes[axis].rate(values[axis]);
-        let scene = problem.machine_at(&values).scene;
-        Parameter::ALL.map(|parameter| parameter.get(&scene).unwrap_or(0.0))
+        let scene = problem.machine_at(&values).scene.at_frequency(frequency);
+        let values = parameters.iter().map(|it| it.get(&scene).unwrap_or(0.0));
+        values.collect::<Vec<f64>>()
     };
     let row = |index: &usize| {
         let axis = free[*index];

@@ -4,7 +4,6 @@ use std::cell::RefCell;
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
-use softstop::Parameter;
 use softstop_dynamics::BranchPoint;
 
 use super::conflict::{conflict, short};
@@ -168,7 +167,7 @@ impl Line<'_> {
         let Zoned { machine, zone, .. } = self.zoned;
         let orbit = zone.orbit(&best.point).map_err(Infeasible::unknown)?;
         let mut machine = machine.clone();
-        Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(best.place));
+        machine.set_frequency(zone.frequency_at(best.place));
         Ok(Design {
             machine,
             place: best.place,

@@ -1,6 +1,6 @@
 //! The motion at a point of the search.
 
-use softstop::{Machine, Parameter};
+use softstop::Machine;
 use softstop_dynamics::{Orbit, Zone};
 
 use super::Design;
@@ -53,7 +53,7 @@ impl OperatingPoint {
         if !(orbit.is_stable() || place >= 1.0) {
             return None;
         }
-        Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
+        machine.set_frequency(zone.frequency_at(place));
         Some(Self {
             machine,
             zone: zone.clone(),

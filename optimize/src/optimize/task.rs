@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use softstop::internals::plain;
 use softstop::{Dimension, Machine, Parameter};
-use softstop_console::arguments::refuse_followers_of_frequency;
+use softstop_console::arguments::refuse_tied_frequency;
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
@@ -73,7 +73,7 @@ impl Job {
         let machine = machine(arguments, &task, place.clone())?;
         let sources = Source::all(arguments, place.as_deref())?;
         of_machine(&machine, &task).map_err(located)?;
-        refuse_followers_of_frequency(&machine).map_err(located)?;
+        refuse_tied_frequency(&machine).map_err(located)?;
         let tolerances = tolerances(&machine, &task.tolerance)?;
         let Required {
             figures: requirements,
@@ -86,6 +86,13 @@ impl Job {
         let Sought { objectives, cost } = Sought::new(&machine, &task.objective)?;
         let (objective, traded) = (objectives[0], objectives[1..].to_vec());
         let is_exact = tolerances.iter().all(Tolerance::is_exact);
+        if let (Some(tolerance), false) = (tolerances.first(), machine.scene.followers.is_empty()) {
+            return Err(Failure::usage(format!(
+                "tolerance.{}: no machine with tolerances may have values that follow {}; state them as numbers",
+                machine.name(tolerance.parameter),
+                machine.name(Parameter::Frequency)
+            )));
+        }
         has_tolerances(is_exact, &objective, &task.require).map_err(located)?;
         let deviations = deviations(&tolerances, &task.require, (violating, arguments.samples))?;
         let says_where = !is_exact || requirements.iter().any(|it| it.figure.is_margin());

@@ -16,7 +16,7 @@ use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime};
 use crate::sweep::{Chain, Plan};
-use softstop::{MotionError, Parameter, Scene, Start};
+use softstop::{Machine, MotionError, Parameter, Scene, Start};
 
 pub use way::Way;
 
@@ -257,6 +257,10 @@ fn changed(
     let Some(at_work) = parameter.get(scene) else {
         return Ok(None);
     };
+    let mut followers = scene.followers.parameters();
+    if followers.any(|it| it == parameter) {
+        return Ok(None);
+    }
     let range = (from.min(at_work), from.max(at_work));
     let (steps, periods) = settings.steps(parameter, range);
     let Ok(plan) = Plan::new(parameter, range, steps, periods) else {
@@ -281,9 +285,9 @@ fn changed(
     let peaks = || {
         let (mut peaks, mut state) = (Peaks::default(), plan.start);
         for step in 0..steps {
-            let mut scene = scene.clone();
-            parameter.set(&mut scene, plan.value(step, direction));
-            state = peaks.take(&scene, state, periods)?;
+            let mut machine = Machine::from(scene.clone());
+            machine.set(parameter, plan.value(step, direction));
+            state = peaks.take(&machine.scene, state, periods)?;
             OrbitError::ask(monitor)?;
         }
         peaks.take(scene, state, STEP_PERIODS)?;

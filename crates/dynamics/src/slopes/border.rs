@@ -73,6 +73,7 @@ impl Border {
             clearance: scene.clearance,
             largest: f64::NAN,
         })?;
+        let scene = scene.at_frequency(w);
         let (m, k, b) = (scene.mass, scene.stiffness, scene.damping);
         let (r, drive) = (scene.clearance, scene.excitation.amplitude);
         // r^2 ((k - m w^2)^2 + b^2 w^2) - F0^2, by the parameters.
@@ -88,12 +89,16 @@ impl Border {
         };
         for parameter in parameters {
             let lacks = || SceneError::Lacks(parameter.name());
-            parameter.get(scene).ok_or_else(lacks)?;
+            parameter.get(&scene).ok_or_else(lacks)?;
         }
-        let own = by(&Parameter::Frequency);
+        let followers = scene.rates_of_followers();
+        let followers = followers
+            .iter()
+            .map(|(parameter, rate)| rate * by(parameter));
+        let own = by(&Parameter::Frequency) + followers.sum::<f64>();
         Ok(Self {
             kind: BorderKind::Free { above },
-            scene: scene.at_frequency(w),
+            scene,
             point: None,
             parameters: parameters.to_vec(),
             normal: parameters
@@ -181,8 +186,9 @@ impl Border {
     pub fn frequency_near(&self, scene: &Scene) -> f64 {
         let others = self.parameters.iter().zip(&self.normal);
         let others = others.filter(|(parameter, _)| **parameter != Parameter::Frequency);
+        let there = scene.at_frequency(self.frequency());
         let move_by = |parameter: &Parameter| {
-            let [to, from] = [scene, &self.scene].map(|scene| parameter.get(scene));
+            let [to, from] = [&there, &self.scene].map(|scene| parameter.get(scene));
             Some(to? - from?)
         };
         let change = others.map(|(parameter, normal)| normal * move_by(parameter).unwrap_or(0.0));
@@ -196,13 +202,17 @@ impl Border {
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
         let scene = scene.at_frequency(point.parameter);
-        let all = [parameters, &[Parameter::Frequency]].concat();
+        // The frequency, and what follows it.
+        let mut along = vec![(Parameter::Frequency, 1.0)];
+        along.extend(scene.rates_of_followers());
+        let moved: Vec<Parameter> = along.iter().map(|(parameter, _)| *parameter).collect();
+        let all = [parameters, &moved].concat();
         let rates = match kind {
             SpecialKind::Critical(Test::Fold) => fold(&scene, periods, point, &all)?,
             SpecialKind::Critical(test) => test_rates(&scene, periods, (test, point), &all)?,
-            SpecialKind::Grazing(graze) => touch(&scene, periods, &graze, &all)?,
+            SpecialKind::Grazing(graze) => touch(&scene, periods, &graze, (&all, &along))?,
         };
-        let own = rates[parameters.len()];
+        let own = total(&along, &rates[parameters.len()..]);
         let normal: Vec<f64> = rates[..parameters.len()]
             .iter()
             .map(|rate| rate / own)
@@ -218,6 +228,12 @@ impl Border {
             normal,
         })
     }
+}
+
+/// The derivative by the frequency, from the rates of what moves along it.
+fn total(along: &[(Parameter, f64)], rates: &[f64]) -> f64 {
+    let pairs = along.iter().zip(rates);
+    pairs.map(|((_, rate), by)| rate * by).sum()
 }
 
 /// w . dP/dp with w the left null vector of M - 1.
@@ -258,12 +274,13 @@ fn test_rates(
     Ok(rates.map(rate).collect())
 }
 
-/// -dw/dp of a grazing orbit, from rest at the surface to rest there: angle of the touch and frequency are unknown.
+/// -dw/dp of a grazing orbit, from rest at the surface to rest there: angle of the touch and frequency are unknown. What
+/// moves along the frequency stands last among the parameters.
 fn touch(
     scene: &Scene,
     periods: u64,
     graze: &Graze,
-    parameters: &[Parameter],
+    (parameters, along): (&[Parameter], &[(Parameter, f64)]),
 ) -> Result<Vec<f64>, OrbitError> {
     let missing = || none(parameters);
     let mut scene = scene.clone();
@@ -290,7 +307,11 @@ fn touch(
         columns[2 + index].xy() + moved * (columns[0].xy() - Vector2::x())
     };
     let last = parameters.len();
-    let (by_angle, by_frequency) = (drift(last), drift(last - 1));
+    let by_frequency = along.iter().enumerate().map(|(index, (_, rate))| {
+        let column = last - along.len() + index;
+        *rate * drift(column)
+    });
+    let (by_angle, by_frequency) = (drift(last), by_frequency.sum::<Vector2<f64>>());
     let matrix = Matrix2::from_columns(&[by_angle, by_frequency]);
     let inverse = matrix.try_inverse().ok_or_else(missing)?;
     Ok((0..last).map(|index| (inverse * drift(index)).y).collect())

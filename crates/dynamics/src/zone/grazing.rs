@@ -1,10 +1,14 @@
 //! The motion without impacts and where it grazes the stop.
 
+use std::convert::Infallible;
+
 use super::ZoneError;
 use softstop::Scene;
+use softstop::internals::{highest, narrow};
 
 /// Amplitude F0 / |k1 - m w^2 + i b1 w| in m of the impact-less motion at a frequency in rad/s.
 pub fn free_amplitude(scene: &Scene, frequency: f64) -> f64 {
+    let scene = scene.at_frequency(frequency);
     let spring = scene.stiffness - scene.mass * frequency * frequency;
     scene.excitation.amplitude / spring.hypot(scene.damping * frequency)
 }
@@ -25,11 +29,18 @@ fn largest_free_amplitude(scene: &Scene) -> f64 {
 /// Its amplitude F0 / |k1 - m w^2 + i b1 w| equals the clearance r where
 /// m w^2 = k1 - b1^2 / (2 m) +- sqrt((F0 / r)^2 - b1^2 (k1 / m - b1^2 / (2 m)^2)).
 ///
+/// Where parameters follow the frequency by an expression, the lowest of all such frequencies that the stop is met above and
+/// the highest that it is met below are found among [`LOOKS`] between [`WIDEST`] times the slower and the faster one of drive
+/// and suspension, and the peaks between them.
+///
 /// # Errors
 /// [`ZoneError::NoGrazing`] if the amplitude never equals the clearance, [`ZoneError::Orbit`] for a
 /// scene that is none.
 pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
     scene.validate()?;
+    if !scene.followers.is_empty() {
+        return grazing_among_looks(scene);
+    }
     let (m, k, r) = (scene.mass, scene.stiffness, scene.clearance);
     let (force, square) = (scene.excitation.amplitude, scene.damping * scene.damping);
     let centre = m * k - 0.5 * square;
@@ -45,4 +56,61 @@ pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneErro
     // The product of the roots: no cancellation for the smaller one.
     let below = (k - force / r) * (k + force / r) / (m * m) / above;
     Ok(((below > 0.0).then(|| below.sqrt()), above.sqrt()))
+}
+
+/// How far beyond the frequencies of drive and suspension grazings are looked for, as a factor.
+const WIDEST: f64 = 100.0;
+/// Frequencies that are looked at, evenly spread over their logarithm.
+const LOOKS: usize = 4096;
+/// Relative width to which a peak of the amplitude between them is known; being flat it is known to rounding then.
+const PEAK_WIDTH: f64 = 1e-10;
+
+/// What [`grazing_frequencies`] are where parameters follow the frequency.
+fn grazing_among_looks(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
+    let own = (scene.stiffness / scene.mass).sqrt();
+    let drive = scene.excitation.frequency;
+    let slowest = if own > 0.0 { drive.min(own) } else { drive } / WIDEST;
+    let step = (drive.max(own) * WIDEST / slowest).ln() / LOOKS as f64;
+    let at = |look: usize| slowest * (step * look as f64).exp();
+    // Between -1 and 1, and of the sign of the amplitude's excess over the clearance.
+    let excess = |w: f64| {
+        let (amplitude, clearance) = (free_amplitude(scene, w), scene.at_frequency(w).clearance);
+        (amplitude - clearance) / (amplitude + clearance.abs())
+    };
+    let all: Vec<f64> = (0..=LOOKS).map(|look| excess(at(look))).collect();
+    let peaks = (1..LOOKS).filter_map(|look| {
+        let sign = -all[look].signum();
+        let is_peak = |beside: usize| sign * all[look] >= sign * all[beside];
+        if !(is_peak(look - 1) && is_peak(look + 1)) {
+            return None;
+        }
+        let (low, high) = (at(look - 1), at(look + 1));
+        let (w, value) = highest(low, high, PEAK_WIDTH * high, |w| sign * excess(w));
+        (value > 0.0).then_some((w, sign * value))
+    });
+    let looks = all
+        .iter()
+        .enumerate()
+        .map(|(look, excess)| (at(look), *excess));
+    let mut seen: Vec<(f64, f64)> = looks.chain(peaks).collect();
+    seen.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let meets = |place: &(f64, f64)| place.1 >= 0.0;
+    let mut pairs = seen.windows(2);
+    let root = |pair: &[(f64, f64)]| {
+        let width = f64::EPSILON * pair[1].0;
+        let Ok(bracket) = narrow(pair[0], pair[1], width, |w| Ok::<_, Infallible>(excess(w)));
+        bracket.middle()
+    };
+    let below = pairs
+        .clone()
+        .find(|pair| !meets(&pair[0]) && meets(&pair[1]));
+    match pairs.rfind(|pair| meets(&pair[0]) && !meets(&pair[1])) {
+        Some(above) => Ok((below.map(root), root(above))),
+        None => Err(ZoneError::NoGrazing {
+            clearance: scene.clearance,
+            largest: seen
+                .iter()
+                .fold(0.0, |most, (w, _)| most.max(free_amplitude(scene, *w))),
+        }),
+    }
 }

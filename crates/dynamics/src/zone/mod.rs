@@ -185,6 +185,6 @@ impl Family for Frequencies<'_> {
     }
 
     fn by_frequency(&self) -> [Option<f64>; 1] {
-        [Some(1.0)]
+        [self.0.followers.is_empty().then_some(1.0)]
     }
 }
