@@ -16,9 +16,12 @@ use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
 /// Scaled distances from the flip at which the doubled branch is looked for.
-const DISTANCES: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-5];
+const DISTANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 /// Smallest share of such a distance by which half a round must lead away.
 const HALF_PERIOD_GAP: f64 = 0.5;
+/// Greatest value of the test of a fold, 0 at the flip, where the doubled branch begins: farther on it may have flipped
+/// itself, or the orbit may be another one.
+const MAX_FOLD_TEST: f64 = 0.5;
 
 impl<F: Family> Continuation<'_, F> {
     /// The branch of orbits of twice the period from a flip of these orbits on, along the
@@ -42,8 +45,10 @@ impl<F: Family> Continuation<'_, F> {
                 continue;
             };
             let along: DVector<f64> = &node.at - &at;
-            let twice = node.here.point.impacts.len() == 2 * flip.impacts.len();
-            let near = along.norm() < 2.0 * distance;
+            let point = &node.here.point;
+            let twice = point.impacts.len() == 2 * flip.impacts.len();
+            let fold = Test::Fold.value(&point.monodromy);
+            let near = along.norm() < 2.0 * distance && fold.abs() < MAX_FOLD_TEST;
             if twice && near && doubled.half_round(&node) > HALF_PERIOD_GAP * distance {
                 return doubled.branch_along(node, &along, limits, &mut watch);
             }
