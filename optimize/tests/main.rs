@@ -6,6 +6,7 @@ mod cases;
 mod command_line;
 mod continuation;
 mod fidelity;
+mod gallery;
 mod gradients;
 mod guide;
 mod handed_on;
