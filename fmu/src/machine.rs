@@ -188,6 +188,11 @@ impl Machine {
         )
     }
 
+    /// Whether the mass is held at rest.
+    pub(crate) fn is_held(&self) -> bool {
+        matches!(self.sample().phase, PhaseKind::Stuck | PhaseKind::Resting)
+    }
+
     /// Number of the present phase, as in the enumeration [`PHASE`](crate::units::PHASE).
     pub(crate) fn phase(&self) -> i32 {
         match self.sample().phase {

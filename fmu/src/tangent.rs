@@ -2,7 +2,7 @@
 //! through again.
 
 use softstop::{Perturbation, Sensitivity};
-use softstop_fmi::{Events, Known, Outcome, slope};
+use softstop_fmi::{Events, Known, Outcome, Unit, slope};
 
 use crate::machine::Machine;
 use crate::signal;
@@ -10,6 +10,9 @@ use crate::start::slot;
 
 /// Width of the first differences, as a share of the motion.
 const WIDTH: f64 = 1e-3;
+
+/// The position as a state.
+const POSITION: Known = Known::State(0);
 
 /// What a direction of change at the beginning of the last step brings.
 #[derive(Debug)]
@@ -24,7 +27,14 @@ pub struct Tangent {
 impl Tangent {
     pub(crate) fn new(machine: &Machine, direction: &[(Known, f64)]) -> Outcome<Self> {
         let mass = machine.simulation().scene().mass;
-        let (mut by, mut rest) = (Perturbation::default(), Vec::new());
+        let is_state = |(known, _): &&(Known, f64)| matches!(known, Known::State(_));
+        let mut by = Perturbation::default();
+        // Of a direction of the present state all parts know it.
+        let mut rest: Vec<_> = direction
+            .iter()
+            .filter(is_state)
+            .map(|(known, _)| (*known, 0.0))
+            .collect();
         for &(known, seed) in direction {
             match known {
                 _ if machine.more.origin.is_some() => rest.push((known, seed)),
@@ -32,8 +42,10 @@ impl Tangent {
                 Known::Signal(signal::BASE) => by.force -= mass * seed,
                 Known::Signal(_) if machine.more.drive.is_none() => {}
                 Known::Signal(_) => rest.push((known, seed)),
-                Known::Parameter(slot::INITIAL_POSITION) => by.position += seed,
-                Known::Parameter(_) => by.velocity += seed,
+                Known::Parameter(slot::INITIAL_POSITION) | POSITION => by.position += seed,
+                // A mass that is held stays at rest.
+                Known::State(_) if machine.is_held() => {}
+                Known::Parameter(_) | Known::State(_) => by.velocity += seed,
             }
         }
         Ok(Self {
@@ -83,24 +95,32 @@ impl Machine {
             Known::Signal(signal::SPEED) => rate,
             Known::Signal(signal::BASE) => rate * rate * length,
             Known::Signal(_) => scene.mass * rate * rate * length,
-            Known::Parameter(slot::INITIAL_POSITION) => length,
-            Known::Parameter(_) => rate * length,
+            Known::Parameter(slot::INITIAL_POSITION) | POSITION => length,
+            Known::Parameter(_) | Known::State(_) => rate * length,
         }
     }
 
-    /// The last step again, from a beginning that was moved by `step` along a direction.
+    /// The last step again, from a beginning that was moved by `step` along a direction; the present state, if that is what
+    /// is moved.
     fn repeated(&self, direction: &[(Known, f64)], step: f64) -> Outcome<Self> {
         let begin = self.more.origin.as_deref().unwrap_or(self);
         let (mut position, mut velocity) = (0.0, 0.0);
         for &(known, seed) in direction {
             match known {
-                Known::Parameter(slot::INITIAL_POSITION) => position += step * seed,
-                Known::Parameter(_) => velocity += step * seed,
+                Known::Parameter(slot::INITIAL_POSITION) | POSITION => position += step * seed,
+                Known::Parameter(_) | Known::State(_) => velocity += step * seed,
                 Known::Signal(_) => {}
             }
         }
-        let simulation = begin.simulation().at_mark(position, velocity)?;
-        let mut machine = Self::new(simulation, begin.more.clone().afresh());
+        let is_present = direction
+            .iter()
+            .any(|(known, _)| matches!(known, Known::State(_)));
+        let mut machine = if is_present {
+            self.clone()
+        } else {
+            let simulation = begin.simulation().at_mark(position, velocity)?;
+            Self::new(simulation, begin.more.clone().afresh())
+        };
         for &(known, seed) in direction {
             if let Known::Signal(number) = known {
                 let mut signal = *machine.signal(number).derivatives();
@@ -109,6 +129,14 @@ impl Machine {
             }
         }
         machine.push()?;
+        if is_present {
+            let of = self.sample();
+            machine = machine.placed(
+                self.time(),
+                &[of.position + position, of.velocity + velocity],
+            )?;
+            machine.keep_law(self);
+        }
         let end = self.simulation().time();
         if end > machine.simulation().time() {
             machine.go_to(end, None, &mut Events::default())?;

@@ -177,7 +177,7 @@ impl Unit for Machine {
     fn has_tangent(&self, known: Known) -> bool {
         let begin = self.more.origin.as_deref().unwrap_or(self);
         match known {
-            Known::Signal(_) => true,
+            Known::Signal(_) | Known::State(_) => true,
             Known::Parameter(slot) => {
                 [slot::INITIAL_POSITION, slot::INITIAL_VELOCITY].contains(&slot)
                     && begin.simulation().is_marked_at_start()

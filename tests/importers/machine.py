@@ -7,7 +7,7 @@ import numpy as np
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "fmpy"))
 
-from packages import TOP, UNITS, package, package_3  # noqa: E402, F401
+from packages import TOP, UNITS, package, package_3, package_exchange  # noqa: E402, F401
 from reference import simulate  # noqa: E402
 
 PERIOD = 2 * np.pi / 1.15

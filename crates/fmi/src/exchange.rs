@@ -125,7 +125,7 @@ impl<U: Unit> Instance<U> {
         Ok(())
     }
 
-    fn begun(&self) -> Result<&U, Fault> {
+    pub(crate) fn begun(&self) -> Result<&U, Fault> {
         self.unit.as_ref().ok_or_else(|| self.no_outputs())
     }
 
@@ -134,10 +134,13 @@ impl<U: Unit> Instance<U> {
         let Some(exchange) = self.exchange.as_deref_mut().filter(|it| !it.is_shown) else {
             return Ok(());
         };
-        let mut unit = exchange.own.at_states(exchange.time, &exchange.states)?;
+        let at_states = |unit: &U| unit.at_states(exchange.time, &exchange.states);
+        let mut unit = at_states(&exchange.own)?;
         for (number, signal) in self.signals.iter().enumerate() {
             if signal.pending {
+                // Under other inputs the law may be another one, which keeps the unit within its ends.
                 unit.drive(number, &signal.derivatives)?;
+                unit = at_states(&unit)?;
             }
         }
         unit.keep_law(&exchange.own);

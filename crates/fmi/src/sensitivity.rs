@@ -4,11 +4,15 @@
 //! every event in between: from continuous inputs as they were set for that step, and, over the first
 //! step, from the initial state. If an input has been set since, the step behind is over and what is
 //! left is its direct feedthrough. In initialisation all real parameters are knowns as well.
+//!
+//! For an importer that integrates they are those of the present outputs by its states and the continuous inputs, in event
+//! mode by tunable parameters as well, under the law that holds.
 
 use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
 use crate::reading::{Type, find};
+use crate::solving::{number_of_state, space_of};
 use crate::unit::{Known, Row, Unit};
 use crate::variable::{Access, Slot};
 
@@ -34,7 +38,9 @@ impl<U: Unit> Instance<U> {
             .iter()
             .map(|&reference| unknown::<U>(reference))
             .collect::<Result<Vec<_>, _>>()?;
-        let unit = self.unit.as_ref().ok_or_else(|| self.no_outputs())?;
+        let unit = self.begun()?;
+        let present = self.exchange.as_ref().map(|_| marked(unit));
+        let unit = present.as_ref().unwrap_or(unit);
         let (direction, parameters) = self.direction(unit, knowns, seed)?;
         let along = unit.tangent(&direction)?;
         for (&(output, tangent), value) in outputs.iter().zip(sensitivity) {
@@ -77,7 +83,14 @@ impl<U: Unit> Instance<U> {
         knowns: &[u32],
         seed: &[f64],
     ) -> Result<(Vec<(Known, f64)>, Vec<(&'static Row<U>, Slot, f64)>), Fault> {
-        let (mut direction, mut parameters) = (Vec::new(), Vec::new());
+        let (integrates, mut parameters) = (self.exchange.is_some(), Vec::new());
+        let parameters_in = match integrates {
+            true => Lifecycle::Event,
+            false => Lifecycle::Initializing,
+        };
+        // With its states, if only as they are, a direction is one of the present state.
+        let states = 0..usize::from(integrates) * space_of::<U>().states.len();
+        let mut direction: Vec<_> = states.map(|state| (Known::State(state), 0.0)).collect();
         for (&reference, &seed) in knowns.iter().zip(seed) {
             if !seed.is_finite() {
                 return Err(Fault::argument("dvKnown", seed, "finite"));
@@ -85,18 +98,27 @@ impl<U: Unit> Instance<U> {
             let variable = find::<U>(reference, Type::Real)?;
             let known = match variable.access {
                 Access::Signal(number) => Some(Known::Signal(number)),
-                Access::Parameter { slot, .. } => Some(Known::Parameter(slot)),
-                _ => None,
+                Access::Parameter { slot, tunable } if tunable || !integrates => {
+                    Some(Known::Parameter(slot))
+                }
+                _ => number_of_state(variable)
+                    .filter(|_| integrates)
+                    .map(Known::State),
             };
             match known {
                 Some(known) if unit.has_tangent(known) => direction.push((known, seed)),
-                Some(Known::Parameter(slot)) if self.lifecycle == Lifecycle::Initializing => {
+                Some(Known::Parameter(slot)) if self.lifecycle == parameters_in => {
                     parameters.push((variable, slot, seed));
                 }
                 _ => {
                     return Err(Fault::NoKnown {
                         name: variable.name,
-                        available: U::about().knowns,
+                        available: match integrates {
+                            true => {
+                                "states and continuous inputs, in event mode also by tunable parameters"
+                            }
+                            false => U::about().knowns,
+                        },
                     });
                 }
             }
@@ -104,8 +126,8 @@ impl<U: Unit> Instance<U> {
         Ok((direction, parameters))
     }
 
-    /// The derivative of an output at the start by a parameter: outputs at the start are elementary
-    /// functions of the parameters. Differences keep to one side where the law of the motion, or the range of the
+    /// The derivative of an output at the start, or of an importer that integrates now, by a parameter, of which such
+    /// outputs are elementary functions. Differences keep to one side where the law of the motion, or the range of the
     /// parameter, ends.
     fn by_parameter(
         &self,
@@ -125,19 +147,31 @@ impl<U: Unit> Instance<U> {
             let moved = parameter
                 .kind
                 .contains(moved)
-                .then(|| self.begun_with(slot, moved));
+                .then(|| self.with_parameter(unit, slot, moved));
             let moved = moved?.ok()?;
             (moved.law() == unit.law()).then(|| output(&moved))
         }))
     }
 
-    /// The unit at the start with another value of a parameter.
-    fn begun_with(&self, slot: Slot, value: f64) -> Result<U, Fault> {
+    /// The unit with another value of a parameter.
+    fn with_parameter(&self, unit: &U, slot: Slot, value: f64) -> Result<U, Fault> {
         let mut other = self.clone();
         other.values[slot.0] = value;
+        if self.exchange.is_some() {
+            let mut tuned = unit.clone();
+            tuned.tune(&other.values)?;
+            return Ok(tuned);
+        }
         other.unit = None;
         other.settle().cloned()
     }
+}
+
+/// The unit with a stretch for derivatives that begins now.
+fn marked<U: Unit>(unit: &U) -> U {
+    let mut unit = unit.clone();
+    unit.mark();
+    unit
 }
 
 /// The derivative of a function by differences extrapolated to width zero (Richardson 1911), within some 1e-10 of the

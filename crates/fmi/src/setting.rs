@@ -5,6 +5,7 @@ use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
 use crate::reading::{Type, find};
 use crate::signal::{Derivatives, Signal};
+use crate::solving::number_of_state;
 use crate::unit::{Events, Row, Unit};
 use crate::variable::Access;
 
@@ -48,10 +49,15 @@ impl<U: Unit> Instance<U> {
             self.adopt(after)?;
         }
         for (&reference, value) in all() {
-            if let Access::Signal(number) = find::<U>(reference, wanted)?.access {
+            let variable = find::<U>(reference, wanted)?;
+            if let Access::Signal(number) = variable.access {
                 let mut derivatives = Derivatives::default();
                 derivatives[0] = value;
                 self.push(number, derivatives);
+            }
+            if let (Some(number), Some(exchange)) = (number_of_state(variable), &mut self.exchange)
+            {
+                (exchange.states[number], exchange.is_shown) = (value, false);
             }
         }
         Ok(())
@@ -73,6 +79,10 @@ impl<U: Unit> Instance<U> {
                 Err(Fault::Fixed(name))
             }
             Access::Parameter { .. } | Access::Signal(_) | Access::Input(_) => Ok(()),
+            // A state is the importer's while it integrates.
+            _ if self.lifecycle == Lifecycle::Continuous && number_of_state(variable).is_some() => {
+                Ok(())
+            }
             _ => Err(Fault::Output(name)),
         }
     }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::signal::Signal;
-use crate::unit::{Events, State, StateSpace, Unit};
+use crate::unit::{Events, Row, State, StateSpace, Unit};
 
 /// Share of its nominal value by which a state that an importer has integrated may miss the unit's own motion.
 const AGREEMENT: f64 = 0.1;
@@ -37,6 +37,12 @@ pub(crate) fn space_of<U: Unit>() -> &'static StateSpace {
         indicators: &[],
     };
     U::about().state_space.unwrap_or(NONE)
+}
+
+/// The number of a variable among the states.
+pub(crate) fn number_of_state<U: Unit>(variable: &Row<U>) -> Option<usize> {
+    let mut states = space_of::<U>().states.iter();
+    states.position(|state| state.value == variable.reference)
 }
 
 /// The states of a unit as it is.

@@ -128,6 +128,8 @@ pub enum Known {
     Signal(usize),
     /// A parameter.
     Parameter(Slot),
+    /// A continuous state, by its number, for an importer that integrates: as it is now, under the law that holds.
+    State(usize),
 }
 
 /// How far an advance came.

@@ -144,15 +144,7 @@ impl Model {
     fn expected(&self, call: Call, handling: (bool, bool), kept: Option<&Self>) -> Statuses {
         let exchanges = self.is_for_exchange;
         match call {
-            Call::EnterStep
-            | Call::DoStep(..)
-            | Call::Directional(_)
-            | Call::Adjoint(_)
-            | Call::OutputDerivative(_)
-                if exchanges =>
-            {
-                &[ERROR]
-            }
+            Call::EnterStep | Call::DoStep(..) | Call::OutputDerivative(_) if exchanges => &[ERROR],
             Call::EnterEvent if exchanges => if_all(&[self.life == Continuous]),
             Call::EnterContinuous => match self.life == Event && exchanges {
                 // An event may be due.
@@ -193,7 +185,7 @@ impl Model {
             Call::Get(_) => &[OK],
             Call::Set(name, value) => match name {
                 _ if !self.is_settable() => &[ERROR],
-                "position" => &[ERROR],
+                "position" if self.life != Continuous => &[ERROR],
                 "mass" if self.is(&[Event, Step, Continuous]) => &[ERROR],
                 _ if value.is_finite() && value.abs() < 1e12 => &[OK],
                 _ => &[DISCARD],
@@ -207,7 +199,14 @@ impl Model {
             Call::Directional(known) | Call::Adjoint(known) => match known {
                 // In initialisation every real parameter is a known.
                 "clearance" if self.life == Initializing => &[OK],
-                "force" => self.of_outputs(&[Initializing, Event, Step, Terminated], &[ERROR]),
+                "clearance" if exchanges && self.begun => if_all(&[self.life == Event]),
+                "velocity" if exchanges && self.begun => {
+                    self.of_outputs(&[Event, Continuous, Terminated], &[ERROR])
+                }
+                "force" => {
+                    let lives = [Initializing, Event, Step, Continuous, Terminated];
+                    self.of_outputs(&lives, &[ERROR])
+                }
                 _ => &[ERROR],
             },
             Call::OutputDerivative(order) => match order {
@@ -536,7 +535,7 @@ fn call() -> impl Strategy<Value = Call> {
     ]);
     let counts = prop_oneof![20 => 2..4usize, 1 => 0..5usize];
     let state = || 0..STATES;
-    let known = || prop_oneof![9 => Just("force"), 1 => Just("clearance")];
+    let known = || prop_oneof![9 => Just("force"), 1 => Just("clearance"), 1 => Just("velocity")];
     let orders = prop_oneof![9 => 1..3, 1 => select(vec![0, 3, -1])];
     prop_oneof![
         14 => start.prop_map(Call::EnterInitialization),
@@ -553,8 +552,8 @@ fn call() -> impl Strategy<Value = Call> {
         1 => Just(Call::Terminate),
         14 => variable.prop_map(Call::Get),
         12 => settable.prop_map(|(name, value)| Call::Set(name, value)),
+        3 => select(vec![1.0, 10.5, f64::NAN]).prop_map(|value| Call::Set("position", value)),
         1 => select(vec![
-            Call::Set("position", 1.0),
             Call::UnknownVariable,
             Call::OtherType,
             Call::TooFewValues,

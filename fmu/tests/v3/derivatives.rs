@@ -27,7 +27,7 @@ const RIGID: &[(&str, f64)] = &[
     ("piercing.travel", 0.0),
 ];
 
-fn assert_close(one: f64, other: f64, most: f64) {
+pub fn assert_close(one: f64, other: f64, most: f64) {
     assert!((one - other).abs() <= most, "{one} and {other}");
 }
 

@@ -6,4 +6,5 @@ mod derivatives;
 mod events;
 mod exchange;
 mod intermediate;
+mod linearization;
 mod unit;

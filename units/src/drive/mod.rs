@@ -182,7 +182,7 @@ impl Drive {
                 Known::Signal(VOLTAGE) => drive.voltage.derivatives[0] += step * seed,
                 Known::Signal(_) => drive.load.derivatives[0] += step * seed,
                 Known::Parameter(slot::INITIAL_SPEED) => drive.state.speed += step * seed,
-                Known::Parameter(_) => drive.state.angle += step * seed,
+                _ => drive.state.angle += step * seed,
             }
         }
         drive.go_to(self.time).then_some(drive)
@@ -264,6 +264,7 @@ impl Unit for Drive {
             Known::Parameter(slot) => {
                 first && [slot::INITIAL_SPEED, slot::INITIAL_ANGLE].contains(&slot)
             }
+            Known::State(_) => false,
         }
     }
 
@@ -272,7 +273,7 @@ impl Unit for Drive {
             Known::Signal(VOLTAGE) => 1.0,
             Known::Signal(_) => self.motor.typical_energy(),
             Known::Parameter(slot::INITIAL_SPEED) => self.motor.speed,
-            Known::Parameter(_) => 1.0,
+            _ => 1.0,
         };
         Ok(Direction::new(self, direction, typical, Self::repeated))
     }

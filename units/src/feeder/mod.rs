@@ -133,7 +133,7 @@ impl Feeder {
         for &(known, seed) in direction {
             match known {
                 Known::Signal(_) => feeder.shaft.move_told(step * seed),
-                Known::Parameter(_) => feeder.shaft.move_start(step * seed),
+                _ => feeder.shaft.move_start(step * seed),
             }
         }
         feeder.go_to(self.shaft.time).ok()?;
@@ -226,6 +226,7 @@ impl Unit for Feeder {
         match known {
             Known::Signal(_) => true,
             Known::Parameter(slot) => !begun && slot == slot::INITIAL_ANGLE,
+            Known::State(_) => false,
         }
     }
 

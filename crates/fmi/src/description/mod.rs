@@ -319,7 +319,7 @@ fn rows_of<U: Unit>(names: &[&str]) -> Vec<Counted<U>> {
     rows.collect()
 }
 
-/// The states that a variable depends on: those with whose start it begins. A state as an output depends on nothing else.
+/// The states that a variable depends on: those with whose start it begins. A state as an output depends on itself.
 fn states_behind<U: Unit>(
     variable: &Row<U>,
     depends: &Dependencies,
@@ -328,7 +328,7 @@ fn states_behind<U: Unit>(
     let states = space_of::<U>().states;
     let is_state = states.iter().any(|it| it.value == variable.reference);
     if is_state && list == Unknowns::Outputs {
-        return Vec::new();
+        return row_of(variable.reference).into_iter().collect();
     }
     let begins_with = |state: &&State| {
         let start = U::about().table.by_reference(state.start);

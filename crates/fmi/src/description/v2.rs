@@ -87,7 +87,7 @@ fn exchange_capabilities(identifier: &str) -> [(&'static str, &str); 8] {
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
-        ("providesDirectionalDerivative", "false"),
+        ("providesDirectionalDerivative", "true"),
     ]
 }
 

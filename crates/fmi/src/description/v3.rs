@@ -83,13 +83,15 @@ pub(super) fn capabilities<U: Unit>() -> Attributes {
 }
 
 /// The attributes of the element `ModelExchange`.
-fn exchange_capabilities(identifier: &str) -> [(&'static str, &str); 6] {
+fn exchange_capabilities(identifier: &str) -> [(&'static str, &str); 8] {
     [
         ("modelIdentifier", identifier),
         ("needsExecutionTool", "false"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canGetAndSetFMUState", "true"),
         ("canSerializeFMUState", "true"),
+        ("providesDirectionalDerivatives", "true"),
+        ("providesAdjointDerivatives", "true"),
         ("needsCompletedIntegratorStep", "true"),
     ]
 }

@@ -206,7 +206,6 @@ functions! { $ export_v2 v2 Importer;
         let knowns = read("vKnown_ref", knowns, known_count)?;
         let seed = read("dvKnown", seed, known_count)?;
         let sensitivity = write("dvUnknown", sensitivity, unknown_count)?;
-        component.require_co_simulation()?;
         component.instance.directional_derivative(unknowns, knowns, seed, sensitivity)
     }
 

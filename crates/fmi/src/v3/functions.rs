@@ -254,7 +254,6 @@ functions! { $ export_v3 v3 Importer;
         let knowns = read("knowns", knowns, known_count)?;
         let seed = read("seed", seed, known_count)?;
         let sensitivity = write("sensitivity", sensitivity, unknown_count)?;
-        component.require_co_simulation()?;
         component.instance.directional_derivative(unknowns, knowns, seed, sensitivity)
     }
 
@@ -270,7 +269,6 @@ functions! { $ export_v3 v3 Importer;
         let knowns = read("knowns", knowns, known_count)?;
         let seed = read("seed", seed, unknown_count)?;
         let sensitivity = write("sensitivity", sensitivity, known_count)?;
-        component.require_co_simulation()?;
         component.instance.adjoint_derivative(unknowns, knowns, seed, sensitivity)
     }
 

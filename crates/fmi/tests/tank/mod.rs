@@ -190,7 +190,7 @@ impl Unit for Tank {
     fn tangent(&self, direction: &[(Known, f64)]) -> Outcome<[f64; 2]> {
         let by = direction.iter().map(|&(known, seed)| match known {
             Known::Signal(_) => seed * self.gain * self.span,
-            Known::Parameter(_) => seed,
+            _ => seed,
         });
         Ok([by.sum(), 0.0])
     }
