@@ -63,6 +63,46 @@ fn the_z_1_branch_has_the_rows_of_table_1_and_its_files() -> Outcome {
     Ok(())
 }
 
+/// From the flip, the fold and an unstable orbit of a branch over the frequency on, branches over the clearance begin with them,
+/// and the fold's curve over both is the same from itself.
+#[test]
+fn branches_begin_at_points_of_earlier_ones() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("eta.json");
+    let line = "continue --parameter eta --from 0.9 --to 1.5";
+    let earlier = SOFTSTOP.report(line);
+    std::fs::write(&file, earlier.value.to_string())?;
+    let from = |point: &str| {
+        let file = file.display();
+        SOFTSTOP.report(&format!(
+            "continue --from-point {file}:{point} --parameter rho --from 5 --to 15"
+        ))
+    };
+    for symbol in ["PD", "SN"] {
+        has_specials(&from(symbol), &[(symbol, 10.0, 1e-9)]);
+    }
+    let table = earlier.at("branches/0/table");
+    let stable = table["stable"].as_array().ok_or("no column")?;
+    let row = stable.iter().rposition(|it| it == false).ok_or("no row")?;
+    let branch = from(&(row + 1).to_string());
+    let own = branch.at("branches/0/table");
+    let values = own["value"].as_array().ok_or("no column")?;
+    let start = values.iter().position(|it| it == 10.0).ok_or("no start")?;
+    for column in ["position", "velocity"] {
+        let [own, earlier] =
+            [&own[column][start], &table[column][row]].map(serde_json::Value::as_f64);
+        assert_near(own.ok_or("none")?, earlier.ok_or("none")?, 1e-9);
+    }
+    let file = file.display().to_string();
+    let line = format!("continue --from-point {file}:XY --parameter rho --from 5 --to 15");
+    let words: Vec<&str> = softstop_testing::words(&line);
+    SOFTSTOP.refuses(
+        &words,
+        &["XY: must be a row of its", "or one of its special points"],
+    );
+    Ok(())
+}
+
 #[test]
 fn an_isolated_motion_is_followed_to_its_ends() {
     // Rows 12 and 17 of Table 1; an independent simulation sees the flip at 1.005452.

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use anyhow::anyhow;
+use nalgebra::Vector2;
 use softstop::Machine;
 use softstop_dynamics::continuation::{Family, Test};
 use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily};
@@ -37,19 +38,20 @@ pub(super) fn branches(
     arguments: &ContinueArguments,
     machine: &Machine,
     along: &Followed,
+    (periods, state): (u64, Option<Vector2<f64>>),
 ) -> Result<Vec<Branch>, Failure> {
     let family = &family(machine, [along.parameter])?;
     let limits = &Limits {
         range: along.range,
         points: arguments.points,
     };
-    let state = match arguments.state {
+    let state = match state {
         Some(state) => state,
         None => seed::find(&machine.scene, arguments.orbit)?.state(),
     };
     let bar = Progress::open("points");
     let largest = step(family, limits.range);
-    let follower = Continuation::new(family, arguments.orbit.periods).with_steps(largest);
+    let follower = Continuation::new(family, periods).with_steps(largest);
     let first = follower
         .branch(along.start, state, limits, |_| count(&bar))
         .map_err(|error| anyhow!(error).context("no orbit to start from"))?;

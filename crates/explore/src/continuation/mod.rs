@@ -3,6 +3,7 @@
 mod branches;
 pub mod chart;
 mod curves;
+mod from_point;
 mod report;
 pub mod seed;
 mod tables;
@@ -14,6 +15,7 @@ use nalgebra::Vector2;
 use softstop::{Machine, Parameter};
 use softstop_dynamics::{ParameterFamily, Regime};
 
+use from_point::EarlierPoint;
 use report::ContinuationReport;
 pub(crate) use report::met;
 use softstop_console::arguments::MachineArguments;
@@ -36,6 +38,9 @@ Examples:
       any machine in its own units; from each flip on to the orbits of twice the period, four times
   softstop continue --parameter k4 --from 1 --to 40 --state 6.9,9.5
       along the stop's stiffness, from an orbit near a state: an unstable one if that is nearest
+  softstop continue --parameter eta --from 0.9 --to 1.5 --format json > eta.json
+  softstop continue --from-point eta.json:PD --parameter rho --from 5 --to 15
+      another parameter, from the flip of an earlier branch on
 
 Words: SN fold, where two orbits meet and vanish; PD flip, where the period doubles; G grazing,
 where an impact dies or a turning point reaches a surface; NS Neimark-Sacker, which damping
@@ -67,6 +72,10 @@ pub struct ContinueArguments {
     /// 0, stable or not
     #[arg(long, value_name = "X,V", value_parser = seed::state)]
     pub state: Option<Vector2<f64>>,
+    /// Start from a point of an earlier run, stable or not: FILE is its --format json, POINT a special point (SN, or PD2
+    /// for the second PD) or a row of its branches.csv; the parameter of that run takes its value there
+    #[arg(long, value_name = "FILE:POINT", value_parser = from_point::parse, conflicts_with_all = ["orbit", "state"])]
+    pub from_point: Option<EarlierPoint>,
     /// Follow the orbits of twice the period from every flip on, so many times over
     #[arg(long, value_name = "TIMES", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=6))]
     pub double: u32,
@@ -111,7 +120,12 @@ fn help() -> String {
 /// Follows the motion and writes tables and charts.
 pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
-    let machine = arguments.machine.machine()?;
+    let mut machine = arguments.machine.machine()?;
+    let mut start = (arguments.orbit.periods, arguments.state);
+    if let Some(point) = &arguments.from_point {
+        let (periods, state) = point.take(&mut machine)?;
+        start = (periods, Some(state));
+    }
     let followed = |flags, name, ends| Followed::new(arguments, &machine, flags, name, ends);
     let ends = (arguments.from, arguments.to);
     let first = followed(["parameter", ""], &arguments.parameter, ends)?;
@@ -131,7 +145,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     let files = &FILES[..if second.is_some() { 4 } else { 2 }];
     let export = Export::open(&arguments.output, files)?;
     let limit = arguments.limit.budget;
-    let branches = limit.limit(|| branches::branches(arguments, &machine, &first))?;
+    let branches = limit.limit(|| branches::branches(arguments, &machine, &first, start))?;
     let chart = chart::branches(&machine, first.parameter, &branches);
     let rows = tables::branch_rows(&branches);
     export.sheet(
