@@ -11,7 +11,8 @@ use std::ops::ControlFlow;
 use nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{
-    Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Special, SpecialKind, Test, curve,
+    Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Family, Special, SpecialKind, Test, curve,
+    normal_form_coefficient,
 };
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{
@@ -45,10 +46,12 @@ fn follow(family: &Frequencies, n: u64, from: (f64, Vector2<f64>), range: (f64, 
 
 /// The branch of twice the period from a flip on, over the frequencies about it.
 fn double(family: &Frequencies, n: u64, flip: &BranchPoint) -> Branch {
-    let limits = Limits {
-        range: (0.9, 1.1),
-        points: 500,
-    };
+    double_within(family, n, flip, (0.9, 1.1))
+}
+
+/// That over some frequencies.
+fn double_within(family: &Frequencies, n: u64, flip: &BranchPoint, range: (f64, f64)) -> Branch {
+    let limits = Limits { range, points: 500 };
     let go_on = |_: &_| ControlFlow::Continue(());
     let doubled = Continuation::new(family, n).doubled(flip, &limits, go_on);
     doubled.expect("a branch of twice the period")

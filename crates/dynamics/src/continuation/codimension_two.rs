@@ -1,14 +1,17 @@
 //! Points of codimension two, and the systems on whose curves they lie.
 
-use nalgebra::DVector;
+use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct};
 use super::critical_impact::{CriticalImpact, CriticalPoint};
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
+use super::impact_section::ImpactSection;
+use super::normal_form::normal_form_coefficient;
 use super::period_map::PeriodMap;
 use super::sequence::Sequence;
-use super::shooting::Critical;
+use super::shooting::{Critical, Shooting};
+use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
 
 /// A point of a curve of special points.
@@ -40,16 +43,20 @@ impl CurvePoint {
 pub enum CodimensionTwo {
     /// Two curves of folds meet in a cusp (Kuznetsov 2004, section 9.2).
     Cusp,
+    /// A flip whose normal form has no cubic term: supercritical on one side, subcritical on the other (Kuznetsov 2004, section
+    /// 9.4).
+    GeneralisedFlip,
     /// Curves of folds and flips end on a curve of grazing: a weak impact has no bearing on the next (Simpson and Ghosh,
     /// arXiv 2602.22797).
     ResonantGrazing,
 }
 
 impl CodimensionTwo {
-    /// In one word: CP, RG.
+    /// In one word: CP, GPD, RG.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Cusp => "CP",
+            Self::GeneralisedFlip => "GPD",
             Self::ResonantGrazing => "RG",
         }
     }
@@ -58,6 +65,7 @@ impl CodimensionTwo {
     pub fn name(self) -> &'static str {
         match self {
             Self::Cusp => "cusp",
+            Self::GeneralisedFlip => "generalised flip",
             Self::ResonantGrazing => "resonant grazing",
         }
     }
@@ -78,21 +86,38 @@ pub(super) trait Codimension: Equations {
     fn sequence(&self, point: &Self::Point) -> Sequence;
 
     /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a direction;
-    /// before, it had another one. At a cusp both parameters turn back.
+    /// before, it had another one. Not a number where it cannot be computed.
     fn degeneracy(
         &self,
-        _: &Node<Self::Point>,
-        [before, here]: [&DVector<f64>; 2],
-    ) -> (CodimensionTwo, f64) {
-        let value = along_parameters(before).dot(&along_parameters(here));
-        (CodimensionTwo::Cusp, value)
-    }
+        node: &Node<Self::Point>,
+        directions: [&DVector<f64>; 2],
+    ) -> (CodimensionTwo, f64);
 
     /// The point of codimension two in which the curve ends within a step from a node, if it does.
     fn last(&self, node: &Node<Self::Point>, step: &DVector<f64>) -> Option<CurvePoint> {
         let _ = (node, step);
         None
     }
+}
+
+/// The function of [`Codimension::degeneracy`] for folds and flips: at a cusp both parameters turn back, at a generalised flip
+/// the coefficient of the normal form vanishes.
+fn degeneracy_of<F: Family<2>>(
+    (family, periods, test): (&F, u64, Test),
+    point: Result<CurvePoint, OrbitError>,
+    [before, here]: [&DVector<f64>; 2],
+) -> (CodimensionTwo, f64) {
+    if test != Test::Flip {
+        let value = along_parameters(before).dot(&along_parameters(here));
+        return (CodimensionTwo::Cusp, value);
+    }
+    let coefficient = point.and_then(|point| {
+        let scene = family.scene(point.parameters)?;
+        let state = Vector2::new(point.position, point.velocity);
+        normal_form_coefficient(&scene, periods, test, state)
+    });
+    let value = coefficient.ok().flatten().unwrap_or(f64::NAN);
+    (CodimensionTwo::GeneralisedFlip, value)
 }
 
 impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
@@ -114,6 +139,21 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
 
     fn sequence(&self, point: &PeriodMap) -> Sequence {
         point.sequence
+    }
+
+    fn degeneracy(
+        &self,
+        node: &Node<PeriodMap>,
+        directions: [&DVector<f64>; 2],
+    ) -> (CodimensionTwo, f64) {
+        let Shooting {
+            family, periods, ..
+        } = &self.shooting;
+        degeneracy_of(
+            (*family, *periods, self.test),
+            self.describe(node),
+            directions,
+        )
     }
 }
 
@@ -142,6 +182,21 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
             surfaces: usize::from(point.is_cut),
             ..Sequence::default()
         }
+    }
+
+    fn degeneracy(
+        &self,
+        node: &Node<CriticalPoint>,
+        directions: [&DVector<f64>; 2],
+    ) -> (CodimensionTwo, f64) {
+        let ImpactSection {
+            family, periods, ..
+        } = self.section;
+        degeneracy_of(
+            (family, periods, self.test),
+            self.describe(node),
+            directions,
+        )
     }
 
     fn last(&self, node: &Node<CriticalPoint>, step: &DVector<f64>) -> Option<CurvePoint> {

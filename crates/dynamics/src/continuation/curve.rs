@@ -211,7 +211,8 @@ fn special_between<E: Codimension>(
 ) -> Result<Option<(CodimensionTwo, CurvePoint)>, OrbitError> {
     let (kind, before) = equations.degeneracy(from, [begins, begins]);
     let (_, after) = equations.degeneracy(to, [begins, ends]);
-    if before * after >= 0.0 {
+    let changes = before * after < 0.0;
+    if !changes {
         return Ok(None);
     }
     let direction = |node: &Node<E::Point>| tangent(equations, node, begins);
@@ -223,6 +224,8 @@ fn special_between<E: Codimension>(
     // A curve that only turns sharply has its parameters change there, too.
     let is_found = match kind {
         CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < TURNING_BACK,
+        // It changes its sign as well where it grows beyond all bounds.
+        CodimensionTwo::GeneralisedFlip => value(&node).abs() < before.abs().min(after.abs()),
         CodimensionTwo::ResonantGrazing => true,
     };
     let point = equations.describe(&node)?;

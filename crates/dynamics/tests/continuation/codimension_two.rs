@@ -136,11 +136,45 @@ fn the_papers_machines_have_resonant_grazings() {
     let flip = of_kind(&all_of_z1(), "PD").remove(0);
     let family = plane([Parameter::Frequency, Parameter::Clearance]);
     let curve = followed(&flip, 1, &family, 10.0, [(0.5, 2.0), (1.0, 24.0)]);
-    let [(CodimensionTwo::ResonantGrazing, point)] = &curve.specials[..] else {
+    let [
+        (CodimensionTwo::ResonantGrazing, resonant),
+        (CodimensionTwo::GeneralisedFlip, generalised),
+    ] = &curve.specials[..]
+    else {
         panic!("{:?}", curve.specials);
     };
     let own = (1.0 - 0.02 * 0.02f64).sqrt();
-    assert_near(point.parameters[0], 2.0 * own / 3.0, SOLVED);
+    assert_near(resonant.parameters[0], 2.0 * own / 3.0, SOLVED);
+    // The orbits of twice the period begin stable on one side of the generalised flip, unstable on the other.
+    let is_beside = |point: &&CurvePoint| {
+        let off = (point.parameters[1] - generalised.parameters[1]).abs();
+        (0.05..0.4).contains(&off)
+    };
+    let mut sides = [0, 0];
+    for point in curve.points.iter().filter(is_beside) {
+        let [frequency, clearance] = point.parameters;
+        let scene = Scene {
+            clearance,
+            ..unloaded().at_frequency(frequency)
+        };
+        let state = Vector2::new(point.position, point.velocity);
+        let coefficient = normal_form_coefficient(&scene, 1, Test::Flip, state);
+        let coefficient = coefficient.expect("a motion").expect("a coefficient");
+        let map = StroboscopicMap::new(&scene, 1).expect("a map");
+        let flip = BranchPoint {
+            parameter: frequency,
+            position: point.position,
+            velocity: point.velocity,
+            impacts: point.impacts.clone(),
+            monodromy: map.apply(state).expect("an image").monodromy,
+        };
+        let along = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
+        let doubled = double_within(&along, 1, &flip, (frequency - 0.01, frequency + 0.01));
+        let first = &doubled.points[0];
+        assert_eq!(first.is_stable(), coefficient > 0.0, "{point:?}");
+        sides[usize::from(coefficient > 0.0)] += 1;
+    }
+    assert!(sides.iter().all(|count| *count > 0), "{sides:?}");
 
     let frequencies = ParameterFamily::new(loaded(), [Parameter::Frequency]).expect("a family");
     let orbit = softstop_dynamics::orbit::find(&loaded()).expect("z = 1");

@@ -77,3 +77,49 @@ fn a_doubled_branch_merges_into_the_one_it_came_from() {
     let (_, point) = merged.expect("one end is the flip");
     assert_near(point.parameter, flip.parameter, 10.0 * MOTION);
 }
+
+/// On the orbits of twice the period that begin at a flip, half the distance u of their two states grows as the coefficient c of
+/// the normal form says: their multiplier is 1 - 4 c u^2. At a fold the multiplier changes by 2 a along the branch.
+#[test]
+fn coefficients_are_those_of_the_orbits_beside() {
+    let family = rigid();
+    let scene = |parameter: f64| family.scene([parameter]).expect("a scene");
+    let state = Vector2::new(-0.630_529, 0.062_449);
+    let branch = follow(&family, 1, (2.2, state), (1.5, 3.0));
+    let flip = of_kind(&branch, "PD").remove(0).point;
+    let at_flip = scene(flip.parameter);
+    let found = normal_form_coefficient(&at_flip, 1, Test::Flip, flip.state());
+    let coefficient = found.expect("a motion").expect("a coefficient");
+    assert!(coefficient > 0.0, "the cascade begins with a stable orbit");
+    let doubled = double_within(&family, 1, &flip, (1.5, 3.0));
+    let scales = at_flip.scales();
+    let length = |way: Vector2<f64>| (way.x / scales.length).hypot(way.y / scales.speed());
+    let measured = |point: &BranchPoint| {
+        let map = StroboscopicMap::new(&scene(point.parameter), 1).expect("a map");
+        let half = 0.5 * length(map.image(point.state()).expect("a motion") - point.state());
+        let multipliers = point.monodromy.multipliers();
+        (half, (1.0 - multipliers[0].re) / (4.0 * half * half))
+    };
+    let nearest = doubled.points.iter().map(measured);
+    let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0)).expect("points");
+    assert!(nearest.0 < 0.02, "{nearest:?}");
+    assert_near(nearest.1 / coefficient, 1.0, 0.02);
+
+    let z1 = all_of_z1();
+    let fold = of_kind(&z1, "SN").remove(0).point;
+    let at_fold = frequencies(1.15).scene([fold.parameter]).expect("a scene");
+    let found = normal_form_coefficient(&at_fold, 1, Test::Fold, fold.state());
+    let coefficient = found.expect("a motion").expect("a coefficient");
+    let scales = at_fold.scales();
+    let place = z1.points.iter().position(|it| it.state() == fold.state());
+    let place = place.expect("the fold is a point of the branch");
+    let beside = |index: usize| {
+        let point = &z1.points[index];
+        let way = point.state() - fold.state();
+        let way = (way.x / scales.length).hypot(way.y / scales.speed());
+        (way, point.monodromy.multipliers()[0].re - 1.0)
+    };
+    let ((back, before), (on, after)) = (beside(place - 1), beside(place + 1));
+    let change = (after / on * back - before / back * on) / (back + on);
+    assert_near((change / (2.0 * coefficient)).abs(), 1.0, 0.02);
+}

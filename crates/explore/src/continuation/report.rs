@@ -5,6 +5,7 @@ use softstop::{Machine, MotionError, Parameter};
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
     BorderCollision, CodimensionTwo, Curve, CurveEnd, CurvePoint, End, Special, SpecialKind,
+    normal_form_coefficient,
 };
 use softstop_dynamics::orbit::OrbitError;
 
@@ -73,16 +74,20 @@ fn branch<'a>() -> [Column<Followed<'a, Branch>>; 5] {
     }
 }
 
-fn specials() -> [Column<Special>; 8] {
-    columns! { Special, it;
-        "symbol" [None] Plain, "SN, PD, NS or G" => it.kind.symbol();
-        "name" [None] Plain, "what it is" => describe(&it.kind);
-        "value" [None] Fixed(12), "of the parameter" => it.point.parameter;
-        "position" [Length], "at drive angle 0 of the scene" => it.point.position;
-        "velocity" [Velocity], "there" => it.point.velocity;
-        "before_impact_velocities" [Velocity] Fixed(6), "of all impacts" => it.point.impacts.clone();
-        "trace" [None], "of the monodromy matrix" => it.point.monodromy.trace();
-        "determinant" [None], "of the same" => it.point.monodromy.determinant();
+/// A special point with the coefficient of its normal form.
+type Classified<'a> = (&'a Special, Option<f64>);
+
+fn specials<'a>() -> [Column<Classified<'a>>; 9] {
+    columns! { Classified<'a>, it;
+        "symbol" [None] Plain, "SN, PD, NS or G" => it.0.kind.symbol();
+        "name" [None] Plain, "what it is" => describe(&it.0.kind);
+        "value" [None] Fixed(12), "of the parameter" => it.0.point.parameter;
+        "position" [Length], "at drive angle 0 of the scene" => it.0.point.position;
+        "velocity" [Velocity], "there" => it.0.point.velocity;
+        "before_impact_velocities" [Velocity] Fixed(6), "of all impacts" => it.0.point.impacts.clone();
+        "trace" [None], "of the monodromy matrix" => it.0.point.monodromy.trace();
+        "determinant" [None], "of the same" => it.0.point.monodromy.determinant();
+        "coefficient" [None], "of the normal form: a of u + a u^2 at a fold, c of -u + c u^3 at a flip" => it.1;
     }
 }
 
@@ -101,13 +106,32 @@ type OnCurve<'a> = (SpecialKind, &'a (CodimensionTwo, CurvePoint));
 
 fn codimension_two<'a>() -> [Column<OnCurve<'a>>; 6] {
     columns! { OnCurve<'a>, it;
-        "symbol" [None] Plain, "CP or RG" => it.1.0.symbol();
+        "symbol" [None] Plain, "CP, GPD or RG" => it.1.0.symbol();
         "name" [None] Plain, "what it is" => it.1.0.name();
         "on" [None] Plain, "kind of the curve" => it.0.symbol();
         "values" [None] Fixed(12), "of both parameters" => it.1.1.parameters;
         "position" [Length], "at drive angle 0 of the scene" => it.1.1.position;
         "velocity" [Velocity], "there" => it.1.1.velocity;
     }
+}
+
+/// The special points of a branch with the coefficients of their normal forms; none where one cannot be computed.
+fn classified<'a>(
+    machine: &Machine,
+    parameter: Parameter,
+    branch: &'a Branch,
+) -> Vec<Classified<'a>> {
+    let coefficient = |special: &Special| {
+        let SpecialKind::Critical(test) = special.kind else {
+            return None;
+        };
+        let mut machine = machine.clone();
+        machine.set(parameter, special.point.parameter);
+        let state = special.point.state();
+        normal_form_coefficient(&machine.scene, branch.periods, test, state).ok()?
+    };
+    let all = branch.specials.iter();
+    all.map(|it| (it, coefficient(it))).collect()
 }
 
 fn ends(ends: [String; 2]) -> Told {
@@ -194,7 +218,7 @@ impl ContinuationReport {
             let table = arrays(&branch_columns(), rows_of_branch(number, it))?;
             Ok(BranchReport {
                 figures: Record::of(&branch(), &(it, most)).hidden("table", table),
-                specials: Record::all(&specials(), &it.specials),
+                specials: Record::all(&specials(), &classified(machine, parameter, it)),
             })
         });
         let curve_report = |(number, it): (usize, &Curve)| {
