@@ -32,6 +32,20 @@ pub enum SceneError {
         /// The last allowed value.
         limit: f64,
     },
+    /// Something else of the stop below.
+    #[error("of the stop below, {0}")]
+    Below(Box<SceneError>),
+    /// Stops on both sides that leave no way between them.
+    #[error(
+        "clearance = {} and stop.below.clearance = {}: their sum, the way between both stops, must be > 0",
+        plain(*clearance), plain(*below)
+    )]
+    NoWay {
+        /// Clearance of the stop above in m.
+        clearance: f64,
+        /// That of the stop below in m.
+        below: f64,
+    },
     /// A parameter that the machine does not have.
     #[error("{0}: this machine has no such parameter")]
     Lacks(&'static str),

@@ -55,8 +55,8 @@ pub use integrator::{
 pub use machine::{Machine, UnitSystem};
 pub use phases::PhaseKind;
 pub use scene::{
-    About, Allowed, Dimension, Excitation, Parameter, Piercing, Ratios, Release, RigidStop, Scene,
-    Slope, Stop, Ties, Units, Wall,
+    About, Allowed, Below, Dimension, Excitation, Parameter, Piercing, Ratios, Release, RigidStop,
+    Scene, Slope, Stop, Ties, Units, Wall,
 };
 pub use tangent::{Perturbation, Sensitivity, Tangent};
 pub use trajectory::{AppliedForce, KeptArc, Touch, Trajectory};

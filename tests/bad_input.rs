@@ -98,6 +98,7 @@ proptest! {
             clearance,
             contact_damping,
             rigid: None,
+            below: None,
             stop: Stop::Preloaded { stiffness: k, preload: p },
             piercing: Some(Piercing { stiffness: k2, friction: k3, thickness, travel: 0.1 }),
             followers: softstop::Ties::NONE,

@@ -31,13 +31,19 @@ fn ratios(stop: &str) -> Result<Machine, MachineError> {
     ))
 }
 
-const STOPS: [&str; 6] = [
+const STOPS: [&str; 11] = [
     "{ model = \"none\" }",
     "{ model = \"kelvinVoigt\", stiffness = 100 }",
     "{ model = \"piecewiseLinear\", loading = [{ from = 0, stiffness = 20 }, { from = 0.3, stiffness = 90 }] }",
     "{ model = \"hertz\", stiffness = 150, dissipation = 0.06 }",
     "{ model = \"preloaded\", stiffness = 7, preload = 70 }",
     "{ model = \"rigid\", restitution = 0.6 }",
+    "{ model = \"none\", below = { clearance = 3, model = \"kelvinVoigt\", stiffness = 100 } }",
+    "{ model = \"rigid\", restitution = 0.6, below = { clearance = 3, model = \"rigid\", restitution = 0.7 } }",
+    "{ model = \"kelvinVoigt\", stiffness = 100, below = { clearance = 3, model = \"hertz\", stiffness = 9, dissipation = 0.1 } }",
+    "{ model = \"hertz\", stiffness = 100, below = { clearance = 3, model = \"preloaded\", stiffness = 9, preload = 8 } }",
+    "{ model = \"preloaded\", stiffness = 7, preload = 70, below = { clearance = 3, model = \"piecewiseLinear\", \
+     loading = [{ from = 0, stiffness = 20 }] } }",
 ];
 
 #[test]

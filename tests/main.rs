@@ -20,3 +20,4 @@ mod snapshots;
 mod stops_reference;
 mod strip;
 mod ties;
+mod two_sided;

@@ -89,6 +89,14 @@ impl Guard {
         }
     }
 
+    /// g of positions, velocities and pushes that are counted the other way.
+    pub(crate) fn mirrored(&self) -> Self {
+        Self {
+            level: self.level,
+            ..self.reversed()
+        }
+    }
+
     /// The rounding that g may carry at a state under a push.
     pub(super) fn rounding(&self, position: f64, velocity: f64, push: f64) -> f64 {
         let terms = [

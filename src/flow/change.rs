@@ -119,7 +119,7 @@ impl ArcSolution {
     /// The push per mass in m/s^2, `elapsed` seconds after departure.
     pub(crate) fn push(&self, elapsed: f64) -> f64 {
         if let Form::TaylorStep(segment) = &self.form {
-            return value(&segment.push, segment.parameter_at(elapsed));
+            return segment.push_at(segment.parameter_at(elapsed));
         }
         self.push_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
     }
@@ -160,7 +160,7 @@ impl TaylorStep {
         Transition {
             matrix: Matrix2::from_columns(&[first, second]),
             damping: law.damping_integral(self.time_at(sigma), sigma),
-            by_frequency: force.map(|_| forced),
+            by_frequency: force.map(|_| self.side() * forced),
         }
     }
 
@@ -191,9 +191,10 @@ impl TaylorStep {
         let [_, changed] = self.changed(by);
         let rate = self.rate();
         let mut push = self.push;
-        push[0] -= law;
+        push[0] -= self.side() * law;
         let to = self.parameter_at(elapsed);
         let travel = integral_of_product(&rate, &self.velocity(), to);
-        integral_of_product(&product(&rate, &push), &changed, to) + by.push * travel
+        let work = integral_of_product(&product(&rate, &push), &changed, to) + by.push * travel;
+        self.side() * work
     }
 }

@@ -19,11 +19,11 @@ use super::Polynomial;
 /// A geometric series of bounces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Chatter {
-    /// Speed in m/s with which it begins.
+    /// Speed in m/s with which it begins, negative on a stop below.
     pub speed: f64,
     /// Time in s until rest.
     pub duration: f64,
-    /// Accelerations towards the stop on the way out and back, in m/s^2.
+    /// Accelerations on the way out and back, in m/s^2.
     accelerations: (f64, f64),
     /// Ratio of the speeds of one bounce and the next.
     ratio: f64,
@@ -101,7 +101,17 @@ impl Chatter {
         sum.filter(|sum| exact(sum) || rough(sum)).or_else(lost)
     }
 
-    /// Distance from the stop in m and velocity towards it in m/s, `elapsed` seconds after the first
+    /// It on a stop above, by 1, or below, by -1.
+    pub fn on_side(self, side: f64) -> Self {
+        let (out, back) = self.accelerations;
+        Self {
+            speed: side * self.speed,
+            accelerations: (side * out, side * back),
+            ..self
+        }
+    }
+
+    /// Position in m, counted from the stop, and velocity in m/s, `elapsed` seconds after the first
     /// departure.
     pub fn at(&self, elapsed: f64) -> (f64, f64) {
         let left = 1.0 - elapsed / self.duration;
@@ -123,7 +133,8 @@ impl Chatter {
         } else {
             let since = since - turn;
             let far = -0.5 * speed * turn;
-            ((far + 0.5 * back * since * since).min(0.0), back * since)
+            let way = far + 0.5 * back * since * since;
+            (if way * back > 0.0 { 0.0 } else { way }, back * since)
         }
     }
 }

@@ -22,6 +22,12 @@ const LONGER: f64 = 20.0;
 impl TaylorStep {
     /// The step from a departure that lies `deflection` m beyond the face.
     pub fn new(flow: &LinearLaw, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+        if hertz.side < 0.0 {
+            return Self {
+                is_mirrored: true,
+                ..Self::new(flow, &hertz.on_side(-1.0), &from.mirrored(), deflection)
+            };
+        }
         let mut segment = if deflection <= 0.0 && from.velocity == 0.0 {
             Self::without_press(flow, hertz, from, 0.0)
         } else if is_spherical(hertz, from) {

@@ -11,6 +11,8 @@ pub struct Hertz {
     pub dissipation: f64,
     /// Where the face stands, in m.
     pub origin: f64,
+    /// 1 if it presses downwards, as a stop above does, -1 if upwards.
+    pub side: f64,
     /// The mass that it acts upon, in kg.
     pub mass: f64,
 }
@@ -23,30 +25,50 @@ impl Default for Hertz {
             exponent: 1.0,
             dissipation: 0.0,
             origin: 0.0,
+            side: 1.0,
             mass: 1.0,
         }
     }
 }
 
 impl Hertz {
-    /// Force in N.
+    /// Deflection in m, negative before the face.
+    pub fn deflection(&self, position: f64) -> f64 {
+        self.side * (position - self.origin)
+    }
+
+    /// It seen on a side: 1 as it is, -1 with positions counted the other way.
+    pub(crate) fn on_side(self, side: f64) -> Self {
+        Self {
+            origin: side * self.origin,
+            side: side * self.side,
+            ..self
+        }
+    }
+
+    /// 1 + lambda d', not below zero.
+    pub(crate) fn grip(&self, velocity: f64) -> f64 {
+        (1.0 + self.dissipation * (self.side * velocity)).max(0.0)
+    }
+
+    /// Force in N against the direction of the position.
     pub fn force(&self, position: f64, velocity: f64) -> f64 {
-        let depth = (position - self.origin).max(0.0);
-        let grip = (1.0 + self.dissipation * velocity).max(0.0);
-        self.stiffness * depth.powf(self.exponent) * grip
+        let depth = self.deflection(position).max(0.0);
+        let force = self.stiffness * depth.powf(self.exponent) * self.grip(velocity);
+        self.side * force
     }
 
     /// Elastic energy in J, k d^(n+1) / (n+1).
     pub fn energy(&self, position: f64) -> f64 {
-        let depth = (position - self.origin).max(0.0);
+        let depth = self.deflection(position).max(0.0);
         let raised = self.exponent + 1.0;
         self.stiffness * depth.powf(raised) / raised
     }
 
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m while it presses.
     pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
-        let depth = (position - self.origin).max(0.0);
-        let grip = (1.0 + self.dissipation * velocity).max(0.0);
+        let depth = self.deflection(position).max(0.0);
+        let grip = self.grip(velocity);
         let steepness = self.stiffness * self.exponent * depth.powf(self.exponent - 1.0);
         let damping = self.stiffness * depth.powf(self.exponent) * self.dissipation;
         (steepness * grip, damping)
@@ -55,14 +77,14 @@ impl Hertz {
     /// d2(force)/d(position)2 in N/m^2 and d2(force)/d(position)d(velocity) in N s/m^2 while it presses;
     /// zero at the face, where they may not exist.
     pub fn curvatures(&self, position: f64, velocity: f64) -> (f64, f64) {
-        let (depth, n) = (position - self.origin, self.exponent);
-        let grip = 1.0 + self.dissipation * velocity;
+        let (depth, n) = (self.deflection(position), self.exponent);
+        let grip = self.grip(velocity);
         if depth <= 0.0 || grip <= 0.0 {
             return (0.0, 0.0);
         }
         let stiffness = self.stiffness * n * (n - 1.0) * depth.powf(n - 2.0) * grip;
         let coupling = self.stiffness * n * depth.powf(n - 1.0) * self.dissipation;
-        (stiffness, coupling)
+        (self.side * stiffness, self.side * coupling)
     }
 
     /// The least m >= 2 for which the power of the m-th root is whole: the root's law is then regular at the face.

@@ -48,6 +48,22 @@ pub struct Departure {
     pub acceleration: Option<f64>,
 }
 
+impl Departure {
+    /// It seen from the other side, positions counted downwards.
+    pub(super) fn mirrored(&self) -> Self {
+        Self {
+            position: -self.position,
+            velocity: -self.velocity,
+            drive: Drive {
+                cos: -self.drive.cos,
+                sin: -self.drive.sin,
+            },
+            push: self.push.mirrored(),
+            acceleration: self.acceleration.map(|acceleration| -acceleration),
+        }
+    }
+}
+
 /// A motion's state at one time after departure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Node {

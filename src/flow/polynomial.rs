@@ -82,6 +82,11 @@ impl Polynomial {
         Self::new(self.derivatives.map(|derivative| derivative / mass)).with(0, value)
     }
 
+    /// -p(t).
+    pub(super) fn mirrored(&self) -> Self {
+        Self::new(self.derivatives.map(|derivative| -derivative))
+    }
+
     /// A bound on the first derivative from 0 to `t`.
     pub(crate) fn largest_rate(&self, t: f64) -> f64 {
         expanded(&self.derivatives.map(f64::abs)[1..], t)

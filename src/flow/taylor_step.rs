@@ -53,6 +53,8 @@ pub(crate) struct TaylorStep {
     pub(super) stiffness: f64,
     /// What a slow motion remembers of its start.
     pub(super) creep: Option<Box<SlowManifold>>,
+    /// Positions, velocities and pushes are counted downwards: the face stands below.
+    pub(super) is_mirrored: bool,
 }
 
 /// Series of a stretched time.
@@ -106,6 +108,11 @@ impl TaylorStep {
         let reach = f64::from_bits(reach.to_bits() & (u64::MAX << 32));
         (self.reach, self.contact, self.end) = (reach, reach, reach);
         self.last = self.moved_at(reach);
+    }
+
+    /// -1 if it is mirrored, else 1.
+    pub(super) fn side(&self) -> f64 {
+        if self.is_mirrored { -1.0 } else { 1.0 }
     }
 
     /// True if nothing moves.
@@ -200,7 +207,8 @@ impl TaylorStep {
     }
 
     fn state_of(&self, moved: &Moved) -> (f64, f64) {
-        (self.hertz.origin + moved.deflection, moved.velocity)
+        let (position, velocity) = (self.hertz.origin + moved.deflection, moved.velocity);
+        (self.side() * position, self.side() * velocity)
     }
 
     fn moved(&self, elapsed: f64) -> Moved {
@@ -249,7 +257,7 @@ impl TaylorStep {
 
     /// Push per mass in m/s^2 at sigma.
     pub fn push_at(&self, sigma: f64) -> f64 {
-        value(&self.push, sigma)
+        self.side() * value(&self.push, sigma)
     }
 
     /// Time since departure at sigma, in s.
@@ -262,6 +270,7 @@ impl TaylorStep {
 
     /// True if `position` x - `level` < 0 throughout [0, span], as its tangent and the sizes of all other terms show.
     pub fn stays_short(&self, position: f64, level: f64, span: f64) -> bool {
+        let position = self.side() * position;
         let level = level - position * self.hertz.origin;
         let series = match &self.stretch {
             Some(stretch) if level == 0.0 => &stretch.root,
@@ -275,6 +284,7 @@ impl TaylorStep {
     /// `position` x + `velocity` v + `push` q - `level` as a series in sigma; where it is the distance
     /// from the face itself, that of the root, which has the same sign.
     pub fn combination(&self, position: f64, velocity: f64, push: f64, level: f64) -> Series {
+        let [position, velocity, push] = [position, velocity, push].map(|it| self.side() * it);
         // Seen from the face, a surface at the face is at zero exactly.
         let level = level - position * self.hertz.origin;
         let at_face = level == 0.0 && velocity == 0.0 && push == 0.0;

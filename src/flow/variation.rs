@@ -70,12 +70,12 @@ impl ArcSolution {
             let (cos, sin) = (value(&cos, sigma), value(&sin, sigma));
             let grip = 1.0 + hertz.dissipation * velocity;
             let deep = depth.max(0.0);
-            let power = deep.powf(hertz.exponent);
-            let log = if power > 0.0 { deep.ln() } else { 0.0 };
+            let power = step.side() * deep.powf(hertz.exponent);
+            let log = if power != 0.0 { deep.ln() } else { 0.0 };
             let sources = [
                 1.0,
-                depth,
-                velocity,
+                step.side() * depth,
+                step.side() * velocity,
                 cos,
                 sin,
                 power * grip,
@@ -86,8 +86,8 @@ impl ArcSolution {
             for (sum, source) in sums.iter_mut().zip(sources) {
                 *sum += source * kernel;
             }
-            travel.0 += time * cos * velocity;
-            travel.1 += time * sin * velocity;
+            travel.0 += step.side() * time * cos * velocity;
+            travel.1 += step.side() * time * sin * velocity;
         }
         let free = free(to);
         ParameterResponse {

@@ -25,9 +25,9 @@ pub struct Contacts {
     pub first: Option<Impact>,
     /// The impact with the highest velocity.
     pub hardest: Option<Impact>,
-    /// Largest contact force in N, at least 0; the blow of a rigid stop has none.
+    /// Largest contact force in N of either stop, at least 0; the blow of a rigid stop has none.
     pub peak: f64,
-    /// Integral of the contact force in N s, blows included.
+    /// Integral of the contact force in N s, blows included; a stop below counts as negative.
     pub impulse: f64,
 }
 
@@ -105,10 +105,11 @@ impl Observer for ContactRecorder<'_> {
 
         let force = |time: f64| {
             let Start { position, velocity } = arc.at(time);
-            arc.phase.map_or_else(
+            let force = arc.phase.map_or_else(
                 || rest(time),
                 |phase| phase.contact_force(position, velocity),
-            )
+            );
+            arc.side * force
         };
         let peak = largest((from, elapsed), rate, force);
         self.contacts.peak = self.contacts.peak.max(peak);

@@ -10,7 +10,7 @@ use super::start::Start;
 use crate::error::MotionError;
 use crate::events::{NextEvent, is_clear_near_start};
 use crate::flow::{ArcSolution, Chatter, Departure, Drive, Finer, Polynomial};
-use crate::phases::{Mode, Phase, PhaseId, PhaseKind, Phases, Sticking, Store};
+use crate::phases::{Mode, Phase, PhaseId, PhaseKind, Phases, Store, Surface};
 
 /// The exact motion of a scene, arc by arc.
 ///
@@ -62,7 +62,8 @@ impl Motion {
     ) -> Result<Self, MotionError> {
         let phases = phases.into();
         let position = start.position;
-        if let Some(wall) = phases.wall().filter(|wall| position > *wall) {
+        let is_passed = |wall: &&Surface| position != wall.position && wall.holds(position);
+        if let Some(&Surface { position: wall, .. }) = phases.walls().find(is_passed) {
             return Err(MotionError::BeyondStop { position, wall });
         }
         let drive = clock.drive(at);
@@ -160,13 +161,10 @@ impl Motion {
 
     /// What the stop stores now.
     pub fn store(&self) -> &Store {
-        let (Mode::Moving(phase)
-        | Mode::Held(Sticking {
-            backward: phase, ..
-        })
-        | Mode::Chattering(Sticking {
-            backward: phase, ..
-        })) = self.mode;
+        let phase = match self.mode {
+            Mode::Moving(phase) => phase,
+            Mode::Held(hold) | Mode::Chattering(hold) => hold.outer(),
+        };
         &self.phases[phase].store
     }
 
@@ -192,6 +190,7 @@ impl Motion {
             course: &self.course,
             phase: self.phase(),
             kind: self.kind(),
+            side: self.phases.side(self.mode),
             end: None,
         }
     }
@@ -199,13 +198,13 @@ impl Motion {
     /// Whether the strip's phases hold now, or would at the next crossing of the clearance.
     pub(super) fn is_latched(&self) -> bool {
         match self.mode {
-            Mode::Moving(PhaseId::FREE) => self.fed,
             Mode::Moving(phase) => self.phases.belongs_to_strip(phase),
             Mode::Held(hold) | Mode::Chattering(hold) => {
-                let phase = hold.forward.unwrap_or(hold.backward);
-                self.phases.belongs_to_strip(phase)
+                let mut phases = hold.phases();
+                phases.find_map(|phase| self.phases.belongs_to_strip(phase))
             }
         }
+        .unwrap_or(self.fed)
     }
 
     /// Changes the feed of strips; it takes effect at the next upward crossing of the clearance.
@@ -254,7 +253,7 @@ impl Motion {
                 let phase = &self.phases[phase];
                 match (&phase.hertz, finer) {
                     (Some(hertz), finer) => {
-                        let rounded = departure.position - hertz.origin;
+                        let rounded = hertz.deflection(departure.position);
                         let deflection = finer.map_or(rounded, |finer| finer.deflection);
                         self.course
                             .renew_nonlinear(&phase.flow, hertz, departure, deflection);

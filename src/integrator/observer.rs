@@ -23,6 +23,8 @@ pub struct Arc<'a> {
     pub phase: Option<&'a Phase>,
     /// What the mass does on it.
     pub kind: PhaseKind,
+    /// 1 where what holds on it is a stop above, or none, -1 where it is one below.
+    pub side: f64,
     /// When it ends, in s after the start, with state and drive there, where a crossing has told them.
     pub(super) end: Option<(f64, Start, Drive)>,
 }
@@ -62,14 +64,14 @@ pub enum CrossingKind {
     Surface {
         /// Onwards (towards the stop) rather than back.
         forward: bool,
-        /// It is an impact: the clearance is passed onwards.
+        /// It is an impact: a clearance is passed onwards.
         impact: bool,
         /// A strip has been pierced through.
         pierces: bool,
     },
     /// A rigid stop is hit.
     Rebound {
-        /// It is an impact: the stop stands at the clearance.
+        /// It is an impact: the stop stands at a clearance.
         impact: bool,
         /// A strip has been pierced through.
         pierces: bool,
@@ -138,9 +140,9 @@ impl Crossing {
         self.kind.pierces()
     }
 
-    /// The before-impact velocity in m/s, if this is an impact.
+    /// The before-impact velocity in m/s towards the stop, if this is an impact; [`Crossing::velocity`] has its sign.
     pub fn impact_velocity(&self) -> Option<f64> {
-        self.kind.is_impact().then_some(self.velocity)
+        self.kind.is_impact().then_some(self.velocity.abs())
     }
 }
 

@@ -20,7 +20,7 @@ pub struct Sample {
     /// Jerk in m/s^3.
     pub jerk: f64,
     /// F in m x'' + b1 x' + k1 x + F = F0 cos(w t + phi) + f, in N: positive where stop or strip
-    /// press the mass back; what contact adds to the damping b1 is part of it.
+    /// press the mass back, negative where a stop below does; what contact adds to the damping b1 is part of it.
     pub contact_force: f64,
     /// What the mass does.
     pub phase: PhaseKind,
@@ -81,9 +81,14 @@ impl Simulation {
         )
     }
 
-    /// Upward crossings of the clearance since the start.
+    /// Impacts since the start: crossings of a clearance towards its stop.
     pub fn impact_count(&self) -> u64 {
         self.tallies.counts.impacts
+    }
+
+    /// Impacts on a stop below since the start.
+    pub fn impact_count_below(&self) -> u64 {
+        self.tallies.counts.below
     }
 
     /// Strips pierced through since the start.

@@ -24,8 +24,8 @@ impl Motion {
         let drive = self.clock.drive(self.now);
         let departure = self.departure(state, drive, self.mode, None);
         let is_before_face = |phase: &&Phase| {
-            let face = phase.hertz.map(|hertz| hertz.origin);
-            face.is_some_and(|face| state.position < face)
+            let hertz = phase.hertz.as_ref();
+            hertz.is_some_and(|hertz| hertz.deflection(state.position) < 0.0)
         };
         // There a power law does not press.
         let linear = self.phase().filter(is_before_face).map(|phase| phase.flow);

@@ -38,7 +38,7 @@ impl Phases {
             Exit::Forward(surface) | Exit::Backward(surface) => surface,
             Exit::Reversal { .. } | Exit::Switch(_) => return None,
         };
-        let endless = match self[surface].above {
+        let endless = match self[surface].beyond {
             Beyond::Phase(_) => true,
             Beyond::Wall { restitution } => restitution > ENDLESS,
         };
@@ -48,8 +48,14 @@ impl Phases {
     /// The velocity of a crossing out of a phase: rounding may turn that of a touch the other way.
     pub(super) fn onward(&self, phase: PhaseId, found: &Found) -> f64 {
         match self[phase].exits[found.guard] {
-            Exit::Forward(_) => found.velocity.max(0.0),
-            Exit::Backward(_) => found.velocity.min(0.0),
+            Exit::Forward(surface) => {
+                let side = self[surface].side;
+                side * (side * found.velocity).max(0.0)
+            }
+            Exit::Backward(surface) => {
+                let side = self[surface].side;
+                side * (side * found.velocity).min(0.0)
+            }
             Exit::Reversal { .. } | Exit::Switch(_) => found.velocity,
         }
     }
@@ -185,7 +191,8 @@ impl ResetContext<'_> {
             impact: at.is_clearance,
             pierces: self.pierces(at),
         };
-        let (position, speed) = (at.position, restitution * velocity);
+        let (position, speed) = (at.position, restitution * (at.side * velocity));
+        let velocity = -at.side * speed;
         let hold = at.hold(Beyond::Wall { restitution });
         let held = self.phases.leave(hold, position, push);
         let rests = matches!(held, Mode::Held(_));
@@ -199,23 +206,24 @@ impl ResetContext<'_> {
         let chatter = self.chatter(at, speed, push, restitution);
         let mode = match chatter {
             Some(_) => Mode::Chattering(hold),
-            None => Mode::Moving(self.phases.pressing(at.below, position, -speed)),
+            None => Mode::Moving(self.phases.pressing(at.before, position, velocity)),
         };
         Reset {
             chatter,
-            ..Reset::new(position, -speed, mode, kind)
+            ..Reset::new(position, velocity, mode, kind)
         }
     }
 
     /// The bounces that follow a rebound, where they can be summed.
     fn chatter(&self, at: &Surface, speed: f64, push: f64, restitution: f64) -> Option<Chatter> {
         let phases = self.phases;
-        let (out, back) = (at.below, phases.forward_of(at.below));
-        let rest = |phase| phases.acceleration(phase, at.position, 0.0, push);
+        let (out, back) = (at.before, phases.at_velocity(at.before, at.side));
+        let rest = |phase| at.side * phases.acceleration(phase, at.position, 0.0, push);
         let slopes = [out, back].map(|phase| phases[phase].slopes(at.position, 0.0));
         let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
         let drive = phases.amplitude * phases.frequency;
-        let two_laws = back != out || phases.pressing(out, at.position, -speed) != out;
+        let velocity = -at.side * speed;
+        let two_laws = back != out || phases.pressing(out, at.position, velocity) != out;
         let pressing = Pressing {
             accelerations: (rest(out), rest(back)),
             drive_rate: drive,
@@ -225,12 +233,13 @@ impl ResetContext<'_> {
             period: self.period,
             grain: two_laws.then_some(f64::EPSILON * at.position.abs()),
         };
-        Chatter::from_speed(speed, restitution, &pressing)
+        let chatter = Chatter::from_speed(speed, restitution, &pressing)?;
+        Some(chatter.on_side(at.side))
     }
 
     /// True if moving on to a surface pierces a strip that the stroke has not pierced yet.
     fn pierces(&self, at: &Surface) -> bool {
-        let fed = self.fed || at.above_unfed.is_none();
+        let fed = self.fed || at.beyond_unfed.is_none();
         at.is_far_side && fed && !self.pierced
     }
 }

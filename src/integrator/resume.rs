@@ -6,7 +6,7 @@ use super::motion::Motion;
 use super::start::Start;
 use crate::error::MotionError;
 use crate::flow::Polynomial;
-use crate::phases::{Mode, Phases, Sticking};
+use crate::phases::{Mode, Phases};
 
 impl Motion {
     /// This motion, taken up at its present state through other phases.
@@ -68,12 +68,9 @@ impl Motion {
                 let push = self.push(drive);
                 self.mode = self.phases.leave(hold, state.position, push);
             }
-            Mode::Chattering(Sticking { backward, .. }) => {
-                self.mode = Mode::Moving(if state.velocity > 0.0 {
-                    self.phases.forward_of(backward)
-                } else {
-                    backward
-                });
+            Mode::Chattering(hold) => {
+                let phase = self.phases.at_velocity(hold.outer(), state.velocity);
+                self.mode = Mode::Moving(phase);
             }
             // At rest on a face the force decides which way it goes, if any.
             Mode::Moving(_) if state.velocity == 0.0 => {

@@ -82,8 +82,9 @@ impl Moving {
         let clock = Clock::new(scene.excitation.frequency, self.angle);
         let given = Start::new(self.departure.position, self.departure.velocity);
         // One that was put there may be beyond a rigid stop.
-        let start = match phases.wall().filter(|_| self.is_put) {
-            Some(wall) => Start::new(given.position.min(wall), given.velocity),
+        let passed = phases.walls().find(|wall| wall.holds(given.position));
+        let start = match passed.filter(|_| self.is_put) {
+            Some(wall) => Start::new(wall.position, given.velocity),
             None => given,
         };
         let force = Polynomial::default();

@@ -19,9 +19,16 @@ pub(super) struct Tallies {
 pub(super) struct Counts {
     pub impacts: u64,
     pub pierced: u64,
+    /// Of the impacts, those on a stop below.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub below: u64,
     /// When the last impact was, and its before-impact velocity in m/s.
     pub last_impact: Option<(Instant, f64)>,
     pub work: Work,
+}
+
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 impl Observer for Tallies {
@@ -34,6 +41,7 @@ impl Observer for Tallies {
         self.counts.pierced += u64::from(crossing.pierces());
         if let Some(velocity) = crossing.impact_velocity() {
             self.counts.impacts += 1;
+            self.counts.below += u64::from(crossing.velocity < 0.0);
             self.counts.last_impact = Some((crossing.instant, velocity));
         }
     }

@@ -5,7 +5,7 @@ use toml::{Table, Value};
 
 use super::{Machine, UnitSystem, keys};
 use crate::error::MachineError;
-use crate::scene::{Parameter, Stop};
+use crate::scene::{Below, Parameter, Stop};
 
 impl Machine {
     /// Sets keys of its file to values, written as in the file. A new `stop.model` takes only what is set
@@ -24,9 +24,9 @@ impl Machine {
             .collect();
         if changes
             .iter()
-            .any(|(key, _)| keys::WORDS.contains(&key.as_str()))
+            .any(|(key, _)| keys::words().any(|word| word == key))
         {
-            self.rebuild_stop(&changes)?;
+            self.rebuild_stops(&changes)?;
         }
         let (mut done, mut ties) = (Vec::new(), Vec::new());
         for (key, value) in &changes {
@@ -50,7 +50,8 @@ impl Machine {
     /// The parameter of a key that is set to an expression.
     fn expression_of(&self, key: &str, text: &str) -> Result<Option<Parameter>, MachineError> {
         let is_of_start = key.starts_with("initial.") || key.starts_with("start.");
-        let is_word = keys::WORDS.contains(&key) || ["name", "description"].contains(&key);
+        let mut words = keys::words().chain(["name", "description"]);
+        let is_word = words.any(|word| word == key);
         if is_of_start || is_word || text.parse::<f64>().is_ok() || !keys::is_expression(text) {
             return Ok(None);
         }
@@ -62,7 +63,7 @@ impl Machine {
 
     /// Sets one key; its name.
     fn apply_one(&mut self, key: &str, text: &str) -> Result<&'static str, MachineError> {
-        if let Some(word) = keys::WORDS.into_iter().find(|word| *word == key) {
+        if let Some(word) = keys::words().find(|word| *word == key) {
             return Ok(word);
         }
         let number = || number(key, text);
@@ -125,37 +126,58 @@ impl Machine {
         })
     }
 
-    /// Makes the stop anew from what is set of it: a new model from that alone.
-    fn rebuild_stop(&mut self, changes: &[(String, &str)]) -> Result<(), MachineError> {
-        let is_new = changes.iter().any(|(key, _)| key == keys::MODEL);
-        let mut stop = match Table::try_from(&self.scene.stop) {
-            Ok(stop) if !is_new => stop,
-            _ => Table::new(),
+    /// Makes a stop anew from what is set of it: a new model from that and its clearance alone.
+    fn rebuild_stops(&mut self, changes: &[(String, &str)]) -> Result<(), MachineError> {
+        let set = |words: &keys::Words| {
+            let all = words.all();
+            let mut keys = changes.iter().map(|(key, _)| key);
+            let is_new = changes.iter().any(|(key, _)| key == words.model);
+            keys.any(|key| all.contains(&key.as_str()))
+                .then_some(is_new)
         };
-        if is_new {
-            self.preload_deflection = None;
+        if let Some(is_new) = set(&keys::OF_STOP) {
+            let mut stop = Table::new();
+            if is_new {
+                self.preload_deflection = None;
+            } else if let Ok(present) = Table::try_from(&self.scene.stop) {
+                stop = present;
+            }
+            change_stop(&mut stop, changes, false);
+            self.scene.stop = Stop::deserialize(stop).map_err(|error| of_stop(&error, "stop"))?;
         }
-        for (key, value) in changes {
-            let lettered = |it: &&Parameter| it.about().letter == key || it.name() == key;
-            let named = Parameter::ALL.iter().find(lettered).map(|it| it.name());
-            match named.unwrap_or(key).strip_prefix("stop.") {
-                Some("preload_deflection") => stop.insert("preload".into(), Value::Float(0.0)),
-                // What follows others is set after them.
-                Some(field) if named.is_some() && value.parse::<f64>().is_err() => {
-                    stop.insert(field.to_owned(), Value::Float(1.0))
-                }
-                Some(field) => stop.insert(field.to_owned(), value_of(value)),
-                None => None,
-            };
+        if let Some(is_new) = set(&keys::OF_STOP_BELOW) {
+            let mut stop = Table::try_from(&self.scene.below).unwrap_or_default();
+            stop.retain(|key, _| !is_new || key == "clearance");
+            change_stop(&mut stop, changes, true);
+            let below = Below::deserialize(stop);
+            self.scene.below = Some(below.map_err(|error| of_stop(&error, "stop.below"))?);
         }
-        self.scene.stop = Stop::deserialize(stop).map_err(|error| {
-            MachineError::Syntax(format!(
-                "stop: {}",
-                error.message().replace("field `", "key `stop.")
-            ))
-        })?;
         self.untie_missing()
     }
+}
+
+/// Puts what is set of one of the stops into its table.
+fn change_stop(stop: &mut Table, changes: &[(String, &str)], below: bool) {
+    for (key, value) in changes {
+        let lettered = |it: &&Parameter| it.about().letter == key || it.name() == key;
+        let named = Parameter::ALL.iter().find(lettered).map(|it| it.name());
+        match keys::of_stop(named.unwrap_or(key)) {
+            Some((is_below, _)) if is_below != below => None,
+            Some((false, "preload_deflection")) => stop.insert("preload".into(), Value::Float(0.0)),
+            // What follows others is set after them.
+            Some((_, field)) if named.is_some() && value.parse::<f64>().is_err() => {
+                stop.insert(field.to_owned(), Value::Float(1.0))
+            }
+            Some((_, field)) => stop.insert(field.to_owned(), value_of(value)),
+            None => None,
+        };
+    }
+}
+
+/// What is wrong with a stop, in its keys.
+fn of_stop(error: &toml::de::Error, stop: &str) -> MachineError {
+    let words = error.message().replace("field `", &format!("key `{stop}."));
+    MachineError::Syntax(format!("{stop}: {words}"))
 }
 
 /// A value as it is written in a file; a word may do without quotation marks.

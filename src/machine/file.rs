@@ -69,12 +69,16 @@ impl Machine {
             Trouble::Toml(error) => syntax(error),
             Trouble::Machine(error) => error,
         })?;
-        let of_stop = |place: &&Place| place.key.starts_with("stop.") && place.key != keys::MODEL;
-        match places.iter().find(of_stop) {
-            Some(place) if machine.scene.stop == Stop::None => {
-                return Err(machine.unknown(&place.key, machine.keys()));
+        let is_of_none = |place: &&Place| match keys::of_stop(&place.key) {
+            None | Some((_, "model") | (true, "clearance")) => false,
+            Some((false, _)) => machine.scene.stop == Stop::None,
+            Some((true, _)) => {
+                let below = machine.scene.below.as_ref();
+                below.is_some_and(|below| below.stop == Stop::None)
             }
-            _ => {}
+        };
+        if let Some(place) = places.iter().find(is_of_none) {
+            return Err(machine.unknown(&place.key, machine.keys()));
         }
         machine.tie(&ties)?;
         machine.validate().map_err(|source| MachineError::Value {
@@ -199,7 +203,8 @@ fn line_of(error: &SceneError, places: &[Place]) -> Option<usize> {
         SceneError::NoSlope => "stop.loading",
         SceneError::Slope { list, .. } => list,
         SceneError::GivesEnergy { .. } => "stop.unloading",
-        SceneError::Lacks(_) => return None,
+        SceneError::NoWay { .. } => Parameter::BelowClearance.name(),
+        SceneError::Below(_) | SceneError::Lacks(_) => return None,
     };
     let place = places.iter().find(|place| place.key == key)?;
     Some(place.line)
@@ -262,6 +267,7 @@ fn read(mut file: Spanned<DeTable<'_>>, language: UnitSystem) -> Result<Machine,
         }
     }
     contact(file.get_mut())?;
+    part_stops(file.get_mut());
     let keys = (keys::FREQUENCY_HZ, Parameter::Frequency.name());
     let hertz = stated_otherwise(file.get_mut(), keys, "frequency = 1.0")?;
     let keys = (keys::DEFLECTION, Parameter::Preload.name());
@@ -313,6 +319,12 @@ fn contact(table: &mut DeTable<'_>) -> Result<(), Trouble> {
             Ok(())
         }
     }
+}
+
+/// `stop.below` is the field `below` of a scene.
+fn part_stops(table: &mut DeTable<'_>) {
+    let below = inner(table, "stop").and_then(|stop| stop.remove_entry("below"));
+    table.extend(below);
 }
 
 /// A value that may be stated in another way: takes that out of its table and fills its place.

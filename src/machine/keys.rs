@@ -10,21 +10,73 @@ pub(super) const POSITION: &str = "initial.position";
 pub(super) const VELOCITY: &str = "initial.velocity";
 pub(super) const FREQUENCY_HZ: &str = "excitation.frequency_hz";
 pub(super) const DEFLECTION: &str = "stop.preload_deflection";
-pub(super) const MODEL: &str = "stop.model";
-pub(super) const RELEASE: &str = "stop.release";
-pub(super) const LOADING: &str = "stop.loading";
-pub(super) const UNLOADING: &str = "stop.unloading";
+const MODEL: &str = "stop.model";
+const RELEASE: &str = "stop.release";
+const LOADING: &str = "stop.loading";
+const UNLOADING: &str = "stop.unloading";
 
-/// Keys of the stop that are no numbers: they make a new stop.
-pub(super) const WORDS: [&str; 4] = [MODEL, RELEASE, LOADING, UNLOADING];
+/// Keys of a stop that are no numbers.
+pub(super) struct Words {
+    pub model: &'static str,
+    pub release: &'static str,
+    pub loading: &'static str,
+    pub unloading: &'static str,
+}
+
+pub(super) const OF_STOP: Words = Words {
+    model: MODEL,
+    release: RELEASE,
+    loading: LOADING,
+    unloading: UNLOADING,
+};
+
+pub(super) const OF_STOP_BELOW: Words = Words {
+    model: "stop.below.model",
+    release: "stop.below.release",
+    loading: "stop.below.loading",
+    unloading: "stop.below.unloading",
+};
+
+impl Words {
+    pub const fn all(&self) -> [&'static str; 4] {
+        [self.model, self.release, self.loading, self.unloading]
+    }
+
+    /// True if a stop of this law has such a key.
+    fn fits(&self, key: &str, stop: &Stop) -> bool {
+        match stop {
+            Stop::KelvinVoigt { .. } => key == self.release,
+            Stop::PiecewiseLinear { .. } => key == self.loading || key == self.unloading,
+            _ => false,
+        }
+    }
+}
+
+/// Keys of the stops that are no numbers: they make a new stop.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    OF_STOP.all().into_iter().chain(OF_STOP_BELOW.all())
+}
+
+/// The stop of a key, true if it is the one below, and the key's name in its table.
+pub(super) fn of_stop(key: &str) -> Option<(bool, &str)> {
+    let field = key.strip_prefix("stop.")?;
+    Some(match field.strip_prefix("below.") {
+        Some(field) => (true, field),
+        None => (false, field),
+    })
+}
 
 /// Keys of a file that are no [`Parameter`], of machines in SI units.
-pub(super) const FURTHER: [&str; 10] = [
+pub(super) const FURTHER: [&str; 14] = [
     FREQUENCY_HZ,
     MODEL,
     RELEASE,
     LOADING,
     UNLOADING,
+    OF_STOP_BELOW.model,
+    OF_STOP_BELOW.release,
+    OF_STOP_BELOW.loading,
+    OF_STOP_BELOW.unloading,
     DEFLECTION,
     POSITION,
     VELOCITY,
@@ -196,8 +248,11 @@ impl Machine {
             DEFLECTION => {
                 self.preload_deflection.is_none() && self.value(Parameter::Preload).is_some()
             }
-            RELEASE => matches!(self.scene.stop, Stop::KelvinVoigt { .. }),
-            LOADING | UNLOADING => matches!(self.scene.stop, Stop::PiecewiseLinear { .. }),
+            RELEASE | LOADING | UNLOADING => OF_STOP.fits(key, &self.scene.stop),
+            key if OF_STOP_BELOW.all().contains(&key) => match &self.scene.below {
+                Some(below) => key == OF_STOP_BELOW.model || OF_STOP_BELOW.fits(key, &below.stop),
+                None => false,
+            },
             _ => true,
         };
         let further = FURTHER.into_iter().filter(has);

@@ -276,13 +276,21 @@ impl Machine {
         self.unit_system.unit(dimension)
     }
 
+    /// True if a parameter is the stiffness of a power law.
+    pub fn is_of_power_law(&self, parameter: Parameter) -> bool {
+        let exponent = match parameter {
+            Parameter::StopStiffness => Parameter::Exponent,
+            Parameter::BelowStiffness => Parameter::BelowExponent,
+            _ => return false,
+        };
+        exponent.get(&self.scene).is_some()
+    }
+
     /// The sign of the unit in which it states a parameter; empty for bare numbers.
     pub fn unit_of(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Preload if self.preload_deflection.is_some() => self.unit(Dimension::Length),
-            Parameter::StopStiffness if Parameter::Exponent.get(&self.scene).is_some() => {
-                "N/m^exponent"
-            }
+            _ if self.is_of_power_law(parameter) => "N/m^exponent",
             _ => self.unit(parameter.about().dimension),
         }
     }
@@ -300,9 +308,7 @@ impl Machine {
             Parameter::Preload if self.preload_deflection.is_some() => {
                 ("preload of the stop as a deflection", "Fₚ/k₄")
             }
-            Parameter::StopStiffness if Parameter::Exponent.get(&self.scene).is_some() => {
-                (about.meaning, "")
-            }
+            _ if self.is_of_power_law(parameter) => (about.meaning, ""),
             _ => (about.meaning, about.symbol),
         }
     }

@@ -2,6 +2,7 @@
 
 use toml::Value;
 
+use super::keys::Words;
 use super::{Machine, UnitSystem, keys};
 use crate::scene::{Dimension, Release, Slope, Stop};
 
@@ -70,8 +71,6 @@ impl Machine {
 
     /// All that makes out the machine.
     fn lines(&self) -> Vec<Line> {
-        let stop = &self.scene.stop;
-        let word = |word: &str| format!("\"{word}\"");
         let mut lines = Vec::new();
         for parameter in self.parameters() {
             if let Some(value) = self.value(parameter) {
@@ -83,29 +82,9 @@ impl Machine {
                 lines.push(Line(key, value, self.label_of(parameter)));
             }
         }
-        let is_stops = |line: &Line| line.0.starts_with("stop.");
-        let place = lines.iter().position(is_stops).unwrap_or(lines.len());
-        let model = Line(keys::MODEL, word(stop.model()), String::new());
-        lines.insert(place, model);
-        match stop {
-            Stop::KelvinVoigt { release, .. } => {
-                let name = match release {
-                    Release::Clearance => "clearance",
-                    Release::ZeroForce => "zeroForce",
-                };
-                let meaning = "when a mass that moves back is let go".to_owned();
-                lines.push(Line(keys::RELEASE, word(name), meaning));
-            }
-            Stop::PiecewiseLinear { loading, unloading } => {
-                let from = self.label("from this deflection", "", Dimension::Length);
-                let slope = self.label("this stiffness", "", Dimension::Stiffness);
-                let meaning = format!("{from} on {slope}");
-                lines.push(Line(keys::LOADING, slopes(loading), meaning.clone()));
-                if !unloading.is_empty() {
-                    lines.push(Line(keys::UNLOADING, slopes(unloading), meaning));
-                }
-            }
-            _ => {}
+        self.add_words(&self.scene.stop, &keys::OF_STOP, &mut lines);
+        if let Some(below) = &self.scene.below {
+            self.add_words(&below.stop, &keys::OF_STOP_BELOW, &mut lines);
         }
         for (key, value, what, dimension) in [
             (
@@ -125,6 +104,36 @@ impl Machine {
             lines.push(Line(key, number(value), meaning));
         }
         lines
+    }
+
+    /// Adds what is no number of a stop: its model ahead of its numbers, the rest at the end.
+    fn add_words(&self, stop: &Stop, keys: &Words, lines: &mut Vec<Line>) {
+        let word = |word: &str| format!("\"{word}\"");
+        let table = keys.model.trim_end_matches("model");
+        let is_stops = |line: &Line| line.0.starts_with(table);
+        let place = lines.iter().position(is_stops).unwrap_or(lines.len());
+        let model = Line(keys.model, word(stop.model()), String::new());
+        lines.insert(place, model);
+        match stop {
+            Stop::KelvinVoigt { release, .. } => {
+                let name = match release {
+                    Release::Clearance => "clearance",
+                    Release::ZeroForce => "zeroForce",
+                };
+                let meaning = "when a mass that moves back is let go".to_owned();
+                lines.push(Line(keys.release, word(name), meaning));
+            }
+            Stop::PiecewiseLinear { loading, unloading } => {
+                let from = self.label("from this deflection", "", Dimension::Length);
+                let slope = self.label("this stiffness", "", Dimension::Stiffness);
+                let meaning = format!("{from} on {slope}");
+                lines.push(Line(keys.loading, slopes(loading), meaning.clone()));
+                if !unloading.is_empty() {
+                    lines.push(Line(keys.unloading, slopes(unloading), meaning));
+                }
+            }
+            _ => {}
+        }
     }
 
     /// The number of Hz near this one that gives the drive's frequency to the bit, if there is one.

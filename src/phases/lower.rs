@@ -1,5 +1,7 @@
 //! Lowering: from the scene's data to phases, layer by layer.
 
+use std::borrow::Cow;
+
 use super::plan::{Plan, layers};
 use super::{
     Beyond, Exit, Law, Layer, Phase, PhaseId, PhaseKind, Phases, Stack, Store, Surface, SurfaceId,
@@ -16,7 +18,8 @@ pub(super) fn lower(scene: &Scene) -> Phases {
     };
     let drive = scene.excitation;
     let mut builder = Builder {
-        scene,
+        scene: Cow::Borrowed(scene),
+        side: 1.0,
         phases: Vec::with_capacity(8),
         surfaces: Vec::new(),
     };
@@ -27,6 +30,10 @@ pub(super) fn lower(scene: &Scene) -> Phases {
         None => unfed.clone(),
     };
     builder.join_to_free(&fed, &unfed);
+    let below = match scene.mirrored() {
+        Some(mirrored) => builder.stack_below(mirrored, free),
+        None => Stack::default(),
+    };
     Phases {
         phases: builder.phases,
         surfaces: builder.surfaces,
@@ -35,11 +42,14 @@ pub(super) fn lower(scene: &Scene) -> Phases {
         mass: scene.mass,
         fed,
         unfed,
+        below,
     }
 }
 
 struct Builder<'a> {
-    scene: &'a Scene,
+    scene: Cow<'a, Scene>,
+    /// 1 as the scene is, -1 where it is a mirrored one: its plans then count positions downwards.
+    side: f64,
     phases: Vec<Phase>,
     surfaces: Vec<Surface>,
 }
@@ -52,8 +62,12 @@ impl Builder<'_> {
         hertz: Option<Hertz>,
         store: Store,
     ) -> PhaseId {
-        let (scene, drive) = (self.scene, self.scene.excitation);
+        let (scene, drive) = (&self.scene, self.scene.excitation);
         let id = PhaseId(self.phases.len());
+        let law = Law {
+            force: self.side * law.force,
+            ..law
+        };
         self.phases.push(Phase {
             id,
             kind,
@@ -70,19 +84,39 @@ impl Builder<'_> {
                 drive.amplitude,
                 drive.frequency,
             ),
-            hertz,
+            hertz: hertz.map(|hertz| hertz.on_side(self.side)),
             guards: Vec::with_capacity(3),
             exits: Vec::with_capacity(3),
-            store,
+            store: store.on_side(self.side),
             released: None,
+            side: self.side,
         });
         id
     }
 
+    /// A guard of the plans as one of positions.
+    fn guard(&self, planned: Guard) -> Guard {
+        if self.side < 0.0 {
+            planned.mirrored()
+        } else {
+            planned
+        }
+    }
+
     fn add_exit(&mut self, phase: PhaseId, guard: Guard, exit: Exit) {
+        let guard = self.guard(guard);
         let phase = &mut self.phases[phase.0];
         phase.guards.push(guard);
         phase.exits.push(exit);
+    }
+
+    /// Adds the stack of a stop below, of the machine that is mirrored.
+    fn stack_below(&mut self, mirrored: Scene, free: Law) -> Stack {
+        let plans = layers(&mirrored, free, false);
+        (self.scene, self.side) = (Cow::Owned(mirrored), -1.0);
+        let stack = self.stack(&plans);
+        self.join_to_free(&stack, &stack);
+        stack
     }
 
     /// Adds the layers of one stack, from the clearance on, and the wall that ends it.
@@ -97,72 +131,74 @@ impl Builder<'_> {
         let wall = wall.map(|wall| {
             let (position, restitution) = (wall.position, wall.restitution);
             let beyond = Beyond::Wall { restitution };
-            let below = layers.last().copied();
+            let before = layers.last().copied();
             let is_far_side = plans
                 .iter()
                 .any(|plan| plan.is_far_side && plan.from == position);
-            self.add_surface(position, below, beyond, is_far_side)
+            self.add_surface(position, before, beyond, is_far_side)
         });
         Stack { layers, wall }
     }
 
-    fn add_layer(&mut self, plan: &Plan, below: Option<Layer>) -> Layer {
+    fn add_layer(&mut self, plan: &Plan, before: Option<Layer>) -> Layer {
         let store = Store {
             spring: plan.spring,
             hertz: plan.hertz,
         };
         let add = |builder: &mut Self, law| builder.add_phase(plan.kind, law, plan.hertz, store);
-        let forward = add(self, plan.forward);
-        let backward = plan.backward.map_or(forward, |law| add(self, law));
-        let beyond = Beyond::Phase(forward);
-        let surface = self.add_surface(plan.from, below, beyond, plan.is_far_side);
-        self.add_exit(
-            backward,
-            Guard::falling_to(plan.from),
-            Exit::Backward(surface),
-        );
-        if forward != backward {
+        let inward = add(self, plan.forward);
+        let outward = plan.backward.map_or(inward, |law| add(self, law));
+        let beyond = Beyond::Phase(inward);
+        let surface = self.add_surface(plan.from, before, beyond, plan.is_far_side);
+        let falling = Guard::falling_to(plan.from);
+        self.add_exit(outward, falling, Exit::Backward(surface));
+        let (forward, backward) = match self.side < 0.0 {
+            true => (outward, inward),
+            false => (inward, outward),
+        };
+        if inward != outward {
             let reversal = Exit::Reversal { forward, backward };
-            self.add_exit(forward, Guard::turning_back(), reversal);
-            self.add_exit(backward, Guard::turning_forward(), reversal);
+            self.add_exit(inward, Guard::turning_back(), reversal);
+            self.add_exit(outward, Guard::turning_forward(), reversal);
         }
         if let Some((law, pulls)) = plan.released {
             let released = self.add_phase(PhaseKind::Released, law, None, store);
-            let falling = Guard::falling_to(plan.from);
             self.add_exit(released, falling, Exit::Backward(surface));
-            self.add_exit(released, pulls.reversed(), Exit::Switch(forward));
-            self.add_exit(forward, pulls, Exit::Switch(released));
-            self.phases[forward.0].released = Some((released, pulls));
+            self.add_exit(released, pulls.reversed(), Exit::Switch(inward));
+            self.add_exit(inward, pulls, Exit::Switch(released));
+            self.phases[inward.0].released = Some((released, self.guard(pulls)));
         }
         Layer {
-            from: plan.from,
+            from: self.side * plan.from,
             forward,
             backward,
+            side: self.side,
             surface,
         }
     }
 
-    /// Adds a surface and lets the phases below it end there.
+    /// Adds a surface and lets the phases before it end there.
     fn add_surface(
         &mut self,
         position: f64,
-        below: Option<Layer>,
-        above: Beyond,
+        before: Option<Layer>,
+        beyond: Beyond,
         is_far_side: bool,
     ) -> SurfaceId {
         let surface = SurfaceId(self.surfaces.len());
         self.surfaces.push(Surface {
-            position,
-            below: below.map_or(PhaseId::FREE, |layer| layer.backward),
-            above,
-            above_unfed: None,
-            is_clearance: below.is_none(),
+            position: self.side * position,
+            before: before.map_or(PhaseId::FREE, Layer::outward),
+            beyond,
+            beyond_unfed: None,
+            side: self.side,
+            is_clearance: before.is_none(),
             is_far_side,
         });
-        if let Some(below) = below {
-            let released = self.phases[below.forward.0].released;
+        if let Some(before) = before {
+            let released = self.phases[before.inward().0].released;
             let guard = Guard::rising_to(position);
-            self.add_exit(below.forward, guard, Exit::Forward(surface));
+            self.add_exit(before.inward(), guard, Exit::Forward(surface));
             if let Some((released, _)) = released {
                 self.add_exit(released, guard, Exit::Forward(surface));
             }
@@ -170,16 +206,36 @@ impl Builder<'_> {
         surface
     }
 
-    /// Lets the free phase end at the clearance.
+    /// Lets the free phase end at a clearance.
     fn join_to_free(&mut self, fed: &Stack, unfed: &Stack) {
         let (Some(first), Some(empty)) = (fed.first(), unfed.first()) else {
             return;
         };
         if first != empty {
-            self.surfaces[first.0].above_unfed = Some(self.surfaces[empty.0].above);
+            self.surfaces[first.0].beyond_unfed = Some(self.surfaces[empty.0].beyond);
         }
-        let guard = Guard::rising_to(self.surfaces[first.0].position);
+        let guard = Guard::rising_to(self.side * self.surfaces[first.0].position);
         self.add_exit(PhaseId::FREE, guard, Exit::Forward(first));
+    }
+}
+
+impl Layer {
+    /// The phase on the way towards the stop.
+    const fn inward(self) -> PhaseId {
+        if self.side < 0.0 {
+            self.backward
+        } else {
+            self.forward
+        }
+    }
+
+    /// The phase on the way back.
+    const fn outward(self) -> PhaseId {
+        if self.side < 0.0 {
+            self.forward
+        } else {
+            self.backward
+        }
     }
 }
 

@@ -82,20 +82,22 @@ pub struct Phase {
     pub store: Store,
     /// The phase that holds instead while this guard is above zero: contact does not pull.
     pub(crate) released: Option<(PhaseId, Guard)>,
+    /// 1 of a stop above and of the free phase, -1 of a stop below, which presses the mass upwards.
+    pub side: f64,
 }
 
 /// What a guard leads to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
-    /// The mass moves on through a surface, or hits it.
+    /// The mass moves on towards the stop through a surface, or hits it.
     Forward(SurfaceId),
     /// The mass moves back through a surface.
     Backward(SurfaceId),
     /// The velocity changes its sign under dry friction.
     Reversal {
-        /// The phase of the way forward.
+        /// The phase at positive velocities.
         forward: PhaseId,
-        /// The phase of the way back.
+        /// The phase at negative velocities.
         backward: PhaseId,
     },
     /// Another phase takes over where its law gives the same force.
@@ -105,7 +107,7 @@ pub enum Exit {
 /// What lies beyond a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beyond {
-    /// A phase, entered on the way forward.
+    /// A phase, entered on the way towards the stop.
     Phase(PhaseId),
     /// Nothing that gives way: v+ = -restitution v-.
     Wall {
@@ -119,13 +121,15 @@ pub enum Beyond {
 pub struct Surface {
     /// Where it is, in m.
     pub position: f64,
-    /// The phase below it, on the way back.
-    pub below: PhaseId,
-    /// What lies above it.
-    pub above: Beyond,
-    /// What lies above it when no strip is fed, if that differs.
-    pub above_unfed: Option<Beyond>,
-    /// True at the clearance: moving on to it is an impact.
+    /// The phase before it, on the way back.
+    pub before: PhaseId,
+    /// What lies beyond it.
+    pub beyond: Beyond,
+    /// What lies beyond it when no strip is fed, if that differs.
+    pub beyond_unfed: Option<Beyond>,
+    /// 1 if the way towards the stop is upwards, -1 if it is downwards.
+    pub side: f64,
+    /// True at a clearance: moving on to it is an impact.
     pub is_clearance: bool,
     /// True at the far side of the strip: moving on to it pierces it.
     pub is_far_side: bool,
@@ -146,9 +150,10 @@ pub struct Phases {
     pub mass: f64,
     fed: Stack,
     unfed: Stack,
+    below: Stack,
 }
 
-/// The layers beyond the clearance, and the rigid stop that ends them.
+/// The layers beyond a clearance, and the rigid stop that ends them.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Stack {
     layers: Vec<Layer>,
@@ -156,12 +161,14 @@ struct Stack {
     wall: Option<SurfaceId>,
 }
 
-/// A range of positions with its phases on the way forward and back.
+/// A range of positions with its phases at positive and at negative velocities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Layer {
     from: f64,
     forward: PhaseId,
     backward: PhaseId,
+    /// 1 of a stop above, -1 of one below.
+    side: f64,
     /// The surface at `from`.
     surface: SurfaceId,
 }
@@ -216,33 +223,48 @@ impl Index<SurfaceId> for Phases {
 }
 
 impl Phases {
-    /// True if a phase is one of those with a strip.
-    pub(crate) fn belongs_to_strip(&self, phase: PhaseId) -> bool {
+    /// True if a phase is one of those with a strip, false if it is one without; none if it belongs to no stroke.
+    pub(crate) fn belongs_to_strip(&self, phase: PhaseId) -> Option<bool> {
         let is_of = |layer: &Layer| {
-            let released = self[layer.forward].released;
-            layer.forward == phase
-                || layer.backward == phase
-                || released.is_some_and(|(released, _)| released == phase)
+            let of = |side: PhaseId| {
+                let released = self[side].released;
+                side == phase || released.is_some_and(|(released, _)| released == phase)
+            };
+            of(layer.forward) || of(layer.backward)
         };
-        self.fed.layers.iter().any(is_of)
+        let has = |stack: &Stack| stack.layers.iter().any(is_of);
+        match (has(&self.fed), has(&self.unfed)) {
+            (false, false) => None,
+            (is_fed, _) => Some(is_fed),
+        }
     }
 
-    /// The phase of the way forward in the layer of a phase of the way back.
-    pub(crate) fn forward_of(&self, backward: PhaseId) -> PhaseId {
-        let reversal = |exit: &Exit| match exit {
-            Exit::Reversal { forward, .. } => Some(*forward),
+    /// The phase at this velocity in the layer of a phase.
+    pub(crate) fn at_velocity(&self, phase: PhaseId, velocity: f64) -> PhaseId {
+        let reversal = |exit: &Exit| match *exit {
+            Exit::Reversal { forward, .. } if velocity > 0.0 => Some(forward),
+            Exit::Reversal { backward, .. } => Some(backward),
             _ => None,
         };
-        self[backward]
-            .exits
-            .iter()
-            .find_map(reversal)
-            .unwrap_or(backward)
+        self[phase].exits.iter().find_map(reversal).unwrap_or(phase)
     }
 
-    /// Where the mass can go no further, in m.
-    pub(crate) fn wall(&self) -> Option<f64> {
-        self.fed.wall.map(|wall| self[wall].position)
+    /// 1 where a stop above holds in a mode, or none, -1 where one below does.
+    pub(crate) fn side(&self, mode: Mode) -> f64 {
+        match mode {
+            Mode::Moving(phase) => self[phase].side,
+            Mode::Held(hold) | Mode::Chattering(hold) => {
+                let sides = hold.phases().map(|phase| self[phase].side);
+                let on_wall = if hold.backward.is_none() { -1.0 } else { 1.0 };
+                sides.fold(on_wall, f64::min)
+            }
+        }
+    }
+
+    /// The surfaces at which the mass can go no further.
+    pub(crate) fn walls(&self) -> impl Iterator<Item = &Surface> {
+        let walls = [self.fed.wall, self.below.wall].into_iter().flatten();
+        walls.map(|wall| &self[wall])
     }
 
     /// The drive alone, for a mass that is held.

@@ -151,6 +151,7 @@ fn stop_layers(scene: &Scene, free: Law, touching: Law, fed: bool) -> Vec<Plan> 
                 exponent: *exponent,
                 dissipation: *dissipation,
                 origin: from,
+                side: 1.0,
                 mass: scene.mass,
             }),
             released: (*dissipation > 0.0).then(|| {

@@ -42,10 +42,10 @@ pub enum Mode {
 /// The phases in which a mass at rest would leave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sticking {
-    /// Phase of the way forward; none before a rigid stop.
+    /// Phase in which it leaves upwards; none under a rigid stop.
     pub forward: Option<PhaseId>,
-    /// Phase of the way back.
-    pub backward: PhaseId,
+    /// Phase in which it leaves downwards; none on a rigid stop below.
+    pub backward: Option<PhaseId>,
 }
 
 impl Sticking {
@@ -53,18 +53,26 @@ impl Sticking {
     pub(crate) const fn between(forward: PhaseId, backward: PhaseId) -> Self {
         Self {
             forward: Some(forward),
-            backward,
+            backward: Some(backward),
         }
     }
 
     /// Both.
     pub(crate) fn phases(self) -> impl Iterator<Item = PhaseId> {
-        self.forward.into_iter().chain([self.backward])
+        self.forward.into_iter().chain(self.backward)
+    }
+
+    /// That of them which is farther from the stop.
+    pub(crate) fn outer(self) -> PhaseId {
+        self.phases()
+            .min_by_key(|phase| phase.0)
+            .unwrap_or(PhaseId::FREE)
     }
 
     /// What follows when one of the guards of [`Phases::releases`] lets the mass go.
     pub(crate) fn released(self, guard: usize) -> Mode {
-        Mode::Moving(self.phases().nth(guard).unwrap_or(self.backward))
+        let phase = self.phases().nth(guard);
+        phase.map_or(Mode::Held(self), Mode::Moving)
     }
 }
 
@@ -87,16 +95,25 @@ impl Mode {
 }
 
 impl Surface {
-    /// A mass at rest on it, with this above it.
-    pub(crate) fn hold(&self, above: Beyond) -> Sticking {
-        let forward = match above {
+    /// A mass at rest on it, with this beyond it.
+    pub(crate) fn hold(&self, beyond: Beyond) -> Sticking {
+        let inward = match beyond {
             Beyond::Phase(phase) => Some(phase),
             Beyond::Wall { .. } => None,
         };
-        Sticking {
-            forward,
-            backward: self.below,
-        }
+        let outward = Some(self.before);
+        let (forward, backward) = match self.side < 0.0 {
+            true => (outward, inward),
+            false => (inward, outward),
+        };
+        Sticking { forward, backward }
+    }
+}
+
+impl Surface {
+    /// True if a position is on it or beyond.
+    pub(crate) fn holds(&self, position: f64) -> bool {
+        self.side * position >= self.side * self.position
     }
 }
 
@@ -104,13 +121,12 @@ impl Phases {
     /// The mode at any state. `push` is the external force per mass in m/s^2, `fed` says whether a
     /// strip lies beyond the clearance.
     pub fn locate(&self, position: f64, velocity: f64, push: f64, fed: bool) -> Mode {
-        if let Some(wall) = self.stack(fed).wall.map(|wall| &self[wall])
-            && position >= wall.position
+        if let Some(wall) = self.walls().find(|wall| wall.holds(position))
             && velocity == 0.0
         {
-            return self.leave(wall.hold(wall.above), position, push);
+            return self.leave(wall.hold(wall.beyond), position, push);
         }
-        match self.stack(fed).layer_at(position) {
+        match self.layer_at(position, fed) {
             Some(layer) if position == layer.from => {
                 let rounding = Threshold::ROUNDING;
                 self.at_surface(&self[layer.surface], velocity, push, fed, rounding)
@@ -124,14 +140,16 @@ impl Phases {
         }
     }
 
-    fn stack(&self, fed: bool) -> &Stack {
-        if fed { &self.fed } else { &self.unfed }
+    fn layer_at(&self, position: f64, fed: bool) -> Option<&Layer> {
+        let above = if fed { &self.fed } else { &self.unfed };
+        let layer = above.layer_at(position);
+        layer.or_else(|| self.below.layer_at(position))
     }
 
     /// The phases whose laws hold at a state, wherever it is: of the way forward and of the way back under
     /// dry friction at rest, twice the same one else.
     pub fn laws_at(&self, position: f64, velocity: f64, fed: bool) -> [PhaseId; 2] {
-        let Some(layer) = self.stack(fed).layer_at(position) else {
+        let Some(layer) = self.layer_at(position, fed) else {
             return [PhaseId::FREE; 2];
         };
         let pressing = |phase| self.pressing(phase, position, velocity);
@@ -152,12 +170,12 @@ impl Phases {
         }
     }
 
-    /// What lies above a surface.
+    /// What lies beyond a surface.
     pub fn beyond(&self, at: &Surface, fed: bool) -> Beyond {
         if fed {
-            at.above
+            at.beyond
         } else {
-            at.above_unfed.unwrap_or(at.above)
+            at.beyond_unfed.unwrap_or(at.beyond)
         }
     }
 
@@ -171,20 +189,20 @@ impl Phases {
         fed: bool,
         Threshold { height, slowest }: Threshold,
     ) -> Mode {
-        let above = self.beyond(at, fed);
-        let held = self.leave(at.hold(above), at.position, push);
+        let beyond = self.beyond(at, fed);
+        let held = self.leave(at.hold(beyond), at.position, push);
         let rests = matches!(held, Mode::Held(_));
         let faint = || {
             velocity.abs() < slowest
-                || self.bounce(at, above, velocity, push) < height * at.position.abs()
+                || self.bounce(at, beyond, velocity, push) < height * at.position.abs()
                 || self.is_faint(at, velocity, push, fed)
         };
         if velocity == 0.0 || (rests && faint()) {
             held
-        } else if velocity < 0.0 {
-            Mode::Moving(self.pressing(at.below, at.position, velocity))
-        } else if let Beyond::Phase(above) = above {
-            Mode::Moving(self.pressing(above, at.position, velocity))
+        } else if at.side * velocity < 0.0 {
+            Mode::Moving(self.pressing(at.before, at.position, velocity))
+        } else if let Beyond::Phase(beyond) = beyond {
+            Mode::Moving(self.pressing(beyond, at.position, velocity))
         } else {
             held
         }
@@ -193,9 +211,15 @@ impl Phases {
     /// The mode of a mass at rest between two laws.
     pub(crate) fn leave(&self, hold: Sticking, position: f64, push: f64) -> Mode {
         let acceleration = |phase| self.acceleration(phase, position, 0.0, push);
-        match hold.forward {
-            Some(phase) if acceleration(phase) > 0.0 => Mode::Moving(phase),
-            _ if acceleration(hold.backward) < 0.0 => Mode::Moving(hold.backward),
+        match hold {
+            Sticking {
+                forward: Some(phase),
+                ..
+            } if acceleration(phase) > 0.0 => Mode::Moving(phase),
+            Sticking {
+                backward: Some(phase),
+                ..
+            } if acceleration(phase) < 0.0 => Mode::Moving(phase),
             _ => Mode::Held(hold),
         }
     }
@@ -220,15 +244,16 @@ impl Phases {
         let balance = |phase| -self.acceleration(phase, position, 0.0, 0.0);
         // A hold may begin within rounding of a balance; the guard then begins at zero.
         let on = |phase| Guard::push_above(balance(phase).max(push));
-        let back = Guard::push_below(balance(hold.backward).min(push));
-        hold.forward.map(on).into_iter().chain([back]).collect()
+        let back = |phase| Guard::push_below(balance(phase).min(push));
+        let (forward, backward) = (hold.forward.map(on), hold.backward.map(back));
+        forward.into_iter().chain(backward).collect()
     }
 
     /// True if a bounce cannot be told from none: lower than four units in the last place of the
     /// position, or as slow as what the force brings about within the resolution of time.
     pub(crate) fn is_faint(&self, at: &Surface, velocity: f64, push: f64, fed: bool) -> bool {
-        let above = self.beyond(at, fed);
-        let height = self.bounce(at, above, velocity, push);
+        let beyond = self.beyond(at, fed);
+        let height = self.bounce(at, beyond, velocity, push);
         let period = std::f64::consts::TAU / self.frequency;
         let resolution = 4.0 * f64::EPSILON * period;
         // A bounce of height h under the acceleration a takes v / a each way.
@@ -237,9 +262,9 @@ impl Phases {
     }
 
     /// Height v^2 / (2 a) in m of the bounce that would follow, on its higher side.
-    fn bounce(&self, at: &Surface, above: Beyond, velocity: f64, push: f64) -> f64 {
+    fn bounce(&self, at: &Surface, beyond: Beyond, velocity: f64, push: f64) -> f64 {
         let acceleration = |phase| self.acceleration(phase, at.position, 0.0, push).abs();
-        let sides = at.hold(above).phases().map(acceleration);
+        let sides = at.hold(beyond).phases().map(acceleration);
         velocity * velocity / (2.0 * sides.fold(f64::INFINITY, f64::min))
     }
 
@@ -250,7 +275,7 @@ impl Phases {
             Mode::Chattering(_) => PhaseKind::Chatter,
             Mode::Held(Sticking { forward, backward }) => {
                 let kind = |phase: PhaseId| self[phase].kind;
-                if forward.map(kind) == Some(kind(backward)) {
+                if forward.map(kind) == backward.map(kind) {
                     PhaseKind::Stuck
                 } else {
                     PhaseKind::Resting
@@ -265,6 +290,6 @@ impl Stack {
         self.layers
             .iter()
             .rev()
-            .find(|layer| position >= layer.from)
+            .find(|layer| layer.side * position >= layer.side * layer.from)
     }
 }

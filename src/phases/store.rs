@@ -13,6 +13,19 @@ pub struct Store {
 }
 
 impl Store {
+    /// It seen on a side: 1 as it is, -1 with positions counted the other way.
+    pub(super) fn on_side(self, side: f64) -> Self {
+        let Spring { origin, force, .. } = self.spring;
+        Self {
+            spring: Spring {
+                origin: side * origin,
+                force: side * force,
+                ..self.spring
+            },
+            hertz: self.hertz.map(|hertz| hertz.on_side(side)),
+        }
+    }
+
     /// Energy in J stored at a position.
     pub fn energy_at(&self, position: f64) -> f64 {
         let hertz = self.hertz.map_or(0.0, |hertz| hertz.energy(position));

@@ -16,7 +16,7 @@ pub use parameter::{About, Dimension, Parameter};
 pub use ratios::Ratios;
 pub use scales::Scales;
 pub(crate) use stop::stiffness_from;
-pub use stop::{Release, RigidStop, Slope, Stop, force_of};
+pub use stop::{Below, Release, RigidStop, Slope, Stop, force_of};
 pub use ties::Ties;
 pub(crate) use ties::{Quantity, Tie};
 pub use units::Units;
@@ -65,6 +65,9 @@ pub struct Scene {
     /// What follows the frequency of the drive where that is varied.
     #[serde(skip)]
     pub followers: Ties,
+    /// The stop on the other side, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub below: Option<Below>,
 }
 
 /// The drive F0 cos(w t + phi).
@@ -141,13 +144,33 @@ impl Scene {
             piercing: None,
             rigid: None,
             followers: Ties::NONE,
+            below: None,
         }
+    }
+
+    /// This machine seen from the other side, positions counted downwards: its stop is the one below. None if there is none.
+    #[doc(hidden)]
+    pub fn mirrored(&self) -> Option<Self> {
+        let Below { clearance, stop } = self.below.clone()?;
+        Some(Self {
+            clearance,
+            stop,
+            piercing: None,
+            rigid: None,
+            below: None,
+            ..self.clone()
+        })
     }
 
     /// Where the stop stands, in m: the clearance, or behind the strip.
     pub fn stop_position(&self) -> f64 {
         let behind = self.piercing.map_or(0.0, |p| p.thickness + p.travel);
         self.clearance + behind
+    }
+
+    /// True if anything stands at the clearance.
+    fn has_stop(&self) -> bool {
+        self.stop != Stop::None || self.piercing.is_some() || self.rigid.is_some()
     }
 
     /// The rigid stop that the mass meets, if there is one: another one behind it is out of reach.
@@ -161,6 +184,23 @@ impl Scene {
             position: self.stop_position() + travel,
             restitution,
         })
+    }
+
+    /// Positions in m between which rigid stops leave the mass, infinite where there is none.
+    pub fn reach(&self) -> (f64, f64) {
+        let wall = |scene: &Self| scene.wall().map(|wall| wall.position);
+        let below = self.mirrored().and_then(|mirrored| wall(&mirrored));
+        let lowest = below.map_or(f64::NEG_INFINITY, |position| -position);
+        (lowest, wall(self).unwrap_or(f64::INFINITY))
+    }
+
+    /// The smaller clearance in m: how far a harmonic motion may swing before it meets a stop.
+    pub fn least_clearance(&self) -> f64 {
+        match self.mirrored().filter(Self::has_stop) {
+            Some(below) if self.has_stop() => self.clearance.min(below.clearance),
+            Some(below) => below.clearance,
+            None => self.clearance,
+        }
     }
 
     /// Period of the drive, 2 pi / w, in s.

@@ -128,6 +128,31 @@ table! {
     Travel "piercing.travel", "nu", "ν", ["v", "travel"], Length, NotNegative, "travel behind the strip";
     RigidTravel "rigid.travel", "epsilon", "ε", ["e", "rigid_travel"], Length, NotNegative, "travel to the rigid stop";
     RigidRestitution "rigid.restitution", "R", "R", ["restitution"], Number, Share, "restitution of the rigid stop behind";
+    BelowClearance "stop.below.clearance", "rho_below", "ρ⁻", [], Length, Finite, "clearance of the stop below";
+    BelowStiffness "stop.below.stiffness", "k4_below", "k₄⁻/k₁", [], Stiffness, NotNegative, "stiffness of the stop below";
+    BelowPreload "stop.below.preload", "Fp_below", "Fₚ⁻/F₀", [], Force, NotNegative, "preload of the stop below";
+    BelowExponent "stop.below.exponent", "exponent_below", "exponent below", [], Number, Power, "exponent of the stop below";
+    BelowDissipation "stop.below.dissipation", "dissipation_below", "dissipation below", [], Slowness, NotNegative, "dissipation of the stop below";
+    BelowRestitution "stop.below.restitution", "R_below", "R⁻", [], Number, Share, "restitution of the stop below";
+}
+
+/// The place of a parameter of a stop in it.
+macro_rules! place_in_stop {
+    ($parameter:expr, $stop:expr) => {
+        match ($parameter, $stop) {
+            (
+                Parameter::StopStiffness,
+                Stop::KelvinVoigt { stiffness, .. }
+                | Stop::Hertz { stiffness, .. }
+                | Stop::Preloaded { stiffness, .. },
+            ) => Some(stiffness),
+            (Parameter::Preload, Stop::Preloaded { preload, .. }) => Some(preload),
+            (Parameter::Exponent, Stop::Hertz { exponent, .. }) => Some(exponent),
+            (Parameter::Dissipation, Stop::Hertz { dissipation, .. }) => Some(dissipation),
+            (Parameter::Restitution, Stop::Rigid { restitution }) => Some(restitution),
+            _ => None,
+        }
+    };
 }
 
 /// The place of a parameter in a scene, to read (`&`) or to write (`&mut`).
@@ -144,25 +169,25 @@ macro_rules! place {
             P::Phase => Some(&$($mutable)? scene.excitation.phase),
             P::Clearance => Some(&$($mutable)? scene.clearance),
             P::ContactDamping => Some(&$($mutable)? scene.contact_damping),
-            stop => match (stop, &$($mutable)? scene.stop, &$($mutable)? scene.piercing, &$($mutable)? scene.rigid) {
-                (
-                    P::StopStiffness,
-                    Stop::KelvinVoigt { stiffness, .. }
-                    | Stop::Hertz { stiffness, .. }
-                    | Stop::Preloaded { stiffness, .. },
-                    ..
-                ) => Some(stiffness),
-                (P::Preload, Stop::Preloaded { preload, .. }, ..) => Some(preload),
-                (P::Exponent, Stop::Hertz { exponent, .. }, ..) => Some(exponent),
-                (P::Dissipation, Stop::Hertz { dissipation, .. }, ..) => Some(dissipation),
-                (P::Restitution, Stop::Rigid { restitution }, ..) => Some(restitution),
-                (P::PiercingStiffness, _, Some(strip), _) => Some(&$($mutable)? strip.stiffness),
-                (P::PiercingFriction, _, Some(strip), _) => Some(&$($mutable)? strip.friction),
-                (P::Thickness, _, Some(strip), _) => Some(&$($mutable)? strip.thickness),
-                (P::Travel, _, Some(strip), _) => Some(&$($mutable)? strip.travel),
-                (P::RigidTravel, .., Some(rigid)) => Some(&$($mutable)? rigid.travel),
-                (P::RigidRestitution, .., Some(rigid)) => Some(&$($mutable)? rigid.restitution),
-                _ => None,
+            P::PiercingStiffness | P::PiercingFriction | P::Thickness | P::Travel => {
+                match (&$($mutable)? scene.piercing, $parameter) {
+                    (Some(strip), P::PiercingStiffness) => Some(&$($mutable)? strip.stiffness),
+                    (Some(strip), P::PiercingFriction) => Some(&$($mutable)? strip.friction),
+                    (Some(strip), P::Thickness) => Some(&$($mutable)? strip.thickness),
+                    (Some(strip), _) => Some(&$($mutable)? strip.travel),
+                    (None, _) => None,
+                }
+            }
+            P::RigidTravel | P::RigidRestitution => match (&$($mutable)? scene.rigid, $parameter) {
+                (Some(rigid), P::RigidTravel) => Some(&$($mutable)? rigid.travel),
+                (Some(rigid), _) => Some(&$($mutable)? rigid.restitution),
+                (None, _) => None,
+            },
+            own => match (own.above(), &$($mutable)? scene.below) {
+                (None, _) => place_in_stop!(own, &$($mutable)? scene.stop),
+                (Some(_), None) => None,
+                (Some(P::Clearance), Some(below)) => Some(&$($mutable)? below.clearance),
+                (Some(twin), Some(below)) => place_in_stop!(twin, &$($mutable)? below.stop),
             },
         }
     }};
@@ -194,6 +219,19 @@ impl Parameter {
     /// True if ratios are in units of it: machines in ratios do not state it.
     pub const fn is_unit(self) -> bool {
         matches!(self, Self::Mass | Self::Suspension | Self::Amplitude)
+    }
+
+    /// The parameter of the stop above that is this one of the stop below; none if it is none of that.
+    pub const fn above(self) -> Option<Self> {
+        Some(match self {
+            Self::BelowClearance => Self::Clearance,
+            Self::BelowStiffness => Self::StopStiffness,
+            Self::BelowPreload => Self::Preload,
+            Self::BelowExponent => Self::Exponent,
+            Self::BelowDissipation => Self::Dissipation,
+            Self::BelowRestitution => Self::Restitution,
+            _ => return None,
+        })
     }
 
     /// Its value in SI units, if the machine has it.

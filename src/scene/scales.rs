@@ -30,14 +30,16 @@ impl Scene {
         }
     }
 
-    /// Those of its motions under this drive: the clearance or the amplitude F0/(m w^2) of a free mass,
+    /// Those of its motions under this drive: the larger clearance or the amplitude F0/(m w^2) of a free mass,
     /// whichever is larger, and w.
     #[doc(hidden)]
     pub fn motion_scales(&self) -> Scales {
         let w = self.excitation.frequency;
         let free = self.excitation.amplitude / self.mass / (w * w);
+        let below = self.below.as_ref().map_or(0.0, |below| below.clearance);
+        let clearance = self.clearance.abs().max(below.abs());
         Scales {
-            length: or_one(self.clearance.abs().max(free), 0.0),
+            length: or_one(clearance.max(free), 0.0),
             rate: w,
         }
     }

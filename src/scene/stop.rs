@@ -103,6 +103,16 @@ pub struct RigidStop {
     pub restitution: f64,
 }
 
+/// A stop on the other side: it is met at x = -`clearance` on the way down, and its deflection is -x - `clearance`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Below {
+    /// Clearance in m, measured downwards; the free way between both stops must be > 0.
+    pub clearance: f64,
+    /// The stop.
+    #[serde(flatten)]
+    pub stop: Stop,
+}
+
 /// Force in N at `deflection` >= 0 of a continuous chain of slopes that starts at zero.
 pub fn force_of(slopes: &[Slope], deflection: f64) -> f64 {
     let ends = slopes.iter().skip(1).map(|next| next.from);

@@ -74,6 +74,9 @@ impl Scene {
             }
         }
         scene.stop.take_units(&self.stop, units);
+        if let (Some(below), Some(bare)) = (&mut scene.below, &self.below) {
+            below.stop.take_units(&bare.stop, units);
+        }
         scene.validate()?;
         Ok(scene)
     }

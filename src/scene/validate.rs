@@ -62,11 +62,29 @@ impl Scene {
                 parameter.check(value)?;
             }
         }
+        self.validate_stop()?;
+        self.validate_piercing()?;
+        self.validate_below()
+    }
+
+    fn validate_stop(&self) -> Result<(), SceneError> {
         if let Stop::PiecewiseLinear { loading, unloading } = &self.stop {
             slopes(loading, unloading)?;
         }
-        self.validate_piercing()?;
         self.validate_pace()
+    }
+
+    fn validate_below(&self) -> Result<(), SceneError> {
+        let Some(mirrored) = self.mirrored() else {
+            return Ok(());
+        };
+        let (clearance, below) = (self.clearance, mirrored.clearance);
+        let both_stand = self.has_stop() && mirrored.has_stop();
+        if both_stand && clearance + below <= 0.0 {
+            return Err(SceneError::NoWay { clearance, below });
+        }
+        let below = mirrored.validate_stop();
+        below.map_err(|error| SceneError::Below(Box::new(error)))
     }
 
     fn validate_piercing(&self) -> Result<(), SceneError> {

@@ -72,16 +72,20 @@ impl Lowered {
                     law.hertz[2] = dissipation / value;
                 }
             }
-            Parameter::Exponent | Parameter::Dissipation => {
-                let which = if parameter == Parameter::Exponent {
-                    1
-                } else {
-                    2
+            Parameter::Exponent
+            | Parameter::Dissipation
+            | Parameter::BelowExponent
+            | Parameter::BelowDissipation => {
+                let (own, side) = match parameter.above() {
+                    Some(twin) => (twin, -1.0),
+                    None => (parameter, 1.0),
                 };
+                let which = if own == Parameter::Exponent { 1 } else { 2 };
                 let mut found = false;
                 for (law, phase) in change.laws.iter_mut().zip(&phases.phases) {
-                    law.hertz[which] = f64::from(u8::from(phase.hertz.is_some()));
-                    found |= phase.hertz.is_some();
+                    let is_its = phase.hertz.is_some_and(|hertz| hertz.side == side);
+                    law.hertz[which] = f64::from(u8::from(is_its));
+                    found |= is_its;
                 }
                 return found.then_some(change).ok_or(none);
             }
@@ -129,7 +133,7 @@ impl Lowered {
         let pairs = from.surfaces.iter().zip(&to.surfaces);
         self.surfaces = pairs
             .map(|(a, b)| {
-                let kept = slope(restitution(a.above), restitution(b.above));
+                let kept = slope(restitution(a.beyond), restitution(b.beyond));
                 (slope(a.position, b.position), kept)
             })
             .collect();
@@ -153,13 +157,13 @@ impl Lowered {
             - own.law.force;
         if let Some(hertz) = &phase.hertz {
             let [stiffness, exponent, dissipation, face] = own.hertz;
-            let depth = (position - hertz.origin).max(0.0);
-            let power = depth.powf(hertz.exponent);
-            let grip = (1.0 + hertz.dissipation * velocity).max(0.0);
-            let log = if power > 0.0 { depth.ln() } else { 0.0 };
+            let depth = hertz.deflection(position).max(0.0);
+            let power = hertz.side * depth.powf(hertz.exponent);
+            let (grip, velocity) = (hertz.grip(velocity), hertz.side * velocity);
+            let log = if power != 0.0 { depth.ln() } else { 0.0 };
             let by_stiffness = stiffness + hertz.stiffness * exponent * log;
             force += power * (by_stiffness * grip + hertz.stiffness * dissipation * velocity);
-            force -= hertz.slopes(position, velocity).0 * face;
+            force -= hertz.slopes(position, hertz.side * velocity).0 * face;
         }
         force
     }

@@ -126,7 +126,8 @@ impl Observer for SensitivityRecorder {
             _ => 0.0,
         };
         if crossing.impact_velocity().is_some() {
-            self.impact = (later, self.velocity + a * later);
+            let side = 1f64.copysign(v);
+            self.impact = (later, side * (self.velocity + a * later));
         }
         // The push works on another velocity from an impact on that comes later.
         self.supplied += self.push * (v - crossing.velocity_after) * later;

@@ -104,6 +104,7 @@ fn any(dice: &mut Dice) -> Case {
             restitution: share(dice),
         }),
         followers: softstop::Ties::NONE,
+        below: None,
     };
     let start = any_start(dice, &scene, rolling);
     let periods = dice.range(0.5, 4.0);

@@ -148,22 +148,27 @@ impl MachineArguments {
     }
 }
 
-/// Refuses a machine whose drive's frequency follows others, where it is looked for.
+/// Refuses a machine of which no zone is looked for: with a stop below, or whose drive's frequency follows others.
 ///
 /// # Errors
-/// [`Failure::Usage`] naming the frequency and its expression.
-pub fn refuse_tied_frequency(machine: &Machine) -> Result<(), Failure> {
+/// [`Failure::Usage`] naming the stop, or the frequency and its expression.
+pub fn refuse_without_zone(machine: &Machine) -> Result<(), Failure> {
+    if machine.scene.below.is_some() {
+        return Err(Failure::usage(
+            "stop.below: zones and designs are looked for of machines with stops on one side",
+        ));
+    }
     let free = machine.free(machine.name(Parameter::Frequency));
     free.map(|_| ())
         .map_err(|error| Failure::usage(error.to_string()))
 }
 
-/// Refuses a machine whose drive's frequency follows something, or is followed, where that is looked for and all else stays.
+/// Refuses a machine of which no zone is looked for, or of which something follows the drive's frequency, where all else stays.
 ///
 /// # Errors
 /// [`Failure::Usage`] naming what follows.
 pub fn refuse_followers_of_frequency(machine: &Machine) -> Result<(), Failure> {
-    refuse_tied_frequency(machine)?;
+    refuse_without_zone(machine)?;
     let frequency = Parameter::Frequency;
     let Some(follower) = machine.followers(frequency).first().copied() else {
         return Ok(());

@@ -5,7 +5,7 @@ use crate::older::PaperRatios;
 use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
 use softstop::internals::{FASTEST, HEAVIEST};
-use softstop::{Allowed, Machine, Parameter, Release, Scene, Stop, UnitSystem};
+use softstop::{Allowed, Below, Machine, Parameter, Release, Scene, Stop, UnitSystem};
 
 /// The draft in which schemas are written.
 pub const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
@@ -188,7 +188,7 @@ fn pace(parameter: Parameter) -> String {
             "; at least {:e} of the rate sqrt(k1/m) of the suspension",
             1.0 / FASTEST
         ),
-        P::StopStiffness | P::PiercingStiffness | P::PiercingFriction => {
+        P::StopStiffness | P::BelowStiffness | P::PiercingStiffness | P::PiercingFriction => {
             format!("; its rate sqrt(k/m) is at most {FASTEST:e} times the drive frequency")
         }
         P::Damping | P::ContactDamping => {
@@ -242,18 +242,33 @@ fn stops() -> [Stop; 6] {
 }
 
 fn stop(language: UnitSystem) -> Value {
-    let laws = stops().map(|stop| law(stop, language));
+    let below = stops().map(|stop| law(stop, language, true));
+    let below = json!({ "type": "object", "required": ["model", "clearance"], "oneOf": below });
+    let laws = stops().map(|stop| {
+        let mut law = law(stop, language, false);
+        law["properties"]["below"] = below.clone();
+        law
+    });
     json!({ "type": "object", "required": ["model"], "oneOf": laws })
 }
 
-/// The keys of one law.
-fn law(stop: Stop, language: UnitSystem) -> Value {
+/// The keys of one law, of the stop or of the one below.
+fn law(stop: Stop, language: UnitSystem, is_below: bool) -> Value {
     let model = stop.model();
     let chained = matches!(stop, Stop::PiecewiseLinear { .. });
     let released = matches!(stop, Stop::KelvinVoigt { .. });
-    let machine = Machine::from(Scene::of_stop(stop));
+    let (machine, table) = if is_below {
+        let mut scene = Scene::of_stop(Stop::None);
+        scene.below = Some(Below {
+            clearance: 1.0,
+            stop,
+        });
+        (Machine::from(scene), "stop.below.")
+    } else {
+        (Machine::from(Scene::of_stop(stop)), "stop.")
+    };
     let own = machine.parameters().filter_map(|parameter| {
-        let field = parameter.name().strip_prefix("stop.")?;
+        let field = parameter.name().strip_prefix(table)?;
         Some((field.to_owned(), number(parameter, language)))
     });
     let mut properties = Map::from_iter(own);

@@ -67,13 +67,13 @@ pub const fn name(machine: &Machine, dimension: Dimension) -> &'static str {
 
 /// The unit of a parameter by its name in JSON.
 pub fn of_parameter(machine: &Machine, parameter: Parameter) -> &'static str {
-    let is_power = Parameter::Exponent.get(&machine.scene).is_some();
+    let is_power = machine.is_of_power_law(parameter);
     match (parameter, machine.unit_system) {
         (Parameter::Preload, _) if machine.preload_deflection.is_some() => {
             name(machine, Dimension::Length)
         }
-        (Parameter::StopStiffness, UnitSystem::Ratios) if is_power => "F0 (k1/F0)^exponent",
-        (Parameter::StopStiffness, _) if is_power => "N/m^exponent",
+        (_, UnitSystem::Ratios) if is_power => "F0 (k1/F0)^exponent",
+        _ if is_power => "N/m^exponent",
         _ => name(machine, parameter.about().dimension),
     }
 }
@@ -94,8 +94,8 @@ pub fn names(machine: &Machine) -> BTreeMap<&'static str, &'static str> {
         ("slowness", Dimension::Slowness),
     ];
     let all = all.map(|(what, dimension)| (what, name(machine, dimension)));
-    let stop = Parameter::StopStiffness;
-    let power = Parameter::Exponent.get(&machine.scene);
-    let power = power.map(|_| (stop.name(), of_parameter(machine, stop)));
+    let stops = [Parameter::StopStiffness, Parameter::BelowStiffness].into_iter();
+    let power = stops.filter(|it| machine.is_of_power_law(*it));
+    let power = power.map(|it| (it.name(), of_parameter(machine, it)));
     all.into_iter().chain(power).collect()
 }

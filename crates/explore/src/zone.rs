@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::continuation::met;
 use softstop::{Dimension, Machine, Parameter};
-use softstop_console::arguments::{MachineArguments, refuse_tied_frequency, title};
+use softstop_console::arguments::{MachineArguments, refuse_without_zone, title};
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
@@ -59,7 +59,7 @@ pub struct ZoneArguments {
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
-    refuse_tied_frequency(&machine)?;
+    refuse_without_zone(&machine)?;
     let why = "the zone is a range of drive frequencies, whatever the machine's own";
     arguments
         .machine

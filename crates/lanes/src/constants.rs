@@ -35,7 +35,7 @@ impl Constants {
                 Exit::Backward(surface) => {
                     let surface = &phases[surface];
                     constants.low = surface.position;
-                    constants.beyond_low = surface.below.index() as f64;
+                    constants.beyond_low = surface.before.index() as f64;
                 }
                 Exit::Reversal { .. } | Exit::Switch(_) if guarded || guard.push != 0.0 => {
                     return None;
@@ -80,7 +80,7 @@ impl Constants {
                 Exit::Backward(surface) => {
                     let surface = &phases[surface];
                     constants.low = surface.position;
-                    constants.beyond_low = surface.below.index() as f64;
+                    constants.beyond_low = surface.before.index() as f64;
                 }
                 Exit::Switch(_) => {}
                 Exit::Forward(_) | Exit::Reversal { .. } => return None,
@@ -172,8 +172,8 @@ impl Constants {
         self.high = at.position;
         self.impact = f64::from(u8::from(at.is_clearance));
         (self.beyond_high, self.bounce) = match phases.beyond(at, true) {
-            Beyond::Phase(above) => (above.index() as f64, 1.0),
-            Beyond::Wall { restitution } => (at.below.index() as f64, -restitution),
+            Beyond::Phase(beyond) => (beyond.index() as f64, 1.0),
+            Beyond::Wall { restitution } => (at.before.index() as f64, -restitution),
         };
     }
 

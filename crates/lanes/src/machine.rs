@@ -35,7 +35,9 @@ impl Machine {
             phases: &phases,
             drive,
         };
-        let for_lanes = count <= MOST_PHASES && trains.is_short();
+        let is_above = |surface: &Surface| surface.side > 0.0;
+        let one_sided = phases.surfaces.iter().all(is_above);
+        let for_lanes = one_sided && count <= MOST_PHASES && trains.is_short();
         let laws = if for_lanes { trains.laws() } else { None };
         let kept = OnceLock::new();
         if laws.is_none() {
@@ -53,7 +55,7 @@ impl Machine {
         })
     }
 
-    /// True if its motions can be followed in lanes: all its laws are linear but for a power law at the end,
+    /// True if its motions can be followed in lanes: it has no stop below, all its laws are linear but for a power law at the end,
     /// none is much stiffer than the drive is slow, and none can hold the mass at a face that throws it back for rows of bounces without end.
     pub fn is_for_lanes(&self) -> bool {
         self.laws.is_some()
@@ -125,8 +127,8 @@ impl BounceTrains<'_> {
     }
 
     fn is_at(&self, surface: &Surface) -> bool {
-        let before = self.force(surface.below, surface.position);
-        let mut beyond = [Some(surface.above), surface.above_unfed]
+        let before = self.force(surface.before, surface.position);
+        let mut beyond = [Some(surface.beyond), surface.beyond_unfed]
             .into_iter()
             .flatten();
         let elastic = beyond.any(|above| match above {
@@ -147,7 +149,7 @@ impl BounceTrains<'_> {
         let damping = damping.fold(0.0, f64::max) / self.phases.mass;
         let strong = damping * TAU / self.drive.frequency > MOST_DAMPING;
         let lifts = |surface: &Surface| {
-            self.force(surface.below, surface.position) < self.drive.amplitude && !strong
+            self.force(surface.before, surface.position) < self.drive.amplitude && !strong
         };
         let mut faces = self.phases.surfaces.iter();
         faces.all(|surface| lifts(surface) || !self.is_at(surface))
@@ -160,7 +162,7 @@ impl BounceTrains<'_> {
             Exit::Reversal { .. } | Exit::Switch(_) => None,
         });
         let press =
-            |surface: &Surface| self.force(surface.below, surface.position) + self.drive.amplitude;
+            |surface: &Surface| self.force(surface.before, surface.position) + self.drive.amplitude;
         let presses = faces.filter(|surface| self.is_at(surface)).map(press);
         let half = 0.5 * SHORTEST * TAU / self.drive.frequency;
         presses.fold(0.0, f64::max) / self.phases.mass * half

@@ -89,6 +89,11 @@ impl Machine {
                 "stop.model = \"hertz\": a power law has no closed form to enclose",
             ));
         }
+        if scene.below.is_some() {
+            return Err(ProofError::Unsupported(
+                "stop.below: proofs are of machines with stops on one side",
+            ));
+        }
         if engine.phases[0].guards.is_empty() {
             return Err(ProofError::Unsupported(
                 "stop.model = \"none\": the machine has no stop, so no motion of it crosses anything",
@@ -169,12 +174,14 @@ fn next(engine: &Phases, from: PhaseId, exit: Exit) -> (Vec<PhaseId>, f64, bool)
             let to = if from == forward { backward } else { forward };
             return (vec![to], 1.0, false);
         }
-        Exit::Backward(surface) => (engine[surface].below, 1.0, false),
+        Exit::Backward(surface) => (engine[surface].before, 1.0, false),
         Exit::Forward(surface) => {
             let surface = &engine[surface];
-            match surface.above {
+            match surface.beyond {
                 Beyond::Phase(to) => (to, 1.0, surface.is_clearance),
-                Beyond::Wall { restitution } => (surface.below, -restitution, surface.is_clearance),
+                Beyond::Wall { restitution } => {
+                    (surface.before, -restitution, surface.is_clearance)
+                }
             }
         }
     };

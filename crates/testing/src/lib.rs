@@ -18,7 +18,7 @@ pub mod tolerance;
 
 use std::path::{Path, PathBuf};
 
-pub use machines::{machines, start_below};
+pub use machines::{machines, start_below, start_between, two_sided};
 pub use meets::Meets;
 pub use near::{assert_near, assert_relative, is_near};
 pub use program::{Program, files, kill, words};

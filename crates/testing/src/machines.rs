@@ -1,7 +1,7 @@
 //! Random machines with every kind of stop.
 
 use proptest::prelude::*;
-use softstop::{Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
+use softstop::{Below, Piercing, Release, RigidStop, Scene, Slope, Start, Stop};
 
 fn release() -> impl Strategy<Value = Release> {
     prop_oneof![Just(Release::Clearance), Just(Release::ZeroForce)]
@@ -94,6 +94,46 @@ pub fn machines() -> impl Strategy<Value = Scene> {
                 scene
             },
         )
+}
+
+/// Machines with m = F0 = 1 and any stop on each side.
+pub fn two_sided() -> impl Strategy<Value = Scene> {
+    (
+        (0.3..2.5f64, -3.0..3.0f64),
+        (-0.6..2.0f64, 0.3..3.0f64),
+        (0.01..0.4f64, 0.02..2.0f64),
+        prop_oneof![Just(0.0), Just(1.0), 0.1..4.0f64],
+        (stops(), stops()),
+    )
+        .prop_map(
+            |(
+                (frequency, phase),
+                (clearance, way),
+                (damping, contact_damping),
+                stiffness,
+                stops,
+            )| {
+                let mut scene = Scene {
+                    stiffness,
+                    damping,
+                    clearance,
+                    contact_damping,
+                    below: Some(Below {
+                        clearance: way - clearance,
+                        stop: stops.1,
+                    }),
+                    ..Scene::of_stop(stops.0)
+                };
+                (scene.excitation.frequency, scene.excitation.phase) = (frequency, phase);
+                scene
+            },
+        )
+}
+
+/// A start between the clearances of a machine with a stop on each side, at this share of the way.
+pub fn start_between(scene: &Scene, share: f64, velocity: f64) -> Start {
+    let below = scene.below.as_ref().map_or(0.0, |below| -below.clearance);
+    Start::new(below + share * (scene.clearance - below), velocity)
 }
 
 /// A start below the clearance of a machine.

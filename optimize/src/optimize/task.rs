@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use softstop::internals::plain;
 use softstop::{Dimension, Machine, Parameter};
-use softstop_console::arguments::refuse_tied_frequency;
+use softstop_console::arguments::refuse_without_zone;
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
@@ -73,7 +73,7 @@ impl Job {
         let machine = machine(arguments, &task, place.clone())?;
         let sources = Source::all(arguments, place.as_deref())?;
         of_machine(&machine, &task).map_err(located)?;
-        refuse_tied_frequency(&machine).map_err(located)?;
+        refuse_without_zone(&machine).map_err(located)?;
         let tolerances = tolerances(&machine, &task.tolerance)?;
         let Required {
             figures: requirements,

@@ -17,7 +17,7 @@ use softstop_dynamics::zone;
 
 use plane::{Plane, Size};
 use report::{BasinReport, CertaintyReport};
-use softstop_console::arguments::{MachineArguments, refuse_tied_frequency, title};
+use softstop_console::arguments::{MachineArguments, refuse_without_zone, title};
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::{Array, Export, hand_over};
@@ -190,7 +190,7 @@ fn along(
     places: usize,
 ) -> Result<(), Failure> {
     plane::check(arguments)?;
-    refuse_tied_frequency(machine)?;
+    refuse_without_zone(machine)?;
     let export = Export::open(&arguments.output, &ALONG)?;
     let limit = arguments.limit.budget;
     let zone = limit.limit(|| {

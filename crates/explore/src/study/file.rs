@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use softstop::{Machine, Parameter};
-use softstop_console::arguments::{MachineArguments, refuse_tied_frequency};
+use softstop_console::arguments::{MachineArguments, refuse_without_zone};
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
@@ -179,7 +179,7 @@ impl Study {
         };
         let outputs = outputs(&file.outputs)?;
         if let Some(output) = outputs.iter().find(|it| it.is_of_other_frequencies()) {
-            refuse_tied_frequency(&machine).map_err(|failure| match failure {
+            refuse_without_zone(&machine).map_err(|failure| match failure {
                 Failure::Usage(what) => {
                     Failure::usage(format!("outputs: {}: {what}", output.name()))
                 }

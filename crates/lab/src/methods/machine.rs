@@ -114,6 +114,11 @@ impl Machine {
     pub fn new(task: &Task, step: f64) -> Result<Self, MethodError> {
         let holds = step.is_finite() && step > 0.0;
         in_range("step", step, holds, "finite and > 0")?;
+        if let Some(below) = &task.scene.below {
+            let name = "stop.below.clearance";
+            let allowed = "left out: methods are compared on stops on one side";
+            in_range(name, below.clearance, false, allowed)?;
+        }
         // A motion refuses all that is wrong with a scene and a start.
         task.scene.motion(task.start)?;
         Ok(Self {
