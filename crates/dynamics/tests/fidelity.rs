@@ -32,6 +32,7 @@ fn machine(stop: Stop, contact_damping: f64) -> Scene {
         piercing: None,
         rigid: None,
         followers: softstop::Ties::NONE,
+        below: None,
     }
 }
 

@@ -23,6 +23,7 @@ mod steep;
 mod stop_invariants;
 mod sweep;
 mod transients;
+mod two_sided;
 mod zone_denied;
 mod zone_found;
 mod zone_judge;

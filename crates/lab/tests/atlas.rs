@@ -30,6 +30,7 @@ fn undriven(clearance: f64, stiffness: f64) -> Scene {
         piercing: None,
         rigid: None,
         followers: softstop::Ties::NONE,
+        below: None,
     }
 }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::extremes::extremes;
 use crate::points::scramble;
 use softstop::internals::Scales;
-use softstop::{Dimension, Machine, Scene, Start, Wall};
+use softstop::{Dimension, Machine, Scene, Start};
 
 /// A rectangle of states at drive angle phi.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -120,14 +120,17 @@ impl Region {
         format!("{position} and {velocity} at drive angle phi")
     }
 
-    /// The part before a rigid stop; the region moved there if no part of it is.
+    /// The part before rigid stops; the region moved there if no part of it is.
     pub fn before(mut self, scene: &Scene) -> Self {
-        if let Some(Wall { position: wall, .. }) = scene.wall() {
-            let width = self.position[1] - self.position[0];
-            self.position[1] = self.position[1].min(wall);
-            if self.position[0] >= wall {
-                self.position[0] = wall - width;
-            }
+        let (lowest, highest) = scene.reach();
+        let width = self.position[1] - self.position[0];
+        self.position[1] = self.position[1].min(highest);
+        if self.position[0] >= highest {
+            self.position[0] = highest - width;
+        }
+        self.position[0] = self.position[0].max(lowest);
+        if self.position[1] <= lowest {
+            self.position[1] = highest.min(lowest + width);
         }
         self
     }

@@ -207,7 +207,7 @@ impl BasinTest {
 /// The motion without impacts, if there is one.
 fn without_impacts(scene: &Scene) -> Option<Orbit> {
     let drive = scene.excitation;
-    if free_amplitude(scene, drive.frequency) >= scene.clearance {
+    if free_amplitude(scene, drive.frequency) >= scene.least_clearance() {
         return None;
     }
     let spring = scene.stiffness - scene.mass * drive.frequency * drive.frequency;

@@ -54,7 +54,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
             carry_on(&mut motion, Clock::at_cycle(period), &mut entries)?;
         }
         let slowest = entries.all.iter();
-        let slowest = slowest.min_by(|a, b| a.velocity.total_cmp(&b.velocity));
+        let slowest = slowest.min_by(|a, b| a.velocity.abs().total_cmp(&b.velocity.abs()));
         let Some(entry) = slowest.filter(|_| !entries.rests) else {
             return Ok(None);
         };
@@ -75,7 +75,9 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         let scales = family.parameter_scales();
         let scaled = parameters.iter().zip(scales);
         let scaled = scaled.map(|(value, scale)| value / scale);
-        let unknowns = [angle, entry.velocity / speed].into_iter().chain(scaled);
+        let unknowns = [angle, entry.velocity.abs() / speed]
+            .into_iter()
+            .chain(scaled);
         let guess = DVector::from_iterator(2 + N, unknowns);
         Ok(Some((Self { section, test }, guess)))
     }
@@ -85,7 +87,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         std::array::from_fn(|index| at[2 + index] * scales[index])
     }
 
-    /// Velocity in m/s of the impact at the section.
+    /// Velocity in m/s of the impact at the section, towards the surface.
     fn velocity(&self, at: &DVector<f64>) -> f64 {
         let [_, speed] = self.section.family.state_scales();
         at[1] * speed
@@ -93,7 +95,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
 
     /// The state at time 0 of the family's scene.
     pub fn state(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
-        let velocity = self.velocity(at);
+        let velocity = self.section.face.side() * self.velocity(at);
         self.section.state(at[0], velocity, self.parameters(at))
     }
 
@@ -121,13 +123,13 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
             return Err(OrbitError::Diverged { residual });
         }
         let (scene, position) = self.section.scene(at[0], self.parameters(at))?;
-        let begin = Vector2::new(position, velocity);
+        let begin = Vector2::new(position, self.section.face.side() * velocity);
         let (drift, around) = self.section.around::<PassageAndLaws>(&scene, begin)?;
         let entry = around.seen.entry(&scene, begin);
         let PassageRecorder {
             tangent, impacts, ..
         } = around.seen.passage;
-        let is_impact = entry.is_some() && self.section.face == Face::Clearance;
+        let is_impact = entry.is_some() && self.section.face.is_clearance();
         let told = impacts.iter().map(|it| it.before_impact_velocity);
         let impacts = is_impact
             .then_some(velocity)
@@ -181,7 +183,8 @@ impl PassageAndLaws {
     /// The saltation matrix of the entry from the last law into the first, which a motion from there does not tell; none at a
     /// rigid stop, whose rebound it tells. Both have the drive's force, so that plays no part in the jump.
     fn entry(&self, scene: &Scene, begin: Vector2<f64>) -> Option<Matrix2<f64>> {
-        if scene.wall().is_some_and(|wall| wall.position == begin.x) {
+        let (lowest, highest) = scene.reach();
+        if begin.x == lowest || begin.x == highest {
             return None;
         }
         let acceleration = |phase: &Phase| phase.acceleration(begin.x, begin.y, 0.0, scene.mass);

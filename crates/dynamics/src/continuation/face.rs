@@ -13,11 +13,19 @@ pub enum Face {
     Stop,
     /// The rigid stop behind that.
     Wall,
+    /// The stop below.
+    Below,
 }
 
 impl Face {
     /// All.
-    pub const ALL: [Self; 4] = [Self::Clearance, Self::Pierced, Self::Stop, Self::Wall];
+    pub const ALL: [Self; 5] = [
+        Self::Clearance,
+        Self::Pierced,
+        Self::Stop,
+        Self::Wall,
+        Self::Below,
+    ];
 
     /// Its position in m, if the scene has it.
     pub fn position(self, scene: &Scene) -> Option<f64> {
@@ -28,7 +36,18 @@ impl Face {
                 .map(|strip| scene.clearance + strip.thickness),
             Self::Stop => scene.piercing.map(|_| scene.stop_position()),
             Self::Wall => scene.wall().map(|wall| wall.position),
+            Self::Below => scene.below.as_ref().map(|below| -below.clearance),
         }
+    }
+
+    /// 1 where a motion meets it upwards, -1 where downwards.
+    pub(crate) fn side(self) -> f64 {
+        if self == Self::Below { -1.0 } else { 1.0 }
+    }
+
+    /// True if meeting it is an impact.
+    pub(crate) fn is_clearance(self) -> bool {
+        matches!(self, Self::Clearance | Self::Below)
     }
 
     /// True if an orbit can graze it without losing its derivative: the force does not jump there.
@@ -45,6 +64,10 @@ impl Face {
                 Stop::Preloaded { preload, .. } => *preload == 0.0,
                 Stop::Rigid { .. } => false,
             },
+            (Self::Below, _) => {
+                let mirrored = scene.mirrored();
+                mirrored.is_none_or(|mirrored| Self::Clearance.is_gentle(&mirrored))
+            }
             _ => false,
         }
     }
@@ -54,6 +77,7 @@ impl Face {
     pub(crate) fn is_steep(self, scene: &Scene) -> bool {
         match self {
             Self::Clearance => scene.piercing.is_none() && !self.is_gentle(scene),
+            Self::Below => !self.is_gentle(scene),
             Self::Pierced => false,
             Self::Stop => {
                 let cutting = scene.piercing.filter(|strip| strip.travel > 0.0);

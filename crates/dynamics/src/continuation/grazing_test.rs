@@ -24,7 +24,7 @@ pub(crate) struct GrazingTest {
     /// Crossings of the orbit, and those that a dying impact takes along.
     crossings: (usize, usize),
     /// Which faces an orbit can graze smoothly.
-    gentle: [bool; 4],
+    gentle: [bool; Face::ALL.len()],
     parameter: f64,
     /// Drive angle at the section and frequency.
     drive: (f64, f64),

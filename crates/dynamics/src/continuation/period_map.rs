@@ -55,8 +55,8 @@ impl PeriodMap {
             ends,
             recorder,
         } = followed;
-        let wall = recorder.scene.wall();
-        let at_wall = wall.is_some_and(|wall| wall.position == start.x);
+        let (lowest, highest) = recorder.scene.reach();
+        let at_wall = start.x == lowest || start.x == highest;
         Ok(Self {
             start,
             ends,
@@ -146,13 +146,15 @@ const AT_REST: f64 = 1e-9;
 /// A state, or one at the face of a rigid stop for one beyond it, or at rest there to rounding: so the map goes on
 /// continuously past the face, and has no other fixed points.
 pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
-    let wall = scene.wall().map_or(f64::INFINITY, |wall| wall.position);
+    let (lowest, highest) = scene.reach();
     let scales = scene.scales();
-    let near = (wall - state.x).abs() < AT_REST * scales.length;
-    if near && state.y.abs() < AT_REST * scales.speed() {
+    let is_near = |wall: &f64| (wall - state.x).abs() < AT_REST * scales.length;
+    if let Some(wall) = [highest, lowest].into_iter().find(is_near)
+        && state.y.abs() < AT_REST * scales.speed()
+    {
         return Vector2::new(wall, 0.0);
     }
-    Vector2::new(state.x.min(wall), state.y)
+    Vector2::new(state.x.min(highest).max(lowest), state.y)
 }
 
 /// Work that an orbit may cost per drive period, in scan windows: 32,000 crossings. A mass that bounces more
@@ -245,6 +247,8 @@ impl MapRecorder<'_> {
         self.sequence.faces += usize::from(face.is_some());
         let gentle = face.is_none_or(|face| face.is_gentle(self.scene));
         let touched = self.touched.take();
+        let is_back = matches!(crossing.kind, CrossingKind::Surface { forward: false, .. });
+        let is_onward = amount > 0.0 && !is_back;
         if gentle {
             self.sequence.gentle[0] += 1;
             // Turning back in between comes and goes with the touch.
@@ -252,7 +256,7 @@ impl MapRecorder<'_> {
                 Some((position, true)) if position == crossing.position => {
                     self.sequence.gentle[1] += 1;
                 }
-                _ if crossing.velocity > 0.0 => self.touched = Some((crossing.position, false)),
+                _ if is_onward => self.touched = Some((crossing.position, false)),
                 _ => {}
             }
         }
@@ -269,7 +273,7 @@ impl MapRecorder<'_> {
     }
 
     fn bounces(&mut self, crossing: &Crossing) {
-        let (position, velocity) = (crossing.position, crossing.velocity);
+        let (position, velocity) = (crossing.position, crossing.velocity.abs());
         match &mut self.row {
             Some(row) if row.position == position && velocity < row.velocity => {
                 row.velocity = velocity;

@@ -75,7 +75,7 @@ impl<'a> PeriodRecorder<'a> {
             PhaseKind::Gap => None,
         };
         let force = peak(self.scene, arc, elapsed, |elapsed| {
-            self.contact(arc, elapsed)
+            arc.side * self.contact(arc, elapsed)
         });
         self.contact_force = self.contact_force.max(force);
         match of_kind {

@@ -72,6 +72,7 @@ fn bare(scene: &Scene) -> Scene {
     bare.damping = 0.0;
     bare.excitation.amplitude = 0.0;
     bare.clearance = 0.0;
+    bare.below = None;
     bare
 }
 

@@ -52,6 +52,7 @@ impl Rung {
     /// The rung that a scene itself stands on.
     pub fn of(scene: &Scene) -> Self {
         if scene.piercing.is_some()
+            || scene.below.is_some()
             || (scene.rigid.is_some() && !matches!(scene.stop, Stop::Rigid { .. }))
         {
             return Self::Full;

@@ -133,7 +133,7 @@ impl Observer for ObservationRecorder<'_> {
         if let Some(phase) = arc.phase {
             let highest = peak(self.scene, arc, elapsed, |time| {
                 let Start { position, velocity } = arc.at(time);
-                phase.contact_force(position, velocity)
+                phase.side * phase.contact_force(position, velocity)
             });
             let known = self.sums.peak_force.unwrap_or(highest);
             self.sums.peak_force = Some(highest.max(known));

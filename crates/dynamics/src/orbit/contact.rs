@@ -44,12 +44,14 @@ pub(super) struct ContactPassage {
 }
 
 impl ContactFace {
-    /// None if there is no surface at the clearance.
+    /// None if there is no surface at the clearance, or one below that the free motion may meet.
     pub(super) fn new(phases: Shared<Phases>, clock: Clock) -> Option<Self> {
-        let surface = *phases
-            .surfaces
-            .iter()
-            .find(|surface| surface.is_clearance)?;
+        let surfaces = phases.surfaces.iter();
+        let mut clearances = surfaces.filter(|surface| surface.is_clearance);
+        let surface = *clearances.next().filter(|surface| surface.side > 0.0)?;
+        if clearances.any(|surface| surface.side < 0.0) {
+            return None;
+        }
         Some(Self {
             phases,
             clock,
@@ -133,7 +135,7 @@ impl ContactFace {
 
     /// The impact that a contact begins with; none if the mass rests from there on.
     fn enter(&self, at: Instant, velocity: f64) -> Result<Option<ContactEntry>, MotionError> {
-        let entry = match self.surface.above {
+        let entry = match self.surface.beyond {
             Beyond::Wall { restitution } => {
                 let velocity_after = -restitution * velocity;
                 ContactEntry {

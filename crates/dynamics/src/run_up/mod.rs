@@ -190,9 +190,11 @@ impl Display for RunUp {
     }
 }
 
-/// Where the mass is before the drive runs: at the suspension's rest, or at the stop's face if that stands before it.
+/// Where the mass is before the drive runs: at the suspension's rest, or at the face of a stop that stands before it.
 fn at_rest(scene: &Scene) -> Start {
-    Start::new(scene.clearance.min(0.0), 0.0)
+    let below = scene.below.as_ref();
+    let lowest = below.map_or(f64::NEG_INFINITY, |below| -below.clearance);
+    Start::new(scene.clearance.min(0.0).max(lowest), 0.0)
 }
 
 fn switched_on(

@@ -71,6 +71,7 @@ impl Way {
     pub(super) fn change(self, scene: &Scene) -> Option<(Parameter, f64, Direction)> {
         let w = scene.excitation.frequency;
         let (amplitude, clearance) = (scene.excitation.amplitude, scene.clearance);
+        let reached = scene.least_clearance();
         let own = (scene.stiffness / scene.mass).sqrt();
         match self {
             Self::SwitchedOn => None,
@@ -93,7 +94,7 @@ impl Way {
             )),
             Self::AmplitudeLowered => {
                 let free = free_amplitude(scene, w);
-                let enough = amplitude * (STRONG * clearance / free).max(ABOVE);
+                let enough = amplitude * (STRONG * reached / free).max(ABOVE);
                 (amplitude > 0.0 && enough.is_finite()).then_some((
                     Parameter::Amplitude,
                     enough,

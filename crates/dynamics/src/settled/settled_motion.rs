@@ -98,9 +98,10 @@ impl SettledMotion {
             return Ok(None);
         };
         // Nothing chatters where nothing rebounds from a face.
-        let rests = match scene.wall() {
-            Some(_) => map.apply(self.from.into())?.rests,
-            None => Vec::new(),
+        let (lowest, highest) = scene.reach();
+        let rests = match lowest.is_finite() || highest.is_finite() {
+            true => map.apply(self.from.into())?.rests,
+            false => Vec::new(),
         };
         let order = ImpactPattern::new(&self.instants, &rests, self.length, scene.period());
         Ok(Some(MotionKind::repeating(regime, order)))

@@ -25,7 +25,7 @@ pub(super) fn peaks<'a>(
     let rate = move |time: f64| {
         let [x, v, a] = state(time);
         let (stiffness, damping) = phase.slopes(x, v);
-        (stiffness - free.stiffness) * v + (damping - free.damping) * a
+        phase.side * ((stiffness - free.stiffness) * v + (damping - free.damping) * a)
     };
     let (each, least, most) = PIECES;
     let fastest = phase.flow.modes.fastest_rate().max(phases.frequency);

@@ -89,7 +89,7 @@ impl<'a> FigureRecorder<'a> {
         delays: Option<&[f64]>,
     ) {
         let phase = &self.phases[phase];
-        let value = phase.contact_force(x, v);
+        let value = phase.side * phase.contact_force(x, v);
         let known = self.watched.force.as_ref();
         if known.is_some_and(|known| known.value >= value) {
             return;
@@ -102,7 +102,9 @@ impl<'a> FigureRecorder<'a> {
             let own = index
                 .checked_sub(2)
                 .map_or(0.0, |index| self.by[index].contact_force(phase, x, v));
-            stiffness * (column.x + v * delay) + damping * (column.y + a * delay) + own
+            let change =
+                stiffness * (column.x + v * delay) + damping * (column.y + a * delay) + own;
+            phase.side * change
         });
         let row = DifferentiatedFigure {
             value,
@@ -168,7 +170,9 @@ impl Observer for FigureRecorder<'_> {
         if crossing.kind.is_impact() {
             let time = self.clock.time(crossing.instant);
             let times = self.row(time, delays.clone(), -time);
-            let velocities = self.row(v, each(&|column, delay| column.y + a * delay), v);
+            let side = 1f64.copysign(v);
+            let change = |column: &Vector3<f64>, delay| side * (column.y + a * delay);
+            let velocities = self.row(v.abs(), each(&change), v.abs());
             self.watched.impacts.push([times, velocities]);
         }
         let turns = match crossing.kind {

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use super::ZoneError;
+use super::{ZoneError, refuse_below};
 use softstop::Scene;
 use softstop::internals::{highest, narrow};
 
@@ -34,10 +34,11 @@ fn largest_free_amplitude(scene: &Scene) -> f64 {
 /// and suspension, and the peaks between them.
 ///
 /// # Errors
-/// [`ZoneError::NoGrazing`] if the amplitude never equals the clearance, [`ZoneError::Orbit`] for a
+/// [`ZoneError::StopBelow`], [`ZoneError::NoGrazing`] if the amplitude never equals the clearance, [`ZoneError::Orbit`] for a
 /// scene that is none.
 pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
     scene.validate()?;
+    refuse_below(scene)?;
     if !scene.followers.is_empty() {
         return grazing_among_looks(scene);
     }

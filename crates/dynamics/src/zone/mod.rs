@@ -82,6 +82,9 @@ pub enum ZoneError {
         /// The highest.
         to: Stated,
     },
+    /// The machine has a stop below.
+    #[error("stop.below: zones are those of machines with stops on one side")]
+    StopBelow,
     /// A place outside the zone was asked for.
     #[error("s = {share}: must lie in [0, 1], from end to end of the zone")]
     Outside {
@@ -107,6 +110,15 @@ impl ZoneError {
             frequency.value = machine.to_own(Dimension::Frequency, frequency.value);
         }
         self
+    }
+}
+
+/// Refuses a machine with a stop below: a zone begins where the motion without impacts grazes one stop, and all motions with
+/// one impact are looked for by the free motion between impacts.
+fn refuse_below(scene: &Scene) -> Result<(), ZoneError> {
+    match scene.below {
+        None => Ok(()),
+        Some(_) => Err(ZoneError::StopBelow),
     }
 }
 

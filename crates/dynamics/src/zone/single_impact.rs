@@ -7,7 +7,7 @@ use super::hysteresis::{highest_fold, upward};
 use super::places::{Zone, ZoneKind};
 use super::stable_range::SAME_BUT_ROUNDING;
 use super::stable_ranges::FOLLOWED;
-use super::{Frequencies, ZoneError, grazing_frequencies};
+use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use crate::continuation::{BranchPoint, Continuation, Heading};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError, hardest_single};
@@ -41,6 +41,7 @@ pub fn single_impact(
 /// The range of one scene.
 fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<Zone, ZoneError> {
     scene.validate()?;
+    refuse_below(scene)?;
     let mut zones: Vec<Zone> = Vec::new();
     for frequency in starts(scene, between) {
         let known = zones

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::stable_range::{StableRange, is_same, lies_between, sizes, stable};
-use super::{Frequencies, ZoneError, grazing_frequencies};
+use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
 use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{Orbit, OrbitError, all_about, singles_near};
@@ -47,6 +47,7 @@ pub fn stable_ranges_with_monitor(
     scene: &Scene,
     monitor: Monitor<'_>,
 ) -> Result<Vec<StableRange>, ZoneError> {
+    refuse_below(scene)?;
     Ok(find_stable_ranges(scene, monitor)?)
 }
 

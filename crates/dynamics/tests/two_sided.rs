@@ -1,0 +1,200 @@
+//! Orbits between two stops, against a closed form.
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use nalgebra::{Complex, Matrix2, Vector2};
+use softstop::{Below, Parameter, Scene, Stop};
+use softstop_dynamics::orbit::multipliers;
+use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, slopes, zone};
+use softstop_testing::assert_near;
+
+/// The orbit with one impact at each of two rigid stops at +-d, x(t + T/2) = -x(t) (Shaw 1985, J. Appl. Mech. 52): half a
+/// period after an impact at d with the velocity V the mass hits the other stop with -V. With P the transition of the free
+/// motion y over half a period and g = -(1 + R) (P + 1)^-1 (0, 1) it begins with y = V g, and the harmonic motion h = x - y has
+/// the amplitude A:
+///
+/// ```text
+/// (d - V g1)^2 + (V (R + g2) / w)^2 = A^2
+/// ```
+struct Symmetric {
+    velocity: f64,
+    /// The free motion right after the impact above.
+    free: Vector2<f64>,
+    /// The drive angle then.
+    angle: f64,
+    /// Of the map over a whole period.
+    multipliers: [Complex<f64>; 2],
+}
+
+impl Symmetric {
+    fn of(scene: &Scene, larger: bool) -> Self {
+        let Stop::Rigid { restitution: r } = scene.stop else {
+            panic!("a rigid stop");
+        };
+        let (m, b, k, d) = (scene.mass, scene.damping, scene.stiffness, scene.clearance);
+        let (w, force) = (scene.excitation.frequency, scene.excitation.amplitude);
+        let half = transition(b / m, k / m, PI / w);
+        let back = (half + Matrix2::identity()).try_inverse().expect("regular");
+        let g = back * Vector2::new(0.0, -(1.0 + r));
+        let response = force / Complex::new(k - m * w * w, b * w);
+        let rate = (r + g.y) / w;
+        let square = g.x * g.x + rate * rate;
+        let root = (square * response.norm_sqr() - d * d * rate * rate).sqrt();
+        let velocity = (d * g.x + if larger { root } else { -root }) / square;
+        let free = velocity * g;
+        // h = Re(response e^(i angle)), h' = -w Im(...).
+        let harmonic = Complex::new(d - free.x, (r * velocity + free.y) / w);
+        let angle = (harmonic / response).arg();
+        let push = force * angle.cos() - k * d;
+        let (before, after) = ((push - b * velocity) / m, (push + b * r * velocity) / m);
+        let saltation = Matrix2::new(-r, 0.0, (after + r * before) / velocity, -r);
+        Self {
+            velocity,
+            free,
+            angle,
+            multipliers: multipliers(&(saltation * half)).map(|one| one * one),
+        }
+    }
+
+    /// The scene with time 0 an eighth of a period after the impact above, and the state there.
+    fn begin(&self, scene: &Scene) -> (Scene, Vector2<f64>) {
+        let (m, b, k) = (scene.mass, scene.damping, scene.stiffness);
+        let w = scene.excitation.frequency;
+        let angle = self.angle + 0.25 * PI;
+        let response = scene.excitation.amplitude / Complex::new(k - m * w * w, b * w);
+        let harmonic = response * Complex::from_polar(1.0, angle);
+        let free = transition(b / m, k / m, 0.25 * PI / w) * self.free;
+        let mut scene = scene.clone();
+        scene.excitation.phase = angle;
+        (scene, free + Vector2::new(harmonic.re, -w * harmonic.im))
+    }
+}
+
+/// exp(t A) of x'' = -b x' - k x, by its eigenvalues.
+fn transition(b: f64, k: f64, t: f64) -> Matrix2<f64> {
+    let root = Complex::new(0.25 * b * b - k, 0.0).sqrt();
+    let [one, other] = [root, -root].map(|root| root - 0.5 * b);
+    let (a, c) = ((one * t).exp(), (other * t).exp());
+    let over = (one - other).inv();
+    let of = |value: Complex<f64>| (value * over).re;
+    Matrix2::new(
+        of(one * c - other * a),
+        of(a - c),
+        of(one * other * (c - a)),
+        of(one * a - other * c),
+    )
+}
+
+fn machine(stiffness: f64, damping: f64, frequency: f64, restitution: f64) -> Scene {
+    let stop = Stop::Rigid { restitution };
+    let mut scene = Scene {
+        stiffness,
+        damping,
+        clearance: 0.5,
+        below: Some(Below {
+            clearance: 0.5,
+            stop: stop.clone(),
+        }),
+        ..Scene::of_stop(stop)
+    };
+    scene.excitation.frequency = frequency;
+    scene
+}
+
+/// A rattle, a free mass between two stops, and suspended masses.
+fn machines() -> [Scene; 5] {
+    [
+        machine(0.0, 0.05, 1.0, 0.6),
+        machine(0.0, 0.3, 0.8, 0.8),
+        machine(1.0, 0.04, 1.8, 0.8),
+        machine(1.0, 0.1, 0.9, 0.7),
+        machine(4.0, 0.2, 2.2, 0.5),
+    ]
+}
+
+#[test]
+fn symmetric_orbits_and_their_multipliers_have_a_closed_form() {
+    for scene in machines() {
+        let exact = Symmetric::of(&scene, true);
+        let (scene, state) = exact.begin(&scene);
+        let beside = state + 1e-4 * Vector2::new(1.0, -1.0);
+        let orbit = Orbit::periodic(&scene, beside, 1).expect("an orbit");
+        assert_eq!((orbit.periods, orbit.impacts.len()), (1, 2), "{scene:?}");
+        assert_near(orbit.position, state.x, 1e-11);
+        assert_near(orbit.velocity, state.y, 1e-11);
+        for velocity in orbit.before_impact_velocities() {
+            assert_near(velocity, exact.velocity, 1e-11);
+        }
+        let found = orbit.multipliers();
+        for (one, other) in [(0, 0), (1, 1)] {
+            let near = [exact.multipliers[other], exact.multipliers[1 - other]];
+            let apart = near.map(|near| (found[one] - near).norm());
+            assert!(
+                apart[0].min(apart[1]) < 1e-9 * found[0].norm().max(1.0),
+                "{found:?} {:?}",
+                exact.multipliers
+            );
+        }
+    }
+}
+
+#[test]
+fn a_branch_keeps_to_the_closed_form() {
+    let scene = machine(1.0, 0.04, 1.8, 0.8);
+    let exact = Symmetric::of(&scene, true);
+    let (scene, state) = exact.begin(&scene);
+    let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
+    let limits = Limits {
+        range: (1.6, 2.2),
+        points: 500,
+    };
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let continuation = Continuation::new(&family, 1);
+    let branch = continuation
+        .branch(1.8, state, &limits, go_on)
+        .expect("a branch");
+    let both = branch
+        .points
+        .iter()
+        .filter(|point| point.impacts.len() == 2);
+    let points: Vec<_> = both.collect();
+    assert!(points.len() > 10, "{}", points.len());
+    for point in points {
+        let at = scene.at_frequency(point.parameter);
+        let near = |larger: bool| (Symmetric::of(&at, larger).velocity - point.impacts[0]).abs();
+        assert!(near(true).min(near(false)) < 1e-9, "{point:?}");
+        assert_near(point.impacts[0], point.impacts[1], 1e-9);
+    }
+}
+
+#[test]
+fn orbits_change_with_the_stop_below_as_differences_say() {
+    let (scene, state) = Symmetric::of(&machines()[2], true).begin(&machines()[2]);
+    let orbit = Orbit::periodic(&scene, state, 1).expect("an orbit");
+    for parameter in [
+        Parameter::BelowClearance,
+        Parameter::BelowRestitution,
+        Parameter::Clearance,
+    ] {
+        let slopes = slopes::of(&orbit, &[parameter]).expect("slopes");
+        let moved = |by: f64| {
+            let mut moved = scene.clone();
+            parameter.set(&mut moved, parameter.get(&scene).expect("it has it") + by);
+            let orbit = Orbit::periodic(&moved, orbit.state(), 1).expect("an orbit");
+            let first = orbit.before_impact_velocities().next();
+            first.expect("an impact")
+        };
+        let difference = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+        let slope = slopes.impacts[0].velocity.by[0];
+        assert_near(slope, difference, 1e-6);
+    }
+}
+
+#[test]
+fn what_zones_ask_for_is_refused_by_name() {
+    let error = zone::hysteresis(&machine(1.0, 0.04, 1.8, 0.8)).expect_err("no zone");
+    assert!(error.to_string().contains("stop.below"), "{error}");
+    let error = zone::stable_ranges(&machine(1.0, 0.04, 1.8, 0.8)).expect_err("no ranges");
+    assert!(error.to_string().contains("stop.below"), "{error}");
+}
