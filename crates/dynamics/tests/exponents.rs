@@ -1,5 +1,7 @@
 //! Lyapunov exponents: the laws that they obey.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector2;
 use softstop::{Scene, Stop};
 use softstop_dynamics::{Exponents, Orbit, StroboscopicMap};
@@ -89,4 +91,45 @@ fn sticking_wipes_out_all_differences() {
     let (found, _) = Exponents::along(&scene, Vector2::new(-0.5, 0.1), 2).expect("bounded");
     assert_eq!(found.per_period, [f64::NEG_INFINITY; 2]);
     assert!(!found.is_positive());
+}
+
+/// The information dimension of the states at one drive angle: how their entropy in boxes grows as the boxes shrink.
+fn information_dimension(states: &[Vector2<f64>]) -> f64 {
+    let entropy = |halvings: i32| {
+        let side = 0.5f64.powi(halvings);
+        let mut boxes = BTreeMap::<[i64; 2], u32>::new();
+        for state in states {
+            let place = [state.x, state.y].map(|it| (it / side).floor() as i64);
+            *boxes.entry(place).or_default() += 1;
+        }
+        let all = states.len() as f64;
+        let shares = boxes.values().map(|count| f64::from(*count) / all);
+        shares.map(|share| -share * share.ln()).sum::<f64>()
+    };
+    let (coarse, fine) = (8, 11);
+    (entropy(fine) - entropy(coarse)) / (f64::from(fine - coarse) * 2.0f64.ln())
+}
+
+#[test]
+fn the_kaplan_yorke_dimension_is_the_information_dimension() {
+    let scene = unloaded(0.9875);
+    let state = Vector2::new(9.258_494_864, 3.539_666_112);
+    let (exponents, state) = Exponents::along(&scene, state, 1000).expect("bounded");
+    let map = StroboscopicMap::new(&scene, 1).expect("valid");
+    let next = |state: &Vector2<f64>| map.image(*state).ok();
+    let states = std::iter::successors(Some(state), next).take(400_000);
+    let states: Vec<Vector2<f64>> = states.collect();
+    let counted = information_dimension(&states);
+    assert_near(exponents.dimension(), counted, 0.03);
+}
+
+#[test]
+fn what_dies_out_has_no_dimension_and_what_does_not_contract_fills_the_plane() {
+    let orbit = &orbits()[0];
+    assert_eq!(Exponents::of(orbit).dimension(), 0.0);
+    let mut exponents = Exponents::of(orbit);
+    exponents.per_period = [0.1, f64::NEG_INFINITY];
+    assert_eq!(exponents.dimension(), 1.0);
+    exponents.per_period = [0.1, -0.05];
+    assert_eq!(exponents.dimension(), 2.0);
 }

@@ -111,6 +111,17 @@ impl Exponents {
         self.per_period.map(|exponent| exponent / self.period)
     }
 
+    /// The Kaplan-Yorke dimension of the states at one drive angle, 1 + lambda1/|lambda2| between 0 and 2 (Kaplan and Yorke
+    /// 1979); that of the motion in phase space and time is greater by one.
+    pub fn dimension(&self) -> f64 {
+        let [first, second] = self.per_period;
+        match (first > 0.0, first + second < 0.0) {
+            (false, _) => 0.0,
+            (true, true) => 1.0 - first / second,
+            (true, false) => 2.0,
+        }
+    }
+
     /// True if the larger one is positive beyond doubt.
     pub fn is_positive(&self) -> bool {
         self.per_period[0] > SURE_ERRORS * self.error
