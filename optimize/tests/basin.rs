@@ -3,7 +3,7 @@
 use std::fs;
 
 use softstop_testing::tolerance::{GROWN, MOTION};
-use softstop_testing::{Report, assert_near};
+use softstop_testing::{Report, assert_near, has_near, number};
 
 use crate::{Outcome, SOFTSTOP};
 
@@ -76,4 +76,65 @@ fn a_rigid_scene_over_the_drive_angle() {
     let report = SOFTSTOP.report("basin SCENES/rigid.toml --plane phi,v --size 16");
     motions(&report);
     assert_eq!(report.at("grid/across/quantity"), "angle");
+}
+
+/// The loaded machine loses z = 1 at the fold s_SN = 1.293034; z = 0 is there before and after.
+#[test]
+fn attractors_along_a_parameter_keep_their_numbers() {
+    let report =
+        SOFTSTOP.report("basin loaded --parameter eta --from 1.29 --to 1.296 --steps 4 --size 30");
+    let lives: Vec<_> = report.list("attractors").iter().collect();
+    let [with, without] = ["1", "0"].map(|z| {
+        let own = lives.iter().find(|it| it["motions"][0]["z"] == z);
+        own.expect("an attractor")
+    });
+    assert_eq!(lives.len(), 2);
+    has_near(with, &[("from", 1.29, MOTION), ("to", 1.292, MOTION)]);
+    has_near(
+        without,
+        &[
+            ("from", 1.29, MOTION),
+            ("to", 1.296, MOTION),
+            ("largest_share", 1.0, MOTION),
+        ],
+    );
+    let basins = report.list("basins");
+    assert_eq!(basins.len(), 6);
+    for value in [1.29, 1.292] {
+        let own = basins
+            .iter()
+            .filter(|it| (number(it, "value") - value).abs() < 1e-9);
+        let shares: f64 = own.clone().map(|it| number(it, "share")).sum();
+        assert_near(shares, 1.0, MOTION);
+        for basin in own {
+            assert!(number(basin, "share_low") < number(basin, "share"));
+            assert!(number(basin, "boundary_entropy") > number(basin, "basin_entropy"));
+        }
+    }
+    assert_eq!(report.text("attractors.csv").lines().count(), 7);
+    report.shows(
+        "attractors.svg",
+        &[
+            "share of the starts",
+            "z = 1",
+            "basin entropy",
+            "integrity",
+            "η",
+        ],
+    );
+    report.is_in("attractors.json");
+}
+
+/// A parameter that others follow takes them along.
+#[test]
+fn attractors_are_found_along_a_tied_parameter() {
+    let line = "--parameter excitation.frequency --from 0.795 --to 0.796 --steps 2 --size 20";
+    let report = SOFTSTOP.report(&format!("basin ../docs/gallery/aberdeen.toml {line}"));
+    let first = report
+        .list("attractors")
+        .iter()
+        .map(|it| it["motions"][0]["z"].clone());
+    let mut first: Vec<_> = first.collect();
+    first.sort_by_key(ToString::to_string);
+    assert_eq!(first, ["0", "3/5"]);
 }

@@ -25,6 +25,10 @@ pub const COMMANDS: &[(&str, Writes)] = &[
     ("sweep --from 0.8 --to 1.8 --steps 100", Folder),
     ("basin --size 60", Folder),
     ("basin --along-zone 3 --size 20", Folder),
+    (
+        "basin --parameter eta --from 1.1 --to 1.2 --steps 3 --size 20",
+        Folder,
+    ),
     ("study STUDIES/map.toml", Folder),
     (
         "optimize --evaluations 100 --no-report --samples 10",

@@ -86,7 +86,7 @@ impl BasinSurvey<'_> {
 
 impl Class {
     /// One without cells so far.
-    const fn of(motion: MotionKind) -> Self {
+    pub(super) const fn of(motion: MotionKind) -> Self {
         Self {
             motion,
             orbit: None,

@@ -1,5 +1,6 @@
 //! `softstop basin`: which initial states lead to which motion.
 
+mod attractors;
 pub mod certainty;
 pub mod chart;
 mod plane;
@@ -40,6 +41,8 @@ Examples:
       establishing certainty of z = 1 at 21 places from g0 to s_SN: the share of initial states
       that lead to it, for the same plane at all of them: that of the machine at its own frequency,
       wider if motions of the zone lie outside it
+  softstop basin loaded --parameter eta --from 1 --to 1.35 --steps 71 --size 100
+      all attractors along eta: each keeps its number from value to value while it lasts
   softstop basin docs/scenes/rigid.toml --size 400 --format json
       any machine with any stop, in its own units
   softstop basin --size 4000 --resume
@@ -51,8 +54,13 @@ returns is polished by Newton's method, what does not is chaos. Shares come with
 interval, as if cells were drawn at random. The integrity of a basin is the radius of the
 largest ball inside it, in units of half of each axis of the plane: 1 would fill the plane.
 
+Along a parameter the plane is the same at all values. An attractor goes on as the nearest one of its
+regime at the next value, or as one of another regime that lies near by, as after a soft flip. The basin entropy (Daza et al. 2016) is that of boxes of 5 by 5 cells; where that of the
+boxes with several basins exceeds ln 2, their boundary is fractal.
+
 Files, whole or not at all: basin.png (white spots: the motions at drive angle 0), basin.csv with
-a row for each basin, basin.json; with --along-zone certainty.svg, certainty.csv, certainty.json.";
+a row for each basin, basin.json; with --along-zone certainty.svg, certainty.csv, certainty.json;
+along a parameter attractors.svg, attractors.csv, attractors.json.";
 
 /// Arguments of `softstop basin`.
 #[derive(Debug, Args)]
@@ -86,6 +94,25 @@ pub struct BasinArguments {
     /// 2 to 1000
     #[arg(long, value_name = "N")]
     pub along_zone: Option<usize>,
+    /// Instead of one picture: attractors and basins along a parameter, by its key in the file, whose unit the values are
+    /// in, or by its letter of ratios; eta, the drive frequency in units of sqrt(k1/m), any machine has
+    #[arg(
+        long,
+        value_name = "NAME",
+        requires = "from",
+        requires = "to",
+        conflicts_with = "along_zone"
+    )]
+    pub parameter: Option<String>,
+    /// First value of the parameter
+    #[arg(long, value_name = "VALUE", requires = "parameter")]
+    pub from: Option<f64>,
+    /// Last value
+    #[arg(long, value_name = "VALUE", requires = "parameter")]
+    pub to: Option<f64>,
+    /// Number of values, 2 to 1000
+    #[arg(long, value_name = "N", default_value_t = 41)]
+    pub steps: usize,
     /// Whether it goes on with an earlier one.
     #[command(flatten)]
     pub keep: KeepArguments,
@@ -116,7 +143,10 @@ const ALONG: [(&str, &str); 3] = [
 
 fn help() -> String {
     let certainty = column::help("certainty.csv", &report::places());
-    EXAMPLES.to_owned() + &column::help("basin.csv", &report::columns()) + &certainty
+    EXAMPLES.to_owned()
+        + &column::help("basin.csv", &report::columns())
+        + &certainty
+        + &attractors::help()
 }
 
 /// Finds the basins, draws them and says how large they are.
@@ -124,9 +154,10 @@ pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
     arguments.machine.refuse_start()?;
     let machine = arguments.machine.machine()?;
-    match arguments.along_zone {
-        Some(places) => along(arguments, &options, &machine, places),
-        None => picture(arguments, &options, &machine),
+    match (&arguments.parameter, arguments.along_zone) {
+        (Some(name), _) => attractors::run(arguments, &options, &machine, name),
+        (None, Some(places)) => along_zone(arguments, &options, &machine, places),
+        (None, None) => picture(arguments, &options, &machine),
     }
 }
 
@@ -138,6 +169,7 @@ fn options(arguments: &BasinArguments) -> Result<BasinOptions, Failure> {
     within("size", arguments.size.up, 2..=LARGEST)?;
     within("transient", arguments.transient, 1..=1_000_000)?;
     within("longest", arguments.longest, 1..=10_000)?;
+    within("steps", arguments.steps, 2..=1000)?;
     within("along-zone", arguments.along_zone.unwrap_or(2), 2..=1000)?;
     Ok(BasinOptions {
         transient: arguments.transient,
@@ -183,7 +215,7 @@ fn picture(
 }
 
 /// The certainty of z = 1 along the hysteresis zone.
-fn along(
+fn along_zone(
     arguments: &BasinArguments,
     options: &BasinOptions,
     machine: &Machine,

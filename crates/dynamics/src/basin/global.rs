@@ -1,0 +1,191 @@
+//! Global continuation: the basins at many values of a parameter, and which attractor at one value is which at the next
+//! (Datseris, Rossi, Wagemakers, Chaos 33 (2023) 073151).
+//!
+//! An attractor goes on as the nearest orbit of its regime, or as one of another regime that lies near by: after a soft flip,
+//! say. The motion from its state is followed at the next value, so that an attractor is found also if no cell leads to it.
+//! One orbit continues one attractor; what continues none is new.
+
+use super::{BasinEntropy, BasinOptions, Basins, Class, Grid, basins, wilson};
+use crate::attractors::{SearchOptions, SurveyError, settle};
+use crate::monitor::{Kept, Monitor};
+use crate::motion::MotionKind;
+use crate::orbit::Orbit;
+use crate::orbit::recurrence::{distance, size};
+use softstop::{Scene, Start};
+
+/// Distance of two orbits of different regimes, in units of the larger one's size, within which one continues the other: a
+/// soft flip and a soft grazing lead to such, a jump does not.
+const NEAR: f64 = 0.1;
+/// Distance of two orbits found at one value that are the same, in the same units.
+const SAME: f64 = 1e-5;
+
+/// The basins at one value of a parameter.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct BasinsAt {
+    /// The value.
+    pub value: f64,
+    /// The basins; an attractor to which no cell leads has a basin without cells.
+    pub basins: Basins,
+    /// The number of the attractor of each basin, from 1, the same at all values.
+    pub attractors: Vec<usize>,
+    /// Their entropy.
+    pub entropy: BasinEntropy,
+}
+
+/// The basins of scenes, one for each value of a parameter, in order; the grid is the same for all. The monitor is told
+/// of the cells done at all values.
+///
+/// # Errors
+/// As [`basins`].
+pub fn follow_attractors(
+    scenes: &[(f64, Scene)],
+    grid: &Grid,
+    options: &BasinOptions,
+    monitor: Monitor<'_>,
+    kept: Kept<'_>,
+) -> Result<Vec<BasinsAt>, SurveyError> {
+    let each = grid.cells() as u64;
+    let all = each * scenes.len() as u64;
+    let mut found: Vec<BasinsAt> = Vec::with_capacity(scenes.len());
+    let mut known = 0;
+    for (index, (value, scene)) in scenes.iter().enumerate() {
+        let before = each * index as u64;
+        let watch = |done, _| monitor(before + done, all);
+        let mut basins = basins(scene, grid, options, &watch, kept)?;
+        let pause = |_, _| monitor(before + each, all);
+        let mut surest = Vec::new();
+        if let Some(last) = found.last() {
+            carry_over(last, scene, &mut basins, options, &pause)?;
+            surest = claims(last, &basins)?;
+        }
+        let mut attractors = vec![None; basins.classes.len()];
+        for claim in surest {
+            if attractors[claim.class].is_none() && !attractors.contains(&Some(claim.attractor)) {
+                attractors[claim.class] = Some(claim.attractor);
+            }
+        }
+        let number = |attractor: Option<usize>| {
+            attractor.unwrap_or_else(|| {
+                known += 1;
+                known
+            })
+        };
+        found.push(BasinsAt {
+            value: *value,
+            attractors: attractors.into_iter().map(number).collect(),
+            entropy: basins.entropy(),
+            basins,
+        });
+    }
+    Ok(found)
+}
+
+/// An attractor that may go on as the motion of a class.
+struct Claim {
+    attractor: usize,
+    class: usize,
+    is_same_kind: bool,
+    gap: f64,
+}
+
+/// Which attractors of the last value go on, the surest first.
+fn claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, SurveyError> {
+    let mut claims = Vec::new();
+    for (old, attractor) in last.basins.classes.iter().zip(&last.attractors) {
+        for (class, new) in basins.classes.iter().enumerate() {
+            let is_same_kind = old.motion == new.motion;
+            let gap = match (&old.orbit, &new.orbit) {
+                (Some(old), Some(new)) => gap(old, new)?,
+                // What does not repeat has one class of its kind.
+                (None, None) if is_same_kind => 0.0,
+                _ => continue,
+            };
+            if is_same_kind || gap < NEAR {
+                claims.push(Claim {
+                    attractor: *attractor,
+                    class,
+                    is_same_kind,
+                    gap,
+                });
+            }
+        }
+    }
+    claims.sort_by(|a, b| {
+        let kind = b.is_same_kind.cmp(&a.is_same_kind);
+        kind.then(a.gap.total_cmp(&b.gap))
+    });
+    Ok(claims)
+}
+
+/// Enters the orbits to which states of the attractors of the last value lead.
+fn carry_over(
+    last: &BasinsAt,
+    scene: &Scene,
+    basins: &mut Basins,
+    options: &BasinOptions,
+    monitor: Monitor<'_>,
+) -> Result<(), SurveyError> {
+    let search = SearchOptions {
+        transient: options.transient,
+        longest: options.longest,
+        ..SearchOptions::default()
+    };
+    let orbits = last
+        .basins
+        .classes
+        .iter()
+        .filter_map(|class| class.orbit.as_deref());
+    let seeds: Vec<Start> = orbits.map(|orbit| orbit.state().into()).collect();
+    for seed in seeds {
+        let arrival = match settle(scene, &[seed], &search, monitor) {
+            Ok(arrivals) => arrivals.into_iter().next(),
+            // A rigid stop may have come to stand before it, say.
+            Err(SurveyError::Motion(_)) => None,
+            Err(stopped) => return Err(stopped),
+        };
+        if let Some(orbit) = arrival.and_then(|it| it.orbit) {
+            enter(basins, orbit)?;
+        }
+    }
+    Ok(())
+}
+
+/// Enters a stable orbit without cells, unless it is known.
+fn enter(basins: &mut Basins, orbit: Orbit) -> Result<(), SurveyError> {
+    for class in &basins.classes {
+        if let Some(known) = class.orbit.as_deref()
+            && known.periods == orbit.periods
+            && gap(known, &orbit)? < SAME
+        {
+            return Ok(());
+        }
+    }
+    basins.classes.push(Class {
+        interval: wilson(0, basins.cells.len()),
+        orbit: Some(Box::new(orbit.clone())),
+        ..Class::of(MotionKind::of(&orbit))
+    });
+    Ok(())
+}
+
+/// How far apart two orbits are: the largest distance of a state of one at drive angle phi from the nearest one of the
+/// other, in units of the larger one's size.
+fn gap(one: &Orbit, other: &Orbit) -> Result<f64, SurveyError> {
+    let states = |orbit: &Orbit| -> Result<Vec<Start>, SurveyError> {
+        Ok(orbit.states()?.into_iter().map(Start::from).collect())
+    };
+    let (a, b) = (states(one)?, states(other)?);
+    let frequency = other.scene.excitation.frequency;
+    let nearest = |state: &Start, states: &[Start]| {
+        let gaps = states.iter().map(|it| distance(frequency, state, it));
+        gaps.fold(f64::INFINITY, f64::min)
+    };
+    let apart = a
+        .iter()
+        .map(|it| nearest(it, &b))
+        .chain(b.iter().map(|it| nearest(it, &a)));
+    let apart = apart.fold(0.0, f64::max);
+    let size = size(frequency, a.iter().chain(&b));
+    Ok(if size > 0.0 { apart / size } else { 0.0 })
+}

@@ -1,0 +1,124 @@
+//! Basins and attractors along a parameter.
+
+mod chart;
+mod report;
+
+use anyhow::Error;
+use softstop::{Machine, Parameter, Scene};
+use softstop_dynamics::attractors::{Region, SurveyError, starting_box};
+use softstop_dynamics::basin::{BasinOptions, BasinsAt, follow_attractors};
+use softstop_dynamics::monitor::Kept;
+
+use super::{BasinArguments, plane};
+use report::{AttractorsReport, columns};
+use softstop_console::arguments::{title, title_over_frequency};
+use softstop_console::column;
+use softstop_console::export::Export;
+use softstop_console::failure::Failure;
+use softstop_console::interrupt;
+use softstop_console::keep::Keep;
+use softstop_console::progress::Progress;
+use softstop_console::range::require;
+
+const FILES: [(&str, &str); 3] = [
+    ("csv", "attractors.csv"),
+    ("svg", "attractors.svg"),
+    ("json", "attractors.json"),
+];
+
+/// The columns of `attractors.csv`, for `--help`.
+pub(super) fn help() -> String {
+    column::help("attractors.csv", &columns())
+}
+
+/// What was found along a parameter.
+struct Found<'a> {
+    machine: &'a Machine,
+    parameter: Parameter,
+    places: Vec<BasinsAt>,
+}
+
+impl Found<'_> {
+    /// What the machine is called, without the frequency along which it was looked at.
+    fn title(&self) -> String {
+        match self.parameter {
+            Parameter::Frequency => title_over_frequency(self.machine),
+            _ => title(self.machine),
+        }
+    }
+}
+
+/// The basins at values of the parameter of this name.
+pub(super) fn run(
+    arguments: &BasinArguments,
+    options: &BasinOptions,
+    machine: &Machine,
+    name: &str,
+) -> Result<(), Failure> {
+    plane::check(arguments)?;
+    let (parameter, scenes) = scenes(arguments, machine, name)?;
+    let export = Export::open(&arguments.output, &FILES)?;
+    let limit = arguments.limit.budget;
+    let region = || region(&scenes);
+    let grid = limit.limit(|| plane::grid(arguments, &scenes[0].1, region))?;
+    let of = (&scenes, grid, options);
+    let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
+    let cells = grid.cells() * scenes.len();
+    let progress = Progress::new(cells as u64, "cells");
+    let kept: Kept<'_> = Some(&keep);
+    let places = limit.limit_many(cells, || {
+        let places = follow_attractors(&scenes, &grid, options, &progress.watcher(), kept);
+        Ok(places.map_err(Error::from)?)
+    })?;
+    drop(progress);
+    let found = Found {
+        machine,
+        parameter,
+        places,
+    };
+    let rows = report::rows(&found);
+    let chart = chart::svg(&found, &rows);
+    let report = AttractorsReport::new(&found, &rows);
+    export.sheet(["csv", "svg"], &columns(), rows, &chart)?;
+    export.finish(&report, arguments.format)?;
+    keep.forget();
+    Ok(())
+}
+
+/// The parameter, and the machine at each of its values.
+fn scenes(
+    arguments: &BasinArguments,
+    machine: &Machine,
+    name: &str,
+) -> Result<(Parameter, Vec<(f64, Scene)>), Failure> {
+    let (parameter, unit) = arguments.machine.parameter(machine, "parameter", name)?;
+    let why = "is not used, for basins are looked for along it: --from and --to have its values";
+    arguments.machine.refuse(machine, parameter, why)?;
+    let ends = [arguments.from, arguments.to].map(Option::unwrap_or_default);
+    for (flag, value) in ["--from", "--to"].into_iter().zip(ends) {
+        require(value.is_finite(), flag, value, "finite")?;
+    }
+    let [from, to] = ends;
+    let last = (arguments.steps - 1) as f64;
+    let at = |step: usize| {
+        let share = step as f64 / last;
+        let value = from * (1.0 - share) + to * share;
+        let mut machine = machine.clone();
+        machine.set(parameter, unit * value);
+        let checked = machine.validate();
+        checked.map_err(|error| Failure::usage(format!("{name} = {value}: {error}")))?;
+        Ok((unit * value, machine.scene))
+    };
+    let scenes: Result<Vec<_>, Failure> = (0..arguments.steps).map(at).collect();
+    Ok((parameter, scenes?))
+}
+
+/// The smallest box that holds the boxes of starts of all machines.
+fn region(scenes: &[(f64, Scene)]) -> Result<Region, SurveyError> {
+    let mut all: Option<Region> = None;
+    for (_, scene) in scenes {
+        let own = starting_box(scene, &interrupt::watch)?;
+        all = Some(all.map_or(own, |all| all.with(&own)));
+    }
+    all.ok_or(SurveyError::Stopped)
+}
