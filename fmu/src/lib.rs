@@ -18,7 +18,7 @@ mod units;
 
 pub use machine::Machine;
 use softstop_fmi::Unit;
-pub use softstop_fmi::{Standard, description, guid_of, package, parameter_set};
+pub use softstop_fmi::{Options, Standard, description, guid_of, package, parameter_set};
 pub use start::{NotServed, StartValues, slot};
 pub use tangent::Tangent;
 

@@ -12,7 +12,7 @@ use crate::drive::Drive;
 use crate::machine::{Machine, More};
 use crate::start::StartValues;
 use crate::start::slot::{self, SLOTS};
-use crate::table::{GROUPS, STATE_SPACE, TERMINALS};
+use crate::table::{GROUPS, IMPACT, STATE_SPACE, TERMINALS};
 use crate::tangent::Tangent;
 use crate::units::{ENUMERATIONS, QUANTITIES};
 
@@ -49,6 +49,7 @@ static ABOUT: About<Machine> = About {
     terminals: TERMINALS,
     table: softstop_fmi::Table::new(GROUPS),
     state_space: Some(&STATE_SPACE),
+    clock: Some(&IMPACT),
     page: include_str!("../assets/page.html"),
     files: &FILES,
     guid: OnceLock::new(),

@@ -13,7 +13,7 @@ use softstop_console::names::file_stem;
 use softstop_console::output::{self, Folder};
 pub use softstop_fmu::Standard;
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
-use softstop_fmu::{Imprint, StartValues, parameter_set};
+use softstop_fmu::{Imprint, Options, StartValues, parameter_set};
 
 /// Compiled along with this program, from the same engine.
 static FMI2: &[u8] = include_bytes!(env!("SOFTSTOP_FMI2_LIBRARY"));
@@ -100,6 +100,9 @@ pub struct FmuArguments {
     /// Tell of model exchange by FMI 2.0, too, which some importers then choose; FMI 3.0 always does
     #[arg(long)]
     pub exchange: bool,
+    /// Tell of the clock `impact` (FMI 3.0), which ticks at each impact
+    #[arg(long)]
+    pub impact_clock: bool,
 }
 
 /// A version of FMI, as it is asked for.
@@ -130,11 +133,17 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
         Some(place) => place.clone(),
         None => format!("{}.fmu", file_stem(name)).into(),
     };
+    if arguments.impact_clock && matches!(arguments.fmi, Version::Two) {
+        return Err(Failure::usage("--impact-clock needs --fmi 3"));
+    }
     let imprint = imprint(&machine, machine.start);
     let imprint = imprint.map_err(|error| Failure::usage(format!("{error:#}")))?;
     let imprint = imprint
         .with_standard(arguments.fmi.into())
-        .with_exchange(arguments.exchange);
+        .with_options(Options {
+            exchange: arguments.exchange,
+            clock: arguments.impact_clock,
+        });
     let (folder, file) = output::folder_and_file(&place)?;
     let folder = Folder::of_file(folder, file)?;
     folder.stage(file, &packed(&library(imprint.standard())?, &imprint)?)?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use softstop_fmi::package::{self, HOST_PLATFORM, Library};
-use softstop_fmi::{Imprint, Standard, Unit, description, guid_of};
+use softstop_fmi::{Imprint, Options, Standard, Unit, description, guid_of};
 use softstop_fmu::Machine;
 use softstop_units::{Drive, Feeder};
 
@@ -133,7 +133,10 @@ fn write<U: Unit>(standard: Standard, libraries: &[Library]) -> Result<()> {
     let imprint = Imprint::<U>::library().with_standard(standard);
     package::write(&path, &imprint, libraries)?;
     say(&path)?;
-    let with_exchange = imprint.clone().with_exchange(true);
+    let with_exchange = imprint.clone().with_options(Options {
+        exchange: true,
+        ..Options::default()
+    });
     if with_exchange.has_exchange() != imprint.has_exchange() {
         let path = top().join(format!("{identifier}-exchange.fmu"));
         package::write(&path, &with_exchange, libraries)?;

@@ -108,7 +108,21 @@ fn variables<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
         ];
         cells(html, "th", &head)?;
         let mut variables = rows_told::<U>(imprint.has_exchange());
-        variables.try_for_each(|variable| row(html, variable, imprint))
+        variables.try_for_each(|variable| row(html, variable, imprint))?;
+        let mut clock = imprint.clock().into_iter();
+        clock.try_for_each(|clock| {
+            let reference = clock.reference.to_string();
+            let texts = [
+                clock.name,
+                &reference,
+                "output",
+                "clock",
+                "",
+                "",
+                clock.description,
+            ];
+            cells(html, "td", &texts)
+        })
     })
 }
 

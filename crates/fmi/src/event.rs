@@ -5,7 +5,7 @@ use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
 use crate::step::{StepReport, rounding_of};
-use crate::unit::Unit;
+use crate::unit::{Clock, Unit};
 
 /// What an importer can do with events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -147,15 +147,32 @@ impl<U: Unit> Instance<U> {
         report: &mut StepReport,
     ) -> Result<Iteration, Fault> {
         self.require(&[Lifecycle::Event], "it belongs to event mode")?;
-        if self.exchange.is_some() {
-            return self.iterate_events(report);
+        let iteration = match self.exchange {
+            Some(_) => self.iterate_events(report)?,
+            None => {
+                self.pass_event(report)?;
+                Iteration {
+                    next: self.settle()?.next_event(),
+                    has_new_states: false,
+                    has_new_nominals: false,
+                    is_unfinished: false,
+                }
+            }
+        };
+        if let Some(clock) = U::about().clock {
+            self.ticks = (clock.count)(self.begun()?);
         }
-        self.pass_event(report)?;
-        Ok(Iteration {
-            next: self.settle()?.next_event(),
-            has_new_states: false,
-            has_new_nominals: false,
-            is_unfinished: false,
-        })
+        Ok(iteration)
+    }
+
+    /// Whether a clock ticks: in event mode, before the update of discrete states that tells of an event of its kind.
+    pub(crate) fn is_ticking(&mut self, clock: &Clock<U>) -> Result<bool, Fault> {
+        self.ready_for_outputs()?;
+        if self.lifecycle != Lifecycle::Event {
+            return Ok(false);
+        }
+        let mut updated = self.clone();
+        updated.update_discrete_states(&mut StepReport::new(false))?;
+        Ok((clock.count)(updated.begun()?) != self.ticks)
     }
 }

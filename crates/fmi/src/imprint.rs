@@ -5,8 +5,9 @@ use std::marker::PhantomData;
 use thiserror::Error;
 
 use crate::block::{DESCRIPTION, NAME};
+use crate::options::Options;
 use crate::standard::Standard;
-use crate::unit::Unit;
+use crate::unit::{Clock, Unit};
 
 /// Name, description and start values of an FMU of the unit `U`.
 #[derive(Debug, Clone)]
@@ -15,7 +16,7 @@ pub struct Imprint<U> {
     description: String,
     values: Vec<f64>,
     standard: Standard,
-    exchange: bool,
+    options: Options,
     unit: PhantomData<U>,
 }
 
@@ -40,7 +41,7 @@ impl<U: Unit> Imprint<U> {
             description: block.description(),
             values: block.values(),
             standard: Standard::default(),
-            exchange: false,
+            options: Options::default(),
             unit: PhantomData,
         }
     }
@@ -83,17 +84,22 @@ impl<U: Unit> Imprint<U> {
         Self { standard, ..self }
     }
 
-    /// The imprint for an FMU that tells of model exchange by FMI 2.0, too: importers that find both interface types may then
-    /// integrate by themselves. One for FMI 3.0 always tells of it.
+    /// The imprint for an FMU that tells of more.
     #[must_use]
-    pub fn with_exchange(self, exchange: bool) -> Self {
-        Self { exchange, ..self }
+    pub fn with_options(self, options: Options) -> Self {
+        Self { options, ..self }
     }
 
     /// Whether the FMU tells of model exchange.
     pub fn has_exchange(&self) -> bool {
-        let is_told = self.exchange || self.standard == Standard::Fmi3;
+        let is_told = self.options.exchange || self.standard == Standard::Fmi3;
         is_told && U::about().state_space.is_some()
+    }
+
+    /// The clock that the FMU tells of.
+    pub fn clock(&self) -> Option<&'static Clock<U>> {
+        let is_told = self.options.clock && self.standard == Standard::Fmi3;
+        U::about().clock.filter(|_| is_told)
     }
 
     /// The standard that the FMU is packed by.

@@ -34,6 +34,13 @@ pub(crate) struct Instance<U: Unit> {
     /// What an importer has set that integrates by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) exchange: Option<Box<Exchange<U>>>,
+    /// How many events the clock has told of.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub(crate) ticks: i32,
+}
+
+fn is_zero(count: &i32) -> bool {
+    *count == 0
 }
 
 /// What `fmi2SetupExperiment` said.
@@ -57,6 +64,7 @@ impl<U: Unit> Clone for Instance<U> {
             awaits: self.awaits,
             aim: self.aim,
             exchange: self.exchange.clone(),
+            ticks: self.ticks,
         }
     }
 
@@ -73,6 +81,7 @@ impl<U: Unit> Clone for Instance<U> {
         self.awaits = kept.awaits;
         self.aim = kept.aim;
         self.exchange.clone_from(&kept.exchange);
+        self.ticks = kept.ticks;
     }
 }
 
@@ -91,6 +100,7 @@ impl<U: Unit> Instance<U> {
             awaits: false,
             aim: None,
             exchange: None,
+            ticks: 0,
         }
     }
 

@@ -189,6 +189,19 @@ pub struct State {
     pub start: u32,
 }
 
+/// A clock that ticks at events of one kind, in event mode of FMI 3.0, for an FMU that tells of it.
+#[derive(Debug)]
+pub struct Clock<U: 'static> {
+    /// Value reference, which no variable has.
+    pub reference: u32,
+    /// Public name.
+    pub name: &'static str,
+    /// When it ticks, in one sentence.
+    pub description: &'static str,
+    /// How many of these events there were.
+    pub count: fn(&U) -> i32,
+}
+
 /// What a unit says of itself, in the XML and in the documentation.
 pub struct About<U: Unit> {
     /// `modelIdentifier`: the name of the binaries' files.
@@ -219,6 +232,8 @@ pub struct About<U: Unit> {
     pub table: Table<U, U::Tangent>,
     /// What model exchange needs; nothing for a unit that is for co-simulation only.
     pub state_space: Option<&'static StateSpace>,
+    /// Its clock, if it has one.
+    pub clock: Option<&'static Clock<U>>,
     /// The documentation page, with marks for name, version, capabilities and variables.
     pub page: &'static str,
     /// Further files of the package: (path, content).

@@ -9,6 +9,7 @@ mod stops;
 mod terminals;
 
 pub(crate) use exchange::STATE_SPACE;
+pub(crate) use outputs::IMPACT;
 use rows::Row;
 pub(crate) use terminals::TERMINALS;
 

@@ -1,6 +1,7 @@
 //! The output variables.
 
 use softstop::Impact;
+use softstop_fmi::Clock;
 use softstop_fmi::variable::{Access, Kind};
 
 use super::rows::{Row, after, at_once, continuous, count, discrete, nominal, real, row, shown_in};
@@ -59,6 +60,10 @@ fn clamp_count(count: u64) -> i32 {
     i32::try_from(count).unwrap_or(i32::MAX)
 }
 
+fn impacts(machine: &Machine) -> i32 {
+    clamp_count(machine.simulation().impact_count())
+}
+
 /// All that decides on the force and the acceleration at the start.
 #[rustfmt::skip]
 const EVERYTHING: &[&str] = &[
@@ -79,6 +84,14 @@ const STORES: &[&str] = &[
     "stop.unloading.from", "stop.unloading.stiffness", "piercing.thickness", "piercing.travel",
     "initial.position", "initial.velocity",
 ];
+
+/// The clock of impacts.
+pub(crate) const IMPACT: Clock<Machine> = Clock {
+    reference: 250,
+    name: "impact",
+    description: "Ticks in the event mode of an impact, until the update of discrete states that brings the state after it",
+    count: impacts,
+};
 
 /// The outputs.
 #[rustfmt::skip]
@@ -107,7 +120,7 @@ pub(super) const OUTPUTS: &[Row] = &[
     row(204, "phase", Kind::Enumeration(&units::PHASE),
         Access::Integer { value: Machine::phase, depends: at_once(EVERYTHING) },
         "Law that the mass moves under at present"),
-    count(205, "impact.count", |machine| clamp_count(machine.simulation().impact_count()),
+    count(205, "impact.count", impacts,
         "Impacts since the start: upward crossings of the clearance with contact, and rebounds at a rigid stop that stands there"),
     discrete(207, "impact.time", real(&units::TIME),
         (|machine| machine.last_impact().time, |of| of.along(|of| of.impact_time, |machine| machine.last_impact().time)),

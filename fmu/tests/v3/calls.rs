@@ -8,11 +8,18 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 use softstop_fmi3::*;
+use softstop_fmu::Options;
 
-use super::unit::{HANDLINGS, Unit, reference};
+use super::unit::{CLOCK, HANDLINGS, Unit, reference};
 use crate::common::{DISCARD, ERROR, OK};
 
 const STATES: usize = 3;
+
+/// The FMU tells of all that it can.
+const OPTIONS: Options = Options {
+    exchange: false,
+    clock: true,
+};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Life {
@@ -41,6 +48,8 @@ enum Call {
     Reset,
     Get(&'static str),
     Set(&'static str, f64),
+    GetClock,
+    SetClock,
     UnknownVariable,
     OtherType,
     TooFewValues,
@@ -178,7 +187,7 @@ impl Model {
             Call::Update => if_all(&[self.life == Event]),
             Call::Terminate => if_all(&[self.is(&[Event, Step, Continuous])]),
             Call::Reset | Call::GetState(_) | Call::Logging(true) => &[OK],
-            Call::Get("position" | "phase" | "impact.count") => {
+            Call::Get("position" | "phase" | "impact.count") | Call::GetClock => {
                 let lives = [Initializing, Event, Step, Continuous, Terminated];
                 self.of_outputs(&lives, &[DISCARD])
             }
@@ -218,7 +227,8 @@ impl Model {
                 kept.is_none_or(|kept| !self.is_of_other_type(kept)),
             ]),
             Call::Copy(_) => if_all(&[kept.is_some()]),
-            Call::UnknownVariable
+            Call::SetClock
+            | Call::UnknownVariable
             | Call::OtherType
             | Call::TooFewValues
             | Call::NullValues
@@ -255,8 +265,8 @@ impl World {
     fn new() -> Self {
         Self {
             units: std::array::from_fn(|index| match HANDLINGS.get(index) {
-                Some(handling) => (Unit::new(*handling), FRESH),
-                None => (Unit::for_exchange(), FRESH_FOR_EXCHANGE),
+                Some(handling) => (Unit::made(*handling, None, OPTIONS), FRESH),
+                None => (Unit::for_exchange(OPTIONS), FRESH_FOR_EXCHANGE),
             }),
             states: [None; STATES],
         }
@@ -385,6 +395,12 @@ impl World {
                     unit.read(&variable.kind, variable.reference).0
                 }
                 Call::Set(name, value) => unit.set(name, value),
+                Call::GetClock => {
+                    let (status, ticks) = unit.try_clock();
+                    assert!(!ticks || model.life == Event && !model.updated);
+                    status
+                }
+                Call::SetClock => fmi3SetClock(instance, &CLOCK, 1, &1),
                 Call::UnknownVariable => fmi3GetFloat64(instance, &199, 1, value, 1),
                 Call::OtherType => {
                     let mut real = 0.0f32;
@@ -551,9 +567,11 @@ fn call() -> impl Strategy<Value = Call> {
         3 => Just(Call::Reset),
         1 => Just(Call::Terminate),
         14 => variable.prop_map(Call::Get),
+        10 => Just(Call::GetClock),
         12 => settable.prop_map(|(name, value)| Call::Set(name, value)),
         3 => select(vec![1.0, 10.5, f64::NAN]).prop_map(|value| Call::Set("position", value)),
         1 => select(vec![
+            Call::SetClock,
             Call::UnknownVariable,
             Call::OtherType,
             Call::TooFewValues,

@@ -1,6 +1,7 @@
 //! Model exchange: a small integrator beside the unit's own motion.
 
 use softstop_fmi3::*;
+use softstop_fmu::Options;
 
 use super::events::MACHINES;
 use super::unit::Unit;
@@ -15,14 +16,18 @@ type States = [f64; 2];
 pub struct Integrator {
     pub unit: Unit,
     pub time: f64,
-    next: Option<f64>,
+    pub next: Option<f64>,
     /// State before and after each event, with its time.
     events: Vec<(f64, States, States)>,
 }
 
 impl Integrator {
     pub fn begun(values: &[(&str, f64)]) -> Self {
-        let unit = Unit::for_exchange();
+        Self::of(Unit::for_exchange(Options::default()), values)
+    }
+
+    /// An importer of a unit that it begins with these values.
+    pub fn of(unit: Unit, values: &[(&str, f64)]) -> Self {
         unit.initialize(values);
         let mut begun = Self {
             unit,
@@ -82,7 +87,7 @@ impl Integrator {
     }
 
     /// One step; whether the unit asks for event mode.
-    fn step(&mut self, size: f64) -> bool {
+    pub fn step(&mut self, size: f64) -> bool {
         let (begin, from) = (self.states(), self.time);
         let moved = |by: f64, rates: States| std::array::from_fn(|k| begin[k] + by * rates[k]);
         let at = |part: f64, rates: States| {

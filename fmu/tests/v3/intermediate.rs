@@ -5,6 +5,7 @@ use std::ffi::c_void;
 use std::ptr;
 
 use softstop_fmi3::*;
+use softstop_fmu::Options;
 
 use super::events::MACHINES;
 use super::unit::{Unit, reference};
@@ -59,14 +60,9 @@ fn begun(
     handling: (bool, bool),
     update: IntermediateUpdateCallback,
 ) -> Unit {
-    let unit = Unit::with_update(handling, update);
+    let unit = Unit::made(handling, update, Options::default());
     INSTANCE.set(unit.instance);
-    unit.initialize(values);
-    if handling.0 {
-        unit.update();
-        unit.leave_event_mode();
-    }
-    unit
+    unit.begin(values)
 }
 
 #[test]

@@ -2,6 +2,7 @@
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
 mod calls;
+mod clock;
 mod derivatives;
 mod events;
 mod exchange;

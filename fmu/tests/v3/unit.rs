@@ -5,7 +5,7 @@ use std::ptr;
 
 use softstop_fmi::variable::Kind;
 use softstop_fmi3::*;
-use softstop_fmu::{library_guid, table};
+use softstop_fmu::{Imprint, Options, Standard, guid_of, table};
 
 use crate::common::OK;
 
@@ -27,6 +27,9 @@ pub type Handling = (bool, bool);
 
 pub const HANDLINGS: [Handling; 4] = [(false, false), (false, true), (true, false), (true, true)];
 
+/// The value reference of the clock of impacts.
+pub const CLOCK: u32 = 250;
+
 /// How a step ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ending {
@@ -46,13 +49,13 @@ pub struct Unit {
 
 impl Unit {
     pub fn new(handling: Handling) -> Self {
-        Self::with_update(handling, None)
+        Self::made(handling, None, Options::default())
     }
 
-    /// An instance with a callback for intermediate update.
-    pub fn with_update(handling: Handling, update: IntermediateUpdateCallback) -> Self {
+    /// An instance with a callback for intermediate update, of an FMU that tells of more.
+    pub fn made(handling: Handling, update: IntermediateUpdateCallback, options: Options) -> Self {
         let log = Box::into_raw(Box::<Vec<String>>::default());
-        let token = CString::new(library_guid().expect("a token")).expect("no NUL");
+        let token = token(options);
         let (name, nothing) = (c"unit".as_ptr(), ptr::null());
         let (event_mode, early) = (u8::from(handling.0), u8::from(handling.1));
         // SAFETY: strings outlive the call, the log the instance.
@@ -81,10 +84,10 @@ impl Unit {
         }
     }
 
-    /// An instance for model exchange.
-    pub fn for_exchange() -> Self {
+    /// An instance for model exchange, of an FMU that tells of more.
+    pub fn for_exchange(options: Options) -> Self {
         let log = Box::into_raw(Box::<Vec<String>>::default());
-        let token = CString::new(library_guid().expect("a token")).expect("no NUL");
+        let token = token(options);
         let (name, token, nothing) = (c"unit".as_ptr(), token.as_ptr(), ptr::null());
         // SAFETY: strings outlive the call, the log the instance.
         let instance = unsafe {
@@ -114,13 +117,17 @@ impl Unit {
 
     /// An instance in step mode at time 0 under these values.
     pub fn begun(handling: Handling, values: &[(&str, f64)]) -> Self {
-        let unit = Self::new(handling);
-        unit.initialize(values);
-        if handling.0 {
-            unit.update();
-            unit.leave_event_mode();
+        Self::new(handling).begin(values)
+    }
+
+    /// Goes to step mode at time 0 under these values.
+    pub fn begin(self, values: &[(&str, f64)]) -> Self {
+        self.initialize(values);
+        if self.handling.0 {
+            self.update();
+            self.leave_event_mode();
         }
-        unit
+        self
     }
 
     /// The log since it was last taken.
@@ -184,6 +191,21 @@ impl Unit {
             (status, value.to_bits())
         });
         read.collect()
+    }
+
+    /// Status and value of the clock of impacts.
+    pub fn try_clock(&self) -> (c_int, bool) {
+        let mut ticks = 7;
+        // SAFETY: one reference and one value.
+        let status = unsafe { fmi3GetClock(self.instance, &CLOCK, 1, &raw mut ticks) };
+        assert!(status != OK || ticks <= 1);
+        (status, ticks == 1)
+    }
+
+    pub fn ticks(&self) -> bool {
+        let (status, ticks) = self.try_clock();
+        assert_eq!(status, OK, "{:?}", self.take_log());
+        ticks
     }
 
     /// Status and ending of a step.
@@ -336,6 +358,13 @@ impl Drop for Unit {
             drop(Box::from_raw(self.log));
         }
     }
+}
+
+/// The token of an FMU with this library.
+fn token(options: Options) -> CString {
+    let imprint = Imprint::library().with_standard(Standard::Fmi3);
+    let token = guid_of(&imprint.with_options(options)).expect("a token");
+    CString::new(token).expect("no NUL")
 }
 
 /// The value reference of a variable.

@@ -95,6 +95,7 @@ static ABOUT: About<Drive> = About {
     terminals: table::TERMINALS,
     table: Table::new(table::GROUPS),
     state_space: None,
+    clock: None,
     page: include_str!("../../assets/drive.html"),
     files: &package::FILES,
     guid: OnceLock::new(),

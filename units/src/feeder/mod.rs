@@ -96,6 +96,7 @@ static ABOUT: About<Feeder> = About {
     terminals: table::TERMINALS,
     table: Table::new(table::GROUPS),
     state_space: None,
+    clock: None,
     page: include_str!("../../assets/feeder.html"),
     files: &package::FILES,
     guid: OnceLock::new(),

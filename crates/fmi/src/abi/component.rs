@@ -5,7 +5,6 @@ use std::ffi::{CStr, CString};
 
 use crate::exchange::Iteration;
 use crate::fault::{Fault, Status};
-use crate::guid::library_uuid;
 use crate::instance::Instance;
 use crate::log::{Category, Wanted};
 use crate::step::StepReport;
@@ -143,20 +142,5 @@ pub(crate) fn check_name(name: Result<Cow<str>, Fault>) -> Result<(), Fault> {
     match name?.is_empty() {
         true => Err(Fault::Instantiation("instanceName is empty".to_owned())),
         false => Ok(()),
-    }
-}
-
-/// Refuses a fingerprint that is not this library's.
-pub(crate) fn check_token<U: Unit>(
-    argument: &str,
-    token: Result<Cow<str>, Fault>,
-) -> Result<(), Fault> {
-    let own = library_uuid::<U>()?.braced().to_string();
-    let token = token?;
-    match token == own {
-        true => Ok(()),
-        false => Err(Fault::Instantiation(format!(
-            "{argument} is {token:?}, this library's is {own:?}"
-        ))),
     }
 }

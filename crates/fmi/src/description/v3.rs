@@ -13,7 +13,7 @@ use crate::si;
 use crate::solving::space_of;
 use crate::standard::Standard;
 use crate::terminal::Terminal;
-use crate::unit::{About, Unit};
+use crate::unit::{About, Clock, Unit};
 
 /// The XML of the FMU with this imprint and this instantiation token.
 pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<String> {
@@ -40,12 +40,16 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<St
                 let is_told = U::HAS_EVENTS && variable.is_output();
                 let told = is_told.then(|| ("intermediateUpdate", "true".to_owned()));
                 empty(xml, name, named(variable).chain(typed).chain(told))
-            })
+            })?;
+            let mut clock = imprint.clock().into_iter();
+            clock.try_for_each(|clock| empty(xml, "Clock", clock_attributes(clock)))
         })?;
         element(xml, "ModelStructure", NONE, |xml| {
             unknowns::<U>(xml, "Output", Unknowns::Outputs)?;
+            clock_as(xml, "Output", imprint)?;
             unknowns::<U>(xml, "ContinuousStateDerivative", Unknowns::Derivatives)?;
             unknowns::<U>(xml, "InitialUnknown", Unknowns::Initial)?;
+            clock_as(xml, "InitialUnknown", imprint)?;
             let mut indicators = space_of::<U>().indicators.iter();
             indicators.try_for_each(|reference| {
                 let reference = reference.to_string();
@@ -94,6 +98,24 @@ fn exchange_capabilities(identifier: &str) -> [(&'static str, &str); 8] {
         ("providesAdjointDerivatives", "true"),
         ("needsCompletedIntegratorStep", "true"),
     ]
+}
+
+/// What a clock says: it ticks when the unit lets it.
+fn clock_attributes<U>(clock: &Clock<U>) -> [(&'static str, String); 6] {
+    [
+        ("name", clock.name.to_owned()),
+        ("valueReference", clock.reference.to_string()),
+        ("description", clock.description.to_owned()),
+        ("causality", "output".to_owned()),
+        ("variability", "discrete".to_owned()),
+        ("intervalVariability", "triggered".to_owned()),
+    ]
+}
+
+/// Lists the clock, if it is told of. It depends on all that the motion depends on.
+fn clock_as<U: Unit>(xml: &mut Xml, list: &'static str, imprint: &Imprint<U>) -> io::Result<()> {
+    let mut clock = imprint.clock().into_iter();
+    clock.try_for_each(|clock| empty(xml, list, [("valueReference", clock.reference.to_string())]))
 }
 
 /// The quantities in use, that of time among them.

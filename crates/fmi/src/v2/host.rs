@@ -5,10 +5,11 @@ use std::ffi::CString;
 
 use libc::{c_char, c_int, c_void, size_t};
 
-use crate::abi::component::{Component, Host, Sink, check_name, check_token};
+use crate::abi::component::{Component, Host, Sink, check_name};
 use crate::abi::pointers::{string, write_one};
 use crate::fault::Fault;
-use crate::guid::{exchange_uuid, library_uuid};
+use crate::guid::options_of;
+use crate::standard::Standard;
 use crate::unit::Unit;
 
 /// `fmi2ModelExchange` and `fmi2CoSimulation` of `fmi2Type`.
@@ -107,14 +108,11 @@ fn check_type_and_guid<U: Unit>(
     fmu_type: c_int,
     guid: Result<Cow<str>, Fault>,
 ) -> Result<(), Fault> {
-    let guid = guid?;
-    let is_plain = guid == library_uuid::<U>()?.braced().to_string();
-    let is_for_exchange = !is_plain
-        && U::about().state_space.is_some()
-        && guid == exchange_uuid::<U>()?.braced().to_string();
+    let options = options_of::<U>(Standard::Fmi2, "fmuGUID", &guid?);
+    let has_exchange = options.as_ref().is_ok_and(|options| options.exchange);
     match fmu_type {
-        MODEL_EXCHANGE | CO_SIMULATION if is_for_exchange => Ok(()),
-        CO_SIMULATION => check_token::<U>("fmuGUID", Ok(guid)),
+        CO_SIMULATION => options.map(drop),
+        MODEL_EXCHANGE if has_exchange && U::about().state_space.is_some() => Ok(()),
         _ => Err(Fault::Instantiation(format!(
             "fmuType = {fmu_type}: only fmi2CoSimulation ({CO_SIMULATION}) is available"
         ))),

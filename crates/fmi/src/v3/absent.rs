@@ -37,7 +37,7 @@ absent_functions! { $
     "the unit has no structural parameters":
     fmi3EnterConfigurationMode();
     fmi3ExitConfigurationMode();
-    "the unit has no clocks":
+    "the unit has no time-based clocks":
     fmi3GetIntervalDecimal(
         references: *const c_uint, count: size_t, intervals: *mut f64, qualifiers: *mut c_int
     );

@@ -4,12 +4,15 @@ use std::ffi::CString;
 
 use libc::{c_char, c_int, c_void};
 
-use crate::abi::component::{Component, Host, Sink, check_name, check_token};
+use crate::abi::component::{Component, Host, Sink, check_name};
 use crate::abi::pointers::string;
 use crate::event::Handling;
 use crate::fault::Fault;
+use crate::guid::options_of;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
+use crate::options::Options;
+use crate::standard::Standard;
 use crate::unit::Unit;
 
 /// `fmi3LogMessageCallback`: environment, status, category, message.
@@ -31,6 +34,8 @@ pub type PreemptionCallback = Option<unsafe extern "C" fn()>;
 /// An importer by FMI 3.0.
 pub(crate) struct Importer {
     pub(super) interface: Interface,
+    /// What the FMU tells of.
+    pub(super) options: Options,
 }
 
 /// `fmi3InterfaceType`, and what goes with it.
@@ -117,13 +122,15 @@ pub(super) unsafe fn instantiate<U: Unit>(
         )
     };
     let checked = check_name(name)
-        .and_then(|()| check_token::<U>("instantiationToken", token))
-        .and_then(|()| check_interface::<U>(interface));
+        .and_then(|()| options_of::<U>(Standard::Fmi3, "instantiationToken", &token?))
+        .and_then(|options| check_interface::<U>(interface).map(|()| options));
+    let options = checked.as_ref().copied().unwrap_or_default();
+    let host = Importer { interface, options };
     let call = match interface {
         Interface::CoSimulation(..) => "fmi3InstantiateCoSimulation",
         Interface::ModelExchange => "fmi3InstantiateModelExchange",
     };
-    Component::new(call, checked, logging_on, Importer { interface }, sink)
+    Component::new(call, checked.map(drop), logging_on, host, sink)
 }
 
 fn check_interface<U: Unit>(interface: Interface) -> Result<(), Fault> {
@@ -142,7 +149,10 @@ fn check_interface<U: Unit>(interface: Interface) -> Result<(), Fault> {
 pub(super) fn refuse<U: Unit>(call: &str, environment: *mut c_void, log: LogMessageCallback) {
     let other = Fault::NotOffered("the unit is not for scheduled execution");
     let sink = sink(environment, log);
-    let interface = Interface::CoSimulation(Handling::default(), None);
-    let made = Component::<U, _>::new(call, Err(other), false, Importer { interface }, sink);
+    let host = Importer {
+        interface: Interface::CoSimulation(Handling::default(), None),
+        options: Options::default(),
+    };
+    let made = Component::<U, _>::new(call, Err(other), false, host, sink);
     debug_assert!(made.is_none());
 }

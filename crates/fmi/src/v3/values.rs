@@ -12,8 +12,8 @@ use crate::abi::component::Component;
 use crate::abi::guard::guarded;
 use crate::abi::pointers::{read, write};
 use crate::fault::Fault;
-use crate::reading::Type;
-use crate::unit::Unit;
+use crate::reading::{Type, find};
+use crate::unit::{Clock, Unit};
 
 /// Refuses another number of values than of value references: all variables are scalars.
 pub(super) fn check_count(
@@ -62,11 +62,28 @@ pub(super) unsafe fn get<U: Unit, T>(
         )
     };
     let read = component.instance.read(references, values, wanted, typed);
-    read.map_err(|fault| match fault {
-        // Reading is allowed there, but outputs have no values yet.
+    read.map_err(not_yet)
+}
+
+/// What FMI 3.0 makes of reading where that is allowed, but outputs have no values yet.
+fn not_yet(fault: Fault) -> Fault {
+    match fault {
         Fault::WrongState { .. } => Fault::Refused(fault.into()),
         other => other,
-    })
+    }
+}
+
+/// The clock with this value reference, if the FMU tells of it.
+fn find_clock<U: Unit>(
+    component: &Component<U, Importer>,
+    reference: u32,
+) -> Result<&'static Clock<U>, Fault> {
+    let is_told = |clock: &&Clock<U>| component.host.options.clock && clock.reference == reference;
+    match U::about().clock.filter(is_told) {
+        Some(clock) => Ok(clock),
+        None => find::<U>(reference, Type::Other("Clock"))
+            .and(Err(Fault::UnknownReference { reference })),
+    }
 }
 
 /// Sets values of a type.
@@ -170,18 +187,28 @@ macro_rules! typed_functions {
                 access_none(component, (references, count), value_count, "Binary")
             }
 
-            /// Reads clocks, of which there are none.
+            /// Whether clocks tick.
             fn fmi3GetClock<U>(
-                component, references: *const c_uint, count: size_t, _values: *mut u8
+                component, references: *const c_uint, count: size_t, values: *mut u8
             ) {
-                access_none(component, (references, count), count, "Clock")
+                let references = read_references(references, count)?;
+                let values = write("values", values, count)?;
+                for (&reference, value) in references.iter().zip(values) {
+                    let clock = find_clock(component, reference)?;
+                    let ticks = component.instance.is_ticking(clock).map_err(not_yet)?;
+                    *value = ticks.into();
+                }
+                Ok(())
             }
 
-            /// Sets clocks, of which there are none.
+            /// Sets clocks, of which the importer has none.
             fn fmi3SetClock<U>(
                 component, references: *const c_uint, count: size_t, _values: *const u8
             ) {
-                access_none(component, (references, count), count, "Clock")
+                let mut references = read_references(references, count)?.iter();
+                references.try_for_each(|&reference| {
+                    Err(Fault::Output(find_clock(component, reference)?.name))
+                })
             }
         }
     };

@@ -89,6 +89,7 @@ static ABOUT: About<Tank> = About {
     }],
     table: Table::new(&[ROWS]),
     state_space: None,
+    clock: None,
     page: "<h1><!--name--></h1><table><!--variables--></table>",
     files: &[],
     guid: OnceLock::new(),

@@ -1,0 +1,101 @@
+"""What a unit for FMI 3.0 tells of only if `softstop fmu` is asked to."""
+
+import os
+import pathlib
+import subprocess
+import zipfile
+
+import fmpy
+import lxml.etree
+import pytest
+from conftest import PERIOD
+from fmpy.fmi3 import FMU3Slave
+from fmpy.validation import validate_fmu
+from packages import TOP
+
+PROGRAM = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")) / "release" / "softstop"
+SCHEMA = pathlib.Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3ModelDescription.xsd"
+
+
+@pytest.fixture(scope="module")
+def units(tmp_path_factory):
+    """Makes a unit with these options, once."""
+    folder = tmp_path_factory.mktemp("units")
+
+    def make(*options):
+        file = folder / f"unit{''.join(options)}.fmu"
+        if not file.exists():
+            command = [PROGRAM, "fmu", "loaded", "--fmi", "3", *options, "--output", file]
+            subprocess.run(command, check=True, capture_output=True)
+        return file
+
+    return make
+
+
+def described(unit):
+    with zipfile.ZipFile(unit) as archive:
+        return lxml.etree.fromstring(archive.read("modelDescription.xml"))
+
+
+def lines(unit):
+    """Each line of the description but the token's."""
+    text = lxml.etree.tostring(described(unit)).decode().splitlines()
+    return [line for line in text if "instantiationToken" not in line]
+
+
+@pytest.mark.parametrize("options", [["--impact-clock"]])
+def test_checkers_find_nothing(units, options):
+    unit = units(*options)
+    assert validate_fmu(unit) == []
+    lxml.etree.XMLSchema(lxml.etree.parse(SCHEMA)).assertValid(described(unit).getroottree())
+    assert described(unit).get("instantiationToken") != described(units()).get("instantiationToken")
+
+
+def test_options_of_fmi_3_are_refused_for_fmi_2(tmp_path):
+    command = [PROGRAM, "fmu", "loaded", "--impact-clock", "--output", tmp_path / "unit.fmu"]
+    run = subprocess.run(command, capture_output=True, text=True)
+    assert run.returncode == 2 and "--impact-clock needs --fmi 3" in run.stderr
+
+
+def test_a_clock_adds_three_lines_and_changes_no_result(units):
+    clock, plain = units("--impact-clock"), units()
+    more = [line.strip() for line in lines(clock) if line not in lines(plain)]
+    assert len(more) == 3 and more[0].startswith('<Clock name="impact" ') and len(lines(clock)) == len(lines(plain)) + 3
+    one, other = (fmpy.simulate_fmu(of, stop_time=50, output_interval=0.5) for of in (clock, plain))
+    assert one.tobytes() == other.tobytes()
+
+
+@pytest.fixture
+def slave(units):
+    file = units("--impact-clock")
+    told, folder = fmpy.read_model_description(file), fmpy.extract(file)
+    slave = FMU3Slave(guid=told.guid, unzipDirectory=folder, modelIdentifier="softstop", instanceName="unit")
+    slave.instantiate(eventModeUsed=True, earlyReturnAllowed=True)
+    slave.references = {variable.name: variable.valueReference for variable in told.modelVariables}
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    yield slave
+    slave.terminate()
+    slave.freeInstance()
+
+
+def test_the_clock_ticks_at_each_impact(slave):
+    clock, count, time = (slave.references[name] for name in ("impact", "impact.count", "impact.time"))
+    seen, point, end = [], 0.0, 10 * PERIOD
+    slave.updateDiscreteStates()
+    slave.enterStepMode()
+    while point < end:
+        event, _, _, point = slave.doStep(point, end - point)
+        assert slave.getClock([clock]) == [False]
+        if not event:
+            continue
+        slave.enterEventMode()
+        (ticks,) = slave.getClock([clock])
+        slave.updateDiscreteStates()
+        assert slave.getClock([clock]) == [False]
+        slave.enterStepMode()
+        if ticks:
+            seen.append(point)
+            assert slave.getFloat64([time]) == [point]
+        assert slave.getInt32([count]) == [len(seen)]
+    assert len(seen) >= 10
