@@ -103,6 +103,9 @@ pub struct FmuArguments {
     /// Tell of the clock `impact` (FMI 3.0), which ticks at each impact
     #[arg(long)]
     pub impact_clock: bool,
+    /// Tell of each array of parameters as one variable (FMI 3.0), not element by element
+    #[arg(long)]
+    pub arrays: bool,
 }
 
 /// A version of FMI, as it is asked for.
@@ -133,8 +136,14 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
         Some(place) => place.clone(),
         None => format!("{}.fmu", file_stem(name)).into(),
     };
-    if arguments.impact_clock && matches!(arguments.fmi, Version::Two) {
-        return Err(Failure::usage("--impact-clock needs --fmi 3"));
+    let of_three = [
+        ("--impact-clock", arguments.impact_clock),
+        ("--arrays", arguments.arrays),
+    ];
+    if matches!(arguments.fmi, Version::Two)
+        && let Some((option, _)) = of_three.iter().find(|(_, is_asked)| *is_asked)
+    {
+        return Err(Failure::usage(format!("{option} needs --fmi 3")));
     }
     let imprint = imprint(&machine, machine.start);
     let imprint = imprint.map_err(|error| Failure::usage(format!("{error:#}")))?;
@@ -143,6 +152,7 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
         .with_options(Options {
             exchange: arguments.exchange,
             clock: arguments.impact_clock,
+            arrays: arguments.arrays,
         });
     let (folder, file) = output::folder_and_file(&place)?;
     let folder = Folder::of_file(folder, file)?;

@@ -43,7 +43,7 @@ def lines(unit):
     return [line for line in text if "instantiationToken" not in line]
 
 
-@pytest.mark.parametrize("options", [["--impact-clock"]])
+@pytest.mark.parametrize("options", [["--impact-clock"], ["--arrays"], ["--impact-clock", "--arrays"]])
 def test_checkers_find_nothing(units, options):
     unit = units(*options)
     assert validate_fmu(unit) == []
@@ -51,10 +51,11 @@ def test_checkers_find_nothing(units, options):
     assert described(unit).get("instantiationToken") != described(units()).get("instantiationToken")
 
 
-def test_options_of_fmi_3_are_refused_for_fmi_2(tmp_path):
-    command = [PROGRAM, "fmu", "loaded", "--impact-clock", "--output", tmp_path / "unit.fmu"]
+@pytest.mark.parametrize("option", ["--impact-clock", "--arrays"])
+def test_options_of_fmi_3_are_refused_for_fmi_2(option, tmp_path):
+    command = [PROGRAM, "fmu", "loaded", option, "--output", tmp_path / "unit.fmu"]
     run = subprocess.run(command, capture_output=True, text=True)
-    assert run.returncode == 2 and "--impact-clock needs --fmi 3" in run.stderr
+    assert run.returncode == 2 and f"{option} needs --fmi 3" in run.stderr
 
 
 def test_a_clock_adds_three_lines_and_changes_no_result(units):
@@ -63,6 +64,31 @@ def test_a_clock_adds_three_lines_and_changes_no_result(units):
     assert len(more) == 3 and more[0].startswith('<Clock name="impact" ') and len(lines(clock)) == len(lines(plain)) + 3
     one, other = (fmpy.simulate_fmu(of, stop_time=50, output_interval=0.5) for of in (clock, plain))
     assert one.tobytes() == other.tobytes()
+
+
+def test_arrays_stand_for_their_elements(units):
+    arrays, plain = (fmpy.read_model_description(units(*options)) for options in (["--arrays"], []))
+    elements = {v.name: v for v in plain.modelVariables}
+    whole = [v for v in arrays.modelVariables if v.dimensions]
+    assert len(whole) == 4 and len(arrays.modelVariables) == len(plain.modelVariables) - 4 * 7
+    for array in whole:
+        assert array.shape == (8,)
+        parts = [elements[f"{array.name}[{number}]"] for number in range(1, 9)]
+        assert array.valueReference == parts[0].valueReference and array.description == parts[0].description
+        assert array.start.split() == [part.start for part in parts]
+
+
+def test_a_stop_of_four_slopes_by_arrays(units):
+    froms, stiffnesses = [0.0, 0.2, 0.5, 1.0], [7.0, 9.0, 20.0, 50.0]
+    values = {"stop.model": 3, "stop.loading.count": 4, "clearance": 8.0}
+    numbers = range(1, 5)
+    parts = {**{f"stop.loading.from[{k}]": froms[k - 1] for k in numbers},
+             **{f"stop.loading.stiffness[{k}]": stiffnesses[k - 1] for k in numbers}}
+    rest = [0.0] * 4
+    whole = {"stop.loading.from": froms + rest, "stop.loading.stiffness": stiffnesses + rest}
+    results = [fmpy.simulate_fmu(units(*options), stop_time=50, output_interval=0.5, start_values={**values, **more})
+               for options, more in ((["--arrays"], whole), ([], parts))]
+    assert results[0].tobytes() == results[1].tobytes() and results[0]["impact.count"][-1] > 5
 
 
 @pytest.fixture

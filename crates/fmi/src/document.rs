@@ -8,7 +8,7 @@ use quick_xml::Writer;
 use quick_xml::escape::escape;
 use quick_xml::events::BytesText;
 
-use crate::description::{capabilities, rows_told, start_value};
+use crate::description::{array_of, capabilities, rows_told, start_value};
 use crate::imprint::Imprint;
 use crate::standard::Standard;
 use crate::unit::{Row, Unit};
@@ -107,7 +107,7 @@ fn variables<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
             "Meaning",
         ];
         cells(html, "th", &head)?;
-        let mut variables = rows_told::<U>(imprint.has_exchange());
+        let mut variables = rows_told::<U>(imprint.has_exchange(), imprint.has_arrays());
         variables.try_for_each(|variable| row(html, variable, imprint))?;
         let mut clock = imprint.clock().into_iter();
         clock.try_for_each(|clock| {
@@ -146,16 +146,20 @@ fn row<U: Unit>(html: &mut Html, variable: &Row<U>, imprint: &Imprint<U>) -> io:
         }
         Kind::Count { .. } | Kind::Boolean => ("", String::new()),
     };
+    let (name, start) = match array_of(variable, imprint) {
+        Some(array) => (array.name, Some(array.starts.join(" "))),
+        None => (variable.name, start_value(variable, imprint)),
+    };
     cells(
         html,
         "td",
         &[
-            variable.name,
+            name,
             &variable.reference.to_string(),
             variable.causality(),
             variable.variability(),
             unit,
-            &start_value(variable, imprint).unwrap_or_default(),
+            &start.unwrap_or_default(),
             &format!("{}{items}", variable.description),
         ],
     )

@@ -19,7 +19,9 @@ const NAMESPACE: Uuid = Uuid::from_bytes(*b"softstop/fmi-2.0");
 /// FMI 3.0 can tell, of that by FMI 3.0.
 fn uuid_of<U: Unit>(imprint: &Imprint<U>) -> io::Result<Uuid> {
     let xml = match imprint.standard() {
-        Standard::Fmi3 if imprint.clock().is_some() => description::v3::write(imprint, "")?,
+        Standard::Fmi3 if imprint.clock().is_some() || imprint.has_arrays() => {
+            description::v3::write(imprint, "")?
+        }
         Standard::Fmi3 => description::v2::write(imprint, "", false)?,
         Standard::Fmi2 => description::v2::write(imprint, "", imprint.has_exchange())?,
     };
@@ -58,7 +60,7 @@ pub(crate) fn options_of<U: Unit>(
     if guid == own {
         return Ok(Options::default());
     }
-    for &options in Options::choices(standard) {
+    for options in Options::choices(standard) {
         let imprint = Imprint::<U>::library().with_standard(standard);
         let other = guid_of(&imprint.with_options(options)).map_err(|_| not_computed())?;
         if guid == other {

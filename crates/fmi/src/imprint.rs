@@ -102,6 +102,11 @@ impl<U: Unit> Imprint<U> {
         U::about().clock.filter(|_| is_told)
     }
 
+    /// Whether the FMU tells of arrays of parameters as one variable each.
+    pub fn has_arrays(&self) -> bool {
+        self.options.arrays && self.standard == Standard::Fmi3
+    }
+
     /// The standard that the FMU is packed by.
     pub fn standard(&self) -> Standard {
         self.standard

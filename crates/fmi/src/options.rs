@@ -10,24 +10,29 @@ pub struct Options {
     pub exchange: bool,
     /// The unit's clock, by FMI 3.0.
     pub clock: bool,
+    /// Arrays of parameters as one variable each, by FMI 3.0.
+    pub arrays: bool,
 }
 
 impl Options {
     /// The choices that there are by a standard, but for none of them.
-    pub(crate) fn choices(standard: Standard) -> &'static [Self] {
-        const NONE: Options = Options {
-            exchange: false,
-            clock: false,
+    pub(crate) fn choices(standard: Standard) -> Vec<Self> {
+        let exchange = true;
+        let of_three = |clock, arrays| Self {
+            clock,
+            arrays,
+            ..Self::default()
         };
         match standard {
-            Standard::Fmi2 => &[Self {
-                exchange: true,
-                ..NONE
+            Standard::Fmi2 => vec![Self {
+                exchange,
+                ..Self::default()
             }],
-            Standard::Fmi3 => &[Self {
-                clock: true,
-                ..NONE
-            }],
+            Standard::Fmi3 => vec![
+                of_three(true, false),
+                of_three(false, true),
+                of_three(true, true),
+            ],
         }
     }
 }

@@ -220,6 +220,17 @@ impl<U, T> Variable<U, T> {
         }
     }
 
+    /// The array of parameters that this is an element of, and the element's number, counted from 1.
+    pub fn element(&self) -> Option<(&'static str, usize)> {
+        let (array, number) = self.name.strip_suffix(']')?.split_once('[')?;
+        let is_parameter = matches!(self.access, Access::Parameter { .. });
+        number
+            .parse()
+            .ok()
+            .filter(|_| is_parameter)
+            .map(|number| (array, number))
+    }
+
     /// Where its value is held; continuous inputs and outputs have no such place.
     pub const fn slot(&self) -> Option<Slot> {
         match self.access {

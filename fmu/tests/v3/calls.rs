@@ -10,6 +10,7 @@ use proptest::sample::select;
 use softstop_fmi3::*;
 use softstop_fmu::Options;
 
+use super::arrays::{ELEMENTS, STIFFNESS};
 use super::unit::{CLOCK, HANDLINGS, Unit, reference};
 use crate::common::{DISCARD, ERROR, OK};
 
@@ -19,6 +20,7 @@ const STATES: usize = 3;
 const OPTIONS: Options = Options {
     exchange: false,
     clock: true,
+    arrays: true,
 };
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +52,9 @@ enum Call {
     Set(&'static str, f64),
     GetClock,
     SetClock,
+    GetArray(usize),
+    SetArray(usize),
+    Element,
     UnknownVariable,
     OtherType,
     TooFewValues,
@@ -192,6 +197,10 @@ impl Model {
                 self.of_outputs(&lives, &[DISCARD])
             }
             Call::Get(_) => &[OK],
+            Call::GetArray(count) => if_all(&[count == ELEMENTS]),
+            Call::SetArray(count) => {
+                if_all(&[count == ELEMENTS, self.is(&[Instantiated, Initializing])])
+            }
             Call::Set(name, value) => match name {
                 _ if !self.is_settable() => &[ERROR],
                 "position" if self.life != Continuous => &[ERROR],
@@ -228,6 +237,7 @@ impl Model {
             ]),
             Call::Copy(_) => if_all(&[kept.is_some()]),
             Call::SetClock
+            | Call::Element
             | Call::UnknownVariable
             | Call::OtherType
             | Call::TooFewValues
@@ -400,6 +410,14 @@ impl World {
                     assert!(!ticks || model.life == Event && !model.updated);
                     status
                 }
+                Call::GetArray(count) => {
+                    let place = [f64::NAN; 9].as_mut_ptr();
+                    fmi3GetFloat64(instance, &STIFFNESS, 1, place, count)
+                }
+                Call::SetArray(count) => {
+                    fmi3SetFloat64(instance, &STIFFNESS, 1, [7.0; 9].as_ptr(), count)
+                }
+                Call::Element => fmi3GetFloat64(instance, &(STIFFNESS + 1), 1, value, 1),
                 Call::SetClock => fmi3SetClock(instance, &CLOCK, 1, &1),
                 Call::UnknownVariable => fmi3GetFloat64(instance, &199, 1, value, 1),
                 Call::OtherType => {
@@ -568,10 +586,13 @@ fn call() -> impl Strategy<Value = Call> {
         1 => Just(Call::Terminate),
         14 => variable.prop_map(Call::Get),
         10 => Just(Call::GetClock),
+        3 => prop_oneof![9 => Just(ELEMENTS), 1 => 0..10usize].prop_map(Call::GetArray),
+        3 => prop_oneof![9 => Just(ELEMENTS), 1 => 0..10usize].prop_map(Call::SetArray),
         12 => settable.prop_map(|(name, value)| Call::Set(name, value)),
         3 => select(vec![1.0, 10.5, f64::NAN]).prop_map(|value| Call::Set("position", value)),
         1 => select(vec![
             Call::SetClock,
+            Call::Element,
             Call::UnknownVariable,
             Call::OtherType,
             Call::TooFewValues,

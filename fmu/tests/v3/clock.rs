@@ -16,6 +16,7 @@ const END: f64 = 10.0 * PERIOD;
 const WITH_CLOCK: Options = Options {
     exchange: false,
     clock: true,
+    arrays: false,
 };
 
 fn begun(early: bool, values: &[(&str, f64)]) -> Unit {

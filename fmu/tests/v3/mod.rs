@@ -1,6 +1,7 @@
 //! The unit through the C functions of FMI 3.0.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
+mod arrays;
 mod calls;
 mod clock;
 mod derivatives;

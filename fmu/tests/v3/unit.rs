@@ -184,9 +184,10 @@ impl Unit {
         }
     }
 
-    /// The bits of everything that can be read.
+    /// The bits of everything that can be read, but for arrays.
     pub fn everything(&self) -> Vec<(c_int, u64)> {
-        let read = table().rows().map(|variable| {
+        let scalars = table().rows().filter(|row| row.element().is_none());
+        let read = scalars.map(|variable| {
             let (status, value) = self.read(&variable.kind, variable.reference);
             (status, value.to_bits())
         });
@@ -330,7 +331,18 @@ impl Unit {
 
     /// Derivatives of a weighted sum of outputs.
     pub fn adjoint(&self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
-        let mut values = vec![f64::NAN; knowns.len()];
+        self.adjoint_of(unknowns, knowns, seed, knowns.len())
+    }
+
+    /// Derivatives of a weighted sum of outputs by knowns that have so many elements.
+    pub fn adjoint_of(
+        &self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        count: usize,
+    ) -> Vec<f64> {
+        let mut values = vec![f64::NAN; count];
         // SAFETY: arrays as long as is said.
         let status = unsafe {
             fmi3GetAdjointDerivative(

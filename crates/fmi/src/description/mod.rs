@@ -283,7 +283,7 @@ type Unknown<U> = (usize, &'static Row<U>, Vec<Counted<U>>);
 
 impl Unknowns {
     /// Each with what it depends on, in the order of the rows.
-    fn each<U: Unit>(self, exchange: bool) -> Vec<Unknown<U>> {
+    fn each<U: Unit>(self, exchange: bool, arrays: bool) -> Vec<Unknown<U>> {
         let listed: Vec<_> = match self {
             Self::Derivatives => {
                 let states = space_of::<U>().states.iter();
@@ -302,6 +302,7 @@ impl Unknowns {
             if exchange && self != Self::Initial {
                 rows.extend(states_behind(variable, depends, self));
             }
+            rows.retain(|(_, row)| !(arrays && matches!(row.element(), Some((_, 2..)))));
             rows.sort_unstable_by_key(|(row, _)| *row);
             Some((row, variable, rows))
         };
@@ -348,8 +349,32 @@ fn of_state<U: Unit>(variable: &Row<U>, name: impl Fn(u32) -> String) -> Attribu
     reinit.into_iter().chain(derived).collect()
 }
 
-/// The variables of a description: what is local is for model exchange.
-pub(crate) fn rows_told<U: Unit>(exchange: bool) -> impl Iterator<Item = &'static Row<U>> {
-    let is_told = move |row: &&Row<U>| exchange || !matches!(row.access, Access::Local(_));
+/// An array of parameters that is one variable.
+pub(crate) struct Array {
+    pub name: &'static str,
+    /// The start values of its elements.
+    pub starts: Vec<String>,
+}
+
+/// The array that a variable is the first element of, in an FMU that tells of arrays.
+pub(crate) fn array_of<U: Unit>(row: &Row<U>, imprint: &Imprint<U>) -> Option<Array> {
+    let (name, _) = row.element().filter(|_| imprint.has_arrays())?;
+    let elements = U::about().table.rows_of(name);
+    let starts = elements
+        .filter_map(|(_, row)| start_value(row, imprint))
+        .collect();
+    Some(Array { name, starts })
+}
+
+/// The variables of a description: what is local is for model exchange, and the first element of an array of parameters may
+/// stand for all.
+pub(crate) fn rows_told<U: Unit>(
+    exchange: bool,
+    arrays: bool,
+) -> impl Iterator<Item = &'static Row<U>> {
+    let is_told = move |row: &&Row<U>| {
+        let is_later = matches!(row.element(), Some((_, 2..)));
+        (exchange || !matches!(row.access, Access::Local(_))) && !(arrays && is_later)
+    };
     U::about().table.rows().filter(is_told)
 }

@@ -39,7 +39,7 @@ pub(crate) fn write<U: Unit>(
             })
         })?;
         element(xml, "ModelVariables", NONE, |xml| {
-            let mut rows = rows_told(exchange);
+            let mut rows = rows_told(exchange, false);
             rows.try_for_each(|variable| scalar_variable(xml, variable, imprint, exchange))
         })?;
         element(xml, "ModelStructure", NONE, |xml| {
@@ -126,7 +126,7 @@ fn scalar_variable<U: Unit>(
 
 /// One `Unknown` for each, with its dependencies; indices count variables from 1.
 fn unknowns<U: Unit>(xml: &mut Xml, of: Unknowns, exchange: bool) -> io::Result<()> {
-    for (row, _, rows) in of.each::<U>(exchange) {
+    for (row, _, rows) in of.each::<U>(exchange, false) {
         let indices: Vec<_> = rows.iter().map(|(row, _)| (row + 1).to_string()).collect();
         let kinds = vec!["dependent"; rows.len()];
         let known = [

@@ -3,8 +3,8 @@
 use std::io;
 
 use super::{
-    Attributes, NONE, TOOL, Unknowns, VERSION, Xml, element, empty, items, log_and_experiment,
-    named, of_state, real_type, root, typed, units, write_document,
+    Attributes, NONE, TOOL, Unknowns, VERSION, Xml, array_of, element, empty, items,
+    log_and_experiment, named, of_state, real_type, root, rows_told, typed, units, write_document,
 };
 use crate::imprint::Imprint;
 use crate::instance::Instance;
@@ -13,7 +13,7 @@ use crate::si;
 use crate::solving::space_of;
 use crate::standard::Standard;
 use crate::terminal::Terminal;
-use crate::unit::{About, Clock, Unit};
+use crate::unit::{About, Clock, Row, Unit};
 
 /// The XML of the FMU with this imprint and this instantiation token.
 pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<String> {
@@ -32,23 +32,22 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<St
         })?;
         log_and_experiment(xml, about)?;
         element(xml, "ModelVariables", NONE, |xml| {
-            let mut rows = [&Instance::<U>::TIME].into_iter().chain(about.table.rows());
-            rows.try_for_each(|variable| {
-                let name = variable.kind.type_name(Standard::Fmi3);
-                let of_state = of_state::<U>(variable, |state| state.to_string());
-                let typed = typed(variable, imprint).into_iter().chain(of_state);
-                let is_told = U::HAS_EVENTS && variable.is_output();
-                let told = is_told.then(|| ("intermediateUpdate", "true".to_owned()));
-                empty(xml, name, named(variable).chain(typed).chain(told))
-            })?;
+            let rows = rows_told::<U>(true, imprint.has_arrays());
+            let mut rows = [&Instance::<U>::TIME].into_iter().chain(rows);
+            rows.try_for_each(|row| variable(xml, row, imprint))?;
             let mut clock = imprint.clock().into_iter();
             clock.try_for_each(|clock| empty(xml, "Clock", clock_attributes(clock)))
         })?;
         element(xml, "ModelStructure", NONE, |xml| {
-            unknowns::<U>(xml, "Output", Unknowns::Outputs)?;
+            unknowns(xml, imprint, "Output", Unknowns::Outputs)?;
             clock_as(xml, "Output", imprint)?;
-            unknowns::<U>(xml, "ContinuousStateDerivative", Unknowns::Derivatives)?;
-            unknowns::<U>(xml, "InitialUnknown", Unknowns::Initial)?;
+            unknowns(
+                xml,
+                imprint,
+                "ContinuousStateDerivative",
+                Unknowns::Derivatives,
+            )?;
+            unknowns(xml, imprint, "InitialUnknown", Unknowns::Initial)?;
             clock_as(xml, "InitialUnknown", imprint)?;
             let mut indicators = space_of::<U>().indicators.iter();
             indicators.try_for_each(|reference| {
@@ -61,6 +60,30 @@ pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<St
                 empty(xml, TOOL, [("version", VERSION)])
             })
         })
+    })
+}
+
+fn variable<U: Unit>(xml: &mut Xml, row: &Row<U>, imprint: &Imprint<U>) -> io::Result<()> {
+    let type_name = row.kind.type_name(Standard::Fmi3);
+    let of_state = of_state::<U>(row, |state| state.to_string());
+    let is_told = U::HAS_EVENTS && row.is_output();
+    let told = is_told.then(|| ("intermediateUpdate", "true".to_owned()));
+    let typed = typed(row, imprint).into_iter().chain(of_state);
+    let attributes = named(row).chain(typed).chain(told);
+    let Some(array) = array_of(row, imprint) else {
+        return empty(xml, type_name, attributes);
+    };
+    let of_array = attributes.map(|(attribute, text)| match attribute {
+        "name" => (attribute, array.name.to_owned()),
+        "start" => (attribute, array.starts.join(" ")),
+        _ => (attribute, text),
+    });
+    element(xml, type_name, of_array, |xml| {
+        empty(
+            xml,
+            "Dimension",
+            [("start", array.starts.len().to_string())],
+        )
     })
 }
 
@@ -141,8 +164,13 @@ fn types<U: Unit>(
 }
 
 /// One element for each, with its dependencies by their value references.
-fn unknowns<U: Unit>(xml: &mut Xml, name: &'static str, of: Unknowns) -> io::Result<()> {
-    for (_, variable, rows) in of.each::<U>(true) {
+fn unknowns<U: Unit>(
+    xml: &mut Xml,
+    imprint: &Imprint<U>,
+    name: &'static str,
+    of: Unknowns,
+) -> io::Result<()> {
+    for (_, variable, rows) in of.each::<U>(true, imprint.has_arrays()) {
         let references: Vec<_> = rows
             .iter()
             .map(|(_, of)| of.reference.to_string())

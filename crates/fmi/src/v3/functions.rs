@@ -12,6 +12,7 @@
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
+use super::arrays::expanded;
 use super::host::{
     ClockUpdateCallback, Importer, Interface, IntermediateUpdateCallback, LogMessageCallback,
     PreemptionCallback, instantiate, refuse, sink,
@@ -248,13 +249,13 @@ functions! { $ export_v3 v3 Importer;
         known_count: size_t, seed: *const f64, seed_count: size_t, sensitivity: *mut f64,
         sensitivity_count: size_t
     ) {
-        check_count("nSeed", seed_count, known_count)?;
-        check_count("nSensitivity", sensitivity_count, unknown_count)?;
         let unknowns = read("unknowns", unknowns, unknown_count)?;
-        let knowns = read("knowns", knowns, known_count)?;
-        let seed = read("seed", seed, known_count)?;
-        let sensitivity = write("sensitivity", sensitivity, unknown_count)?;
-        component.instance.directional_derivative(unknowns, knowns, seed, sensitivity)
+        let knowns = expanded(component, read("knowns", knowns, known_count)?)?;
+        let seed = read("seed", seed, seed_count)?;
+        let sensitivity = write("sensitivity", sensitivity, sensitivity_count)?;
+        check_count("nSeed", seed_count, knowns.len())?;
+        check_count("nSensitivity", sensitivity_count, unknown_count)?;
+        component.instance.directional_derivative(unknowns, &knowns, seed, sensitivity)
     }
 
     /// Derivatives of a sum of outputs by each input.
@@ -263,13 +264,13 @@ functions! { $ export_v3 v3 Importer;
         known_count: size_t, seed: *const f64, seed_count: size_t, sensitivity: *mut f64,
         sensitivity_count: size_t
     ) {
-        check_count("nSeed", seed_count, unknown_count)?;
-        check_count("nSensitivity", sensitivity_count, known_count)?;
         let unknowns = read("unknowns", unknowns, unknown_count)?;
-        let knowns = read("knowns", knowns, known_count)?;
-        let seed = read("seed", seed, unknown_count)?;
-        let sensitivity = write("sensitivity", sensitivity, known_count)?;
-        component.instance.adjoint_derivative(unknowns, knowns, seed, sensitivity)
+        let knowns = expanded(component, read("knowns", knowns, known_count)?)?;
+        let seed = read("seed", seed, seed_count)?;
+        let sensitivity = write("sensitivity", sensitivity, sensitivity_count)?;
+        check_count("nSeed", seed_count, unknown_count)?;
+        check_count("nSensitivity", sensitivity_count, knowns.len())?;
+        component.instance.adjoint_derivative(unknowns, &knowns, seed, sensitivity)
     }
 
     /// Reads time derivatives of outputs.

@@ -8,6 +8,7 @@
 )]
 
 mod absent;
+mod arrays;
 mod exchange;
 mod functions;
 mod host;

@@ -7,6 +7,7 @@
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
+use super::arrays::expanded;
 use super::host::Importer;
 use crate::abi::component::Component;
 use crate::abi::guard::guarded;
@@ -15,7 +16,7 @@ use crate::fault::Fault;
 use crate::reading::{Type, find};
 use crate::unit::{Clock, Unit};
 
-/// Refuses another number of values than of value references: all variables are scalars.
+/// Refuses another number of values than of scalars.
 pub(super) fn check_count(
     argument: &'static str,
     value: usize,
@@ -53,15 +54,16 @@ pub(super) unsafe fn get<U: Unit, T>(
     (values, value_count): (*mut T, usize),
     (wanted, typed): (Type, fn(f64) -> T),
 ) -> Result<(), Fault> {
-    check_count("nValues", value_count, count)?;
     // SAFETY: by this function's contract.
     let (references, values) = unsafe {
         (
             read_references(references, count)?,
-            write("values", values, count)?,
+            write("values", values, value_count)?,
         )
     };
-    let read = component.instance.read(references, values, wanted, typed);
+    let references = expanded(component, references)?;
+    check_count("nValues", value_count, references.len())?;
+    let read = component.instance.read(&references, values, wanted, typed);
     read.map_err(not_yet)
 }
 
@@ -96,15 +98,16 @@ pub(super) unsafe fn set<U: Unit, T: Copy>(
     (values, value_count): (*const T, usize),
     (wanted, number): (Type, fn(T) -> f64),
 ) -> Result<(), Fault> {
-    check_count("nValues", value_count, count)?;
     // SAFETY: by this function's contract.
     let (references, values) = unsafe {
         (
             read_references(references, count)?,
-            read("values", values, count)?,
+            read("values", values, value_count)?,
         )
     };
-    let set = component.instance.set(references, values, wanted, number);
+    let references = expanded(component, references)?;
+    check_count("nValues", value_count, references.len())?;
+    let set = component.instance.set(&references, values, wanted, number);
     set.map_err(Fault::refused)
 }
 
