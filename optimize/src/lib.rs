@@ -30,8 +30,8 @@ use clap::{Parser, Subcommand, ValueEnum};
 use softstop_console::failure::Failure;
 use softstop_console::{output, schema};
 use softstop_explore::{
-    basin, continuation, fidelity, motions, orbit, prove, simulate, stops, study, sweep, watch,
-    zone,
+    basin, continuation, explorer, fidelity, motions, orbit, prove, simulate, stops, study, sweep,
+    watch, zone,
 };
 
 /// Exact dynamics and optimal design of impact oscillators with soft, preloaded and rigid stops.
@@ -56,6 +56,7 @@ Examples:
   softstop study docs/studies/map.toml             a map over two parameters, or millions of machines
   softstop simulate docs/scenes/hertz.toml         any machine with any stop, in SI units
   softstop watch loaded                            the same as a page that plays the motion
+  softstop explore loaded                          drag its clearance: the diagram follows
   softstop fmu docs/scenes/hertz.toml              the same machine for FMI 2.0 co-simulation
   softstop schema > machine.schema.json            what machine files may hold, for editors
   softstop schema task > task.schema.json          what the files of optimize --config may hold
@@ -100,6 +101,8 @@ pub enum Command {
     Simulate(simulate::SimulateArguments),
     /// Play a run in a browser: one page with machine, time series, phase plane and sound
     Watch(watch::WatchArguments),
+    /// Explore a machine in a browser: one page with its bifurcation diagram, motions, zone and basins, live
+    Explore(explorer::ExploreArguments),
     /// Draw the laws of all stops: contact force over deflection
     Stops(stops::StopsArguments),
     /// How simple a model of a scene may be: error and cost of ever simpler stops
@@ -149,6 +152,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         })?),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Watch(arguments) => watch::run(&arguments),
+        Command::Explore(arguments) => explorer::run(&arguments),
         Command::Stops(arguments) => stops::run(&arguments),
         Command::Fidelity(arguments) => fidelity::run(&arguments),
     }

@@ -2,6 +2,7 @@
 
 mod book;
 mod darwin;
+mod explorer;
 mod fmu;
 mod library;
 mod manual;
@@ -16,7 +17,7 @@ mod wheel;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
 
 use fmu::STANDARDS;
@@ -75,6 +76,8 @@ enum Task {
     Python,
     /// Build the program and run the tests of its pages in a headless Chromium only
     Pages,
+    /// Build the engine as WebAssembly, the program that holds it, and the page of the explorer
+    Explorer,
     /// Test the pages of the guide with all that they show, and build it as a book with mdBook
     Book,
     /// Write the manual pages of softstop, and completions for shells, into the target folder
@@ -149,6 +152,10 @@ fn run_task(task: &Task) -> Result<()> {
             build_program()?;
             test_pages()
         }
+        Task::Explorer => {
+            ensure!(explorer::is_installed()?, "{}", explorer::MISSING);
+            explorer::write().map(drop)
+        }
         Task::Book => {
             println!("written: {}", book::write()?.display());
             Ok(())
@@ -199,6 +206,10 @@ fn test_with_fmpy(package: &Path) -> Result<()> {
 
 fn test_pages() -> Result<()> {
     stage("pages in a headless Chromium");
+    match explorer::is_installed()? {
+        true => explorer::build()?,
+        false => println!("left out, the page of the explorer: {}", explorer::MISSING),
+    }
     python::test_pages()
 }
 

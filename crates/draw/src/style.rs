@@ -130,8 +130,8 @@ const THEME: [(&str, &str); 10] = [
     (motion::ZERO, "var(--still)"),
 ];
 
-/// Elements of SVG with variables of the page in place of colours.
-pub(crate) fn themed(elements: &str) -> String {
+/// Elements of SVG, or other texts, with variables of the page in place of colours, which are in small letters there.
+pub fn themed(elements: &str) -> String {
     let elements = elements.to_owned();
     let replace = |elements: String, (color, variable): (&str, &str)| {
         elements.replace(&color.to_lowercase(), variable)

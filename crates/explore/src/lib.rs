@@ -10,9 +10,11 @@
 
 pub mod basin;
 pub mod continuation;
+pub mod explorer;
 pub mod fidelity;
 pub mod motions;
 pub mod orbit;
+mod page;
 pub mod palette;
 pub mod prove;
 pub mod simulate;

@@ -22,6 +22,8 @@ pub struct SettledMotion {
     pub from: Start,
     /// State at the end, at drive angle phi.
     pub end: Start,
+    /// States at drive angle phi between these two, the end among them, one for each drive period.
+    pub states: Vec<Start>,
     /// When the impacts of these velocities were, counted from there.
     instants: Vec<Instant>,
     /// Drive periods from there to the end.
@@ -53,6 +55,7 @@ impl SettledMotion {
             velocities,
             from: states[watched - length],
             end: states[watched],
+            states: states[watched - length + 1..].to_vec(),
             instants: own.iter().map(since).collect(),
             length: length as u64,
             followed,

@@ -8,9 +8,9 @@ use softstop::{Dimension, Machine, PhaseKind, Stop};
 use softstop_console::arguments::title;
 use softstop_console::failure::Failure;
 use softstop_console::report::MachineReport;
-use softstop_draw::style;
 
 use super::strip::Strip;
+use crate::page::{fill, in_script};
 use crate::palette::phase_color;
 use crate::simulate::{Crossed, Outcome, Plan, chart, name};
 
@@ -145,30 +145,17 @@ impl Page {
     /// The document.
     pub(super) fn html(&self) -> Result<String, Failure> {
         let json = serde_json::to_string(self).context("cannot write JSON")?;
-        // A script ends at the first `</script`, whatever it holds.
-        let json = json.replace('<', "\\u003c");
         let parts = [
-            ("{{version}}", env!("CARGO_PKG_VERSION")),
-            ("{{style}}", style::PAGE),
-            ("{{page.css}}", include_str!("../../assets/watch/page.css")),
+            ("page.css", include_str!("../../assets/watch/page.css")),
+            ("motion.js", include_str!("../../assets/watch/motion.js")),
             (
-                "{{motion.js}}",
-                include_str!("../../assets/watch/motion.js"),
-            ),
-            (
-                "{{pictures.js}}",
+                "pictures.js",
                 include_str!("../../assets/watch/pictures.js"),
             ),
-            (
-                "{{player.js}}",
-                include_str!("../../assets/watch/player.js"),
-            ),
-            ("{{motion}}", &json),
+            ("player.js", include_str!("../../assets/watch/player.js")),
+            ("motion", &in_script(&json)),
         ];
-        let page = include_str!("../../assets/watch/page.html").to_owned();
-        Ok(parts
-            .into_iter()
-            .fold(page, |page, (name, part)| page.replacen(name, part, 1)))
+        Ok(fill(include_str!("../../assets/watch/page.html"), &parts))
     }
 }
 
