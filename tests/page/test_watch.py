@@ -119,3 +119,26 @@ def test_all_controls_have_names(watch):
         assert name.strip()
     for picture in page.locator("svg:not([aria-hidden])").all():
         assert picture.get_attribute("aria-label")
+
+
+@pytest.mark.parametrize("chart", ["position", "force", "portrait"])
+def test_a_click_on_a_chart_seeks(watch, chart):
+    page = watch(*LOADED)
+    svg = page.page.locator(f"#{chart} svg")
+    box = svg.bounding_box()
+    times = []
+    for share in (0.3, 0.6):
+        svg.click(position={"x": share * box["width"], "y": box["height"] / 2})
+        times.append(page.number("time"))
+    samples = page.motion["samples"]
+    assert samples["time"][0] < times[0] != times[1] < samples["time"][-1]
+    if chart != "portrait":
+        assert times[0] < times[1] < 4 * page.motion["drive"]["period"]
+
+
+def test_the_phase_plane_is_seen_at_once_and_targets_are_large(watch):
+    page = watch(*LOADED, viewport={"width": 1366, "height": 900}).page
+    box = page.locator("#portrait svg").bounding_box()
+    assert box["y"] + box["height"] < 900
+    for control in page.locator("button, select, input").all():
+        assert control.bounding_box()["height"] >= 44

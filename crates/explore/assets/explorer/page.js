@@ -95,7 +95,7 @@ function askDiagram(engine, patience, columns, then = () => {}) {
   const question = () => ({ task: 'diagram', ...along(), columns, starts: state.about.starts, ...patience });
   ask(engine, 'diagram', question, ({ numbers, took }, isNow) => {
     const isFirst = !state.each, isPatient = engine === slow;
-    if (isNow ? state.isPatient : isPatient) return;
+    if (isNow ? state.isPatient : isPatient) return then();
     if (!isPatient) state.each = took / columns;
     state.isPatient = isPatient;
     state.motions = [...motions(numbers, columns)];
@@ -222,7 +222,9 @@ function drawSpecials(ctx, x, y, scale) {
   for (const it of state.branches?.told.specials ?? []) {
     const place = [x(it.value), y(state.view === 'impact' ? it.velocity : it.position)];
     dot(ctx, ...place, 4.5 * scale, given.marks[it.symbol]);
-    words(ctx, it.symbol, place[0] + 7 * scale, place[1] - 6 * scale, 'var(--ink)', scale);
+    // The ends of the zone have their names already.
+    const isNamed = ends().some(([, end]) => Math.abs(end - it.value) < 1e-9 * end);
+    if (!isNamed) words(ctx, it.symbol, place[0] + 7 * scale, place[1] - 6 * scale, 'var(--ink)', scale);
   }
 }
 function legend(groups) {

@@ -29,7 +29,7 @@ const wide = figure => Math.max(Math.round(figure.clientWidth - 20), 240);
 const MIDDLE = 92, FLOOR = 156, HEIGHT = 196;
 function ruler(to, ends, width) {
   const marks = ticks(ends, width / 90).map(x => path('axis', `M${n(to(x))} ${FLOOR + 12}v6`) + text('aside mid', to(x), HEIGHT - 8, short(x)));
-  return box('ground', 0, FLOOR, width, 12) + marks.join('');
+  return box('ground', 0, FLOOR, width, 12) + marks.join('') + (width < 560 ? '' : text('aside end', width - 4, HEIGHT - 8, labels.position));
 }
 function stripShape(to, t) {
   if (!places.strip) return '';
@@ -117,12 +117,13 @@ function drawCloseup(t, now, hit) {
   show(figure, width, HEIGHT, body + flash(to, t, hit));
 }
 
-// Curves.
-function panel(width, height, across, up, label, wanted) {
+// Curves. What a click on one seeks: the time at a place.
+const seeks = {};
+function panel(width, height, across, up, [along, label], wanted) {
   const area = { left: 58, right: width - 8, top: 24, bottom: height - 24 };
   const x = it => area.left + (it - across[0]) / (across[1] - across[0]) * (area.right - area.left);
   const y = it => area.bottom - (it - up[0]) / (up[1] - up[0]) * (area.bottom - area.top);
-  let ground = '', axes = text('', 4, 14, label);
+  let ground = '', axes = text('', 4, 14, label) + text('aside end halo', area.right - 2, area.bottom - 6, along);
   for (const it of ticks(across, (area.right - area.left) / 80)) {
     ground += path('grid', `M${n(x(it))} ${area.top}V${area.bottom}`);
     axes += text('aside mid', x(it), height - 8, short(it));
@@ -144,7 +145,8 @@ function points(from, to, values, map) {
 }
 function drawSeries(id, t, value, values, ends, label, lines) {
   const figure = byId(id), width = wide(figure), height = isClose && innerWidth > 760 ? 264 : 182, [from, to] = windowAt(t);
-  const { area, x, y, ground, axes } = panel(width, height, [from, to], ends, label, 4);
+  const { area, x, y, ground, axes } = panel(width, height, [from, to], ends, [labels.time, label], 4);
+  seeks[id] = x => from + (to - from) * (x - area.left) / (area.right - area.left);
   const high = area.bottom - area.top;
   let tints = '', marks = '';
   for (let k = Math.max(count(phaseTimes, from) - 1, 0); k < phases.length && phases[k].from < to; k++) {
@@ -163,9 +165,13 @@ function drawSeries(id, t, value, values, ends, label, lines) {
 // The whole run does not move: it is drawn once for each size.
 let still = {};
 function drawPortrait(t, now) {
-  const figure = byId('portrait'), width = wide(figure), height = 340;
-  const it = panel(width, height, roomy(positions, .05), roomy(velocities, .05), `${labels.velocity} over ${labels.position}`, 6), { x, y } = it;
+  const figure = byId('portrait'), width = wide(figure), height = 300;
+  const it = panel(width, height, roomy(positions, .05), roomy(velocities, .05), [labels.position, labels.velocity], 6), { x, y } = it;
   const map = (_, position, k) => [x(position), y(samples.velocity[k])];
+  seeks.portrait = (at, height) => {
+    const far = k => Math.hypot(x(samples.position[k]) - at, y(samples.velocity[k]) - height);
+    return samples.time[samples.time.reduce((best, _, k) => far(k) < far(best) ? k : best, 0)];
+  };
   if (still.width !== width) {
     const lines = faces.map(face => path('face', `M${n(x(face))} ${it.area.top}V${it.area.bottom}`)).join('');
     const marks = impacts.map(hit => dot('hit', x(hit.position), y(hit.velocity_before), 2)).join('');

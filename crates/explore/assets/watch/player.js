@@ -20,8 +20,8 @@ function draw() {
   const now = state(t), k = count(impactTimes, t), hit = motion.hits[count(hitTimes, t) - 1];
   drawMachine(t, now, hit);
   if (isClose) drawCloseup(t, now, hit);
-  drawSeries('position', t, now.x, samples.position, heights, `${labels.position} over ${labels.time}`, faces);
-  drawSeries('force', t, now.f, samples.force, roomy(forces, .06), `${labels.force} over ${labels.time}`, []);
+  drawSeries('position', t, now.x, samples.position, heights, labels.position, faces);
+  drawSeries('force', t, now.f, samples.force, roomy(forces, .06), labels.force, []);
   drawPortrait(t, now);
   for (const [id, , tell] of cells) byId(`now-${id}`).textContent = tell(t, now, k);
   byId('at').value = t;
@@ -95,6 +95,13 @@ document.addEventListener('keydown', event => {
 byId('play').onclick = () => play(!isPlaying);
 byId('sound').onclick = hear;
 byId('at').oninput = () => go(+byId('at').value);
+for (const id of ['position', 'force', 'portrait']) {
+  const svg = byId(id).querySelector('svg');
+  svg.onclick = event => {
+    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+    go(seeks[id](at.x, at.y));
+  };
+}
 for (const [id, act] of [['back', () => step(-1)], ['on', () => step(1)], ['back-impact', () => leap(-1)], ['on-impact', () => leap(1)]]) byId(id).onclick = act;
 
 // What stands on the page from the beginning.
