@@ -95,8 +95,11 @@ def write(tmp_path_factory):
 
     def write(*words):
         if words not in files:
-            file = tmp_path_factory.mktemp("page") / "page.html"
-            line = [PROGRAM, *words, "--output", file]
+            folder = tmp_path_factory.mktemp("page")
+            # A design has many files.
+            is_design = words[0] == "optimize"
+            file = folder / ("report.html" if is_design else "page.html")
+            line = [PROGRAM, *words, "--output", folder if is_design else file]
             run = subprocess.run(line, capture_output=True, cwd=TOP, text=True)
             if "without the engine for pages" in run.stderr:
                 pytest.skip("the page of the explorer: the program has no engine for it, see cargo xtask explorer")

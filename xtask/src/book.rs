@@ -7,6 +7,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result};
 
+use crate::explorer;
 use crate::python;
 use crate::run::{cargo, cargo_command, output, run, stage, target, top};
 
@@ -29,6 +30,7 @@ pub fn write() -> Result<PathBuf> {
     }
     lay_out(&folder)?;
     add_docstrings(&folder.join("src/python.md"))?;
+    embed_explorer(&folder.join("src"))?;
     run(Command::new(mdbook()?).arg("build").arg(&folder))?;
     Ok(folder.join("book/index.html"))
 }
@@ -53,6 +55,25 @@ fn add_docstrings(page: &Path) -> Result<()> {
     let docstrings = output(Command::new(python).args(["-X", "utf8", "xtask/book/docstrings.py"]))?;
     let text = fs::read_to_string(page)?;
     fs::write(page, format!("{text}\n{docstrings}"))?;
+    Ok(())
+}
+
+/// Puts the explorer into its page of the guide, and beside it; where it cannot be built, it is left out.
+fn embed_explorer(source: &Path) -> Result<()> {
+    if !explorer::is_installed()? {
+        println!("left out, the explorer: {}", explorer::MISSING);
+        return Ok(());
+    }
+    stage("explorer");
+    let place = source.join("explorer/index.html");
+    fs::create_dir_all(source.join("explorer"))?;
+    fs::copy(explorer::write()?, place)?;
+    let guide = source.join("explorer.md");
+    let text = fs::read_to_string(&guide)?;
+    let (title, rest) = text.split_once("\n\n").unwrap_or((&text, ""));
+    let frame = "<iframe src=\"explorer/index.html\" title=\"The explorer\" style=\"width: 100%; height: 42em; border: 0\"></iframe>";
+    let link = "[Open it in a window of its own](explorer/index.html)";
+    fs::write(guide, [title, frame, link, rest].join("\n\n"))?;
     Ok(())
 }
 

@@ -166,7 +166,38 @@ fn open(page: &Path) {
 
 #[cfg(test)]
 mod tests {
-    use super::base64;
+    use super::*;
+
+    #[test]
+    fn the_page_holds_the_machine_and_all_its_parts() -> Result<(), Failure> {
+        let machine = Machine {
+            description: Some("</script>".to_owned()),
+            ..Machine::named("loaded").ok_or_else(|| anyhow!("the paper's"))?
+        };
+        let page = page(&machine)?;
+        let (_, given) = page
+            .split_once("id=\"given\">")
+            .ok_or_else(|| anyhow!("what is given"))?;
+        let (given, _) = given.split_once("</script>").unwrap_or_default();
+        let given: serde_json::Value = serde_json::from_str(given).context("JSON")?;
+        assert_eq!(given["machine"].as_str(), Some(machine.to_toml().as_str()));
+        assert_eq!(
+            given["classes"].as_array().map(Vec::len),
+            Some(MotionClass::ALL.len())
+        );
+        let places = [
+            "version",
+            "style",
+            "page.css",
+            "uPlot.js",
+            "worker.js",
+            "page.js",
+            "engine",
+        ];
+        let empty = |name: &&str| page.contains(&["{{", name, "}}"].concat());
+        assert_eq!(places.iter().find(|it| empty(it)), None);
+        Ok(())
+    }
 
     #[test]
     fn bytes_are_written_as_the_standard_has_it() {

@@ -94,11 +94,12 @@ function stroke(ctx, points, color, width, dash = 0) {
   ctx.stroke();
   ctx.setLineDash([]);
 }
-function dot(ctx, x, y, radius, color) {
+function dot(ctx, x, y, radius, color, isRinged = true) {
   ctx.beginPath();
   ctx.arc(x, y, radius, 0, 2 * Math.PI);
   ctx.fillStyle = css(color);
   ctx.fill();
+  if (!isRinged) return;
   ctx.strokeStyle = css('var(--card)');
   ctx.lineWidth = radius / 3;
   ctx.stroke();

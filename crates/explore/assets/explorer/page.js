@@ -243,8 +243,8 @@ function showMotion() {
     draw: (ctx, x, y, scale) => {
       stroke(ctx, [[x(clearance), 0], [x(clearance), ctx.canvas.height]], 'var(--aside)', scale, 5 * scale);
       stroke(ctx, samples.map(it => [x(it[1]), y(it[2])]), 'var(--design)', 1.5 * scale);
-      const radius = states.length > 40 ? 1.5 : 4;
-      states.forEach(it => dot(ctx, x(it[0]), y(it[1]), radius * scale, 'var(--mark)'));
+      const areFew = states.length <= 64;
+      states.forEach(it => dot(ctx, x(it[0]), y(it[1]), (areFew ? 4 : 1.5) * scale, 'var(--mark)', areFew));
     },
   });
   charts.series.show({
