@@ -10,7 +10,7 @@ use crate::SOFTSTOP;
 /// A heading of the page, and the numbers of its table in the report of its command.
 type Entry = (&'static str, fn(&Report) -> Vec<f64>);
 
-const ENTRIES: [Entry; 9] = [
+const ENTRIES: [Entry; 11] = [
     ("An orbit and its grazing", |it| {
         let last = |name| *column(it, 0, name).last().expect("a point");
         let after_impact = -0.8 * last("before_impact_velocity");
@@ -36,8 +36,7 @@ const ENTRIES: [Entry; 9] = [
     }),
     ("An ellipse of orbits", |it| {
         let clearances = column(it, 0, "value");
-        let start = clearances.iter().position(|it| *it == 0.2);
-        let stable = column(it, 0, "before_impact_velocity")[start.expect("the start")];
+        let stable = velocity_at(it, 0.2);
         let orbits = |clearance: f64| {
             let sides = clearances
                 .windows(2)
@@ -63,6 +62,20 @@ const ENTRIES: [Entry; 9] = [
         vec![(second - first) / (third - second)]
     }),
     ("The Aberdeen rig", |it| vec![special(it, 0, "G", 0)]),
+    ("Between two stops", |it| {
+        vec![
+            velocity_at(it, 5.0),
+            special(it, 0, "SN", 0),
+            velocity(it, "SN"),
+        ]
+    }),
+    ("A rattle", |it| {
+        vec![
+            velocity_at(it, 3.0),
+            special(it, 0, "SN", 0),
+            velocity(it, "SN"),
+        ]
+    }),
 ];
 
 /// A column of the table of a branch.
@@ -87,6 +100,16 @@ fn special(report: &Report, branch: usize, kind: &str, number: usize) -> f64 {
 /// The before-impact velocity of the first special point of a kind on the first branch.
 fn velocity(report: &Report, kind: &str) -> f64 {
     softstop_testing::number(specials(report, 0, kind)[0], "before_impact_velocities/0")
+}
+
+/// The before-impact velocity of the first branch at the value from which it was followed.
+fn velocity_at(report: &Report, start: f64) -> f64 {
+    let values = column(report, 0, "value");
+    let start = values
+        .iter()
+        .position(|it| *it == start)
+        .expect("the start");
+    column(report, 0, "before_impact_velocity")[start]
 }
 
 /// True if a number is the one that is printed, rounded to its digits.
