@@ -15,17 +15,23 @@ const NAMESPACE: Uuid = Uuid::from_bytes(*b"softstop/fmi-2.0");
 
 /// A name-based UUID of the model description, taken with an empty `guid`. Name, description and start
 /// values are part of it, so the library must know them to know its GUID: they stand in its block. It is taken of the
-/// description by FMI 2.0 for both standards, whose descriptions say the same, but for model exchange; with what only
-/// FMI 3.0 can tell, of that by FMI 3.0.
-fn uuid_of<U: Unit>(imprint: &Imprint<U>) -> io::Result<Uuid> {
-    let xml = match imprint.standard() {
-        Standard::Fmi3 if imprint.clock().is_some() || imprint.has_arrays() => {
-            description::v3::write(imprint, "")?
-        }
-        Standard::Fmi3 => description::v2::write(imprint, "", false)?,
-        Standard::Fmi2 => description::v2::write(imprint, "", imprint.has_exchange())?,
-    };
+/// description by FMI 2.0 without options for both standards, whose descriptions say the same, but for model exchange.
+fn plain_uuid<U: Unit>(imprint: &Imprint<U>) -> io::Result<Uuid> {
+    let xml = description::v2::write(imprint, "", false)?;
     Ok(Uuid::new_v5(&NAMESPACE, xml.as_bytes()))
+}
+
+/// That of the FMU with options, by the one of the FMU without.
+fn with_options(plain: Uuid, options: Options) -> Uuid {
+    let Options {
+        exchange,
+        clock,
+        arrays,
+    } = options;
+    match options == Options::default() {
+        true => plain,
+        false => Uuid::new_v5(&plain, &[exchange, clock, arrays].map(u8::from)),
+    }
 }
 
 /// The GUID, in braces, of the FMU with this imprint.
@@ -33,7 +39,8 @@ fn uuid_of<U: Unit>(imprint: &Imprint<U>) -> io::Result<Uuid> {
 /// # Errors
 /// If the XML cannot be written.
 pub fn guid_of<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
-    uuid_of(imprint).map(|uuid| uuid.braced().to_string())
+    let uuid = with_options(plain_uuid(imprint)?, imprint.options());
+    Ok(uuid.braced().to_string())
 }
 
 /// The GUID of this very library, or nothing if its description cannot be written.
@@ -46,7 +53,7 @@ pub fn library_guid<U: Unit>() -> Option<String> {
 pub(crate) fn library_uuid<U: Unit>() -> Result<Uuid, Fault> {
     let uuid = U::about()
         .guid
-        .get_or_init(|| uuid_of(&Imprint::<U>::library()).ok());
+        .get_or_init(|| plain_uuid(&Imprint::<U>::library()).ok());
     uuid.ok_or_else(not_computed)
 }
 
@@ -56,20 +63,15 @@ pub(crate) fn options_of<U: Unit>(
     argument: &str,
     guid: &str,
 ) -> Result<Options, Fault> {
-    let own = library_uuid::<U>()?.braced().to_string();
-    if guid == own {
-        return Ok(Options::default());
-    }
-    for options in Options::choices(standard) {
-        let imprint = Imprint::<U>::library().with_standard(standard);
-        let other = guid_of(&imprint.with_options(options)).map_err(|_| not_computed())?;
-        if guid == other {
-            return Ok(options);
-        }
-    }
-    Err(Fault::Instantiation(format!(
-        "{argument} is {guid:?}, this library's is {own:?}"
-    )))
+    let plain = library_uuid::<U>()?;
+    let text = |options| with_options(plain, options).braced().to_string();
+    let mut choices = Options::choices(standard).into_iter();
+    choices
+        .find(|options| text(*options) == guid)
+        .ok_or_else(|| {
+            let own = text(Options::default());
+            Fault::Instantiation(format!("{argument} is {guid:?}, this library's is {own:?}"))
+        })
 }
 
 fn not_computed() -> Fault {

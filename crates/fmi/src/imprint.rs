@@ -90,6 +90,15 @@ impl<U: Unit> Imprint<U> {
         Self { options, ..self }
     }
 
+    /// The options that its standard has.
+    pub(crate) fn options(&self) -> Options {
+        Options {
+            exchange: self.has_exchange() && self.standard == Standard::Fmi2,
+            clock: self.clock().is_some(),
+            arrays: self.has_arrays(),
+        }
+    }
+
     /// Whether the FMU tells of model exchange.
     pub fn has_exchange(&self) -> bool {
         let is_told = self.options.exchange || self.standard == Standard::Fmi3;

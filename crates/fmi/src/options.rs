@@ -15,24 +15,20 @@ pub struct Options {
 }
 
 impl Options {
-    /// The choices that there are by a standard, but for none of them.
+    /// The choices that there are by a standard.
     pub(crate) fn choices(standard: Standard) -> Vec<Self> {
-        let exchange = true;
-        let of_three = |clock, arrays| Self {
-            clock,
-            arrays,
-            ..Self::default()
-        };
+        let none = Self::default();
         match standard {
-            Standard::Fmi2 => vec![Self {
-                exchange,
-                ..Self::default()
-            }],
-            Standard::Fmi3 => vec![
-                of_three(true, false),
-                of_three(false, true),
-                of_three(true, true),
-            ],
+            Standard::Fmi2 => [false, true]
+                .map(|exchange| Self { exchange, ..none })
+                .into(),
+            Standard::Fmi3 => [(false, false), (true, false), (false, true), (true, true)]
+                .map(|(clock, arrays)| Self {
+                    clock,
+                    arrays,
+                    ..none
+                })
+                .into(),
         }
     }
 }

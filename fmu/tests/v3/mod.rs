@@ -2,11 +2,11 @@
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
 mod arrays;
-mod calls;
 mod clock;
 mod derivatives;
 mod events;
 mod exchange;
 mod intermediate;
 mod linearization;
+mod state_machine;
 mod unit;

@@ -1,20 +1,20 @@
-//! Random sequences of calls, right and wrong, against the state machine of the standard (FMI 3.0, 2.3 and 4.2.1): which
-//! status each must have.
+//! Instances, and states kept of them.
 
 use std::ffi::{c_int, c_void};
 use std::ptr;
 
-use proptest::collection::vec;
-use proptest::prelude::*;
-use proptest::sample::select;
 use softstop_fmi3::*;
 use softstop_fmu::Options;
 
-use super::arrays::{ELEMENTS, STIFFNESS};
-use super::unit::{CLOCK, HANDLINGS, Unit, reference};
+use super::call::{Call, Vector, Where};
+use super::model::Life::{Continuous, Event, Initializing, Step, Terminated};
+use super::model::{FRESH, FRESH_FOR_EXCHANGE, Model};
 use crate::common::{DISCARD, ERROR, OK};
+use crate::v3::arrays::STIFFNESS;
+use crate::v3::unit::{CLOCK, HANDLINGS, Unit, reference};
 
-const STATES: usize = 3;
+/// How many states can be kept.
+pub const STATES: usize = 3;
 
 /// The FMU tells of all that it can.
 const OPTIONS: Options = Options {
@@ -22,232 +22,6 @@ const OPTIONS: Options = Options {
     clock: true,
     arrays: true,
 };
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Life {
-    Instantiated,
-    Initializing,
-    Event,
-    Step,
-    Continuous,
-    Terminated,
-}
-use Life::{Continuous, Event, Initializing, Instantiated, Step, Terminated};
-
-#[derive(Debug, Clone, Copy)]
-enum Call {
-    EnterInitialization(f64),
-    ExitInitialization,
-    EnterEvent,
-    EnterStep,
-    Update,
-    EnterContinuous,
-    Complete,
-    SetTime(f64),
-    SetStates(&'static [f64]),
-    GetStates(Vector, usize),
-    Terminate,
-    Reset,
-    Get(&'static str),
-    Set(&'static str, f64),
-    GetClock,
-    SetClock,
-    GetArray(usize),
-    SetArray(usize),
-    Element,
-    UnknownVariable,
-    OtherType,
-    TooFewValues,
-    NullValues,
-    DoStep(Where, f64),
-    Directional(&'static str),
-    Adjoint(&'static str),
-    OutputDerivative(c_int),
-    GetState(usize),
-    SetState(usize),
-    Copy(usize),
-    DamagedBytes(usize),
-    Logging(bool),
-    Absent(usize),
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Where {
-    Present,
-    Beyond,
-}
-
-/// What has as many elements as there are states, or event indicators.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Vector {
-    States,
-    Derivatives,
-    Nominals,
-    Indicators,
-}
-
-/// An instance as its importer must imagine it.
-#[derive(Debug, Clone, Copy)]
-struct Model {
-    life: Life,
-    time: f64,
-    /// An event was reported that has not been handled.
-    awaits: bool,
-    /// Initialisation was left, so that there are outputs whatever comes.
-    begun: bool,
-    /// The importer integrates.
-    is_for_exchange: bool,
-    /// When event mode was entered last, and whether events were updated since.
-    event: f64,
-    updated: bool,
-}
-
-const FRESH: Model = Model {
-    life: Instantiated,
-    time: 0.0,
-    awaits: false,
-    begun: false,
-    is_for_exchange: false,
-    event: 0.0,
-    updated: true,
-};
-
-const FRESH_FOR_EXCHANGE: Model = Model {
-    is_for_exchange: true,
-    ..FRESH
-};
-
-/// What may come of a call.
-type Statuses = &'static [c_int];
-
-fn if_all(conditions: &[bool]) -> Statuses {
-    if conditions.iter().all(|holds| *holds) {
-        &[OK]
-    } else {
-        &[ERROR]
-    }
-}
-
-impl Model {
-    fn is(&self, lives: &[Life]) -> bool {
-        lives.contains(&self.life)
-    }
-
-    fn is_settable(&self) -> bool {
-        self.life != Terminated
-    }
-
-    /// What may come of what needs outputs where it is allowed in these states.
-    fn of_outputs(&self, lives: &[Life], otherwise: Statuses) -> Statuses {
-        match self.life {
-            Terminated if !self.begun => &[OK, DISCARD, ERROR],
-            life if lives.contains(&life) => &[OK],
-            _ => otherwise,
-        }
-    }
-
-    /// Whether a state was kept by an instance of the other interface type.
-    fn is_of_other_type(&self, kept: &Self) -> bool {
-        let is_of_exchange = kept.is_for_exchange && kept.begun;
-        match self.is_for_exchange {
-            true => !is_of_exchange && !kept.is(&[Instantiated, Initializing]),
-            false => is_of_exchange,
-        }
-    }
-
-    fn expected(&self, call: Call, handling: (bool, bool), kept: Option<&Self>) -> Statuses {
-        let exchanges = self.is_for_exchange;
-        match call {
-            Call::EnterStep | Call::DoStep(..) | Call::OutputDerivative(_) if exchanges => &[ERROR],
-            Call::EnterEvent if exchanges => if_all(&[self.life == Continuous]),
-            Call::EnterContinuous => match self.life == Event && exchanges {
-                // An event may be due.
-                true if !self.updated => &[OK, ERROR],
-                is_allowed => if_all(&[is_allowed]),
-            },
-            Call::Complete => if_all(&[self.life == Continuous]),
-            Call::SetTime(ahead) => if_all(&[
-                exchanges && self.is(&[Event, Continuous]),
-                self.time + ahead >= self.event,
-                self.life == Continuous || ahead == 0.0,
-            ]),
-            Call::SetStates(states) => match self.life == Continuous && states.len() == 2 {
-                true if states.iter().any(|state| !state.is_finite()) => &[DISCARD],
-                is_allowed => if_all(&[is_allowed]),
-            },
-            Call::GetStates(of, count) => match (of, count) {
-                _ if !exchanges => &[ERROR],
-                (Vector::Nominals, 2) => &[OK],
-                (Vector::Indicators, 3) | (Vector::States | Vector::Derivatives, 2) => {
-                    self.of_outputs(&[Initializing, Event, Continuous, Terminated], &[ERROR])
-                }
-                _ => &[ERROR],
-            },
-            Call::EnterInitialization(start) => {
-                if_all(&[self.life == Instantiated, start.is_finite()])
-            }
-            Call::ExitInitialization => if_all(&[self.life == Initializing]),
-            Call::EnterEvent => if_all(&[self.life == Step, handling.0]),
-            Call::EnterStep => if_all(&[self.life == Event, !self.awaits]),
-            Call::Update => if_all(&[self.life == Event]),
-            Call::Terminate => if_all(&[self.is(&[Event, Step, Continuous])]),
-            Call::Reset | Call::GetState(_) | Call::Logging(true) => &[OK],
-            Call::Get("position" | "phase" | "impact.count") | Call::GetClock => {
-                let lives = [Initializing, Event, Step, Continuous, Terminated];
-                self.of_outputs(&lives, &[DISCARD])
-            }
-            Call::Get(_) => &[OK],
-            Call::GetArray(count) => if_all(&[count == ELEMENTS]),
-            Call::SetArray(count) => {
-                if_all(&[count == ELEMENTS, self.is(&[Instantiated, Initializing])])
-            }
-            Call::Set(name, value) => match name {
-                _ if !self.is_settable() => &[ERROR],
-                "position" if self.life != Continuous => &[ERROR],
-                "mass" if self.is(&[Event, Step, Continuous]) => &[ERROR],
-                _ if value.is_finite() && value.abs() < 1e12 => &[OK],
-                _ => &[DISCARD],
-            },
-            Call::DoStep(at, size) => if_all(&[
-                self.life == Step,
-                !self.awaits,
-                size.is_finite() && size > 0.0,
-                at == Where::Present,
-            ]),
-            Call::Directional(known) | Call::Adjoint(known) => match known {
-                // In initialisation every real parameter is a known.
-                "clearance" if self.life == Initializing => &[OK],
-                "clearance" if exchanges && self.begun => if_all(&[self.life == Event]),
-                "velocity" if exchanges && self.begun => {
-                    self.of_outputs(&[Event, Continuous, Terminated], &[ERROR])
-                }
-                "force" => {
-                    let lives = [Initializing, Event, Step, Continuous, Terminated];
-                    self.of_outputs(&lives, &[ERROR])
-                }
-                _ => &[ERROR],
-            },
-            Call::OutputDerivative(order) => match order {
-                1 | 2 => self.of_outputs(&[Step, Terminated], &[ERROR]),
-                _ => &[ERROR],
-            },
-            Call::SetState(_) => if_all(&[
-                kept.is_some_and(|kept| handling.0 || !(kept.awaits || kept.life == Event)),
-                kept.is_none_or(|kept| !self.is_of_other_type(kept)),
-            ]),
-            Call::Copy(_) => if_all(&[kept.is_some()]),
-            Call::SetClock
-            | Call::Element
-            | Call::UnknownVariable
-            | Call::OtherType
-            | Call::TooFewValues
-            | Call::NullValues
-            | Call::DamagedBytes(_)
-            | Call::Logging(false)
-            | Call::Absent(_) => &[ERROR],
-        }
-    }
-}
 
 /// The functions for what the unit does not have.
 fn absent(instance: *mut c_void, number: usize) -> c_int {
@@ -266,13 +40,13 @@ fn absent(instance: *mut c_void, number: usize) -> c_int {
     }
 }
 
-struct World {
+pub struct World {
     units: [(Unit, Model); 5],
     states: [Option<(*mut c_void, Model)>; STATES],
 }
 
 impl World {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self {
             units: std::array::from_fn(|index| match HANDLINGS.get(index) {
                 Some(handling) => (Unit::made(*handling, None, OPTIONS), FRESH),
@@ -286,7 +60,7 @@ impl World {
         self.states[number].map_or(ptr::null_mut(), |(state, _)| state)
     }
 
-    fn run(&mut self, index: usize, call: Call) {
+    pub fn run(&mut self, index: usize, call: Call) {
         let kept = match call {
             Call::SetState(number) | Call::Copy(number) => {
                 self.states[number].map(|(_, model)| model)
@@ -525,121 +299,6 @@ impl Drop for World {
         for mut state in self.states.iter().flatten().map(|(state, _)| *state) {
             // SAFETY: each is freed once, by any instance.
             unsafe { fmi3FreeFMUState(self.units[0].0.instance, &raw mut state) };
-        }
-    }
-}
-
-fn call() -> impl Strategy<Value = Call> {
-    let start = prop_oneof![9 => select(vec![0.0, 10.0, -5.0]), 1 => Just(f64::NAN)];
-    let size = prop_oneof![
-        12 => select(vec![1e-3, 0.1, 0.7, 5.463639, 30.0]),
-        1 => select(vec![0.0, -1.0, f64::NAN, f64::INFINITY]),
-    ];
-    let at = prop_oneof![30 => Just(Where::Present), 1 => Just(Where::Beyond)];
-    let variable = select(vec![
-        "position",
-        "phase",
-        "impact.count",
-        "force",
-        "mass",
-        "material",
-    ]);
-    let settable = select(vec![
-        ("force", 0.5),
-        ("force", f64::NAN),
-        ("clearance", 9.5),
-        ("clearance", 1e300),
-        ("mass", 2.0),
-        ("material", 0.0),
-        ("stop.stiffness", 9.0),
-    ]);
-    let ahead = prop_oneof![
-        20 => select(vec![0.0, 1e-3, 0.1, 0.7, 30.0]),
-        1 => select(vec![-0.05, -100.0, f64::NAN]),
-    ];
-    let states = prop_oneof![
-        9 => select(vec![&[6.0, 2.0][..], &[10.5, 9.0], &[10.0, -1.0], &[0.0, 0.0], &[-1e6, 1e9]]),
-        1 => select(vec![&[f64::NAN, 0.0][..], &[0.0, f64::INFINITY], &[1.0], &[]]),
-    ];
-    let vectors = select(vec![
-        Vector::States,
-        Vector::Derivatives,
-        Vector::Nominals,
-        Vector::Indicators,
-    ]);
-    let counts = prop_oneof![20 => 2..4usize, 1 => 0..5usize];
-    let state = || 0..STATES;
-    let known = || prop_oneof![9 => Just("force"), 1 => Just("clearance"), 1 => Just("velocity")];
-    let orders = prop_oneof![9 => 1..3, 1 => select(vec![0, 3, -1])];
-    prop_oneof![
-        14 => start.prop_map(Call::EnterInitialization),
-        14 => Just(Call::ExitInitialization),
-        10 => select(vec![Call::EnterEvent, Call::EnterStep, Call::Update]),
-        20 => Just(Call::Update),
-        20 => Just(Call::EnterStep),
-        20 => Just(Call::EnterContinuous),
-        10 => Just(Call::Complete),
-        20 => ahead.prop_map(Call::SetTime),
-        14 => states.prop_map(Call::SetStates),
-        12 => (vectors, counts).prop_map(|(of, count)| Call::GetStates(of, count)),
-        3 => Just(Call::Reset),
-        1 => Just(Call::Terminate),
-        14 => variable.prop_map(Call::Get),
-        10 => Just(Call::GetClock),
-        3 => prop_oneof![9 => Just(ELEMENTS), 1 => 0..10usize].prop_map(Call::GetArray),
-        3 => prop_oneof![9 => Just(ELEMENTS), 1 => 0..10usize].prop_map(Call::SetArray),
-        12 => settable.prop_map(|(name, value)| Call::Set(name, value)),
-        3 => select(vec![1.0, 10.5, f64::NAN]).prop_map(|value| Call::Set("position", value)),
-        1 => select(vec![
-            Call::SetClock,
-            Call::Element,
-            Call::UnknownVariable,
-            Call::OtherType,
-            Call::TooFewValues,
-            Call::NullValues,
-            Call::Logging(false),
-        ]),
-        40 => (at, size).prop_map(|(at, size)| Call::DoStep(at, size)),
-        3 => known().prop_map(Call::Directional),
-        3 => known().prop_map(Call::Adjoint),
-        3 => orders.prop_map(Call::OutputDerivative),
-        8 => state().prop_map(Call::GetState),
-        10 => state().prop_map(Call::SetState),
-        3 => state().prop_map(Call::Copy),
-        1 => state().prop_map(Call::DamagedBytes),
-        2 => Just(Call::Logging(true)),
-        1 => (0..6usize).prop_map(Call::Absent),
-    ]
-}
-
-/// Calls in the order in which they can be carried out, which random ones seldom have.
-fn life() -> impl Strategy<Value = Vec<Call>> {
-    vec(call(), 0..60).prop_map(|calls| {
-        let begin = [
-            Call::Reset,
-            Call::EnterInitialization(0.0),
-            Call::ExitInitialization,
-        ];
-        begin.into_iter().chain(calls).collect()
-    })
-}
-
-proptest! {
-    #![proptest_config(softstop_testing::cases(1000))]
-
-    #[test]
-    fn all_calls_have_the_status_of_the_standard(
-        lives in vec((0..5usize, life()), 1..4),
-        rest in vec((0..5usize, call()), 0..60),
-    ) {
-        let mut world = World::new();
-        for (index, calls) in lives {
-            for call in calls {
-                world.run(index, call);
-            }
-        }
-        for (index, call) in rest {
-            world.run(index, call);
         }
     }
 }
