@@ -1,6 +1,7 @@
 // The page: a machine, what is asked about it, and what is shown.
 const given = JSON.parse(byId('given').textContent);
-const main = ['clearance', 'excitation.frequency', 'excitation.frequency_hz', 'stop.stiffness', 'stop.preload', 'stop.preload_deflection', 'damping', 'piercing.thickness'];
+/** The numbers that have their sliders at once. */
+const FOREMOST = ['clearance', 'excitation.frequency', 'excitation.frequency_hz', 'stop.stiffness', 'stop.preload', 'stop.preload_deflection', 'damping', 'piercing.thickness'];
 /** How long motions are followed: at once, and when the machine has stayed as it is. */
 const QUICK = { periods: 200, longest: 200 }, PATIENT = { periods: 200, longest: 1600 };
 /** Values of a diagram at most and at least, and those of a machine that is not yet known. */
@@ -9,7 +10,11 @@ const COLUMNS = [16, 1000], FIRST_COLUMNS = 24;
 const AT_ONCE = 120, WORTH = 2000, STAYS = 250;
 /** Milliseconds for a value of a diagram from which on less is asked. */
 const SLOW = 1;
-const state = { machine: '', about: null, along: '', range: [0, 1], view: 'impact', each: 0, version: 0, motions: [], branches: null, motion: null, cells: null };
+const state = {
+  machine: '', about: null, along: '', range: [0, 1], view: 'impact', version: 0, motions: [], branches: null, motion: null, cells: null,
+  // Milliseconds for a value of a diagram; 0 of a machine that is not yet known.
+  each: 0,
+};
 let live, slow, charts;
 
 // The machine.
@@ -20,14 +25,15 @@ const pending = new Map();
 function change(values) {
   state.changed = performance.now();
   const from = state.motion?.told.from;
-  if (from) [['initial.position', from[0]], ['initial.velocity', from[1]]].forEach(([key, it]) => pending.set(key, String(it)));
+  if (from && !pending.has('initial.position')) [['initial.position', from[0]], ['initial.velocity', from[1]]].forEach(([key, it]) => pending.set(key, String(it)));
   Object.entries(values).forEach(([key, it]) => pending.set(key, String(it)));
+  let isSame = false;
   const question = () => {
     const set = [...pending];
     pending.clear();
+    isSame = set.every(([key]) => key === state.along || key.startsWith('initial.'));
     return { task: 'machine', machine: state.machine, set };
   };
-  const isSame = Object.keys(values).every(key => key === state.along || key.startsWith('initial.'));
   live.ask('machine', question, answer => {
     if (!warn(answer)) take(answer.told, isSame);
   });
@@ -78,27 +84,30 @@ function settle() {
 }
 
 // Questions.
-const machine = () => ({ machine: state.machine });
 const along = () => ({ along: state.along, from: state.range[0], to: state.range[1] });
-/** An answer counts while the machine is the one that was asked about. */
+/** Asks about the machine; `then` has the answer, and whether the machine is still the same. */
 function ask(engine, subject, question, then) {
   let version;
   const made = () => {
     version = state.version;
-    return { ...machine(), ...question() };
+    return { machine: state.machine, ...question() };
   };
   engine.ask(subject, made, answer => !answer.told?.error && then(answer, version === state.version));
 }
 /** How many values a diagram can have in some milliseconds: where a stop takes longer, fewer keep up with the hand. */
 const columnsIn = time => state.each ? Math.round(Math.min(Math.max(time / state.each, COLUMNS[0]), COLUMNS[1])) : FIRST_COLUMNS;
 function askDiagram(engine, patience, columns, then = () => {}) {
-  const question = () => ({ task: 'diagram', ...along(), columns, starts: state.about.starts, ...patience });
+  let { range } = state;
+  const question = () => {
+    ({ range } = state);
+    return { task: 'diagram', ...along(), columns, starts: state.about.starts, ...patience };
+  };
   ask(engine, 'diagram', question, ({ numbers, took }, isNow) => {
     const isFirst = !state.each, isPatient = engine === slow;
     if (isNow ? state.isPatient : isPatient) return then();
     if (!isPatient) state.each = took / columns;
     state.isPatient = isPatient;
-    state.motions = [...motions(numbers, columns)];
+    state.motions = [...motions(numbers, columns, range)];
     showDiagram();
     // The chart draws itself in a task that was made just now.
     if (!isPatient) queueMicrotask(() => performance.measure('redrawn', { start: state.changed, detail: columns }));
@@ -107,8 +116,8 @@ function askDiagram(engine, patience, columns, then = () => {}) {
   });
 }
 /** The motions of a diagram: see `Diagram::answer`. */
-function* motions(numbers, columns) {
-  const starts = state.about.starts.length, [low, high] = state.range;
+function* motions(numbers, columns, [low, high]) {
+  const starts = state.about.starts.length;
   for (let at = 0, k = 0; at < numbers.length; k++) {
     const [kind, p, n, impacts, states] = numbers.subarray(at, at + 5), first = at + 5, second = first + impacts;
     at = second + 2 * states;
@@ -157,15 +166,23 @@ function askBasin(size, row) {
 
 // Pictures.
 const color = kind => given.classes[kind][1];
+const areImpacts = () => state.view === 'impact';
+/** Where a motion of the diagram is seen in it. */
+function heights({ impacts, states }) {
+  if (!areImpacts()) return states.filter((_, k) => k % 2 === 0);
+  return impacts.length ? impacts : [0];
+}
 function showDiagram() {
-  const { motions, view } = state, isImpact = view === 'impact';
-  const heights = it => isImpact ? (it.impacts.length ? it.impacts : [0]) : it.states.filter((_, k) => k % 2 === 0);
+  const { motions } = state, isImpact = areImpacts();
   const all = motions.map(heights);
   const special = state.branches?.told.specials.map(it => isImpact ? it.velocity : it.position) ?? [];
   let [low, high] = extent([...all.map(extent).flat(), ...special]);
   if (!(low <= high)) [low, high] = [0, 1];
-  const groups = Map.groupBy ? Map.groupBy(motions.keys(), k => motions[k].kind) : new Map();
-  if (!Map.groupBy) motions.forEach((it, k) => groups.set(it.kind, [...(groups.get(it.kind) ?? []), k]));
+  const groups = new Map();
+  motions.forEach(({ kind }, k) => {
+    if (!groups.has(kind)) groups.set(kind, []);
+    groups.get(kind).push(k);
+  });
   const draw = (ctx, x, y, scale) => {
     drawZone(ctx, x, scale);
     drawBranches(ctx, x, y, scale);
@@ -191,7 +208,7 @@ const ends = () => {
   return [['g₀', g0], ['s_SN', s_sn], ['s_PD', s_pd]].filter(([, it]) => it != null).sort((a, b) => a[1] - b[1]);
 };
 function drawZone(ctx, x, scale) {
-  const { bottom, top } = { top: 0, bottom: ctx.canvas.height }, { g0, s_sn } = state.branches?.told.zone ?? {};
+  const [top, bottom] = [0, ctx.canvas.height], { g0, s_sn } = state.branches?.told.zone ?? {};
   if (g0 != null && s_sn != null) {
     ctx.globalAlpha = .16;
     ctx.fillStyle = css('var(--allowed)');
@@ -205,7 +222,7 @@ function drawZone(ctx, x, scale) {
 }
 function drawBranches(ctx, x, y, scale) {
   if (!state.branches) return;
-  const { told, numbers } = state.branches, height = state.view === 'impact' ? 1 : 2;
+  const { told, numbers } = state.branches, height = areImpacts() ? 1 : 2;
   let at = 0;
   for (const { points } of told.branches) {
     const rows = Array.from({ length: points }, (_, k) => numbers.subarray(at + 4 * k, at + 4 * k + 4));
@@ -220,7 +237,7 @@ function drawBranches(ctx, x, y, scale) {
 }
 function drawSpecials(ctx, x, y, scale) {
   for (const it of state.branches?.told.specials ?? []) {
-    const place = [x(it.value), y(state.view === 'impact' ? it.velocity : it.position)];
+    const place = [x(it.value), y(areImpacts() ? it.velocity : it.position)];
     dot(ctx, ...place, 4.5 * scale, given.marks[it.symbol]);
     // The ends of the zone have their names already.
     const isNamed = ends().some(([, end]) => Math.abs(end - it.value) < 1e-9 * end);
@@ -262,8 +279,9 @@ function showMotion() {
 function showBasin() {
   const { size, kinds } = state.cells, [far, fast] = state.about.reach, { labels } = state.about;
   const picture = Object.assign(document.createElement('canvas'), { width: size, height: size }), pen = picture.getContext('2d');
+  const colors = given.classes.map(([, it]) => css(it));
   for (let k = 0; k < size * size; k++) {
-    pen.fillStyle = css(color(kinds[3 * k]));
+    pen.fillStyle = colors[kinds[3 * k]];
     pen.fillRect(k % size, size - 1 - Math.floor(k / size), 1, 1);
   }
   charts.basin.show({
@@ -286,7 +304,8 @@ function summary() {
 function fillIn() {
   for (const it of state.about.parameters) {
     for (const input of document.querySelectorAll(`[data-key="${it.key}"]`)) {
-      if (input !== document.activeElement || input.type === 'range') input.value = it.value;
+      // The one that is being moved is ahead of the machine.
+      if (input !== document.activeElement) input.value = it.value;
       if (input.type === 'range') input.setAttribute('aria-valuetext', told(it.value));
     }
   }
@@ -320,8 +339,8 @@ function build() {
       + `<input type="range" id="${id}" data-key="${it.key}" min="${low}" max="${high}" step="${(high - low) / 400}" ${off}>`
       + `<input type="number" data-key="${it.key}" step="any" aria-label="${it.label}" ${off}></div>`;
   };
-  const [first, others] = [true, false].map(isMain => parameters.filter(it => main.includes(it.key) === isMain));
-  first.sort((a, b) => main.indexOf(a.key) - main.indexOf(b.key));
+  const [first, others] = [true, false].map(isMain => parameters.filter(it => FOREMOST.includes(it.key) === isMain));
+  first.sort((a, b) => FOREMOST.indexOf(a.key) - FOREMOST.indexOf(b.key));
   byId('main').innerHTML = first.map(row).join('');
   byId('others').innerHTML = others.map(row).join('');
   document.querySelectorAll('[data-key]').forEach(input => input.addEventListener(input.type === 'range' ? 'input' : 'change', () => {
@@ -373,8 +392,7 @@ function pick(x, height) {
   const [width, tall] = [state.range, charts.diagram.shown.y].map(([low, high]) => high - low);
   let best = null, least = Infinity;
   for (const it of state.motions) {
-    const heights = state.view === 'impact' ? (it.impacts.length ? it.impacts : [0]) : it.states.filter((_, k) => k % 2 === 0);
-    for (const y of heights) {
+    for (const y of heights(it)) {
       const far = Math.hypot((it.value - x) / width, (y - height) / tall / 3);
       if (far < least) [best, least] = [it, far];
     }
