@@ -101,7 +101,7 @@ pub enum Command {
     Simulate(simulate::SimulateArguments),
     /// Play a run in a browser: one page with machine, time series, phase plane and sound
     Watch(watch::WatchArguments),
-    /// Explore a machine in a browser: one page with its bifurcation diagram, motions, zone and basins, live
+    /// Drag a machine's numbers in a browser: its bifurcation diagram and motions follow
     Explore(explorer::ExploreArguments),
     /// Draw the laws of all stops: contact force over deflection
     Stops(stops::StopsArguments),

@@ -124,6 +124,7 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
         ("fidelity", &output),
         ("simulate", &output),
         ("watch", &output),
+        ("explore", &output),
         ("fmu", &output),
         ("optimize", &output),
     ];
@@ -159,7 +160,7 @@ fn what_a_machine_does_not_have_is_refused_by_every_command() -> Outcome {
         assert_eq!(is_listed, takes_machine, "{name}");
     }
     for (command, more) in commands {
-        let starts = ["simulate", "watch", "fidelity", "fmu"].contains(&command);
+        let starts = ["simulate", "watch", "explore", "fidelity", "fmu"].contains(&command);
         // These take a start.
         for (line, told) in refusals.iter().skip(usize::from(starts)) {
             let line = with_folders(&format!("{command} {more} {line}"));
