@@ -46,6 +46,7 @@ impl Phases {
     }
 
     /// The velocity of a crossing out of a phase: rounding may turn that of a touch the other way.
+    #[inline]
     pub(super) fn onward(&self, phase: PhaseId, found: &Found) -> f64 {
         match self[phase].exits[found.guard] {
             Exit::Forward(surface) => {
