@@ -16,10 +16,10 @@ fn mirrored(scene: &Scene) -> Scene {
     let mut mirrored = Scene {
         clearance: below.clearance,
         stop: below.stop,
-        below: Some(Below {
+        below: Some(Box::new(Below {
             clearance: scene.clearance,
             stop: scene.stop.clone(),
-        }),
+        })),
         ..scene.clone()
     };
     mirrored.excitation.phase += PI;
@@ -140,7 +140,7 @@ fn a_file_states_a_stop_below() {
         clearance: 0.25,
         stop: Stop::Rigid { restitution: 0.75 },
     };
-    assert_eq!(machine.scene.below, Some(below));
+    assert_eq!(machine.scene.below, Some(below.into()));
     assert_eq!(Machine::from_toml(&machine.to_toml()), Ok(machine.clone()));
     machine
         .apply([

@@ -194,6 +194,10 @@ impl Unit for Machine {
 /// What keeps a motion from beginning or going on, in the names of the variables.
 fn in_names(error: MotionError) -> Box<dyn Error> {
     match error {
+        MotionError::BeyondStop { position, wall } if position < wall => format!(
+            "initial.position = {position} m: must be >= {wall} m, where stop.below.clearance puts the rigid stop below"
+        )
+        .into(),
         MotionError::BeyondStop { position, wall } => format!(
             "initial.position = {position} m: must be <= {wall} m, where clearance, strip and rigid.travel put \
              the rigid stop"

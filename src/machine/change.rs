@@ -150,7 +150,8 @@ impl Machine {
             stop.retain(|key, _| !is_new || key == "clearance");
             change_stop(&mut stop, changes, true);
             let below = Below::deserialize(stop);
-            self.scene.below = Some(below.map_err(|error| of_stop(&error, "stop.below"))?);
+            let below = below.map_err(|error| of_stop(&error, "stop.below"))?;
+            self.scene.below = Some(below.into());
         }
         self.untie_missing()
     }

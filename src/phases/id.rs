@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// One of a scene's phases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PhaseId(pub(super) usize);
+pub struct PhaseId(pub(super) u32);
 
 impl PhaseId {
     /// The free phase.
@@ -12,7 +12,7 @@ impl PhaseId {
 
     /// Its place among [`Phases::phases`].
     pub const fn index(self) -> usize {
-        self.0
+        self.0 as usize
     }
 }
 

@@ -63,7 +63,7 @@ impl Builder<'_> {
         store: Store,
     ) -> PhaseId {
         let (scene, drive) = (&self.scene, self.scene.excitation);
-        let id = PhaseId(self.phases.len());
+        let id = PhaseId(self.phases.len() as u32);
         let law = Law {
             force: self.side * law.force,
             ..law
@@ -105,7 +105,7 @@ impl Builder<'_> {
 
     fn add_exit(&mut self, phase: PhaseId, guard: Guard, exit: Exit) {
         let guard = self.guard(guard);
-        let phase = &mut self.phases[phase.0];
+        let phase = &mut self.phases[phase.index()];
         phase.guards.push(guard);
         phase.exits.push(exit);
     }
@@ -166,7 +166,7 @@ impl Builder<'_> {
             self.add_exit(released, falling, Exit::Backward(surface));
             self.add_exit(released, pulls.reversed(), Exit::Switch(inward));
             self.add_exit(inward, pulls, Exit::Switch(released));
-            self.phases[inward.0].released = Some((released, self.guard(pulls)));
+            self.phases[inward.index()].released = Some((released, self.guard(pulls)));
         }
         Layer {
             from: self.side * plan.from,
@@ -196,7 +196,7 @@ impl Builder<'_> {
             is_far_side,
         });
         if let Some(before) = before {
-            let released = self.phases[before.inward().0].released;
+            let released = self.phases[before.inward().index()].released;
             let guard = Guard::rising_to(position);
             self.add_exit(before.inward(), guard, Exit::Forward(surface));
             if let Some((released, _)) = released {

@@ -209,7 +209,7 @@ impl Index<PhaseId> for Phases {
 
     #[inline]
     fn index(&self, phase: PhaseId) -> &Phase {
-        &self.phases[phase.0]
+        &self.phases[phase.index()]
     }
 }
 
@@ -249,16 +249,11 @@ impl Phases {
         self[phase].exits.iter().find_map(reversal).unwrap_or(phase)
     }
 
-    /// 1 where a stop above holds in a mode, or none, -1 where one below does.
-    pub(crate) fn side(&self, mode: Mode) -> f64 {
-        match mode {
-            Mode::Moving(phase) => self[phase].side,
-            Mode::Held(hold) | Mode::Chattering(hold) => {
-                let sides = hold.phases().map(|phase| self[phase].side);
-                let on_wall = if hold.backward.is_none() { -1.0 } else { 1.0 };
-                sides.fold(on_wall, f64::min)
-            }
-        }
+    /// 1 where a stop above holds the mass, -1 where one below does.
+    pub(crate) fn side(&self, hold: Sticking) -> f64 {
+        let sides = hold.phases().map(|phase| self[phase].side);
+        let on_wall = if hold.backward.is_none() { -1.0 } else { 1.0 };
+        sides.fold(on_wall, f64::min)
     }
 
     /// The surfaces at which the mass can go no further.

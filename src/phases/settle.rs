@@ -65,7 +65,7 @@ impl Sticking {
     /// That of them which is farther from the stop.
     pub(crate) fn outer(self) -> PhaseId {
         self.phases()
-            .min_by_key(|phase| phase.0)
+            .min_by_key(|phase| phase.index())
             .unwrap_or(PhaseId::FREE)
     }
 
@@ -121,8 +121,8 @@ impl Phases {
     /// The mode at any state. `push` is the external force per mass in m/s^2, `fed` says whether a
     /// strip lies beyond the clearance.
     pub fn locate(&self, position: f64, velocity: f64, push: f64, fed: bool) -> Mode {
-        if let Some(wall) = self.walls().find(|wall| wall.holds(position))
-            && velocity == 0.0
+        if velocity == 0.0
+            && let Some(wall) = self.walls().find(|wall| wall.holds(position))
         {
             return self.leave(wall.hold(wall.beyond), position, push);
         }

@@ -67,7 +67,7 @@ pub struct Scene {
     pub followers: Ties,
     /// The stop on the other side, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub below: Option<Below>,
+    pub below: Option<Box<Below>>,
 }
 
 /// The drive F0 cos(w t + phi).
@@ -151,7 +151,7 @@ impl Scene {
     /// This machine seen from the other side, positions counted downwards: its stop is the one below. None if there is none.
     #[doc(hidden)]
     pub fn mirrored(&self) -> Option<Self> {
-        let Below { clearance, stop } = self.below.clone()?;
+        let Below { clearance, stop } = *self.below.clone()?;
         Some(Self {
             clearance,
             stop,

@@ -259,10 +259,11 @@ fn law(stop: Stop, language: UnitSystem, is_below: bool) -> Value {
     let released = matches!(stop, Stop::KelvinVoigt { .. });
     let (machine, table) = if is_below {
         let mut scene = Scene::of_stop(Stop::None);
-        scene.below = Some(Below {
+        let below = Below {
             clearance: 1.0,
             stop,
-        });
+        };
+        scene.below = Some(below.into());
         (Machine::from(scene), "stop.below.")
     } else {
         (Machine::from(Scene::of_stop(stop)), "stop.")

@@ -92,10 +92,10 @@ fn machine(stiffness: f64, damping: f64, frequency: f64, restitution: f64) -> Sc
         stiffness,
         damping,
         clearance: 0.5,
-        below: Some(Below {
+        below: Some(Box::new(Below {
             clearance: 0.5,
             stop: stop.clone(),
-        }),
+        })),
         ..Scene::of_stop(stop)
     };
     scene.excitation.frequency = frequency;

@@ -155,6 +155,7 @@ pub fn lost_by(loss: &Loss) -> String {
         Loss::AnotherImpact => "grazing: another impact comes up",
         Loss::Inner(Face::Pierced) => "grazing where the strip is pierced",
         Loss::Inner(Face::Wall) => "grazing of the rigid stop",
+        Loss::Inner(Face::Below) => "grazing of the stop below",
         Loss::Inner(_) => "grazing of the stop",
         Loss::Border(border) => return format!("border collision: {}", met(*border)),
         Loss::Range => "not followed farther",

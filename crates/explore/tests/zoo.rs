@@ -130,7 +130,7 @@ fn every_example_scene_runs() -> Outcome {
         assert_eq!(strikes, file.scene.stop != Stop::None, "{}", path.display());
         seen += 1;
     }
-    assert_eq!(seen, 16);
+    assert_eq!(seen, 18);
     Ok(())
 }
 

@@ -118,10 +118,10 @@ pub fn two_sided() -> impl Strategy<Value = Scene> {
                     damping,
                     clearance,
                     contact_damping,
-                    below: Some(Below {
+                    below: Some(Box::new(Below {
                         clearance: way - clearance,
                         stop: stops.1,
-                    }),
+                    })),
                     ..Scene::of_stop(stops.0)
                 };
                 (scene.excitation.frequency, scene.excitation.phase) = (frequency, phase);

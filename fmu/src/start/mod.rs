@@ -81,6 +81,16 @@ impl StartValues {
         self.set(slot::UNLOADING_STIFFNESS, stiffness);
         self.set(slot::RIGID_PRESENT, 1.0);
         self.set(slot::RIGID_TRAVEL, 5.0);
+        self.set(slot::BELOW_MODEL, number::NONE as f64);
+        self.set(slot::BELOW_CLEARANCE, 10.0);
+        self.set(slot::BELOW_STIFFNESS, stiffness);
+        self.set(slot::BELOW_PRELOAD, preload);
+        self.set(slot::BELOW_RELEASE, number::CLEARANCE as f64);
+        self.set(slot::BELOW_EXPONENT, 1.5);
+        self.set(slot::BELOW_RESTITUTION, 0.6);
+        self.set(slot::BELOW_LOADING_COUNT, 1.0);
+        self.set(slot::BELOW_LOADING_STIFFNESS, stiffness);
+        self.set(slot::BELOW_UNLOADING_STIFFNESS, stiffness);
     }
 
     /// The values in the order of their slots.

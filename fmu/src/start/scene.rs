@@ -1,8 +1,8 @@
 //! Start values and scenes: the one from the other, both ways.
 
 use softstop::{
-    MotionError, Parameter, Piercing, Release, RigidStop, Scene, SceneError, Simulation, Slope,
-    Start, Stop,
+    Below, MotionError, Parameter, Piercing, Release, RigidStop, Scene, SceneError, Simulation,
+    Slope, Start, Stop,
 };
 use softstop_fmi::variable::{Access, Slot};
 use thiserror::Error;
@@ -45,7 +45,7 @@ pub enum NotServed {
 }
 
 /// Where the parameters of a scene are held.
-const PARAMETERS: [(Parameter, Slot); 19] = [
+const PARAMETERS: [(Parameter, Slot); 25] = [
     (Parameter::Mass, slot::MASS),
     (Parameter::Suspension, slot::STIFFNESS),
     (Parameter::Damping, slot::DAMPING),
@@ -65,6 +65,12 @@ const PARAMETERS: [(Parameter, Slot); 19] = [
     (Parameter::Travel, slot::PIERCING_TRAVEL),
     (Parameter::RigidTravel, slot::RIGID_TRAVEL),
     (Parameter::RigidRestitution, slot::STOP_RESTITUTION),
+    (Parameter::BelowClearance, slot::BELOW_CLEARANCE),
+    (Parameter::BelowStiffness, slot::BELOW_STIFFNESS),
+    (Parameter::BelowPreload, slot::BELOW_PRELOAD),
+    (Parameter::BelowExponent, slot::BELOW_EXPONENT),
+    (Parameter::BelowDissipation, slot::BELOW_DISSIPATION),
+    (Parameter::BelowRestitution, slot::BELOW_RESTITUTION),
 ];
 
 /// The slots of one list of slopes.
@@ -75,18 +81,46 @@ struct Chain {
     stiffness: Slot,
 }
 
-const LOADING: Chain = Chain {
-    name: "stop.loading",
-    count: slot::LOADING_COUNT,
-    from: slot::LOADING_FROM,
-    stiffness: slot::LOADING_STIFFNESS,
+/// The slots of what of a stop is no parameter.
+struct Laws {
+    model: Slot,
+    release: Slot,
+    loading: Chain,
+    unloading: Chain,
+}
+
+const ABOVE: Laws = Laws {
+    model: slot::STOP_MODEL,
+    release: slot::STOP_RELEASE,
+    loading: Chain {
+        name: "stop.loading",
+        count: slot::LOADING_COUNT,
+        from: slot::LOADING_FROM,
+        stiffness: slot::LOADING_STIFFNESS,
+    },
+    unloading: Chain {
+        name: "stop.unloading",
+        count: slot::UNLOADING_COUNT,
+        from: slot::UNLOADING_FROM,
+        stiffness: slot::UNLOADING_STIFFNESS,
+    },
 };
 
-const UNLOADING: Chain = Chain {
-    name: "stop.unloading",
-    count: slot::UNLOADING_COUNT,
-    from: slot::UNLOADING_FROM,
-    stiffness: slot::UNLOADING_STIFFNESS,
+const BELOW: Laws = Laws {
+    model: slot::BELOW_MODEL,
+    release: slot::BELOW_RELEASE,
+    loading: Chain {
+        name: "stop.below.loading",
+        count: slot::BELOW_LOADING_COUNT,
+        from: slot::BELOW_LOADING_FROM,
+        stiffness: slot::BELOW_LOADING_STIFFNESS,
+    },
+    unloading: Chain {
+        name: "stop.below.unloading",
+        count: slot::BELOW_UNLOADING_COUNT,
+        from: slot::BELOW_UNLOADING_FROM,
+        stiffness: slot::BELOW_UNLOADING_STIFFNESS,
+    },
 };
 
 impl StartValues {
@@ -106,7 +140,10 @@ impl StartValues {
             _ => {}
         }
         let mut values = Self::DEFAULT;
-        values.set_stop(&scene.stop)?;
+        values.set_stop(&ABOVE, &scene.stop)?;
+        if let Some(below) = &scene.below {
+            values.set_stop(&BELOW, &below.stop)?;
+        }
         let has_rigid = u8::from(served.rigid.is_some());
         values.set(slot::RIGID_PRESENT, f64::from(has_rigid));
         if scene.piercing.is_none() {
@@ -142,7 +179,7 @@ impl StartValues {
     }
 
     /// Sets what of a stop is no parameter.
-    fn set_stop(&mut self, stop: &Stop) -> Result<(), NotServed> {
+    fn set_stop(&mut self, laws: &Laws, stop: &Stop) -> Result<(), NotServed> {
         let model = match stop {
             Stop::None => number::NONE,
             Stop::KelvinVoigt { release, .. } => {
@@ -150,19 +187,19 @@ impl StartValues {
                     Release::Clearance => number::CLEARANCE,
                     Release::ZeroForce => number::ZERO_FORCE,
                 };
-                self.set(slot::STOP_RELEASE, f64::from(release));
+                self.set(laws.release, f64::from(release));
                 number::KELVIN_VOIGT
             }
             Stop::PiecewiseLinear { loading, unloading } => {
-                self.set_slopes(&LOADING, loading)?;
-                self.set_slopes(&UNLOADING, unloading)?;
+                self.set_slopes(&laws.loading, loading)?;
+                self.set_slopes(&laws.unloading, unloading)?;
                 number::PIECEWISE_LINEAR
             }
             Stop::Hertz { .. } => number::HERTZ,
             Stop::Preloaded { .. } => number::PRELOADED,
             Stop::Rigid { .. } => number::RIGID,
         };
-        self.set(slot::STOP_MODEL, f64::from(model));
+        self.set(laws.model, f64::from(model));
         Ok(())
     }
 
@@ -183,7 +220,8 @@ impl StartValues {
 
     /// The scene that these values describe; it has a strip if thickness or travel is positive.
     pub fn scene(&self) -> Scene {
-        let stop = self.stop();
+        let stop = self.stop(&ABOVE);
+        let below = self.stop(&BELOW);
         let yields = !matches!(stop, Stop::None | Stop::Rigid { .. });
         let has_rigid = yields && self.get(slot::RIGID_PRESENT) != 0.0;
         let extent = [slot::PIERCING_THICKNESS, slot::PIERCING_TRAVEL];
@@ -194,6 +232,12 @@ impl StartValues {
                 restitution: 0.0,
             }),
             piercing: has_strip.then_some(Piercing::PAPER),
+            below: (below != Stop::None).then(|| {
+                Box::new(Below {
+                    clearance: 0.0,
+                    stop: below,
+                })
+            }),
             ..Scene::of_stop(stop)
         };
         for (parameter, place) in PARAMETERS {
@@ -202,20 +246,20 @@ impl StartValues {
         scene
     }
 
-    /// The law of the stop, without its parameters.
-    fn stop(&self) -> Stop {
+    /// The law of a stop, without its parameters.
+    fn stop(&self, laws: &Laws) -> Stop {
         let (stiffness, preload) = (0.0, 0.0);
-        match self.number(slot::STOP_MODEL) {
+        match self.number(laws.model) {
             number::KELVIN_VOIGT => Stop::KelvinVoigt {
                 stiffness,
-                release: match self.number(slot::STOP_RELEASE) {
+                release: match self.number(laws.release) {
                     number::ZERO_FORCE => Release::ZeroForce,
                     _ => Release::Clearance,
                 },
             },
             number::PIECEWISE_LINEAR => Stop::PiecewiseLinear {
-                loading: self.slopes(&LOADING),
-                unloading: self.slopes(&UNLOADING),
+                loading: self.slopes(&laws.loading),
+                unloading: self.slopes(&laws.unloading),
             },
             number::HERTZ => Stop::Hertz {
                 stiffness,

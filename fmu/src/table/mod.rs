@@ -1,5 +1,6 @@
 //! The table of variables, group by group.
 
+mod below;
 mod drive;
 mod exchange;
 mod outputs;
@@ -24,6 +25,12 @@ pub(crate) const GROUPS: &[&[Row]] = &[
     stops::UNLOADING_COUNT,
     stops::UNLOADING_FROM,
     stops::UNLOADING_STIFFNESS,
+    below::LAWS,
+    below::LOADING_FROM,
+    below::LOADING_STIFFNESS,
+    below::UNLOADING_COUNT,
+    below::UNLOADING_FROM,
+    below::UNLOADING_STIFFNESS,
     stops::RIGID,
     parameters::STRIP_AND_START,
     outputs::OUTPUTS,

@@ -8,8 +8,8 @@ use super::rows::{
 use crate::start::slot::{self, SLOPES};
 use crate::units;
 
-const DEFLECTION: Kind = within(&units::LENGTH, 0.0, LARGE);
-const SLOPE: Kind = within(&units::STIFFNESS, 0.0, LARGE);
+pub(super) const DEFLECTION: Kind = within(&units::LENGTH, 0.0, LARGE);
+pub(super) const SLOPE: Kind = within(&units::STIFFNESS, 0.0, LARGE);
 
 /// The force laws, up to the number of slopes.
 #[rustfmt::skip]

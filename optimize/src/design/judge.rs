@@ -74,7 +74,7 @@ impl<'a> Judged<'a> {
             }
             Figure::ClearanceG0 => {
                 let scene = &self.orbit.scene;
-                scene.clearance - free_amplitude(scene, frequency)
+                scene.least_clearance() - free_amplitude(scene, frequency)
             }
             Figure::ClearanceSn => self.below_fold(frequency),
             Figure::ClearancePd => self.along(Parameter::Clearance, Heading::Down, Test::Flip),

@@ -55,7 +55,9 @@ const stripTimes = strips.map(it => it[0]);
 const strip = t => strips[count(stripTimes, t) - 1]?.[1] ?? 'whole';
 const positions = range(samples.position), velocities = range(samples.velocity), forces = range(samples.force);
 const faces = [...new Set([...(places.strip ?? []), places.stop, places.wall].filter(it => it != null))];
+// Those on either side.
+const lines = [...faces, ...(places.below ? [places.below.face] : [])];
 // A stop far out of reach does not flatten the motion.
-const isNear = face => face - positions[1] < 2 * (positions[1] - positions[0]);
-const heights = roomy(range([...positions, ...faces.filter(isNear)]), .06);
+const isNear = face => Math.max(face - positions[1], positions[0] - face) < 2 * (positions[1] - positions[0]);
+const heights = roomy(range([...positions, ...lines.filter(isNear)]), .06);
 const loudest = Math.max(...motion.hits.map(hit => Math.abs(hit.velocity_before)), 1e-300);

@@ -67,14 +67,21 @@ function stopShape(to, x, right) {
   }
   return shape;
 }
-function flash(to, t, hit) {
+/** The stop on the other side, which the mass meets with its back, `long` pixels behind its tip. */
+function belowShape(to, x, long) {
+  if (!places.below) return '';
+  const yields = places.below.model !== 'rigid', face = to(yields ? Math.min(x, places.below.face) : places.below.face) - long;
+  return [-64, 38].map(up => box(yields ? 'plate' : 'solid', face - 14, MIDDLE + up, 14, 26)).join('');
+}
+function flash(to, t, hit, long = 0) {
   const fresh = hit && t - hit.time < .03 * drive.period && !calm.matches;
   if (!fresh) return '';
   const size = 8 + 22 * Math.abs(hit.velocity_before) / loudest;
-  return path('flash', [-1, 1].map(way => `M${n(to(hit.position))} ${MIDDLE + way * 46}l${n(-size / 2)} ${n(way * size)}m${n(size)} 0l${n(-size / 2)} ${n(-way * size)}`).join(''));
+  const at = to(hit.position) - (places.below && hit.position <= places.below.face ? long : 0);
+  return path('flash', [-1, 1].map(way => `M${n(at)} ${MIDDLE + way * 46}l${n(-size / 2)} ${n(way * size)}m${n(size)} 0l${n(-size / 2)} ${n(-way * size)}`).join(''));
 }
 const reach = (() => {
-  const far = faces.length ? [Math.min(...faces), Math.max(...faces)] : [];
+  const far = lines.length ? [Math.min(...lines), Math.max(...lines)] : [];
   const [low, high] = range([...positions, ...far]);
   return high > low ? [low, high] : [low - 1, high + 1];
 })();
@@ -90,7 +97,7 @@ function drawMachine(t, now, hit) {
   let body = ruler(to, [reach[0], reach[1]], width) + box('ground', 0, 20, wall, FLOOR - 20);
   if (places.stop != null) body += box('ground', right, 20, wall, FLOOR - 20);
   body += spring('line', wall, back, MIDDLE - 20, 9, 11) + (places.is_damped ? damper('line', wall, back, MIDDLE + 22) : '');
-  body += stripShape(to, t) + stopShape(to, now.x, right);
+  body += stripShape(to, t) + stopShape(to, now.x, right) + belowShape(to, now.x, long + 9);
   body += box('mass', back, MIDDLE - tall / 2, long, tall, 'rx="5"') + path('tip', `M${n(tip - 9)} ${MIDDLE - 18}L${n(tip)} ${MIDDLE - 12}V${MIDDLE + 12}L${n(tip - 9)} ${MIDDLE + 18}Z`);
   body += [.22, .78].map(at => `<circle class="mass" cx="${n(back + at * long)}" cy="${FLOOR - 11}" r="10"/>`).join('');
   if (drive.amplitude > 0) {
@@ -99,7 +106,7 @@ function drawMachine(t, now, hit) {
     body += dot('rotor', center, MIDDLE, radius) + path('drive', `M${n(center)} ${MIDDLE}L${n(x)} ${n(y)}`) + dot('knob', x, y, 5);
     body += path('drive', `M${n(center)} 26h${n(arrow)}` + (Math.abs(arrow) > 8 ? `m${-head} -5l${head} 5l${-head} 5` : ''));
   }
-  show(figure, width, HEIGHT, body + flash(to, t, hit));
+  show(figure, width, HEIGHT, body + flash(to, t, hit, long + 9));
 }
 // The deepest contact, unless it is rounding, and what lies before it, many times larger.
 const near = Math.min(...faces), depth = Math.max(positions[1], ...faces) - near, whole = reach[1] - reach[0];
@@ -173,9 +180,9 @@ function drawPortrait(t, now) {
     return samples.time[samples.time.reduce((best, _, k) => far(k) < far(best) ? k : best, 0)];
   };
   if (still.width !== width) {
-    const lines = faces.map(face => path('face', `M${n(x(face))} ${it.area.top}V${it.area.bottom}`)).join('');
+    const drawn = lines.map(face => path('face', `M${n(x(face))} ${it.area.top}V${it.area.bottom}`)).join('');
     const marks = impacts.map(hit => dot('hit', x(hit.position), y(hit.velocity_before), 2)).join('');
-    still = { width, ground: it.ground + lines + polyline('run', points(begin, end, samples.position, map)) + marks, axes: it.axes };
+    still = { width, ground: it.ground + drawn + polyline('run', points(begin, end, samples.position, map)) + marks, axes: it.axes };
     show(figure, width, height, `<g>${still.ground}</g><g></g>${still.axes}<g></g>`);
   }
   const [, trail, point] = figure.querySelectorAll('g');

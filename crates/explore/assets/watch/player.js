@@ -20,7 +20,7 @@ function draw() {
   const now = state(t), k = count(impactTimes, t), hit = motion.hits[count(hitTimes, t) - 1];
   drawMachine(t, now, hit);
   if (isClose) drawCloseup(t, now, hit);
-  drawSeries('position', t, now.x, samples.position, heights, labels.position, faces);
+  drawSeries('position', t, now.x, samples.position, heights, labels.position, lines);
   drawSeries('force', t, now.f, samples.force, roomy(forces, .06), labels.force, []);
   drawPortrait(t, now);
   for (const [id, , tell] of cells) byId(`now-${id}`).textContent = tell(t, now, k);

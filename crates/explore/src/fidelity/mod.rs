@@ -13,7 +13,7 @@ use softstop::Allowed;
 use softstop_dynamics::models::{Likeness, Quantity};
 
 use report::FidelityReport;
-use softstop_console::arguments::{MachineArguments, refuse_followers_of_frequency};
+use softstop_console::arguments::{MachineArguments, refuse_without_zone};
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
@@ -148,7 +148,7 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     let files = &FILES[..if arguments.structure { 4 } else { 2 }];
     let export = Export::open(&arguments.output, files)?;
     if arguments.structure {
-        refuse_followers_of_frequency(&machine)?;
+        refuse_without_zone(&machine)?;
     }
     let limit = arguments.limit.budget;
     let study = limit.limit(|| Study::new(&machine, arguments))?;

@@ -51,7 +51,7 @@ pub(super) fn svg(machine: &Machine, survey: &Survey) -> Result<String, MotionEr
             layers,
             ..Panel::default()
         };
-        let lines = motion.line_layers(machine.scene.clearance);
+        let lines = motion.line_layers(&machine.scene);
         [
             panel(plane.clone(), row, motion.name.clone(), lines),
             panel(
@@ -108,13 +108,14 @@ impl Loop {
         })
     }
 
-    fn line_layers(&self, clearance: f64) -> Vec<Layer> {
+    fn line_layers(&self, scene: &Scene) -> Vec<Layer> {
         let width = if self.repeats { 1.8 } else { 0.4 };
         let stroke = Stroke::solid(self.color, width);
-        vec![
-            Layer::vertical(clearance, FACE, ""),
-            Layer::line(self.line.iter().copied(), stroke),
-        ]
+        let below = scene.below.as_ref().map(|below| -below.clearance);
+        let faces = [scene.clearance].into_iter().chain(below);
+        let faces = faces.map(|face| Layer::vertical(face, FACE, ""));
+        let line = Layer::line(self.line.iter().copied(), stroke);
+        faces.chain([line]).collect()
     }
 
     fn state_layer(&self) -> Layer {

@@ -197,7 +197,7 @@ impl Look<'_> {
             Figure::FrequencyPd => Some(frequency - self.flip()?),
             Figure::ClearanceG0 => {
                 let scene = self.scene();
-                Some(scene.clearance - free_amplitude(scene, frequency))
+                Some(scene.least_clearance() - free_amplitude(scene, frequency))
             }
             Figure::Certainty => {
                 let of = self.study.certainty;

@@ -55,6 +55,16 @@ pub(super) struct Places {
     pub model: &'static str,
     pub is_damped: bool,
     pub is_damped_in_contact: bool,
+    /// The stop on the other side.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub below: Option<BelowPlace>,
+}
+
+/// Where a stop below stands, and its law.
+#[derive(Debug, Serialize)]
+pub(super) struct BelowPlace {
+    pub face: f64,
+    pub model: &'static str,
 }
 
 /// The motion; between two samples of one time something changes at once.
@@ -176,6 +186,8 @@ fn places(machine: &Machine) -> Places {
     let scene = &machine.scene;
     let near = scene.clearance;
     let yields = !matches!(scene.stop, Stop::None | Stop::Rigid { .. });
+    let below = scene.below.as_ref();
+    let below = below.filter(|below| below.stop != Stop::None);
     Places {
         clearance: near,
         strip: scene.piercing.map(|strip| [near, near + strip.thickness]),
@@ -184,6 +196,10 @@ fn places(machine: &Machine) -> Places {
         model: scene.stop.model(),
         is_damped: scene.damping > 0.0,
         is_damped_in_contact: scene.contact_damping > 0.0,
+        below: below.map(|below| BelowPlace {
+            face: -below.clearance,
+            model: below.stop.model(),
+        }),
     }
 }
 
