@@ -288,7 +288,7 @@ pub enum MotionError {
         farthest: f64,
     },
     /// A state beyond a rigid stop.
-    #[error("position = {position} m: must be <= {wall} m, where the rigid stop stands")]
+    #[error("position = {position} m: must be {} {wall} m, where the rigid stop stands", if position < wall { ">=" } else { "<=" })]
     BeyondStop {
         /// The position in m.
         position: f64,

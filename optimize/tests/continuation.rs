@@ -94,12 +94,17 @@ fn branches_begin_at_points_of_earlier_ones() -> Outcome {
         assert_near(own.ok_or("none")?, earlier.ok_or("none")?, 1e-9);
     }
     let file = file.display().to_string();
-    let line = format!("continue --from-point {file}:XY --parameter rho --from 5 --to 15");
-    let words: Vec<&str> = softstop_testing::words(&line);
-    SOFTSTOP.refuses(
-        &words,
-        &["XY: must be a row of its", "or one of its special points"],
-    );
+    for (more, says) in [
+        (":XY", "XY: must be a row of its"),
+        (
+            ":SN --set stop.stiffness=3",
+            "stop.stiffness: is not that of this machine",
+        ),
+    ] {
+        let line = format!("continue --parameter rho --from 5 --to 15 --from-point {file}{more}");
+        let words: Vec<&str> = softstop_testing::words(&line);
+        SOFTSTOP.refuses(&words, &[says]);
+    }
     Ok(())
 }
 

@@ -56,6 +56,10 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
     let by_hand = fold_of(&format!("{rig} --set excitation.amplitude={amplitude}"));
     assert_near(by_hand.ok_or("no fold")?, frequency, 1e-9);
     // What follows is neither varied nor made within tolerances.
+    let ways = folder.path().join("ways.toml");
+    let opened = "[require]\nrun_up = { ways = [\"clearance_opened\"] }\n";
+    let rigs = RIG.replace("preload = 5.0", "preload = \"2 + clearance\"");
+    fs::write(&ways, rigs + opened)?;
     let task = folder.path().join("task.toml");
     fs::write(&task, format!("{RIG}[tolerance]\nclearance = \"1 %\"\n"))?;
     for (command, says) in [
@@ -82,6 +86,10 @@ fn an_unbalance_is_swept_studied_and_followed_over_its_frequency() -> Outcome {
         (
             format!("prove {rig} --at fold"),
             "excitation.amplitude: follows the drive's frequency",
+        ),
+        (
+            format!("optimize {}", ways.display()),
+            "a small one: stop.preload follows clearance",
         ),
         (
             format!("optimize {}", task.display()),

@@ -148,16 +148,25 @@ impl MachineArguments {
     }
 }
 
+/// Refuses a machine with a stop below, where it is not known what that does.
+///
+/// # Errors
+/// [`Failure::Usage`] naming the stop.
+pub fn refuse_stop_below(machine: &Machine) -> Result<(), Failure> {
+    match machine.scene.below {
+        Some(_) => Err(Failure::usage(
+            "stop.below: this is computed of machines with stops on one side",
+        )),
+        None => Ok(()),
+    }
+}
+
 /// Refuses a machine of which no zone is looked for: with a stop below, or whose drive's frequency follows others.
 ///
 /// # Errors
 /// [`Failure::Usage`] naming the stop, or the frequency and its expression.
 pub fn refuse_without_zone(machine: &Machine) -> Result<(), Failure> {
-    if machine.scene.below.is_some() {
-        return Err(Failure::usage(
-            "stop.below: zones and designs are looked for of machines with stops on one side",
-        ));
-    }
+    refuse_stop_below(machine)?;
     let free = machine.free(machine.name(Parameter::Frequency));
     free.map(|_| ())
         .map_err(|error| Failure::usage(error.to_string()))

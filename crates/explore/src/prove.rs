@@ -14,7 +14,7 @@ use softstop_prove::motion::Kind;
 use softstop_prove::{Certificate, Claim, Interval, Touch};
 
 use crate::continuation::seed;
-use softstop_console::arguments::{MachineArguments, refuse_without_zone};
+use softstop_console::arguments::{MachineArguments, refuse_followers_of_frequency};
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column::Units;
 use softstop_console::export::{Export, Report};
@@ -90,7 +90,7 @@ pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
     let machine = arguments.machine.machine()?;
     can_be_proven(&machine)?;
     if arguments.at.is_some() {
-        refuse_without_zone(&machine)?;
+        refuse_followers_of_frequency(&machine)?;
     }
     let (folder, file) = folder_and_file(&arguments.output)?;
     let export = Export::of_file("json", folder, file)?;

@@ -1,7 +1,7 @@
 //! How a machine may be run up: what `require.run_up = { ... }` says besides bounds.
 
 use serde::Deserialize;
-use softstop::{Dimension, Machine};
+use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
 use softstop_dynamics::run_up::{self, Way};
 use toml::Value;
@@ -45,6 +45,21 @@ pub(super) fn ways(machine: &Machine, value: Option<&Value>) -> Result<run_up::S
             ".ways: {} is given twice",
             ways[twice].name()
         )));
+    }
+    // A way changes one parameter of a motion's machine, of which only what follows the frequency is known there.
+    for way in &ways {
+        let Some(parameter) = way.changes() else {
+            continue;
+        };
+        let (key, way) = (machine.name(parameter), way.name());
+        if machine.expression(parameter).is_some() {
+            return Err(usage(&format!(".ways: {way}: {key} follows others")));
+        }
+        let followers = machine.followers(parameter);
+        if let (Some(follower), true) = (followers.first(), parameter != Parameter::Frequency) {
+            let follower = machine.name(*follower);
+            return Err(usage(&format!(".ways: {way}: {follower} follows {key}")));
+        }
     }
     let (ramp, most_force) = (
         positive("ramp_rate", words.ramp_rate, Dimension::Frequency)?,

@@ -29,9 +29,9 @@ fn largest_free_amplitude(scene: &Scene) -> f64 {
 /// Its amplitude F0 / |k1 - m w^2 + i b1 w| equals the clearance r where
 /// m w^2 = k1 - b1^2 / (2 m) +- sqrt((F0 / r)^2 - b1^2 (k1 / m - b1^2 / (2 m)^2)).
 ///
-/// Where parameters follow the frequency by an expression, the lowest of all such frequencies that the stop is met above and
-/// the highest that it is met below are found among [`LOOKS`] between [`WIDEST`] times the slower and the faster one of drive
-/// and suspension, and the peaks between them.
+/// Where parameters follow the frequency by an expression, these are the lowest such frequency above which the stop is met, and
+/// the highest below which it is. They are looked for at 4,096 frequencies from a hundredth of the slower to a hundred times
+/// the faster one of drive and suspension, and at the peaks between these.
 ///
 /// # Errors
 /// [`ZoneError::StopBelow`], [`ZoneError::NoGrazing`] if the amplitude never equals the clearance, [`ZoneError::Orbit`] for a
@@ -87,7 +87,7 @@ fn grazing_among_looks(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
         }
         let (low, high) = (at(look - 1), at(look + 1));
         let (w, value) = highest(low, high, PEAK_WIDTH * high, |w| sign * excess(w));
-        (value > 0.0).then_some((w, sign * value))
+        Some((w, sign * value))
     });
     let looks = all
         .iter()

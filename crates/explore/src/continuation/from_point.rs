@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 use nalgebra::Vector2;
 use serde::Deserialize;
-use softstop::Machine;
+use serde_json::{Map, Value};
+use softstop::{Machine, Parameter};
 
 use softstop_console::failure::Failure;
+use softstop_console::report::MachineReport;
 use softstop_console::scene_file::open;
 
 /// A point of a branch: the JSON of an earlier run, and which of its points.
@@ -38,8 +40,14 @@ pub fn parse(text: &str) -> Result<EarlierPoint, String> {
 /// The part of the JSON of `softstop continue` that is read.
 #[derive(Deserialize)]
 struct Earlier {
+    machine: EarlierMachine,
     parameter: String,
     branches: Vec<EarlierBranch>,
+}
+
+#[derive(Deserialize)]
+struct EarlierMachine {
+    parameters: Map<String, Value>,
 }
 
 #[derive(Deserialize)]
@@ -91,6 +99,25 @@ impl Earlier {
         })
     }
 
+    /// The key of a value in which a machine differs from the earlier one, but for the parameter and what follows it.
+    fn difference(&self, machine: &Machine, parameter: Parameter) -> Option<String> {
+        let mut free = vec![machine.name(parameter)];
+        free.extend(
+            machine
+                .followers(parameter)
+                .iter()
+                .map(|it| machine.name(*it)),
+        );
+        let (own, earlier) = (
+            MachineReport::of(machine).parameters,
+            &self.machine.parameters,
+        );
+        let mut keys = own.keys().chain(earlier.keys());
+        let differs = |key: &&String| own.get(*key) != earlier.get(*key);
+        keys.find(|key| differs(key) && !free.contains(&key.as_str()))
+            .cloned()
+    }
+
     /// The point of this row, or the special one of this symbol, the first unless a number says which.
     fn point(&self, which: &str) -> Option<Point> {
         if let Ok(row) = which.parse::<usize>() {
@@ -130,6 +157,9 @@ impl EarlierPoint {
         let (parameter, _) = machine
             .free(&earlier.parameter)
             .map_err(|error| wrong(&error))?;
+        if let Some(key) = earlier.difference(machine, parameter) {
+            return Err(wrong(&format!("{key}: is not that of this machine")));
+        }
         machine.set(parameter, value);
         machine.validate().map_err(|error| wrong(&error))?;
         Ok((periods, Vector2::new(position, velocity)))

@@ -13,7 +13,9 @@ use softstop::Allowed;
 use softstop_dynamics::models::{Likeness, Quantity};
 
 use report::FidelityReport;
-use softstop_console::arguments::{MachineArguments, refuse_without_zone};
+use softstop_console::arguments::{
+    MachineArguments, refuse_followers_of_frequency, refuse_stop_below,
+};
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
@@ -142,13 +144,14 @@ fn help() -> String {
 pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     check(arguments)?;
     let machine = arguments.machine.machine()?;
+    refuse_stop_below(&machine)?;
     let frequencies = arguments.structure;
     let frequencies = frequencies.then(|| structure::frequencies(&machine, arguments));
     let frequencies = frequencies.transpose()?;
     let files = &FILES[..if arguments.structure { 4 } else { 2 }];
     let export = Export::open(&arguments.output, files)?;
     if arguments.structure {
-        refuse_without_zone(&machine)?;
+        refuse_followers_of_frequency(&machine)?;
     }
     let limit = arguments.limit.budget;
     let study = limit.limit(|| Study::new(&machine, arguments))?;
