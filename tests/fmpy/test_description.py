@@ -68,7 +68,7 @@ def test_contract(description):
     outputs = {v.name: v.variability for v in description.modelVariables if v.causality == "output"}
     assert outputs == {
         "position": "continuous", "velocity": "continuous", "acceleration": "continuous",
-        "contact.force": "continuous", "phase": "discrete", "impact.count": "discrete",
+        "contact.force": "continuous", "phase": "discrete", "impact.count": "discrete", "impact.below.count": "discrete",
         "pierce.count": "discrete", "impact.time": "discrete", "impact.velocity": "discrete",
         "energy.mechanical": "continuous", "energy.supplied": "continuous",
         "energy.dissipated": "continuous",
