@@ -11,6 +11,7 @@ from conftest import PROGRAM, TOP, Explored
 from playwright.sync_api import expect
 
 SCENES = sorted(path.read_text() for path in (TOP / "docs" / "scenes").glob("*.toml"))
+ONE_SIDED = [scene for scene in SCENES if "[stop.below]" not in scene]
 ANSWERS = PROGRAM.parent / "examples" / "answers"
 
 
@@ -26,7 +27,7 @@ def random_machines(count):
     draw = random.Random(2003)
     machines = []
     while len(machines) < count:
-        scene = draw.choice(SCENES)
+        scene = draw.choice(ONE_SIDED)
         [[about, _]] = native([{"task": "machine", "machine": scene}])
         changes = [(it["key"], it["value"] * draw.uniform(0.6, 1.4)) for it in about["parameters"] if it["allowed"] != "share"]
         question = {"task": "machine", "machine": scene, "set": [(key, str(value)) for key, value in changes]}
@@ -57,14 +58,11 @@ def test_the_regimes_of_200_random_machines_are_those_of_the_program(explore):
         ends = {"from": 0.8 * along["value"], "to": 1.3 * along["value"], "columns": 8}
         asked = {"starts": about["starts"], "periods": 300, "longest": 2400}
         questions.append({"task": "diagram", "machine": about["toml"], "along": along["key"], **ends, **asked})
-    count, differing = 0, []
+    count = 0
     for question, here, there in zip(questions, native(questions), page.ask(questions)):
-        pairs = list(zip(kinds(there[1]), kinds(here[1]), strict=True))
-        differing += [(question, *pair) for pair in pairs if pair[0] != pair[1]]
-        count += len(pairs)
+        assert kinds(there[1]) == kinds(here[1]), question
+        count += len(kinds(here[1]))
     assert count == 200 * 8 * 2
-    # Sines of browsers are rounded otherwise: a motion that begins with chaos may end later, and in another one.
-    assert len(differing) <= 0.003 * count, differing
 
 
 def test_zone_and_basins_are_those_of_the_program(explore):
