@@ -51,8 +51,9 @@ Examples:
 Each cell's motion is followed until it lies in a ball about a stable orbit in which the map
 contracts; what no ball has caught after --transient drive periods is looked at one by one: what
 returns is polished by Newton's method, what does not is chaos. Shares come with Wilson's 95 %
-interval, as if cells were drawn at random. The integrity of a basin is the radius of the
-largest ball inside it, in units of half of each axis of the plane: 1 would fill the plane.
+interval, as if cells were drawn at random. The integrity of a basin is its integrity factor, the
+radius of the largest ball anywhere inside it, in units of half of each axis of the plane: 1 would
+fill the plane.
 
 Along a parameter the plane is the same at all values. An attractor goes on as the nearest one of its
 regime at the next value, or as one of another regime that lies near by, as after a soft flip. The basin entropy (Daza et al. 2016) is that of boxes of 5 by 5 cells; where that of the
