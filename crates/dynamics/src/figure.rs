@@ -76,7 +76,7 @@ figures! {
     ClearanceSn "clearance_margin_sn", Length, Least, false, "clearance below the fold s_SN";
     ClearancePd "clearance_margin_pd", Length, Least, false, "clearance above the flip s_PD, or where else the motion ends";
     Certainty "certainty", Number, Least, true, "share of starts that lead to the motion";
-    Integrity "integrity", Number, Least, true, "local integrity measure: largest ball of starts about the motion that all lead to it, in halves of their box";
+    Integrity "integrity", Number, Least, true, "largest ball of starts about the motion that all lead to it, in halves of their box";
     RunUp "run_up", Number, Least, true, "ways to run up from rest into the motion";
     MissingStrips "missing_strips", Number, Least, true, "strips in a row that may be missing at any drive angle";
     Cost "cost", Number, Most, false, "cost by the task's formula";
