@@ -3,6 +3,11 @@
 use crate::layer::{Layer, Shape};
 use crate::scale::around;
 
+/// Width and height of a small picture: a third of a page of the book or of GitHub.
+const SMALL: (f64, f64) = (320.0, 280.0);
+/// Longest name at an axis of a small picture, in letters.
+const LONG: usize = 28;
+
 /// A picture of one or more panels. Margins follow from the texts at the axes; sizes are pixels.
 #[derive(Debug, Clone)]
 pub struct Chart {
@@ -113,6 +118,24 @@ impl Chart {
         }
     }
 
+    /// The picture as one of several in a row: smaller, without titles and legend, and with short names at its axes.
+    pub fn small(mut self) -> Self {
+        for panel in &mut self.panels {
+            panel.x.shorten();
+            panel.y.shorten();
+            for layer in &mut panel.layers {
+                layer.name.clear();
+            }
+        }
+        Self {
+            title: String::new(),
+            subtitle: String::new(),
+            letters: 12,
+            page: Some(SMALL),
+            ..self
+        }
+    }
+
     /// The place where a panel explains its own layers.
     pub(crate) fn legend_of(&self, panel: &Panel) -> Option<Legend> {
         match self.legend {
@@ -159,6 +182,15 @@ impl Panel {
 }
 
 impl Axis {
+    /// Leaves the words ahead of the first "of" of a long name.
+    fn shorten(&mut self) {
+        if self.name.len() > LONG
+            && let Some((short, _)) = self.name.split_once(" of ")
+        {
+            self.name = short.to_owned();
+        }
+    }
+
     /// An axis of this name.
     pub fn new(name: impl Into<String>) -> Self {
         Self {

@@ -2,6 +2,15 @@
 //!
 //! For n = 3/2 a contact takes 12 steps of degree 25, each of 3.5 products of series: in 16 lanes 2,100 multiplications of
 //! registers in 3,900 cycles, while 11.5 of the lanes are in contact.
+//!
+//! Microseconds of a drive period on one core, in lanes and in the safe engine (k = 150, eta 1.15, clearance 10, 50 periods with
+//! 0.24 to 0.27 contacts each; with a linear stop 0.025 and 0.25):
+//!
+//! | n | lambda = 0 | lambda = 0.05 |
+//! |---|---|---|
+//! | 3/2 | 0.32, 2.65 | 0.54, 3.31 |
+//! | 2 | 0.43, 1.24 | 0.66, 1.60 |
+//! | 5/2 | 0.45, 3.35 | 0.71, 3.81 |
 
 use pulp::Simd;
 

@@ -16,9 +16,9 @@ const STRIP: f64 = 0.5;
 /// Width of the panels of regimes, and height of a row.
 const ROW: (f64, f64) = (430.0, 26.0);
 
-/// Models with both axes logarithmic, as an SVG document: what has no error stands in a strip below the scale, what
-/// has no value in one above it.
-pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &Study) -> String {
+/// Models with both axes logarithmic: what has no error stands in a strip below the scale, what has no value in one
+/// above it.
+pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &Study) -> Chart {
     let tolerance = arguments.tolerance;
     let errors = study.entries.iter().filter_map(|entry| entry.error);
     let errors = errors.chain([tolerance, 1e-3]);
@@ -62,15 +62,15 @@ pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &S
         let note = match entry.error {
             Some(0.0) => ": exact",
             Some(error) if error.is_finite() => "",
-            Some(_) => ": another regime, no error",
-            None => ": no such motion, no error",
+            Some(_) => ": another regime",
+            None => ": no such motion",
         };
         layers.push(Layer::marks([place(entry)], mark, color));
         layers.push(Layer::label(place(entry), format!("{}{note}", entry.name)));
     }
     let quantity = arguments.quantity.name().replace("before_", "before-");
     let quantity = quantity.replace('_', " ");
-    let across = Axis::new("evaluations of the law of force per drive period");
+    let across = Axis::new("evaluations of the force per drive period");
     let panel = Panel {
         size: (600.0, 430.0),
         x: across
@@ -82,11 +82,10 @@ pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &S
         layers,
         ..Panel::default()
     };
-    let chart = Chart {
+    Chart {
         subtitle: title(machine),
         ..Chart::new("How simple a model may be", [panel])
-    };
-    chart.svg()
+    }
 }
 
 /// Evaluations of a drive period.

@@ -42,7 +42,7 @@ The models, simple ones first: linear (no stop), rigid (with the contact's resti
 kelvinVoigt (a spring beside a damper), preloaded (the scene's own stop without the strip before
 it), hertz (a sphere with Hunt and Crossley's dissipation), full (the scene itself). Each agrees
 with the scene's contact at one velocity: in its restitution and, if it is soft, in its largest
-penetration or its duration. docs/fidelity.md has the formulas and where they come from.
+penetration or its duration. docs/fidelity.md has the models and names the sources of their formulas.
 
 The error is that of the model, not of computing: all motions are exact. The cost that decides is
 the number of evaluations of the law of force, which is the same on every machine; times are
@@ -81,6 +81,9 @@ pub struct FidelityArguments {
     /// How often they are timed, 1 to 1000
     #[arg(long, value_name = "N", default_value_t = 9)]
     pub repeats: u64,
+    /// Draw the models small, without titles
+    #[arg(long)]
+    pub small: bool,
     /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "softstop-fidelity")]
     pub output: PathBuf,
@@ -163,7 +166,12 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     let chart = chart::models(arguments, &machine, &study);
     let rows = report::rows(&machine, &study);
     let kinds = ["fidelity_csv", "fidelity_svg"];
-    export.sheet(kinds, &report::columns(), rows, &chart)?;
+    let chart = if arguments.small {
+        chart.small()
+    } else {
+        chart
+    };
+    export.sheet(kinds, &report::columns(), rows, &chart.svg())?;
     if let Some(structure) = &structure {
         let kinds = ["structure_csv", "structure_svg"];
         let chart = chart::regimes(&machine, structure);

@@ -13,8 +13,8 @@ const STRIP: f64 = 18.0;
 /// Dashes of the line where a contact is as short as a step.
 const DASHES: Option<(f64, f64)> = Some((2.0, 3.0));
 
-/// The page as an SVG document.
-pub(super) fn svg(atlas: &Atlas) -> String {
+/// The page.
+pub(super) fn chart(atlas: &Atlas) -> Chart {
     let (view, percent) = (&atlas.view, 100.0 * atlas.tolerance);
     let periods = view.periods;
     let plural = if periods == 1.0 { "" } else { "s" };
@@ -31,7 +31,7 @@ pub(super) fn svg(atlas: &Atlas) -> String {
         at: (0, rows.count()),
         ..exact(atlas)
     };
-    let chart = Chart {
+    Chart {
         subtitle: format!(
             "Each cell is one run: step h as a share of the drive period T, over the stop's stiffness k, for {periods} \
              drive period{plural}. Errors up to {percent} % of the motion pass."
@@ -40,8 +40,7 @@ pub(super) fn svg(atlas: &Atlas) -> String {
         letters: 13,
         shares_y: true,
         ..Chart::new(&view.title, maps.chain([exact]))
-    };
-    chart.svg()
+    }
 }
 
 fn map(atlas: &Atlas, map: &Map) -> Panel {

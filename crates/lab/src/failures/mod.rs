@@ -61,6 +61,9 @@ pub struct FailuresArguments {
     /// Error at the end over the motion's size up to which a run has converged, > 0 and < 1
     #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
     pub tolerance: f64,
+    /// Draw small pictures without titles
+    #[arg(long)]
+    pub small: bool,
     /// Folder for the pages, failures.csv and failures.json
     #[arg(long, value_name = "DIR", default_value = "softstop-failures")]
     pub output: PathBuf,
@@ -92,7 +95,13 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     for (view, (page, _)) in views.into_iter().zip(&pages) {
         let axes = axes.clone();
         let atlas = Atlas::new(view, axes, &families, arguments.tolerance, &progress)?;
-        export.file(page, chart::svg(&atlas).as_bytes())?;
+        let chart = chart::chart(&atlas);
+        let chart = if arguments.small {
+            chart.small()
+        } else {
+            chart
+        };
+        export.file(page, chart.svg().as_bytes())?;
         atlases.push(atlas);
     }
     drop(progress);

@@ -37,8 +37,8 @@ struct Curve<'a> {
     look: Look,
 }
 
-/// The diagram of a report as an SVG document; methods look like this, in the report's order.
-pub(super) fn svg(report: &SceneReport, looks: impl Iterator<Item = Look>) -> String {
+/// The diagram of a report; methods look like this, in the report's order.
+pub(super) fn chart(report: &SceneReport, looks: impl Iterator<Item = Look>) -> Chart {
     let runs = report.rows.chunk_by(|a, b| a.method == b.method);
     let curves = runs.zip(looks).map(|(rows, look)| Curve { rows, look });
     let mut curves: Vec<Curve<'_>> = curves.collect();
@@ -65,12 +65,11 @@ pub(super) fn svg(report: &SceneReport, looks: impl Iterator<Item = Look>) -> St
         ..Panel::default()
     };
     let (title, periods) = (&report.title, report.periods);
-    let chart = Chart {
+    Chart {
         subtitle: format!("{title}, {periods} drive periods; lower left is better"),
         legend: Legend::Below,
         ..Chart::new(&report.scene, [panel])
-    };
-    chart.svg()
+    }
 }
 
 impl Curve<'_> {

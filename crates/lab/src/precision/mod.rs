@@ -71,6 +71,9 @@ pub struct PrecisionArguments {
     /// Every other setting, fewer repetitions and a tenth of the budget
     #[arg(long)]
     pub quick: bool,
+    /// Draw small pictures without titles
+    #[arg(long)]
+    pub small: bool,
     /// Folder for SCENE.svg, SCENE.csv and SCENE.json
     #[arg(long, value_name = "DIR", default_value = "softstop-precision")]
     pub output: PathBuf,
@@ -99,7 +102,7 @@ pub fn run(arguments: &PrecisionArguments) -> Result<(), Failure> {
     let mut charts = Vec::new();
     for (case, families) in cases.iter().zip(&families) {
         let mut report = measured(case, families, &machine, arguments, &progress)?;
-        write(&mut report, families, &folder)?;
+        write(&mut report, families, arguments.small, &folder)?;
         charts.push(report);
     }
     drop(progress);
@@ -170,14 +173,21 @@ fn measured(
 }
 
 /// Stages chart, table and JSON.
-fn write(report: &mut SceneReport, families: &[Family], folder: &Folder) -> Result<(), Failure> {
+fn write(
+    report: &mut SceneReport,
+    families: &[Family],
+    small: bool,
+    folder: &Folder,
+) -> Result<(), Failure> {
     let [svg, csv, json] = files(&report.scene);
     for (kind, name) in [("svg", &svg), ("csv", &csv), ("json", &json)] {
         let place = folder.place(name).display().to_string();
         report.files.insert(kind, place);
     }
     let looks = families.iter().map(|family| family.look);
-    folder.stage(&svg, chart::svg(report, looks).as_bytes())?;
+    let chart = chart::chart(report, looks);
+    let chart = if small { chart.small() } else { chart };
+    folder.stage(&svg, chart.svg().as_bytes())?;
     folder.stage(&csv, &output::csv(&report.rows)?)?;
     folder.stage(&json, output::json(report)?.as_bytes())
 }
