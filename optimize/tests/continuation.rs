@@ -179,6 +179,29 @@ fn curves_tell_where_they_meet_and_have_their_points() {
     report.shows("curves.svg", &["resonant grazing (RG)"]);
 }
 
+/// From the points of codimension two of the flips begin curves of folds, of the orbits and of those of twice the period, and
+/// from a point of these another one of grazing.
+#[test]
+fn curves_switch_in_points_of_codimension_two() {
+    let line =
+        "continue --parameter eta --from 0.5 --to 2 --second rho --second-from 1 --second-to 24";
+    let kinds = |report: &Report| {
+        let curves = report.list("curves/curves").into_iter();
+        let kinds =
+            curves.map(|it| format!("{}{}", it["symbol"].as_str().unwrap_or(""), it["periods"]));
+        let mut kinds: Vec<_> = kinds.collect();
+        kinds.sort_unstable();
+        kinds
+    };
+    assert_eq!(kinds(&SOFTSTOP.report(line)), ["G1", "G1", "PD1", "SN1"]);
+    let report = SOFTSTOP.report(&format!("{line} --switch 2"));
+    assert_eq!(
+        kinds(&report),
+        ["G1", "G1", "G2", "PD1", "PD2", "SN1", "SN1", "SN2"]
+    );
+    report.shows("curves.svg", &["generalised flip (GPD)", "cusp (CP)"]);
+}
+
 fn points(curve: &serde_json::Value) -> usize {
     softstop_testing::number(curve, "points") as usize
 }

@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
-use super::arclength::{Equations, Evaluation};
+use super::arclength::{Equations, Evaluation, Node, correct};
 use super::face::Face;
 use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
 use super::impact_section::ImpactSection;
@@ -80,6 +80,25 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
             .chain(scaled);
         let guess = DVector::from_iterator(2 + N, unknowns);
         Ok(Some((Self { section, test }, guess)))
+    }
+
+    /// The orbit that has a weak impact where another one grazes, with these unknowns; the velocity of the impact is given, in
+    /// units of the family's scales.
+    pub fn beside(
+        grazing: &GrazingOrbit<'a, F, N>,
+        touch: &DVector<f64>,
+        test: Test,
+        velocity: f64,
+    ) -> Result<(Self, Node<CriticalPoint>), OrbitError> {
+        let section = ImpactSection {
+            crossings: grazing.section.crossings + 1,
+            ..grazing.section
+        };
+        let critical = Self { section, test };
+        let guess = touch.clone().insert_row(1, velocity);
+        let given = DVector::from_fn(guess.len(), |row, _| f64::from(u8::from(row == 1)));
+        let node = correct(&critical, &guess, Some(&given))?;
+        Ok((critical, node))
     }
 
     pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {

@@ -1,21 +1,16 @@
-//! Special points followed in two parameters.
+//! Curves of special points in two parameters: what they are, and how one is followed.
 
 use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::Family;
 use super::arclength::{Node, correct, tangent};
 use super::codimension_two::{
     Codimension, CodimensionTwo, CurvePoint, TURNING_BACK, along_parameters,
 };
-use super::critical_impact::CriticalImpact;
 use super::follow::LOCATED_WIDTH;
-use super::grazing_orbit::GrazingOrbit;
-use super::impact_section::ImpactSection;
 use super::locate::{along_chord, locate};
-use super::point::{BranchPoint, Graze, SpecialKind};
-use super::shooting::{Critical, Shooting};
+use super::point::SpecialKind;
 use super::stepper::Stepper;
 use crate::orbit::OrbitError;
 
@@ -41,8 +36,9 @@ pub enum CurveEnd {
     Closed,
     /// Beyond its last point the orbit would cross surfaces in another order: it grazes there.
     Grazing,
-    /// The impact dies in resonant grazing; the last point is there.
-    ResonantGrazing,
+    /// It ends in a point of codimension two, its last one: in resonant grazing, or a fold of orbits of twice the period on a
+    /// flip.
+    CodimensionTwo(CodimensionTwo),
     /// The monitor asked for it.
     Stopped,
     /// It cannot be followed even with the smallest step.
@@ -55,6 +51,8 @@ pub enum CurveEnd {
 pub struct Curve {
     /// What they are.
     pub kind: SpecialKind,
+    /// Drive periods of the orbits.
+    pub periods: u64,
     /// Points, in order of arclength.
     pub points: Vec<CurvePoint>,
     /// Points of codimension two on it, in the same order.
@@ -63,50 +61,8 @@ pub struct Curve {
     pub ends: (CurveEnd, CurveEnd),
 }
 
-/// Follows a special point of a branch in both directions. `parameters` are its own: that of the branch
-/// and the value of the second; `watch` sees each point as it comes.
-///
-/// # Errors
-/// [`OrbitError`] if the point is not a special one of this family.
-pub fn curve<F: Family<2>>(
-    family: &F,
-    periods: u64,
-    (kind, point): (SpecialKind, &BranchPoint),
-    parameters: [f64; 2],
-    region: &CurveLimits,
-    mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
-) -> Result<Curve, OrbitError> {
-    match kind {
-        SpecialKind::Critical(test) => {
-            let shooting = Shooting::new(family, periods);
-            let guess = shooting.scaled(point.state(), parameters);
-            let critical = Critical { shooting, test };
-            match CriticalImpact::at((family, periods), test, point.state(), parameters)? {
-                Some((at_impact, impact)) => follow(&at_impact, kind, &impact, region, &mut watch)
-                    .or_else(|_| follow(&critical, kind, &guess, region, &mut watch)),
-                None => follow(&critical, kind, &guess, region, &mut watch),
-            }
-        }
-        SpecialKind::Grazing(Graze {
-            angle,
-            crossings,
-            face,
-            ..
-        }) => {
-            let section = ImpactSection {
-                family,
-                periods,
-                crossings,
-                face,
-            };
-            let touching = GrazingOrbit { section };
-            let guess = touching.scaled(angle, parameters);
-            follow(&touching, kind, &guess, region, &mut watch)
-        }
-    }
-}
-
-fn follow<E: Codimension>(
+/// The curve through the solution near a guess, in both directions.
+pub(super) fn follow<E: Codimension>(
     equations: &E,
     kind: SpecialKind,
     guess: &DVector<f64>,
@@ -133,6 +89,7 @@ fn follow<E: Codimension>(
     specials.extend(up.1);
     Ok(Curve {
         kind,
+        periods: equations.periods(),
         points,
         specials,
         ends: (first, up.2),
@@ -160,11 +117,11 @@ fn way<E: Codimension>(
     while points.len() < region.points {
         let last = stepper.node.clone();
         let ahead = stepper.step * &stepper.direction;
-        if let Some(point) = equations.last(&last, &ahead) {
+        if let Some((kind, point)) = equations.last(&last, &ahead) {
             let _ = watch(&point);
             points.push(point.clone());
-            specials.push((CodimensionTwo::ResonantGrazing, point));
-            return Ok((points, specials, CurveEnd::ResonantGrazing));
+            specials.push((kind, point));
+            return Ok((points, specials, CurveEnd::CodimensionTwo(kind)));
         }
         let next = stepper.attempt().map_err(CurveEnd::Lost);
         let next = next.and_then(|step| {
@@ -179,6 +136,10 @@ fn way<E: Codimension>(
             Err(_) if stepper.shorten() => continue,
             Err(cause) => return Ok((points, specials, cause)),
         };
+        if merges(equations, (&last, &node)) {
+            let end = CurveEnd::CodimensionTwo(CodimensionTwo::GeneralisedFlip);
+            return Ok((points, specials, end));
+        }
         let directions = [&stepper.direction, &step.direction];
         let special = special_between(equations, (&last, &node), directions);
         specials.extend(special.ok().flatten());
@@ -209,7 +170,7 @@ fn special_between<E: Codimension>(
     (from, to): (&Node<E::Point>, &Node<E::Point>),
     [begins, ends]: [&DVector<f64>; 2],
 ) -> Result<Option<(CodimensionTwo, CurvePoint)>, OrbitError> {
-    let (kind, before) = equations.degeneracy(from, [begins, begins]);
+    let (_, before) = equations.degeneracy(from, [begins, begins]);
     let (_, after) = equations.degeneracy(to, [begins, ends]);
     let changes = before * after < 0.0;
     if !changes {
@@ -221,15 +182,34 @@ fn special_between<E: Codimension>(
         value.unwrap_or(f64::NAN)
     };
     let (node, _) = locate(equations, (from, to), LOCATED_WIDTH, value)?;
+    let (kind, _) = equations.degeneracy(&node, [begins, begins]);
     // A curve that only turns sharply has its parameters change there, too.
     let is_found = match kind {
         CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < TURNING_BACK,
         // It changes its sign as well where it grows beyond all bounds.
         CodimensionTwo::GeneralisedFlip => value(&node).abs() < before.abs().min(after.abs()),
-        CodimensionTwo::ResonantGrazing => true,
+        CodimensionTwo::ResonantGrazing(_) => true,
     };
     let point = equations.describe(&node)?;
     Ok(is_found.then_some((kind, point)))
+}
+
+/// Share of the gaps of its neighbours that is left of one that vanishes.
+const MERGED: f64 = 1e-6;
+
+/// True if a fold between two nodes repeats after half its drive periods already: it is a flip.
+fn merges<E: Codimension>(equations: &E, (from, to): (&Node<E::Point>, &Node<E::Point>)) -> bool {
+    let gap = |node: &Node<E::Point>| equations.half_period_gap(&equations.describe(node).ok()?);
+    let (Some(before), Some(after)) = (gap(from), gap(to)) else {
+        return false;
+    };
+    if before.dot(&after) >= 0.0 {
+        return false;
+    }
+    let value = |node: &Node<E::Point>| gap(node).map_or(f64::NAN, |it| it.dot(&before));
+    let between = locate(equations, (from, to), LOCATED_WIDTH, value).ok();
+    let left = between.and_then(|(node, _)| gap(&node));
+    left.is_some_and(|it| it.norm() < MERGED * before.norm().max(after.norm()))
 }
 
 /// The end of a step, or the point on it where a parameter leaves its range.

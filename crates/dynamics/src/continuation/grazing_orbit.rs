@@ -8,8 +8,9 @@
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::Family;
-use super::arclength::{Equations, Evaluation};
+use super::arclength::{Equations, Evaluation, Node};
 use super::impact_section::ImpactSection;
+use super::point::Graze;
 use super::shooting::round_off;
 use crate::orbit::{Monodromy, OrbitError, PassageRecorder};
 
@@ -47,6 +48,17 @@ impl<F: Family<N>, const N: usize> GrazingOrbit<'_, F, N> {
     /// The state at time 0 of the family's scene.
     pub fn state(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
         self.section.state(at[0], 0.0, self.parameters(at))
+    }
+
+    /// The touch, as of a crossing that dies.
+    pub fn graze(&self, node: &Node<GrazingPoint>) -> Graze {
+        Graze {
+            angle: node.at[0],
+            impacts: node.here.point.impacts.len(),
+            dies: true,
+            face: self.section.face,
+            crossings: self.section.crossings,
+        }
     }
 
     /// How far the velocity at a touch moves the position at the next, without units.

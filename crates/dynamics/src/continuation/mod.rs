@@ -49,14 +49,16 @@ mod point;
 mod section;
 mod sequence;
 mod shooting;
+mod special_curve;
 mod step_control;
 mod stepper;
+mod switching;
 mod test;
 
 pub(crate) use between::ASIDE;
 pub use branch::Branch;
 pub use codimension_two::{CodimensionTwo, CurvePoint};
-pub use curve::{Curve, CurveEnd, CurveLimits, curve};
+pub use curve::{Curve, CurveEnd, CurveLimits};
 pub use face::Face;
 pub use follow::{Continuation, Heading};
 pub(crate) use grazing_test::grazing;
@@ -66,6 +68,8 @@ pub use normal_form::normal_form_coefficient;
 pub use parameter_family::ParameterFamily;
 pub(crate) use period_map::carry_on;
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
+pub use special_curve::curve;
+pub use switching::switched;
 pub use test::Test;
 
 use softstop::{MotionError, Scene};

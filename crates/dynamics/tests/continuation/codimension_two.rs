@@ -4,7 +4,7 @@ use super::curves::{followed, plane};
 use super::*;
 use softstop::{Machine, Release, Stop};
 use softstop_dynamics::attractors::{SearchOptions, attractors};
-use softstop_dynamics::continuation::CodimensionTwo;
+use softstop_dynamics::continuation::{CodimensionTwo, switched};
 
 /// A machine with m = k = F0 = 1 before a stop, at 0.95 of the clearance that the motion without impacts reaches.
 fn beside_grazing(frequency: f64, damping: f64, stop: &str) -> Scene {
@@ -67,7 +67,7 @@ fn folds_and_flips_end_in_resonant_grazing() {
             for kind in [symbol, "G"] {
                 let special = of_kind(&branch, kind).remove(0);
                 let curve = followed(&special, 1, &family, frequency, ranges);
-                let [(CodimensionTwo::ResonantGrazing, point)] = &curve.specials[..] else {
+                let [(CodimensionTwo::ResonantGrazing(_), point)] = &curve.specials[..] else {
                     panic!("{kind}: {:?}", curve.specials);
                 };
                 assert_near(point.parameters[1], resonant, SOLVED);
@@ -75,7 +75,7 @@ fn folds_and_flips_end_in_resonant_grazing() {
                 let ends = [&curve.ends.0, &curve.ends.1];
                 let ends = ends
                     .iter()
-                    .filter(|it| matches!(it, CurveEnd::ResonantGrazing));
+                    .filter(|it| matches!(it, CurveEnd::CodimensionTwo(_)));
                 assert_eq!(
                     ends.count(),
                     usize::from(kind != "G"),
@@ -137,7 +137,7 @@ fn the_papers_machines_have_resonant_grazings() {
     let family = plane([Parameter::Frequency, Parameter::Clearance]);
     let curve = followed(&flip, 1, &family, 10.0, [(0.5, 2.0), (1.0, 24.0)]);
     let [
-        (CodimensionTwo::ResonantGrazing, resonant),
+        (CodimensionTwo::ResonantGrazing(_), resonant),
         (CodimensionTwo::GeneralisedFlip, generalised),
     ] = &curve.specials[..]
     else {
@@ -184,9 +184,9 @@ fn the_papers_machines_have_resonant_grazings() {
     let ends = ["PD", "SN"].map(|symbol| {
         let special = of_kind(&branch, symbol).remove(0);
         let curve = followed(&special, 1, &family, 10.0, [(0.5, 2.0), (1.0, 24.0)]);
-        let resonant = curve.specials.into_iter();
-        let mut resonant = resonant.filter(|it| it.0 == CodimensionTwo::ResonantGrazing);
-        resonant.next().expect("a resonant grazing").1.parameters
+        let mut resonant = curve.specials.into_iter();
+        let resonant = resonant.find(|it| matches!(it.0, CodimensionTwo::ResonantGrazing(_)));
+        resonant.expect("a resonant grazing").1.parameters
     });
     assert_near(ends[0][0], ends[1][0], SOLVED);
     assert_near(ends[0][1], ends[1][1], GROWN);
@@ -234,4 +234,89 @@ fn folds_of_a_soft_stop_meet_in_a_cusp() {
     assert_near(amplitude / 1.0, 0.5 / clearance, GROWN);
     let counts = [0.999, 1.001].map(|share| folds(share * amplitude).len());
     assert_eq!(counts, [2, 0]);
+}
+
+/// From resonant grazing begin the curves of folds and of grazing, too, and from a generalised flip that of the folds of doubled
+/// orbits. This one leads back to the flips, and passes the folds that each machine's own doubled branch has.
+#[test]
+fn curves_begin_in_points_of_codimension_two() {
+    let flip = of_kind(&all_of_z1(), "PD").remove(0);
+    let family = plane([Parameter::Frequency, Parameter::Clearance]);
+    let ranges = [(0.5, 2.0), (1.0, 24.0)];
+    let region = CurveLimits {
+        ranges,
+        points: 500,
+        step: 0.02,
+    };
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let flips = followed(&flip, 1, &family, 10.0, ranges);
+    let places = flips.specials.iter().map(|it| it.1.parameters);
+    let [resonant, generalised] = places.collect::<Vec<_>>()[..] else {
+        panic!("{:?}", flips.specials);
+    };
+    let from_flips = switched(
+        &family,
+        &flips,
+        &region,
+        |kind, _, _| *kind == flips.kind,
+        go_on,
+    );
+    let kinds = from_flips.iter().map(|it| (it.kind.symbol(), it.periods));
+    assert_eq!(kinds.collect::<Vec<_>>(), [("SN", 1), ("G", 1), ("SN", 2)]);
+    #[track_caller]
+    fn begins_at(curve: &Curve, place: [f64; 2]) {
+        let off = |it: &[f64; 2]| (it[0] - place[0]).abs().max((it[1] - place[1]).abs());
+        let mut places = curve.specials.iter().map(|it| it.1.parameters);
+        assert!(
+            places.any(|it| off(&it) < 1e-6),
+            "{place:?}: {:?}",
+            curve.specials
+        );
+    }
+    begins_at(&from_flips[0], resonant);
+    begins_at(&from_flips[1], resonant);
+    let folds = &from_flips[2];
+    begins_at(folds, generalised);
+
+    let mut compared = 0;
+    let beside = |it: &&CurvePoint| it.parameters[0] < 0.97 && it.parameters[1] < 2.5;
+    for flip in flips.points.iter().filter(beside) {
+        let [frequency, clearance] = flip.parameters;
+        let scene = Scene {
+            clearance,
+            ..unloaded()
+        };
+        let along = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
+        let continuation = Continuation::new(&along, 1);
+        let flip = continuation.point(frequency, flip.state());
+        let limits = Limits {
+            range: (frequency - 0.1, frequency + 0.1),
+            points: 500,
+        };
+        // Near grazing the doubled orbits are too steep to begin at.
+        let Ok(doubled) = continuation.doubled(&flip.expect("an orbit"), &limits, |_| {
+            ControlFlow::Continue(())
+        }) else {
+            continue;
+        };
+        for fold in of_kind(&doubled, "SN") {
+            let crosses = folds.points.windows(2).any(|pair| {
+                let [[a, c], [b, d]] = [pair[0].parameters, pair[1].parameters];
+                let share = (clearance - c) / (d - c);
+                let at = a + share * (b - a);
+                (0.0..=1.0).contains(&share) && (at - fold.point.parameter).abs() < 1e-4
+            });
+            assert!(crosses, "{clearance}: {}", fold.point.parameter);
+            compared += 1;
+        }
+    }
+    assert!(compared >= 5, "{compared}");
+
+    let back = switched(&family, folds, &region, |_, periods, _| periods == 2, go_on);
+    let [back] = &back[..] else {
+        panic!("{} curves", back.len());
+    };
+    assert_eq!((back.kind.symbol(), back.periods), ("PD", 1));
+    begins_at(back, generalised);
+    begins_at(back, resonant);
 }

@@ -36,7 +36,7 @@ fn followed_by_steps(
     curve(
         family,
         periods,
-        (special.kind, &special.point),
+        (special.kind, special.point.state()),
         start,
         &region,
         |_| ControlFlow::Continue(()),

@@ -70,6 +70,7 @@ pub fn curves(machine: &Machine, parameters: [Parameter; 2], curves: &[Curve]) -
     let specials = specials.map(|(kind, point)| {
         let (name, mark) = match kind {
             CodimensionTwo::Cusp => ("cusp (CP)", Mark::Triangle),
+            CodimensionTwo::GeneralisedFlip => ("generalised flip (GPD)", Mark::Square),
             _ => ("resonant grazing (RG)", Mark::Diamond),
         };
         Layer::marks(

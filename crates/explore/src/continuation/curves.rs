@@ -3,7 +3,9 @@
 use anyhow::anyhow;
 use softstop::Machine;
 use softstop_dynamics::Branch;
-use softstop_dynamics::continuation::{Curve, CurveLimits, CurvePoint, SpecialKind, curve};
+use softstop_dynamics::continuation::{
+    Curve, CurveLimits, CurvePoint, SpecialKind, curve, switched,
+};
 
 use super::branches::{STEP, count};
 use super::{ContinueArguments, Followed, family};
@@ -32,7 +34,7 @@ pub(super) fn curves(
         if known {
             continue;
         }
-        let kind = (special.kind, &special.point);
+        let kind = (special.kind, special.point.state());
         let curve = curve(&family, branch.periods, kind, start, &region, |_| {
             count(&bar)
         });
@@ -40,12 +42,50 @@ pub(super) fn curves(
             anyhow!(error).context(format!("no curve of the {}", special.kind.name()))
         })?);
     }
+    let mut done = 0;
+    for _ in 0..arguments.switch {
+        let round = done..found.len();
+        done = found.len();
+        for from in round {
+            let is_known = |kind: &SpecialKind, periods, point: &CurvePoint| {
+                let mut curves = found.iter();
+                curves.any(|it| is_of(it, kind, periods) && has_special(it, point))
+            };
+            let fresh = switched(&family, &found[from], &region, is_known, |_| count(&bar));
+            for curve in fresh {
+                let is_same = |other: &Curve| {
+                    let mut specials = curve.specials.iter();
+                    is_of(other, &curve.kind, curve.periods)
+                        && specials.any(|(_, point)| has_special(other, point))
+                };
+                if !found.iter().any(is_same) {
+                    found.push(curve);
+                }
+            }
+        }
+    }
     drop(bar);
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }
     Ok(found)
 }
+
+/// True if a curve is of this kind, with so many drive periods.
+fn is_of(curve: &Curve, kind: &SpecialKind, periods: u64) -> bool {
+    curve.periods == periods && curve.kind.symbol() == kind.symbol()
+}
+
+/// True if a point of codimension two of a curve is this one.
+fn has_special(curve: &Curve, point: &CurvePoint) -> bool {
+    let is_same = |a: f64, b: f64| (a - b).abs() <= SAME_POINT * a.abs().max(b.abs());
+    let [p, q] = point.parameters;
+    let mut specials = curve.specials.iter().map(|(_, other)| other.parameters);
+    specials.any(|[other_p, other_q]| is_same(p, other_p) && is_same(q, other_q))
+}
+
+/// Share of its parameters by which a point of codimension two differs from one curve to another.
+const SAME_POINT: f64 = 1e-6;
 
 /// True if a curve of the same kind passes a point.
 fn passes(curve: &Curve, kind: SpecialKind, [p, q]: [f64; 2]) -> bool {

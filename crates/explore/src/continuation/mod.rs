@@ -33,7 +33,8 @@ Examples:
   softstop continue --set eta=0.9875 --orbit 2/3 --parameter eta --from 0.95 --to 1.05
       the isolated z = 2/3 motion, found from scratch at eta = 0.9875
   softstop continue --parameter eta --from 0.9 --to 1.8 --second rho --second-from 2 --second-to 18
-      besides, each special point as a curve in (eta, rho): regions of the z = 1 motion
+      besides, each special point as a curve in (eta, rho): regions of the z = 1 motion; --switch 1 adds
+      the curves that begin in points of codimension two on these
   softstop continue --parameter clearance --from -1 --to 20 --double 4 docs/scenes/rigid.toml
       any machine in its own units; from each flip on to the orbits of twice the period, four times
   softstop continue --parameter k4 --from 1 --to 40 --state 6.9,9.5
@@ -90,6 +91,10 @@ pub struct ContinueArguments {
     /// Highest value of the second parameter
     #[arg(long, value_name = "VALUE", requires = "second")]
     pub second_to: Option<f64>,
+    /// Follow also the curves that begin in points of codimension two on these, so many times over: of grazing, folds and
+    /// flips in resonant grazing, of folds of twice the period in a generalised flip
+    #[arg(long, value_name = "TIMES", requires = "second", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=6))]
+    pub switch: u32,
     /// Most points of a branch or curve in each direction
     #[arg(long, value_name = "COUNT", default_value_t = 2000)]
     pub points: usize,

@@ -91,9 +91,10 @@ fn specials<'a>() -> [Column<Classified<'a>>; 9] {
     }
 }
 
-fn curve<'a>() -> [Column<Followed<'a, Curve>>; 5] {
+fn curve<'a>() -> [Column<Followed<'a, Curve>>; 6] {
     columns! { Followed<'a, Curve>, it;
         "symbol" [None] Plain, "SN, PD, NS or G" => it.0.kind.symbol();
+        "periods" [None] Plain, "drive periods n of its orbits" => it.0.periods;
         "points" [None] Plain, "how many" => it.0.points.len();
         "from" [None] Fixed(8), "both parameters at its first point" => it.0.points.first().map(|it| it.parameters);
         "to" [None] Fixed(8), "at its last" => it.0.points.last().map(|it| it.parameters);
@@ -200,7 +201,7 @@ fn curve_end(end: &CurveEnd, points: usize) -> String {
         CurveEnd::Points => limit(points),
         CurveEnd::Closed => "the curve is closed".to_owned(),
         CurveEnd::Grazing => "the orbit grazes elsewhere".to_owned(),
-        CurveEnd::ResonantGrazing => "resonant grazing".to_owned(),
+        CurveEnd::CodimensionTwo(kind) => kind.name().to_owned(),
         CurveEnd::Stopped => "stopped".to_owned(),
         CurveEnd::Lost(error) => lost(error),
     }

@@ -67,9 +67,10 @@ pub(super) struct CurveRow<'a> {
 }
 
 /// The columns of `curves.csv`.
-pub(super) fn curve_columns<'a>() -> [Column<CurveRow<'a>>; 9] {
+pub(super) fn curve_columns<'a>() -> [Column<CurveRow<'a>>; 10] {
     columns! { CurveRow<'a>, row;
         "curve" [None], "its number" => row.number;
+        "periods" [None], "drive periods n of its orbits" => row.curve.periods;
         "special" [None], "SN, PD, NS or G" => row.curve.kind.symbol();
         "value" [Of("own")], "of the parameter, in its own unit" => row.point.parameters[0];
         "second_value" [Of("own")], "of the second parameter" => row.point.parameters[1];

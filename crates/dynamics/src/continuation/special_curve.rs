@@ -1,0 +1,125 @@
+//! Special points followed in two parameters.
+
+use std::ops::ControlFlow;
+
+use nalgebra::Vector2;
+
+use super::Family;
+use super::codimension_two::{CodimensionTwo, CurvePoint};
+use super::critical_impact::CriticalImpact;
+use super::curve::{Curve, CurveEnd, CurveLimits, follow};
+use super::grazing_orbit::GrazingOrbit;
+use super::impact_section::ImpactSection;
+use super::point::{Graze, SpecialKind};
+use super::shooting::{Critical, Shooting};
+use super::test::Test;
+use crate::orbit::OrbitError;
+
+/// Follows a special point, of this kind and with this state at time 0, in both directions. `parameters` are its own: that of
+/// the branch and the value of the second; `watch` sees each point as it comes.
+///
+/// # Errors
+/// [`OrbitError`] if the point is not a special one of this family.
+pub fn curve<F: Family<2>>(
+    family: &F,
+    periods: u64,
+    special: (SpecialKind, Vector2<f64>),
+    parameters: [f64; 2],
+    region: &CurveLimits,
+    mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
+) -> Result<Curve, OrbitError> {
+    let mut found = raw_curve(family, periods, special, parameters, region, &mut watch)?;
+    end_in_flips(family, &mut found, region);
+    Ok(found)
+}
+
+fn raw_curve<F: Family<2>>(
+    family: &F,
+    periods: u64,
+    (kind, state): (SpecialKind, Vector2<f64>),
+    parameters: [f64; 2],
+    region: &CurveLimits,
+    watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
+) -> Result<Curve, OrbitError> {
+    match kind {
+        SpecialKind::Critical(test) => {
+            let shooting = Shooting::new(family, periods);
+            let guess = shooting.scaled(state, parameters);
+            let critical = Critical { shooting, test };
+            match CriticalImpact::at((family, periods), test, state, parameters)? {
+                Some((at_impact, impact)) => follow(&at_impact, kind, &impact, region, watch)
+                    .or_else(|_| follow(&critical, kind, &guess, region, watch)),
+                None => follow(&critical, kind, &guess, region, watch),
+            }
+        }
+        SpecialKind::Grazing(Graze {
+            angle,
+            crossings,
+            face,
+            ..
+        }) => {
+            let section = ImpactSection {
+                family,
+                periods,
+                crossings,
+                face,
+            };
+            let touching = GrazingOrbit { section };
+            let guess = touching.scaled(angle, parameters);
+            follow(&touching, kind, &guess, region, watch)
+        }
+    }
+}
+
+/// Points and steps, in those of the region, of the curve of flips on which a generalised flip is looked for.
+const NEAR_FLIPS: (usize, f64) = (5, 0.1);
+
+/// Gives curves of folds that end near a generalised flip their last point: the folds' own equations are singular there, so
+/// that of the curve of flips is taken.
+fn end_in_flips<F: Family<2>>(family: &F, folds: &mut Curve, region: &CurveLimits) {
+    let is_fold = folds.kind == SpecialKind::Critical(Test::Fold);
+    if !is_fold || !folds.periods.is_multiple_of(2) {
+        return;
+    }
+    let near = |point: Option<&CurvePoint>, end: &CurveEnd| {
+        let may_end = matches!(
+            end,
+            CurveEnd::Lost(_) | CurveEnd::CodimensionTwo(CodimensionTwo::GeneralisedFlip)
+        );
+        may_end.then(|| flip_near(family, folds.periods / 2, point?, region))?
+    };
+    let first = near(folds.points.first(), &folds.ends.0);
+    let last = near(folds.points.last(), &folds.ends.1);
+    let special = CodimensionTwo::GeneralisedFlip;
+    if let Some(flip) = first {
+        folds.points.insert(0, flip.clone());
+        folds.specials.insert(0, (special, flip));
+        folds.ends.0 = CurveEnd::CodimensionTwo(special);
+    }
+    if let Some(flip) = last {
+        folds.points.push(flip.clone());
+        folds.specials.push((special, flip));
+        folds.ends.1 = CurveEnd::CodimensionTwo(special);
+    }
+}
+
+/// The generalised flip near a point of a curve of folds of twice the period, if there is one.
+fn flip_near<F: Family<2>>(
+    family: &F,
+    periods: u64,
+    point: &CurvePoint,
+    region: &CurveLimits,
+) -> Option<CurvePoint> {
+    let (points, step) = NEAR_FLIPS;
+    let region = CurveLimits {
+        points,
+        step: step * region.step,
+        ..*region
+    };
+    let flip = (SpecialKind::Critical(Test::Flip), point.state());
+    let go_on = &mut |_: &_| ControlFlow::Continue(());
+    let flips = raw_curve(family, periods, flip, point.parameters, &region, go_on);
+    let mut specials = flips.ok()?.specials.into_iter();
+    let found = specials.find(|it| it.0 == CodimensionTwo::GeneralisedFlip);
+    found.map(|it| it.1)
+}

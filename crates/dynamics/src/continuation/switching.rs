@@ -1,0 +1,186 @@
+//! From a point of codimension two on one curve to the other curves that begin there.
+
+use std::ops::ControlFlow;
+
+use nalgebra::Vector2;
+
+use super::Family;
+use super::codimension_two::{CodimensionTwo, CurvePoint};
+use super::critical_impact::CriticalImpact;
+use super::curve::{Curve, CurveLimits, follow};
+use super::follow::Continuation;
+use super::grazing_orbit::GrazingOrbit;
+use super::half_branch::Limits;
+use super::impact_section::ImpactSection;
+use super::point::{Graze, SpecialKind};
+use super::special_curve::curve;
+use super::test::Test;
+use crate::monitor::stop_if;
+use softstop::{MotionError, Scene};
+
+/// Velocities of the weak impact, in units of the family's scales, at which folds and flips beside resonant grazing are looked
+/// for.
+const WEAK: [f64; 3] = [1e-2, 1e-3, 1e-4];
+
+/// The curves that begin in the points of codimension two of a curve: those of grazing, folds and flips in resonant grazing, and
+/// in a generalised flip that of flips and that of folds of orbits of twice the period. `is_known` says of a kind of curve with
+/// its drive periods whether one through the point is known already; what cannot be found is left out.
+pub fn switched<F: Family<2>>(
+    family: &F,
+    from: &Curve,
+    region: &CurveLimits,
+    mut is_known: impl FnMut(&SpecialKind, u64, &CurvePoint) -> bool,
+    mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
+) -> Vec<Curve> {
+    let [folds, flips] = [Test::Fold, Test::Flip].map(SpecialKind::Critical);
+    let mut found = Vec::new();
+    for (special, point) in &from.specials {
+        let others = match special {
+            CodimensionTwo::Cusp => Vec::new(),
+            CodimensionTwo::GeneralisedFlip if from.kind == flips => {
+                vec![(folds, 2 * from.periods)]
+            }
+            CodimensionTwo::GeneralisedFlip => vec![(flips, from.periods / 2)],
+            CodimensionTwo::ResonantGrazing(graze) => {
+                let kinds = [folds, flips, SpecialKind::Grazing(*graze)];
+                kinds.map(|kind| (kind, from.periods)).to_vec()
+            }
+        };
+        for (kind, periods) in others {
+            if is_known(&kind, periods, point) {
+                continue;
+            }
+            let curve = match special {
+                CodimensionTwo::ResonantGrazing(graze) => {
+                    let place = (periods, graze, point.parameters);
+                    from_grazing(family, place, kind, region, &mut watch)
+                }
+                _ => {
+                    let start = match kind == folds {
+                        true => fold_beside(family, from, point, region),
+                        false => Some((point.state(), point.parameters)),
+                    };
+                    start.and_then(|(state, parameters)| {
+                        curve(
+                            family,
+                            periods,
+                            (kind, state),
+                            parameters,
+                            region,
+                            &mut watch,
+                        )
+                        .ok()
+                    })
+                }
+            };
+            found.extend(curve);
+        }
+    }
+    found
+}
+
+/// The curve of one kind from resonant grazing.
+fn from_grazing<F: Family<2>>(
+    family: &F,
+    (periods, graze, parameters): (u64, &Graze, [f64; 2]),
+    kind: SpecialKind,
+    region: &CurveLimits,
+    watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
+) -> Option<Curve> {
+    let section = ImpactSection {
+        family,
+        periods,
+        crossings: graze.crossings,
+        face: graze.face,
+    };
+    let touching = GrazingOrbit { section };
+    let touch = touching.scaled(graze.angle, parameters);
+    match kind {
+        SpecialKind::Grazing(_) => follow(&touching, kind, &touch, region, watch).ok(),
+        SpecialKind::Critical(test) => {
+            let beside =
+                |velocity: &f64| CriticalImpact::beside(&touching, &touch, test, *velocity).ok();
+            let (critical, node) = WEAK.iter().find_map(beside)?;
+            follow(&critical, kind, &node.at, region, watch).ok()
+        }
+    }
+}
+
+/// State and parameters of a fold of orbits of twice the period beside a generalised flip on a curve of flips.
+fn fold_beside<F: Family<2>>(
+    family: &F,
+    flips: &Curve,
+    generalised: &CurvePoint,
+    region: &CurveLimits,
+) -> Option<(Vector2<f64>, [f64; 2])> {
+    let points = &flips.points;
+    let scales = family.parameter_scales();
+    let off = |point: &CurvePoint| {
+        let off = [0, 1]
+            .map(|index| (point.parameters[index] - generalised.parameters[index]) / scales[index]);
+        off[0].hypot(off[1])
+    };
+    let nearest = (0..points.len()).min_by(|a, b| off(&points[*a]).total_cmp(&off(&points[*b])))?;
+    let steps = std::iter::successors(Some(1), |step| Some(2 * step));
+    let both_ways = |step: usize| [nearest.checked_sub(step), nearest.checked_add(step)];
+    let mut beside = steps
+        .take_while(|step| *step < points.len())
+        .flat_map(both_ways)
+        .flatten()
+        .filter_map(|index| points.get(index));
+    beside.find_map(|flip| {
+        let within = off(flip) * scales[0];
+        fold_of_doubled(family, flips.periods, flip, within, region)
+    })
+}
+
+/// The first fold of the doubled orbits of a flip along the first parameter, so near to it at most. A generalised flip is
+/// farther from the flip than such a fold is: that one only by the square of its distance.
+fn fold_of_doubled<F: Family<2>>(
+    family: &F,
+    periods: u64,
+    flip: &CurvePoint,
+    within: f64,
+    region: &CurveLimits,
+) -> Option<(Vector2<f64>, [f64; 2])> {
+    let [parameter, second] = flip.parameters;
+    let across = Across { family, second };
+    let along = Continuation::new(&across, periods).with_steps(region.step);
+    let limits = Limits {
+        range: (parameter - within, parameter + within),
+        points: region.points,
+    };
+    let flip = along.point(parameter, flip.state()).ok()?;
+    let mut begins = None;
+    let branch = along.doubled(&flip, &limits, |point| {
+        let is_positive = point.fold_test() > 0.0;
+        stop_if(*begins.get_or_insert(is_positive) != is_positive)
+    });
+    let branch = branch.ok()?;
+    let fold = branch.critical(Test::Fold).next()?;
+    Some((fold.state(), [fold.parameter, second]))
+}
+
+/// A family at one value of its second parameter.
+struct Across<'a, F> {
+    family: &'a F,
+    second: f64,
+}
+
+impl<F: Family<2>> Family for Across<'_, F> {
+    fn scene(&self, [first]: [f64; 1]) -> Result<Scene, MotionError> {
+        self.family.scene([first, self.second])
+    }
+
+    fn state_scales(&self) -> [f64; 2] {
+        self.family.state_scales()
+    }
+
+    fn parameter_scales(&self) -> [f64; 1] {
+        [self.family.parameter_scales()[0]]
+    }
+
+    fn by_frequency(&self) -> [Option<f64>; 1] {
+        [self.family.by_frequency()[0]]
+    }
+}
