@@ -62,3 +62,8 @@ pub use tangent::{Perturbation, Sensitivity, Tangent};
 pub use trajectory::{AppliedForce, KeptArc, Touch, Trajectory};
 
 pub use nalgebra;
+
+/// The README, which runs as printed.
+#[cfg(doctest)]
+#[doc = include_str!("README.md")]
+mod readme {}

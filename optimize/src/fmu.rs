@@ -11,13 +11,14 @@ use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
 use softstop_console::names::file_stem;
 use softstop_console::output::{self, Folder};
+use softstop_embed::c_library;
 pub use softstop_fmu::Standard;
 use softstop_fmu::package::{self, HOST_PLATFORM, Library};
 use softstop_fmu::{Imprint, Options, StartValues, parameter_set};
 
 /// Compiled along with this program, from the same engine.
-static FMI2: &[u8] = include_bytes!(env!("SOFTSTOP_FMI2_LIBRARY"));
-static FMI3: &[u8] = include_bytes!(env!("SOFTSTOP_FMI3_LIBRARY"));
+static FMI2: &[u8] = c_library!(softstop_fmi2);
+static FMI3: &[u8] = c_library!(softstop_fmi3);
 
 /// The FMU's library for this machine.
 ///
@@ -30,8 +31,7 @@ pub fn library(standard: Standard) -> Result<Library> {
     };
     ensure!(
         !bytes.is_empty(),
-        "cannot make the FMU: this program was built without its library; in the folder of its source, build it with \
-         `cargo clean -p softstop-fmi2 -p softstop-fmi3` and `cargo build` or `cargo install --path optimize`"
+        "cannot make the FMU: this program holds no library for it, as its system has no shared libraries"
     );
     Ok(Library {
         platform: HOST_PLATFORM.to_owned(),

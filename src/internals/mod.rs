@@ -1,6 +1,7 @@
 //! What the sibling crates need of the engine's inside: phases, courses, guards. No promise is made of it.
 
 pub mod samples;
+pub mod scenes;
 
 pub use crate::budget;
 pub use crate::error::{did_you_mean, plain};

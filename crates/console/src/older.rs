@@ -216,7 +216,7 @@ pub fn say_once(old: &str, new: &str) {
     if !old.is_empty() && !said.iter().any(|other| other == old) {
         said.push(old.to_owned());
         crate::say(&format!(
-            "note: instead of {old} write {new}; the older words go with version 0.2\n"
+            "note: instead of {old} write {new}; the older words go with version 0.3\n"
         ));
     }
 }

@@ -70,3 +70,8 @@ pub use softstop;
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/tutorials/rust.md")]
 mod guide {}
+
+/// The README, which runs as printed.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -231,3 +231,102 @@ fn join(module: &str, name: &str) -> String {
         _ => format!("{module}::{name}"),
     }
 }
+
+/// The folders of the packages in the workspace.
+fn packages() -> Vec<String> {
+    let root = manifest("");
+    let members = root["workspace"]["members"].as_array().expect("a list");
+    let mut found = Vec::new();
+    for member in members.iter().filter_map(|it| it.as_str()) {
+        match member.strip_suffix("/*") {
+            Some(folder) => {
+                let entries = fs::read_dir(top().join(folder))
+                    .expect("a folder")
+                    .flatten();
+                let names = entries.map(|it| it.file_name().to_string_lossy().into_owned());
+                let places = names.map(|name| format!("{folder}/{name}"));
+                found.extend(places.filter(|it| top().join(it).join("Cargo.toml").exists()));
+            }
+            None => found.push(member.to_owned()),
+        }
+    }
+    found
+}
+
+#[test]
+fn published_packages_are_complete_and_need_no_others() {
+    let package_of = |place: &String| manifest(place)["package"].as_table().cloned();
+    let published: Vec<_> = packages()
+        .into_iter()
+        .filter_map(|place| Some((package_of(&place)?, place)))
+        .filter(|(package, _)| !package.contains_key("publish"))
+        .collect();
+    let names: BTreeSet<_> = published
+        .iter()
+        .map(|(it, _)| it["name"].as_str())
+        .collect();
+    let dependencies = manifest("")["workspace"]["dependencies"].clone();
+    for (package, place) in &published {
+        let folder = top().join(place);
+        for key in [
+            "description",
+            "license",
+            "documentation",
+            "readme",
+            "include",
+        ] {
+            assert!(package.contains_key(key), "{place}: {key}");
+        }
+        let readme = package["readme"].as_str().expect("a path");
+        let text = fs::read_to_string(folder.join(readme)).expect("a README");
+        let links = text.split("](").skip(1);
+        assert!(
+            links.into_iter().all(|it| it.starts_with("https://")),
+            "{place}: {readme}"
+        );
+        for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
+            assert!(folder.join(licence).exists(), "{place}: {licence}");
+        }
+        let manifest = manifest(place);
+        let own = manifest.get("dependencies").and_then(|it| it.as_table());
+        for (key, _) in own.into_iter().flatten() {
+            let Some(it) = dependencies.get(key).filter(|it| it.get("path").is_some()) else {
+                continue;
+            };
+            let name = it.get("package").and_then(|it| it.as_str()).or(Some(key));
+            assert!(
+                names.contains(&name),
+                "{place} needs {key}, which is not published"
+            );
+        }
+    }
+    assert_eq!(published.len(), 13);
+}
+
+#[test]
+fn build_scripts_of_both_fmi_libraries_are_the_same() {
+    let script = |place: &str| fs::read_to_string(top().join(place).join("build.rs"));
+    assert_eq!(
+        script("fmu/fmi2").expect("a script"),
+        script("fmu/fmi3").expect("a script")
+    );
+}
+
+#[test]
+fn pages_that_name_the_version_name_this_one() {
+    let version = env!("CARGO_PKG_VERSION");
+    for (file, words) in [
+        ("CITATION.cff", format!("\nversion: {version}\n")),
+        ("docs/cite.md", format!("version = {{{version}}}")),
+        ("docs/install.md", format!("Version {version} is prepared")),
+        ("docs/install.md", format!("softstop-{version}-*")),
+        ("CHANGELOG.md", format!("\n## {version} (")),
+        (
+            "Cargo.toml",
+            format!("path = \"crates/dynamics\", version = \"{version}\""),
+        ),
+    ] {
+        let text = fs::read_to_string(top().join(file)).expect("a text");
+        assert!(text.contains(&words), "{file} does not say {words}");
+    }
+}

@@ -1,6 +1,7 @@
 //! The zoo: which scenes are drawn, at which speed, under which name.
 
 use softstop::Scene;
+use softstop::internals::scenes;
 
 use softstop_console::failure::Failure;
 
@@ -29,10 +30,10 @@ pub struct Specimen {
 }
 
 macro_rules! specimen {
-    ($file:literal, $label:literal) => {
+    ($scene:ident, $label:literal) => {
         Specimen {
             label: $label,
-            scene: include_str!(concat!("../../../../docs/scenes/", $file, ".toml")),
+            scene: scenes::$scene,
         }
     };
 }
@@ -45,8 +46,8 @@ pub const ZOO: [Exhibit; 6] = [
         speed: 6.0,
         damped: true,
         laws: &[
-            specimen!("kelvin-voigt", "release at the clearance"),
-            specimen!("kelvin-voigt-zero-force", "release at zero force"),
+            specimen!(KELVIN_VOIGT, "release at the clearance"),
+            specimen!(KELVIN_VOIGT_ZERO_FORCE, "release at zero force"),
         ],
     },
     Exhibit {
@@ -55,8 +56,8 @@ pub const ZOO: [Exhibit; 6] = [
         speed: 6.0,
         damped: false,
         laws: &[
-            specimen!("piecewise-linear", "one chain for both ways"),
-            specimen!("piecewise-linear-unloading", "another chain on the way out"),
+            specimen!(PIECEWISE_LINEAR, "one chain for both ways"),
+            specimen!(PIECEWISE_LINEAR_UNLOADING, "another chain on the way out"),
         ],
     },
     Exhibit {
@@ -65,8 +66,8 @@ pub const ZOO: [Exhibit; 6] = [
         speed: 6.0,
         damped: false,
         laws: &[
-            specimen!("hertz", "Hertz"),
-            specimen!("hunt-crossley", "with Hunt and Crossley's dissipation"),
+            specimen!(HERTZ, "Hertz"),
+            specimen!(HUNT_CROSSLEY, "with Hunt and Crossley's dissipation"),
         ],
     },
     Exhibit {
@@ -74,21 +75,21 @@ pub const ZOO: [Exhibit; 6] = [
         title: "Preloaded: a pre-stressed spring",
         speed: 20.0,
         damped: false,
-        laws: &[specimen!("preloaded", "preload and spring")],
+        laws: &[specimen!(PRELOADED, "preload and spring")],
     },
     Exhibit {
         name: "piercing",
         title: "Piercing: strip, preloaded stop, rigid stop",
         speed: 8.0,
         damped: false,
-        laws: &[specimen!("piercing", "phases I to IV")],
+        laws: &[specimen!(PIERCING, "phases I to IV")],
     },
     Exhibit {
         name: "rigid",
         title: "Rigid: Newton's restitution",
         speed: 6.0,
         damped: false,
-        laws: &[specimen!("rigid", "rigid stop")],
+        laws: &[specimen!(RIGID, "rigid stop")],
     },
 ];
 
