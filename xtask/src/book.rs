@@ -16,6 +16,9 @@ const MDBOOK: &str = "0.5.4";
 /// The folder of the book that holds what lies outside `docs`.
 const OUTSIDE: &str = "top";
 
+/// What leads from the tutorial to the documentation of the crates.
+const CRATES: &str = "[All items of the engine](../rust/softstop/index.html) and of [softstop-dynamics](../rust/softstop_dynamics/index.html).";
+
 /// Tests the pages, with the commands and examples that they show, and builds the book.
 pub fn write() -> Result<PathBuf> {
     stage("pages, commands and examples");
@@ -31,7 +34,11 @@ pub fn write() -> Result<PathBuf> {
     lay_out(&folder)?;
     add_docstrings(&folder.join("src/python.md"))?;
     embed_explorer(&folder.join("src"))?;
+    let rust = folder.join("src/tutorials/rust.md");
+    let text = fs::read_to_string(&rust)?;
+    fs::write(rust, format!("{text}\n{CRATES}\n"))?;
     run(Command::new(mdbook()?).arg("build").arg(&folder))?;
+    add_rustdoc(&folder.join("book/rust"))?;
     Ok(folder.join("book/index.html"))
 }
 
@@ -55,6 +62,24 @@ fn add_docstrings(page: &Path) -> Result<()> {
     let docstrings = output(Command::new(python).args(["-X", "utf8", "xtask/book/docstrings.py"]))?;
     let text = fs::read_to_string(page)?;
     fs::write(page, format!("{text}\n{docstrings}"))?;
+    Ok(())
+}
+
+/// Puts the documentation of the two libraries for users beside the pages of the book.
+fn add_rustdoc(place: &Path) -> Result<()> {
+    stage("documentation of the crates");
+    let built = target().join("guide/target");
+    run(cargo_command()
+        .args(["doc", "--release", "--no-deps", "--locked", "--target-dir"])
+        .arg(&built)
+        .args([
+            "--package",
+            "softstop-core",
+            "--package",
+            "softstop-dynamics",
+        ]))?;
+    fs::rename(built.join("doc"), place)?;
+    fs::remove_dir_all(built)?;
     Ok(())
 }
 

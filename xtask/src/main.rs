@@ -1,5 +1,6 @@
 //! Tasks of the workspace, run as `cargo xtask <task>`.
 
+mod archive;
 mod book;
 mod darwin;
 mod explorer;
@@ -72,6 +73,8 @@ enum Task {
         #[arg(long)]
         sdist: bool,
     },
+    /// Write the programs for this machine, as they are shipped, with their manual into target/archive
+    Archive,
     /// Build the wheel and the program and run the package's tests only
     Python,
     /// Build the program and run the tests of its pages in a headless Chromium only
@@ -144,6 +147,10 @@ fn run_task(task: &Task) -> Result<()> {
         }
         Task::Importers => test_with_importers(&build()?),
         Task::Wheel { all_targets, sdist } => wheel::write(*all_targets, *sdist),
+        Task::Archive => {
+            println!("written: {}", archive::write()?.display());
+            Ok(())
+        }
         Task::Python => {
             build_program()?;
             test_wheel()
@@ -221,4 +228,59 @@ fn test_wheel() -> Result<()> {
 fn test_with_importers(package: &Path) -> Result<()> {
     stage("tests with other importers");
     python::test_importers(package)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    /// The text of a workflow and its name.
+    fn workflows() -> impl Iterator<Item = (PathBuf, String)> {
+        let folder = run::top().join(".github/workflows");
+        let entries = fs::read_dir(folder).expect("the workflows");
+        entries.map(|entry| {
+            let path = entry.expect("an entry").path();
+            let text = fs::read_to_string(&path).expect("a workflow");
+            (path, text)
+        })
+    }
+
+    #[test]
+    fn workflows_name_tasks_that_exist() {
+        let mut count = 0;
+        for (path, text) in workflows() {
+            for rest in text.split("cargo xtask ").skip(1) {
+                let end = rest.find(['\n', '&']).unwrap_or(rest.len());
+                let line = ["xtask"].into_iter().chain(rest[..end].split_whitespace());
+                let parsed = Arguments::try_parse_from(line);
+                assert!(parsed.is_ok(), "{}: {}", path.display(), &rest[..end]);
+                count += 1;
+            }
+        }
+        assert!(count >= 6, "{count} commands");
+    }
+
+    #[test]
+    fn workflows_pin_actions_limit_times_and_begin_without_permissions() {
+        for (path, text) in workflows() {
+            let named = path.display();
+            for action in text.lines().filter_map(|line| line.split_once("uses: ")) {
+                let (_, commit) = action.1.split_once('@').expect("a version");
+                let (commit, version) =
+                    commit.split_once(" # v").expect("a commit and its version");
+                assert!(
+                    commit.len() == 40 && !version.is_empty(),
+                    "{named}: {commit}"
+                );
+            }
+            let count = |what: &str| text.matches(what).count();
+            assert_eq!(count("runs-on:"), count("timeout-minutes:"), "{named}");
+            assert!(
+                text.contains("\npermissions:\n  contents: read\n"),
+                "{named}"
+            );
+        }
+    }
 }

@@ -11,22 +11,28 @@ use serde_json::Value;
 use crate::run::{cargo_command, output, top};
 use crate::targets;
 
-/// What ships the library, and the package that it is built from.
-pub struct Library {
+/// What ships the libraries or programs, and the packages that they are built from.
+pub struct Shipped {
     name: &'static str,
-    package: &'static str,
+    packages: &'static [&'static str],
 }
 
 /// The FMU.
-const FMU: Library = Library {
+const FMU: Shipped = Shipped {
     name: "libraries of this FMU are",
-    package: "softstop-fmi3",
+    packages: &["softstop-fmi3"],
 };
 
 /// The Python package.
-pub const WHEEL: Library = Library {
+pub const WHEEL: Shipped = Shipped {
     name: "library of this package is",
-    package: "softstop-python",
+    packages: &["softstop-python"],
+};
+
+/// The archive of the programs.
+pub const PROGRAMS: Shipped = Shipped {
+    name: "programs of this archive are",
+    packages: &["softstop", "softstop-lab"],
 };
 
 const PARTS: &str = "
@@ -53,15 +59,15 @@ fn path() -> PathBuf {
 }
 
 /// The text: a list of the crates, then each text of a licence once.
-pub fn notices(library: &Library) -> Result<String> {
+pub fn notices(shipped: &Shipped) -> Result<String> {
     let mut text = format!(
         "Third-party notices\n\nThe {} built from softstop and the parts below.\n{PARTS}",
-        library.name
+        shipped.name
     );
     let mut licences = BTreeMap::<String, Vec<String>>::new();
     let arguments = ["metadata", "--format-version=1", "--locked"];
     let metadata = serde_json::from_str(&output(cargo_command().args(arguments))?)?;
-    for package in linked_packages(&metadata, library.package)? {
+    for package in linked_packages(&metadata, shipped.packages)? {
         let [licence, home] = ["license", "repository"].map(|key| field(package, key));
         writeln!(text, "  {}, {licence}, {home}", name(package))?;
         let manifest = Path::new(field(package, "manifest_path"));
@@ -80,13 +86,14 @@ pub fn notices(library: &Library) -> Result<String> {
     Ok(text)
 }
 
-/// Names and versions of the crates in the library of a package, whatever the target.
-fn linked(package: &str) -> Result<BTreeSet<String>> {
+/// Names and versions of the crates in the libraries or programs of packages, whatever the target.
+fn linked(packages: &[&str]) -> Result<BTreeSet<String>> {
     let mut crates = BTreeSet::new();
     for triple in targets::triples() {
         let tree = output(
             cargo_command()
-                .args(["tree", "--locked", "--package", package])
+                .args(["tree", "--locked"])
+                .args(packages.iter().flat_map(|it| ["--package", it]))
                 .args(["--edges=normal,no-proc-macro", "--target", triple])
                 .args(["--prefix=none", "--format={p}"]),
         )?;
@@ -98,9 +105,9 @@ fn linked(package: &str) -> Result<BTreeSet<String>> {
     Ok(crates)
 }
 
-/// The packages of others that the library of a package is built from.
-fn linked_packages<'a>(metadata: &'a Value, package: &str) -> Result<Vec<&'a Value>> {
-    let linked = linked(package)?;
+/// The packages of others that those of this project are linked with.
+fn linked_packages<'a>(metadata: &'a Value, own: &[&str]) -> Result<Vec<&'a Value>> {
+    let linked = linked(own)?;
     let packages = metadata["packages"].as_array().into_iter().flatten();
     let mut packages: Vec<_> = packages
         .filter(|package| !package["source"].is_null() && linked.contains(&name(package)))
