@@ -105,6 +105,7 @@ pub struct RigidStop {
 
 /// A stop on the other side: it is met at x = -`clearance` on the way down, and its deflection is -x - `clearance`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(expecting = "a table")]
 pub struct Below {
     /// Clearance in m, measured downwards; the free way between both stops must be > 0.
     pub clearance: f64,

@@ -122,8 +122,14 @@ impl MachineArguments {
     ) -> Result<(Parameter, f64), Failure> {
         let refused = |error| Failure::usage(format!("--{flag} {name}: {error}"));
         let own = (machine.scene.stiffness / machine.scene.mass).sqrt();
-        if name != "eta" || machine.unit_system == UnitSystem::Ratios || own == 0.0 {
+        if name != "eta" || machine.unit_system == UnitSystem::Ratios {
             return machine.free(name).map_err(refused);
+        }
+        if own == 0.0 {
+            let what = "is in units of sqrt(k1/m), but stiffness = 0";
+            return Err(Failure::usage(format!(
+                "--{flag} {name}: {what}; say excitation.frequency"
+            )));
         }
         let key = Parameter::Frequency.name();
         let (frequency, _) = machine.free(key).map_err(refused)?;

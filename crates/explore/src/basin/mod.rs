@@ -112,7 +112,7 @@ pub struct BasinArguments {
     #[arg(long, value_name = "VALUE", requires = "parameter")]
     pub to: Option<f64>,
     /// Number of values, 2 to 1000
-    #[arg(long, value_name = "N", default_value_t = 41)]
+    #[arg(long, value_name = "N", default_value_t = 41, requires = "parameter")]
     pub steps: usize,
     /// Whether it goes on with an earlier one.
     #[command(flatten)]
