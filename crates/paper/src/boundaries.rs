@@ -57,7 +57,7 @@ impl Boundaries {
             let special = SpecialKind::Critical(test);
             let found = branch.critical(test).map(|point| {
                 let at = [point.parameter, machine.clearance];
-                let found = curve(&plane, 1, (special, point), at, &region, |_| {
+                let found = curve(&plane, 1, (special, point.state()), at, &region, |_| {
                     interrupt::go_on()
                 });
                 found.with_context(|| format!("no curve of the {}", special.name()))
