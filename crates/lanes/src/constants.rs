@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::law::{Constants, SPAN, TERMS};
+use softstop::PhaseKind;
 use softstop::internals::{Beyond, Exit, Hertz, Modes, Phase, Phases, SurfaceId};
 
 /// Most windows per drive period.
@@ -22,21 +23,17 @@ const SLOW: f64 = 1e-5;
 impl Constants {
     /// Sets those of a phase, from none; none if only the safe engine follows it.
     pub fn set_to(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
+        (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
         if let Some(hertz) = &phase.hertz {
             return self.set_to_power(phases, phase, hertz);
         }
         let constants = self;
         constants.set_flow(phases, phase)?;
         let mut guarded = false;
-        (constants.low, constants.high) = (f64::NEG_INFINITY, f64::INFINITY);
         for (guard, exit) in phase.guards.iter().zip(&phase.exits) {
             match *exit {
-                Exit::Forward(surface) => constants.end_above(phases, surface),
-                Exit::Backward(surface) => {
-                    let surface = &phases[surface];
-                    constants.low = surface.position;
-                    constants.beyond_low = surface.before.index() as f64;
-                }
+                Exit::Forward(surface) => constants.end_at(phases, surface, true),
+                Exit::Backward(surface) => constants.end_at(phases, surface, false),
                 Exit::Reversal { .. } | Exit::Switch(_) if guarded || guard.push != 0.0 => {
                     return None;
                 }
@@ -64,9 +61,18 @@ impl Constants {
         let flow = &phase.flow;
         constants.set_side();
         constants.set_grain(flow.frequency.max(flow.modes.fastest_rate()));
-        constants.set_bounds(&flow.modes, flow.frequency);
-        if constants.releases_first() {
+        let is_free = phase.kind == PhaseKind::Free;
+        let reach = if constants.is_plain() || is_free {
+            f64::INFINITY
+        } else {
+            constants.window
+        };
+        constants.set_bounds(&flow.modes, flow.frequency, reach);
+        if constants.releases_first(constants.low, 1.0) {
             constants.low = f64::NEG_INFINITY;
+        }
+        if constants.releases_first(constants.high, -1.0) {
+            constants.high = f64::INFINITY;
         }
         constants.turn(constants.side);
         Some(())
@@ -77,16 +83,13 @@ impl Constants {
         let constants = self;
         for exit in &phase.exits {
             match *exit {
-                Exit::Backward(surface) => {
-                    let surface = &phases[surface];
-                    constants.low = surface.position;
-                    constants.beyond_low = surface.before.index() as f64;
-                }
+                Exit::Backward(surface) => constants.end_at(phases, surface, false),
                 Exit::Switch(_) => {}
                 Exit::Forward(_) | Exit::Reversal { .. } => return None,
             }
         }
-        if !EXPONENTS.contains(&hertz.exponent) || constants.low != hertz.origin {
+        constants.set_side();
+        if !EXPONENTS.contains(&hertz.exponent) || constants.end != hertz.origin {
             return None;
         }
         let flow = &phase.flow;
@@ -103,9 +106,9 @@ impl Constants {
             exponent: hertz.exponent,
             grip: press * hertz.dissipation,
             slip: -1.0 / hertz.dissipation,
-            amplitude: flow.amplitude,
-            push,
-            high: f64::INFINITY,
+            side: hertz.side,
+            amplitude: hertz.side * flow.amplitude,
+            push: hertz.side * push,
             level: f64::INFINITY,
             ..*constants
         };
@@ -117,11 +120,11 @@ impl Constants {
         self.press > 0.0
     }
 
-    /// True if no motion comes down to the lower end but through the further guard: there it is
-    /// by_velocity x', not below zero on the way down. So a contact that must not pull ends before it is open.
-    fn releases_first(&self) -> bool {
-        let off = self.by_position * self.low - self.level;
-        self.by_velocity < 0.0 && off.abs() <= 4.0 * f64::EPSILON * self.level.abs()
+    /// True if no motion comes to an end of the phase, the lower one for `side` = 1, but through the further guard: there it is
+    /// by_velocity x', not below zero on the way out. So a contact that must not pull ends before it is open.
+    fn releases_first(&self, end: f64, side: f64) -> bool {
+        let off = self.by_position * end - self.level;
+        side * self.by_velocity < 0.0 && off.abs() <= 4.0 * f64::EPSILON * self.level.abs()
     }
 
     /// True if one position and nothing else ends the phase, and its free motion never grows.
@@ -167,14 +170,21 @@ impl Constants {
         }
     }
 
-    fn end_above(&mut self, phases: &Phases, surface: SurfaceId) {
+    /// Ends the phase at a surface, on the way `forward` to the stop or on the way back.
+    fn end_at(&mut self, phases: &Phases, surface: SurfaceId, forward: bool) {
         let at = &phases[surface];
-        self.high = at.position;
-        self.impact = f64::from(u8::from(at.is_clearance));
-        (self.beyond_high, self.bounce) = match phases.beyond(at, true) {
-            Beyond::Phase(beyond) => (beyond.index() as f64, 1.0),
-            Beyond::Wall { restitution } => (at.before.index() as f64, -restitution),
+        let impact = f64::from(u8::from(forward && at.is_clearance));
+        let (beyond, bounce) = match phases.beyond(at, true) {
+            Beyond::Phase(beyond) if forward => (beyond, 1.0),
+            Beyond::Wall { restitution } if forward => (at.before, -restitution),
+            _ => (at.before, 1.0),
         };
+        let end = (at.position, beyond.index() as f64, bounce, impact);
+        if forward == (at.side > 0.0) {
+            (self.high, self.beyond_high, self.bounce, self.impact) = end;
+        } else {
+            (self.low, self.beyond_low, self.bounce_low, self.impact_low) = end;
+        }
     }
 
     fn set_flow(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
@@ -225,24 +235,19 @@ impl Constants {
         let is_low = self.high == f64::INFINITY && self.low > f64::NEG_INFINITY;
         if is_low {
             (self.side, self.edge) = (-1.0, self.offset - self.low);
-            (self.end, self.beyond_end, self.end_bounce) = (self.low, self.beyond_low, 1.0);
+            (self.end, self.beyond_end) = (self.low, self.beyond_low);
+            (self.end_bounce, self.end_impact) = (self.bounce_low, self.impact_low);
         } else {
             (self.side, self.edge) = (1.0, self.high - self.offset);
-            (self.end, self.beyond_end, self.end_bounce) =
-                (self.high, self.beyond_high, self.bounce);
-            self.end_impact = self.impact;
+            (self.end, self.beyond_end) = (self.high, self.beyond_high);
+            (self.end_bounce, self.end_impact) = (self.bounce, self.impact);
         }
     }
 
     /// |x''''| <= |y''''| C + |y'''''| S for the free part y, with the bounds C and S on the fundamental
-    /// solutions over one window, or over all time in a plain phase, plus w^4 times the steady amplitude; |v''''| likewise.
-    fn set_bounds(&mut self, modes: &Modes, w: f64) {
+    /// solutions over the time `reach`, plus w^4 times the steady amplitude; |v''''| likewise.
+    fn set_bounds(&mut self, modes: &Modes, w: f64, reach: f64) {
         let scale = self.window.powi(4) / 384.0;
-        let reach = if self.is_plain() {
-            f64::INFINITY
-        } else {
-            self.window
-        };
         let (c, s) = modes.bounds(reach);
         let amplitude = self.swing * scale;
         self.longest = s;

@@ -80,10 +80,12 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let frequency = self.state.drive.frequency;
         let period = self.state.drive.period;
         let zero = due.like(0.0);
-        let root = (self.state.x - law.low).max(zero).square_root();
+        let root = (law.side * (self.state.x - law.end))
+            .max(zero)
+            .square_root();
         let place = ContactPlace {
             root,
-            velocity: self.state.v,
+            velocity: law.side * self.state.v,
             angle: self.state.angle,
             time: zero,
         };
@@ -106,12 +108,14 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let (left, arrived) = (path.left, path.arrived);
         let doubtful = path.doubtful | slow;
         let place = path.place;
+        let x = (law.side * place.root).mul_add(place.root, law.end);
+        let v = law.side * place.velocity;
         let end = WindowEnd {
-            x: left.choose(law.low, place.root.mul_add(place.root, law.low)),
-            v: place.velocity,
-            beyond: law.beyond_low,
+            x: left.choose(law.end, x),
+            v,
+            beyond: law.beyond_end,
             impact: zero,
-            before: place.velocity,
+            before: v,
         };
         let moved = active & zero.below(place.time);
         self.settle((moved, left), &end, place.angle, place.time);

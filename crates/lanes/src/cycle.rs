@@ -118,9 +118,10 @@ impl Cycle {
         if law.presses() || duration <= 0.0 {
             return None;
         }
-        let (kept, velocity) = match to.position == law.high {
-            true => (law.bounce, to.velocity),
-            false => (1.0, to.velocity_after),
+        let (kept, velocity) = match to.position {
+            x if x == law.high => (law.bounce, to.velocity),
+            x if x == law.low => (law.bounce_low, to.velocity),
+            _ => (1.0, to.velocity_after),
         };
         let start = law.place(drive, (from.position, from.velocity_after), angle);
         let end = law.place(drive, (to.position, velocity), turned);

@@ -109,18 +109,19 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             law.side * hits.choose(found.velocity, parts.u + parts.q),
         );
         let end = if GUARDED {
-            let is_high = guard.is_low.not().and_not(guard.is_further);
-            let at_high = hits & is_high;
-            let at_further = hits & guard.is_further;
+            let (is_low, is_further) = (guard.is_low, guard.is_further);
+            let (at_face, at_further) = (hits.and_not(is_further), hits & is_further);
             let turns = at_further & law.reverses();
             let turned = turns.choose(zero, v);
             let x = at_further.choose(found.position, x);
-            let beyond = is_high.choose(law.beyond_high, law.beyond_low);
+            let beyond = is_low.choose(law.beyond_low, law.beyond_high);
+            let bounced = v * is_low.choose(law.bounce_low, law.bounce);
+            let impact = is_low.choose(law.impact_low, law.impact);
             WindowEnd {
-                x: at_high.choose(law.high, (hits & guard.is_low).choose(law.low, x)),
-                v: at_high.choose(v * law.bounce, turned),
-                beyond: guard.is_further.choose(law.beyond_guard, beyond),
-                impact: at_high.choose(law.impact, zero),
+                x: at_face.choose(is_low.choose(law.low, law.high), x),
+                v: at_face.choose(bounced, turned),
+                beyond: is_further.choose(law.beyond_guard, beyond),
+                impact: is_further.choose(zero, impact),
                 before: v,
             }
         } else {
@@ -215,9 +216,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
                 && let Some((job, cycle)) = self.progress(lane)
             {
                 let offset = self.state.offset.get(lane);
-                self.task
-                    .watch
-                    .impact(job, cycle, offset, velocity.get(lane));
+                let speed = velocity.get(lane).abs();
+                self.task.watch.impact(job, cycle, offset, speed);
             }
         }
     }

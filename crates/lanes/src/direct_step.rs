@@ -78,13 +78,14 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let alone = path.is_straight(law, &here, time, ends);
         let hits = active & crossing.sure & in_time & apart & alone;
 
-        let at_high = path.up.and_not(turns);
         let beyond = path.up.choose(law.beyond_high, law.beyond_low);
+        let bounce = path.up.choose(law.bounce, law.bounce_low);
+        let impact = path.up.choose(law.impact, law.impact_low);
         let end = WindowEnd {
             x: end_x,
-            v: end_v * at_high.choose(law.bounce, one),
+            v: end_v * turns.choose(one, bounce),
             beyond: turns.choose(law.beyond_guard, beyond),
-            impact: at_high.choose(law.impact, zero),
+            impact: turns.choose(zero, impact),
             before: end_v,
         };
         let angle = law.angle(&parts.turned::<MOMENT>(frequency, moment));

@@ -41,6 +41,8 @@ use softstop::Start;
 /// Rounds after which the watcher is asked, and what they cost, in scan windows.
 const ROUNDS: usize = 16;
 const WINDOWS: u64 = 1 << 10;
+/// The free phase: one that not one position alone ends lies between two stops.
+const FREE: usize = 0;
 
 /// All lanes and what they work at.
 pub(super) struct Engine<'a, S: Simd, const N: usize> {
@@ -188,7 +190,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     #[inline(always)]
     fn step<const GUARDED: bool>(&mut self, phase: usize, active: Mask<S, N>) {
         let due = self.due();
-        let active = if GUARDED {
+        let between = GUARDED && phase == FREE;
+        let active = if GUARDED && !between {
             self.direct_step(phase, active, due)
         } else {
             active
@@ -197,13 +200,13 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             return;
         }
         let law = &self.laws[phase];
-        let mut reached = if GUARDED {
+        let mut reached = if GUARDED && !between {
             self.stand(law, active)
         } else {
-            self.scan(law, active, due * law.per_window)
+            self.scan::<GUARDED>(law, active, due * law.per_window)
         };
-        if !GUARDED {
-            self.leap(phase, active, &mut reached);
+        if !GUARDED || between {
+            self.leap::<GUARDED>(phase, active, &mut reached);
         }
         let (ended, doubtful) = self.decide_window::<GUARDED>(phase, active, &reached, due);
         if (ended | doubtful).any() {

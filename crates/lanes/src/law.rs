@@ -84,7 +84,8 @@ law! {
     fourth_v,
     fifth_x,
     fifth_v,
-    /// The free motion is never larger than |y| + longest |y'| in a phase that one position ends, the steady one than swing.
+    /// The free motion is never larger than |y| + longest |y'| in the free phase and in one that one position ends, the steady
+    /// one than swing.
     longest,
     swing,
     /// Parts of the bound on |v''''|: rate_steady + |fifth_x y + ...| times bounds + ...
@@ -106,18 +107,21 @@ law! {
     beyond_high,
     beyond_low,
     beyond_guard,
-    /// v+ = bounce v- at high: 1, or minus the restitution.
+    /// v+ = bounce v- at high and low: 1, or minus the restitution.
     bounce,
-    /// 1 where passing high is an impact.
+    bounce_low,
+    /// 1 where passing high, or low, is an impact.
     impact,
+    impact_low,
     /// The one end of a phase that only one position ends: where it is, what lies beyond, and how
     /// velocity and count of impacts change there.
     end,
     beyond_end,
     end_bounce,
     end_impact,
-    /// The power law beyond low: kappa and kappa lambda per mass, the exponent, the velocity below which it does not
-    /// grip, and the drive's amplitude and the constant push at low per mass. None where the law is linear.
+    /// The power law beyond the one end: kappa and kappa lambda per mass, the exponent, the velocity below which it does not
+    /// grip, and the drive's amplitude and the constant push there per mass, away from the end as the velocity. None where the
+    /// law is linear.
     press,
     exponent,
     grip,

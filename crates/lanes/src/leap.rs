@@ -16,16 +16,25 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// their job if they never meet anything: the free motion dies away, and the largest that it and the steady one can
     /// be together lies below the guard. An observer of periods is told of those that are left out.
     #[inline(always)]
-    pub fn leap(&mut self, phase: usize, active: Mask<S, N>, reached: &mut Reached<S, N>) {
+    pub fn leap<const GUARDED: bool>(
+        &mut self,
+        phase: usize,
+        active: Mask<S, N>,
+        reached: &mut Reached<S, N>,
+    ) {
         let law = &self.laws[phase];
         let parts = reached.parts;
         let left = self.state.left;
         let (zero, last) = (left.like(0.0), left.like(LAST));
         let far = law.longest.mul_add(parts.u.abs(), parts.y.abs()) + law.swing;
-        let calm = active
-            & zero.below(reached.count)
-            & far.below(law.edge - law.ambiguity)
-            & last.below(left);
+        let (ceiling, floor) = law.edges::<GUARDED>();
+        let room = if GUARDED {
+            ceiling.min(-floor)
+        } else {
+            ceiling
+        };
+        let calm =
+            active & zero.below(reached.count) & far.below(room - law.ambiguity) & last.below(left);
         if !calm.any() {
             return;
         }

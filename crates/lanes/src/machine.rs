@@ -35,9 +35,7 @@ impl Machine {
             phases: &phases,
             drive,
         };
-        let is_above = |surface: &Surface| surface.side > 0.0;
-        let one_sided = phases.surfaces.iter().all(is_above);
-        let for_lanes = one_sided && count <= MOST_PHASES && trains.is_short();
+        let for_lanes = count <= MOST_PHASES && trains.is_short();
         let laws = if for_lanes { trains.laws() } else { None };
         let kept = OnceLock::new();
         if laws.is_none() {
@@ -55,7 +53,7 @@ impl Machine {
         })
     }
 
-    /// True if its motions can be followed in lanes: it has no stop below, all its laws are linear but for a power law at the end,
+    /// True if its motions can be followed in lanes: all its laws are linear but for a power law at the end,
     /// none is much stiffer than the drive is slow, and none can hold the mass at a face that throws it back for rows of bounces without end.
     pub fn is_for_lanes(&self) -> bool {
         self.laws.is_some()
@@ -114,10 +112,10 @@ impl BounceTrains<'_> {
         Some(laws)
     }
 
-    /// The constant force on the mass at a position in a phase.
-    fn force(&self, phase: PhaseId, position: f64) -> f64 {
+    /// The constant force on the mass towards the stop at a surface in a phase.
+    fn force(&self, phase: PhaseId, surface: &Surface) -> f64 {
         let law = &self.phases[phase].law;
-        law.force - law.stiffness * position
+        surface.side * (law.force - law.stiffness * surface.position)
     }
 
     /// What rounding may change of it, compared with another one there.
@@ -127,13 +125,13 @@ impl BounceTrains<'_> {
     }
 
     fn is_at(&self, surface: &Surface) -> bool {
-        let before = self.force(surface.before, surface.position);
+        let before = self.force(surface.before, surface);
         let mut beyond = [Some(surface.beyond), surface.beyond_unfed]
             .into_iter()
             .flatten();
         let elastic = beyond.any(|above| match above {
             Beyond::Phase(above) => {
-                let after = self.force(above, surface.position);
+                let after = self.force(above, surface);
                 let least = after + self.rounding(above, surface.position);
                 least < before && after < self.drive.amplitude
             }
@@ -149,7 +147,7 @@ impl BounceTrains<'_> {
         let damping = damping.fold(0.0, f64::max) / self.phases.mass;
         let strong = damping * TAU / self.drive.frequency > MOST_DAMPING;
         let lifts = |surface: &Surface| {
-            self.force(surface.before, surface.position) < self.drive.amplitude && !strong
+            self.force(surface.before, surface) < self.drive.amplitude && !strong
         };
         let mut faces = self.phases.surfaces.iter();
         faces.all(|surface| lifts(surface) || !self.is_at(surface))
@@ -161,8 +159,7 @@ impl BounceTrains<'_> {
             Exit::Forward(surface) | Exit::Backward(surface) => Some(&self.phases[*surface]),
             Exit::Reversal { .. } | Exit::Switch(_) => None,
         });
-        let press =
-            |surface: &Surface| self.force(surface.before, surface.position) + self.drive.amplitude;
+        let press = |surface: &Surface| self.force(surface.before, surface) + self.drive.amplitude;
         let presses = faces.filter(|surface| self.is_at(surface)).map(press);
         let half = 0.5 * SHORTEST * TAU / self.drive.frequency;
         presses.fold(0.0, f64::max) / self.phases.mass * half

@@ -11,7 +11,7 @@ pub trait BatchObserver {
     /// True if it wants to know of the ends of drive periods.
     const PERIODS: bool = false;
 
-    /// A mass touches, `offset` seconds into the drive period `cycle`.
+    /// A mass touches, `offset` seconds into the drive period `cycle`, with this velocity towards the stop.
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         let _ = (job, cycle, offset, velocity);
     }

@@ -58,10 +58,15 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Moves the lanes on for a while, on one side of one position, or until each stands before a window in which
+    /// Moves the lanes on for a while, on one side of one position or between two, or until each stands before a window in which
     /// something may happen, or that is its last. `cap`: windows up to its last moment.
     #[inline(always)]
-    pub fn scan(&self, law: &Law<S, N>, active: Mask<S, N>, cap: Lanes<S, N>) -> Reached<S, N> {
+    pub fn scan<const GUARDED: bool>(
+        &self,
+        law: &Law<S, N>,
+        active: Mask<S, N>,
+        cap: Lanes<S, N>,
+    ) -> Reached<S, N> {
         let one = cap.like(1.0);
         let mut reached = self.stand(law, active);
         let Reached {
@@ -71,15 +76,26 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             ..
         } = reached;
         let (x, v) = (parts.y + parts.p, parts.u + parts.q);
-        let mut apart = (law.edge - law.ambiguity).below(x).not();
+        let (ceiling, floor) = law.edges::<GUARDED>();
+        let mut apart = (ceiling - law.ambiguity).below(x).not();
         let leaves = v.below(-law.slow);
         let mut go = active & self.state.share.equals(one) & (apart | leaves);
-        let limit = law.edge - error_bound;
+        let limit = ceiling - error_bound;
         let mut top = law.third.mul_add(v, x);
         // On the edge the first two Bernstein coefficients need no proof.
         top = apart.choose(top.max(x), one.like(f64::NEG_INFINITY));
-        let leaving = error_bound.mul_add(one.like(-LEAVING), law.edge);
+        let leaving = error_bound.mul_add(one.like(-LEAVING), ceiling);
         let mut below = apart.choose(limit, leaving);
+        let lowest = floor + error_bound;
+        let (mut bottom, mut above) = (x, lowest);
+        if GUARDED {
+            let apart = x.below(floor + law.ambiguity).not();
+            go = go & (apart | law.slow.below(v));
+            let ahead = law.third.mul_add(v, x);
+            bottom = apart.choose(ahead.min(x), one.like(f64::INFINITY));
+            let leaving = error_bound.mul_add(one.like(LEAVING), floor);
+            above = apart.choose(lowest, leaving);
+        }
         let capped = (go & cap.below(one.like(MOST_WINDOWS as f64))).any();
         // All lanes move on, those that have stopped too, or each window would wait for the verdict on the one before.
         for window in 0..MOST_WINDOWS {
@@ -88,7 +104,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             let before = x.minus_product(law.third, v);
             let mut clear = top.max(x.max(before)).below(below);
             let suspect = go.and_not(clear) & apart & x.below(limit);
-            if suspect.any() {
+            if GUARDED {
+                clear = clear & above.below(bottom.min(x.min(before)));
+            } else if suspect.any() {
                 let left = (parts.y + parts.p, parts.u + parts.q);
                 let top = Cubic::new(left, (x, v), law.window).top();
                 clear = clear | (suspect & top.below(limit));
@@ -108,11 +126,24 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             next = parts.next(law);
             apart = one.at_most(one);
             (top, below) = (law.third.mul_add(v, x), limit);
+            (bottom, above) = (top, lowest);
         }
         if go.any() {
             reached.stop(go, &parts, &next, one.like(MOST_WINDOWS as f64));
         }
         Reached { go, ..reached }
+    }
+}
+
+impl<S: Simd, const N: usize> Law<S, N> {
+    /// Where the phase ends in units of [`Engine::parts`]: above, and below if not one position alone ends it.
+    #[inline(always)]
+    pub fn edges<const GUARDED: bool>(&self) -> (Lanes<S, N>, Lanes<S, N>) {
+        if GUARDED {
+            (self.high + self.edge, self.low + self.edge)
+        } else {
+            (self.edge, self.edge.like(f64::NEG_INFINITY))
+        }
     }
 }
 

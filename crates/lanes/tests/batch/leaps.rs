@@ -14,14 +14,29 @@ pub fn long(count: usize) -> Batch {
 
 #[test]
 fn what_settles_ends_where_the_scalar_engine_ends() {
+    let leapt = compare_settled(&long(1500));
+    assert!(leapt > 0.5, "{leapt} of the periods leapt over");
+}
+
+/// True if a difference at the start grows beyond comparison on the way, though it may die out later: even the impacts until
+/// then may be others.
+fn begins_in_chaos(scene: &Scene, job: &Job) -> bool {
+    (20..job.periods).step_by(20).any(|periods| {
+        let (end, _) = scalar_for(scene, job.start, periods);
+        growth(scene, job.start, end, periods) > 1e6
+    })
+}
+
+/// Compares a batch with the scalar engine; the share of the periods that are leapt over.
+pub fn compare_settled(batch: &Batch) -> f64 {
     let Batch {
         machines,
         jobs,
         scenes,
-    } = long(1500);
-    let outcomes = run(&machines, &jobs, &mut ());
+    } = batch;
+    let outcomes = run(machines, jobs, &mut ());
     let (mut near, mut leapt, mut all) = (0, 0, 0);
-    for (index, (outcome, job)) in outcomes.iter().zip(&jobs).enumerate() {
+    for (index, (outcome, job)) in outcomes.iter().zip(jobs).enumerate() {
         assert_eq!(outcome.error, None, "{index}");
         assert!(outcome.leapt < job.periods);
         (leapt, all) = (leapt + outcome.leapt, all + job.periods);
@@ -31,7 +46,7 @@ fn what_settles_ends_where_the_scalar_engine_ends() {
         near += usize::from(off < 1e-10 && outcome.impacts == impacts);
         if outcome.impacts != impacts || off > 1e-9 {
             let growth = growth(scene, job.start, end, job.periods);
-            let settled = growth < 1e3 && outcome.leapt > 0;
+            let settled = growth < 1e3 && outcome.leapt > 0 && !begins_in_chaos(scene, job);
             assert!(
                 !settled,
                 "{index}: {} impacts for {impacts}, off by {off:e}, growth {growth:e}",
@@ -40,7 +55,7 @@ fn what_settles_ends_where_the_scalar_engine_ends() {
         }
     }
     assert!(near > jobs.len() * 9 / 10, "{near} near");
-    assert!(leapt > all / 2, "{leapt} of {all} periods leapt over");
+    leapt as f64 / all as f64
 }
 
 /// Machines with little damping, where both multipliers are close to 1: rounding in four returns alone would leave their
