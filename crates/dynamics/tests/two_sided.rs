@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use nalgebra::{Complex, Matrix2, Vector2};
-use softstop::{Below, Parameter, Scene, Stop};
+use softstop::{Below, Parameter, Release, Scene, Start, Stop};
+use softstop_dynamics::continuation::{End, SpecialKind};
+use softstop_dynamics::figure::Figure;
 use softstop_dynamics::orbit::multipliers;
-use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, slopes, zone};
+use softstop_dynamics::{Continuation, CycleMetrics, Limits, Orbit, ParameterFamily, slopes, zone};
 use softstop_testing::assert_near;
 
 /// The orbit with one impact at each of two rigid stops at +-d, x(t + T/2) = -x(t) (Shaw 1985, J. Appl. Mech. 52): half a
@@ -23,6 +25,8 @@ struct Symmetric {
     free: Vector2<f64>,
     /// The drive angle then.
     angle: f64,
+    /// Jacobian of the map over half a period, from right after one impact to right after the other.
+    half: Matrix2<f64>,
     /// Of the map over a whole period.
     multipliers: [Complex<f64>; 2],
 }
@@ -53,6 +57,7 @@ impl Symmetric {
             velocity,
             free,
             angle,
+            half: saltation * half,
             multipliers: multipliers(&(saltation * half)).map(|one| one * one),
         }
     }
@@ -168,6 +173,85 @@ fn a_branch_keeps_to_the_closed_form() {
     }
 }
 
+/// The frequency between two at which half a round and a mirror have a multiplier -1, half a round a multiplier 1: bisection of
+/// the closed form.
+fn pitchfork(scene: &Scene, (mut low, mut high): (f64, f64)) -> f64 {
+    let test = |frequency: f64| {
+        let half = Symmetric::of(&scene.at_frequency(frequency), true).half;
+        1.0 - half.trace() + half.determinant()
+    };
+    let begins = test(low);
+    assert!(begins * test(high) < 0.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match test(middle) * begins > 0.0 {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[test]
+fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
+    let ranges = [(1.3, 2.0), (1.3, 2.0), (1.4, 2.0), (1.4, 2.0), (1.8, 2.3)];
+    for (scene, range) in machines().into_iter().zip(ranges) {
+        let exact = pitchfork(&scene, range);
+        let from = range.1 - 0.01;
+        let (scene, state) =
+            Symmetric::of(&scene.at_frequency(from), true).begin(&scene.at_frequency(from));
+        let family =
+            ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
+        let limits = Limits { range, points: 500 };
+        let go_on = |_: &_| ControlFlow::Continue(());
+        let continuation = Continuation::new(&family, 1).with_steps(0.05);
+        let branch = continuation
+            .branch(from, state, &limits, go_on)
+            .expect("a branch");
+        let kinds: Vec<_> = branch.specials.iter().map(|special| special.kind).collect();
+        let found = branch
+            .specials
+            .iter()
+            .find(|special| special.kind == SpecialKind::Pitchfork);
+        let found = found.unwrap_or_else(|| panic!("{kinds:?} {:?}", branch.ends));
+        assert_near(found.point.parameter, exact, 1e-10);
+        let beyond = branch
+            .points
+            .iter()
+            .filter(|point| point.parameter < exact - 1e-3);
+        let beyond: Vec<_> = beyond.collect();
+        assert!(beyond.len() > 3, "{kinds:?} {:?}", branch.ends);
+        for point in beyond {
+            assert!(!point.is_stable());
+            let symmetric = Symmetric::of(&scene.at_frequency(point.parameter), true);
+            assert_near(point.impacts[0], symmetric.velocity, 1e-9);
+            assert_near(point.impacts[1], symmetric.velocity, 1e-9);
+        }
+        let asymmetric = continuation
+            .asymmetric(&found.point, &limits, go_on)
+            .expect("a branch");
+        assert!(matches!(asymmetric.ends.0, End::Symmetric));
+        let first = &asymmetric.points[0];
+        assert_near(first.parameter, exact, 1e-2);
+        // They are stable where the symmetric orbits no longer are.
+        assert_eq!(first.is_stable(), first.parameter < exact, "{first:?}");
+        let at = scene.at_frequency(first.parameter);
+        let motion = at.trajectory(Start::new(first.position, first.velocity), 1);
+        let motion = motion.expect("a motion");
+        let times: Vec<f64> = motion
+            .impacts()
+            .map(|it| motion.clock.time(it.instant))
+            .collect();
+        let share = (times[1] - times[0]) / at.period();
+        assert!((share - 0.5).abs() > 1e-4, "{share}");
+        let there = asymmetric
+            .points
+            .iter()
+            .filter(|point| point.impacts.len() == 2);
+        assert!(there.count() > 3, "{:?}", asymmetric.ends);
+    }
+}
+
 #[test]
 fn orbits_change_with_the_stop_below_as_differences_say() {
     let (scene, state) = Symmetric::of(&machines()[2], true).begin(&machines()[2]);
@@ -197,4 +281,32 @@ fn what_zones_ask_for_is_refused_by_name() {
     assert!(error.to_string().contains("stop.below"), "{error}");
     let error = zone::stable_ranges(&machine(1.0, 0.04, 1.8, 0.8)).expect_err("no ranges");
     assert!(error.to_string().contains("stop.below"), "{error}");
+}
+
+#[test]
+fn of_two_stops_the_one_pressed_farther_tells_the_deflection() {
+    let soft = |stiffness| Stop::KelvinVoigt {
+        stiffness,
+        release: Release::Clearance,
+    };
+    let [hard, weak] = [soft(200.0), soft(20.0)];
+    let deflection = |above: &Stop, below: &Stop| {
+        let mut scene = machine(1.0, 0.2, 1.8, 0.8);
+        (scene.stop, scene.contact_damping) = (above.clone(), 0.5);
+        scene.below.as_mut().expect("a stop below").stop = below.clone();
+        let settled = scene
+            .trajectory(Start::new(0.0, 1.0), 300)
+            .expect("a motion")
+            .end;
+        let orbit = Orbit::periodic(&scene, settled.into(), 1).expect("an orbit");
+        let metrics = CycleMetrics::of(&orbit).expect("metrics");
+        let figure = Figure::StopDeflection.of_motion(&orbit, &metrics);
+        let pressed = [metrics.highest - 0.5, -metrics.lowest - 0.5];
+        (figure.expect("of the motion"), pressed)
+    };
+    let (figure, [above, below]) = deflection(&hard, &weak);
+    assert!(below > 2.0 * above && above > 0.0, "{above} {below}");
+    assert_near(figure, below, 1e-15);
+    let (mirrored, _) = deflection(&weak, &hard);
+    assert_near(mirrored, figure, 1e-9);
 }

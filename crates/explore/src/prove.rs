@@ -178,7 +178,7 @@ fn kind(special: &Special) -> Option<Bifurcation> {
         SpecialKind::Critical(Test::Fold) => Some(Bifurcation::Fold),
         SpecialKind::Critical(Test::Flip) => Some(Bifurcation::Flip),
         SpecialKind::Grazing(_) => Some(Bifurcation::Grazing),
-        SpecialKind::Critical(Test::NeimarkSacker) => None,
+        SpecialKind::Critical(Test::NeimarkSacker) | SpecialKind::Pitchfork => None,
     }
 }
 
@@ -195,7 +195,7 @@ fn claim(scene: &Scene, special: &Special) -> Option<Claim> {
     match special.kind {
         SpecialKind::Critical(Test::Fold) => Some(Claim::Fold),
         SpecialKind::Critical(Test::Flip) => Some(Claim::Flip),
-        SpecialKind::Critical(Test::NeimarkSacker) => None,
+        SpecialKind::Critical(Test::NeimarkSacker) | SpecialKind::Pitchfork => None,
         SpecialKind::Grazing(graze) => Some(Claim::Grazing(Touch {
             angle: graze.angle,
             position: graze.face.position(scene)?,

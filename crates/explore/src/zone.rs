@@ -151,6 +151,7 @@ pub fn lost_by(loss: &Loss) -> String {
         Loss::Fold => "fold",
         Loss::Flip => "flip",
         Loss::NeimarkSacker => "Neimark-Sacker",
+        Loss::Pitchfork => "pitchfork",
         Loss::Grazing => "grazing: its impact dies",
         Loss::AnotherImpact => "grazing: another impact comes up",
         Loss::Inner(Face::Pierced) => "grazing where the strip is pierced",

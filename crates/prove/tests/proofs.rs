@@ -73,7 +73,7 @@ fn bifurcations_are_where_continuation_finds_them() {
                     angle: graze.angle,
                     position: graze.face.position(&scene).expect("a face"),
                 }),
-                SpecialKind::Critical(Test::NeimarkSacker) => continue,
+                SpecialKind::Critical(Test::NeimarkSacker) | SpecialKind::Pitchfork => continue,
             };
             let at = special.point.parameter;
             let near = scene.at_frequency(at);

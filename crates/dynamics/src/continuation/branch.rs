@@ -55,7 +55,7 @@ impl Branch {
 
 impl<'a, F: Family> Continuation<'a, F> {
     /// The branch through the orbit near a state, towards falling and rising parameters, with every
-    /// fold, flip, Neimark-Sacker point and grazing on it. `watch` sees each point as it comes, and the last
+    /// fold, flip, Neimark-Sacker point, pitchfork and grazing on it. `watch` sees each point as it comes, and the last
     /// one again whenever the next one was not reached by a step.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl<'a, F: Family> Continuation<'a, F> {
             .unwrap_or(periods)
     }
 
-    /// The branch from a point beside a flip on, away from it: in one direction, given as a change of state
+    /// The branch from a point beside a flip or a pitchfork on, away from it: in one direction, given as a change of state
     /// and parameter.
     pub(super) fn branch_along(
         &self,
@@ -117,9 +117,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let way = self.way(start.clone(), along, limits, watch)?;
-        let mut branch = self.joined(&start, HalfBranch::none(), way)?;
-        branch.ends.0 = End::Merged;
-        Ok(branch)
+        self.joined(&start, HalfBranch::none(), way)
     }
 
     fn joined(
@@ -283,9 +281,9 @@ impl<'a, F: Family> Continuation<'a, F> {
                 }
                 (node, Some(End::Range))
             }
-            (None, Some(point)) => {
+            (None, Some((point, end))) => {
                 way.points.push(point);
-                return Ok(Some(End::Merged));
+                return Ok(Some(end));
             }
             (None, None) => (to.clone(), closes.then_some(End::Closed)),
         };

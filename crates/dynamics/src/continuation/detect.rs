@@ -9,7 +9,7 @@ use super::arclength::{Equations, Node};
 use super::curve::CLOSED;
 use super::follow::{Continuation, LOCATED_WIDTH};
 use super::grazing_test::GrazingTest;
-use super::half_branch::Limits;
+use super::half_branch::{End, Limits};
 use super::locate::{Cubic, along_chord, locate};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
@@ -74,6 +74,12 @@ impl<F: Family> Continuation<'_, F> {
         let (a, b) = (&from.here.point, &to.here.point);
         for test in Test::ALL {
             if test.passes(&a.monodromy, &b.monodromy) {
+                if test == Test::Fold
+                    && let Some(pitchfork) = self.pitchfork_between(from, to)?
+                {
+                    found.push(pitchfork);
+                    continue;
+                }
                 let value = |node: &Node<PeriodMap>| test.value(&node.here.point.monodromy);
                 let (node, share) = locate(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
                 let point = self.point_at(&node)?;
@@ -145,7 +151,7 @@ impl<F: Family> Continuation<'_, F> {
         let [before, after] = sequences.map(|sequence| [sequence.faces, sequence.reversals]);
         let is_whole = |special: &Special| match special.kind {
             SpecialKind::Grazing(graze) => graze.crossings == a.min(b),
-            SpecialKind::Critical(_) => false,
+            SpecialKind::Critical(_) | SpecialKind::Pitchfork => false,
         };
         if found.as_ref().is_some_and(|(_, special)| is_whole(special))
             || before == after
@@ -205,34 +211,40 @@ impl<F: Family> Continuation<'_, F> {
                 .is_ok_and(|node| (origin - &node.at).norm() < AT_START * way.norm())
     }
 
-    /// The flip at which an orbit becomes one of half as many periods, if it does on a step: half a round
-    /// leads to the other side of it.
+    /// The flip at which an orbit becomes one of half as many periods, or the pitchfork at which it becomes symmetric, and why the
+    /// branch ends there, if it does on a step: half a round leads to the other side of it.
     pub(super) fn merging(
         &self,
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
-    ) -> Option<BranchPoint> {
+    ) -> Option<(BranchPoint, End)> {
         let periods = self.shooting.periods;
-        if !periods.is_multiple_of(2) {
-            return None;
-        }
-        let asymmetry = |node: &Node<PeriodMap>| {
+        let is_even = periods.is_multiple_of(2);
+        let gap = |node: &Node<PeriodMap>| {
+            if !is_even {
+                return self.asymmetry(node);
+            }
             let half = node.here.point.ends[periods as usize / 2 - 1];
-            self.shooting
-                .scaled(half - self.shooting.state(&node.at), [0.0])
+            let way = half - self.shooting.state(&node.at);
+            Some(self.shooting.scaled(way, [0.0]))
         };
-        let (a, b) = (asymmetry(from), asymmetry(to));
+        let (a, b) = (gap(from)?, gap(to)?);
         if a.dot(&b) >= 0.0 && b.norm() > MERGED * a.norm() {
             return None;
         }
         let share = a.norm() / (a.norm() + b.norm());
         let at = &from.at + share * (&to.at - &from.at);
+        if !is_even {
+            let node = self.pitchfork(&at).ok()?;
+            return Some((self.point_at(&node).ok()?, End::Symmetric));
+        }
         let continuation = self.over(periods / 2);
         let [parameter] = self.shooting.parameters(&at);
         let near = continuation
             .point(parameter, self.shooting.state(&at))
             .ok()?;
-        continuation.critical(&near, Test::Flip).ok()
+        let flip = continuation.critical(&near, Test::Flip).ok()?;
+        Some((flip, End::Merged))
     }
 }
 

@@ -258,6 +258,10 @@ pub(super) fn keeps_sense(
     (to, after): (&DVector<f64>, &Monodromy),
 ) -> bool {
     let sense = |direction: &DVector<f64>, matrix| Test::Fold.value(matrix) * direction[2];
-    let [from, to] = [sense(from, before), sense(to, after)];
+    is_one_sense(sense(from, before), sense(to, after))
+}
+
+/// True if two senses are one, or there is none.
+pub(super) fn is_one_sense(from: f64, to: f64) -> bool {
     from * to >= 0.0 || from.abs().min(to.abs()) <= SENSELESS
 }

@@ -25,6 +25,8 @@ pub enum End {
     Grazing,
     /// The orbit becomes one of half as many periods, at its flip; the last point is that.
     Merged,
+    /// The orbit becomes symmetric, at a pitchfork; the last point is that.
+    Symmetric,
     /// The monitor asked for it.
     Stopped,
     /// Just beyond the last point the orbit would meet something where the force jumps.

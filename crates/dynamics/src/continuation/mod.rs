@@ -4,7 +4,8 @@
 //! A [`Family`] is a machine with one parameter or two left open: [`ParameterFamily`] makes one of any machine and
 //! any [`Parameter`](softstop::Parameter). A [`Continuation`] follows its orbits over a number of drive periods, whether stable or
 //! not, through folds; [`Continuation::branch`] finds every fold, flip and grazing on the way,
-//! [`Continuation::doubled`] goes on to the orbits of twice the period, and [`curve`] follows a special point
+//! [`Continuation::doubled`] goes on to the orbits of twice the period, [`Continuation::asymmetric`] to those that come out of
+//! symmetric ones at a pitchfork, and [`curve`] follows a special point
 //! in two parameters.
 //!
 //! ```
@@ -53,6 +54,7 @@ mod special_curve;
 mod step_control;
 mod stepper;
 mod switching;
+mod symmetry;
 mod test;
 
 pub(crate) use between::ASIDE;

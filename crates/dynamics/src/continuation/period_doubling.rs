@@ -8,18 +8,18 @@ use super::Family;
 use super::arclength::{Node, correct};
 use super::branch::Branch;
 use super::follow::Continuation;
-use super::half_branch::Limits;
+use super::half_branch::{End, Limits};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
-/// Scaled distances from the flip at which the doubled branch is looked for.
+/// Scaled distances from a flip or a pitchfork at which the branch that comes out of it is looked for.
 const DISTANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 /// Smallest share of such a distance by which half a round must lead away.
 const HALF_PERIOD_GAP: f64 = 0.5;
-/// Greatest value of the test of a fold, 0 at the flip, where the doubled branch begins: farther on it may have flipped
+/// Greatest value of the test of a fold, 0 at the flip or pitchfork, where the new branch begins: farther on it may have flipped
 /// itself, or the orbit may be another one.
 const MAX_FOLD_TEST: f64 = 0.5;
 
@@ -36,21 +36,37 @@ impl<F: Family> Continuation<'_, F> {
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let doubled = self.over(2 * self.shooting.periods);
-        let at = doubled.shooting.scaled(flip.state(), [flip.parameter]);
-        let away = critical_direction(flip);
-        let away = doubled.shooting.scaled(away, [0.0]).normalize();
+        let leads_away = |node: &Node<PeriodMap>, distance: f64| {
+            let twice = node.here.point.impacts.len() == 2 * flip.impacts.len();
+            twice && doubled.half_round(node) > HALF_PERIOD_GAP * distance
+        };
+        let (node, along) = doubled.branching_off(flip, -1.0, leads_away)?;
+        let mut branch = doubled.branch_along(node, &along, limits, &mut watch)?;
+        branch.ends.0 = End::Merged;
+        Ok(branch)
+    }
+
+    /// A node of these orbits that `leads_away` from a point where a multiplier is critical, along its eigenvector, and the way
+    /// there.
+    pub(super) fn branching_off(
+        &self,
+        from: &BranchPoint,
+        multiplier: f64,
+        leads_away: impl Fn(&Node<PeriodMap>, f64) -> bool,
+    ) -> Result<(Node<PeriodMap>, DVector<f64>), OrbitError> {
+        let at = self.shooting.scaled(from.state(), [from.parameter]);
+        let away = critical_direction(from, multiplier);
+        let away = self.shooting.scaled(away, [0.0]).normalize();
         for distance in DISTANCES {
             let guess = &at + distance * &away;
-            let Ok(node) = correct(&doubled.shooting, &guess, Some(&away)) else {
+            let Ok(node) = correct(&self.shooting, &guess, Some(&away)) else {
                 continue;
             };
             let along: DVector<f64> = &node.at - &at;
-            let point = &node.here.point;
-            let twice = point.impacts.len() == 2 * flip.impacts.len();
-            let fold = Test::Fold.value(&point.monodromy);
+            let fold = Test::Fold.value(&node.here.point.monodromy);
             let near = along.norm() < 2.0 * distance && fold.abs() < MAX_FOLD_TEST;
-            if twice && near && doubled.half_round(&node) > HALF_PERIOD_GAP * distance {
-                return doubled.branch_along(node, &along, limits, &mut watch);
+            if near && leads_away(&node, distance) {
+                return Ok((node, along));
             }
         }
         Err(OrbitError::Diverged { residual: f64::NAN })
@@ -103,10 +119,10 @@ fn is_flip(special: &Special) -> bool {
     special.kind == SpecialKind::Critical(Test::Flip)
 }
 
-/// The eigenvector of the multiplier -1, from the larger row of monodromy + 1.
-fn critical_direction(flip: &BranchPoint) -> Vector2<f64> {
-    let m = &flip.monodromy;
-    let rows = [(m.m11 + 1.0, m.m12), (m.m21, m.m22 + 1.0)];
+/// The eigenvector of a multiplier, from the larger row of the monodromy matrix less that.
+fn critical_direction(point: &BranchPoint, multiplier: f64) -> Vector2<f64> {
+    let m = &point.monodromy;
+    let rows = [(m.m11 - multiplier, m.m12), (m.m21, m.m22 - multiplier)];
     let [(a, b), other] = rows;
     let (a, b) = if a.hypot(b) >= other.0.hypot(other.1) {
         (a, b)

@@ -51,6 +51,8 @@ pub enum SpecialKind {
     Critical(Test),
     /// The orbit grazes the stop (the paper's G).
     Grazing(Graze),
+    /// An orbit between two stops that are alike ceases to be symmetric: two that are not come out of it.
+    Pitchfork,
 }
 
 /// An orbit that grazes.
@@ -71,13 +73,14 @@ pub struct Graze {
 }
 
 impl SpecialKind {
-    /// In one word, as in the paper's table where it has one: SN, PD, NS, G.
+    /// In one word, as in the paper's table where it has one: SN, PD, NS, G, PF.
     pub fn symbol(&self) -> &'static str {
         match self {
             Self::Critical(Test::Fold) => "SN",
             Self::Critical(Test::Flip) => "PD",
             Self::Critical(Test::NeimarkSacker) => "NS",
             Self::Grazing(_) => "G",
+            Self::Pitchfork => "PF",
         }
     }
 
@@ -88,6 +91,7 @@ impl SpecialKind {
             Self::Critical(Test::Flip) => "flip",
             Self::Critical(Test::NeimarkSacker) => "Neimark-Sacker",
             Self::Grazing(_) => "grazing",
+            Self::Pitchfork => "pitchfork",
         }
     }
 }

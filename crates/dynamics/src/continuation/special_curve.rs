@@ -52,6 +52,7 @@ fn raw_curve<F: Family<2>>(
                 None => follow(&critical, kind, &guess, region, watch),
             }
         }
+        SpecialKind::Pitchfork => Err(OrbitError::NotIsolated),
         SpecialKind::Grazing(Graze {
             angle,
             crossings,

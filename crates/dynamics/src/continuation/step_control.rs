@@ -101,10 +101,10 @@ impl<F: Family> Continuation<'_, F> {
         let (from, to) = (&stepper.node.here.point, &step.node.here.point);
         let same = from.sequence.agrees(&to.sequence)
             && self.shooting.growth(&to.monodromy) < WILD
-            && keeps_sense(
+            && (keeps_sense(
                 (&stepper.direction, &from.monodromy),
                 (&step.direction, &to.monodromy),
-            );
+            ) || self.keeps_symmetric_sense(stepper, step));
         if stepper.step < SHORT {
             return same;
         }
@@ -134,7 +134,7 @@ impl<F: Family> Continuation<'_, F> {
                     || self.folds_before(special, stepper);
                 !goes_on
             }
-            SpecialKind::Critical(_) => false,
+            SpecialKind::Critical(_) | SpecialKind::Pitchfork => false,
         };
         self.graze_within(2.0 * stepper.step, stepper, grazing_test)
             .filter(ends)

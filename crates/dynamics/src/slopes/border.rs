@@ -174,6 +174,7 @@ impl Border {
                 kind: motion,
                 point: Continuation::new(&family, *periods).critical(&guess, test)?,
             },
+            SpecialKind::Pitchfork => return Err(OrbitError::NotIsolated.into()),
             SpecialKind::Grazing(graze) => {
                 let phase = scene.excitation.phase;
                 grazing((&family, *periods), &graze, phase, guess.parameter)?
@@ -210,6 +211,7 @@ impl Border {
         let rates = match kind {
             SpecialKind::Critical(Test::Fold) => fold(&scene, periods, point, &all)?,
             SpecialKind::Critical(test) => test_rates(&scene, periods, (test, point), &all)?,
+            SpecialKind::Pitchfork => return Err(OrbitError::NotIsolated),
             SpecialKind::Grazing(graze) => touch(&scene, periods, &graze, (&all, &along))?,
         };
         let own = total(&along, &rates[parameters.len()..]);

@@ -57,6 +57,7 @@ impl TransitionContext<'_> {
     pub(super) fn causes(&self) -> Vec<Cause> {
         let test = match self.end {
             SpecialKind::Grazing(_) => return vec![Cause::Grazing],
+            SpecialKind::Pitchfork => return vec![Cause::Unknown],
             SpecialKind::Critical(test) => test,
         };
         match test {

@@ -13,6 +13,8 @@ pub enum Loss {
     Flip,
     /// Its multipliers leave the unit circle as a complex pair.
     NeimarkSacker,
+    /// It ceases to be symmetric.
+    Pitchfork,
     /// Its impact dies: it grazes the clearance.
     Grazing,
     /// Another impact comes up: a turning point reaches the clearance.
@@ -88,7 +90,7 @@ pub(super) fn first_end<'a>(
     mut points: impl Iterator<Item = &'a BranchPoint>,
 ) -> Option<(&'a BranchPoint, EndKind)> {
     let ends_motion = |kind: &SpecialKind| match kind {
-        SpecialKind::Critical(_) => true,
+        SpecialKind::Critical(_) | SpecialKind::Pitchfork => true,
         SpecialKind::Grazing(graze) => graze.face == Face::Clearance,
     };
     points.find_map(|point| {
@@ -107,6 +109,7 @@ impl Loss {
     pub(super) fn at(kind: &SpecialKind) -> Self {
         match kind {
             SpecialKind::Critical(test) => Self::from(*test),
+            SpecialKind::Pitchfork => Self::Pitchfork,
             SpecialKind::Grazing(graze) => match graze.face {
                 Face::Clearance if graze.impacts == 0 => Self::Grazing,
                 Face::Clearance => Self::AnotherImpact,

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use anyhow::anyhow;
 use nalgebra::Vector2;
 use softstop::Machine;
-use softstop_dynamics::continuation::{Family, Test};
+use softstop_dynamics::continuation::{Family, SpecialKind, Test};
 use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily};
 
 use super::{ContinueArguments, Followed, family, seed};
@@ -71,7 +71,7 @@ pub(super) fn branches(
     Ok(branches)
 }
 
-/// The branches of twice the period from the flips of one.
+/// The branches of twice the period from the flips of one, and those of asymmetric orbits from its pitchforks.
 fn doubled(
     family: &ParameterFamily<1>,
     branch: &Branch,
@@ -81,5 +81,9 @@ fn doubled(
     let follower = Continuation::new(family, branch.periods).with_steps(step(family, limits.range));
     let flips = branch.critical(Test::Flip);
     let doubled = flips.map(|flip| follower.doubled(flip, limits, |_| count(bar)));
-    doubled.filter_map(Result::ok).collect()
+    let pitchforks = branch.specials.iter();
+    let pitchforks = pitchforks.filter(|special| special.kind == SpecialKind::Pitchfork);
+    let asymmetric =
+        pitchforks.map(|special| follower.asymmetric(&special.point, limits, |_| count(bar)));
+    doubled.chain(asymmetric).filter_map(Result::ok).collect()
 }

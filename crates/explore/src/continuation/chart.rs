@@ -22,6 +22,10 @@ fn sign(kind: &SpecialKind) -> (&'static str, Mark, Stroke) {
             let line = dashed(bifurcation::NEIMARK_SACKER, (9.0, 3.0));
             ("Neimark-Sacker (NS)", Mark::Triangle, line)
         }
+        SpecialKind::Pitchfork => {
+            let line = dashed(bifurcation::FOLD, (9.0, 3.0));
+            ("pitchfork (PF)", Mark::Triangle, line)
+        }
         SpecialKind::Grazing(_) => {
             let line = dashed(bifurcation::GRAZING, (2.0, 4.0));
             ("grazing (G)", Mark::Diamond, line)

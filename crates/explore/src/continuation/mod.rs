@@ -45,7 +45,7 @@ Examples:
 
 Words: SN fold, where two orbits meet and vanish; PD flip, where the period doubles; G grazing,
 where an impact dies or a turning point reaches a surface; NS Neimark-Sacker, which damping
-rules out. All are located to 1e-10. On curves in two parameters: CP cusp, where two folds meet;
+rules out; PF pitchfork, where motions between two equal stops cease to be symmetric. All are located to 1e-10. On curves in two parameters: CP cusp, where two folds meet;
 GPD generalised flip, where a flip turns from supercritical to subcritical; RG resonant grazing,
 where curves of folds and flips end on one of grazing. --format json has the coefficients of the
 normal forms; a flip with a positive one is supercritical. In the chart stable orbits are drawn
@@ -79,7 +79,7 @@ pub struct ContinueArguments {
     /// for the second PD) or a row of its branches.csv; the parameter of that run takes its value there
     #[arg(long, value_name = "FILE:POINT", value_parser = from_point::parse, conflicts_with_all = ["orbit", "state"])]
     pub from_point: Option<EarlierPoint>,
-    /// Follow the orbits of twice the period from every flip on, so many times over
+    /// Follow the orbits of twice the period from every flip on, and asymmetric ones from every pitchfork, so many times over
     #[arg(long, value_name = "TIMES", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=6))]
     pub double: u32,
     /// Second parameter: follow each special point as a curve in both

@@ -79,7 +79,7 @@ type Classified<'a> = (&'a Special, Option<f64>);
 
 fn specials<'a>() -> [Column<Classified<'a>>; 9] {
     columns! { Classified<'a>, it;
-        "symbol" [None] Plain, "SN, PD, NS or G" => it.0.kind.symbol();
+        "symbol" [None] Plain, "SN, PD, NS, G or PF" => it.0.kind.symbol();
         "name" [None] Plain, "what it is" => describe(&it.0.kind);
         "value" [None] Fixed(12), "of the parameter" => it.0.point.parameter;
         "position" [Length], "at drive angle 0 of the scene" => it.0.point.position;
@@ -162,6 +162,7 @@ fn end(end: &End, points: usize) -> String {
         End::Closed => "the branch is closed".to_owned(),
         End::Grazing => "the orbit grazes".to_owned(),
         End::Merged => "it merges into the orbit of half its period".to_owned(),
+        End::Symmetric => "it merges into a symmetric orbit".to_owned(),
         End::Stopped => "stopped".to_owned(),
         End::Border(border) => format!("border collision: {}", met(*border)),
         End::Unstable => {

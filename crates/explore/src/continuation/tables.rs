@@ -29,7 +29,7 @@ pub(super) fn branch_columns<'a>() -> [Column<BranchRow<'a>>; 13] {
         "multiplier2_real" [None], "of the second Floquet multiplier" => row.multipliers[1].re;
         "multiplier2_imaginary" [None], "of the same" => row.multipliers[1].im;
         "stable" [None], "true or false" => row.point.is_stable();
-        "special" [None], "SN, PD, NS or G where the point is one" => symbol_at(row.branch, row.point);
+        "special" [None], "SN, PD, NS, G or PF where the point is one" => symbol_at(row.branch, row.point);
     }
 }
 

@@ -1,0 +1,185 @@
+//! Orbits between two stops that are alike: where x(t + n T/2) = -x(t) ceases to hold.
+//!
+//! Such an orbit is a fixed point of half its map P, followed by a mirror: -P(s) = s. Its monodromy matrix is the square of that
+//! matrix, -P', of which a multiplier 1 is a fold of symmetric orbits, and a multiplier -1 a pitchfork: two asymmetric orbits
+//! come out of it, mirror images of each other.
+
+use std::ops::ControlFlow;
+
+use nalgebra::{DMatrix, DVector, Vector2};
+
+use super::Family;
+use super::arclength::{Equations, Evaluation, Node, correct};
+use super::branch::Branch;
+use super::follow::{Continuation, is_one_sense};
+use super::half_branch::{End, Limits};
+use super::locate::along_chord;
+use super::period_map::{PeriodMap, before_wall, carry_on};
+use super::point::{BranchPoint, Special, SpecialKind};
+use super::shooting::{Shooting, TEST_TOLERANCE, round_off};
+use super::stepper::{CurveStep, Stepper};
+use super::test::Test;
+use crate::orbit::{Monodromy, OrbitError};
+use softstop::internals::Motion;
+use softstop::{Clock, Instant, MotionError, Scene, Start, Tangent};
+
+/// Scaled distance of half a round from the mirror image of its start up to which an orbit is symmetric.
+const SYMMETRIC: f64 = 1e-7;
+/// Smallest share of the distance from a pitchfork by which half a round must lead away from the mirror image.
+const ASYMMETRY: f64 = 0.5;
+
+/// True if a machine is its own mirror image half a drive period later: both stops are alike.
+fn is_symmetric(scene: &Scene) -> bool {
+    let below = scene.below.as_ref();
+    let is_alike =
+        below.is_some_and(|below| below.clearance == scene.clearance && below.stop == scene.stop);
+    is_alike && scene.piercing.is_none() && scene.rigid.is_none()
+}
+
+/// Half a round.
+struct HalfRound {
+    /// Scaled distance of its end from the mirror image of its start.
+    asymmetry: DVector<f64>,
+    /// Its Jacobian P'.
+    monodromy: Monodromy,
+    /// What rounding may leave of the asymmetry.
+    tolerance: f64,
+}
+
+impl<F: Family> Shooting<'_, F, 1> {
+    /// Half a round from a place; none if the machine is not its own mirror image half a drive period later, or the orbits are
+    /// those of an even number of periods.
+    fn half_round(&self, at: &DVector<f64>) -> Result<Option<HalfRound>, MotionError> {
+        let scene = self.scene(at)?;
+        if self.periods.is_multiple_of(2) || !is_symmetric(&scene) {
+            return Ok(None);
+        }
+        let state = before_wall(&scene, self.state(at));
+        let (clock, begin) = (scene.clock(), Clock::at_cycle(0));
+        let mut motion = Motion::new(self.phases(&scene), clock, begin, Start::from(state))?;
+        let mut tangent = Tangent::default();
+        let whole = self.periods / 2;
+        for period in 1..=whole {
+            carry_on(&mut motion, Clock::at_cycle(period), &mut tangent)?;
+        }
+        let half = Instant {
+            cycles: whole as f64,
+            offset: 0.5 * scene.period(),
+        };
+        carry_on(&mut motion, half, &mut tangent)?;
+        motion.tell_arc(&mut tangent);
+        let monodromy = Monodromy::from(&tangent);
+        let end = Vector2::from(motion.state());
+        let scales = self.family.state_scales();
+        Ok(Some(HalfRound {
+            asymmetry: self.scaled(-end - self.state(at), [0.0]),
+            tolerance: round_off(&scene, &state, &monodromy, scales),
+            monodromy,
+        }))
+    }
+
+    /// The Jacobian of half a round of a symmetric orbit; none of another one.
+    fn symmetric_half(&self, node: &Node<PeriodMap>) -> Option<Monodromy> {
+        let half = self.half_round(&node.at).ok()??;
+        (half.asymmetry.norm() < SYMMETRIC).then_some(half.monodromy)
+    }
+}
+
+/// Symmetric orbits with a multiplier -1 of the mirrored half round.
+struct Pitchfork<'a, 'b, F>(&'b Shooting<'a, F, 1>);
+
+impl<F: Family> Equations for Pitchfork<'_, '_, F> {
+    type Point = Monodromy;
+    const EXACT: usize = 0;
+
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Monodromy>, OrbitError> {
+        let half = self.0.half_round(at)?;
+        let half = half.ok_or(OrbitError::Diverged { residual: f64::NAN })?;
+        let off = half.asymmetry.fixed_rows::<2>(0);
+        let test = Test::Fold.value(&half.monodromy);
+        Ok(Evaluation {
+            residual: DVector::from_vec(vec![off[0], off[1], test]),
+            tolerance: half.tolerance.max(TEST_TOLERANCE),
+            point: half.monodromy,
+        })
+    }
+
+    fn jacobian(&self, _: &Evaluation<Monodromy>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        slopes.clone()
+    }
+}
+
+impl<F: Family> Continuation<'_, F> {
+    /// Scaled distance of half a round of an orbit from the mirror image of its start; none if it cannot be symmetric.
+    pub(super) fn asymmetry(&self, node: &Node<PeriodMap>) -> Option<DVector<f64>> {
+        let half = self.shooting.half_round(&node.at).ok()??;
+        (half.asymmetry.norm() >= SYMMETRIC).then_some(half.asymmetry)
+    }
+
+    /// True if the directions at both ends of a step between symmetric orbits may be one: among them alone, a branch does not
+    /// turn back at a pitchfork.
+    pub(super) fn keeps_symmetric_sense(
+        &self,
+        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        step: &CurveStep<PeriodMap>,
+    ) -> bool {
+        let half = |node| self.shooting.symmetric_half(node);
+        let (Some(from), Some(to)) = (half(&stepper.node), half(&step.node)) else {
+            return false;
+        };
+        // 1 - tr + det of the mirrored half round.
+        is_one_sense(
+            Test::Flip.value(&from) * stepper.direction[2],
+            Test::Flip.value(&to) * step.direction[2],
+        )
+    }
+
+    /// The pitchfork on a step and its share of the way, if there is one.
+    pub(super) fn pitchfork_between(
+        &self,
+        from: &Node<PeriodMap>,
+        to: &Node<PeriodMap>,
+    ) -> Result<Option<(f64, Special)>, OrbitError> {
+        let half = |node| self.shooting.symmetric_half(node);
+        let (Some(a), Some(b)) = (half(from), half(to)) else {
+            return Ok(None);
+        };
+        if !Test::Fold.passes(&a, &b) {
+            return Ok(None);
+        }
+        let [a, b] = [a, b].map(|half| Test::Fold.value(&half));
+        let way = &to.at - &from.at;
+        let node = self.pitchfork(&(&from.at + a / (a - b) * &way))?;
+        let (share, _) = along_chord((&from.at, &way), &node.at);
+        let (kind, point) = (SpecialKind::Pitchfork, self.point_at(&node)?);
+        Ok(Some((share, Special { kind, point })))
+    }
+
+    /// The pitchfork near a place.
+    pub(super) fn pitchfork(&self, near: &DVector<f64>) -> Result<Node<PeriodMap>, OrbitError> {
+        let at = correct(&Pitchfork(&self.shooting), near, None)?.at;
+        let here = self.shooting.evaluate(&at)?;
+        Ok(Node { at, here })
+    }
+
+    /// The branch of asymmetric orbits from a pitchfork of symmetric ones on, along the critical eigenvector; the other one is its
+    /// mirror image, half a drive period later.
+    ///
+    /// # Errors
+    /// [`OrbitError::Diverged`] if there is no such branch near the point.
+    pub fn asymmetric(
+        &self,
+        pitchfork: &BranchPoint,
+        limits: &Limits,
+        mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Branch, OrbitError> {
+        let leads_away = |node: &Node<PeriodMap>, distance: f64| {
+            let asymmetry = self.asymmetry(node);
+            asymmetry.is_some_and(|asymmetry| asymmetry.norm() > ASYMMETRY * distance)
+        };
+        let (node, along) = self.branching_off(pitchfork, 1.0, leads_away)?;
+        let mut branch = self.branch_along(node, &along, limits, &mut watch)?;
+        branch.ends.0 = End::Symmetric;
+        Ok(branch)
+    }
+}
