@@ -2,7 +2,7 @@
 
 use crate::cycle_metrics::CycleMetrics;
 use crate::orbit::Orbit;
-use softstop::{Dimension, Stop};
+use softstop::{Dimension, Scene, Stop};
 
 /// On which side of a bound a figure is good.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -64,7 +64,7 @@ figures! {
     MaxPosition "max_position", Length, Most, false, "largest position X_m";
     Stroke "stroke", Length, Most, false, "largest less smallest position";
     StopForce "stop_force", Force, Most, false, "peak force of contact";
-    StopDeflection "stop_deflection", Length, Most, false, "largest deflection of the stop";
+    StopDeflection "stop_deflection", Length, Most, false, "largest deflection of a stop";
     CutThrough "cut_through", Length, Least, false, "depth of X_m beyond the end of the strip";
     RigidGap "rigid_gap", Length, Least, false, "distance from X_m to the rigid stop behind";
     Multiplier "largest_multiplier", Number, Most, false, "largest multiplier |mu|";
@@ -112,10 +112,13 @@ impl Figure {
             Self::MaxPosition => stroke.highest,
             Self::Stroke => stroke.length,
             Self::StopForce => stroke.stop_force,
-            Self::StopDeflection => match orbit.scene.stop {
-                Stop::None | Stop::Rigid { .. } => f64::NAN,
-                _ => (stroke.highest - orbit.scene.stop_position()).max(0.0),
-            },
+            Self::StopDeflection => {
+                let above = deflection(&orbit.scene, stroke.highest);
+                let below = orbit.scene.mirrored();
+                let below = below.and_then(|below| deflection(&below, -stroke.lowest));
+                let both = above.into_iter().chain(below);
+                both.fold(f64::NAN, f64::max)
+            }
             Self::CutThrough => stroke.beyond_strip.unwrap_or(f64::NAN),
             Self::RigidGap => stroke.before_wall.unwrap_or(f64::NAN),
             Self::Multiplier => {
@@ -143,5 +146,13 @@ impl Figure {
                 | Self::ClearanceSn
                 | Self::ClearancePd
         )
+    }
+}
+
+/// How far a position lies beyond the face of a machine's stop, in m; none if it has no stop that gives way.
+fn deflection(scene: &Scene, position: f64) -> Option<f64> {
+    match scene.stop {
+        Stop::None | Stop::Rigid { .. } => None,
+        _ => Some((position - scene.stop_position()).max(0.0)),
     }
 }
