@@ -103,6 +103,7 @@ fn from_grazing<F: Family<2>>(
             let (critical, node) = WEAK.iter().find_map(beside)?;
             follow(&critical, kind, &node.at, region, watch).ok()
         }
+        SpecialKind::Pitchfork => None,
     }
 }
 

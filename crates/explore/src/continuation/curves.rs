@@ -28,7 +28,8 @@ pub(super) fn curves(
     };
     let bar = Progress::open("points of curves");
     let mut found: Vec<Curve> = Vec::new();
-    for special in &branch.specials {
+    let followed = branch.specials.iter();
+    for special in followed.filter(|it| it.kind != SpecialKind::Pitchfork) {
         let start = [special.point.parameter, both[1].start];
         let known = found.iter().any(|curve| passes(curve, special.kind, start));
         if known {

@@ -45,11 +45,12 @@ Examples:
 
 Words: SN fold, where two orbits meet and vanish; PD flip, where the period doubles; G grazing,
 where an impact dies or a turning point reaches a surface; NS Neimark-Sacker, which damping
-rules out; PF pitchfork, where motions between two equal stops cease to be symmetric. All are located to 1e-10. On curves in two parameters: CP cusp, where two folds meet;
-GPD generalised flip, where a flip turns from supercritical to subcritical; RG resonant grazing,
-where curves of folds and flips end on one of grazing. --format json has the coefficients of the
-normal forms; a flip with a positive one is supercritical. In the chart stable orbits are drawn
-solid, unstable ones dashed; of an orbit with several impacts each has its line.
+rules out; PF pitchfork, where motions between two equal stops cease to be symmetric. All are
+located to 1e-10. On curves in two parameters: CP cusp, where two folds meet; GPD generalised flip,
+where a flip turns from supercritical to subcritical; RG resonant grazing, where curves of folds
+and flips end on one of grazing. --format json has the coefficients of the normal forms; a flip
+with a positive one is supercritical. In the chart stable orbits are drawn solid, unstable ones
+dashed; of an orbit with several impacts each has its line.
 
 The parameter starts at the machine's own value, which must lie between --from and --to.";
 
@@ -82,7 +83,7 @@ pub struct ContinueArguments {
     /// Follow the orbits of twice the period from every flip on, and asymmetric ones from every pitchfork, so many times over
     #[arg(long, value_name = "TIMES", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=6))]
     pub double: u32,
-    /// Second parameter: follow each special point as a curve in both
+    /// Second parameter: follow each special point but pitchforks as a curve in both
     #[arg(long, value_name = "NAME", requires_all = ["second_from", "second_to"])]
     pub second: Option<String>,
     /// Lowest value of the second parameter
