@@ -186,7 +186,7 @@ fn curves_switch_in_points_of_codimension_two() {
     let line =
         "continue --parameter eta --from 0.5 --to 2 --second rho --second-from 1 --second-to 24";
     let kinds = |report: &Report| {
-        let curves = report.list("curves/curves").into_iter();
+        let curves = report.list("curves/curves").iter();
         let kinds =
             curves.map(|it| format!("{}{}", it["symbol"].as_str().unwrap_or(""), it["periods"]));
         let mut kinds: Vec<_> = kinds.collect();

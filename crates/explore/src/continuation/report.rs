@@ -271,7 +271,10 @@ impl Report for ContinuationReport {
             let second = label(found.parameter, found.unit);
             text += &heading(&format!("Curves in {parameter} and {second}"));
             let figures: Vec<_> = found.curves.iter().map(|it| it.figures.clone()).collect();
-            text += &below(&figures, &self.units);
+            text += &match figures.is_empty() {
+                true => "No special points to follow.\n".to_owned(),
+                false => below(&figures, &self.units),
+            };
             let specials = found.curves.iter().flat_map(|it| &it.specials);
             let specials: Vec<_> = specials.cloned().collect();
             if !specials.is_empty() {
