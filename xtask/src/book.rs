@@ -13,6 +13,9 @@ use crate::run::{cargo, cargo_command, output, run, stage, target, top};
 
 const MDBOOK: &str = "0.5.4";
 
+/// The style of a picture on a dark page, as the program's own pictures have it.
+const DARK: &str = "<style>@media screen and (prefers-color-scheme: dark) { svg { filter: invert(.88) hue-rotate(180deg) } }</style>";
+
 /// The folder of the book that holds what lies outside `docs`.
 const OUTSIDE: &str = "top";
 
@@ -119,12 +122,22 @@ fn lay_out(folder: &Path) -> Result<()> {
             let (text, outside) = relinked(&text, &place);
             waiting.extend(outside);
             fs::write(copy, text)?;
+        } else if place.extension().is_some_and(|it| it == "svg") {
+            fs::write(copy, darkened(fs::read_to_string(&original)?))?;
         } else {
             fs::copy(&original, copy).with_context(|| original.display().to_string())?;
         }
     }
     fs::rename(source.join("book.toml"), folder.join("book.toml"))?;
     Ok(())
+}
+
+/// A picture with a style for dark pages, which those by Matplotlib lack.
+fn darkened(svg: String) -> String {
+    match svg.contains("prefers-color-scheme") {
+        true => svg,
+        false => svg.replace("</svg>", &format!("{DARK}\n</svg>")),
+    }
 }
 
 /// All files below a folder, from the top.
