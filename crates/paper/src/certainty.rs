@@ -132,7 +132,7 @@ fn columns<'a>() -> [Column<(&'a Curve, &'a Establishing)>; 10] {
     }
 }
 
-/// Radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.
+/// Integrity factor: radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.
 fn integrity(at: &Establishing) -> f64 {
     let ball = at.basins.largest_ball_of(dynamics::Regime::ONE);
     ball.map_or(0.0, |ball| ball.radius)
@@ -238,8 +238,8 @@ fn chart(curves: &[Curve]) -> Chart {
             regions.iter().flat_map(certainty).collect(),
         ),
         (
-            "(d) largest ball in the basins of (a); dashed: ρ = 10 of (b)",
-            "radius of the largest ball in z = 1",
+            "(d) integrity factor of z = 1 in (a); dashed: ρ = 10 of (b)",
+            "integrity factor of z = 1",
             integrities,
         ),
     ];

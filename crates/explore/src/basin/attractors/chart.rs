@@ -1,4 +1,4 @@
-//! Shares of the attractors over a parameter, one on the other; below them their basins' entropy and integrity.
+//! Shares of the attractors over a parameter, one on the other; below them their basins' integrity factors and entropy.
 
 use std::f64::consts::LN_2;
 
@@ -75,7 +75,11 @@ pub(super) fn svg(found: &Found<'_>, rows: &[Row<'_>]) -> String {
             Axis::new("share of the starts").range((0.0, 1.0)),
             shares,
         ),
-        panel(small, Axis::new("integrity").range((0.0, 1.0)), integrities),
+        panel(
+            small,
+            Axis::new("integrity factor").range((0.0, 1.0)),
+            integrities,
+        ),
         panel(small, Axis::new("basin entropy"), entropy),
     ];
     let places = found.places.len();
