@@ -35,7 +35,7 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
     let layers = layers.chain(required).chain([
         Layer::vertical(design.place, AT, "design"),
         shares.named("share of starts"),
-        integrity.named("integrity"),
+        integrity.named("local integrity measure"),
     ]);
     let axis = match design.zone.is_hysteresis() {
         true => format!(
@@ -46,7 +46,7 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
     };
     let panel = Panel {
         x: Axis::new(axis).range((0.0, 1.0)),
-        y: Axis::new("share, integrity").range((0.0, 1.02)),
+        y: Axis::new("share, integrity measure").range((0.0, 1.02)),
         layers: layers.collect(),
         ..Panel::default()
     };
@@ -60,8 +60,8 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
         false => "",
     };
     let caption = format!(
-        "Share of the initial states that lead to the design's kind of motion, with its 95 % interval, and the radius of the \
-         largest ball about the motion inside its basin. Starts: {STARTS} at each place, in the box that \
+        "Share of the initial states that lead to the design's kind of motion, with its 95 % interval, and its local integrity \
+         measure: the radius of the largest ball about the motion inside its basin. Starts: {STARTS} at each place, in the box that \
          commands take starts from{widened}: positions {}, velocities {}.",
         ends(Dimension::Length, profile.region.position),
         ends(Dimension::Velocity, profile.region.velocity)
