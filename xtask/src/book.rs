@@ -86,7 +86,7 @@ fn add_rustdoc(place: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Puts the explorer into its page of the guide, and beside it; where it cannot be built, it is left out.
+/// Puts the explorer into its page of the guide in place of its picture; where it cannot be built, the picture stays.
 fn embed_explorer(source: &Path) -> Result<()> {
     if !explorer::is_installed()? {
         println!("left out, the explorer: {}", explorer::MISSING);
@@ -98,10 +98,12 @@ fn embed_explorer(source: &Path) -> Result<()> {
     fs::copy(explorer::write()?, place)?;
     let guide = source.join("explorer.md");
     let text = fs::read_to_string(&guide)?;
-    let (title, rest) = text.split_once("\n\n").unwrap_or((&text, ""));
+    let mut lines = text.lines();
+    let picture = lines.find(|it| it.ends_with("](explorer.png)"));
+    let picture = picture.context("explorer.md shows no explorer.png")?;
     let frame = "<iframe src=\"explorer/index.html\" title=\"The explorer\" style=\"width: 100%; height: 42em; border: 0\"></iframe>";
     let link = "[Open it in a window of its own](explorer/index.html)";
-    fs::write(guide, [title, frame, link, rest].join("\n\n"))?;
+    fs::write(guide, text.replace(picture, &format!("{frame}\n\n{link}")))?;
     Ok(())
 }
 
