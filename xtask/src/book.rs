@@ -101,7 +101,7 @@ fn embed_explorer(source: &Path) -> Result<()> {
     let mut lines = text.lines();
     let picture = lines.find(|it| it.ends_with("](explorer.png)"));
     let picture = picture.context("explorer.md shows no explorer.png")?;
-    let frame = "<iframe src=\"explorer/index.html\" title=\"The explorer\" style=\"width: 100%; height: 42em; border: 0\"></iframe>";
+    let frame = "<iframe src=\"explorer/index.html\" title=\"The explorer\" style=\"width: 100%; height: 54em; border: 0\"></iframe>";
     let link = "[Open it in a window of its own](explorer/index.html)";
     fs::write(guide, text.replace(picture, &format!("{frame}\n\n{link}")))?;
     Ok(())
