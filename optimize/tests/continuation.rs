@@ -194,10 +194,10 @@ fn curves_switch_in_points_of_codimension_two() {
         kinds
     };
     assert_eq!(kinds(&SOFTSTOP.report(line)), ["G1", "G1", "PD1", "SN1"]);
-    let report = SOFTSTOP.report(&format!("{line} --switch 2"));
+    let report = SOFTSTOP.report(&format!("{line} --switch 3"));
     assert_eq!(
         kinds(&report),
-        ["G1", "G1", "G2", "PD1", "PD2", "SN1", "SN1", "SN2"]
+        ["G1", "G1", "G2", "PD1", "PD2", "SN1", "SN1", "SN2", "SN4"]
     );
     report.shows("curves.svg", &["generalised flip (GPD)", "cusp (CP)"]);
 }

@@ -185,7 +185,7 @@ def zone(machine: Machine, *, budget: int | None = None) -> Zone:
 def continue_(
     machine: Machine, parameter: str, between: Range, *, orbit: str | None = None, state: Range | None = None,
     double: int | None = None, second: str | None = None, second_between: Range | None = None,
-    points: int | None = None, budget: int | None = None, progress: bool = True,
+    switch: int | None = None, points: int | None = None, budget: int | None = None, progress: bool = True,
 ) -> Branch:
     """Follows a periodic motion along a parameter, through folds, with all its bifurcations.
 
@@ -202,9 +202,11 @@ def continue_(
     state : (float, float), optional
         Starts from the orbit nearest to this state at time 0, stable or not.
     double : int, optional
-        Follows the orbits of twice the period from every flip on, so many times over.
+        Follows the orbits of twice the period from every flip on, and asymmetric ones from every pitchfork, so many times over.
     second, second_between : str and (float, float), optional
-        Follows each special point as a curve in both parameters.
+        Follows each special point but pitchforks as a curve in both parameters.
+    switch : int, optional
+        Follows also the curves that begin in points of codimension two on these, so many times over.
     points : int, optional
         Most points of a branch or curve in each direction.
     budget : int, optional
@@ -237,7 +239,8 @@ def continue_(
     second_low, second_high = (None, None) if second_between is None else second_between
     options = {
         "parameter": parameter, "from": low, "to": high, "orbit": orbit, "state": state, "double": double,
-        "second": second, "second_from": second_low, "second_to": second_high, "points": points, "budget": budget,
+        "second": second, "second_from": second_low, "second_to": second_high, "switch": switch, "points": points,
+        "budget": budget,
     }
     return _of_machine("continue", machine, options, Branch, progress=progress)
 

@@ -44,6 +44,7 @@ A = ss.Machine.unloaded(eta=1.15, clearance=10)
     (lambda: ss.continue_(A, "eta", (1.2, 1.5)), r"^between\[0\] 1.2 between\[1\] 1.5: must be"),
     (lambda: ss.continue_(A, "eta", (1, 1.5), second="rho", second_between=(1, 2)), r"^second_between\[0\] 1 second_between\[1\] 2: must be"),
     (lambda: ss.continue_(A, "eta", (1, 1.5), second="rho"), "second_between = None"),
+    (lambda: ss.continue_(A, "eta", (1, 1.5), second="rho", second_between=(2, 18), switch=7), "switch"),
     (lambda: ss.optimize(A), "^task = "),
     (lambda: ss.basin(A, size=1), "size"),
     (lambda: ss.optimize({"machine": "loaded", "require": {"beauty": 1}}), "beauty"),

@@ -7,7 +7,7 @@ use nalgebra::{Complex, Matrix2, Vector2};
 use softstop::{Below, Parameter, Release, Scene, Start, Stop};
 use softstop_dynamics::continuation::{End, SpecialKind};
 use softstop_dynamics::figure::Figure;
-use softstop_dynamics::orbit::multipliers;
+use softstop_dynamics::orbit::{StroboscopicMap, multipliers};
 use softstop_dynamics::{Continuation, CycleMetrics, Limits, Orbit, ParameterFamily, slopes, zone};
 use softstop_testing::assert_near;
 
@@ -249,6 +249,37 @@ fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
             .iter()
             .filter(|point| point.impacts.len() == 2);
         assert!(there.count() > 3, "{:?}", asymmetric.ends);
+    }
+}
+
+/// Impacts that pass drive angle 0 end no branch: whatever that angle is, the asymmetric motions go on to the same graze.
+#[test]
+fn asymmetric_branches_do_not_depend_on_the_drive_angle() {
+    let scene = softstop::Machine::from_toml(include_str!("../../../docs/scenes/two-sided.toml"));
+    let scene = scene.expect("a machine").scene.at_frequency(1.9);
+    let limits = Limits {
+        range: (1.2, 2.0),
+        points: 500,
+    };
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let ends = (0..16).map(|index| {
+        let mut scene = scene.clone();
+        scene.excitation.phase = f64::from(index) * std::f64::consts::TAU / 16.0;
+        let settled =
+            StroboscopicMap::new(&scene, 500).and_then(|it| it.apply(Vector2::new(0.0, 1.0)));
+        let state = settled.expect("a motion").end;
+        let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a parameter");
+        let continuation = Continuation::new(&family, 1);
+        let branch = continuation.branch(1.9, state, &limits, go_on);
+        let specials = branch.expect("a branch").specials.into_iter();
+        let mut pitchforks = specials.filter(|it| it.kind == SpecialKind::Pitchfork);
+        let found = pitchforks.next().expect("a pitchfork").point;
+        let asymmetric = continuation.asymmetric(&found, &limits, go_on);
+        let asymmetric = asymmetric.expect("asymmetric orbits");
+        asymmetric.points.last().expect("points").parameter
+    });
+    for end in ends {
+        assert_near(end, 1.266_048_034_127, 1e-9);
     }
 }
 

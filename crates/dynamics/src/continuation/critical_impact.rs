@@ -84,7 +84,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
 
     /// The orbit that has a weak impact where another one grazes, with these unknowns; the velocity of the impact is given, in
     /// units of the family's scales.
-    pub fn beside(
+    pub fn with_weak_impact(
         grazing: &GrazingOrbit<'a, F, N>,
         touch: &DVector<f64>,
         test: Test,

@@ -100,6 +100,11 @@ pub(super) fn follow<E: Codimension>(
 pub(super) const SHORTEST_LOOP: usize = 8;
 pub(super) const CLOSED: f64 = 0.05;
 
+/// Share of the largest step up to which a curve creeps, and steps in a row for which it may: beside grazing they can stay so
+/// short for ever.
+const CREEPING: f64 = 1e-4;
+const MOST_CREEPING: usize = 40;
+
 /// Points of a curve one way, those of codimension two among them, and why it ends.
 type Way = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
 
@@ -114,6 +119,7 @@ fn way<E: Codimension>(
     let sequence = equations.sequence(&start.here.point);
     let mut stepper = Stepper::new(equations, start, along, region.step)?;
     let (mut points, mut specials) = (Vec::new(), Vec::new());
+    let mut creeping = 0;
     while points.len() < region.points {
         let last = stepper.node.clone();
         let ahead = stepper.step * &stepper.direction;
@@ -136,7 +142,7 @@ fn way<E: Codimension>(
             Err(_) if stepper.shorten() => continue,
             Err(cause) => return Ok((points, specials, cause)),
         };
-        if merges(equations, (&last, &node)) {
+        if is_merging(equations, (&last, &node)) {
             let end = CurveEnd::CodimensionTwo(CodimensionTwo::GeneralisedFlip);
             return Ok((points, specials, end));
         }
@@ -145,6 +151,11 @@ fn way<E: Codimension>(
         specials.extend(special.ok().flatten());
         stepper.take(step);
         let step = &node.at - &last.at;
+        creeping = if step.norm() < CREEPING * region.step {
+            creeping + 1
+        } else {
+            0
+        };
         let (share, off) = along_chord((&last.at, &step), &origin);
         let passes = (0.0..=1.0).contains(&share) && off < CLOSED * step.norm();
         let closed = points.len() >= SHORTEST_LOOP && passes;
@@ -153,6 +164,11 @@ fn way<E: Codimension>(
         points.push(point);
         if leaves {
             return Ok((points, specials, CurveEnd::Range));
+        }
+        if creeping == MOST_CREEPING {
+            let residual = f64::NAN;
+            let end = CurveEnd::Lost(OrbitError::Diverged { residual });
+            return Ok((points, specials, end));
         }
         if closed {
             return Ok((points, specials, CurveEnd::Closed));
@@ -195,10 +211,13 @@ fn special_between<E: Codimension>(
 }
 
 /// Share of the gaps of its neighbours that is left of one that vanishes.
-const MERGED: f64 = 1e-6;
+const MERGED_GAP: f64 = 1e-6;
 
 /// True if a fold between two nodes repeats after half its drive periods already: it is a flip.
-fn merges<E: Codimension>(equations: &E, (from, to): (&Node<E::Point>, &Node<E::Point>)) -> bool {
+fn is_merging<E: Codimension>(
+    equations: &E,
+    (from, to): (&Node<E::Point>, &Node<E::Point>),
+) -> bool {
     let gap = |node: &Node<E::Point>| equations.half_period_gap(&equations.describe(node).ok()?);
     let (Some(before), Some(after)) = (gap(from), gap(to)) else {
         return false;
@@ -209,7 +228,7 @@ fn merges<E: Codimension>(equations: &E, (from, to): (&Node<E::Point>, &Node<E::
     let value = |node: &Node<E::Point>| gap(node).map_or(f64::NAN, |it| it.dot(&before));
     let between = locate(equations, (from, to), LOCATED_WIDTH, value).ok();
     let left = between.and_then(|(node, _)| gap(&node));
-    left.is_some_and(|it| it.norm() < MERGED * before.norm().max(after.norm()))
+    left.is_some_and(|it| it.norm() < MERGED_GAP * before.norm().max(after.norm()))
 }
 
 /// The end of a step, or the point on it where a parameter leaves its range.

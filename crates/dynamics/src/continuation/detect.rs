@@ -233,9 +233,12 @@ impl<F: Family> Continuation<'_, F> {
             return None;
         }
         let share = a.norm() / (a.norm() + b.norm());
-        let at = &from.at + share * (&to.at - &from.at);
+        let way = &to.at - &from.at;
+        let at = &from.at + share * &way;
+        // Where an impact passes drive angle 0 the gaps change their sides, too: what is found then lies elsewhere.
+        let is_near = |place: &DVector<f64>| (place - &at).norm() <= way.norm();
         if !is_even {
-            let node = self.pitchfork(&at).ok()?;
+            let node = self.pitchfork(&at).ok().filter(|it| is_near(&it.at))?;
             return Some((self.point_at(&node).ok()?, End::Symmetric));
         }
         let continuation = self.over(periods / 2);
@@ -244,7 +247,8 @@ impl<F: Family> Continuation<'_, F> {
             .point(parameter, self.shooting.state(&at))
             .ok()?;
         let flip = continuation.critical(&near, Test::Flip).ok()?;
-        Some((flip, End::Merged))
+        let place = self.shooting.scaled(flip.state(), [flip.parameter]);
+        is_near(&place).then_some((flip, End::Merged))
     }
 }
 

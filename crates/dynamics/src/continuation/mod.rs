@@ -71,7 +71,7 @@ pub use parameter_family::ParameterFamily;
 pub(crate) use period_map::carry_on;
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub use special_curve::curve;
-pub use switching::switched;
+pub use switching::switch_curves;
 pub use test::Test;
 
 use softstop::{MotionError, Scene};

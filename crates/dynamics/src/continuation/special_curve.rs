@@ -73,7 +73,7 @@ fn raw_curve<F: Family<2>>(
 }
 
 /// Points and steps, in those of the region, of the curve of flips on which a generalised flip is looked for.
-const NEAR_FLIPS: (usize, f64) = (5, 0.1);
+const FLIP_SEARCH: (usize, f64) = (5, 0.1);
 
 /// Gives curves of folds that end near a generalised flip their last point: the folds' own equations are singular there, so
 /// that of the curve of flips is taken.
@@ -92,6 +92,15 @@ fn end_in_flips<F: Family<2>>(family: &F, folds: &mut Curve, region: &CurveLimit
     let first = near(folds.points.first(), &folds.ends.0);
     let last = near(folds.points.last(), &folds.ends.1);
     let special = CodimensionTwo::GeneralisedFlip;
+    for end in [&mut folds.ends.0, &mut folds.ends.1] {
+        if matches!(
+            end,
+            CurveEnd::CodimensionTwo(CodimensionTwo::GeneralisedFlip)
+        ) {
+            let residual = f64::NAN;
+            *end = CurveEnd::Lost(OrbitError::Diverged { residual });
+        }
+    }
     if let Some(flip) = first {
         folds.points.insert(0, flip.clone());
         folds.specials.insert(0, (special, flip));
@@ -111,16 +120,22 @@ fn flip_near<F: Family<2>>(
     point: &CurvePoint,
     region: &CurveLimits,
 ) -> Option<CurvePoint> {
-    let (points, step) = NEAR_FLIPS;
+    let (points, share) = FLIP_SEARCH;
+    let step = share * region.step;
     let region = CurveLimits {
         points,
-        step: step * region.step,
+        step,
         ..*region
     };
     let flip = (SpecialKind::Critical(Test::Flip), point.state());
     let go_on = &mut |_: &_| ControlFlow::Continue(());
     let flips = raw_curve(family, periods, flip, point.parameters, &region, go_on);
-    let mut specials = flips.ok()?.specials.into_iter();
-    let found = specials.find(|it| it.0 == CodimensionTwo::GeneralisedFlip);
-    found.map(|it| it.1)
+    let scales = family.parameter_scales();
+    let is_near = |found: &CurvePoint| {
+        let mut off = (0..2).map(|it| (found.parameters[it] - point.parameters[it]) / scales[it]);
+        off.all(|it| it.abs() <= step * points as f64)
+    };
+    let specials = flips.ok()?.specials.into_iter();
+    let flips = specials.filter(|it| it.0 == CodimensionTwo::GeneralisedFlip);
+    flips.map(|it| it.1).find(is_near)
 }

@@ -20,12 +20,12 @@ use softstop::{MotionError, Scene};
 
 /// Velocities of the weak impact, in units of the family's scales, at which folds and flips beside resonant grazing are looked
 /// for.
-const WEAK: [f64; 3] = [1e-2, 1e-3, 1e-4];
+const WEAK_VELOCITIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
 /// The curves that begin in the points of codimension two of a curve: those of grazing, folds and flips in resonant grazing, and
 /// in a generalised flip that of flips and that of folds of orbits of twice the period. `is_known` says of a kind of curve with
 /// its drive periods whether one through the point is known already; what cannot be found is left out.
-pub fn switched<F: Family<2>>(
+pub fn switch_curves<F: Family<2>>(
     family: &F,
     from: &Curve,
     region: &CurveLimits,
@@ -98,9 +98,10 @@ fn from_grazing<F: Family<2>>(
     match kind {
         SpecialKind::Grazing(_) => follow(&touching, kind, &touch, region, watch).ok(),
         SpecialKind::Critical(test) => {
-            let beside =
-                |velocity: &f64| CriticalImpact::beside(&touching, &touch, test, *velocity).ok();
-            let (critical, node) = WEAK.iter().find_map(beside)?;
+            let beside = |velocity: &f64| {
+                CriticalImpact::with_weak_impact(&touching, &touch, test, *velocity).ok()
+            };
+            let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
             follow(&critical, kind, &node.at, region, watch).ok()
         }
         SpecialKind::Pitchfork => None,
@@ -145,8 +146,8 @@ fn fold_of_doubled<F: Family<2>>(
     region: &CurveLimits,
 ) -> Option<(Vector2<f64>, [f64; 2])> {
     let [parameter, second] = flip.parameters;
-    let across = Across { family, second };
-    let along = Continuation::new(&across, periods).with_steps(region.step);
+    let fixed = FixedSecond { family, second };
+    let along = Continuation::new(&fixed, periods).with_steps(region.step);
     let limits = Limits {
         range: (parameter - within, parameter + within),
         points: region.points,
@@ -163,12 +164,12 @@ fn fold_of_doubled<F: Family<2>>(
 }
 
 /// A family at one value of its second parameter.
-struct Across<'a, F> {
+struct FixedSecond<'a, F> {
     family: &'a F,
     second: f64,
 }
 
-impl<F: Family<2>> Family for Across<'_, F> {
+impl<F: Family<2>> Family for FixedSecond<'_, F> {
     fn scene(&self, [first]: [f64; 1]) -> Result<Scene, MotionError> {
         self.family.scene([first, self.second])
     }

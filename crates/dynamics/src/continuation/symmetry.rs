@@ -13,7 +13,7 @@ use super::arclength::{Equations, Evaluation, Node, correct};
 use super::branch::Branch;
 use super::follow::{Continuation, is_one_sense};
 use super::half_branch::{End, Limits};
-use super::locate::along_chord;
+use super::locate::{along_chord, is_beside};
 use super::period_map::{PeriodMap, before_wall, carry_on};
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::shooting::{Shooting, TEST_TOLERANCE, round_off};
@@ -151,6 +151,9 @@ impl<F: Family> Continuation<'_, F> {
         let way = &to.at - &from.at;
         let node = self.pitchfork(&(&from.at + a / (a - b) * &way))?;
         let (share, _) = along_chord((&from.at, &way), &node.at);
+        if !(0.0..=1.0).contains(&share) || !is_beside((&from.at, &way), &node.at) {
+            return Err(OrbitError::Diverged { residual: f64::NAN });
+        }
         let (kind, point) = (SpecialKind::Pitchfork, self.point_at(&node)?);
         Ok(Some((share, Special { kind, point })))
     }

@@ -4,7 +4,7 @@ use super::curves::{followed, plane};
 use super::*;
 use softstop::{Machine, Release, Stop};
 use softstop_dynamics::attractors::{SearchOptions, attractors};
-use softstop_dynamics::continuation::{CodimensionTwo, switched};
+use softstop_dynamics::continuation::{CodimensionTwo, switch_curves};
 
 /// A machine with m = k = F0 = 1 before a stop, at 0.95 of the clearance that the motion without impacts reaches.
 fn beside_grazing(frequency: f64, damping: f64, stop: &str) -> Scene {
@@ -254,7 +254,7 @@ fn curves_begin_in_points_of_codimension_two() {
     let [resonant, generalised] = places.collect::<Vec<_>>()[..] else {
         panic!("{:?}", flips.specials);
     };
-    let from_flips = switched(
+    let from_flips = switch_curves(
         &family,
         &flips,
         &region,
@@ -312,7 +312,7 @@ fn curves_begin_in_points_of_codimension_two() {
     }
     assert!(compared >= 5, "{compared}");
 
-    let back = switched(&family, folds, &region, |_, periods, _| periods == 2, go_on);
+    let back = switch_curves(&family, folds, &region, |_, periods, _| periods == 2, go_on);
     let [back] = &back[..] else {
         panic!("{} curves", back.len());
     };

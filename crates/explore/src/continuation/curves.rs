@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use softstop::Machine;
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    Curve, CurveLimits, CurvePoint, SpecialKind, curve, switched,
+    Curve, CurveLimits, CurvePoint, Family, SpecialKind, curve, switch_curves,
 };
 
 use super::branches::{STEP, count};
@@ -43,21 +43,21 @@ pub(super) fn curves(
             anyhow!(error).context(format!("no curve of the {}", special.kind.name()))
         })?);
     }
-    let mut done = 0;
+    let (scales, mut done) = (family.parameter_scales(), 0);
     for _ in 0..arguments.switch {
         let round = done..found.len();
         done = found.len();
         for from in round {
             let is_known = |kind: &SpecialKind, periods, point: &CurvePoint| {
                 let mut curves = found.iter();
-                curves.any(|it| is_of(it, kind, periods) && has_special(it, point))
+                curves.any(|it| is_of(it, kind, periods) && has_special(it, point, scales))
             };
-            let fresh = switched(&family, &found[from], &region, is_known, |_| count(&bar));
+            let fresh = switch_curves(&family, &found[from], &region, is_known, |_| count(&bar));
             for curve in fresh {
                 let is_same = |other: &Curve| {
                     let mut specials = curve.specials.iter();
                     is_of(other, &curve.kind, curve.periods)
-                        && specials.any(|(_, point)| has_special(other, point))
+                        && specials.any(|(_, point)| has_special(other, point, scales))
                 };
                 if !found.iter().any(is_same) {
                     found.push(curve);
@@ -77,16 +77,18 @@ fn is_of(curve: &Curve, kind: &SpecialKind, periods: u64) -> bool {
     curve.periods == periods && curve.kind.symbol() == kind.symbol()
 }
 
-/// True if a point of codimension two of a curve is this one.
-fn has_special(curve: &Curve, point: &CurvePoint) -> bool {
-    let is_same = |a: f64, b: f64| (a - b).abs() <= SAME_POINT * a.abs().max(b.abs());
-    let [p, q] = point.parameters;
-    let mut specials = curve.specials.iter().map(|(_, other)| other.parameters);
-    specials.any(|[other_p, other_q]| is_same(p, other_p) && is_same(q, other_q))
+/// True if a point of codimension two of a curve is this one; `scales` are the parameters' units.
+fn has_special(curve: &Curve, point: &CurvePoint, scales: [f64; 2]) -> bool {
+    let is_same = |other: [f64; 2]| {
+        let off = |index: usize| (other[index] - point.parameters[index]) / scales[index];
+        off(0).hypot(off(1)) <= SAME_POINT
+    };
+    let mut specials = curve.specials.iter();
+    specials.any(|(_, other)| is_same(other.parameters))
 }
 
-/// Share of its parameters by which a point of codimension two differs from one curve to another.
-const SAME_POINT: f64 = 1e-6;
+/// Scaled distance of a point of codimension two from itself on another curve: generalised flips are good to a tenth of it.
+const SAME_POINT: f64 = 1e-5;
 
 /// True if a curve of the same kind passes a point.
 fn passes(curve: &Curve, kind: SpecialKind, [p, q]: [f64; 2]) -> bool {

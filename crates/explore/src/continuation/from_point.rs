@@ -147,6 +147,11 @@ impl EarlierPoint {
                 "no output of softstop continue --format json: {error}"
             ))
         })?;
+        if self.which.starts_with("PF") {
+            return Err(wrong(
+                &"PF: symmetric and asymmetric motions meet there; take a row beside it",
+            ));
+        }
         let (periods, [value, position, velocity]) =
             earlier.point(&self.which).ok_or_else(|| {
                 let (rows, which) = (earlier.rows().count(), &self.which);

@@ -47,7 +47,7 @@ Words: SN fold, where two orbits meet and vanish; PD flip, where the period doub
 where an impact dies or a turning point reaches a surface; NS Neimark-Sacker, which damping
 rules out; PF pitchfork, where motions between two equal stops cease to be symmetric. All are
 located to 1e-10. On curves in two parameters: CP cusp, where two folds meet; GPD generalised flip,
-where a flip turns from supercritical to subcritical; RG resonant grazing, where curves of folds
+where a flip turns from supercritical to subcritical (located to 1e-6); RG resonant grazing, where curves of folds
 and flips end on one of grazing. --format json has the coefficients of the normal forms; a flip
 with a positive one is supercritical. In the chart stable orbits are drawn solid, unstable ones
 dashed; of an orbit with several impacts each has its line.
@@ -77,7 +77,7 @@ pub struct ContinueArguments {
     #[arg(long, value_name = "X,V", value_parser = seed::state)]
     pub state: Option<Vector2<f64>>,
     /// Start from a point of an earlier run, stable or not: FILE is its --format json, POINT a special point (SN, or PD2
-    /// for the second PD) or a row of its branches.csv; the parameter of that run takes its value there
+    /// for the second PD; not PF) or a row of its branches.csv; the parameter of that run takes its value there
     #[arg(long, value_name = "FILE:POINT", value_parser = from_point::parse, conflicts_with_all = ["orbit", "state"])]
     pub from_point: Option<EarlierPoint>,
     /// Follow the orbits of twice the period from every flip on, and asymmetric ones from every pitchfork, so many times over
