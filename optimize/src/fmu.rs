@@ -31,7 +31,7 @@ pub fn library(standard: Standard) -> Result<Library> {
     };
     ensure!(
         !bytes.is_empty(),
-        "cannot make the FMU: this program holds no library for it, as its system has no shared libraries"
+        "cannot make the FMU: this program holds no library for it: none was linked when it was built, as on systems without shared libraries"
     );
     Ok(Library {
         platform: HOST_PLATFORM.to_owned(),

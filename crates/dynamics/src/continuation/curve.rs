@@ -105,6 +105,9 @@ pub(super) const CLOSED: f64 = 0.05;
 const CREEPING: f64 = 1e-4;
 const MOST_CREEPING: usize = 40;
 
+/// No step is short enough.
+const LOST: OrbitError = OrbitError::Diverged { residual: f64::NAN };
+
 /// Points of a curve one way, those of codimension two among them, and why it ends.
 type Way = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
 
@@ -143,8 +146,7 @@ fn way<E: Codimension>(
             Err(cause) => return Ok((points, specials, cause)),
         };
         if is_merging(equations, (&last, &node)) {
-            let end = CurveEnd::CodimensionTwo(CodimensionTwo::GeneralisedFlip);
-            return Ok((points, specials, end));
+            return Ok((points, specials, CurveEnd::Lost(LOST)));
         }
         let directions = [&stepper.direction, &step.direction];
         let special = special_between(equations, (&last, &node), directions);
@@ -166,9 +168,7 @@ fn way<E: Codimension>(
             return Ok((points, specials, CurveEnd::Range));
         }
         if creeping == MOST_CREEPING {
-            let residual = f64::NAN;
-            let end = CurveEnd::Lost(OrbitError::Diverged { residual });
-            return Ok((points, specials, end));
+            return Ok((points, specials, CurveEnd::Lost(LOST)));
         }
         if closed {
             return Ok((points, specials, CurveEnd::Closed));

@@ -161,12 +161,7 @@ pub(crate) fn grazing<F: Family>(
     phase: f64,
     parameter: f64,
 ) -> Result<Special, OrbitError> {
-    let section = ImpactSection {
-        family,
-        periods,
-        crossings: near.crossings,
-        face: near.face,
-    };
+    let section = ImpactSection::at(near, (family, periods));
     let touching = GrazingOrbit { section };
     let guess: DVector<f64> = touching.scaled(near.angle, [parameter]);
     let node = correct(&touching, &guess, None)?;

@@ -8,6 +8,7 @@ use nalgebra::Vector2;
 use super::Family;
 use super::face::Face;
 use super::period_map::carry_on;
+use super::point::Graze;
 use crate::orbit::OrbitError;
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene};
 
@@ -27,7 +28,17 @@ const LOST: OrbitError = OrbitError::Diverged {
     residual: f64::INFINITY,
 };
 
-impl<F: Family<N>, const N: usize> ImpactSection<'_, F, N> {
+impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
+    /// The surface that an orbit grazes.
+    pub fn at(graze: &Graze, (family, periods): (&'a F, u64)) -> Self {
+        Self {
+            family,
+            periods,
+            crossings: graze.crossings,
+            face: graze.face,
+        }
+    }
+
     /// The scene with time 0 at the section, where the drive has this angle, and the position of the surface.
     pub fn scene(&self, angle: f64, parameters: [f64; N]) -> Result<(Scene, f64), OrbitError> {
         let mut scene = self.family.scene(parameters)?;

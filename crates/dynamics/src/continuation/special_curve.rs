@@ -10,7 +10,7 @@ use super::critical_impact::CriticalImpact;
 use super::curve::{Curve, CurveEnd, CurveLimits, follow};
 use super::grazing_orbit::GrazingOrbit;
 use super::impact_section::ImpactSection;
-use super::point::{Graze, SpecialKind};
+use super::point::SpecialKind;
 use super::shooting::{Critical, Shooting};
 use super::test::Test;
 use crate::orbit::OrbitError;
@@ -53,20 +53,10 @@ fn raw_curve<F: Family<2>>(
             }
         }
         SpecialKind::Pitchfork => Err(OrbitError::NotIsolated),
-        SpecialKind::Grazing(Graze {
-            angle,
-            crossings,
-            face,
-            ..
-        }) => {
-            let section = ImpactSection {
-                family,
-                periods,
-                crossings,
-                face,
-            };
+        SpecialKind::Grazing(graze) => {
+            let section = ImpactSection::at(&graze, (family, periods));
             let touching = GrazingOrbit { section };
-            let guess = touching.scaled(angle, parameters);
+            let guess = touching.scaled(graze.angle, parameters);
             follow(&touching, kind, &guess, region, watch)
         }
     }
@@ -77,30 +67,18 @@ const FLIP_SEARCH: (usize, f64) = (5, 0.1);
 
 /// Gives curves of folds that end near a generalised flip their last point: the folds' own equations are singular there, so
 /// that of the curve of flips is taken.
-fn end_in_flips<F: Family<2>>(family: &F, folds: &mut Curve, region: &CurveLimits) {
+pub(super) fn end_in_flips<F: Family<2>>(family: &F, folds: &mut Curve, region: &CurveLimits) {
     let is_fold = folds.kind == SpecialKind::Critical(Test::Fold);
     if !is_fold || !folds.periods.is_multiple_of(2) {
         return;
     }
     let near = |point: Option<&CurvePoint>, end: &CurveEnd| {
-        let may_end = matches!(
-            end,
-            CurveEnd::Lost(_) | CurveEnd::CodimensionTwo(CodimensionTwo::GeneralisedFlip)
-        );
+        let may_end = matches!(end, CurveEnd::Lost(_));
         may_end.then(|| flip_near(family, folds.periods / 2, point?, region))?
     };
     let first = near(folds.points.first(), &folds.ends.0);
     let last = near(folds.points.last(), &folds.ends.1);
     let special = CodimensionTwo::GeneralisedFlip;
-    for end in [&mut folds.ends.0, &mut folds.ends.1] {
-        if matches!(
-            end,
-            CurveEnd::CodimensionTwo(CodimensionTwo::GeneralisedFlip)
-        ) {
-            let residual = f64::NAN;
-            *end = CurveEnd::Lost(OrbitError::Diverged { residual });
-        }
-    }
     if let Some(flip) = first {
         folds.points.insert(0, flip.clone());
         folds.specials.insert(0, (special, flip));

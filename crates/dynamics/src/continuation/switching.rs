@@ -13,7 +13,7 @@ use super::grazing_orbit::GrazingOrbit;
 use super::half_branch::Limits;
 use super::impact_section::ImpactSection;
 use super::point::{Graze, SpecialKind};
-use super::special_curve::curve;
+use super::special_curve::{curve, end_in_flips};
 use super::test::Test;
 use crate::monitor::stop_if;
 use softstop::{MotionError, Scene};
@@ -50,26 +50,18 @@ pub fn switch_curves<F: Family<2>>(
             if is_known(&kind, periods, point) {
                 continue;
             }
-            let curve = match special {
-                CodimensionTwo::ResonantGrazing(graze) => {
+            let curve = match (special, kind) {
+                (CodimensionTwo::ResonantGrazing(graze), SpecialKind::Critical(test)) => {
                     let place = (periods, graze, point.parameters);
-                    from_grazing(family, place, kind, region, &mut watch)
+                    from_grazing(family, place, test, region, &mut watch)
                 }
                 _ => {
                     let start = match kind == folds {
                         true => fold_beside(family, from, point, region),
                         false => Some((point.state(), point.parameters)),
                     };
-                    start.and_then(|(state, parameters)| {
-                        curve(
-                            family,
-                            periods,
-                            (kind, state),
-                            parameters,
-                            region,
-                            &mut watch,
-                        )
-                        .ok()
+                    start.and_then(|(state, at)| {
+                        curve(family, periods, (kind, state), at, region, &mut watch).ok()
                     })
                 }
             };
@@ -79,33 +71,24 @@ pub fn switch_curves<F: Family<2>>(
     found
 }
 
-/// The curve of one kind from resonant grazing.
+/// The curve of folds or flips from resonant grazing.
 fn from_grazing<F: Family<2>>(
     family: &F,
     (periods, graze, parameters): (u64, &Graze, [f64; 2]),
-    kind: SpecialKind,
+    test: Test,
     region: &CurveLimits,
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Option<Curve> {
-    let section = ImpactSection {
-        family,
-        periods,
-        crossings: graze.crossings,
-        face: graze.face,
-    };
+    let section = ImpactSection::at(graze, (family, periods));
     let touching = GrazingOrbit { section };
     let touch = touching.scaled(graze.angle, parameters);
-    match kind {
-        SpecialKind::Grazing(_) => follow(&touching, kind, &touch, region, watch).ok(),
-        SpecialKind::Critical(test) => {
-            let beside = |velocity: &f64| {
-                CriticalImpact::with_weak_impact(&touching, &touch, test, *velocity).ok()
-            };
-            let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
-            follow(&critical, kind, &node.at, region, watch).ok()
-        }
-        SpecialKind::Pitchfork => None,
-    }
+    let beside =
+        |velocity: &f64| CriticalImpact::with_weak_impact(&touching, &touch, test, *velocity).ok();
+    let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
+    let kind = SpecialKind::Critical(test);
+    let mut curve = follow(&critical, kind, &node.at, region, watch).ok()?;
+    end_in_flips(family, &mut curve, region);
+    Some(curve)
 }
 
 /// State and parameters of a fold of orbits of twice the period beside a generalised flip on a curve of flips.

@@ -43,7 +43,8 @@ pub(super) fn curves(
             anyhow!(error).context(format!("no curve of the {}", special.kind.name()))
         })?);
     }
-    let (scales, mut done) = (family.parameter_scales(), 0);
+    let scales = family.parameter_scales();
+    let mut done = 0;
     for _ in 0..arguments.switch {
         let round = done..found.len();
         done = found.len();
