@@ -187,7 +187,7 @@ pub enum MachineError {
     Ratio(String, &'static str),
     /// A key that is set twice.
     #[error("{0}: is set twice")]
-    Twice(&'static str),
+    Twice(String),
     /// A key that every machine must state, and what it is for.
     #[error("missing key `{0}`: {1}")]
     Missing(&'static str, &'static str),

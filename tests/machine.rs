@@ -281,6 +281,41 @@ fn a_new_stop_takes_only_what_is_set_with_it() -> Outcome {
     Ok(())
 }
 
+/// A number of a slope is set by its key, and is the one that the whole chain would set; what is no slope is refused.
+#[test]
+fn slopes_are_set_one_by_one() -> Outcome {
+    let changed = |first: f64, changes: &[(&'static str, &str)]| {
+        let stop = format!(
+            "{{ model = \"piecewiseLinear\", unloading = [{{ from = 0, stiffness = 5 }}], \
+             loading = [{{ from = 0, stiffness = {first} }}, {{ from = 0.3, stiffness = 90 }}] }}"
+        );
+        let mut machine = full(&stop)?;
+        machine.apply(changes.iter().copied())?;
+        Ok::<Machine, MachineError>(machine)
+    };
+    let whole = changed(21.0, &[])?;
+    let one = changed(30.0, &[("stop.loading.0.stiffness", "21")])?;
+    assert_eq!(one.scene, whole.scene);
+    for (key, value, message) in [
+        ("stop.loading.2.stiffness", "5", "the stop has 2 of loading"),
+        ("stop.unloading.0.stiffness", "soft", "soft"),
+        ("stop.unloading.0.stiffness", "25", "unloading"),
+        ("stop.loading.1.from", "-1", "-1"),
+        ("stop.loading.0.mass", "1", "unknown key"),
+    ] {
+        let error = changed(20.0, &[(key, value)])
+            .err()
+            .map(|error| error.to_string());
+        assert!(
+            error.is_some_and(|error| error.contains(message)),
+            "{key}: {message}"
+        );
+    }
+    let twice = [("stop.loading.0.stiffness", "8"); 2];
+    assert!(changed(20.0, &twice).is_err_and(|error| error.to_string().contains("twice")));
+    Ok(())
+}
+
 /// What a scene says of itself is what its parameters say.
 #[test]
 fn parameters_reach_every_number_of_a_scene() -> Outcome {

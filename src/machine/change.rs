@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use toml::{Table, Value};
 
+use super::keys::SlopeKey;
 use super::{Machine, UnitSystem, keys};
 use crate::error::MachineError;
 use crate::scene::{Below, Parameter, Stop};
@@ -24,13 +25,14 @@ impl Machine {
             .collect();
         if changes
             .iter()
-            .any(|(key, _)| keys::words().any(|word| word == key))
+            .any(|(key, _)| keys::words().any(|word| word == key) || SlopeKey::parse(key).is_some())
         {
             self.rebuild_stops(&changes)?;
         }
         let (mut done, mut ties) = (Vec::new(), Vec::new());
         for (key, value) in &changes {
             let name = match self.expression_of(key, value)? {
+                _ if SlopeKey::parse(key).is_some() => key,
                 None => self.apply_one(key, value)?,
                 Some(parameter) => {
                     ties.push((key.clone(), (*value).to_owned(), None));
@@ -38,7 +40,7 @@ impl Machine {
                 }
             };
             if done.contains(&name) {
-                return Err(MachineError::Twice(name));
+                return Err(MachineError::Twice(name.to_owned()));
             }
             done.push(name);
         }
@@ -52,7 +54,13 @@ impl Machine {
         let is_of_start = key.starts_with("initial.") || key.starts_with("start.");
         let mut words = keys::words().chain(["name", "description"]);
         let is_word = words.any(|word| word == key);
-        if is_of_start || is_word || text.parse::<f64>().is_ok() || !keys::is_expression(text) {
+        let is_slope = SlopeKey::parse(key).is_some();
+        if is_of_start
+            || is_word
+            || is_slope
+            || text.parse::<f64>().is_ok()
+            || !keys::is_expression(text)
+        {
             return Ok(None);
         }
         if keys::stated_otherwise(key) == Some(Parameter::Preload) {
@@ -132,8 +140,11 @@ impl Machine {
             let all = words.all();
             let mut keys = changes.iter().map(|(key, _)| key);
             let is_new = changes.iter().any(|(key, _)| key == words.model);
-            keys.any(|key| all.contains(&key.as_str()))
-                .then_some(is_new)
+            keys.any(|key| {
+                let slope = SlopeKey::parse(key).map(|it| it.is_below);
+                all.contains(&key.as_str()) || slope == Some(all == keys::OF_STOP_BELOW.all())
+            })
+            .then_some(is_new)
         };
         if let Some(is_new) = set(&keys::OF_STOP) {
             let mut stop = Table::new();
@@ -142,13 +153,13 @@ impl Machine {
             } else if let Ok(present) = Table::try_from(&self.scene.stop) {
                 stop = present;
             }
-            change_stop(&mut stop, changes, false);
+            change_stop(&mut stop, changes, false)?;
             self.scene.stop = Stop::deserialize(stop).map_err(|error| of_stop(&error, "stop"))?;
         }
         if let Some(is_new) = set(&keys::OF_STOP_BELOW) {
             let mut stop = Table::try_from(&self.scene.below).unwrap_or_default();
             stop.retain(|key, _| !is_new || key == "clearance");
-            change_stop(&mut stop, changes, true);
+            change_stop(&mut stop, changes, true)?;
             let below = Below::deserialize(stop);
             let below = below.map_err(|error| of_stop(&error, "stop.below"))?;
             self.scene.below = Some(below.into());
@@ -158,10 +169,17 @@ impl Machine {
 }
 
 /// Puts what is set of one of the stops into its table.
-fn change_stop(stop: &mut Table, changes: &[(String, &str)], below: bool) {
+fn change_stop(
+    stop: &mut Table,
+    changes: &[(String, &str)],
+    below: bool,
+) -> Result<(), MachineError> {
     for (key, value) in changes {
         let lettered = |it: &&Parameter| it.about().letter == key || it.name() == key;
         let named = Parameter::ALL.iter().find(lettered).map(|it| it.name());
+        if SlopeKey::parse(key).is_some() {
+            continue;
+        }
         match keys::of_stop(named.unwrap_or(key)) {
             Some((is_below, _)) if is_below != below => None,
             Some((false, "preload_deflection")) => stop.insert("preload".into(), Value::Float(0.0)),
@@ -173,6 +191,32 @@ fn change_stop(stop: &mut Table, changes: &[(String, &str)], below: bool) {
             None => None,
         };
     }
+    for (key, value) in changes {
+        if let Some(slope) = SlopeKey::parse(key).filter(|slope| slope.is_below == below) {
+            set_slope(stop, &slope, key, number(key, value)?)?;
+        }
+    }
+    Ok(())
+}
+
+/// Sets a number of a slope in the table of its stop.
+fn set_slope(
+    stop: &mut Table,
+    slope: &SlopeKey,
+    key: &str,
+    value: f64,
+) -> Result<(), MachineError> {
+    let chain = stop.get_mut(slope.chain).and_then(Value::as_array_mut);
+    let slopes = chain.as_ref().map_or(0, |chain| chain.len());
+    let set = chain.and_then(|chain| chain.get_mut(slope.index)?.as_table_mut());
+    let Some(table) = set else {
+        let chain = slope.chain;
+        return Err(MachineError::Syntax(format!(
+            "{key}: there is no such slope; the stop has {slopes} of {chain}, counted from 0"
+        )));
+    };
+    table.insert(slope.field.to_owned(), Value::Float(value));
+    Ok(())
 }
 
 /// What is wrong with a stop, in its keys.

@@ -66,6 +66,35 @@ pub(super) fn of_stop(key: &str) -> Option<(bool, &str)> {
     })
 }
 
+/// The key of a number of a slope, such as `stop.loading.0.stiffness`; slopes count from 0.
+pub(super) struct SlopeKey<'a> {
+    /// True if it is a slope of the stop below.
+    pub is_below: bool,
+    /// `loading` or `unloading`.
+    pub chain: &'a str,
+    /// Which slope of the chain.
+    pub index: usize,
+    /// `from` or `stiffness`.
+    pub field: &'a str,
+}
+
+impl<'a> SlopeKey<'a> {
+    /// The parts of a key; none if it is not that of a slope.
+    pub fn parse(key: &'a str) -> Option<Self> {
+        let (is_below, key) = of_stop(key)?;
+        let (chain, rest) = key.split_once('.')?;
+        let (index, field) = rest.split_once('.')?;
+        let is_known =
+            matches!(chain, "loading" | "unloading") && matches!(field, "from" | "stiffness");
+        Some(Self {
+            is_below,
+            chain,
+            index: index.parse().ok().filter(|_| is_known)?,
+            field,
+        })
+    }
+}
+
 /// Keys of a file that are no [`Parameter`], of machines in SI units.
 pub(super) const FURTHER: [&str; 14] = [
     FREQUENCY_HZ,
