@@ -70,6 +70,10 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
         "a mapping, or the path of a file",
     ),
     "Mapping[str, Change]": (lambda value: isinstance(value, Mapping), "a mapping"),
+    "Point": (
+        lambda value: _are(value, bool, 2, 2) and hasattr(value[0], "specials") and isinstance(value[1], (str, int)),
+        "(branch, point)",
+    ),
     "Range": (lambda value: _are(value, is_number, 2, 2), "two numbers"),
     "Side": (
         lambda value: _are(value, is_number, 2, 3) and isinstance([*value, 0][2], numbers.Integral),

@@ -20,6 +20,7 @@ from ._result import Attractors, Basin, Branch, Certainty, Design, Kind, Orbit, 
 
 Range = tuple[float, float]
 Side = Range | tuple[float, float, int]
+Point = tuple[Branch, str | int]
 NAMES = {"from": "between[0]", "to": "between[1]", "second-from": "second_between[0]", "second-to": "second_between[1]"}
 """Options of the program that are called otherwise here."""
 
@@ -62,15 +63,20 @@ def _run(
 
 
 def _of_machine(
-    command: str, machine: Machine, options: Mapping[str, Any], kind: type[Kind], *, output: bool = True, progress: bool = False
+    command: str, machine: Machine, options: Mapping[str, Any], kind: type[Kind], *, output: str | None = "out",
+    earlier: Point | None = None, progress: bool = False,
 ) -> Kind:
-    """Runs a command on a machine; some write no files."""
+    """Runs a command on a machine, its output in this folder or file, if it writes any; from a point of an earlier branch."""
+    files = {"machine.toml": machine.to_toml()}
+    if earlier is not None:
+        files["earlier.json"] = json.dumps(dict(earlier[0]))
 
     def arguments(place: pathlib.Path) -> list[str]:
-        out = {"output": str(place / "out")} if output else {}
-        return [command, "--format=json", str(place / "machine.toml"), *_words({**options, **out})]
+        out = {} if output is None else {"output": str(place / output)}
+        point = {} if earlier is None else {"from_point": f"{place / 'earlier.json'}:{earlier[1]}"}
+        return [command, "--format=json", str(place / "machine.toml"), *_words({**options, **out, **point})]
 
-    return _run(arguments, {"machine.toml": machine.to_toml()}, kind, machine, progress)
+    return _run(arguments, files, kind, machine, progress)
 
 
 @checked
@@ -102,7 +108,7 @@ def orbit(machine: Machine, *, budget: int | None = None) -> Orbit:
     >>> round(orbit.before_impact_velocity, 9)
     6.494627429
     """
-    return _of_machine("orbit", machine, {"budget": budget}, Orbit, output=False)
+    return _of_machine("orbit", machine, {"budget": budget}, Orbit, output=None)
 
 
 @checked
@@ -178,14 +184,14 @@ def zone(machine: Machine, *, budget: int | None = None) -> Zone:
     >>> round(ss.zone(ss.Machine.unloaded(clearance=10)).frequency_sn, 9)
     1.369035839
     """
-    return _of_machine("zone", machine, {"budget": budget}, Zone, output=False)
+    return _of_machine("zone", machine, {"budget": budget}, Zone, output=None)
 
 
 @checked
 def continue_(
     machine: Machine, parameter: str, between: Range, *, orbit: str | None = None, state: Range | None = None,
-    double: int | None = None, second: str | None = None, second_between: Range | None = None,
-    switch: int | None = None, points: int | None = None, budget: int | None = None, progress: bool = True,
+    from_point: Point | None = None, double: int | None = None, second: str | None = None,
+    second_between: Range | None = None, switch: int | None = None, points: int | None = None, budget: int | None = None, progress: bool = True,
 ) -> Branch:
     """Follows a periodic motion along a parameter, through folds, with all its bifurcations.
 
@@ -201,6 +207,9 @@ def continue_(
         Motion to start from, "p/n": "1/1" unless it is stated.
     state : (float, float), optional
         Starts from the orbit nearest to this state at time 0, stable or not.
+    from_point : (Branch, str or int), optional
+        Starts from a point of an earlier branch of the same machine, stable or not: a special point, such as "SN" or "PD2" for
+        the second flip, or a row of its `points`, counted from 1. The parameter of that branch takes its value there.
     double : int, optional
         Follows the orbits of twice the period from every flip on, and asymmetric ones from every pitchfork, so many times over.
     second, second_between : str and (float, float), optional
@@ -242,7 +251,7 @@ def continue_(
         "second": second, "second_from": second_low, "second_to": second_high, "switch": switch, "points": points,
         "budget": budget,
     }
-    return _of_machine("continue", machine, options, Branch, progress=progress)
+    return _of_machine("continue", machine, options, Branch, earlier=from_point, progress=progress)
 
 
 @checked
@@ -401,6 +410,95 @@ def certainty(
     """
     options = _plane(x, v, phi, plane, size) | {"at": at, "transient": transient, "longest": longest, "budget": budget}
     return _of_machine("basin", machine, options | {"along_zone": places}, Certainty, progress=progress)
+
+
+@checked
+def basins(
+    machine: Machine, parameter: str, between: Range, *, steps: int | None = None, x: Side | None = None,
+    v: Side | None = None, phi: Side | None = None, size: int | None = None, plane: str | None = None,
+    at: float | None = None, transient: int | None = None, longest: int | None = None, budget: int | None = None,
+    progress: bool = True,
+) -> Result:
+    """All attractors and their basins along a parameter.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    parameter : str
+        Key or letter of the parameter.
+    between : (float, float)
+        First and last value.
+    steps : int, optional
+        Number of values, 2 to 1000; 41 unless it is stated.
+    x, v, phi, size, plane, at, transient, longest, budget, progress
+        As of `basin`; the plane is the same at all values.
+
+    Returns
+    -------
+    Result
+        `tables["attractors"]` has a row for each attractor at each value: its number, motion, share of the starts with its 95 %
+        interval, integrity.
+
+    Raises
+    ------
+    MachineError
+        If the parameter is unknown or a value out of range.
+    SoftstopError
+        If it would cost more.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> found = ss.basins(ss.Machine.unloaded(clearance=10), "eta", (1.15, 1.25), steps=2, size=20)
+    >>> found.tables["attractors"].z
+    array(['0', '1', '0', '1'], dtype='<U1')
+    """
+    low, high = between
+    options = _plane(x, v, phi, plane, size) | {"at": at, "transient": transient, "longest": longest, "budget": budget}
+    along = {"parameter": parameter, "from": low, "to": high, "steps": steps}
+    return _of_machine("basin", machine, options | along, Result, progress=progress)
+
+
+@checked
+def prove(
+    machine: Machine, *, orbit: str | None = None, state: Range | None = None, at: str | None = None,
+    budget: int | None = None,
+) -> Result:
+    """Proves a periodic motion, or its fold, flip or grazing, by interval arithmetic.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    orbit : str, optional
+        Motion to prove, "p/n": "1/1" unless it is stated.
+    state : (float, float), optional
+        Proves the orbit nearest to this state at time 0, stable or not.
+    at : {"fold", "flip", "grazing"}, optional
+        Proves a bifurcation of the motion: the one at the nearest frequency of the drive on its branch.
+    budget : int, optional
+        As of `orbit`.
+
+    Returns
+    -------
+    Result
+        The certificate: intervals that hold the motion, and what is proven of it; `text` says it in words.
+
+    Raises
+    ------
+    SoftstopError
+        If it is not proven.
+
+    Examples
+    --------
+    >>> import softstop as ss
+    >>> proof = ss.prove(ss.Machine.unloaded(eta=1.15, clearance=10))
+    >>> "proof.json" in proof.files
+    True
+    """
+    options = {"orbit": orbit, "state": state, "at": at, "budget": budget}
+    return _of_machine("prove", machine, options, Result, output="out/proof.json")
 
 
 @checked

@@ -24,6 +24,12 @@ CALLS = {
         lambda m: ss.basin(m, size=40, x=(0, 15), v=(-20, 20)),
         ["--size=40", "--x=0:15", "--v=-20:20"],
     ),
+    "basin along eta": (
+        lambda m: ss.basins(m, "eta", (1.1, 1.2), steps=3, size=20),
+        ["--parameter=eta", "--from=1.1", "--to=1.2", "--steps=3", "--size=20"],
+    ),
+    "prove a motion": (lambda m: ss.prove(m), []),
+    "prove a fold": (lambda m: ss.prove(m, at="fold"), ["--at=fold"]),
 }
 
 
@@ -31,10 +37,11 @@ CALLS = {
 @pytest.mark.parametrize("command", CALLS)
 def test_numbers_are_those_of_the_program(program, tmp_path, name, command):
     call, options = CALLS[command]
+    command = command.split()[0]
     machine = getattr(ss.Machine, name)(**A)
     result = call(machine)
     machine.save(tmp_path / "machine.toml")
-    output = [] if command in ("orbit", "zone") else ["--output=out"]
+    output = [] if command in ("orbit", "zone", "prove") else ["--output=out"]
     printed = json.loads(program(command, "machine.toml", *options, *output, "--format=json"))
     files = printed.pop("files", {})
     assert dict(result) == printed
@@ -42,6 +49,25 @@ def test_numbers_are_those_of_the_program(program, tmp_path, name, command):
     for file, content in result.files.items():
         if file.endswith(".csv"):
             assert content == (tmp_path / "out" / file).read_bytes()
+
+
+def test_a_branch_begins_at_a_point_of_an_earlier_one(program, tmp_path):
+    machine = ss.Machine.unloaded(**A)
+    machine.save(tmp_path / "machine.toml")
+    earlier = ss.continue_(machine, "eta", (0.9, 1.5))
+    words = ["continue", "machine.toml", "--format=json"]
+    printed = program(*words, "--parameter=eta", "--from=0.9", "--to=1.5")
+    (tmp_path / "earlier.json").write_text(printed, encoding="utf-8")
+    for point in ["PD", "SN", 7]:
+        branch = ss.continue_(machine, "rho", (5, 15), from_point=(earlier, point))
+        line = ["--parameter=rho", "--from=5", "--to=15", f"--from-point=earlier.json:{point}"]
+        printed = json.loads(program(*words, *line))
+        printed.pop("files")
+        assert dict(branch) == printed
+    with pytest.raises(ss.SoftstopError, match="clearance"):
+        ss.continue_(machine.replace(clearance=11), "rho", (5, 15), from_point=(earlier, "PD"))
+    with pytest.raises(ss.MachineError, match="from_point"):
+        ss.continue_(machine, "rho", (5, 15), from_point=("SN", earlier))
 
 
 def test_a_machine_of_a_file_is_the_machine_of_the_program(program):
