@@ -64,7 +64,7 @@ def test_a_branch_begins_at_a_point_of_an_earlier_one(program, tmp_path):
         printed = json.loads(program(*words, *line))
         printed.pop("files")
         assert dict(branch) == printed
-    with pytest.raises(ss.SoftstopError, match="clearance"):
+    with pytest.raises(ss.MachineError, match="clearance"):
         ss.continue_(machine.replace(clearance=11), "rho", (5, 15), from_point=(earlier, "PD"))
     with pytest.raises(ss.MachineError, match="from_point"):
         ss.continue_(machine, "rho", (5, 15), from_point=("SN", earlier))
