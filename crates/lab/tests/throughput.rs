@@ -83,7 +83,7 @@ fn both_engines_count_the_same_impacts_on_random_machines() -> Outcome {
     Ok(())
 }
 
-/// Faces beside turning points of settled motions, frequencies beside changes: the million is in docs/long-runs.md.
+/// Faces beside turning points of settled motions, frequencies beside changes: the million is in CONTRIBUTING.md.
 #[test]
 fn both_engines_end_in_the_same_states_where_machines_are_aimed_at_trouble() -> Outcome {
     let plan = Plan {

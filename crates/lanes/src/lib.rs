@@ -16,6 +16,41 @@
 //! beginning of its drive period every few periods of its own: the drive never drifts, and a motion does not depend on
 //! its neighbours, nor on the width of the registers. Nothing in the loop calls the mathematical
 //! library, and no closure stands in it: one that is not inlined would lose the instruction set.
+//!
+//! # What limits the speed
+//!
+//! Instructions of 16 motions with AVX-512 from impact to impact, mean of the drive periods 17 to 32. The machine is the
+//! paper's at eta 0.95 to 1.4, from (0, 14) without a strip and from (6.9, 9.5) with one:
+//!
+//! | | unloaded | with a strip |
+//! |---|---|---|
+//! | fused multiply-adds | 908 | 1,538 |
+//! | additions, multiplications | 1,064 | 1,663 |
+//! | divisions, roots | 46 | 80 |
+//! | comparisons, minima, signs | 511 | 653 |
+//! | moves, broadcasts, blends, masks | 1,967 | 2,790 |
+//! | scalar: addresses, masks, jumps | 1,146 | 1,243 |
+//! | all | 5,643 | 7,968 |
+//!
+//! That is 353 instructions for a motion and a period. A period takes 2 decisions about a window, with a strip also 2.6
+//! direct steps. A decision for 8 lanes computes some 540 operations, in 1.7 rounds of 480 instructions. Of all periods
+//! in the sweep of `softstop-lab throughput` 72 % are extrapolated. The rest is chaos (12 % of the motions and over a
+//! third of the time) and the first some 60 periods of the others.
+//!
+//! A prototype in C++ for this machine alone (closed form, 40 samples a period), on motions at neighbouring frequencies:
+//!
+//! | eta from | 0.97 | 1.05 | 1.15 | 1.25 | 1.36 |
+//! |---|---|---|---|---|---|
+//! | instructions | 4,265 | 4,238 | 3,659 | 3,294 | 6 |
+//! | of them multiplications, fused or not | 1,225 | 1,125 | 942 | 862 | 3 |
+//! | prototype: instructions | 2,922 | 2,576 | 2,445 | 2,531 | 675 |
+//! | prototype: multiplications | 1,129 | 1,090 | 1,042 | 1,091 | 253 |
+//!
+//! At 1.36 nothing meets the stop any more. In chaos lanes wait for each other's decisions. The prototype has no proofs (a
+//! seventh of all operations at eta 1.15; it misses 15 of 224,676 impacts), no tests whether a motion repeats (an eighth),
+//! no other machines (damping, stiffness, side and restitution are constants there), no ends of drive periods and jobs,
+//! and no laws from the machine's numbers (0.5 us, as much as 13 of the 200 periods). Instructions were counted by single
+//! steps or by callgrind, which no command of the project repeats. `engine.rs` lists what was tried and dropped.
 
 mod certificate;
 mod constants;
