@@ -1,6 +1,6 @@
 """Reference motions of impact oscillators with many kinds of stops, in mpmath.
 
-Equation:  x'' + b x' + x + F = cos(w t + phase) + p(t),  p = 0 here (force.py has others)
+Equation:  x'' + b x' + x + F = a cos(w t + phase) + p(t),  a = 1, p = 0 here (lab.py and force.py have others)
 x < clearance: b = damping, F = 0;  beyond: b = contact_damping and
     strip, if any   r < x < r+s:     F = (x - r)(k2 + k3 sign v)          (phase I)
                     r+s < x < x_stop = r+s+travel: F = s (k2+k3)/40 (1 + 3 sign v)
@@ -34,6 +34,7 @@ import cmath
 import json
 import math
 import os
+import random
 import sys
 import time
 from operator import mul
@@ -114,14 +115,15 @@ def newton(G, D, lo, hi):
 
 
 class Push:
-    """cos(w t + phase) + p(t), p = sum of force[k] t^k / k!, t = (th - phase) / w"""
+    """amplitude cos(w t + phase) + p(t), p = sum of force[k] t^k / k!, t = (th - phase) / w"""
 
-    def __init__(self, w, phase, force):
-        self.w, self.phase, self.force = w, phase, force
+    def __init__(self, w, phase, force, amplitude):
+        self.w, self.phase, self.force, self.amplitude = w, phase, force, amplitude
 
     def series(self, th, size, way=1):
         """coefficients by s at th + way w s"""
-        w, f = way * self.w, [cos(th), -way * self.w * sin(th)]
+        w, a = way * self.w, self.amplitude
+        f = [a * cos(th), -a * w * sin(th)]
         for k in range(2, size):
             f.append(-w * w * f[k - 2] / (k * (k - 1)))
         if self.force:
@@ -433,11 +435,13 @@ def leave(law, push, th, x, v):
 
 
 class Scene:
+    slowest = mpf("1e-6")       # slower hits of a rigid stop are not told
+
     def __init__(self, frequency, damping, contact_damping, clearance, stop, rigid=None,
-                 strip=None, phase=0.0, force=()):
+                 strip=None, phase=0.0, force=(), amplitude=1.0):
         self.w, b1, b, r = mpf(frequency), mpf(damping), mpf(contact_damping), mpf(clearance)
         self.phase, self.r = mpf(phase), r
-        self.push = Push(self.w, self.phase, [mpf(d) for d in force])
+        self.push = Push(self.w, self.phase, [mpf(d) for d in force], mpf(amplitude))
         kind, q = stop["model"], {k: mpf(v) for k, v in stop.items() if isinstance(v, (int, float))}
         free = (b1, mpf(1), mpf(0))
         self.regions = [dict(lo=-inf, up=free, down=free)]
@@ -535,16 +539,23 @@ class Scene:
         if self.v:
             self.g = 1 if self.v > 0 else -1
 
-    def decide(self, end):
-        """at v = 0: which way the mass goes; None and the time at which it does if it is stuck"""
+    def sides(self):
+        """the regions ahead and behind, and the pushes that balance the mass there at rest"""
         z = self.regions[self.i]
         upper = self.i + 1 if self.x == z["hi"] else self.i
         lower = self.i - 1 if self.x == z["lo"] else self.i
-        wall = upper == len(self.regions)
-        if not z["friction"] and upper == lower:
+        most = inf if upper == len(self.regions) else self.static(upper, 1) + self.x
+        return upper, lower, most, self.static(lower, -1) + self.x
+
+    def faint(self):
+        """true of a bounce that counts as rest"""
+        return abs(self.v) < TINY
+
+    def decide(self, end):
+        """at v = 0: which way the mass goes; None and the time at which it does if it is stuck"""
+        upper, lower, most, least = self.sides()
+        if not self.regions[self.i]["friction"] and upper == lower:
             return 0, self.i, None
-        most = inf if wall else self.static(upper, 1) + self.x
-        least = self.static(lower, -1) + self.x
         th = self.w * self.t + self.phase
         f = self.push.at(th)
         if f > most:
@@ -556,8 +567,8 @@ class Scene:
             if self.push.force:
                 if abs(level) < inf:
                     out.append((self.push.crossing(th, level, g, end), g, i))
-            elif abs(level) < 1:
-                out.append(((-g * acos(level) - th) % (2 * pi) / self.w, g, i))
+            elif abs(level) < self.push.amplitude:
+                out.append(((-g * acos(level / self.push.amplitude) - th) % (2 * pi) / self.w, g, i))
         wait, g, i = min(out, key=lambda o: o[0])
         return g, i, wait
 
@@ -678,7 +689,7 @@ class Scene:
                 assert (self.v > 0) == (kind == "hi"), (kind, self.v)
                 if self.x == self.r and kind == "hi":
                     impacts.append((self.t, self.v))
-                if abs(self.v) < TINY:
+                if self.faint():
                     self.v = mpf(0)
                 else:
                     self.enter(self.i + (1 if kind == "hi" else -1))
@@ -686,11 +697,11 @@ class Scene:
             elif kind == "hi":
                 u = self.v
                 assert u > 0
-                if u > mpf("1e-6"):
+                if u > self.slowest:
                     (impacts if self.wall == self.r else hits).append((self.t, u))
                 self.v = -self.R * u
                 self.g = -1
-                if self.v > -TINY:
+                if self.faint():
                     self.v = mpf(0)
                 self.enter(self.i)
                 jump([[-self.R, 0], [(self.acc() + self.R * before) / u, -self.R]])
@@ -875,6 +886,31 @@ FAMILIES = {
         ("hertz with strip", 1.15, .04, .18, 5., hertz(1e4, 1.5, .1), (0., 14.), 10, 1, dict(strip=PETERKA)),
     ],
 }
+
+
+def drawn(count):
+    """random machines with linear laws around the paper's"""
+    draw = random.Random(2003)
+    between, cases = draw.uniform, []
+    for index in range(count):
+        name, stop, more = f"random {index}", pre(7, 70), dict(phase=float(index))
+        w, r, k = between(.5, 2), between(.2, 8), 10 ** between(.5, 4)
+        kind = draw.choice(["unloaded", "loaded", "other"])
+        if kind == "loaded":
+            more["strip"] = PETERKA
+        elif kind == "other":
+            stop = draw.choice([rigid(between(.2, .95)), kv(k), kv(k, Z), pre(k, between(0, 100)),
+                                pwl([(0, k), (.3, 2 * k)], [(0, k / 2)])])
+        far = r if stop["model"] == "rigid" else math.inf
+        if far > r and draw.random() < .1:
+            more["rigid"] = wall(between(.1, 2), between(.2, .95))
+            far = r + more["rigid"]["travel"]
+        start = between(-12, min(12, far)), between(-15, 15)
+        cases.append((name, w, .04 * (1 + index % 7), .18, r, stop, start, 4, 1, more))
+    return cases
+
+
+FAMILIES["random"] = drawn(40)
 PATH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stops.json")
 
 

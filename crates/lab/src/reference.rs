@@ -1,7 +1,7 @@
 //! Reference motions of the built-in scenes, stored with all digits of doubles.
 //!
 //! Taylor series in 67 decimal digits, checked in 48, gave them; they share no code with the exact method. The program that
-//! wrote the file is a test, `tests/many_digits`.
+//! wrote the file is `tests/reference/lab.py`.
 
 use std::str::FromStr;
 

@@ -7,24 +7,21 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use softstop::{Impact, Machine, Scene, Start};
+use softstop::{Impact, Scene, Start};
 use softstop_lab::methods::{Integrator, MethodError, Solution, Task, Work};
-use softstop_lab::precision::case::{self, BUILT_IN};
+use softstop_lab::precision::case::{self, BUILT_IN, Case};
 use softstop_lab::precision::errors::Scale;
 use softstop_lab::precision::family::{self, Family, Look};
 use softstop_lab::precision::measure::{Bench, Effort, Row};
 use softstop_lab::precision::truth::Truth;
 use softstop_testing::{Program, assert_near, docs, is_near};
 
-use crate::many_digits;
-
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// A scene of `docs/scenes` for some periods.
-fn task(file: &str, periods: f64) -> Result<Task, Box<dyn std::error::Error>> {
-    let text = fs::read_to_string(docs("scenes").join(file))?;
-    let file = Machine::from_toml(&text)?;
-    Ok(Task::new(file.scene, file.start, periods, u64::MAX))
+/// A built-in scene, or one in a file, for some periods.
+fn case(scene: &str, periods: f64) -> Result<Case, Box<dyn std::error::Error>> {
+    let cases = case::cases(scene, Some(periods)).map_err(|failure| failure.to_string())?;
+    Ok(cases.into_iter().next().ok_or("a scene")?)
 }
 
 const LOOK: Look = Look {
@@ -37,14 +34,12 @@ const ONCE: Effort = Effort {
     most: 1,
 };
 
-fn rows(task: &Task, family: &Family) -> Result<Vec<Row>, Box<dyn std::error::Error>> {
+fn rows(case: &Case, family: &Family) -> Result<Vec<Row>, Box<dyn std::error::Error>> {
     let told = |failure: softstop_console::failure::Failure| failure.to_string();
-    let scale = Scale::of(task)?;
-    let digits = many_digits::solve(task, &|_| true).ok();
-    let truth =
-        Truth::of(task, &scale, digits.map(many_digits::Reference::rounded)).map_err(told)?;
+    let scale = Scale::of(&case.task)?;
+    let truth = Truth::of(&case.task, &scale, case.stored()).map_err(told)?;
     let bench = Bench {
-        task,
+        task: &case.task,
         truth: &truth,
         scale,
         effort: ONCE,
@@ -100,14 +95,15 @@ impl Integrator for Heun {
 
 #[test]
 fn the_error_of_a_method_falls_with_its_order() -> Outcome {
-    let task = task("none.toml", 2.0)?;
+    let none = docs("scenes/none.toml");
+    let case = case(none.to_str().ok_or("UTF-8")?, 2.0)?;
     let knobs = [1e-2, 5e-3, 2.5e-3];
     let heun = Family::new("Heun", LOOK, knobs, |knob| {
         Box::new(Heun {
             steps: (2.0 / knob) as u64,
         })
     });
-    let errors: Vec<f64> = rows(&task, &heun)?.iter().map(end_error).collect();
+    let errors: Vec<f64> = rows(&case, &heun)?.iter().map(end_error).collect();
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!(is_near(order, 2.0, 0.1), "{errors:?}");
@@ -117,19 +113,16 @@ fn the_error_of_a_method_falls_with_its_order() -> Outcome {
 
 #[test]
 fn the_exact_method_is_exact_to_rounding_on_short_runs() -> Outcome {
-    for (file, periods) in [
-        ("preloaded.toml", 3.0),
-        ("loaded.toml", 2.0),
-        ("sticking.toml", 1.2),
-    ] {
-        let task = task(file, periods)?;
-        let row = &rows(&task, &Family::exact())?[0];
+    for (name, periods) in [("periodic", 3.0), ("loaded", 2.0), ("sticking", 1.2)] {
+        let case = case(name, periods)?;
+        assert!(case.stored().is_some(), "{name}");
+        let row = &rows(&case, &Family::exact())?[0];
         let worst = row.worst_error().ok_or("an error")?;
         assert!(
             worst < 1e-13 && row.impact_difference == Some(0),
-            "{file}: {row:?}"
+            "{name}: {row:?}"
         );
-        assert!(row.impacts > Some(0), "{file}");
+        assert!(row.impacts > Some(0), "{name}");
     }
     Ok(())
 }
@@ -151,13 +144,13 @@ impl Integrator for Wrong {
 
 #[test]
 fn each_error_is_measured_for_itself() -> Outcome {
-    let task = task("preloaded.toml", 3.0)?;
+    let case = case("periodic", 3.0)?;
     let errors = |wrong: fn(&mut Solution)| {
         let family = Family::new("wrong", LOOK, [1.0], move |_| Box::new(Wrong(wrong)));
-        rows(&task, &family).map(|rows| rows[0].clone())
+        rows(&case, &family).map(|rows| rows[0].clone())
     };
     let late = errors(|solution| solution.impacts[1].time += 1e-3)?;
-    let period = task.scene.period();
+    let period = case.task.scene.period();
     assert_near(
         late.impact_time_error.ok_or("time")?,
         1e-3 / period,
@@ -191,9 +184,9 @@ fn failures_are_told_and_finer_settings_still_run() -> Outcome {
             }
         }
     }
-    let task = task("preloaded.toml", 1.0)?;
+    let case = case("periodic", 1.0)?;
     let rows = rows(
-        &task,
+        &case,
         &Family::new("fails", LOOK, [1.0, 0.2, 0.01], |knob| {
             Box::new(Fails(knob))
         }),
@@ -207,7 +200,7 @@ fn failures_are_told_and_finer_settings_still_run() -> Outcome {
 
 #[test]
 fn a_power_law_is_measured_against_methods_that_agree() -> Outcome {
-    let task = task("hertz.toml", 2.0)?;
+    let task = case("hertz", 2.0)?.task;
     let scale = Scale::of(&task)?;
     let truth = Truth::of(&task, &scale, None).map_err(|failure| failure.to_string())?;
     let doubt = truth.doubt.worst();
