@@ -7,6 +7,8 @@ use std::str::FromStr;
 
 use softstop::Impact;
 
+use crate::methods::Solution;
+
 /// One motion in each line: scene, drive periods, stiffness of the stop in N/m if it is swept, else 0, position and velocity at
 /// the end, the three figures of [`Doubt`], then time and velocity of each impact.
 const STORED: &str = include_str!("../assets/references.txt");
@@ -17,11 +19,8 @@ const ROUNDING: f64 = 1e-14;
 /// A motion, rounded from many digits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
-    /// Position in m and velocity in m/s at the end.
-    pub end: (f64, f64),
-    /// The impacts in order of time, the summable ones of a rigid stop included: the clearance is passed onwards,
-    /// or the rigid stop at it is hit.
-    pub impacts: Vec<Impact>,
+    /// Its end and its impacts, the summable ones of a rigid stop included.
+    pub solution: Solution,
     /// How far two computations of it are apart.
     pub doubt: Doubt,
 }
@@ -61,8 +60,11 @@ fn read(numbers: &[f64]) -> Option<Reference> {
         velocity: pair[1],
     };
     Some(Reference {
-        end: (position, velocity),
-        impacts: impacts.chunks_exact(2).map(impact).collect(),
+        solution: Solution {
+            end: (position, velocity),
+            impacts: impacts.chunks_exact(2).map(impact).collect(),
+            ..Solution::default()
+        },
         doubt: Doubt {
             end,
             time,

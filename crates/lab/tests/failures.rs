@@ -33,7 +33,7 @@ fn the_exact_method_agrees_with_67_digits() -> Outcome {
         for stiffness in [1.0, 1e2, 1e4, 1e8] {
             let view = view(name)?;
             let task: Task = view.task(stiffness);
-            let digits = view.stored(stiffness).ok_or("a stored motion")?;
+            let digits = view.stored(stiffness).ok_or("a stored motion")?.solution;
             let exact = Exact.integrate(&task)?;
             let apart = |a: f64, b: f64, scale: f64| {
                 assert!(
@@ -190,7 +190,7 @@ fn the_page_shows_every_map_and_scene() -> Outcome {
     let views = View::built_in().map_err(|failure| failure.to_string())?;
     for view in &views {
         for end in ["svg", "toml"] {
-            let name = format!("failures/{}.{end}", view.name);
+            let name = format!("failures/{}.{end}", view.0.name);
             assert!(page.contains(&format!("({name})")), "{name}");
             assert!(docs(&name).is_file(), "{name}");
         }

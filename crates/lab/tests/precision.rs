@@ -36,10 +36,11 @@ const ONCE: Effort = Effort {
 
 fn rows(case: &Case, family: &Family) -> Result<Vec<Row>, Box<dyn std::error::Error>> {
     let told = |failure: softstop_console::failure::Failure| failure.to_string();
-    let scale = Scale::of(&case.task)?;
-    let truth = Truth::of(&case.task, &scale, case.stored()).map_err(told)?;
+    let task = &case.task();
+    let scale = Scale::of(task)?;
+    let truth = Truth::of(task, &scale, case.stored(None)).map_err(told)?;
     let bench = Bench {
-        task: &case.task,
+        task,
         truth: &truth,
         scale,
         effort: ONCE,
@@ -115,7 +116,7 @@ fn the_error_of_a_method_falls_with_its_order() -> Outcome {
 fn the_exact_method_is_exact_to_rounding_on_short_runs() -> Outcome {
     for (name, periods) in [("periodic", 3.0), ("loaded", 2.0), ("sticking", 1.2)] {
         let case = case(name, periods)?;
-        assert!(case.stored().is_some(), "{name}");
+        assert!(case.stored(None).is_some(), "{name}");
         let row = &rows(&case, &Family::exact())?[0];
         let worst = row.worst_error().ok_or("an error")?;
         assert!(
@@ -150,7 +151,7 @@ fn each_error_is_measured_for_itself() -> Outcome {
         rows(&case, &family).map(|rows| rows[0].clone())
     };
     let late = errors(|solution| solution.impacts[1].time += 1e-3)?;
-    let period = case.task.scene.period();
+    let period = case.machine.scene.period();
     assert_near(
         late.impact_time_error.ok_or("time")?,
         1e-3 / period,
@@ -200,7 +201,7 @@ fn failures_are_told_and_finer_settings_still_run() -> Outcome {
 
 #[test]
 fn a_power_law_is_measured_against_methods_that_agree() -> Outcome {
-    let task = case("hertz", 2.0)?.task;
+    let task = case("hertz", 2.0)?.task();
     let scale = Scale::of(&task)?;
     let truth = Truth::of(&task, &scale, None).map_err(|failure| failure.to_string())?;
     let doubt = truth.doubt.worst();

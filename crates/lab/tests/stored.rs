@@ -23,12 +23,14 @@ fn all_linear_scenes_are_stored() {
         .chain(short)
         .map(|(name, periods)| case::cases(name, periods));
     let cases = cases.flat_map(|cases| cases.expect("built-in scenes"));
-    let missing = cases.filter(|it| it.stored().is_none()).map(|it| it.name);
+    let missing = cases
+        .filter(|it| it.stored(None).is_none())
+        .map(|it| it.name);
     assert_eq!(missing.collect::<Vec<_>>(), ["hertz"]);
     for view in View::built_in().expect("the atlas") {
         for stiffness in Axes::new(POINTS).stiffness.into_iter().chain(MORE) {
             let stored = view.stored(stiffness);
-            assert!(stored.is_some(), "{}, {stiffness}", view.name);
+            assert!(stored.is_some(), "{}, {stiffness}", view.0.name);
         }
     }
 }

@@ -157,11 +157,7 @@ impl Column {
         let lost = || format!("no true motion at a stiffness of {stiffness} N/m");
         let own = Exact.integrate(&task).with_context(lost)?;
         let contact = shortest_contact(&task).with_context(lost)?;
-        let stored = view.stored(stiffness).map(|stored| Solution {
-            end: stored.end,
-            impacts: stored.impacts,
-            ..Solution::default()
-        });
+        let stored = view.stored(stiffness).map(|stored| stored.solution);
         let judged =
             |truth: &Solution| Cell::new(&Judge::new(&task, truth, tolerance), Ok(own.clone()));
         let known = stored.clone().or_else(|| borne_out(&task, &own));

@@ -15,7 +15,7 @@ const DASHES: Option<(f64, f64)> = Some((2.0, 3.0));
 
 /// The page.
 pub(super) fn chart(atlas: &Atlas) -> Chart {
-    let (view, percent) = (&atlas.view, 100.0 * atlas.tolerance);
+    let (view, percent) = (&atlas.view.0, 100.0 * atlas.tolerance);
     let periods = view.periods;
     let plural = if periods == 1.0 { "" } else { "s" };
     let rows = atlas.maps.chunk_by(|a, b| a.family.row() == b.family.row());

@@ -82,7 +82,8 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     let views = views(arguments)?;
     let families = families(&arguments.method)?;
     let pages = views.iter();
-    let pages = pages.map(|view| (format!("{}_svg", view.name), format!("{}.svg", view.name)));
+    let pages =
+        pages.map(|View(case)| (format!("{}_svg", case.name), format!("{}.svg", case.name)));
     let pages: Vec<(String, String)> = pages.collect();
     let mut files = vec![("csv", "failures.csv"), ("json", "failures.json")];
     files.extend(pages.iter().map(|(kind, name)| (&kind[..], &name[..])));
@@ -126,14 +127,14 @@ fn views(arguments: &FailuresArguments) -> Result<Vec<View>, Failure> {
         let found = arguments.scene.iter().map(|place| View::find(place));
         found.collect::<Result<Vec<_>, _>>()?
     };
-    for view in &mut views {
-        view.periods = arguments.periods.unwrap_or(view.periods);
+    for View(case) in &mut views {
+        case.periods = arguments.periods.unwrap_or(case.periods);
     }
-    for (index, view) in views.iter().enumerate() {
-        if views[..index].iter().any(|other| other.name == view.name) {
+    for (index, View(case)) in views.iter().enumerate() {
+        if views[..index].iter().any(|other| other.0.name == case.name) {
             return Err(Failure::usage(format!(
                 "scene = {}: must be given once, its files go by that name",
-                view.name
+                case.name
             )));
         }
     }

@@ -25,7 +25,7 @@ pub(super) fn runs(atlases: &[Atlas]) -> impl Iterator<Item = Run<'_>> {
 /// The columns of the table.
 pub(super) fn table<'a>() -> [column::Column<Run<'a>>; 9] {
     columns! { Run<'a>, it;
-        "scene" [None], "" => it.0.view.name.as_str();
+        "scene" [None], "" => it.0.view.0.name.as_str();
         "scheme" [None], "" => it.1.family.title();
         "events" [None], "" => it.1.family.row();
         "stiffness (N/m)" [None], "" => it.0.axes.stiffness[it.2];
@@ -110,9 +110,9 @@ impl<'a> SceneReport<'a> {
         let letters = letters.map(|cell| cell.map_or('-', |cell| cell.verdict.letter()));
         let impacts = |column: &Column| column.truth.impacts.len();
         Self {
-            name: &atlas.view.name,
-            title: &atlas.view.title,
-            periods: atlas.view.periods,
+            name: &atlas.view.0.name,
+            title: &atlas.view.0.title,
+            periods: atlas.view.0.periods,
             tolerance: atlas.tolerance,
             stiffness: &atlas.axes.stiffness,
             step: &atlas.axes.step,

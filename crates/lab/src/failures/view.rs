@@ -1,30 +1,18 @@
 //! The machines of the atlas, whose stop's stiffness is swept.
 
 use crate::methods::Task;
-use crate::reference::{self, Reference};
-use crate::scenes::{self, BuiltIn, built_in};
-use softstop::{Machine, MotionError, PhaseKind, Scene, Slope, Start, Stop};
+use crate::reference::Reference;
+use crate::scenes::{BuiltIn, Case, built_in};
+use softstop::{MotionError, PhaseKind, Scene, Slope, Stop};
 
 use softstop_console::failure::Failure;
 
-/// A machine of the atlas with its start and its duration.
+/// A machine of the atlas, whose stop's stiffness is swept.
 #[derive(Debug, Clone, PartialEq)]
-pub struct View {
-    /// Its name: that of its files.
-    pub name: String,
-    /// What it shows.
-    pub title: String,
-    /// Machine and start; the stop's stiffness is swept.
-    pub machine: Machine,
-    /// Whether it starts in contact, near the position where the stop carries the suspension's load.
-    pub settling: bool,
-    /// Drive periods to run.
-    pub periods: f64,
-    /// Whether it comes with the program.
-    pub is_built_in: bool,
-}
+pub struct View(pub Case);
 
 const BUILT_IN: [BuiltIn; 5] = built_in! {
+    "failures/":
     "pressed", "failures/pressed", 1.0, "Pressed onto the stop: pure stability";
     "bounce", "failures/bounce", 1.0, "A bounce without losses: energy";
     "graze", "failures/graze", 2.0, "A graze: short contacts";
@@ -33,7 +21,7 @@ const BUILT_IN: [BuiltIn; 5] = built_in! {
 };
 
 /// The one whose start depends on the stiffness: a start at a fixed depth would throw the mass off a stiff stop.
-const PRESSED: &str = "pressed";
+const PRESSED: &str = "failures/pressed";
 
 /// Its depth at the start over that at rest.
 const SETTLED: f64 = 0.9;
@@ -56,52 +44,36 @@ impl View {
     /// # Errors
     /// [`Failure::Usage`] if there is neither, or nothing to sweep.
     pub fn find(place: &str) -> Result<Self, Failure> {
-        let known = BUILT_IN.iter().find(|known| known.name == place);
-        let (name, machine) = match known {
-            Some(known) => (place.to_owned(), known.machine()?),
-            None => scenes::read(place, &BUILT_IN)?,
-        };
-        if with_stiffness(&machine.scene.stop, 1.0).is_none() {
+        let mut case = Case::find(place, &BUILT_IN, PERIODS)?;
+        if with_stiffness(&case.machine.scene.stop, 1.0).is_none() {
             return Err(Failure::usage(format!(
                 "{place}: stop.model: must have a stiffness to sweep: kelvinVoigt, piecewiseLinear, hertz or \
                  preloaded"
             )));
         }
-        Ok(Self {
-            title: known.map_or(name.clone(), |known| known.title.to_owned()),
-            name,
-            machine,
-            settling: place == PRESSED,
-            is_built_in: known.is_some(),
-            periods: known.map_or(PERIODS, |known| known.periods),
-        })
+        if case.reference.is_none() {
+            case.title.clone_from(&case.name);
+        }
+        Ok(Self(case))
     }
 
     /// The motion with a stop of this stiffness in N/m in many digits, if it is stored.
     pub fn stored(&self, stiffness: f64) -> Option<Reference> {
-        let name = format!("failures/{}", self.name);
-        let stored = || reference::stored(&name, self.periods, Some(stiffness));
-        self.is_built_in.then(stored)?
+        self.0.stored(Some(stiffness))
     }
 
     /// The task with a stop of this stiffness in N/m.
     pub fn task(&self, stiffness: f64) -> Task {
-        let scene = &self.machine.scene;
-        let stop = with_stiffness(&scene.stop, stiffness);
-        let scene = Scene {
-            stop: stop.unwrap_or_else(|| scene.stop.clone()),
-            ..scene.clone()
-        };
-        Task::new(scene, self.start(stiffness), self.periods, u64::MAX)
-    }
-
-    fn start(&self, stiffness: f64) -> Start {
-        let Start { position, velocity } = self.machine.start;
-        let scene = &self.machine.scene;
-        let load = -scene.stiffness * scene.clearance;
-        let carried = load / (scene.stiffness + stiffness);
-        let share = if self.settling { SETTLED } else { 0.0 };
-        Start::new(position + share * carried, velocity)
+        let mut task = self.0.task();
+        if let Some(stop) = with_stiffness(&task.scene.stop, stiffness) {
+            task.scene.stop = stop;
+        }
+        if self.0.reference == Some(PRESSED) {
+            let scene = &task.scene;
+            let load = -scene.stiffness * scene.clearance;
+            task.start.position += SETTLED * (load / (scene.stiffness + stiffness));
+        }
+        task
     }
 }
 

@@ -120,7 +120,7 @@ fn check(arguments: &PrecisionArguments) -> Result<(), Failure> {
 
 /// The methods that the user wants, the exact one first.
 fn chosen(case: &Case, arguments: &PrecisionArguments) -> Result<Vec<Family>, Failure> {
-    let all = family::all(&case.task.scene, arguments.quick);
+    let all = family::all(&case.machine.scene, arguments.quick);
     let names: Vec<String> = all.iter().map(|family| family.name.clone()).collect();
     let filter = Filter::new(&arguments.method, &names)?;
     let is_chosen = |(index, family): &(usize, Family)| *index == 0 || filter.wants(&family.name);
@@ -154,12 +154,13 @@ fn measured(
     progress: &Progress,
 ) -> Result<SceneReport, Failure> {
     let name = &case.name;
-    let scale = Scale::of(&case.task)?;
+    let task = &case.task();
+    let scale = Scale::of(task)?;
     progress.say(&format!("{name}: reference"));
-    let truth = Truth::of(&case.task, &scale, case.stored())?;
+    let truth = Truth::of(task, &scale, case.stored(None))?;
     progress.more(1);
     let bench = Bench {
-        task: &case.task,
+        task,
         truth: &truth,
         scale,
         effort: effort(arguments),

@@ -85,7 +85,7 @@ impl SceneReport {
         Self {
             scene: case.name.clone(),
             title: case.title.clone(),
-            periods: case.task.periods,
+            periods: case.periods,
             machine: machine.clone(),
             reference: ReferenceReport {
                 method: truth.method,

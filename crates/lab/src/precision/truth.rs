@@ -1,6 +1,6 @@
 //! The motion that all are measured against.
 
-use crate::methods::{Exact, Integrator, Solution, Task, Work};
+use crate::methods::{Exact, Integrator, Solution, Task};
 use anyhow::{Context, anyhow};
 
 use super::errors::{Errors, Scale};
@@ -49,11 +49,7 @@ impl Truth {
     fn rounded(reference: Reference, scale: &Scale) -> Self {
         let doubt = reference.doubt;
         Self {
-            solution: Solution {
-                end: reference.end,
-                impacts: reference.impacts,
-                work: Work::default(),
-            },
+            solution: reference.solution,
             method: DIGITS,
             doubt: Errors {
                 end: doubt.end / scale.position.min(scale.velocity),

@@ -24,8 +24,7 @@ fn json_and_csv_have_a_row_for_every_setting_of_every_method() -> Outcome {
         &["--periods", "0.9", "--budget", "0.02"],
     )?;
     let rows = report["rows"].as_array().ok_or("rows")?;
-    let task = case("chatter", 0.9)?.task;
-    let families = family::all(&task.scene, true);
+    let families = family::all(&case("chatter", 0.9)?.machine.scene, true);
     let settings = families.iter().map(|family| family.settings.len());
     assert_eq!(rows.len(), settings.sum::<usize>());
     for family in &families {
