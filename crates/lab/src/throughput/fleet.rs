@@ -1,7 +1,5 @@
 //! What is run: a machine of the paper's at a thousand frequencies, by either engine.
 
-use std::ops::AddAssign;
-
 use rayon::prelude::*;
 use serde::Serialize;
 use softstop::{Clock, MotionError, Scene, SceneError, Start};
@@ -121,15 +119,15 @@ impl Fleet {
         instructions: Instructions,
         watch: &mut impl BatchObserver,
     ) -> Result<Count, MotionError> {
-        let mut all = Count::default();
+        let mut all = Vec::new();
         for (scenes, jobs) in self.scenes.chunks(PART).zip(self.jobs.chunks(PART)) {
             let machines = scenes.iter().map(Machine::new);
             let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
             let own = |(machine, job): (usize, &Job)| Job { machine, ..*job };
             let jobs: Vec<Job> = jobs.iter().enumerate().map(own).collect();
-            all += Count::of(&run_with(instructions, &machines, &jobs, watch))?;
+            all.extend(run_with(instructions, &machines, &jobs, watch));
         }
-        Ok(all)
+        Count::of(&all)
     }
 
     /// All in lanes, `rounds` times over, on the threads of the pool that this is called in.
@@ -142,14 +140,6 @@ impl Fleet {
         let jobs = self.jobs.repeat(rounds);
         let (outcomes, _) = run_parallel(Instructions::Widest, &machines, &jobs, |_| ());
         Count::of(&outcomes)
-    }
-}
-
-impl AddAssign for Count {
-    fn add_assign(&mut self, other: Self) {
-        self.impacts += other.impacts;
-        self.handed_over += other.handed_over;
-        self.leapt += other.leapt;
     }
 }
 

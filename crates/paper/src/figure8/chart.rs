@@ -26,7 +26,7 @@ const LEAST: f64 = 0.02;
 pub(super) fn chart(
     diagrams: &[Diagram],
     isolated: &[Step],
-    bifurcations: &[Bifurcation],
+    bifurcations: &[Bifurcation<'_>],
     explanation: String,
 ) -> Result<Chart> {
     let letters = figure9::letters()?;
@@ -36,10 +36,10 @@ pub(super) fn chart(
         let is_numbered = |eta: f64| is_own(eta) && (index > 0 || eta > BEYOND);
         let inside = isolated.iter().filter(|step| is_own(step.value));
         let mut panel = diagram.panel(&inside.collect::<Vec<_>>());
-        let numbered = bifurcations.iter().filter(|it| is_numbered(it.eta));
+        let numbered = bifurcations.iter().filter(|it| is_numbered(it.1.eta));
         panel
             .layers
-            .extend(numbered.map(|it| Layer::vertical(it.eta, MARK, it.words())));
+            .extend(numbered.map(|it| Layer::vertical(it.1.eta, MARK, words(it))));
         if index == 0 {
             (panel.span, panel.size) = ((2, 1), SIZES[0]);
             for Diagram { part: zoom, .. } in &diagrams[1..] {
@@ -80,17 +80,15 @@ pub(super) fn chart(
     })
 }
 
-impl Bifurcation {
-    /// Number, direction and symbols.
-    fn words(&self) -> String {
-        let arrow = match self.direction {
-            "both" => '↔',
-            "up" => '→',
-            _ => '←',
-        };
-        let symbols = self.symbols.replace(" -> ", ", ");
-        format!("{} {arrow} {symbols}", self.number)
-    }
+/// Number, direction and symbols.
+fn words((number, found): &Bifurcation<'_>) -> String {
+    let arrow = match found.direction() {
+        "both" => '↔',
+        "up" => '→',
+        _ => '←',
+    };
+    let symbols = found.transition.symbols().replace(" -> ", ", ");
+    format!("{number} {arrow} {symbols}")
 }
 
 impl Diagram<'_> {

@@ -33,18 +33,8 @@ struct Diagram<'a> {
     fleeting: Vec<Chain>,
 }
 
-/// A numbered bifurcation.
-struct Bifurcation {
-    number: usize,
-    /// Where it was found.
-    eta: f64,
-    /// By the paper's symbols.
-    symbols: String,
-    /// True if it cannot be reversed.
-    hysteresis: bool,
-    /// The direction of eta in which it is met.
-    direction: &'static str,
-}
+/// A bifurcation with its number in Table 1.
+type Bifurcation<'a> = (usize, Match<'a>);
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let (detail, what) = (studio.detail, figure.what::<What>()?);
@@ -61,8 +51,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter();
     let matches = rows.filter_map(|row| Some((row.number, matching::find(row, transitions)?)));
-    let bifurcations = matches.map(|(number, found)| numbered(number, &found));
-    let bifurcations: Vec<Bifurcation> = bifurcations.collect();
+    let bifurcations: Vec<Bifurcation<'_>> = matches.collect();
     let chart = chart::chart(
         &diagrams,
         &isolated,
@@ -71,8 +60,8 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     )?;
     let mut findings = Findings::default();
     findings.add("bifurcations found", bifurcations.len() as f64);
-    for it in &bifurcations {
-        findings.add(format!("eta of bifurcation {:02}", it.number), it.eta);
+    for (number, it) in &bifurcations {
+        findings.add(format!("eta of bifurcation {number:02}"), it.eta);
     }
     Ok(Drawn {
         files: vec![
@@ -118,22 +107,6 @@ fn fleeting(what: &What, detail: Detail) -> Result<Job> {
     Ok((what.fleeting.plan(detail)?, chains))
 }
 
-fn numbered(number: usize, found: &Match<'_>) -> Bifurcation {
-    let transition = found.transition;
-    let is_rising = transition.rising != found.is_reversed;
-    Bifurcation {
-        number,
-        eta: found.eta,
-        symbols: transition.symbols(),
-        hysteresis: transition.hysteresis,
-        direction: match (transition.hysteresis, is_rising) {
-            (false, _) => "both",
-            (true, true) => "up",
-            (true, false) => "down",
-        },
-    }
-}
-
 fn explanation(what: &What, detail: Detail) -> String {
     let (steps, periods) = what.whole.size(detail);
     let zooms = what.zooms.iter().map(|zoom| {
@@ -167,13 +140,13 @@ fn table(diagrams: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
     diagram::table("part", sweeps)
 }
 
-fn rows_table(bifurcations: &[Bifurcation]) -> Result<Vec<u8>> {
-    let columns = columns! { Bifurcation, it;
-        "number" [None], "in Table 1" => it.number;
-        "eta" [None], "drive frequency" => format!("{:.10}", it.eta);
-        "type" [None], "in the paper's symbols" => it.symbols.as_str();
-        "hysteresis" [None], "whether it cannot be reversed" => it.hysteresis;
-        "direction" [None], "of eta in which it is met" => it.direction;
+fn rows_table(bifurcations: &[Bifurcation<'_>]) -> Result<Vec<u8>> {
+    let columns = columns! { Bifurcation<'_>, it;
+        "number" [None], "in Table 1" => it.0;
+        "eta" [None], "drive frequency" => format!("{:.10}", it.1.eta);
+        "type" [None], "in the paper's symbols" => it.1.transition.symbols();
+        "hysteresis" [None], "whether it cannot be reversed" => it.1.transition.hysteresis;
+        "direction" [None], "of eta in which it is met" => it.1.direction();
     };
     Ok(csv(&columns, bifurcations)?)
 }

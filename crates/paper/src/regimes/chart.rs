@@ -2,7 +2,6 @@
 
 use softstop_dynamics::motion::MotionClass;
 
-use super::Map;
 use super::map::RegimeMap;
 use crate::boundaries::Boundaries;
 use softstop_console::machine::Regime;
@@ -19,22 +18,23 @@ const POINT: (f64, f64) = (1.15, 10.0);
 const NAMED: [MotionClass; 3] = [MotionClass::Zero, MotionClass::One, MotionClass::TwoThirds];
 
 /// The maps with their boundaries.
-pub(super) fn chart(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2]) -> Chart {
+pub(super) fn chart(maps: &[RegimeMap<'_>], boundaries: &[Boundaries; 2]) -> Chart {
     let panels = maps.iter().enumerate();
-    let panels = panels.map(|(index, (spec, map))| {
-        let own = &boundaries[usize::from(spec.machine == Regime::Loaded)];
-        panel(index, spec, map, own)
+    let panels = panels.map(|(index, map)| {
+        let own = &boundaries[usize::from(map.asked.machine == Regime::Loaded)];
+        panel(index, map, own)
     });
     let title = "Regimes z = p/n: p impacts in n drive periods";
     let mut chart = Chart::new(title, panels).in_columns(2);
-    let keys = motion_keys(|class| maps.iter().any(|(_, map)| map.share(class) > 0.0));
+    let keys = motion_keys(|class| maps.iter().any(|map| map.share(class) > 0.0));
     chart.panels[0].layers.extend(keys);
     (chart.legend, chart.letters) = (Legend::Below, 18);
     chart
 }
 
 /// A map with its boundaries, the point A or B, and names of wide regimes and of boundaries.
-fn panel(index: usize, spec: &Map, map: &RegimeMap, boundaries: &Boundaries) -> Panel {
+fn panel(index: usize, map: &RegimeMap<'_>, boundaries: &Boundaries) -> Panel {
+    let (asked, [eta_range, rho_range]) = (map.asked, map.asked.window);
     let colors = map.cells.iter().map(|cell| motion_color(cell.class()));
     let mut layers = vec![Layer::cells(map.columns, colors)];
     let mut lines = vec![("g₀", boundaries.grazing.clone())];
@@ -57,22 +57,22 @@ fn panel(index: usize, spec: &Map, map: &RegimeMap, boundaries: &Boundaries) -> 
     };
     let wide = NAMED.into_iter();
     layers.extend(wide.filter_map(|class| Some(name(map.widest(class)?, class.name()))));
-    let rho = map.rho.0 + NAMES_AT * (map.rho.1 - map.rho.0);
+    let rho = rho_range.0 + NAMES_AT * (rho_range.1 - rho_range.0);
     for (boundary, points) in &lines {
         let etas = crossings(points, rho);
-        let inside = etas.filter(|eta| (map.eta.0..=map.eta.1).contains(eta));
+        let inside = etas.filter(|eta| (eta_range.0..=eta_range.1).contains(eta));
         layers.extend(inside.map(|eta| name((eta, rho), boundary)));
     }
-    if (map.eta.0..=map.eta.1).contains(&POINT.0) {
+    if (eta_range.0..=eta_range.1).contains(&POINT.0) {
         let spot = Layer::marks([POINT], Mark::Hollow, style::INK);
-        layers.extend([spot, name(POINT, spec.machine.point()).moved(18.0, -4.0)]);
+        layers.extend([spot, name(POINT, asked.machine.point()).moved(18.0, -4.0)]);
     }
     let letter = char::from(b'a' + index as u8);
     Panel {
-        title: format!("({letter}) {}{}", spec.machine.name(), spec.names[2]),
+        title: format!("({letter}) {}{}", asked.machine.name(), asked.names[2]),
         size: SIZE,
-        x: Axis::new("frequency η").range(map.eta),
-        y: Axis::new("clearance ρ").range(map.rho),
+        x: Axis::new("frequency η").range(eta_range),
+        y: Axis::new("clearance ρ").range(rho_range),
         layers,
         ..Panel::default()
     }

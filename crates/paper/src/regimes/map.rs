@@ -4,23 +4,22 @@ use softstop_dynamics::basin::clearing;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Axis, Grid, MotionKind};
 
+use super::Map;
+
 /// Radius of a place, in units of half the map, that has room for its name.
 const WIDE: f64 = 0.09;
 
 /// Cells over frequency and clearance.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct RegimeMap {
-    /// Where the first column begins and the last one ends.
-    pub(super) eta: (f64, f64),
-    /// Where the lowest row begins and the highest one ends.
-    pub(super) rho: (f64, f64),
+pub(super) struct RegimeMap<'a> {
+    /// What was asked for.
+    pub(super) asked: &'a Map,
     /// Cells in a row.
     pub(super) columns: usize,
     /// The cells, row by row, the lowest row first.
     pub(super) cells: Vec<MotionKind>,
 }
 
-impl RegimeMap {
+impl RegimeMap<'_> {
     /// Share of the cells that belong to a class.
     pub(super) fn share(&self, class: MotionClass) -> f64 {
         let own = self.cells.iter().filter(|cell| cell.class() == class);
@@ -30,9 +29,10 @@ impl RegimeMap {
     /// The middle of the widest place of a class, if that is wide.
     pub(super) fn widest(&self, class: MotionClass) -> Option<(f64, f64)> {
         let rows = self.cells.len() / self.columns;
+        let [eta, rho] = self.asked.window;
         let grid = Grid::states(
-            Axis::position(self.eta.0, self.eta.1, self.columns),
-            Axis::velocity(self.rho.0, self.rho.1, rows),
+            Axis::position(eta.0, eta.1, self.columns),
+            Axis::velocity(rho.0, rho.1, rows),
             0.0,
         );
         let ball = clearing(&grid, |cell| self.cells[cell].class() == class)?;

@@ -75,20 +75,19 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         Boundaries::of(&Ratios::unloaded())?,
         Boundaries::of(&Ratios::loaded())?,
     ];
-    let maps: Vec<(&Map, RegimeMap)> = maps.iter().zip(found).collect();
-    let chart = chart::chart(&maps, &boundaries);
+    let chart = chart::chart(&found, &boundaries);
     Ok(Drawn {
         files: vec![
             chart.png().map_err(Error::msg)?,
-            report::runs(&maps)?,
+            report::runs(&found)?,
             report::boundaries(&boundaries)?,
         ],
-        findings: report::findings(&maps, &boundaries),
+        findings: report::findings(&found, &boundaries),
     })
 }
 
 /// The motions in the cells of the maps.
-fn found(maps: &[Map], studio: &Studio) -> Result<Vec<RegimeMap>> {
+fn found<'a>(maps: &'a [Map], studio: &Studio) -> Result<Vec<RegimeMap<'a>>> {
     let size = |map: &Map| studio.detail.pick(map.sizes[0], map.sizes[1]);
     let work = maps.iter().map(|map| match (map.way, size(map)) {
         (Way::Hardest, (columns, rows)) => STARTS * columns * rows,
@@ -103,8 +102,7 @@ fn found(maps: &[Map], studio: &Studio) -> Result<Vec<RegimeMap>> {
             Way::Hardest => starts::cells(map, size, &progress, kept)?,
         };
         Ok(RegimeMap {
-            eta: map.window[0],
-            rho: map.window[1],
+            asked: map,
             columns: size.0,
             cells,
         })

@@ -13,7 +13,7 @@ use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{MotionKind, Regime};
 
 /// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
-pub(super) fn runs(maps: &[(&Map, RegimeMap)]) -> Result<Vec<u8>> {
+pub(super) fn runs(maps: &[RegimeMap<'_>]) -> Result<Vec<u8>> {
     let columns = columns! { (&Map, f64, [f64; 2], String), it;
         "machine" [None], "unloaded or loaded" => it.0.machine.name();
         "way" [None], "by which the motions are reached" => it.0.names[0].as_str();
@@ -23,16 +23,17 @@ pub(super) fn runs(maps: &[(&Map, RegimeMap)]) -> Result<Vec<u8>> {
         "motion" [None], "in all of its cells" => it.3.as_str();
     };
     let mut lines = Vec::new();
-    for (spec, map) in maps {
+    for map in maps {
         let rows = map.cells.len() / map.columns;
+        let [eta, rho] = map.asked.window;
         for (row, cells) in map.cells.chunks(map.columns).enumerate() {
-            let rho = middle(map.rho, row, rows);
+            let rho = middle(rho, row, rows);
             let mut from = 0;
             for run in cells.chunk_by(|a, b| a == b) {
                 let to = from + run.len() - 1;
-                let ends = [from, to].map(|column| middle(map.eta, column, map.columns));
+                let ends = [from, to].map(|column| middle(eta, column, map.columns));
                 from = to + 1;
-                lines.push((*spec, rho, ends, run[0].to_string()));
+                lines.push((map.asked, rho, ends, run[0].to_string()));
             }
         }
     }
@@ -64,10 +65,10 @@ pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
 }
 
 /// Shares of the maps, and what the boundaries say.
-pub(super) fn findings(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2]) -> Findings {
+pub(super) fn findings(maps: &[RegimeMap<'_>], boundaries: &[Boundaries; 2]) -> Findings {
     let mut findings = Findings::default();
-    for (spec, map) in maps {
-        let name = format!("{}, {}", spec.machine.name(), spec.names[1]);
+    for map in maps {
+        let name = format!("{}, {}", map.asked.machine.name(), map.asked.names[1]);
         for &class in MotionClass::ALL {
             let share = Some(map.share(class)).filter(|share| *share > 0.0);
             findings.add(format!("{name}: share of {}", class.name()), share);
@@ -83,7 +84,7 @@ pub(super) fn findings(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2])
     }
     let ways = [("unloaded", &maps[..2]), ("loaded", &maps[4..])];
     for ((name, ways), own) in ways.into_iter().zip(boundaries) {
-        let share = hysteresis(&ways[0].1, &ways[1].1);
+        let share = hysteresis(&ways[0], &ways[1]);
         let point = own.hardest();
         let velocity = point.map(CurvePoint::before_impact_velocity);
         let values = [
@@ -98,7 +99,7 @@ pub(super) fn findings(maps: &[(&Map, RegimeMap)], boundaries: &[Boundaries; 2])
 }
 
 /// Share of the cells in which one way leads to z = 0 and the other to z = 1.
-fn hysteresis(up: &RegimeMap, down: &RegimeMap) -> f64 {
+fn hysteresis(up: &RegimeMap<'_>, down: &RegimeMap<'_>) -> f64 {
     let is = |cell: &MotionKind, class| cell.class() == class;
     let differ = |(a, b): &(&MotionKind, &MotionKind)| {
         let (zero, one) = (MotionClass::Zero, MotionClass::One);

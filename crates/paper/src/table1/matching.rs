@@ -16,6 +16,18 @@ pub struct Match<'a> {
     pub is_reversed: bool,
 }
 
+impl Match<'_> {
+    /// The direction of eta in which it is met; both without hysteresis.
+    pub fn direction(&self) -> &'static str {
+        let is_rising = self.transition.rising != self.is_reversed;
+        match (self.transition.hysteresis, is_rising) {
+            (false, _) => "both",
+            (true, true) => "up",
+            (true, false) => "down",
+        }
+    }
+}
+
 /// Largest difference between our figure and the paper's, as a share of it: row 19 is a swept loss.
 const NEAR: f64 = 2e-3;
 
