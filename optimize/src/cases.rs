@@ -1,6 +1,5 @@
 //! A design in each case, as records.
 
-use softstop::Dimension;
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::record::Record;
@@ -39,9 +38,9 @@ fn columns<'a>() -> [Column<Row<'a>>; 15] {
         "velocity" [Velocity] Six, "before-impact velocity" => it.design.before_impact_velocity();
         "frequency" [Frequency] Six, "drive frequency" => it.design.frequency();
         "s" [None] Six, "place in its zone" => it.design.place;
-        "zone_from" [Frequency] Six, "lower end of its zone" => own(it, it.design.zone.low.frequency);
+        "zone_from" [Frequency] Six, "lower end of its zone" => it.design.own_frequency(it.design.zone.low.frequency);
         "zone_from_by" [None], "what ends it there" => end_name(&it.design.zone.low);
-        "zone_to" [Frequency] Six, "upper end of its zone" => own(it, it.design.zone.high.frequency);
+        "zone_to" [Frequency] Six, "upper end of its zone" => it.design.own_frequency(it.design.zone.high.frequency);
         "zone_to_by" [None], "what ends it there" => end_name(&it.design.zone.high);
         "lost" [None] Plain, "machines within the tolerances that lose the motion" => it.machines.as_ref().map(|it| it.lost);
         "worst" [Velocity] Six, "least velocity of the others" => it.machines.as_ref().map(|it| it.slowest);
@@ -54,10 +53,6 @@ fn changes(row: &Row<'_>) -> String {
     let changes = row.case.map_or(&[][..], |it| &it.changes).iter();
     let changes = changes.map(|(parameter, value)| stated(machine, *parameter, *value));
     changes.collect::<Vec<_>>().join(", ")
-}
-
-fn own(row: &Row<'_>, frequency: f64) -> f64 {
-    row.design.machine.to_own(Dimension::Frequency, frequency)
 }
 
 /// A design in the drawing's operating point and in each case; nothing if there are no cases.

@@ -154,12 +154,7 @@ fn chosen(problem: &Problem, parameter: Parameter) -> String {
     if let Some(link) = links.find(|link| link.parameter == parameter) {
         return format!("follows {}", machine.name(link.follows));
     }
-    let mut axes = problem.axes.iter();
-    let axis = axes
-        .find(|axis| axis.parameter == parameter)
-        .map(|it| it.range);
-    let frequency = (parameter == Parameter::Frequency).then_some(problem.frequency);
-    match axis.or(frequency) {
+    match problem.range_of(parameter) {
         Some(range) if !range.is_held() => "searched".to_owned(),
         _ => String::new(),
     }

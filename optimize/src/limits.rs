@@ -4,11 +4,11 @@ use serde::Serialize;
 use softstop::Parameter;
 
 use crate::design::conflict::bound;
-use crate::design::constraint::{ActiveLimit, Limit as Active};
+use crate::design::constraint::Limit as Active;
 use crate::design::figure::Figure;
+use crate::design::search::Found;
 use crate::design::space::End;
 use crate::design::{Design, Problem};
-use crate::optimize::outcome::Outcome;
 use crate::zone_end::end_name;
 
 /// One thing that does.
@@ -30,25 +30,20 @@ impl Limit {
 }
 
 /// All that holds a design back.
-pub fn at_limits(problem: &Problem, found: &Outcome) -> Vec<Limit> {
-    let limits = found.limits.iter();
-    let cases = problem.in_cases();
-    let named = limits.filter_map(
-        |ActiveLimit {
-             limit: active,
-             case,
-         }| {
-            let Some(index) = *case else {
-                return limit(problem, &found.design, active);
-            };
-            let found = limit(&cases[index], found.design.cases.get(index)?, active)?;
-            let name = &problem.cases[index].name;
-            Some(Limit {
-                key: format!("{} in case {name}", found.key),
-                words: format!("{} in case {name}", found.words),
-            })
-        },
-    );
+pub fn at_limits(problem: &Problem, found: &Found) -> Vec<Limit> {
+    let points = problem.points(&found.design);
+    let named = found.limits.iter().filter_map(|active| {
+        let point = points.iter().find(|it| it.case == active.case)?;
+        let found = limit(&point.problem, point.design, &active.limit)?;
+        let Some(index) = active.case else {
+            return Some(found);
+        };
+        let name = &problem.cases[index].name;
+        Some(Limit {
+            key: format!("{} in case {name}", found.key),
+            words: format!("{} in case {name}", found.words),
+        })
+    });
     named.collect()
 }
 

@@ -14,7 +14,6 @@ use crate::design::figure::{Figure, Sense};
 use crate::design::judge::Met;
 use crate::design::pareto::{Alternative, Pareto, Tally};
 use crate::design::problem::Objective;
-use crate::optimize::pareto::CheckedFront;
 
 /// A quantity of all designs, in the machine's own units.
 struct Column {
@@ -67,13 +66,14 @@ pub struct FrontReport {
 
 impl FrontReport {
     /// The report on a front of a problem.
-    pub(crate) fn new(problem: &Problem, front: &CheckedFront) -> Self {
+    pub(crate) fn new(problem: &Problem, front: &Pareto) -> Self {
         let Pareto {
             objectives,
             tally,
             nearest,
             points,
-        } = &front.pareto;
+            machines,
+        } = front;
         let columns = columns(problem, front);
         let record = |index: usize| {
             let number = Record::default().with("number", "", index + 1);
@@ -88,7 +88,7 @@ impl FrontReport {
         Self {
             objectives: sought.collect(),
             tally: *tally,
-            machines: front.machines,
+            machines: *machines,
             nearest: nearest + 1,
             units: columns.iter().map(|it| (it.name, it.unit)).collect(),
             meanings: columns.iter().map(|it| (it.name, it.meaning)).collect(),
@@ -121,7 +121,7 @@ impl FrontReport {
              best of each. The values of another one go to --vary.\n",
             self.points.len(),
             self.words.join(", "),
-            told(&self.tally),
+            format_tally(&self.tally),
             self.table,
             self.nearest,
         )
@@ -129,7 +129,7 @@ impl FrontReport {
 }
 
 /// What became of the problems of a front, in a sentence.
-pub(crate) fn told(tally: &Tally) -> String {
+pub(crate) fn format_tally(tally: &Tally) -> String {
     let Tally {
         problems,
         solved,
@@ -163,9 +163,9 @@ fn sought(problem: &Problem, objective: &Objective) -> Record {
 }
 
 /// What is sought, the searched parameters and the others, and all figures that take no trials; trials that are required.
-fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
-    let (machine, points) = (&problem.machine, &front.pareto.points);
-    let objectives = &front.pareto.objectives;
+fn columns(problem: &Problem, front: &Pareto) -> Vec<Column> {
+    let (machine, points) = (&problem.machine, &front.points);
+    let objectives = &front.objectives;
     let figure = |figure: Figure, is_shown: bool, values: Vec<f64>| Column {
         name: figure.name(),
         meaning: figure.meaning(),
@@ -180,11 +180,8 @@ fn columns(problem: &Problem, front: &CheckedFront) -> Vec<Column> {
         figure(it.figure, true, values.collect())
     });
     let is_searched = |parameter: Parameter| {
-        let is_axis = problem
-            .axes
-            .iter()
-            .any(|it| it.parameter == parameter && !it.range.is_held());
-        is_axis || (parameter == Parameter::Frequency && !problem.frequency.is_held())
+        let range = problem.range_of(parameter);
+        range.is_some_and(|range| !range.is_held())
     };
     let parameter = |parameter: Parameter| {
         let value = |it: &Alternative| it.found.design.machine.value(parameter);

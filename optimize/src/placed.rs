@@ -1,9 +1,10 @@
 //! Where a design stands among the motions that were searched, and what that means for starting it.
 
-use softstop::{Dimension, Parameter};
+use softstop::Parameter;
 use softstop_console::column::{Column, Told};
 use softstop_console::columns;
 use softstop_console::number::NumberStyle::Six;
+use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::zone::ZoneEnd;
 
@@ -16,15 +17,15 @@ type Placed<'a> = (&'a Problem, &'a Design, &'a [Limit]);
 /// Where a design stands.
 pub(crate) fn columns<'a>() -> [Column<Placed<'a>>; 11] {
     columns! { Placed<'a>, it;
-        "frequency_g0" [Frequency], "grazing g0, above which the motion without impacts exists" => grazing(it.1).map(|at| own(it.1, at));
-        "frequency_sn" [Frequency], "fold s_SN, if the zone ends there" => fold(it.1).map(|at| own(it.1, at));
+        "frequency_g0" [Frequency], "grazing g0, above which the motion without impacts exists" => grazing(&it.1.zone).map(|at| it.1.own_frequency(at));
+        "frequency_sn" [Frequency], "fold s_SN, if the zone ends there" => fold(&it.1.zone).map(|at| it.1.own_frequency(at));
         "margin" [None], "least distance M from both ends, as a share of the zone" => it.0.margin;
         "s" [None], "place in the zone, in [M, 1 - M]" => it.1.place;
         "at_limits" [None], "what holds it back" => keys(it.2);
         "zone" [None], "which motions were searched" => searched(it.1);
-        "zone_from" [Frequency], "lower end of the zone" => own(it.1, it.1.zone.low.frequency);
+        "zone_from" [Frequency], "lower end of the zone" => it.1.own_frequency(it.1.zone.low.frequency);
         "zone_from_by" [None], "what ends it there" => end_name(&it.1.zone.low);
-        "zone_to" [Frequency], "upper end of the zone" => own(it.1, it.1.zone.high.frequency);
+        "zone_to" [Frequency], "upper end of the zone" => it.1.own_frequency(it.1.zone.high.frequency);
         "zone_to_by" [None], "what ends it there" => end_name(&it.1.zone.high);
         "starting" [None], "what that means for starting the machine" => starting(it.1);
     }
@@ -38,7 +39,7 @@ pub(crate) fn sentences(design: &Design) -> String {
         false => "Range of stable z = 1 of the design",
     };
     let end = |end: &ZoneEnd| {
-        let frequency = Six.format(own(design, end.frequency));
+        let frequency = Six.format(design.own_frequency(end.frequency));
         format!("{frequency} ({})", end_name(end))
     };
     format!(
@@ -52,14 +53,14 @@ pub(crate) fn sentences(design: &Design) -> String {
 }
 
 /// g0 in rad/s, if there is one.
-pub(crate) fn grazing(design: &Design) -> Option<f64> {
-    let g0 = design.zone.frequency_g0;
+pub(crate) fn grazing(zone: &Zone) -> Option<f64> {
+    let g0 = zone.frequency_g0;
     (g0 > 0.0 && g0.is_finite()).then_some(g0)
 }
 
 /// The fold in rad/s, if the zone ends there.
-pub(crate) fn fold(design: &Design) -> Option<f64> {
-    let high = &design.zone.high;
+pub(crate) fn fold(zone: &Zone) -> Option<f64> {
+    let high = &zone.high;
     high.is(Test::Fold).then_some(high.frequency)
 }
 
@@ -91,8 +92,4 @@ fn keys(limits: &[Limit]) -> Told {
         value: limits.iter().map(|it| it.key.as_str()).collect(),
         words: String::new(),
     }
-}
-
-fn own(design: &Design, frequency: f64) -> f64 {
-    design.machine.to_own(Dimension::Frequency, frequency)
 }

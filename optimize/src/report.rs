@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use softstop::{Dimension, Machine};
+use softstop::Machine;
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
 use softstop_console::export::Report;
@@ -105,11 +105,13 @@ impl OptimizeReport {
     /// The report on the solution of this problem, searched with so many zones at most; without title and pictures.
     pub fn new(
         problem: &Problem,
-        found: &Outcome,
+        outcome: &Outcome,
         references: &[Reference],
         study: Option<&Study>,
         evaluations: u64,
     ) -> Self {
+        let solution = &outcome.solution;
+        let found = &solution.found;
         let design = &found.design;
         let machine = &design.machine;
         let limits = at_limits(problem, found);
@@ -119,13 +121,16 @@ impl OptimizeReport {
         };
         let reference = |it: &Reference| (it.name, one(&it.machine, &it.orbit, gain(design, it)));
         let place = Record::of(&placed::columns(), &(problem, design, &limits));
-        let met = found.met.iter();
+        let met = outcome.met.iter();
         let met = met.map(|it| verdict::required(problem, machine, it));
         let rivals = found.rivals.iter().map(|it| verdict::rival(problem, it));
-        let fronts = found.fronts.iter().map(|it| verdict::traded(problem, it));
-        let idle = found.without_effect.iter();
+        let fronts = solution
+            .fronts
+            .iter()
+            .map(|it| verdict::traded(problem, it));
+        let idle = outcome.without_effect.iter();
         let idle = idle.map(|it| machine.name(*it));
-        let ways = found.run_up.iter();
+        let ways = outcome.run_up.iter();
         let ways = ways.flat_map(|all| all.ways.iter().map(move |it| (machine, all, it)));
         let ways = ways.map(|it| Record::of(&started::columns(), &it));
         Self {
@@ -140,7 +145,7 @@ impl OptimizeReport {
             cases: cases::records(problem, design, study),
             rivals: rivals.collect(),
             fronts: fronts.collect(),
-            pareto: found
+            pareto: solution
                 .pareto
                 .as_ref()
                 .map(|it| FrontReport::new(problem, it)),
@@ -148,7 +153,7 @@ impl OptimizeReport {
             run_up: ways.collect(),
             proof: None,
             left_out: left_out(design),
-            search: SearchReport::new(problem, evaluations, found),
+            search: SearchReport::new(problem, evaluations, outcome),
             machine: machine.clone(),
             heading: head(problem),
             stands: placed::sentences(design),
@@ -259,8 +264,8 @@ fn left_out(design: &Design) -> Vec<Record> {
 
 fn stretch<'a>() -> [Column<(&'a Design, &'a StableRange)>; 3] {
     columns! { (&'a Design, &'a StableRange), it;
-        "from" [Frequency] Six, "lower end" => own(it.0, it.1.low.frequency);
-        "to" [Frequency] Six, "upper end" => own(it.0, it.1.high.frequency);
+        "from" [Frequency] Six, "lower end" => it.0.own_frequency(it.1.low.frequency);
+        "to" [Frequency] Six, "upper end" => it.0.own_frequency(it.1.high.frequency);
         "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();
     }
 }
@@ -269,8 +274,4 @@ fn stretch<'a>() -> [Column<(&'a Design, &'a StableRange)>; 3] {
 fn gain(design: &Design, reference: &Reference) -> Record {
     let gain = design.before_impact_velocity() / reference.orbit.before_impact_velocity();
     Record::default().with("gain", "velocity, design over this one", gain)
-}
-
-fn own(design: &Design, frequency: f64) -> f64 {
-    design.machine.to_own(Dimension::Frequency, frequency)
 }

@@ -64,6 +64,7 @@ fn columns<'a>() -> [Column<Searched<'a>>; 7] {
 impl SearchReport {
     /// How this outcome was found with so many zones at most.
     pub(crate) fn new(problem: &Problem, evaluations: u64, outcome: &Outcome) -> Self {
+        let found = &outcome.solution.found;
         let frequency = Axis::new(Parameter::Frequency, problem.frequency);
         let all = || problem.axes.iter().chain([&frequency]);
         let bounds = all().map(|it| (short_name(it.parameter), it.range.to_string()));
@@ -76,8 +77,8 @@ impl SearchReport {
             links: problem.links.len(),
             evaluations,
             evaluations_used: outcome.evaluations,
-            ascents: outcome.ascents,
-            resolution: outcome.resolution,
+            ascents: found.ascents,
+            resolution: found.resolution,
             interrupted: outcome.interrupted,
         }
     }

@@ -2,6 +2,8 @@
 //! with more evaluations; what stands beside a design never contradicts it, and no machine within its tolerances does.
 
 use argmin::core::CostFunction;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use softstop::{Machine, Parameter};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::zone::ZoneKind;
@@ -19,16 +21,12 @@ use crate::Outcome;
 
 const SETTINGS: Settings = Settings { evaluations: 1200 };
 
-/// Numbers in [0, 1) from a seed (`SplitMix64`).
-struct Numbers(u64);
+/// Numbers in [0, 1).
+struct Numbers(SplitMix64);
 
 impl Numbers {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     fn within(&mut self, low: f64, high: f64) -> f64 {
@@ -40,7 +38,7 @@ impl Numbers {
     }
 }
 
-const PRESS: &str = "name = \"press\"\nmass = 120.0\nstiffness = 2.4e6\ndamping = 680.0\nclearance = 0.012\n\
+pub(crate) const PRESS: &str = "name = \"press\"\nmass = 120.0\nstiffness = 2.4e6\ndamping = 680.0\nclearance = 0.012\n\
                      contact.damping = 3060.0\n[excitation]\namplitude = 9000.0\nfrequency_hz = 27.0\n[stop]\n\
                      model = \"preloaded\"\nstiffness = 1.68e7\npreload_deflection = 0.01\n[piercing]\n\
                      stiffness = 4.8e6\nfriction = 2.4e6\nthickness = 0.002\ntravel = 0.001\n";
@@ -60,7 +58,7 @@ fn machine(index: usize) -> Machine {
 /// A task of a seed: three to five axes and the frequency, some of catalogues, a follower, tolerances in half of them; what is
 /// required is held at some share of what the best design without it has.
 fn task(seed: u64) -> Problem {
-    let mut numbers = Numbers(seed);
+    let mut numbers = Numbers(SplitMix64::seed_from_u64(seed));
     let machine = machine(numbers.below(4));
     let mut axes = Vec::new();
     let mut push = |numbers: &mut Numbers, parameter: Parameter, least: f64, most: f64| {
@@ -117,11 +115,7 @@ fn task(seed: u64) -> Problem {
         margin: if tolerances.is_empty() { 0.1 } else { 0.0 },
         links,
         tolerances,
-        objective: Objective {
-            figure,
-            sense: Sense::Least,
-            scope: Scope::Drawing,
-        },
+        objective: Objective::new(figure, Sense::Least),
         ..Problem::of(machine, axes)
     };
     let few = Settings { evaluations: 200 };
@@ -132,7 +126,7 @@ fn task(seed: u64) -> Problem {
                 let bound = numbers.within(0.7, 0.95) * motion.value(figure);
                 problem
                     .requirements
-                    .push(Requirement::new(figure, None, Some(bound)));
+                    .push(Requirement::at_most(figure, bound));
             }
         }
     }
@@ -203,11 +197,11 @@ fn hammer(scope: Scope) -> Problem {
     let share = |parameter, share| Tolerance::new(parameter, Width::Share(share));
     let most = |figure, most| Requirement {
         scope,
-        ..Requirement::new(figure, None, Some(most))
+        ..Requirement::at_most(figure, most)
     };
     let least = |figure, least| Requirement {
         scope,
-        ..Requirement::new(figure, Some(least), None)
+        ..Requirement::at_least(figure, least)
     };
     Problem {
         frequency: Interval::held(50.0),
@@ -224,11 +218,7 @@ fn hammer(scope: Scope) -> Problem {
             share(Parameter::Damping, 0.2),
             own(Parameter::Frequency, 0.2),
         ],
-        objective: Objective {
-            figure: Figure::ImpactPower,
-            sense: Sense::Least,
-            scope: Scope::Drawing,
-        },
+        objective: Objective::new(Figure::ImpactPower, Sense::Least),
         requirements: vec![
             most(Figure::StopForce, 400.0),
             most(Figure::Stroke, 0.03),
@@ -294,7 +284,7 @@ fn the_best_of_the_worst_machines_is_found() -> Outcome {
     let drawing = search(&problem, SETTINGS, &Unwatched, None)?.design;
     problem.objective.scope = Scope::Tolerances;
     let design = search(&problem, SETTINGS, &Unwatched, None)?.design;
-    let power = Requirement::new(Figure::ImpactPower, Some(0.0), None);
+    let power = Requirement::at_least(Figure::ImpactPower, 0.0);
     let with_power = Problem {
         requirements: vec![power],
         ..problem.clone()
@@ -309,7 +299,7 @@ fn the_best_of_the_worst_machines_is_found() -> Outcome {
 fn differential_evolution(problem: &Problem, seed: u64, evaluations: usize) -> (Vec<f64>, f64) {
     let dimensions = Space(&problem.axes).dimension();
     let count = 10 * dimensions.max(2);
-    let mut numbers = Numbers(seed);
+    let mut numbers = Numbers(SplitMix64::seed_from_u64(seed));
     let cost = |unit: &Vec<f64>| (&problem).cost(unit).unwrap_or(f64::INFINITY);
     let mut all: Vec<(Vec<f64>, f64)> = (0..count)
         .map(|_| {
@@ -406,10 +396,9 @@ fn no_design_stands_where_the_end_of_its_zone_leaps() -> Outcome {
             share(Parameter::Preload, 0.029_168_647_034_134_216),
             share(Parameter::ContactDamping, 0.166_265_756_535_422_97),
         ],
-        requirements: vec![Requirement::new(
+        requirements: vec![Requirement::at_most(
             Figure::StopForce,
-            None,
-            Some(507_385.164_101_511_7),
+            507_385.164_101_511_7,
         )],
         ..Problem::of(
             machine,

@@ -29,10 +29,7 @@ const MARGIN: f64 = 0.2;
 /// The paper's machine with its stop, over the clearance.
 fn drawing() -> Problem {
     let machine = Machine::named("unloaded").expect("the paper's machine");
-    let clearance = Interval {
-        low: 2.0,
-        high: 22.0,
-    };
+    let clearance = Interval::new(2.0, 22.0);
     let axes = vec![
         Axis::new(Parameter::StopStiffness, Interval::held(7.0)),
         Axis::new(Parameter::Clearance, clearance),
@@ -179,7 +176,7 @@ fn what_binds_in_a_case_alone_binds() -> Outcome {
     let figure = Figure::StopForce;
     let most = drawing().value(&unasked.judged()?, figure);
     let problem = Problem {
-        requirements: vec![Requirement::new(figure, None, Some(most))],
+        requirements: vec![Requirement::at_most(figure, most)],
         cases: vec![case(&drawing(), (Parameter::Damping, 0.8), 0.0)],
         ..drawing()
     };
@@ -219,12 +216,9 @@ fn press(objective: Objective) -> Outcome<Problem> {
     ];
     let problem = Problem {
         tolerances: tolerances.map(share).to_vec(),
-        requirements: vec![Requirement::new(Figure::StopForce, None, Some(5e5))],
+        requirements: vec![Requirement::at_most(Figure::StopForce, 5e5)],
         objective,
-        frequency: Interval {
-            low: 10.0,
-            high: 40.0,
-        },
+        frequency: Interval::new(10.0, 40.0),
         ..Problem::of(machine, axes.map(axis).to_vec())
     };
     let cases = vec![
@@ -238,11 +232,7 @@ fn press(objective: Objective) -> Outcome<Problem> {
 #[test]
 fn derivatives_are_those_of_differences() -> Outcome {
     for sense in [Sense::Least, Sense::Most] {
-        let objective = Objective {
-            figure: Figure::ImpactEnergy,
-            sense,
-            scope: Scope::Drawing,
-        };
+        let objective = Objective::new(Figure::ImpactEnergy, sense);
         // A bound of 0 would have a unit that changes.
         let problem = Problem {
             margin: 0.1,
@@ -310,10 +300,7 @@ fn tolerances_hold_in_every_case() -> Outcome {
     let problems: Vec<Problem> = problems.collect();
     let points = slice::from_ref(design).iter().chain(&design.cases);
     let points: Vec<(&Problem, &Design)> = problems.iter().zip(points).collect();
-    let settings = robust::Settings {
-        machines: 1 << 12,
-        ..robust::Settings::default()
-    };
+    let settings = robust::Settings::of_machines(1 << 12);
     let settings = (settings, &problem.requirements[..]);
     let unmonitored = &softstop_dynamics::monitor::unmonitored;
     let drawn = problem.drawn(design).ok_or("tolerances")?;
@@ -388,7 +375,7 @@ fn a_case_has_a_frequency_of_its_own() -> Outcome {
 #[test]
 fn trials_are_made_in_every_case() -> Outcome {
     let mut problem = damped(1.0);
-    problem.requirements = vec![Requirement::new(Figure::Certainty, Some(0.5), None)];
+    problem.requirements = vec![Requirement::at_least(Figure::Certainty, 0.5)];
     let found = solve(&problem)?;
     let cases: Vec<Option<usize>> = found.tried.iter().map(|it| it.case).collect();
     assert_eq!(cases, [None, Some(0)]);

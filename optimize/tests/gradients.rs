@@ -10,11 +10,12 @@ use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::design::local::{Local, local};
 use softstop_optimize::design::operating_point::At;
 use softstop_optimize::design::problem::{Tolerance, Width};
-use softstop_optimize::design::reach::LossDirections;
 use softstop_optimize::design::requirement::Requirement;
 use softstop_optimize::design::slope::Slope;
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_testing::random::cases;
+
+use crate::best::PRESS;
 
 /// What is looked at: the figures that have exact derivatives.
 const FIGURES: &[Figure] = &[
@@ -36,10 +37,6 @@ const FIGURES: &[Figure] = &[
 /// The paper's machines, a press in SI units, a soft stop, one with parameters that follow others, an unbalanced drive; all
 /// parameters that may be searched.
 fn machines() -> Vec<Machine> {
-    let press = "name = \"press\"\nmass = 120.0\nstiffness = 2.4e6\ndamping = 680.0\nclearance = 0.012\n\
-                 contact.damping = 3060.0\n[excitation]\namplitude = 9000.0\nfrequency_hz = 27.0\n[stop]\n\
-                 model = \"preloaded\"\nstiffness = 1.68e7\npreload_deflection = 0.01\n[piercing]\n\
-                 stiffness = 4.8e6\nfriction = 2.4e6\nthickness = 0.002\ntravel = 0.001\n";
     let mut soft = Machine::named("unloaded").expect("the paper's machine");
     let model = [("stop.model", "kelvinVoigt"), ("stop.stiffness", "20")];
     soft.apply(model).expect("a soft stop");
@@ -56,7 +53,7 @@ fn machines() -> Vec<Machine> {
     vec![
         Machine::named("unloaded").expect("the paper's machine"),
         Machine::named("loaded").expect("the paper's machine"),
-        Machine::from_toml(press).expect("a press"),
+        Machine::from_toml(PRESS).expect("a press"),
         soft,
         tied,
         Machine::from_toml(unbalance).expect("an unbalanced drive"),
@@ -97,10 +94,7 @@ fn problem(machine: Machine) -> Problem {
         if value == 0.0 || follows.is_some() {
             return None;
         }
-        let range = Interval {
-            low: 0.8 * value,
-            high: 1.25 * value,
-        };
+        let range = Interval::new(0.8 * value, 1.25 * value);
         Some(Axis::new(parameter, range))
     };
     let axes = searched.into_iter().filter_map(axis).collect();
@@ -110,7 +104,7 @@ fn problem(machine: Machine) -> Problem {
         }
         _ => 1.0,
     };
-    let requirement = |figure| Requirement::new(figure, Some(unit(figure)), None);
+    let requirement = |figure| Requirement::at_least(figure, unit(figure));
     let requirements = FIGURES.iter().copied().map(requirement).collect();
     let cost = cost(&machine).expect("a cost");
     Problem {
@@ -140,9 +134,7 @@ fn known() -> CriticalMachines {
         at: vec![1.0, -1.0, 0.7, 0.02],
     };
     CriticalMachines {
-        losses: LossDirections {
-            directions: vec![vec![0.6, -0.3, 0.2, 1.0]],
-        },
+        losses: vec![vec![0.6, -0.3, 0.2, 1.0]],
         extremes: FIGURES[..9].iter().map(extreme).collect(),
         ..CriticalMachines::default()
     }

@@ -14,7 +14,8 @@ use softstop_testing::random::cases;
 
 use crate::SOFTSTOP;
 
-type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+use crate::Outcome;
+
 type Attributes = BTreeMap<String, String>;
 /// The elements of a file in order, each with how deep it stands.
 type Elements = Vec<(usize, String, Attributes)>;

@@ -10,8 +10,9 @@ use softstop_optimize::design::judge::{Judged, Met};
 use softstop_optimize::design::requirement::Requirement;
 use softstop_optimize::design::search::{Settings, Unwatched, search};
 use softstop_optimize::design::space::{Axis, Interval};
+use softstop_testing::docs;
 
-type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+use crate::Outcome;
 
 /// Clearances, and places in the zone of each.
 type Size = (usize, usize);
@@ -99,18 +100,15 @@ impl Held {
 }
 
 fn stop_force(most: f64) -> Requirement {
-    Requirement::new(Figure::StopForce, None, Some(most))
+    Requirement::at_most(Figure::StopForce, most)
 }
 
 fn margin_sn(least: f64) -> Requirement {
-    Requirement::new(Figure::FrequencySn, Some(least), None)
+    Requirement::at_least(Figure::FrequencySn, least)
 }
 
 fn ratios() -> Outcome<Vec<Held>> {
-    let range = Interval {
-        low: 4.0,
-        high: 20.0,
-    };
+    let range = Interval::new(4.0, 20.0);
     let mut all = Vec::new();
     for name in ["unloaded", "loaded"] {
         let machine = Machine::named(name).ok_or("the paper's machine")?;
@@ -122,10 +120,7 @@ fn ratios() -> Outcome<Vec<Held>> {
 }
 
 fn stops() -> Outcome<Vec<Held>> {
-    let range = Interval {
-        low: 4.0,
-        high: 20.0,
-    };
+    let range = Interval::new(4.0, 20.0);
     let stops: [&[(&str, &'static str)]; 3] = [
         &[("stop.model", "kelvinVoigt"), ("stop.stiffness", "20")],
         &[("stop.model", "rigid"), ("stop.restitution", "0.6")],
@@ -150,16 +145,9 @@ fn stops() -> Outcome<Vec<Held>> {
 }
 
 fn press() -> Outcome<Held> {
-    let press = "mass = 120.0\nstiffness = 2.4e6\ndamping = 680.0\nclearance = 0.02\ncontact.damping = 3060.0\n\
-                 excitation = { amplitude = 9000.0, frequency_hz = 24.0 }\n\
-                 stop = { model = \"preloaded\", stiffness = 1.68e7, preload_deflection = 0.02 }\n\
-                 piercing = { stiffness = 4.8e6, friction = 2.4e6, thickness = 0.002, travel = 0.001 }\n";
-    let range = Interval {
-        low: 0.006,
-        high: 0.04,
-    };
+    let range = Interval::new(0.006, 0.04);
     let requirements = [margin_sn(3.0), stop_force(4.8e5)];
-    let machine = Machine::from_toml(press)?;
+    let machine = Machine::from_toml(&std::fs::read_to_string(docs("press/press.toml"))?)?;
     Ok(Held::new("press", machine, range, 0.0, &requirements))
 }
 

@@ -9,21 +9,12 @@ use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_testing::tolerance::{MOTION, printed};
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+use crate::Outcome;
 
-const CLEARANCE: Interval = Interval {
-    low: 2.0,
-    high: 22.0,
-};
-const ANY: Interval = Interval {
-    low: 0.01,
-    high: f64::INFINITY,
-};
+const CLEARANCE: Interval = Interval::new(2.0, 22.0);
+const ANY: Interval = Interval::new(0.01, f64::INFINITY);
 
-const STIFFNESS: Interval = Interval {
-    low: 1.0,
-    high: 30.0,
-};
+const STIFFNESS: Interval = Interval::new(1.0, 30.0);
 
 fn problem(margin: f64) -> Problem {
     let machine = Machine::named("unloaded").expect("the paper's machine");
@@ -68,10 +59,7 @@ fn on_grid(problem: &Problem, stiffness: f64, clearance: f64, places: usize) -> 
     let Ok(zone) = softstop_dynamics::zone::hysteresis(&scene) else {
         return f64::NEG_INFINITY;
     };
-    let window = Interval {
-        low: problem.margin,
-        high: 1.0 - problem.margin,
-    };
+    let window = Interval::new(problem.margin, 1.0 - problem.margin);
     grid(window, places)
         .filter_map(|place| zone.orbit_at(place).ok())
         .filter(|orbit| orbit.is_stable())
@@ -133,10 +121,7 @@ fn best_clearance_to_a_millionth() -> Outcome {
     let problem = problem(0.25);
     let design = solve(&problem, 400)?;
     let near = design.machine.scene.clearance;
-    let fine = Interval {
-        low: near - 0.05,
-        high: near + 0.05,
-    };
+    let fine = Interval::new(near - 0.05, near + 0.05);
     let best = grid(fine, 201).map(|clearance| on_grid(&problem, 7.0, clearance, 11));
     let best = best.fold(f64::NEG_INFINITY, f64::max);
     agrees(design.before_impact_velocity(), best, 1e-6 * best);
@@ -217,13 +202,7 @@ fn another_solver_finds_the_same_optimum() -> Outcome {
 #[test]
 fn the_same_task_gives_the_same_design() -> Outcome {
     let problem = Problem {
-        axes: axes(
-            Interval {
-                low: 5.0,
-                high: 9.0,
-            },
-            CLEARANCE,
-        ),
+        axes: axes(Interval::new(5.0, 9.0), CLEARANCE),
         ..problem(0.3)
     };
     let settings = Settings { evaluations: 200 };
@@ -278,10 +257,7 @@ fn without_margin_the_fold_itself_is_allowed() -> Outcome {
 
 #[test]
 fn frequency_bounds_cut_the_zone() -> Outcome {
-    let frequency = Interval {
-        low: 1.1,
-        high: 1.2,
-    };
+    let frequency = Interval::new(1.1, 1.2);
     let bounded = Problem {
         frequency,
         axes: axes(Interval::held(7.0), Interval::held(10.0)),
@@ -323,10 +299,7 @@ fn a_machine_in_si_units_has_the_same_optimum() -> Outcome {
     };
     let ratios = problem(0.25);
     let length = units.force / units.stiffness;
-    let in_units = |range: Interval, unit: f64| Interval {
-        low: range.low * unit,
-        high: range.high * unit,
-    };
+    let in_units = |range: Interval, unit: f64| Interval::new(range.low * unit, range.high * unit);
     let press = Problem {
         machine: Machine::from(ratios.machine.scene.in_units(units)?),
         axes: axes(
@@ -367,10 +340,7 @@ fn a_rigid_stop_has_an_optimum_too() -> Outcome {
 
 #[test]
 fn nothing_feasible_is_an_error_that_says_why() {
-    let wide = Interval {
-        low: 26.0,
-        high: 40.0,
-    };
+    let wide = Interval::new(26.0, 40.0);
     let problem = Problem {
         axes: axes(Interval::held(7.0), wide),
         ..problem(0.25)

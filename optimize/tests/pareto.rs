@@ -20,11 +20,7 @@ use crate::{Outcome, SOFTSTOP};
 const SETTINGS: Settings = Settings { evaluations: 400 };
 
 const fn objective(figure: Figure, sense: Sense) -> Objective {
-    Objective {
-        figure,
-        sense,
-        scope: Scope::Drawing,
-    }
+    Objective::new(figure, sense)
 }
 
 /// The paper's unloaded machine with a softer stop, whose clearance and frequency are searched.
@@ -36,7 +32,7 @@ fn problem(traded: Vec<Objective>) -> Outcome<Problem> {
     Ok(Problem {
         margin: 0.1,
         traded,
-        requirements: vec![Requirement::new(Figure::MaxPosition, None, Some(13.0))],
+        requirements: vec![Requirement::at_most(Figure::MaxPosition, 13.0)],
         ..Problem::of(machine, axes)
     })
 }

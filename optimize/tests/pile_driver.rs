@@ -12,10 +12,7 @@ use softstop_testing::assert_near;
 
 use super::{Outcome, SOFTSTOP};
 
-const FREQUENCIES: Interval = Interval {
-    low: 8.0,
-    high: 25.0,
-};
+const FREQUENCIES: Interval = Interval::new(8.0, 25.0);
 
 fn machine() -> Machine {
     let text = include_str!("../../docs/pile-driver.toml");
@@ -63,10 +60,7 @@ fn velocity(clearance: f64, hertz: f64, near: &mut Option<Orbit>) -> Option<f64>
 
 #[test]
 fn the_optimum_is_that_of_a_dense_grid() {
-    let clearances = Interval {
-        low: 0.004,
-        high: 0.02,
-    };
+    let clearances = Interval::new(0.004, 0.02);
     let design = solve(&problem(whole(), clearances));
     let own = design.before_impact_velocity();
     let mut best = (0.0, 0.0, 0.0);
@@ -102,10 +96,7 @@ fn the_optimum_is_that_of_a_dense_grid() {
 /// Every design of the hysteresis zone is one of all stable z = 1.
 #[test]
 fn it_is_no_worse_than_in_the_hysteresis_zone() {
-    let clearances = Interval {
-        low: 0.012,
-        high: 0.03,
-    };
+    let clearances = Interval::new(0.012, 0.03);
     let [part, whole] =
         [ZoneKind::Hysteresis, whole()].map(|kind| solve(&problem(kind, clearances)));
     let [one, other] = [&part, &whole].map(Design::before_impact_velocity);

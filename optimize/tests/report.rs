@@ -6,14 +6,9 @@ use std::path::Path;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use serde_json::Value;
-use softstop_testing::{Program, files};
+use softstop_testing::files;
 
-type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
-
-const SOFTSTOP: Program = Program {
-    file: env!("CARGO_BIN_EXE_softstop"),
-    first: &[],
-};
+use crate::{Outcome, SOFTSTOP};
 
 /// A press with a strip of 2 mm, as its user states it, with its task.
 const PRESS: &str = "\

@@ -10,10 +10,10 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::{Orbit, orbit};
 use softstop_optimize::robust::{Distribution, Tolerance, Tolerances};
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+use crate::Outcome;
 
 /// A press in SI units, with its strip, whose preload is stated as a deflection.
-fn press() -> Result<Machine, Box<dyn std::error::Error>> {
+fn press() -> Outcome<Machine> {
     Ok(Machine::from_toml(
         r#"
         name = "press"
@@ -30,7 +30,7 @@ fn press() -> Result<Machine, Box<dyn std::error::Error>> {
 }
 
 /// The paper's machine of this name, and the press.
-fn machines() -> Result<[Machine; 3], Box<dyn std::error::Error>> {
+fn machines() -> Outcome<[Machine; 3]> {
     let [a, b] = ["unloaded", "loaded"].map(|name| Machine::named(name).ok_or("a machine"));
     Ok([a?, b?, press()?])
 }
@@ -40,7 +40,7 @@ fn spread(
     machine: &Machine,
     percent: &[(Parameter, f64)],
     factor: f64,
-) -> Result<(Tolerances, Orbit), Box<dyn std::error::Error>> {
+) -> Outcome<(Tolerances, Orbit)> {
     let half_width = |parameter: Parameter, percent: f64| {
         let value = match (parameter, machine.preload_deflection) {
             (Parameter::Preload, Some(deflection)) => Some(deflection),

@@ -14,11 +14,11 @@ use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use softstop_testing::Program;
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+use crate::{Outcome, SOFTSTOP};
 
 const STUDY: Program = Program {
-    file: env!("CARGO_BIN_EXE_softstop"),
     first: &["study"],
+    ..SOFTSTOP
 };
 
 /// The paper's machine over two grids, from the start of point A.

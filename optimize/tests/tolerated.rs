@@ -14,12 +14,12 @@ use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::robust::{self, Norm, nearest, verify};
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
+use crate::Outcome;
 
 const SETTINGS: Settings = Settings { evaluations: 300 };
 
 /// A machine whose hysteresis zone has a second pair of folds: above 1.364 a motion of more than twice the velocity.
-fn two_folds() -> Result<Machine, Box<dyn std::error::Error>> {
+fn two_folds() -> Outcome<Machine> {
     let mut machine = Machine::named("unloaded").ok_or("the paper's machine")?;
     machine.apply([
         ("stop.stiffness", "2"),
@@ -30,19 +30,13 @@ fn two_folds() -> Result<Machine, Box<dyn std::error::Error>> {
     Ok(machine)
 }
 
-const CLEARANCE: Interval = Interval {
-    low: 2.3,
-    high: 2.7,
-};
+const CLEARANCE: Interval = Interval::new(2.3, 2.7);
 
 /// Its hardest impact below a frequency just above that fold.
-fn above_a_fold(width: f64) -> Result<Problem, Box<dyn std::error::Error>> {
+fn above_a_fold(width: f64) -> Outcome<Problem> {
     let share = |parameter, share: f64| Tolerance::new(parameter, Width::Share(share * width));
     Ok(Problem {
-        frequency: Interval {
-            low: 1.2,
-            high: 1.37,
-        },
+        frequency: Interval::new(1.2, 1.37),
         tolerances: vec![
             share(Parameter::Clearance, 0.01),
             share(Parameter::StopStiffness, 0.02),
@@ -56,7 +50,7 @@ fn above_a_fold(width: f64) -> Result<Problem, Box<dyn std::error::Error>> {
 }
 
 /// How many of some machines all over the tolerances of a design lose the motion.
-fn lost(problem: &Problem, design: &Design) -> Result<usize, Box<dyn std::error::Error>> {
+fn lost(problem: &Problem, design: &Design) -> Outcome<usize> {
     let spread = problem.spread(&design.machine).ok_or("tolerances")?;
     let some = robust::Settings {
         machines: 4096,
@@ -67,7 +61,7 @@ fn lost(problem: &Problem, design: &Design) -> Result<usize, Box<dyn std::error:
 }
 
 /// By how much all tolerances of a design may grow until the motion is lost; infinite beyond three times.
-fn factor(problem: &Problem, design: &Design) -> Result<f64, Box<dyn std::error::Error>> {
+fn factor(problem: &Problem, design: &Design) -> Outcome<f64> {
     let spread = problem.spread(&design.machine).ok_or("tolerances")?;
     let found = nearest(&spread, &design.orbit, Norm::Box, 3.0, &unmonitored)?;
     Ok(found.first().map_or(f64::INFINITY, |it| it.distance))
@@ -127,10 +121,7 @@ fn no_machine_is_lost_to_a_fold_inside_the_zone() -> Outcome {
 fn tolerances_that_no_design_has_are_told_with_how_much_is_lacking() -> Outcome {
     let mut problem = above_a_fold(4.0)?;
     problem.frequency.low = 1.366;
-    problem.axes[0].range = Interval {
-        low: 2.49,
-        high: 2.51,
-    };
+    problem.axes[0].range = Interval::new(2.49, 2.51);
     let found = search(&problem, SETTINGS, &Unwatched, None);
     let Err(SearchError::NoDesign { reason, .. }) = found else {
         return Err(format!("{found:?}").into());
@@ -145,7 +136,7 @@ fn of_catalogues_the_best_of_all_combinations_is_found() -> Outcome {
     let machine = Machine::named("loaded").ok_or("the paper's machine")?;
     let stiffness = [3.0, 5.0, 7.0, 9.0, 12.0, 16.0, 21.0];
     let clearance = [5.0, 6.5, 8.0, 9.5, 11.0, 12.5, 14.0];
-    let peak = Requirement::new(Figure::StopForce, None, Some(90.0));
+    let peak = Requirement::at_most(Figure::StopForce, 90.0);
     let problem = |stiffness: &[f64], clearance: &[f64]| Problem {
         margin: 0.1,
         requirements: vec![peak],
@@ -173,11 +164,8 @@ fn of_catalogues_the_best_of_all_combinations_is_found() -> Outcome {
 #[test]
 fn certainty_is_met_as_hard_as_a_fine_scan_finds() -> Outcome {
     let machine = Machine::named("loaded").ok_or("the paper's machine")?;
-    let certainty = Requirement::new(Figure::Certainty, Some(0.5), None);
-    let range = Interval {
-        low: 6.5,
-        high: 8.5,
-    };
+    let certainty = Requirement::at_least(Figure::Certainty, 0.5);
+    let range = Interval::new(6.5, 8.5);
     let problem = Problem {
         requirements: vec![certainty],
         ..Problem::of(machine, vec![Axis::new(Parameter::Clearance, range)])

@@ -3,10 +3,10 @@
 use softstop_console::interrupt;
 
 use super::Design;
-use super::figure::{Figure, Sense};
+use super::figure::Figure;
 use super::judge::Met;
 use super::problem::{Objective, Problem};
-use super::requirement::{Requirement, Scope};
+use super::requirement::{Requirement, Scope, sign};
 use super::search::Found;
 use crate::robust::worst;
 
@@ -26,10 +26,7 @@ pub struct Alternative {
 impl Objective {
     /// A value by its good side: the more the better.
     pub(super) fn graded(&self, value: f64) -> f64 {
-        match self.sense {
-            Sense::Least => value,
-            Sense::Most => -value,
-        }
+        sign(self.sense) * value
     }
 
     /// What a design has of it, in SI units; none if it has no such figure.
@@ -56,22 +53,14 @@ impl Problem {
             self.margin = self.margin.max(bound);
             return self;
         }
-        let (least, most) = match objective.sense {
-            Sense::Least => (Some(bound), None),
-            Sense::Most => (None, Some(bound)),
-        };
+        let added = Requirement::on_side(figure, objective.sense, bound);
         let mut all = self.requirements.iter_mut();
         match all.find(|it| it.figure == figure && it.scope == scope) {
             Some(own) => {
-                own.least = least.into_iter().chain(own.least).reduce(f64::max);
-                own.most = most.into_iter().chain(own.most).reduce(f64::min);
+                own.least = added.least.into_iter().chain(own.least).reduce(f64::max);
+                own.most = added.most.into_iter().chain(own.most).reduce(f64::min);
             }
-            None => self.requirements.push(Requirement {
-                figure,
-                least,
-                most,
-                scope,
-            }),
+            None => self.requirements.push(Requirement { scope, ..added }),
         }
         self
     }

@@ -66,13 +66,10 @@ impl Problem {
 
     /// The tolerances from which machines about a design are drawn, each with the nominal motion, of the drawing and of each case;
     /// none if all is exact.
-    pub fn drawn<'a>(&self, design: &'a Design) -> Option<Vec<(Tolerances, &'a Orbit)>> {
-        let cases = self.in_cases();
-        let all = [(self, design)].into_iter();
-        let all = all.chain(cases.iter().zip(&design.cases));
-        let drawn = all.map(|(problem, it)| {
-            let spread = problem.spread(&it.machine)?;
-            Some((spread.over(FITTED), &it.orbit))
+    pub fn drawn<'a>(&'a self, design: &'a Design) -> Option<Vec<(Tolerances, &'a Orbit)>> {
+        let drawn = self.points(design).into_iter().map(|it| {
+            let spread = it.problem.spread(&it.design.machine)?;
+            Some((spread.over(FITTED), &it.design.orbit))
         });
         drawn.collect()
     }

@@ -5,9 +5,9 @@ use std::cell::RefCell;
 
 use cobyla::{Func, RhoBeg, StopTols, minimize};
 
+use super::Design;
 use super::coordinates::{Candidate, Coordinates};
 use super::critical::CriticalMachines;
-use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 
 /// Designs that are looked at, at most; edge of the first simplex, and when to end, in edges of the cube.
@@ -38,12 +38,12 @@ pub(super) fn certain(
     let last: RefCell<Option<(Vec<f64>, Sample)>> = RefCell::default();
     let look = |at: &[f64]| -> Option<Sample> {
         let unit_cube = coordinates.unit(at);
-        let here = OperatingPoint::find(problem, &coordinates.at(&unit_cube, at))?;
-        let design = here.sought(problem)?;
-        let (score, outside) = (problem.score(&design), here.violation(problem)?);
+        let design = Design::find(problem, &coordinates.at(&unit_cube, at))?;
+        let design = design.with_own_values(problem)?;
+        let (score, outside) = (problem.score(&design), design.violation(problem)?);
         let known = Sample {
             score: score / unit,
-            share: problem.least_certainty(&here, known)? - share,
+            share: problem.least_certainty(&design, known)? - share,
             within: -outside,
         };
         let mut best = best.borrow_mut();

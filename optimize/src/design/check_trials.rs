@@ -8,10 +8,9 @@ use softstop_console::interrupt;
 
 use super::ascent::ascend_from;
 use super::certain::certain;
-use super::coordinates::{Candidate, Coordinates};
+use super::coordinates::{Candidate, Coordinates, best_by};
 use super::critical::CriticalMachines;
 use super::judge::Met;
-use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::robustify::{Robust, look};
 use super::space::Space;
@@ -185,9 +184,8 @@ impl Trials<'_> {
 
     /// Whether a design keeps what is known of its box, and passes.
     fn passes(&self, it: &Candidate) -> bool {
-        let design = &it.design;
-        let here = OperatingPoint::of(design);
-        self.known.design(self.problem, &here).is_some() && self.is_passed(design)
+        let kept = self.known.design(self.problem, it.design.clone());
+        kept.is_some() && self.is_passed(&it.design)
     }
 
     fn is_passed(&self, design: &Design) -> bool {
@@ -208,14 +206,7 @@ impl Trials<'_> {
 
     /// The best of some designs.
     fn better_of(&self, found: Vec<Candidate>) -> Option<Candidate> {
-        let score = |it: &Candidate| self.score(&it.design);
-        found.into_iter().reduce(|one, other| {
-            if score(&other) > score(&one) {
-                other
-            } else {
-                one
-            }
-        })
+        best_by(found, |it| self.score(&it.design))
     }
 
     /// The best motion along the zone of a point of the unit cube that passes and is better than that.
@@ -224,7 +215,7 @@ impl Trials<'_> {
         let cases = problem.in_cases();
         let zoned = Zoned::find(problem, &cases, &Space(&problem.axes).values(unit))?;
         let window = zoned.window().ok()?;
-        let design = |place: f64| self.known.design(problem, &zoned.at(place)?);
+        let design = |place: f64| self.known.design(problem, zoned.at(place)?);
         let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));
         let sampled: Vec<Option<Design>> = places.map(design).collect();
         let pairs = sampled.windows(2);

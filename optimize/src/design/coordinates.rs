@@ -15,6 +15,15 @@ pub struct Candidate {
     pub design: Design,
 }
 
+/// The one of the highest score, the first of several.
+pub(super) fn best_by<T>(all: impl IntoIterator<Item = T>, score: impl Fn(&T) -> f64) -> Option<T> {
+    all.into_iter()
+        .reduce(|one, other| match score(&other) > score(&one) {
+            true => other,
+            false => one,
+        })
+}
+
 /// Distance from the ends of the cube that is none: a solver comes as near to them as that.
 const AT_END: f64 = 1e-9;
 
@@ -35,7 +44,7 @@ pub(super) struct Coordinates {
 impl Coordinates {
     /// Those about a point of the unit cube.
     pub(super) fn new(problem: &Problem, unit: &[f64]) -> Self {
-        let free = problem.axes.iter().filter(|axis| !axis.range.is_held());
+        let free = problem.free_axes();
         let moved = free
             .enumerate()
             .filter(|(_, axis)| axis.catalogue.is_empty());
@@ -48,7 +57,7 @@ impl Coordinates {
 
     /// The parameters of the axes that are moved.
     pub(super) fn parameters(&self, problem: &Problem) -> Vec<Parameter> {
-        let free = problem.axes.iter().filter(|axis| !axis.range.is_held());
+        let free = problem.free_axes();
         let free: Vec<Parameter> = free.map(|axis| axis.parameter).collect();
         self.moved.iter().map(|index| free[*index]).collect()
     }

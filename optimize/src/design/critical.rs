@@ -11,10 +11,9 @@ use super::differences::differences;
 use super::exact::Linearization;
 use super::figure::{Figure, Sense};
 use super::judge::Met;
-use super::operating_point::OperatingPoint;
 use super::problem::Problem;
-use super::reach::{LossDirections, reserve};
-use super::requirement::{Requirement, Scope};
+use super::reach::{are_reached, reserve};
+use super::requirement::{Requirement, Scope, sign};
 use super::slope::Slope;
 use super::within::Rows;
 use crate::robust::Neighbours;
@@ -40,8 +39,8 @@ pub struct Extreme {
 /// Machines within the tolerances that a design has to keep within its bounds.
 #[derive(Debug, Clone, Default)]
 pub struct CriticalMachines {
-    /// Directions in which the motion is lost.
-    pub losses: LossDirections,
+    /// Directions of the box in which the motion is lost, to whose ends it has to go on, in coordinates of the box.
+    pub losses: Vec<Vec<f64>>,
     /// Machines that come nearest to a bound.
     pub extremes: Vec<Extreme>,
     /// Machines on which trials are made beside the drawing's.
@@ -51,6 +50,15 @@ pub struct CriticalMachines {
     /// Those of the first cases.
     pub cases: Vec<CriticalMachines>,
 }
+
+/// No machines.
+static NONE: CriticalMachines = CriticalMachines {
+    losses: Vec::new(),
+    extremes: Vec::new(),
+    tried: Vec::new(),
+    failed: Vec::new(),
+    cases: Vec::new(),
+};
 
 /// Distance between coordinates of the box that is none.
 const SAME: f64 = 1e-6;
@@ -72,13 +80,14 @@ impl CriticalMachines {
         is_new
     }
 
-    /// Those of a case.
-    pub(super) fn in_case(&self, index: usize) -> Self {
-        self.cases.get(index).cloned().unwrap_or_default()
+    /// Those of an operating point.
+    pub(super) fn at(&self, case: Option<usize>) -> &Self {
+        case.map_or(self, |index| self.cases.get(index).unwrap_or(&NONE))
     }
 
-    /// Those of a case, to add to.
-    pub(super) fn in_case_mut(&mut self, index: usize) -> &mut Self {
+    /// Those of an operating point, to add to.
+    pub(super) fn at_mut(&mut self, case: Option<usize>) -> &mut Self {
+        let Some(index) = case else { return self };
         if self.cases.len() <= index {
             self.cases.resize_with(index + 1, Self::default);
         }
@@ -96,27 +105,20 @@ impl CriticalMachines {
 
     /// The design of a motion that is as required in the drawing's machine and in all of these, in every case; none if it is
     /// not.
-    pub(super) fn design(&self, problem: &Problem, here: &OperatingPoint) -> Option<Design> {
-        let own = here.design(self.value(problem, here)?);
-        let cases = problem.in_cases();
-        let cases = cases.iter().zip(&here.cases).enumerate();
-        let cases = cases.map(|(index, (case, point))| self.in_case(index).design(case, point));
-        Some(Design {
-            cases: cases.collect::<Option<_>>()?,
-            ..own
-        })
+    pub(super) fn design(&self, problem: &Problem, here: Design) -> Option<Design> {
+        here.with_values(problem, |it| self.at(it.case).value(&it.problem, it.design))
     }
 
     /// What is sought of a motion that is as required in the own machine of an operating point and in all of these.
-    fn value(&self, problem: &Problem, here: &OperatingPoint) -> Option<f64> {
-        let motion = here.judged()?;
+    fn value(&self, problem: &Problem, here: &Design) -> Option<f64> {
+        let motion = here.judged().ok()?;
         let is_met = problem.met(&motion).iter().all(Met::is_met);
         let mut value = problem.sought(&motion).filter(|_| is_met)?;
-        let Some(spread) = problem.spread(here.machine()) else {
+        let Some(spread) = problem.spread(&here.machine) else {
             return Some(value);
         };
         let neighbours = Neighbours::new(&spread, &here.orbit);
-        if !self.losses.are_reached(&spread, here) {
+        if !are_reached(&self.losses, &spread, here) {
             return None;
         }
         for Extreme { target, at } in &self.extremes {
@@ -136,16 +138,17 @@ impl CriticalMachines {
     /// How far inside its bound each extreme machine is, in units of the bound, and the scores of those that are extreme in
     /// what is sought; none if one cannot be computed.
     pub(super) fn slopes(&self, about: Option<&Linearization<'_>>) -> Option<CriticalSlopes> {
-        let mut found = CriticalSlopes {
-            reserves: self.losses.reserves(about)?,
-            ..CriticalSlopes::default()
-        };
-        if self.extremes.is_empty() {
+        let mut found = CriticalSlopes::default();
+        if self.losses.is_empty() && self.extremes.is_empty() {
             return Some(found);
         }
         let about = about?;
         let problem = about.problem;
-        let spread = problem.spread(about.point.machine())?;
+        let spread = problem.spread(&about.point.machine)?;
+        for direction in &self.losses {
+            let reserve = reserve(about, &spread, direction)?;
+            found.bounds.push((Limit::Loss, reserve));
+        }
         let neighbours = Neighbours::new(&spread, &about.point.orbit);
         for Extreme { target, at } in &self.extremes {
             let Some((figure, requirement)) = problem.asked(*target) else {
@@ -170,11 +173,9 @@ impl CriticalMachines {
 }
 
 /// What extreme machines have, with derivatives.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub(super) struct CriticalSlopes {
-    /// How far beyond the tolerances the motion goes on.
-    pub reserves: Vec<Slope>,
-    /// How far inside its bound a figure is, in units of that, or how far the motion goes on beyond the machine.
+    /// How far beyond the tolerances or a machine the motion goes on; how far inside its bound a figure is, in units of that.
     pub bounds: Vec<(Limit, Slope)>,
     /// Scores.
     pub scores: Vec<Slope>,
@@ -218,10 +219,9 @@ impl Problem {
 impl Slope {
     /// How far inside a requirement's bound it lies on one side, in units of the bound; none if there is no such bound.
     fn inside(&self, requirement: &Requirement, side: Sense) -> Option<Self> {
-        match side {
-            Sense::Least => Some(self.beyond(requirement.least?, 1.0)),
-            Sense::Most => Some(self.beyond(requirement.most?, -1.0)),
-        }
+        let mut sides = requirement.sides();
+        let (_, bound) = sides.find(|(own, _)| *own == side)?;
+        Some(self.beyond(bound, sign(side)))
     }
 }
 
@@ -244,8 +244,8 @@ fn slope_at(
         Some(rows.chain(&parameters, &by))
     };
     let differenced = || {
-        let value = |point: &OperatingPoint| {
-            let spread = about.problem.spread(point.machine())?;
+        let value = |point: &Design| {
+            let spread = about.problem.spread(&point.machine)?;
             Some(vec![
                 Neighbours::new(&spread, &point.orbit).value(at, figure)?,
             ])

@@ -1,25 +1,25 @@
 //! Exact derivatives of figures by the coordinates of the search: the implicit function theorem on the motion and on the
 //! ends of its zone, and the chain rule through links and the place in the zone.
 
-use softstop::Parameter;
+use softstop::{Machine, Parameter};
 use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::{Heading, Test};
 use softstop_dynamics::slopes::{self, Border, Slopes};
 use softstop_dynamics::zone::{ZoneEnd, loss_of_stability};
 
-use super::differences::differences;
+use super::Design;
+use super::differences::{differences, machine_differences};
 use super::figure::Figure;
 use super::judge::Judged;
-use super::operating_point::{At, OperatingPoint};
+use super::operating_point::At;
 use super::problem::Problem;
-use super::space::Space;
 use crate::robust::rates;
 
 /// A motion of the search with its derivatives by the coordinates.
 pub(super) struct Linearization<'a> {
     pub(super) problem: &'a Problem,
     pub(super) at: &'a At<'a>,
-    pub(super) point: &'a OperatingPoint,
+    pub(super) point: &'a Design,
     slopes: Slopes,
     /// By each coordinate, what changes of the parameters of `slopes` but the last, the frequency, while that stays, in SI
     /// units.
@@ -45,10 +45,10 @@ impl<'a> Linearization<'a> {
     pub(super) fn of(
         problem: &'a Problem,
         at: &'a At<'a>,
-        (point, given): (&'a OperatingPoint, Option<&[f64]>),
+        (point, given): (&'a Design, Option<&[f64]>),
     ) -> Option<Self> {
         let followers = point.orbit.scene.rates_of_followers();
-        let all = directions(problem, at, (&Parameter::ALL, point.frequency()));
+        let all = directions(problem, at, (&Parameter::ALL, point.drive_frequency()));
         let is_moved = |parameter: &Parameter| {
             let mut followers = followers.iter();
             *parameter != Parameter::Frequency
@@ -57,7 +57,7 @@ impl<'a> Linearization<'a> {
         };
         let mut parameters: Vec<Parameter> = Parameter::ALL.to_vec();
         parameters.retain(is_moved);
-        let mut rows = directions(problem, at, (&parameters, point.frequency()));
+        let mut rows = directions(problem, at, (&parameters, point.drive_frequency()));
         let moved = |end: fn(&Zone) -> &ZoneEnd| {
             let border = Border::end(&point.zone.scene, end(&point.zone), &parameters);
             let by_normal = |border: Border| {
@@ -65,7 +65,7 @@ impl<'a> Linearization<'a> {
                 let moved = rows.iter().map(|row| -dot(&border.normal, row));
                 moved.collect::<Vec<f64>>()
             };
-            let frequency = |other: &OperatingPoint| Some(vec![end(&other.zone).frequency]);
+            let frequency = |other: &Design| Some(vec![end(&other.zone).frequency]);
             let differenced = || Some(differences(problem, at, &frequency)?.concat());
             border.ok().map(by_normal).or_else(differenced)
         };
@@ -170,28 +170,14 @@ fn directions(
     at: &At<'_>,
     (parameters, frequency): (&[Parameter], f64),
 ) -> Vec<Vec<f64>> {
-    let free: Vec<usize> = (0..problem.axes.len())
-        .filter(|index| !problem.axes[*index].range.is_held())
-        .collect();
-    let values = Space(&problem.axes).values(at.unit);
     let change = match problem.machine.ties.is_empty() {
         true => CHANGE,
         false => SMALL_CHANGE,
     };
-    let aside = |axis: usize, by: f64| {
-        let mut values = values.clone();
-        values[axis] += by * problem.axes[axis].rate(values[axis]);
-        let scene = problem.machine_at(&values).scene.at_frequency(frequency);
+    let values = |machine: Machine| {
+        let scene = machine.scene.at_frequency(frequency);
         let values = parameters.iter().map(|it| it.get(&scene).unwrap_or(0.0));
-        values.collect::<Vec<f64>>()
+        Some(values.collect())
     };
-    let row = |index: &usize| {
-        let axis = free[*index];
-        let (before, after) = (aside(axis, -change), aside(axis, change));
-        let pairs = before.iter().zip(&after);
-        pairs
-            .map(|(before, after)| (after - before) / (2.0 * change))
-            .collect()
-    };
-    at.moved.iter().map(row).collect()
+    machine_differences((problem, at), change, values).unwrap_or_default()
 }

@@ -5,12 +5,11 @@ use serde::Serialize;
 use super::ascent::ascend_from;
 use super::check_trials::{Passed, Resolution, check_trials};
 use super::constraint::ActiveLimit;
-use super::coordinates::Candidate;
+use super::coordinates::{Candidate, best_by};
 use super::critical::CriticalMachines;
 use super::improve_catalogue::improve_catalogue;
 use super::judge::Met;
 use super::multipliers::{Held, held};
-use super::operating_point::OperatingPoint;
 use super::robustify::{Robust, enforce_tolerance_box};
 use super::{Design, Problem};
 
@@ -117,7 +116,7 @@ impl Found {
     /// Goes on from a design of a problem like this one: true if that has led to a better design.
     pub fn go_on_from(&mut self, problem: &Problem, from: &Candidate) -> bool {
         let mut start = from.clone();
-        if let Some(design) = OperatingPoint::of(&start.design).sought(problem) {
+        if let Some(design) = start.design.clone().with_own_values(problem) {
             start.design = design;
         }
         let place = (&start.unit[..], start.design.place);
@@ -127,8 +126,7 @@ impl Found {
         let robust = starts.filter_map(|it| enforce_tolerance_box(problem, &it).ok());
         let score = |it: &Robust| problem.score(&it.candidate.design);
         let is_better = |it: &Robust| score(it) > (1.0 + GAIN) * problem.score(&self.design);
-        let best = robust.max_by(|a, b| score(a).total_cmp(&score(b)));
-        let Some(robust) = best.filter(is_better) else {
+        let Some(robust) = best_by(robust, score).filter(is_better) else {
             return false;
         };
         let improved = improve_catalogue(problem, &robust);

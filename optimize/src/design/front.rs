@@ -8,12 +8,12 @@ use super::Design;
 use super::ascent::{ascend, ascend_from};
 use super::certain::certain;
 use super::check_trials::nearby;
-use super::coordinates::Candidate;
+use super::coordinates::{Candidate, best_by};
 use super::critical::CriticalMachines;
 use super::figure::{Figure, Sense};
 use super::non_dominated::non_dominated;
 use super::problem::Problem;
-use super::requirement::{Requirement, Scope};
+use super::requirement::{Requirement, Scope, sign};
 use super::robustify::enforce;
 use super::search::Found;
 use super::trial::{ROUGH, STARTS};
@@ -102,29 +102,27 @@ pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded>
         Figure::Share => margins(problem, start),
         Figure::Certainty => shares(problem, &start, own.0),
         _ if is_of_force => forces(problem, (&start, known)),
-        _ => bounds(problem, (&start, known), figure, own.0),
+        _ => both_ways((&start, known), own.0, |bound| {
+            bounded(problem, figure, bound)
+        }),
     };
     let all = others.par_iter();
-    let mut tried: Vec<Tried> = all.filter_map(|it| tried(figure, it, known)).collect();
+    let tried: Vec<Tried> = all.filter_map(|it| tried(figure, it, known)).collect();
     // Another drive amplitude is another problem.
     let score = |it: &Candidate| problem.score(&it.design);
     let is_above = |it: &Tried| {
         !is_of_force
             && score(&it.candidate) > (1.0 + GAIN) * problem.score(&found.design)
-            && problem.is_solved_without_trials(&it.candidate.design)
+            && problem.is_allowed(&it.candidate.design)
+            && problem.has_box(&it.candidate.design).is_ok()
     };
-    let (above, rest) = tried.drain(..).partition(is_above);
-    tried = rest;
-    let above: Vec<Tried> = above;
+    let (above, mut tried): (Vec<_>, Vec<_>) = tried.into_iter().partition(is_above);
     let passing = above.into_par_iter().map(|it| it.candidate);
     let passing = passing.filter(|it| {
         let trials = problem.pass_trials(&it.design, &mut CriticalMachines::default());
         trials.is_ok()
     });
-    let passing: Vec<Candidate> = passing.collect();
-    let better = passing
-        .into_iter()
-        .max_by(|a, b| score(a).total_cmp(&score(b)));
+    let better = best_by(passing.collect::<Vec<_>>(), score);
     tried.push(Tried {
         place: own,
         is_moved: false,
@@ -144,29 +142,15 @@ pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded>
     Some(Traded { front, better })
 }
 
-impl Problem {
-    /// Whether a design is as required, with its whole box of tolerances, as far as that takes no trials.
-    fn is_solved_without_trials(&self, design: &Design) -> bool {
-        self.is_allowed(design) && self.has_box(design).is_ok()
-    }
-}
-
 /// Whether a figure and what is sought are both better at one place than at another.
 fn beats(problem: &Problem, figure: Figure, one: (f64, f64), other: (f64, f64)) -> bool {
-    let is_better = match figure.sense() {
-        Sense::Least => one.0 > other.0,
-        Sense::Most => one.0 < other.0,
-    };
     let score = |value| problem.objective.score(value);
-    is_better && score(one.1) > score(other.1)
+    sign(figure.sense()) * (one.0 - other.0) > 0.0 && score(one.1) > score(other.1)
 }
 
 /// Those that no other one is as good as in both quantities and better in one, in rising order of the figure.
 fn undominated<'a>(problem: &Problem, figure: Figure, tried: &'a [Tried]) -> Vec<&'a Tried> {
-    let sign = match figure.sense() {
-        Sense::Least => 1.0,
-        Sense::Most => -1.0,
-    };
+    let sign = sign(figure.sense());
     let places = tried.iter().map(|it| it.place);
     let goods = places.map(|(value, sought)| vec![sign * value, problem.objective.score(sought)]);
     let members = non_dominated(&Vec::from_iter(goods)).members;
@@ -213,15 +197,15 @@ fn tried(
 
 /// Value of a figure, of the worst machine within the tolerances if that is bounded and of the worst case, and of what is sought.
 fn place(problem: &Problem, figure: Figure, at: &Candidate) -> Option<(f64, f64)> {
-    let mut worst = value(problem, figure, &at.design)?;
-    let cases = problem.in_cases();
-    for (case, design) in cases.iter().zip(&at.design.cases) {
-        let own = value(case, figure, design)?;
-        worst = match figure.sense() {
-            Sense::Least => worst.min(own),
-            Sense::Most => worst.max(own),
-        };
-    }
+    let points = problem.points(&at.design);
+    let values = points
+        .iter()
+        .map(|it| value(&it.problem, figure, it.design));
+    let worst = values.collect::<Option<Vec<f64>>>()?.into_iter();
+    let worst = worst.reduce(match figure.sense() {
+        Sense::Least => f64::min,
+        Sense::Most => f64::max,
+    })?;
     Some((worst, problem.sought_of(&at.design)))
 }
 
@@ -277,16 +261,6 @@ fn forces(problem: &Problem, start: (&Candidate, &CriticalMachines)) -> Vec<Boun
     both_ways(start, held, of)
 }
 
-/// Over a bound of a figure, tighter and looser.
-fn bounds(
-    problem: &Problem,
-    start: (&Candidate, &CriticalMachines),
-    figure: Figure,
-    own: f64,
-) -> Vec<Bounded> {
-    both_ways(start, own, |bound| bounded(problem, figure, bound))
-}
-
 /// Step by step from the design on, down and up, until there is no design or its bound no longer holds it.
 fn both_ways(
     (start, known): (&Candidate, &CriticalMachines),
@@ -324,14 +298,11 @@ fn without(problem: &Problem, figure: Figure) -> Problem {
 /// The problem with another bound of a figure.
 fn bounded(problem: &Problem, figure: Figure, bound: f64) -> Problem {
     let mut bounded = without(problem, figure);
-    let is_least = figure.sense() == Sense::Least;
     let mut required = problem.requirements.iter();
     let known = required.find(|it| it.figure == figure);
     bounded.requirements.push(Requirement {
-        figure,
-        least: is_least.then_some(bound),
-        most: (!is_least).then_some(bound),
         scope: known.map_or(Scope::Drawing, |it| it.scope),
+        ..Requirement::on_side(figure, figure.sense(), bound)
     });
     bounded
 }

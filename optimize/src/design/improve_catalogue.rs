@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use softstop_console::interrupt;
 
 use super::ascent::{ascend, ascend_from};
-use super::coordinates::Candidate;
+use super::coordinates::{Candidate, best_by};
 use super::problem::Problem;
 use super::robustify::{Robust, enforce};
 
@@ -33,13 +33,7 @@ pub(super) fn improve_catalogue(problem: &Problem, from: &Robust) -> Robust {
             let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
             enforce(problem, &start, best.known.clone()).ok()
         });
-        let next = sought.collect::<Vec<_>>().into_iter().reduce(|one, other| {
-            if score(&other) > score(&one) {
-                other
-            } else {
-                one
-            }
-        });
+        let next = best_by(sought.collect::<Vec<_>>(), score);
         let least = (1.0 + GAIN) * score(&best);
         match next.filter(|next| score(next) > least) {
             Some(next) if !interrupt::requested() => best = next,
@@ -53,7 +47,7 @@ struct Catalogues(Vec<(usize, usize)>);
 
 impl Catalogues {
     fn of(problem: &Problem) -> Self {
-        let free = problem.axes.iter().filter(|axis| !axis.range.is_held());
+        let free = problem.free_axes();
         let sizes = free.map(|axis| axis.catalogue.len()).enumerate();
         Self(sizes.filter(|(_, size)| *size > 0).collect())
     }

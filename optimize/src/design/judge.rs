@@ -218,13 +218,6 @@ impl Met {
         }
     }
 
-    /// What is known of the requirement in the case of this index.
-    #[must_use]
-    pub fn in_case(self, index: usize) -> Self {
-        let case = Some(index);
-        Self { case, ..self }
-    }
-
     /// By what it is judged: of a share that is counted, the lower end of its interval.
     pub fn judged(&self) -> f64 {
         match (&self.starts, self.requirement.figure) {
@@ -319,7 +312,7 @@ impl Problem {
         let is_at_bound = (value - self.margin).abs() < ROUNDING;
         (self.margin > 0.0).then_some(Met {
             value: if is_at_bound { self.margin } else { value },
-            ..Met::of(Requirement::new(Figure::Share, Some(self.margin), None))
+            ..Met::of(Requirement::at_least(Figure::Share, self.margin))
         })
     }
 }

@@ -30,8 +30,8 @@ pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
     let window = zoned.window()?;
     let line = Line {
         zoned,
-        best: RefCell::new(None),
-        reason: RefCell::default(),
+        best: RefCell::default(),
+        lack: RefCell::default(),
     };
     if window.is_held() {
         line.cost_at(window.low);
@@ -56,63 +56,64 @@ fn samples(window: Interval) -> [f64; SAMPLES] {
     std::array::from_fn(|index| window.at(index as f64 / (SAMPLES - 1) as f64))
 }
 
-/// The motions along a zone and the best that was met.
+/// The motions along a zone.
 struct Line<'a> {
     zoned: &'a Zoned<'a>,
-    best: RefCell<Option<Met>>,
-    /// The least gap to feasible ones, and why.
-    reason: RefCell<(f64, String)>,
-}
-
-/// The best so far.
-struct Met {
-    place: f64,
-    point: BranchPoint,
-    value: f64,
-    cases: Vec<Design>,
-    cost: f64,
+    /// The place of the best that was met, after its cost.
+    best: RefCell<Option<(f64, f64)>>,
+    /// What the one lacks that is nearest to feasible ones.
+    lack: RefCell<Option<Infeasible>>,
 }
 
 impl Line<'_> {
     /// Minus the score of the stable motion that is as required; for others a finite grade above all of those.
     fn cost_at(&self, place: f64) -> f64 {
-        let Zoned { problem, zone, .. } = self.zoned;
-        let point = match zone.point_at(place) {
-            Ok(point) => point,
-            Err(error) => return self.fails(DISTANT, || error.to_string()),
-        };
-        let velocity = point.before_impact_velocity();
-        // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
-        if !(point.is_stable() || place >= 1.0) || !velocity.is_finite() {
-            return self.fails(instability(&point), || {
-                "the z = 1 motion is not stable there".to_owned()
-            });
+        match self.score_at(place) {
+            Ok(score) => {
+                let mut best = self.best.borrow_mut();
+                if best.is_none_or(|(known, _)| -score < known) {
+                    *best = Some((-score, place));
+                }
+                -score
+            }
+            Err(found) => {
+                let gap = found.gap;
+                let mut lack = self.lack.borrow_mut();
+                if lack.as_ref().is_none_or(|known| gap < known.gap) {
+                    *lack = Some(found);
+                }
+                gap
+            }
         }
-        let judged = match problem.is_plain() {
-            true => Ok((velocity, Vec::new())),
-            false => self.judged(place, &point),
-        };
-        let (value, cases) = match judged {
-            Ok(judged) => judged,
-            Err(Infeasible { gap, reason }) => return self.fails(gap, || reason),
-        };
-        let values = [value].into_iter().chain(cases.iter().map(|it| it.value));
-        let cost = -problem.objective.score(problem.mean(values));
-        let mut best = self.best.borrow_mut();
-        if best.as_ref().is_none_or(|known| cost < known.cost) {
-            *best = Some(Met {
-                place,
-                point,
-                value,
-                cases,
-                cost,
-            });
-        }
-        cost
     }
 
-    /// What is sought, of a motion that is as required, and its design in each case.
-    fn judged(&self, place: f64, point: &BranchPoint) -> Result<(f64, Vec<Design>), Infeasible> {
+    /// The score of the design at a place; where only the velocity counts, without the motion itself, which takes as long again.
+    fn score_at(&self, place: f64) -> Result<f64, Infeasible> {
+        let problem = self.zoned.problem;
+        let point = self.point_at(place)?;
+        match problem.is_plain() {
+            true => Ok(point.before_impact_velocity()),
+            false => Ok(problem.score(&self.design_at(place, &point)?)),
+        }
+    }
+
+    /// The stable motion at a place.
+    fn point_at(&self, place: f64) -> Result<BranchPoint, Infeasible> {
+        let point = self.zoned.zone.point_at(place);
+        let point = point.map_err(Infeasible::unknown)?;
+        // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
+        let is_stable = point.is_stable() || place >= 1.0;
+        if !is_stable || !point.before_impact_velocity().is_finite() {
+            return Err(Infeasible {
+                gap: instability(&point),
+                reason: "the z = 1 motion is not stable there".to_owned(),
+            });
+        }
+        Ok(point)
+    }
+
+    /// The design at a place with this motion, if it is as required in all cases.
+    fn design_at(&self, place: f64, point: &BranchPoint) -> Result<Design, Infeasible> {
         let Zoned {
             problem,
             machine,
@@ -120,24 +121,32 @@ impl Line<'_> {
             cases,
         } = self.zoned;
         let orbit = zone.orbit(point).map_err(Infeasible::unknown)?;
-        let motion = Judged::new(machine, zone, place, &orbit);
-        let value = sought(problem, &motion.map_err(Infeasible::unknown)?)?;
         let frequency = zone.frequency_at(place);
+        let mut machine = machine.clone();
+        machine.set_frequency(frequency);
+        let own = Design {
+            machine,
+            place,
+            zone: zone.clone(),
+            orbit,
+            value: f64::NAN,
+            cases: Vec::new(),
+        };
+        let own = as_required(problem, own)?;
         let in_case = |(case, stated): (&Zoned<'_>, _)| {
-            let design = design_at(case, case.place_of(frequency));
+            let place = case.place_of(frequency);
+            let design = case.at(place).ok_or_else(|| Infeasible {
+                gap: (-place).max(place - 1.0).clamp(0.0, DISTANT),
+                reason: "there is no stable z = 1 motion of its zone at this frequency".to_owned(),
+            });
+            let design = design.and_then(|it| as_required(case.problem, it));
             design.map_err(|lack| lack.in_case(stated))
         };
         let cases = cases.iter().zip(&problem.cases).map(in_case);
-        Ok((value, cases.collect::<Result<_, _>>()?))
-    }
-
-    /// Notes why a motion is none to take.
-    fn fails(&self, gap: f64, reason: impl FnOnce() -> String) -> f64 {
-        let mut known = self.reason.borrow_mut();
-        if known.1.is_empty() || gap < known.0 {
-            *known = (gap, reason());
-        }
-        gap
+        Ok(Design {
+            cases: cases.collect::<Result<_, _>>()?,
+            ..own
+        })
     }
 
     /// Whether the best sample is an end of the window with the velocity rising right to it.
@@ -160,34 +169,18 @@ impl Line<'_> {
     }
 
     fn result(&self) -> Result<Design, Infeasible> {
-        let Some(best) = self.best.take() else {
-            let (gap, reason) = self.reason.take();
-            return Err(Infeasible { gap, reason });
-        };
-        let Zoned { machine, zone, .. } = self.zoned;
-        let orbit = zone.orbit(&best.point).map_err(Infeasible::unknown)?;
-        let mut machine = machine.clone();
-        machine.set_frequency(zone.frequency_at(best.place));
-        Ok(Design {
-            machine,
-            place: best.place,
-            zone: zone.clone(),
-            orbit,
-            value: best.value,
-            cases: best.cases,
-        })
+        match self.best.take() {
+            Some((_, place)) => self.design_at(place, &self.point_at(place)?),
+            None => Err(self.lack.take().unwrap_or_else(|| Infeasible::unknown(""))),
+        }
     }
 }
 
-/// The design of a case at a place of its zone, if it is as required.
-fn design_at(case: &Zoned<'_>, place: f64) -> Result<Design, Infeasible> {
-    let point = case.at(place).ok_or_else(|| Infeasible {
-        gap: (-place).max(place - 1.0).clamp(0.0, DISTANT),
-        reason: "there is no stable z = 1 motion of its zone at this frequency".to_owned(),
-    })?;
-    let motion = point.judged();
-    let motion = motion.ok_or_else(|| Infeasible::unknown("its motion cannot be computed"))?;
-    Ok(point.design(sought(case.problem, &motion)?))
+/// A design with the value of what is sought, if it is as required.
+fn as_required(problem: &Problem, design: Design) -> Result<Design, Infeasible> {
+    let motion = design.judged().map_err(Infeasible::unknown)?;
+    let value = sought(problem, &motion)?;
+    Ok(Design { value, ..design })
 }
 
 /// What is sought, of a motion that is as required.

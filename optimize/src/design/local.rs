@@ -9,10 +9,10 @@ use super::differences::differences;
 use super::exact::Linearization;
 use super::figure::{Figure, Sense};
 use super::judge::Judged;
-use super::operating_point::{At, OperatingPoint};
+use super::operating_point::At;
 use super::problem::{Objective, Problem};
 use super::reach::inside;
-use super::requirement::Requirement;
+use super::requirement::{Requirement, sign};
 use super::slope::Slope;
 use super::space::End;
 
@@ -72,14 +72,14 @@ impl Local {
 
 /// What is known at a point, with what is known of the machines within the tolerances; none if there is no stable motion.
 pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option<Local> {
-    let here = OperatingPoint::find(problem, at)?;
+    let here = Design::find(problem, at)?;
     let exact = Linearization::of(problem, at, (&here, None));
     let mut all = of_point(problem, at, (&here, exact.as_ref()), known)?;
     let cases = problem.in_cases();
     for (index, (case, point)) in cases.iter().zip(&here.cases).enumerate() {
         let given = exact.as_ref().map(|it| &it.frequency[..]);
         let exact = given.and_then(|given| Linearization::of(case, at, (point, Some(given))));
-        let own = of_point(case, at, (point, exact.as_ref()), &known.in_case(index))?;
+        let own = of_point(case, at, (point, exact.as_ref()), known.at(Some(index)))?;
         all.add(own, (index, problem.cases[index].weight));
     }
     Some(all)
@@ -107,10 +107,10 @@ impl Local {
 fn of_point(
     problem: &Problem,
     at: &At<'_>,
-    (here, exact): (&OperatingPoint, Option<&Linearization<'_>>),
+    (here, exact): (&Design, Option<&Linearization<'_>>),
     known: &CriticalMachines,
 ) -> Option<Local> {
-    let motion = here.judged()?;
+    let motion = here.judged().ok()?;
     let slopes = slopes(problem, at, exact, (here, &motion))?;
     let (frequency, figures) = slopes.split_last()?;
     let (sought, required) = figures.split_first()?;
@@ -121,8 +121,8 @@ fn of_point(
     };
     for (it, slope) in single(problem).zip(required) {
         for (side, bound) in it.sides() {
-            let sign = if side == Sense::Least { 1.0 } else { -1.0 };
-            keep(Limit::Required(it.figure, side), slope.beyond(bound, sign));
+            let inside = slope.beyond(bound, sign(side));
+            keep(Limit::Required(it.figure, side), inside);
         }
     }
     let si = |end: f64| problem.machine.to_si(Dimension::Frequency, end);
@@ -157,10 +157,8 @@ fn of_point(
         }
     }
     let critical = known.slopes(exact)?;
-    let reserves = critical.reserves.into_iter();
-    let reserves = reserves.map(|slope| (Limit::Loss, slope));
     let mut is_kept = true;
-    for (limit, slope) in reserves.chain(critical.bounds) {
+    for (limit, slope) in critical.bounds {
         let least = if limit == Limit::Loss { -ROUNDING } else { 0.0 };
         is_kept &= slope.value >= least;
         keep(limit, slope);
@@ -187,7 +185,7 @@ fn of_point(
     Some(Local {
         scores: vec![scores],
         constraints,
-        design: is_good.then(|| here.design(value)),
+        design: is_good.then(|| here.alone(value)),
     })
 }
 
@@ -219,14 +217,14 @@ fn slopes(
     problem: &Problem,
     at: &At<'_>,
     exact: Option<&Linearization<'_>>,
-    (here, motion): (&OperatingPoint, &Judged<'_>),
+    (here, motion): (&Design, &Judged<'_>),
 ) -> Option<Vec<Slope>> {
     let figures = figures(problem);
     let derivative = |figure: &Figure| exact.and_then(|it| it.by(*figure, motion));
     let mut all: Vec<Option<Vec<f64>>> = figures.iter().map(derivative).collect();
     all.push(exact.map(|it| it.frequency.clone()));
-    let value = |here: &OperatingPoint| {
-        let motion = &here.judged()?;
+    let value = |here: &Design| {
+        let motion = &here.judged().ok()?;
         let sought = problem.sought(motion)?;
         let rest = figures[1..]
             .iter()

@@ -34,7 +34,7 @@ pub mod pareto;
 mod pareto_search;
 mod posed;
 pub mod problem;
-pub mod reach;
+mod reach;
 pub mod requirement;
 mod robustify;
 pub mod search;
@@ -54,6 +54,7 @@ use std::slice;
 use box_window::BoxWindow;
 use case::Case;
 use judge::{Judged, Met};
+use operating_point::OperatingPoint;
 use rayon::prelude::*;
 use softstop::internals::budget::Fork;
 use softstop::{Dimension, Machine, MotionError, Scene};
@@ -104,7 +105,11 @@ impl Design {
 
     /// Drive frequency in the machine's own units.
     pub fn frequency(&self) -> f64 {
-        let frequency = self.machine.scene.excitation.frequency;
+        self.own_frequency(self.machine.scene.excitation.frequency)
+    }
+
+    /// A frequency in rad/s in the machine's own units.
+    pub fn own_frequency(&self, frequency: f64) -> f64 {
         self.machine.to_own(Dimension::Frequency, frequency)
     }
 }
@@ -124,6 +129,14 @@ impl Infeasible {
         Self {
             gap: DISTANT,
             reason: error.to_string(),
+        }
+    }
+
+    /// What is lacking in an operating point of a problem.
+    fn in_point(self, problem: &Problem, case: Option<usize>) -> Self {
+        match case {
+            Some(index) => self.in_case(&problem.cases[index]),
+            None => self,
         }
     }
 
@@ -214,14 +227,15 @@ impl Problem {
     /// Whether the drawing's machine is as required, and stands where margin, frequency bounds and the zones of the machines
     /// within the tolerances allow.
     fn is_allowed(&self, design: &Design) -> bool {
-        let motion = design.judged();
-        let is_met = motion.is_ok_and(|motion| self.met(&motion).iter().all(Met::is_met));
-        let window = self.window(&design.machine, &design.zone);
-        let contains =
-            |it: Interval| (it.low - ROUNDING..=it.high + ROUNDING).contains(&design.place);
-        let cases = self.in_cases();
-        let mut cases = cases.iter().zip(&design.cases);
-        is_met && window.is_ok_and(contains) && cases.all(|(case, design)| case.is_allowed(design))
+        self.points(design).iter().all(|it| {
+            let OperatingPoint {
+                problem, design, ..
+            } = it;
+            let motion = design.judged();
+            let is_met = motion.is_ok_and(|motion| problem.met(&motion).iter().all(Met::is_met));
+            let window = problem.window(&design.machine, &design.zone);
+            is_met && window.is_ok_and(|it| it.contains(design.place))
+        })
     }
 
     /// What ends the motion inside the zone where the tolerances of a design touch that, in words.
@@ -279,9 +293,6 @@ fn distance_from_zones(scene: &Scene, error: &ZoneError) -> f64 {
     let beyond = (clearance / largest - 1.0).max(-clearance / unit).max(0.0);
     DISTANT + finite_or(beyond, 0.0)
 }
-
-/// What rounding may do to a place.
-const ROUNDING: f64 = 1e-12;
 
 /// The gap of a point of which nothing better is known.
 const DISTANT: f64 = 10.0;

@@ -1,12 +1,15 @@
-//! The motion at a point of the search.
+//! The motion at a point of the search, and the operating points of a design.
+
+use std::borrow::Cow;
 
 use softstop::Machine;
-use softstop_dynamics::{Orbit, Zone};
+use softstop_dynamics::Zone;
 
 use super::Design;
 use super::box_window::BoxWindow;
-use super::judge::{Judged, violation};
+use super::judge::violation;
 use super::problem::Problem;
+use super::space::ROUNDING;
 
 /// A point of the search: the cube's coordinates, those of them that are moved, and the place in the zone, if the
 /// frequency is not held.
@@ -20,34 +23,37 @@ pub struct At<'a> {
     pub place: Option<f64>,
 }
 
-/// What rounding may do to a place.
-const ROUNDING: f64 = 1e-12;
-
-/// The stable motion of a point.
-#[derive(Debug, Clone)]
-pub(super) struct OperatingPoint {
-    machine: Machine,
-    pub(super) zone: Zone,
-    pub(super) place: f64,
-    pub(super) orbit: Orbit,
-    /// That of each case.
-    pub(super) cases: Vec<OperatingPoint>,
+/// A design in the drawing's operating point or in a case.
+pub struct OperatingPoint<'a> {
+    /// The index of the case; none of the drawing.
+    pub case: Option<usize>,
+    /// The problem of this operating point.
+    pub problem: Cow<'a, Problem>,
+    /// What the design does there.
+    pub design: &'a Design,
 }
 
-impl OperatingPoint {
-    /// The motion of a design.
-    pub(super) fn of(design: &Design) -> Self {
-        Self {
-            machine: design.machine.clone(),
-            zone: design.zone.clone(),
-            place: design.place,
-            orbit: design.orbit.clone(),
-            cases: design.cases.iter().map(Self::of).collect(),
-        }
+impl Problem {
+    /// The operating points of a design, that of the drawing first.
+    pub fn points<'a>(&'a self, design: &'a Design) -> Vec<OperatingPoint<'a>> {
+        let own = OperatingPoint {
+            case: None,
+            problem: Cow::Borrowed(self),
+            design,
+        };
+        let cases = self.in_cases().into_iter().zip(&design.cases).enumerate();
+        let cases = cases.map(|(index, (problem, design))| OperatingPoint {
+            case: Some(index),
+            problem: Cow::Owned(problem),
+            design,
+        });
+        [own].into_iter().chain(cases).collect()
     }
+}
 
-    /// The motion at a place of a machine's zone, without cases.
-    pub(super) fn on(mut machine: Machine, zone: &Zone, place: f64) -> Option<Self> {
+impl Design {
+    /// The stable motion at a place of a machine's zone, without cases and without the value of what is sought.
+    pub(super) fn on_zone(mut machine: Machine, zone: &Zone, place: f64) -> Option<Self> {
         let point = zone.point_at(place).ok()?;
         let orbit = zone.orbit(&point).ok()?;
         if !(orbit.is_stable() || place >= 1.0) {
@@ -59,40 +65,34 @@ impl OperatingPoint {
             zone: zone.clone(),
             place,
             orbit,
+            value: f64::NAN,
             cases: Vec::new(),
         })
     }
 
-    pub(super) fn with_cases(self, cases: Vec<Self>) -> Self {
-        Self { cases, ..self }
-    }
-
     /// The frequency of its drive in rad/s.
-    pub(super) fn frequency(&self) -> f64 {
+    pub(super) fn drive_frequency(&self) -> f64 {
         self.zone.frequency_at(self.place)
-    }
-
-    pub(super) fn judged(&self) -> Option<Judged<'_>> {
-        Judged::new(&self.machine, &self.zone, self.place, &self.orbit).ok()
     }
 
     /// True if margin, bounds of the frequency and tolerances allow the place.
     pub(super) fn is_within(&self, problem: &Problem, tolerated: Option<&BoxWindow>) -> bool {
         let window = problem.window_within(&self.zone, tolerated);
-        window.is_ok_and(|it| (it.low - ROUNDING..=it.high + ROUNDING).contains(&self.place))
+        window.is_ok_and(|it| it.contains(self.place))
     }
 
     /// How far the place is outside of what margin, bounds of the frequency and tolerances allow, and its motion from what is
     /// required of it, in all cases; none if they allow no place.
     pub(super) fn violation(&self, problem: &Problem) -> Option<f64> {
-        let window = problem.window(&self.machine, &self.zone).ok()?;
-        let away = (window.low - self.place).max(self.place - window.high);
-        let outside = if away > ROUNDING { away } else { 0.0 };
-        let own = outside + violation(&problem.met(&self.judged()?));
-        let cases = problem.in_cases();
-        let others = cases.iter().zip(&self.cases);
-        let others = others.map(|(case, point)| point.violation(case));
-        Some(own + others.sum::<Option<f64>>()?)
+        let of_point = |OperatingPoint {
+                            problem, design, ..
+                        }: &OperatingPoint<'_>| {
+            let window = problem.window(&design.machine, &design.zone).ok()?;
+            let away = (window.low - design.place).max(design.place - window.high);
+            let outside = if away > ROUNDING { away } else { 0.0 };
+            Some(outside + violation(&problem.met(&design.judged().ok()?)))
+        };
+        problem.points(self).iter().map(of_point).sum()
     }
 
     /// Where the tolerances stay inside the zone; none of that if all is exact.
@@ -100,14 +100,9 @@ impl OperatingPoint {
         BoxWindow::of(problem, &self.machine, &self.zone).ok()
     }
 
-    /// The machine, its drive at the motion's frequency.
-    pub(super) fn machine(&self) -> &Machine {
-        &self.machine
-    }
-
-    /// The design of this operating point, without cases, with this value of what is sought.
-    pub(super) fn design(&self, value: f64) -> Design {
-        Design {
+    /// The design without its cases, with this value of what is sought.
+    pub(super) fn alone(&self, value: f64) -> Self {
+        Self {
             machine: self.machine.clone(),
             place: self.place,
             zone: self.zone.clone(),
@@ -117,15 +112,29 @@ impl OperatingPoint {
         }
     }
 
-    /// The design of this operating point and its cases, with what their motions have of what is sought; none if one has no such figure.
-    pub(super) fn sought(&self, problem: &Problem) -> Option<Design> {
-        let value = problem.sought(&self.judged()?)?;
-        let cases = problem.in_cases();
-        let cases = cases.iter().zip(&self.cases);
-        let cases = cases.map(|(case, point)| point.sought(case));
-        Some(Design {
-            cases: cases.collect::<Option<_>>()?,
-            ..self.design(value)
-        })
+    /// The design with a value of what is sought in each operating point; none if one has none.
+    pub(super) fn with_values(
+        mut self,
+        problem: &Problem,
+        value: impl Fn(&OperatingPoint<'_>) -> Option<f64>,
+    ) -> Option<Self> {
+        let values = problem.points(&self);
+        let values = values.iter().map(value).collect::<Option<Vec<f64>>>()?;
+        self.set_values(values);
+        Some(self)
+    }
+
+    /// The design with what the own machine of each operating point has of what is sought; none if one has no such figure.
+    pub(super) fn with_own_values(self, problem: &Problem) -> Option<Self> {
+        self.with_values(problem, |it| it.problem.sought(&it.design.judged().ok()?))
+    }
+
+    /// Sets what is sought in each operating point.
+    pub(super) fn set_values(&mut self, values: impl IntoIterator<Item = f64>) {
+        let all = [&mut self.value].into_iter();
+        let all = all.chain(self.cases.iter_mut().map(|it| &mut it.value));
+        for (own, value) in all.zip(values) {
+            *own = value;
+        }
     }
 }

@@ -18,6 +18,8 @@ pub struct Pareto {
     pub nearest: usize,
     /// What became of the problems.
     pub tally: Tally,
+    /// Machines within the tolerances that were looked at about each design; none if all is exact or they were not looked at.
+    pub machines: Option<usize>,
 }
 
 impl Problem {
@@ -46,6 +48,7 @@ impl Pareto {
             points,
             nearest: 0,
             tally,
+            machines: None,
         };
         found.filter();
         Ok(found)

@@ -145,15 +145,20 @@ pub struct Objective {
 impl Default for Objective {
     /// The highest before-impact velocity.
     fn default() -> Self {
-        Self {
-            figure: Figure::Velocity,
-            sense: Sense::Least,
-            scope: Scope::Drawing,
-        }
+        Self::new(Figure::Velocity, Sense::Least)
     }
 }
 
 impl Objective {
+    /// As much of a figure of the drawing's machine as can be, or as little.
+    pub const fn new(figure: Figure, sense: Sense) -> Self {
+        Self {
+            figure,
+            sense,
+            scope: Scope::Drawing,
+        }
+    }
+
     /// The value of a grade.
     pub(super) fn value_of(&self, score: f64) -> f64 {
         // The reciprocal of a reciprocal.
@@ -228,6 +233,19 @@ impl Problem {
             changes: Vec::new(),
             drawing: None,
         }
+    }
+
+    /// Where the search may choose a parameter, the drive's frequency among them; none of one that it does not choose.
+    pub fn range_of(&self, parameter: Parameter) -> Option<Interval> {
+        let mut axes = self.axes.iter();
+        let axis = axes.find(|axis| axis.parameter == parameter);
+        let frequency = (parameter == Parameter::Frequency).then_some(self.frequency);
+        axis.map(|it| it.range).or(frequency)
+    }
+
+    /// The axes that are searched.
+    pub fn free_axes(&self) -> impl Iterator<Item = &Axis> {
+        self.axes.iter().filter(|axis| !axis.range.is_held())
     }
 
     /// The machine with these values of the axes.

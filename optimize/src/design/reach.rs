@@ -8,10 +8,10 @@ use softstop_dynamics::slopes::Border;
 use softstop_dynamics::spread::{Reached, ToleranceBox, along};
 use softstop_dynamics::zone::Loss;
 
+use super::Design;
 use super::box_window::Edge;
 use super::differences::differences;
 use super::exact::Linearization;
-use super::operating_point::OperatingPoint;
 use super::slope::Slope;
 use super::within::Rows;
 use crate::robust::{Tolerances, is_loss};
@@ -19,32 +19,10 @@ use crate::robust::{Tolerances, is_loss};
 /// Share of the box up to which a direction is followed.
 const FARTHEST: f64 = 1.25;
 
-/// Directions of the box of tolerances, to whose ends the motion has to go on, in coordinates of the box.
-#[derive(Debug, Clone, Default)]
-pub struct LossDirections {
-    /// Each of them.
-    pub directions: Vec<Vec<f64>>,
-}
-
-impl LossDirections {
-    /// Whether a motion goes on to the ends of all of them.
-    pub(super) fn are_reached(&self, spread: &Tolerances, here: &OperatingPoint) -> bool {
-        let share = |direction| end(spread, here, direction).map(|(share, _)| share);
-        let mut shares = self.directions.iter().map(|it| share(it));
-        shares.all(|share| share.is_some_and(|share| share >= 1.0))
-    }
-
-    /// How much of the tolerances more than all of them each direction takes until the motion is lost; none if one cannot be
-    /// computed.
-    pub(super) fn reserves(&self, about: Option<&Linearization<'_>>) -> Option<Vec<Slope>> {
-        let mut directions = self.directions.iter().peekable();
-        if directions.peek().is_none() {
-            return Some(Vec::new());
-        }
-        let about = about?;
-        let spread = about.problem.spread(about.point.machine())?;
-        directions.map(|it| reserve(about, &spread, it)).collect()
-    }
+/// Whether a motion goes on to the ends of some directions of the box of tolerances.
+pub(super) fn are_reached(directions: &[Vec<f64>], spread: &Tolerances, here: &Design) -> bool {
+    let mut shares = directions.iter().map(|it| end(spread, here, it));
+    shares.all(|end| end.is_some_and(|(share, _)| share >= 1.0))
 }
 
 /// How far inside an end of the zone the machine at its corner of the box is, as a share of the frequency.
@@ -52,7 +30,7 @@ pub(super) fn inside(about: &Linearization<'_>, edge: &Edge) -> Option<Slope> {
     let rows = Rows::at(about, &edge.corner)?;
     let scene = about
         .problem
-        .spread(about.point.machine())?
+        .spread(&about.point.machine)?
         .scene(&edge.corner);
     let (border, sign) = match &edge.fold {
         None => (Border::free(&scene, true, rows.parameters()).ok()?, 1.0),
@@ -73,7 +51,7 @@ pub(super) fn inside(about: &Linearization<'_>, edge: &Edge) -> Option<Slope> {
 /// Where the motion ends in a direction: at this share of it, by this.
 fn end(
     spread: &Tolerances,
-    here: &OperatingPoint,
+    here: &Design,
     direction: &[f64],
 ) -> Option<(f64, Option<(Loss, BranchPoint)>)> {
     let reached = along(spread, &here.orbit, direction, FARTHEST).ok()?;
@@ -107,8 +85,8 @@ pub(super) fn reserve(
         let end: Vec<f64> = direction.iter().map(|part| share * part).collect();
         by_normal(about, &spread.scene(&end), (&end, share), (test, point))
     });
-    let share = |point: &OperatingPoint| {
-        let spread = about.problem.spread(point.machine())?;
+    let share = |point: &Design| {
+        let spread = about.problem.spread(&point.machine)?;
         Some(vec![end(&spread, point, direction)?.0])
     };
     let differenced = || Some(differences(about.problem, about.at, &share)?.concat());

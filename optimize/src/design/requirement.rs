@@ -12,6 +12,14 @@ pub enum Scope {
     Drawing,
 }
 
+/// 1 for a figure of which more is better, -1 for one of which less is.
+pub(crate) fn sign(sense: Sense) -> f64 {
+    match sense {
+        Sense::Least => 1.0,
+        Sense::Most => -1.0,
+    }
+}
+
 /// Bounds of a figure, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Requirement {
@@ -29,6 +37,24 @@ pub struct Requirement {
 const ROUNDING: f64 = 1e-9;
 
 impl Requirement {
+    /// At least so much of a figure in all machines within the tolerances.
+    pub fn at_least(figure: Figure, least: f64) -> Self {
+        Self::new(figure, Some(least), None)
+    }
+
+    /// At most so much of a figure in all machines within the tolerances.
+    pub fn at_most(figure: Figure, most: f64) -> Self {
+        Self::new(figure, None, Some(most))
+    }
+
+    /// A bound of a figure on its good side.
+    pub(super) fn on_side(figure: Figure, side: Sense, bound: f64) -> Self {
+        match side {
+            Sense::Least => Self::at_least(figure, bound),
+            Sense::Most => Self::at_most(figure, bound),
+        }
+    }
+
     /// At least so much of a figure, or at most, in all machines within the tolerances.
     pub fn new(figure: Figure, least: Option<f64>, most: Option<f64>) -> Self {
         Self {

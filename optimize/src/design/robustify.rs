@@ -8,7 +8,7 @@ use softstop_explore::zone::lost_by;
 
 use super::ascent::ascend_from;
 use super::conflict::violated_within;
-use super::coordinates::Candidate;
+use super::coordinates::{Candidate, best_by};
 use super::critical::{CriticalMachines, Target};
 use super::figure::{Figure, Sense};
 use super::multipliers::held;
@@ -92,14 +92,14 @@ pub(super) fn enforce(
             false if is_stuck(problem, &candidate, &known) => {
                 let others = again(problem, &known, &candidate);
                 let better = others.filter(|it| score(it) > (1.0 + GAIN) * score(&candidate));
-                better.max_by(|a, b| score(a).total_cmp(&score(b)))
+                best_by(better, score)
             }
             false => None,
         };
         let Some(next) = next else { break };
         candidate = next;
     }
-    best.ok_or_else(|| lack.unwrap_or_else(untold))
+    best.ok_or_else(|| lack.unwrap_or_else(not_computed))
 }
 
 /// Whether nothing holds a design back: an end of the zone of all stable z = 1 may leap, and the place in it with that, where an
@@ -109,6 +109,7 @@ fn is_stuck(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> bool
 }
 
 /// What is seen of the machines about a design.
+#[derive(Default)]
 pub(super) struct Look {
     /// Whether something was not known.
     pub is_new: bool,
@@ -116,36 +117,46 @@ pub(super) struct Look {
     pub lack: Option<Infeasible>,
 }
 
+impl Look {
+    /// Takes note of what is lacking, if it is more than what is known.
+    fn note(&mut self, lack: Option<Infeasible>) {
+        let is_worse = |it: &Infeasible| self.lack.as_ref().is_none_or(|known| it.gap > known.gap);
+        self.lack = lack.filter(is_worse).or(self.lack.take());
+    }
+}
+
 /// Looks all around in every case, takes note of what was not known, and sets what is sought to that of the worst machine, if
 /// that counts.
 pub(super) fn look(problem: &Problem, design: &mut Design, known: &mut CriticalMachines) -> Look {
-    let mut seen = look_at_point(problem, design, known);
-    let cases = problem.in_cases();
-    let cases = cases.iter().zip(&mut design.cases).enumerate();
-    for (index, (case, design)) in cases {
-        let other = look_at_point(case, design, known.in_case_mut(index));
-        seen.is_new |= other.is_new;
-        let lack = other.lack.map(|it| it.in_case(&problem.cases[index]));
-        let is_worse = |it: &Infeasible| seen.lack.as_ref().is_none_or(|known| it.gap > known.gap);
-        if let Some(lack) = lack.filter(is_worse) {
-            seen.lack = Some(lack);
-        }
+    let mut seen = Look::default();
+    let mut values = Vec::new();
+    for it in problem.points(design) {
+        let (own, value) = look_at_point(&it.problem, it.design, known.at_mut(it.case));
+        seen.is_new |= own.is_new;
+        seen.note(own.lack.map(|lack| lack.in_point(problem, it.case)));
+        values.push(value);
     }
+    design.set_values(values);
     seen
 }
 
-/// Looks all around the operating point of a design, without its cases.
-fn look_at_point(problem: &Problem, design: &mut Design, known: &mut CriticalMachines) -> Look {
-    let kept = Look {
-        is_new: false,
-        lack: None,
-    };
+/// Looks all around the operating point of a design, without its cases: with the value of what is sought of the worst machine,
+/// if that counts.
+fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachines) -> (Look, f64) {
+    let mut value = design.value;
+    let mut seen = Look::default();
     let Some(spread) = problem.spread(&design.machine) else {
-        return kept;
+        return (seen, value);
     };
-    let unknown = |lack| Look {
-        is_new: false,
-        lack: Some(lack),
+    let unknown = |lack| {
+        let lack = Some(lack);
+        (
+            Look {
+                lack,
+                ..Look::default()
+            },
+            design.value,
+        )
     };
     let lost = match lost(&spread, design) {
         Ok(lost) => lost,
@@ -153,26 +164,23 @@ fn look_at_point(problem: &Problem, design: &mut Design, known: &mut CriticalMac
     };
     if let Some(first) = lost.first() {
         let lack = Some(lacking(first));
-        let directions = &mut known.losses.directions;
-        directions.extend(lost.into_iter().map(|it| it.direction));
-        return Look { is_new: true, lack };
+        known.losses.extend(lost.into_iter().map(|it| it.direction));
+        return (Look { is_new: true, lack }, value);
     }
     let targets = problem.targets();
     let all = match extremes(&spread, design, &targets) {
         Ok(all) => all,
         Err(error) => return unknown(error),
     };
-    let mut seen = kept;
     for ((target, ..), found) in targets.iter().zip(&all) {
         // What is worst in the drawing's machine is known anyway.
         let is_own = found.at.iter().all(|at| *at == 0.0);
         let is_new = !is_own && known.note(*target, &found.at);
         match target {
             Target::Objective => {
-                let score = |design: &Design| problem.objective.score(design.value);
-                let claimed = score(design);
-                design.value = problem.objective.worse(design.value, found.value);
-                let loss = claimed - score(design);
+                let claimed = problem.objective.score(value);
+                value = problem.objective.worse(value, found.value);
+                let loss = claimed - problem.objective.score(value);
                 seen.is_new |= is_new && loss > GAIN * claimed.abs();
             }
             Target::Bound(figure, _) => {
@@ -181,18 +189,15 @@ fn look_at_point(problem: &Problem, design: &mut Design, known: &mut CriticalMac
                 let broken = broken.filter(|it| it.margin(found.value) < 0.0);
                 if let Some(requirement) = broken {
                     seen.is_new |= is_new;
-                    let lack = Infeasible {
+                    seen.note(Some(Infeasible {
                         gap: requirement.violation(found.value),
                         reason: violated_within(&design.machine, requirement, found.value),
-                    };
-                    if seen.lack.as_ref().is_none_or(|it| lack.gap > it.gap) {
-                        seen.lack = Some(lack);
-                    }
+                    }));
                 }
             }
         }
     }
-    seen
+    (seen, value)
 }
 
 /// The worst machine of each target.
@@ -235,7 +240,7 @@ impl Problem {
     }
 }
 
-fn untold() -> Infeasible {
+fn not_computed() -> Infeasible {
     Infeasible::unknown("the machines within the tolerances could not be computed")
 }
 
@@ -267,13 +272,13 @@ fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<Lost>, Infeasible> {
         Manifold::Motion(loss) => Some((it.at, loss)),
         Manifold::Hysteresis => None,
     });
-    let mut told = told(nearest);
-    if told.is_empty() {
-        told = self::told(first_losses(spread, &design.orbit));
+    let mut all = losses_within(nearest);
+    if all.is_empty() {
+        all = losses_within(first_losses(spread, &design.orbit));
     }
-    told.sort_by(|a, b| a.share.total_cmp(&b.share));
-    told.truncate(MOST);
-    Ok(told)
+    all.sort_by(|a, b| a.share.total_cmp(&b.share));
+    all.truncate(MOST);
+    Ok(all)
 }
 
 /// What ends the motion where the box touches it, in words.
@@ -295,7 +300,7 @@ pub(super) fn touched(problem: &Problem, design: &Design) -> Option<String> {
 }
 
 /// What is lost at these places of the box, but at its border.
-fn told(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<Lost> {
+fn losses_within(all: impl IntoIterator<Item = (Vec<f64>, Loss)>) -> Vec<Lost> {
     let lost = all.into_iter().map(|(at, loss)| {
         let share = at
             .iter()

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use softstop_console::interrupt;
 use softstop_dynamics::monitor::Kept;
 
-use super::coordinates::Candidate;
+use super::coordinates::{Candidate, best_by};
 use super::figure::Figure;
 use super::front::{Front, Traded, front};
 use super::pareto::Pareto;
@@ -124,12 +124,8 @@ impl Solution {
                 break;
             }
             let traded = traded(problem, &found);
-            let score = |it: &Traded| it.better.as_ref().map(|it| problem.score(&it.design));
-            let best = traded.iter().max_by(|a, b| {
-                let [a, b] = [a, b].map(|it| score(it).unwrap_or(0.0));
-                a.total_cmp(&b)
-            });
-            let better = best.and_then(|it| it.better.clone());
+            let better = traded.iter().filter_map(|it| it.better.clone());
+            let better = best_by(better, |it| problem.score(&it.design));
             fronts = traded.into_iter().map(|it| it.front).collect();
             if !better.is_some_and(|better| go_on(&mut found, &better)) {
                 break;

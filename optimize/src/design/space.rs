@@ -13,6 +13,8 @@ pub enum End {
     Upper,
 }
 
+/// What rounding may do to a place in a zone.
+pub(super) const ROUNDING: f64 = 1e-12;
 /// Distance from an end of a range, as a share of it, that is none.
 const AT_END: f64 = 1e-9;
 /// Upper end of a range in units of the lower one from which on it is searched by the logarithm.
@@ -34,17 +36,24 @@ impl Interval {
         high: f64::INFINITY,
     };
 
+    /// From one end to the other.
+    pub const fn new(low: f64, high: f64) -> Self {
+        Self { low, high }
+    }
+
     /// A single value.
     pub const fn held(value: f64) -> Self {
-        Self {
-            low: value,
-            high: value,
-        }
+        Self::new(value, value)
     }
 
     /// Whether there is anything to search.
     pub fn is_held(&self) -> bool {
         self.low == self.high
+    }
+
+    /// Whether a value lies inside, up to rounding.
+    pub(super) fn contains(&self, value: f64) -> bool {
+        (self.low - ROUNDING..=self.high + ROUNDING).contains(&value)
     }
 
     /// The value at `unit` in [0, 1], both ends exact; what lies outside is pulled in.
@@ -95,10 +104,7 @@ impl Axis {
     /// The values of a catalogue, in rising order.
     pub fn of_catalogue(parameter: Parameter, catalogue: Vec<f64>) -> Self {
         let end = |value: Option<&f64>| value.copied().unwrap_or(f64::NAN);
-        let range = Interval {
-            low: end(catalogue.first()),
-            high: end(catalogue.last()),
-        };
+        let range = Interval::new(end(catalogue.first()), end(catalogue.last()));
         Self {
             parameter,
             range,
@@ -182,10 +188,7 @@ mod tests {
 
     #[test]
     fn held_axes_take_no_coordinate_and_ends_are_exact() {
-        let range = Interval {
-            low: 0.1,
-            high: 0.3,
-        };
+        let range = Interval::new(0.1, 0.3);
         let axes = [
             (Parameter::StopStiffness, Interval::held(7.0)),
             (Parameter::Clearance, range),

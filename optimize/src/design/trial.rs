@@ -55,19 +55,17 @@ impl Problem {
     /// # Errors
     /// [`SurveyError`] if a motion cannot be computed, or somebody asked to stop.
     pub fn tried(&self, design: &Design) -> Result<Vec<Met>, SurveyError> {
-        let corners = self.corners(design);
-        let tried = self.trials().map(|requirement| {
-            let own = self.tried_of(requirement, &design.orbit, FULL)?;
-            Ok::<Met, SurveyError>(Met {
-                within: self.tried_within(requirement, &corners)?,
-                ..own
-            })
-        });
-        let mut tried = tried.collect::<Result<Vec<Met>, SurveyError>>()?;
-        let cases = self.in_cases();
-        for (index, (case, design)) in cases.iter().zip(&design.cases).enumerate() {
-            let other = case.tried(design)?.into_iter();
-            tried.extend(other.map(|it| it.in_case(index)));
+        let mut tried = Vec::new();
+        for it in self.points(design) {
+            let corners = it.problem.corners(it.design);
+            for requirement in it.problem.trials() {
+                let own = it.problem.tried_of(requirement, &it.design.orbit, FULL)?;
+                tried.push(Met {
+                    case: it.case,
+                    within: it.problem.tried_within(requirement, &corners)?,
+                    ..own
+                });
+            }
         }
         Ok(tried)
     }
@@ -123,61 +121,21 @@ impl Problem {
         design: &Design,
         known: &mut CriticalMachines,
     ) -> Result<Vec<Met>, Infeasible> {
-        let mut all = self.pass_trials_at_point(design, known)?;
-        let cases = self.in_cases();
-        for (index, (case, design)) in cases.iter().zip(&design.cases).enumerate() {
-            let passed = case.pass_trials_at_point(design, known.in_case_mut(index));
-            let passed = passed.map_err(|lack| lack.in_case(&self.cases[index]))?;
-            all.extend(passed.into_iter().map(|it| it.in_case(index)));
-        }
-        Ok(all)
-    }
-
-    fn pass_trials_at_point(
-        &self,
-        design: &Design,
-        known: &mut CriticalMachines,
-    ) -> Result<Vec<Met>, Infeasible> {
-        let own = self
-            .trials()
-            .map(|it| self.tried_of(it, &design.orbit, FULL));
-        let own: Result<Vec<Met>, SurveyError> = own.collect();
-        let mut own = own.map_err(Infeasible::unknown)?;
-        let failed = own.iter().filter(|it| !it.is_met());
-        known.failed.extend(failed.map(|it| it.requirement.figure));
-        if !own.iter().all(Met::is_met) {
-            return Err(Infeasible {
-                gap: violation(&own),
-                reason: conflict(&design.machine, &own),
-            });
-        }
-        let corners = self.corners(design);
-        for met in &mut own {
-            let requirement = &met.requirement;
-            let within = self.tried_within(requirement, &corners);
-            met.within = within.map_err(Infeasible::unknown)?;
-            let mut within = met.within.iter();
-            if let Some(Within { worst, at }) = within.find(|it| !requirement.is_met(it.worst)) {
-                known.tried.push(at.clone());
-                known.failed.push(requirement.figure);
-                return Err(Infeasible {
-                    gap: requirement.violation(*worst),
-                    reason: violated_within(&design.machine, requirement, *worst),
-                });
-            }
-        }
-        Ok(own)
+        let points = self.points(design);
+        let passed = points.iter().map(|it| {
+            let passed = it.pass_trials(known.at_mut(it.case));
+            passed.map_err(|lack| lack.in_point(self, it.case))
+        });
+        Ok(passed.collect::<Result<Vec<_>, _>>()?.concat())
     }
 
     /// Whether a design meets the requirements that take many motions, in its own machine and in those within the tolerances that
     /// are known, in all cases.
     pub(super) fn passes(&self, design: &Design, known: &CriticalMachines, effort: Effort) -> bool {
-        let cases = self.in_cases();
-        let mut cases = cases.iter().zip(&design.cases).enumerate();
-        self.passes_at_point(design, &known.tried, effort)
-            && cases.all(|(index, (case, design))| {
-                case.passes_at_point(design, &known.in_case(index).tried, effort)
-            })
+        self.points(design).iter().all(|it| {
+            let known = &known.at(it.case).tried;
+            it.problem.passes_at_point(it.design, known, effort)
+        })
     }
 
     /// The machines within the tolerances that were met last come first: they most likely fail.
@@ -198,32 +156,20 @@ impl Problem {
 
     /// The least share of starts that lead to the motion of a design, of its own machine or of those within the tolerances that
     /// are known, in all cases, by the lower end of its interval; none if a motion is lost.
-    pub(super) fn least_certainty(
-        &self,
-        here: &OperatingPoint,
-        known: &CriticalMachines,
-    ) -> Option<f64> {
-        let own = self.least_certainty_at_point(here, &known.tried);
-        let cases = self.in_cases();
-        let cases = cases.iter().zip(&here.cases).enumerate();
-        let cases = cases.map(|(index, (case, point))| {
-            case.least_certainty_at_point(point, &known.in_case(index).tried)
-        });
-        cases.fold(own, |least, it| Some(least?.min(it?)))
-    }
-
-    fn least_certainty_at_point(&self, here: &OperatingPoint, others: &[Vec<f64>]) -> Option<f64> {
-        let (machine, orbit) = (here.machine(), &here.orbit);
-        let of = |orbit: &Orbit| Some(self.established(orbit, STARTS).ok()?.interval[0]);
-        let spread = self.spread(machine);
-        let others = others
-            .iter()
-            .take(if spread.is_some() { usize::MAX } else { 0 });
-        let neighbours = spread.as_ref().map(|it| Neighbours::new(it, orbit));
-        others.fold(of(orbit), |least, at| {
-            let other = of(&neighbours.as_ref()?.motion(at)?)?;
-            Some(least?.min(other))
-        })
+    pub(super) fn least_certainty(&self, design: &Design, known: &CriticalMachines) -> Option<f64> {
+        let share = |orbit: &Orbit| Some(self.established(orbit, STARTS).ok()?.interval[0]);
+        let mut least = f64::INFINITY;
+        for it in self.points(design) {
+            least = least.min(share(&it.design.orbit)?);
+            let Some(spread) = it.problem.spread(&it.design.machine) else {
+                continue;
+            };
+            let neighbours = Neighbours::new(&spread, &it.design.orbit);
+            for at in &known.at(it.case).tried {
+                least = least.min(share(&neighbours.motion(at)?)?);
+            }
+        }
+        Some(least)
     }
 
     /// The share of starts that must lead to a motion, if any.
@@ -239,12 +185,29 @@ impl Problem {
         orbit: &Orbit,
         effort: Effort,
     ) -> Result<Met, SurveyError> {
-        let (value, starts) = self.value_of_trial(requirement, orbit, effort)?;
-        Ok(Met {
-            value,
-            starts,
-            ..Met::of(*requirement)
-        })
+        let Effort { starts, angles } = effort;
+        let watcher = &interrupt::watch;
+        let mut met = Met::of(*requirement);
+        match requirement.figure {
+            Figure::Certainty => {
+                let starts = self.established(orbit, starts)?;
+                (met.value, met.starts) = (starts.share, Some(starts));
+            }
+            Figure::Integrity => {
+                let region = self.region(orbit)?;
+                let (starts, radius) = Establishment::with_ball(orbit, &region, starts, watcher)?;
+                (met.value, met.starts) = (radius, Some(starts));
+            }
+            Figure::RunUp => {
+                let runs = RunUp::of(orbit, &self.run_up, angles, watcher)?;
+                met.value = runs.works().count() as f64;
+            }
+            Figure::MissingStrips => {
+                met.value = f64::from(survived(requirement, orbit, angles)?);
+            }
+            _ => {}
+        }
+        Ok(met)
     }
 
     /// Whether it meets one: with few motions by what was counted, else by the lower end of its interval.
@@ -277,37 +240,49 @@ impl Problem {
         }
     }
 
-    /// What a motion has of a figure, and the starts that tell it.
-    fn value_of_trial(
-        &self,
-        requirement: &Requirement,
-        orbit: &Orbit,
-        Effort { starts, angles }: Effort,
-    ) -> Result<(f64, Option<Establishment>), SurveyError> {
-        let watcher = &interrupt::watch;
-        let value = match requirement.figure {
-            Figure::Certainty => {
-                let starts = self.established(orbit, starts)?;
-                return Ok((starts.share, Some(starts)));
-            }
-            Figure::Integrity => {
-                let region = self.region(orbit)?;
-                let (starts, radius) = Establishment::with_ball(orbit, &region, starts, watcher)?;
-                return Ok((radius, Some(starts)));
-            }
-            Figure::RunUp => {
-                let runs = RunUp::of(orbit, &self.run_up, angles, watcher)?;
-                runs.works().count() as f64
-            }
-            Figure::MissingStrips => f64::from(survived(requirement, orbit, angles)?),
-            _ => f64::NAN,
-        };
-        Ok((value, None))
-    }
-
     /// True if a motion must be tried.
     pub fn has_trials(&self) -> bool {
         self.trials().next().is_some()
+    }
+}
+
+impl OperatingPoint<'_> {
+    /// What it has of the requirements that take many motions, if it meets them.
+    fn pass_trials(&self, known: &mut CriticalMachines) -> Result<Vec<Met>, Infeasible> {
+        let (problem, design) = (&self.problem, self.design);
+        let own = problem.trials().map(|it| {
+            let met = problem.tried_of(it, &design.orbit, FULL)?;
+            Ok(Met {
+                case: self.case,
+                ..met
+            })
+        });
+        let own: Result<Vec<Met>, SurveyError> = own.collect();
+        let mut own = own.map_err(Infeasible::unknown)?;
+        let failed = own.iter().filter(|it| !it.is_met());
+        known.failed.extend(failed.map(|it| it.requirement.figure));
+        if !own.iter().all(Met::is_met) {
+            return Err(Infeasible {
+                gap: violation(&own),
+                reason: conflict(&design.machine, &own),
+            });
+        }
+        let corners = problem.corners(design);
+        for met in &mut own {
+            let requirement = &met.requirement;
+            let within = problem.tried_within(requirement, &corners);
+            met.within = within.map_err(Infeasible::unknown)?;
+            let mut within = met.within.iter();
+            if let Some(Within { worst, at }) = within.find(|it| !requirement.is_met(it.worst)) {
+                known.tried.push(at.clone());
+                known.failed.push(requirement.figure);
+                return Err(Infeasible {
+                    gap: requirement.violation(*worst),
+                    reason: violated_within(&design.machine, requirement, *worst),
+                });
+            }
+        }
+        Ok(own)
     }
 }
 

@@ -1,14 +1,12 @@
 //! How machines within the tolerances of a point of the search change with its coordinates.
 
-use softstop::{Parameter, Scene};
+use softstop::{Machine, Parameter};
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::spread::ToleranceBox;
 
+use super::differences::{difference, machine_differences};
 use super::exact::Linearization;
 use super::space::Space;
-
-const COUNT: usize = Parameter::ALL.len();
-type Values = [f64; COUNT];
 
 /// Changes by which parameters within the tolerances are differenced: of a coordinate of the search and of the frequency,
 /// relative, and of the share of a way. They are products of two of them at most.
@@ -17,9 +15,9 @@ const CHANGE: f64 = 1e-2;
 /// How the parameters of one machine of the tolerances change, in SI units.
 pub(super) struct Rows {
     /// With each coordinate of the search.
-    by: Vec<Values>,
+    by: Vec<Vec<f64>>,
     /// On the way out from the nominal machine.
-    outwards: Values,
+    outwards: Vec<f64>,
     /// Those that change at all, but the frequency.
     parameters: Vec<Parameter>,
 }
@@ -28,45 +26,32 @@ impl Rows {
     /// At some coordinates of the box of tolerances.
     pub(super) fn at(about: &Linearization<'_>, coordinates: &[f64]) -> Option<Self> {
         let Linearization { problem, at, .. } = about;
-        let values = Space(&problem.axes).values(at.unit);
         let frequency = about.point.orbit.scene.excitation.frequency;
-        let machine = |values: &[f64], frequency: f64, coordinates: &[f64]| {
-            let mut machine = problem.machine_at(values);
+        let values = |mut machine: Machine, frequency: f64, coordinates: &[f64]| {
             Parameter::Frequency.set(&mut machine.scene, frequency);
-            Some(told(&problem.spread(&machine)?.scene(coordinates)))
+            let scene = problem.spread(&machine)?.scene(coordinates);
+            let values = Parameter::ALL.iter();
+            let values = values.map(|it| it.get(&scene).unwrap_or(0.0));
+            Some(values.collect::<Vec<f64>>())
         };
-        let half = 1.0 / (2.0 * CHANGE);
-        let aside = |axis: usize| {
-            let rate = problem.axes[axis].rate(values[axis]);
-            let aside = |by: f64| {
-                let mut values = values.clone();
-                values[axis] += by * rate;
-                machine(&values, frequency, coordinates)
-            };
-            Some(difference(&aside(-CHANGE)?, &aside(CHANGE)?, half))
-        };
-        let [slower, faster] = [1.0 - CHANGE, 1.0 + CHANGE]
-            .map(|factor| machine(&values, factor * frequency, coordinates));
-        let by_frequency = difference(&slower?, &faster?, half / frequency);
-        let [inner, outer] = [1.0 - CHANGE, 1.0 + CHANGE].map(|factor| {
+        let own = |machine| values(machine, frequency, coordinates);
+        let mut by = machine_differences((problem, at), CHANGE, own)?;
+        by.extend(at.place.map(|_| vec![0.0; Parameter::ALL.len()]));
+        let nominal = || problem.machine_at(&Space(&problem.axes).values(at.unit));
+        let sides = [1.0 - CHANGE, 1.0 + CHANGE];
+        let [slower, faster] =
+            sides.map(|factor| values(nominal(), factor * frequency, coordinates));
+        let by_frequency = difference(&slower?, &faster?, 2.0 * CHANGE * frequency);
+        let [inner, outer] = sides.map(|factor| {
             let scaled: Vec<f64> = coordinates.iter().map(|it| factor * it).collect();
-            machine(&values, frequency, &scaled)
+            values(nominal(), frequency, &scaled)
         });
-        let free: Vec<usize> = (0..problem.axes.len())
-            .filter(|axis| !problem.axes[*axis].range.is_held())
-            .collect();
-        let own = at.moved.iter().map(|index| aside(free[*index]));
-        let place = at.place.map(|_| Some([0.0; COUNT]));
-        let by = own.chain(place).zip(&about.frequency);
-        let by: Option<Vec<Values>> = by
-            .map(|(row, frequency)| {
-                let row = row?;
-                Some(std::array::from_fn(|index| {
-                    row[index] + frequency * by_frequency[index]
-                }))
-            })
-            .collect();
-        let (by, outwards) = (by?, difference(&inner?, &outer?, half));
+        let outwards = difference(&inner?, &outer?, 2.0 * CHANGE);
+        for (row, frequency) in by.iter_mut().zip(&about.frequency) {
+            for (by, by_frequency) in row.iter_mut().zip(&by_frequency) {
+                *by += frequency * by_frequency;
+            }
+        }
         let changes = |parameter: &Parameter| {
             let index = *parameter as usize;
             let is_moved = by.iter().any(|row| row[index] != 0.0) || outwards[index] != 0.0;
@@ -87,7 +72,7 @@ impl Rows {
 
     /// Derivatives by some of the parameters as derivatives by the coordinates of the search.
     pub(super) fn chain(&self, parameters: &[Parameter], by: &[f64]) -> Vec<f64> {
-        let total = |row: &Values| {
+        let total = |row: &Vec<f64>| {
             let pairs = parameters.iter().zip(by);
             pairs
                 .map(|(parameter, by)| by * row[*parameter as usize])
@@ -99,19 +84,11 @@ impl Rows {
     /// How the machine's distance in frequency from a border changes with each coordinate of the search, and on the way
     /// outwards, in rad/s.
     pub(super) fn across(&self, border: &Border) -> (Vec<f64>, f64) {
-        let across = |row: &Values| {
+        let across = |row: &Vec<f64>| {
             let pairs = border.parameters.iter().zip(&border.normal);
             let others = pairs.map(|(parameter, normal)| normal * row[*parameter as usize]);
             others.sum::<f64>() + row[Parameter::Frequency as usize]
         };
         (self.by.iter().map(across).collect(), across(&self.outwards))
     }
-}
-
-fn told(scene: &Scene) -> Values {
-    Parameter::ALL.map(|parameter| parameter.get(scene).unwrap_or(0.0))
-}
-
-fn difference(before: &Values, after: &Values, factor: f64) -> Values {
-    std::array::from_fn(|index| factor * (after[index] - before[index]))
 }

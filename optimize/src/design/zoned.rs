@@ -4,10 +4,10 @@ use softstop::{Dimension, Machine};
 use softstop_dynamics::Zone;
 use softstop_dynamics::zone::ZoneError;
 
-use super::operating_point::{At, OperatingPoint};
+use super::operating_point::At;
 use super::problem::Problem;
 use super::space::{Interval, Space};
-use super::{Infeasible, distance_from_zones, finite_or};
+use super::{Design, Infeasible, distance_from_zones, finite_or};
 
 /// A machine with its zone.
 pub(super) struct Zoned<'a> {
@@ -18,13 +18,13 @@ pub(super) struct Zoned<'a> {
     pub cases: Vec<Zoned<'a>>,
 }
 
-impl OperatingPoint {
-    /// None if there is no stable motion.
+impl Design {
+    /// The motion at a point of the search, without the values of what is sought; none if there is no stable one.
     pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
         let cases = problem.in_cases();
         let zoned = Zoned::find(problem, &cases, &Space(&problem.axes).values(at.unit))?;
         let given = match &problem.drawing {
-            Some(drawing) => Self::find(drawing, at)?.frequency(),
+            Some(drawing) => Self::find(drawing, at)?.drive_frequency(),
             None => f64::NAN,
         };
         let place = at.place.filter(|_| !problem.has_given_frequency());
@@ -75,12 +75,15 @@ impl<'a> Zoned<'a> {
     }
 
     /// The motion at a place, and that of each case at the same frequency or its own; none if one is not stable.
-    pub fn at(&self, place: f64) -> Option<OperatingPoint> {
-        let own = OperatingPoint::on(self.machine.clone(), &self.zone, place)?;
-        let frequency = own.frequency();
+    pub fn at(&self, place: f64) -> Option<Design> {
+        let own = Design::on_zone(self.machine.clone(), &self.zone, place)?;
+        let frequency = own.drive_frequency();
         let cases = self.cases.iter();
         let cases = cases.map(|case| case.at(case.place_of(frequency)));
-        Some(own.with_cases(cases.collect::<Option<_>>()?))
+        Some(Design {
+            cases: cases.collect::<Option<_>>()?,
+            ..own
+        })
     }
 
     /// The places that margin, frequency bounds and tolerances leave of the zone and of those of its cases.

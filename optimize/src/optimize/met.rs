@@ -3,6 +3,7 @@
 use softstop_console::failure::Failure;
 
 use crate::design::judge::{Met, Within};
+use crate::design::operating_point::OperatingPoint;
 use crate::design::search::Found;
 use crate::design::{Design, Problem};
 use crate::robust::Worst;
@@ -10,11 +11,15 @@ use crate::robust::Worst;
 /// What a design has of all that is required, in its own machine and in the worst within the tolerances, in all cases.
 pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure> {
     let design = &found.design;
-    let mut met = of_motion(problem, design)?;
-    let cases = problem.in_cases();
-    for (index, (case, design)) in cases.iter().zip(&design.cases).enumerate() {
-        let of_case = of_motion(case, design)?.into_iter();
-        met.extend(of_case.map(|it| it.in_case(index)));
+    let mut met = Vec::new();
+    for OperatingPoint {
+        case,
+        problem,
+        design,
+    } in problem.points(design)
+    {
+        let own = of_motion(&problem, design)?.into_iter();
+        met.extend(own.map(|it| Met { case, ..it }));
     }
     met.extend(match found.tried.is_empty() {
         true => problem.tried(design).map_err(anyhow::Error::from)?,

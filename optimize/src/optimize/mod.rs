@@ -6,7 +6,7 @@ mod met;
 mod objective;
 mod older;
 pub mod outcome;
-pub mod pareto;
+mod pareto;
 mod progress;
 pub mod reference;
 mod require;
@@ -38,7 +38,7 @@ use softstop_explore::prove::{ProofReport, can_be_proven};
 use crate::design::Problem;
 use crate::fmu::{Standard, archive, library, parameters};
 use crate::page::figure::Figure;
-use crate::page::figures::{figures, pareto, response};
+use crate::page::figures::{self, figures, response};
 use crate::page::html;
 use crate::report::OptimizeReport;
 use outcome::Outcome;
@@ -209,19 +209,20 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         }
         outcome => outcome?,
     };
-    job.problem.deviations = outcome.deviations;
-    if let Some(mut front) = outcome.pareto.take() {
-        outcome.go_on(|_| front.look_at_machines(&job))?;
-        outcome.pareto = Some(front);
+    job.problem.deviations = outcome.solution.deviations;
+    if let Some(mut front) = outcome.solution.pareto.take() {
+        outcome.go_on(|_| pareto::look_at_machines(&job, &mut front))?;
+        outcome.solution.pareto = Some(front);
     }
     let looked = match outcome.go_on(|outcome| Looked::new(&job, outcome, true))? {
         Some(looked) => looked,
         None => Looked::new(&job, &outcome, false)?,
     };
     if let Some(study) = &looked.study {
-        outcome.note_violating(study.violating());
+        study.note_violating(&mut outcome.met);
     }
-    let start = Start::from(outcome.design.orbit.state());
+    let state = outcome.design().orbit.state();
+    let start = Start::from(state);
     let machine = Machine {
         start,
         ..named(&job.problem, &outcome)
@@ -233,7 +234,6 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let mut report = looked.report(&job, &outcome);
     // The files of a design are written even if its motion cannot be proven.
     let mut unproven = None;
-    let state = outcome.design.orbit.state();
     match arguments
         .prove
         .then(|| ProofReport::of_single(&machine, state))
@@ -296,15 +296,15 @@ struct Looked {
 impl Looked {
     /// Of an unfinished run only what takes no time.
     fn new(job: &Job, outcome: &Outcome, is_whole: bool) -> Result<Self, Failure> {
-        let (problem, design) = (&job.problem, &outcome.design);
+        let (problem, design) = (&job.problem, outcome.design());
         let references = reference::references(&problem.machine)?;
         let study = match is_whole {
             true => study::study(job, outcome)?,
             false => None,
         };
         let response = response(problem, design, &references, study.as_ref());
-        let front = outcome.pareto.as_ref();
-        let pareto = front.map(|it| pareto(problem, &it.pareto));
+        let front = outcome.solution.pareto.as_ref();
+        let pareto = front.map(|it| figures::pareto(problem, it));
         let figures = match is_whole && job.report {
             true => figures(problem, outcome, study.as_ref()),
             false => Vec::new(),
@@ -352,7 +352,7 @@ fn design_name(machine: &Machine) -> String {
 
 /// The design's machine under the name of a design.
 fn named(problem: &Problem, outcome: &Outcome) -> Machine {
-    let design = &outcome.design;
+    let design = outcome.design();
     let interrupted = outcome.interrupted.map(|it| format!(" ({})", it.words()));
     let words = problem.words();
     let zone = match problem.zone {

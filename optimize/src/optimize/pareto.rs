@@ -17,82 +17,55 @@ use crate::robust::{FITTED, Settings, Verdict, verify};
 const FEWEST_MACHINES: usize = 1 << 12;
 const SHOWING: f64 = 64.0;
 
-/// A front whose designs were judged anew.
-#[derive(Debug)]
-pub struct CheckedFront {
-    /// The designs, all as required.
-    pub pareto: Pareto,
-    /// Machines within the tolerances that were looked at about each; none if all is exact or they were not looked at.
-    pub machines: Option<usize>,
+/// Judges the designs of a front anew, and leaves out what is not as required. The first is the design of the report, which
+/// states what is met.
+pub(super) fn judge(problem: &Problem, front: &mut Pareto) {
+    let all = front.points.par_iter_mut().enumerate();
+    let is_kept = all.map(|(index, it)| {
+        let Ok(met) = met(problem, &it.found) else {
+            return false;
+        };
+        let has_box = || problem.has_box(&it.found.design).is_ok();
+        let is_whole = met.iter().all(Met::is_met) && has_box();
+        it.met = met;
+        is_whole || index == 0
+    });
+    let is_kept: Vec<bool> = is_kept.collect();
+    if !interrupt::requested() {
+        front.keep(&is_kept);
+    }
 }
 
-impl CheckedFront {
-    /// The designs of a front as they were found.
-    pub(super) const fn found(pareto: Pareto) -> Self {
-        Self {
-            pareto,
-            machines: None,
-        }
+/// Looks at machines all over the tolerances of each design of a front, together as many as about the design of the report; leaves
+/// out designs of which too many with normal tolerances violate a requirement.
+pub(super) fn look_at_machines(job: &Job, front: &mut Pareto) -> Result<(), Failure> {
+    let problem = job.problem.as_built();
+    let points = &mut front.points;
+    if job.samples == 0 || !problem.has_tolerances() || points.is_empty() {
+        return Ok(());
     }
-
-    /// Judges the designs of a front anew, and leaves out what is not as required. The first is the design of the report, which
-    /// states what is met.
-    pub(super) fn new(problem: &Problem, mut pareto: Pareto) -> Self {
-        let all = pareto.points.par_iter_mut().enumerate();
-        let is_kept = all.map(|(index, it)| {
-            let Ok(met) = met(problem, &it.found) else {
-                return false;
-            };
-            let has_box = || problem.has_box(&it.found.design).is_ok();
-            let is_whole = met.iter().all(Met::is_met) && has_box();
-            it.met = met;
-            is_whole || index == 0
+    let machines = machines_of_each(&problem, (job.samples, points.len()));
+    let settings = Settings::of_machines(machines);
+    let required = problem.required_of_each();
+    let progress = Progress::new((machines * points.len()) as u64, "machines of the front");
+    let mut is_kept = Vec::new();
+    for (index, point) in points.iter_mut().enumerate() {
+        let design = &point.found.design;
+        let verdict = problem.spread(&design.machine).and_then(|spread| {
+            let drawn = spread.over(FITTED);
+            let watcher = &progress.watcher();
+            verify(&drawn, &design.orbit, (settings, &required), watcher).ok()
         });
-        let is_kept: Vec<bool> = is_kept.collect();
-        match interrupt::requested() {
-            true => Self::found(pareto),
-            false => {
-                pareto.keep(&is_kept);
-                Self::found(pareto)
-            }
-        }
+        point.violating = verdict.as_ref().map(Verdict::rejected_share);
+        let most = verdict.map_or(1.0, |verdict| verdict.share_rejected()[1]);
+        is_kept.push(index == 0 || !problem.has_normal_tolerances() || most <= problem.violating);
     }
-
-    /// Looks at machines all over the tolerances of each design, together as many as about the design of the report; leaves out
-    /// designs of which too many with normal tolerances violate a requirement.
-    pub(super) fn look_at_machines(&mut self, job: &Job) -> Result<(), Failure> {
-        let problem = job.problem.as_built();
-        let points = &mut self.pareto.points;
-        if job.samples == 0 || !problem.has_tolerances() || points.is_empty() {
-            return Ok(());
-        }
-        let machines = machines_of_each(&problem, (job.samples, points.len()));
-        let settings = Settings {
-            machines,
-            ..Settings::default()
-        };
-        let required = problem.required_of_each();
-        let progress = Progress::new((machines * points.len()) as u64, "machines of the front");
-        let mut is_kept = Vec::new();
-        for (index, point) in points.iter_mut().enumerate() {
-            let design = &point.found.design;
-            let verdict = problem.spread(&design.machine).and_then(|spread| {
-                let drawn = spread.over(FITTED);
-                let watcher = &progress.watcher();
-                verify(&drawn, &design.orbit, (settings, &required), watcher).ok()
-            });
-            point.violating = verdict.as_ref().map(Verdict::rejected_share);
-            let most = verdict.map_or(1.0, |verdict| verdict.share_rejected()[1]);
-            is_kept
-                .push(index == 0 || !problem.has_normal_tolerances() || most <= problem.violating);
-        }
-        if interrupt::requested() {
-            return Err(Failure::Interrupted);
-        }
-        self.machines = Some(machines);
-        self.pareto.keep(&is_kept);
-        Ok(())
+    if interrupt::requested() {
+        return Err(Failure::Interrupted);
     }
+    front.machines = Some(machines);
+    front.keep(&is_kept);
+    Ok(())
 }
 
 /// Machines to look at about each design: of all together as many as about one, but enough of each to show the share that may

@@ -9,7 +9,7 @@ use softstop_dynamics::run_up::{RunUp, Settings};
 
 use super::met::met;
 use super::outcome::{Interrupted, Outcome, PLACES};
-use super::pareto::CheckedFront;
+use super::pareto;
 use super::progress::Best;
 use super::task::Job;
 use crate::design::Design;
@@ -35,7 +35,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let evaluations = best.evaluations();
     drop(best);
     let mut interrupted = None;
-    let solution = match outcome {
+    let mut solution = match outcome {
         Ok(solution) => solution,
         Err(SearchError::Stopped(Some(found))) => Solution {
             found: *found,
@@ -53,32 +53,23 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         interrupt::save();
         interrupted = Some(Interrupted::Search);
     }
-    let Solution {
-        found,
-        deviations,
-        is_settled: _,
-        relaxed,
-        fronts,
-        pareto,
-    } = solution;
-    let problem = &job.problem.with_deviations(deviations);
-    let mut met = met(problem, &found);
+    let problem = &job.problem.with_deviations(solution.deviations);
+    let mut met = met(problem, &solution.found);
     if interrupt::requested() {
         interrupt::save();
         interrupted.get_or_insert(Interrupted::Report);
-        met = self::met(problem, &found);
+        met = self::met(problem, &solution.found);
     }
     let met = met?;
     // Of an unfinished search nothing is written that is not as asked.
     let is_whole = |design: &Design| met.iter().all(Met::is_met) && problem.has_box(design).is_ok();
-    if interrupted == Some(Interrupted::Search) && !is_whole(&found.design) {
+    if interrupted == Some(Interrupted::Search) && !is_whole(&solution.found.design) {
         return Err(Failure::Interrupted);
     }
-    let pareto = pareto.map(|it| match interrupted {
-        None => CheckedFront::new(problem, it),
-        Some(_) => CheckedFront::found(it),
-    });
-    let design = &found.design;
+    if let (Some(front), None) = (&mut solution.pareto, interrupted) {
+        pareto::judge(problem, front);
+    }
+    let design = &solution.found.design;
     let watcher = &interrupt::watch;
     let is_required = met.iter().any(|it| it.requirement.figure == Figure::RunUp);
     let (erosion, run_up) = match interrupted.is_none() {
@@ -97,19 +88,11 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     };
     Ok(Outcome {
         met,
-        without_effect: found.without_effect(problem),
-        design: found.design,
-        deviations,
+        without_effect: solution.found.without_effect(problem),
+        solution,
         erosion,
         run_up,
-        fronts,
-        pareto,
-        relaxed,
-        limits: found.limits,
-        rivals: found.rivals,
         evaluations,
-        resolution: found.resolution,
-        ascents: found.ascents,
         interrupted,
     })
 }

@@ -7,10 +7,11 @@ use softstop_dynamics::Orbit;
 use softstop_dynamics::basin::wilson;
 use softstop_dynamics::orbit::OrbitError;
 
-use super::outcome::{Outcome, Violating};
+use super::outcome::Outcome;
 use super::task::Job;
 use crate::design::Design;
 use crate::design::figure::{Figure, Sense};
+use crate::design::judge::Met;
 use crate::design::problem::Problem;
 use crate::design::requirement::Requirement;
 use crate::robust::{
@@ -71,22 +72,20 @@ pub struct Without {
 }
 
 impl Study {
-    /// The share of the machines that violate each requirement, in the drawing's operating point and in each case.
-    pub(super) fn violating(&self) -> impl Iterator<Item = Violating> {
-        let cases = self.verdict.cases.iter().enumerate();
-        let cases = cases.map(|(index, it)| (Some(index), &it.violating));
-        let all = [(None, &self.verdict.violating)].into_iter().chain(cases);
-        let counts = all.flat_map(|(case, counts)| counts.iter().map(move |it| (case, *it)));
+    /// Takes note of the share of the machines that violate each requirement, and of its interval.
+    pub(super) fn note_violating(&self, all: &mut [Met]) {
         let machines = self.verdict.machines;
-        let required = self.required.iter().cycle();
-        required
-            .zip(counts)
-            .map(move |(requirement, (case, count))| Violating {
-                case,
-                requirement: *requirement,
-                share: count as f64 / machines as f64,
-                interval: self.statistics.map(|_| wilson(count, machines)),
-            })
+        for met in all {
+            let violating = match met.case {
+                None => &self.verdict.violating,
+                Some(index) => &self.verdict.cases[index].violating,
+            };
+            let mut counts = self.required.iter().zip(violating);
+            if let Some((_, count)) = counts.find(|(it, _)| **it == met.requirement) {
+                met.violating = Some(*count as f64 / machines as f64);
+                met.interval = self.statistics.map(|_| wilson(*count, machines));
+            }
+        }
     }
 
     /// The slowest impact in m/s that was found between the bounds: by steps down from the design, or seen.
@@ -104,7 +103,7 @@ const FEWER: usize = 1 << 11;
 
 /// Looks at machines all over the tolerances, without reserve; none if everything is exact.
 pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failure> {
-    let design = &outcome.design;
+    let design = outcome.design();
     let problem = job.problem.as_built();
     let spread = problem.spread(&design.machine);
     let Some(spread) = spread.filter(|_| job.samples > 0) else {
@@ -116,10 +115,7 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
     };
     let (nominal, watcher) = (&design.orbit, &interrupt::watch);
     let progress = Progress::new(job.samples as u64, "machines");
-    let settings = Settings {
-        machines: job.samples,
-        ..Settings::default()
-    };
+    let settings = Settings::of_machines(job.samples);
     let required = problem.required_of_each();
     let Some(drawn) = problem.drawn(design) else {
         return Ok(None);
@@ -162,6 +158,7 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
         )
         .map_err(stopped)?,
         without: outcome
+            .solution
             .relaxed
             .as_ref()
             .map(|it| without(&problem, it))
@@ -192,10 +189,7 @@ fn without(problem: &Problem, design: &Design) -> Result<Option<Without>, OrbitE
     let Some(spread) = problem.spread(&design.machine) else {
         return Ok(None);
     };
-    let settings = Settings {
-        machines: FEWER,
-        ..Settings::default()
-    };
+    let settings = Settings::of_machines(FEWER);
     let drawn = spread.over(FITTED);
     let verdict = verify(&drawn, &design.orbit, (settings, &[]), &interrupt::watch)?;
     // Steps down end wherever the motion is lost.

@@ -20,7 +20,7 @@ use toml::Table;
 
 use super::cases::{self, cases};
 use super::cost::cost;
-use super::objective::{Goal, objectives};
+use super::objective::objectives;
 use super::require::{RESERVE, Required, SHARE, requirements};
 use super::task_spec::{Motions, Search, TaskSpec};
 use super::title::{Source, Title};
@@ -28,6 +28,7 @@ use super::tolerance::tolerances;
 use super::vary::{Searched, held, searched, variables};
 use super::{OptimizeArguments, older};
 use crate::design::Problem;
+use crate::design::case::Case;
 use crate::design::conflict::short;
 use crate::design::cost::Cost;
 use crate::design::figure::Figure;
@@ -72,9 +73,13 @@ impl Job {
         let place = place(arguments, &task);
         let machine = machine(arguments, &task, place.clone())?;
         let sources = Source::all(arguments, place.as_deref())?;
-        of_machine(&machine, &task).map_err(located)?;
-        refuse_without_zone(&machine).map_err(located)?;
-        let tolerances = tolerances(&machine, &task.tolerance)?;
+        let Stated {
+            tolerances,
+            required,
+            objectives,
+            cost,
+            cases,
+        } = Stated::new(&machine, &task).map_err(located)?;
         let Required {
             figures: requirements,
             margin: share,
@@ -82,8 +87,8 @@ impl Job {
             run_up,
             violating,
             starts,
-        } = requirements(&machine, &task.objective, &task.require)?;
-        let Sought { objectives, cost } = Sought::new(&machine, &task.objective)?;
+        } = required;
+        refuse_without_zone(&machine).map_err(located)?;
         let (objective, traded) = (objectives[0], objectives[1..].to_vec());
         let is_exact = tolerances.iter().all(Tolerance::is_exact);
         if let (Some(tolerance), false) = (tolerances.first(), machine.scene.followers.is_empty()) {
@@ -105,7 +110,6 @@ impl Job {
             "in [0, 0.5]",
         )?;
         let searched = searched_by(arguments, &task, &machine)?;
-        let cases = cases(&machine, &task.case)?;
         cases::check((&machine, &cases), &searched, &tolerances).map_err(located)?;
         let Searched {
             axes,
@@ -200,22 +204,6 @@ impl Job {
     }
 }
 
-/// What a task seeks.
-struct Sought {
-    objectives: Vec<Objective>,
-    cost: Option<Cost>,
-}
-
-impl Sought {
-    fn new(machine: &Machine, goal: &Goal) -> Result<Self, Failure> {
-        let formula = goal.cost.as_ref();
-        Ok(Self {
-            objectives: objectives(machine, goal)?,
-            cost: formula.map(|text| cost(machine, text)).transpose()?,
-        })
-    }
-}
-
 /// Refuses what asks for machines within tolerances where there are none.
 fn has_tolerances(is_exact: bool, objective: &Objective, require: &Table) -> Result<(), Failure> {
     let stated = [
@@ -277,32 +265,55 @@ impl Job {
 /// [`Failure::Usage`] naming file, line, column, the key, its value and what is allowed.
 pub(super) fn check(machine: &Machine, path: &Path, text: &str) -> Result<(), Failure> {
     let task = TaskSpec::beside_machine(path, text)?.unwrap_or_default();
-    of_machine(machine, &task).map_err(|failure| failure.in_text(path, text))
+    let stated = Stated::new(machine, &task);
+    stated
+        .map(drop)
+        .map_err(|failure| failure.in_text(path, text))
 }
 
-/// Refuses a task that no search of a machine could take up.
-fn of_machine(machine: &Machine, task: &TaskSpec) -> Result<(), Failure> {
-    tolerances(machine, &task.tolerance)?;
-    requirements(machine, &task.objective, &task.require)?;
-    let sought = Sought::new(machine, &task.objective)?;
-    cases(machine, &task.case)?;
-    if !task.case.is_empty() && sought.objectives.len() > 1 {
-        return Err(Failure::usage(
-            "case: cannot be combined with a front of designs (lists under [objective])",
-        ));
+/// What a task states of a machine, each part checked by itself.
+struct Stated {
+    tolerances: Vec<Tolerance>,
+    required: Required,
+    objectives: Vec<Objective>,
+    cost: Option<Cost>,
+    cases: Vec<Case>,
+}
+
+impl Stated {
+    /// Reads a task.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] if no search of the machine could take it up.
+    fn new(machine: &Machine, task: &TaskSpec) -> Result<Self, Failure> {
+        let formula = task.objective.cost.as_ref();
+        let stated = Self {
+            tolerances: tolerances(machine, &task.tolerance)?,
+            required: requirements(machine, &task.objective, &task.require)?,
+            objectives: objectives(machine, &task.objective)?,
+            cost: formula.map(|text| cost(machine, text)).transpose()?,
+            cases: cases(machine, &task.case)?,
+        };
+        if !task.case.is_empty() && stated.objectives.len() > 1 {
+            return Err(Failure::usage(
+                "case: cannot be combined with a front of designs (lists under [objective])",
+            ));
+        }
+        let may_lack =
+            |it: &&Objective| matches!(it.figure, Figure::FrequencyG0 | Figure::FrequencySn);
+        if task.search.zone == Motions::SingleImpact
+            && let Some(it) = stated.objectives.iter().find(may_lack)
+        {
+            return Err(Failure::usage(format!(
+                "objective: {}: cannot be traded with search.zone = \"z = 1\": not all motions have a value; it goes to [require]",
+                it.figure.name()
+            )));
+        }
+        let searched = searched(machine, &[variables(&task.vary)?], false)?;
+        let mut axes = searched.axes.iter();
+        axes.try_for_each(|axis| has_effect(machine, axis))?;
+        Ok(stated)
     }
-    let may_lack = |it: &Objective| matches!(it.figure, Figure::FrequencyG0 | Figure::FrequencySn);
-    if task.search.zone == Motions::SingleImpact
-        && let Some(it) = sought.objectives.iter().find(|it| may_lack(it))
-    {
-        return Err(Failure::usage(format!(
-            "objective: {}: cannot be traded with search.zone = \"z = 1\": not all motions have a value; it goes to [require]",
-            it.figure.name()
-        )));
-    }
-    let searched = searched(machine, &[variables(&task.vary)?], false)?;
-    let mut axes = searched.axes.iter();
-    axes.try_for_each(|axis| has_effect(machine, axis))
 }
 
 /// What the command line says of searched values, over what the task says.

@@ -17,6 +17,19 @@ pub struct Estimate {
     pub error: f64,
 }
 
+impl Estimate {
+    /// The mean of values and its standard error.
+    pub(super) fn of(values: &[f64]) -> Self {
+        let count = values.len() as f64;
+        let value = values.iter().sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|one| (one - value).powi(2)).sum();
+        Self {
+            value,
+            error: (squares / (count - 1.0) / count).sqrt(),
+        }
+    }
+}
+
 /// What an input has to do with an output.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Index {
@@ -135,14 +148,8 @@ impl Index {
     /// From the estimates of all sequences.
     fn of(all: &[Vec<[f64; 2]>], input: usize) -> Self {
         let estimate = |which: usize| {
-            let values = || all.iter().map(|one| one[input][which]);
-            let count = all.len() as f64;
-            let value = values().sum::<f64>() / count;
-            let squares: f64 = values().map(|one| (one - value).powi(2)).sum();
-            Estimate {
-                value,
-                error: (squares / (count - 1.0) / count).sqrt(),
-            }
+            let values: Vec<f64> = all.iter().map(|one| one[input][which]).collect();
+            Estimate::of(&values)
         };
         Self {
             first: estimate(0),

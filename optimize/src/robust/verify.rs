@@ -12,6 +12,7 @@ use softstop_dynamics::spread::{MotionOutcome, PolynomialModel, Settled, Toleran
 use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;
+use super::indices::Estimate;
 use super::screen::Screen;
 use crate::design::requirement::Requirement;
 
@@ -39,6 +40,16 @@ impl Default for Settings {
             machines: 16 * BLOCK,
             enough: 1000,
             first: 0,
+        }
+    }
+}
+
+impl Settings {
+    /// So many machines, and no more than a thousand lost.
+    pub fn of_machines(machines: usize) -> Self {
+        Self {
+            machines,
+            ..Self::default()
         }
     }
 }
@@ -142,11 +153,8 @@ impl Verdict {
     fn figure(&self, of: impl Fn(&[f64]) -> Option<f64>) -> Option<(f64, Option<f64>)> {
         let whole = of(&self.velocities)?;
         let each: Vec<f64> = self.sequences.iter().filter_map(|one| of(one)).collect();
-        let count = each.len() as f64;
-        let mean = each.iter().sum::<f64>() / count;
-        let squares: f64 = each.iter().map(|one| (one - mean).powi(2)).sum();
-        let error = (squares / (count - 1.0) / count).sqrt();
-        Some((whole, (each.len() > 1).then_some(error)))
+        let error = (each.len() > 1).then(|| Estimate::of(&each).error);
+        Some((whole, error))
     }
 
     /// How many machines lie in each of so many equal ranges of the velocity.

@@ -11,6 +11,7 @@ use softstop_dynamics::spread::{ToleranceBox, in_coordinates, varied};
 use super::Tolerances;
 use super::corners::corners;
 use super::neighbours::Neighbours;
+use crate::design::requirement::sign;
 
 /// Steps towards the worst machine, and halvings of one.
 const STEPS: usize = 60;
@@ -59,7 +60,7 @@ pub fn worst(
             neighbours: &neighbours,
             figure: *figure,
             // What is worst is least.
-            sign: if *sense == Sense::Least { 1.0 } else { -1.0 },
+            sign: sign(*sense),
             watcher,
         };
         search.run(&corners)

@@ -24,17 +24,14 @@ fn problem(force: f64) -> Result<Problem, Box<dyn std::error::Error>> {
         distribution: Distribution::Normal(3.0 * cpk),
         ..Tolerance::new(parameter, Width::Share(share))
     };
-    let clearance = Interval {
-        low: 0.02,
-        high: 0.04,
-    };
+    let clearance = Interval::new(0.02, 0.04);
     Ok(Problem {
         tolerances: vec![
             normal(Parameter::Clearance, 0.01, 1.0),
             normal(Parameter::Damping, 0.1, 1.33),
             normal(Parameter::StopStiffness, 0.03, 1.0),
         ],
-        requirements: vec![Requirement::new(Figure::StopForce, None, Some(force))],
+        requirements: vec![Requirement::at_most(Figure::StopForce, force)],
         ..Problem::of(press()?, vec![Axis::new(Parameter::Clearance, clearance)])
     })
 }
@@ -65,10 +62,7 @@ fn the_share_that_is_reported_is_that_of_machines_by_chance() -> Outcome {
     let kept = problem.with_deviations(solution.deviations);
     let design = &solution.found.design;
     let spread = kept.spread(&design.machine).ok_or("tolerances")?;
-    let settings = robust::Settings {
-        machines: BESIDE.machines,
-        ..robust::Settings::default()
-    };
+    let settings = robust::Settings::of_machines(BESIDE.machines);
     let required = kept.required_of_each();
     let spread = spread.over(FITTED);
     let verdict = verify(&spread, &design.orbit, (settings, &required), &unmonitored)?;
@@ -124,11 +118,8 @@ fn the_share_beyond_one_bound_is_that_of_the_normal_distribution() -> Outcome {
     // A bound of the velocity at the velocity of the machine 1.5 standard deviations below.
     let nominal = softstop_dynamics::orbit::find(&machine.scene)?;
     let slow = Orbit::near(&spread.scene(&[-0.75]), nominal.state())?;
-    let bound = Requirement::new(Figure::Velocity, Some(slow.before_impact_velocity()), None);
-    let settings = robust::Settings {
-        machines: 1 << 16,
-        ..robust::Settings::default()
-    };
+    let bound = Requirement::at_least(Figure::Velocity, slow.before_impact_velocity());
+    let settings = robust::Settings::of_machines(1 << 16);
     let verdict = verify(
         &spread.over(FITTED),
         &nominal,
@@ -144,7 +135,7 @@ fn the_share_beyond_one_bound_is_that_of_the_normal_distribution() -> Outcome {
 #[test]
 fn a_share_that_no_design_has_is_refused() -> Outcome {
     let mut problem = problem(7e5)?;
-    problem.requirements = vec![Requirement::new(Figure::StopForce, None, Some(1e5))];
+    problem.requirements = vec![Requirement::at_most(Figure::StopForce, 1e5)];
     let found = Solution::of(&problem, FEW, BESIDE, (&Unwatched, None));
     assert!(
         matches!(found, Err(SearchError::NoDesign { .. })),

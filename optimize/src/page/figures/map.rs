@@ -7,7 +7,6 @@ use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::around;
 use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
-use softstop_dynamics::continuation::Test;
 use softstop_dynamics::{Zone, zone};
 
 use super::{half_width, velocity};
@@ -15,6 +14,7 @@ use crate::design::{Design, Problem, space};
 use crate::page::branches::Motions;
 use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles};
 use crate::page::words::quantity;
+use crate::placed;
 
 /// Maps at most.
 const MAPS: usize = 2;
@@ -39,7 +39,7 @@ const CORNERS: [(f64, f64); 5] = [
 
 /// A map for each of the first parameters that were searched.
 pub(super) fn maps(problem: &Problem, design: &Design) -> Vec<Figure> {
-    let axes = problem.axes.iter().filter(|axis| !axis.range.is_held());
+    let axes = problem.free_axes();
     let axes: Vec<&space::Axis> = axes.take(MAPS).collect();
     let size = if axes.len() == 1 { WIDE } else { HALF };
     let all = axes.iter().zip(1..);
@@ -70,14 +70,8 @@ fn map(
     let rows = zones.into_par_iter().map(|zone| {
         let zone = zone.ok()?;
         let motions = Motions::of(&zone);
-        Some((
-            [
-                Some(zone.frequency_g0).filter(|it| *it > 0.0 && it.is_finite()),
-                zone.high.is(Test::Fold).then_some(zone.high.frequency),
-                motions.flip,
-            ],
-            motions,
-        ))
+        let ends = [placed::grazing(&zone), placed::fold(&zone), motions.flip];
+        Some((ends, motions))
     });
     let rows: Vec<Option<([Option<f64>; 3], Motions)>> = rows.collect();
     let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);

@@ -26,13 +26,13 @@ pub use sketch::sketch;
 
 /// The pictures of what a run has found, but for the response.
 pub fn figures(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<Figure> {
-    let design = &outcome.design;
+    let design = outcome.design();
     let (maps, (motions, basin)) = join(
         || map::maps(problem, design),
         || join(|| portrait::motions(design), || basin::basin(design).ok()),
     );
     let erosion = outcome.erosion.iter();
-    let fronts = outcome.fronts.iter();
+    let fronts = outcome.solution.fronts.iter();
     let mut figures = maps;
     figures.push(sketch::sketch(&design.machine));
     figures.push(motion::motion(design, &motions));

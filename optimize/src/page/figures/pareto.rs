@@ -7,7 +7,7 @@ use crate::design::figure::Sense;
 use crate::design::pareto::Pareto;
 use crate::design::problem::Objective;
 use crate::page::figure::{Figure, HALF, Section, WIDE};
-use crate::pareto::told;
+use crate::pareto::format_tally;
 
 const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
 /// Height of a row of panels.
@@ -32,7 +32,7 @@ pub fn pareto(problem: &Problem, front: &Pareto) -> Figure {
         "Designs of which none is better in all that is sought, by their numbers; each is as required. Number 1 is the design of \
          this report, number {} is nearest to the best of each. {}",
         front.nearest + 1,
-        told(&front.tally)
+        format_tally(&front.tally)
     );
     let mut figure = Figure::new(
         Section::Cost,

@@ -42,7 +42,7 @@ pub fn response(
     study: Option<&Study>,
 ) -> Figure {
     let machine = &design.machine;
-    let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
+    let own = |frequency: f64| design.own_frequency(frequency);
     let motions = Motions::of(&design.zone);
     let corners = study.map_or_else(Vec::new, |it| corners(machine, it));
     let bands = bands(problem, &corners);
@@ -75,8 +75,8 @@ pub fn response(
         Layer::band(band, style::OPTIMUM, BAND).named("within the tolerances")
     }));
     let ends = [
-        ("g₀", placed::grazing(design)),
-        ("s_SN", placed::fold(design)),
+        ("g₀", placed::grazing(&design.zone)),
+        ("s_SN", placed::fold(&design.zone)),
         ("s_PD", motions.flip),
         ("end of the zone", ends_otherwise(&design.zone.high)),
     ];
