@@ -6,20 +6,27 @@ use softstop::Start;
 use softstop::internals::budget;
 use softstop_lanes::{BatchObserver, Job, Machine, Outcome};
 
-/// Follows all jobs on this thread; none if they were stopped on the way.
+/// Follows motions on this thread, each of the machine with this number from a state for so many drive periods; none if
+/// they were stopped on the way.
 pub(crate) fn follow<W: BatchObserver>(
     machines: &[Machine],
-    jobs: &[Job],
+    motions: impl IntoIterator<Item = (usize, Start, u64)>,
     watch: &mut W,
     ask: impl FnMut() -> ControlFlow<()>,
 ) -> Option<Vec<Outcome>> {
+    let job = |(machine, start, periods)| Job {
+        machine,
+        start,
+        periods,
+    };
+    let jobs: Vec<Job> = motions.into_iter().map(job).collect();
     let mut asking = Asking {
         watch,
         ask,
         answer: ControlFlow::Continue(()),
         left: budget::left(),
     };
-    let outcomes = softstop_lanes::run(machines, jobs, &mut asking);
+    let outcomes = softstop_lanes::run(machines, &jobs, &mut asking);
     budget::charge(BATCH_COST + outcomes.len() as u64);
     asking.answer.is_continue().then_some(outcomes)
 }

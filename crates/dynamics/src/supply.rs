@@ -7,10 +7,9 @@ use std::sync::Arc as Shared;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::attractors::SurveyError;
 use crate::basin::{BasinTest, TestResult, TestedMotion};
 use crate::monitor::{Monitor, stop_if};
-use crate::orbit::Orbit;
+use crate::orbit::{Orbit, OrbitError};
 pub use crate::stroke_count::StrokeCount;
 use softstop::internals::{Motion, Phases};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Piercing, Scene};
@@ -91,14 +90,14 @@ const RUNS_TOGETHER: usize = 256;
 /// with them. Whether it comes back each time, and what it misses. Without a strip in the scene nothing is missing.
 ///
 /// # Errors
-/// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
+/// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::Stopped`].
 pub fn survives_missing_strips(
     orbit: &Orbit,
     missing: u32,
     reading: Reading,
     angles: usize,
     monitor: Monitor<'_>,
-) -> Result<StripSurvival, SurveyError> {
+) -> Result<StripSurvival, OrbitError> {
     let basin_test = BasinTest::of(orbit)?;
     let line = Line::new(&orbit.scene, reading)?;
     let (turn, angles) = (TAU * orbit.periods as f64, angles.max(1));
@@ -107,7 +106,7 @@ pub fn survives_missing_strips(
         .collect();
     let gaps = angles
         .par_chunks(RUNS_TOGETHER)
-        .map(|angles| -> Result<_, SurveyError> {
+        .map(|angles| -> Result<_, OrbitError> {
             let (mut machines, mut motions, mut starts) = (Vec::new(), Vec::new(), Vec::new());
             for (machine, turned) in angles.iter().enumerate() {
                 let run = line.run(orbit, *turned, missing)?;
@@ -136,7 +135,7 @@ pub fn survives_missing_strips(
     Ok(StripSurvival {
         missing,
         gaps: gaps
-            .collect::<Result<Vec<Vec<Gap>>, SurveyError>>()?
+            .collect::<Result<Vec<Vec<Gap>>, OrbitError>>()?
             .concat(),
     })
 }

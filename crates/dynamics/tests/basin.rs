@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
-use softstop_dynamics::attractors::SurveyError;
 use softstop_dynamics::basin::{BasinOptions, BasinsAt, basins, establishing, follow_attractors};
 use softstop_dynamics::monitor::{stop_if, unmonitored};
+use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{assert_near, is_near, loaded, rigid_stop, unloaded, with_changes};
@@ -209,7 +209,7 @@ fn it_stops_when_told() {
         },
         None,
     );
-    assert_eq!(stopped, Err(SurveyError::Stopped));
+    assert_eq!(stopped, Err(OrbitError::Stopped));
 }
 
 #[test]

@@ -4,8 +4,9 @@
 use rayon::prelude::*;
 use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
-use softstop_dynamics::attractors::{Region, SurveyError, starting_box};
+use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::Establishment;
+use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::run_up::RunUp;
 use softstop_dynamics::supply::{Reading, survives_missing_strips};
 
@@ -53,8 +54,8 @@ impl Problem {
     /// What a design has of the requirements that take many motions, at the corners of the tolerances and in all cases too.
     ///
     /// # Errors
-    /// [`SurveyError`] if a motion cannot be computed, or somebody asked to stop.
-    pub fn tried(&self, design: &Design) -> Result<Vec<Met>, SurveyError> {
+    /// [`OrbitError`] if a motion cannot be computed, or somebody asked to stop.
+    pub fn tried(&self, design: &Design) -> Result<Vec<Met>, OrbitError> {
         let mut tried = Vec::new();
         for it in self.points(design) {
             let corners = it.problem.corners(it.design);
@@ -90,7 +91,7 @@ impl Problem {
         &self,
         requirement: &Requirement,
         corners: &[(Vec<f64>, Option<Orbit>)],
-    ) -> Result<Option<Within>, SurveyError> {
+    ) -> Result<Option<Within>, OrbitError> {
         if requirement.scope == Scope::Drawing {
             return Ok(None);
         }
@@ -101,7 +102,7 @@ impl Problem {
             let at = at.clone();
             Ok(Within { worst, at })
         });
-        let each: Result<Vec<Within>, SurveyError> = each.collect();
+        let each: Result<Vec<Within>, OrbitError> = each.collect();
         let lacking = |it: &Within| -requirement.violation(it.worst);
         let margin = |it: &Within| requirement.margin(it.worst);
         let order = |a: &Within, b: &Within| {
@@ -184,7 +185,7 @@ impl Problem {
         requirement: &Requirement,
         orbit: &Orbit,
         effort: Effort,
-    ) -> Result<Met, SurveyError> {
+    ) -> Result<Met, OrbitError> {
         let Effort { starts, angles } = effort;
         let watcher = &interrupt::watch;
         let mut met = Met::of(*requirement);
@@ -227,13 +228,13 @@ impl Problem {
         &self,
         orbit: &Orbit,
         starts: usize,
-    ) -> Result<Establishment, SurveyError> {
+    ) -> Result<Establishment, OrbitError> {
         let region = self.region(orbit)?;
         Establishment::within(orbit, &region, starts, &interrupt::watch)
     }
 
     /// The box of starts: what the task states of it, before a rigid stop, or that of all commands.
-    fn region(&self, orbit: &Orbit) -> Result<Region, SurveyError> {
+    fn region(&self, orbit: &Orbit) -> Result<Region, OrbitError> {
         match &self.starts {
             Some(region) => Ok(region.before(&orbit.scene)),
             None => starting_box(&orbit.scene, &interrupt::watch),
@@ -257,7 +258,7 @@ impl OperatingPoint<'_> {
                 ..met
             })
         });
-        let own: Result<Vec<Met>, SurveyError> = own.collect();
+        let own: Result<Vec<Met>, OrbitError> = own.collect();
         let mut own = own.map_err(Infeasible::unknown)?;
         let failed = own.iter().filter(|it| !it.is_met());
         known.failed.extend(failed.map(|it| it.requirement.figure));
@@ -287,7 +288,7 @@ impl OperatingPoint<'_> {
 }
 
 /// Strips in a row that may be missing, as many as are asked for at most.
-fn survived(requirement: &Requirement, orbit: &Orbit, angles: usize) -> Result<u32, SurveyError> {
+fn survived(requirement: &Requirement, orbit: &Orbit, angles: usize) -> Result<u32, OrbitError> {
     let most = requirement.least.unwrap_or(0.0) as u32;
     for missing in 1..=most {
         let gaps =

@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::{Certainty, SurveyError};
+use super::Certainty;
 use crate::orbit::recurrence::{distance, returns, size};
-use crate::orbit::{Orbit, StroboscopicMap};
+use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use softstop::{Scene, Start};
 
 /// Distance from an orbit at which a motion has arrived, in units of the orbit's size.
@@ -92,7 +92,7 @@ impl<'a> AttractorCatalogue<'a> {
     }
 
     /// How it stands with a motion whose last states are these; what it turns up is entered.
-    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Status, SurveyError> {
+    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Status, OrbitError> {
         let Some(last) = log.last() else {
             return Ok(Status::Wandering);
         };
@@ -124,7 +124,7 @@ impl<'a> AttractorCatalogue<'a> {
 
     /// True if a mass is held where it is for all of a drive period, or creeps there ever more slowly: not one
     /// orbit among others, but any place where dry friction holds it.
-    fn is_at_rest(&self, state: &Start) -> Result<bool, SurveyError> {
+    fn is_at_rest(&self, state: &Start) -> Result<bool, OrbitError> {
         let map = StroboscopicMap::new(self.scene, 1)?;
         let passage = map.apply((*state).into())?;
         let held = Matrix2::new(1.0, 0.0, 0.0, 0.0);
@@ -154,7 +154,7 @@ impl<'a> AttractorCatalogue<'a> {
     }
 
     /// Enters a stable orbit, unless it is known.
-    fn enter(&mut self, orbit: Orbit, returned: f64) -> Result<usize, SurveyError> {
+    fn enter(&mut self, orbit: Orbit, returned: f64) -> Result<usize, OrbitError> {
         let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
         if let Some(index) = self.twin(orbit.periods, &states) {
             return Ok(index);

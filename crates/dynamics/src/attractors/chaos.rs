@@ -1,9 +1,8 @@
 //! What a chaotic motion is like.
 
-use super::SurveyError;
 use super::ensemble::Ensemble;
 use crate::extremes::extremes;
-use crate::orbit::{Exponents, StroboscopicMap};
+use crate::orbit::{Exponents, OrbitError, StroboscopicMap};
 use softstop::{Scene, Start};
 
 /// A motion that never repeats, as far as it was watched.
@@ -37,7 +36,7 @@ impl Chaos {
         ensemble: &Ensemble<'_>,
         (begin, state): (Start, Start),
         exponents: Exponents,
-    ) -> Result<Self, SurveyError> {
+    ) -> Result<Self, OrbitError> {
         let counted = COUNTED.min(exponents.periods);
         let map = StroboscopicMap::new(scene, counted)?;
         let impacts = map.apply(begin.into())?.impacts;

@@ -5,12 +5,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use super::SurveyError;
 use crate::batch::follow;
 use crate::monitor::{Monitor, stop_if};
+use crate::orbit::OrbitError;
 use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Scene, Start};
-use softstop_lanes::{BatchObserver, Job, Machine};
+use softstop_lanes::{BatchObserver, Machine};
 
 /// Motions that one thread follows at a time: several times as many as there are lanes.
 const MEMBERS_AT_ONCE: usize = 64;
@@ -50,7 +50,7 @@ pub(crate) struct Ensemble<'a> {
 }
 
 impl<'a> Ensemble<'a> {
-    pub(crate) fn new(scene: &Scene, monitor: Monitor<'a>) -> Result<Self, SurveyError> {
+    pub(crate) fn new(scene: &Scene, monitor: Monitor<'a>) -> Result<Self, OrbitError> {
         Ok(Self {
             machine: [Machine::new(scene)?],
             monitor,
@@ -74,11 +74,11 @@ impl<'a> Ensemble<'a> {
     }
 
     /// Counts work; an error if the monitor wants to stop, or the budget is spent.
-    pub(crate) fn note(&self, periods: u64) -> Result<(), SurveyError> {
+    pub(crate) fn note(&self, periods: u64) -> Result<(), OrbitError> {
         let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
         match (self.monitor)(done, self.planned.max(done)) {
             ControlFlow::Continue(()) if !budget::is_spent() => Ok(()),
-            _ => Err(SurveyError::Stopped),
+            _ => Err(OrbitError::Stopped),
         }
     }
 
@@ -88,7 +88,7 @@ impl<'a> Ensemble<'a> {
         members: &mut [&mut EnsembleMember],
         periods: u64,
         logged: usize,
-    ) -> Result<(), SurveyError> {
+    ) -> Result<(), OrbitError> {
         let fork = Fork::default();
         let chunks = members.par_chunks_mut(MEMBERS_AT_ONCE);
         let sailed = chunks
@@ -103,7 +103,7 @@ impl<'a> Ensemble<'a> {
         members: &mut [&mut EnsembleMember],
         periods: u64,
         logged: usize,
-    ) -> Result<(), SurveyError> {
+    ) -> Result<(), OrbitError> {
         let stretch = if self.is_fast() {
             PERIODS_AT_ONCE.0
         } else {
@@ -130,21 +130,19 @@ impl<'a> Ensemble<'a> {
         members: &mut [&mut EnsembleMember],
         periods: u64,
         watch: &mut impl BatchObserver,
-    ) -> Result<(), SurveyError> {
-        let job = |member: &&mut EnsembleMember| Job {
-            machine: 0,
-            start: member.state,
-            periods: if member.error.is_none() { periods } else { 0 },
-        };
-        let jobs: Vec<Job> = members.iter().map(job).collect();
+    ) -> Result<(), OrbitError> {
+        let open = members.iter().filter(|member| member.error.is_none());
+        let all = periods * open.count() as u64;
+        let lasts = |member: &EnsembleMember| if member.error.is_none() { periods } else { 0 };
+        let motions = members.iter().map(|it| (0, it.state, lasts(it)));
         let ask = || stop_if(self.note(0).is_err());
-        let outcomes = follow(&self.machine, &jobs, watch, ask).ok_or(SurveyError::Stopped)?;
+        let outcomes = follow(&self.machine, motions, watch, ask).ok_or(OrbitError::Stopped)?;
         let open = members.iter_mut().zip(outcomes);
         for (member, outcome) in open.filter(|(member, _)| member.error.is_none()) {
             member.state = outcome.end;
             member.error = outcome.error;
         }
-        self.note(jobs.iter().map(|job| job.periods).sum())
+        self.note(all)
     }
 }
 

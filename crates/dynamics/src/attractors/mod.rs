@@ -20,11 +20,9 @@ pub(crate) use search::stays;
 pub use search::{attractors, classify, settle, starting_box};
 pub use starts::Region;
 
-use thiserror::Error;
-
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
-use softstop::{MotionError, SceneError, Start};
+use softstop::{MotionError, Start};
 
 /// How certain a periodic motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,24 +104,6 @@ impl Default for SearchOptions {
             patience: 4_000_000,
             region: None,
         }
-    }
-}
-
-/// Why there is no survey.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum SurveyError {
-    /// The monitor asked to stop.
-    #[error("the search for motions was stopped")]
-    Stopped,
-    /// The scene is invalid, or a start cannot be.
-    #[error(transparent)]
-    Motion(#[from] MotionError),
-}
-
-impl From<SceneError> for SurveyError {
-    fn from(error: SceneError) -> Self {
-        Self::Motion(error.into())
     }
 }
 

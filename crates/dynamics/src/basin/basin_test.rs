@@ -6,17 +6,16 @@ use rayon::prelude::*;
 
 use super::ball::ContractionBall;
 use super::section::at_section;
-use crate::attractors::SurveyError;
 use crate::batch::follow;
 use crate::monitor::Monitor;
-use crate::orbit::Orbit;
 use crate::orbit::recurrence::{distance, size};
+use crate::orbit::{Orbit, OrbitError};
 use crate::stroke_count::StrokeCount;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
 use softstop::internals::budget::Fork;
 use softstop::{Excitation, MotionError, Scene, Start};
-use softstop_lanes::{BatchObserver, Job, Machine};
+use softstop_lanes::{BatchObserver, Machine};
 
 /// Motions that go together: enough for all lanes to be busy. It may not depend on how many threads there are.
 const MOTIONS_TOGETHER: usize = 512;
@@ -106,12 +105,8 @@ impl BasinTest {
     /// does not. The same for any number of threads. The monitor is not told how much is done.
     ///
     /// # Errors
-    /// [`SurveyError::Stopped`].
-    pub fn reached(
-        &self,
-        starts: &[Start],
-        monitor: Monitor<'_>,
-    ) -> Result<Vec<bool>, SurveyError> {
+    /// [`OrbitError::Stopped`].
+    pub fn reached(&self, starts: &[Start], monitor: Monitor<'_>) -> Result<Vec<bool>, OrbitError> {
         let motion = |state: &Start| TestedMotion {
             machine: 0,
             angle: self.drive.phase,
@@ -125,7 +120,7 @@ impl BasinTest {
         };
         let (fork, chunks) = (Fork::default(), starts.par_chunks(MOTIONS_TOGETHER));
         let chunks = chunks.map(|starts| fork.part(|| follow_motions(starts)));
-        let chunks = chunks.collect::<Result<Vec<_>, SurveyError>>();
+        let chunks = chunks.collect::<Result<Vec<_>, OrbitError>>();
         fork.join();
         Ok(chunks?
             .concat()
@@ -141,28 +136,23 @@ impl BasinTest {
         machines: &[Machine],
         mut motions: Vec<TestedMotion>,
         monitor: Monitor<'_>,
-    ) -> Result<Vec<TestResult>, SurveyError> {
+    ) -> Result<Vec<TestResult>, OrbitError> {
         let period = TAU / self.drive.frequency;
         let mut reached = vec![false; motions.len()];
         let mut left: Vec<usize> = (0..motions.len()).collect();
         let mut periods = 0;
         while !left.is_empty() && periods < self.patience {
-            if monitor(0, 0).is_break() {
-                return Err(SurveyError::Stopped);
-            }
-            let job = |motion: &usize| Job {
-                machine: motions[*motion].machine,
-                start: motions[*motion].state,
-                periods: PERIODS_AT_ONCE,
-            };
-            let jobs: Vec<Job> = left.iter().map(job).collect();
+            OrbitError::ask(monitor)?;
+            let open = left.iter().map(|motion| &motions[*motion]);
+            let open = open.map(|it| (it.machine, it.state, PERIODS_AT_ONCE));
+            let open: Vec<_> = open.collect();
             let mut counter = Counter::<COUNTS> {
                 period,
                 motions: &mut motions,
                 open: &left,
             };
-            let outcomes = follow(machines, &jobs, &mut counter, || monitor(0, 0));
-            let outcomes = outcomes.ok_or(SurveyError::Stopped)?;
+            let outcomes = follow(machines, open, &mut counter, || monitor(0, 0));
+            let outcomes = outcomes.ok_or(OrbitError::Stopped)?;
             periods += PERIODS_AT_ONCE;
             let ends = left.into_iter().zip(outcomes);
             left = ends

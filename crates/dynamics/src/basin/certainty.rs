@@ -1,9 +1,6 @@
 //! How certainly the z = 1 motion establishes itself along the hysteresis zone.
 
-use thiserror::Error;
-
 use super::{BasinOptions, Basins, Grid, basins};
-use crate::attractors::SurveyError;
 use crate::monitor::{Kept, Monitor};
 use crate::orbit::Regime;
 use crate::zone::{Zone, ZoneError};
@@ -24,25 +21,13 @@ pub struct Establishing {
     pub basins: Basins,
 }
 
-/// Why there is no establishing certainty.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum CertaintyError {
-    /// A place outside the zone.
-    #[error(transparent)]
-    Zone(#[from] ZoneError),
-    /// Basins that could not be computed.
-    #[error(transparent)]
-    BasinSurvey(#[from] SurveyError),
-}
-
 /// The establishing certainty of z = 1 at places s of a hysteresis zone (Peterka 2003, section 3: it is said to
 /// rise from 0 at s_SN to 1 at g0): the share of the initial states of a grid that lead to it, or to any of several
 /// z = 1 motions, a weak and a strong one say. The monitor is
 /// told of the cells done at all places.
 ///
 /// # Errors
-/// [`CertaintyError`] if a place lies outside the zone, the basins cannot be computed or the monitor says stop.
+/// [`ZoneError`] if a place lies outside the zone, the basins cannot be computed or the monitor says stop.
 pub fn establishing(
     zone: &Zone,
     places: &[f64],
@@ -50,11 +35,11 @@ pub fn establishing(
     options: &BasinOptions,
     monitor: Monitor<'_>,
     kept: Kept<'_>,
-) -> Result<Vec<Establishing>, CertaintyError> {
+) -> Result<Vec<Establishing>, ZoneError> {
     let each = grid.cells() as u64;
     let at = |(index, place): (usize, &f64)| {
         if !(0.0..=1.0).contains(place) {
-            return Err(ZoneError::Outside { share: *place }.into());
+            return Err(ZoneError::Outside { share: *place });
         }
         let before = each * index as u64;
         let all = each * places.len() as u64;

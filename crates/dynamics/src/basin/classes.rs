@@ -2,13 +2,12 @@
 
 use super::survey::{BasinSurvey, CellOutcome};
 use super::{Basins, Class, wilson};
-use crate::attractors::SurveyError;
 use crate::motion::MotionKind;
-use crate::orbit::{BATCH_PERIODS, Exponents, Orbit};
+use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
 
 impl BasinSurvey<'_> {
     /// All basins: periodic motions by period, impacts and hardest impact, then the others.
-    pub(super) fn report(self) -> Result<Basins, SurveyError> {
+    pub(super) fn report(self) -> Result<Basins, OrbitError> {
         let mut basins = Basins {
             grid: *self.grid,
             classes: Vec::new(),
@@ -42,7 +41,7 @@ impl BasinSurvey<'_> {
     }
 
     /// What the cells are that have not returned.
-    fn wandering(&self) -> Result<Option<Class>, SurveyError> {
+    fn wandering(&self) -> Result<Option<Class>, OrbitError> {
         let mut outcomes = self.outcomes.iter();
         let Some(cell) = outcomes.position(|outcome| *outcome == CellOutcome::Wandering) else {
             return Ok(None);

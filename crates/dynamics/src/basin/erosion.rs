@@ -8,13 +8,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::basin_test::BasinTest;
-use super::certainty::CertaintyError;
 use super::share::wilson;
 use crate::attractors::starts::evenly;
-use crate::attractors::{Region, SurveyError, starting_box, stays};
+use crate::attractors::{Region, starting_box, stays};
 use crate::monitor::Monitor;
-use crate::orbit::Orbit;
-use crate::zone::Zone;
+use crate::orbit::{Orbit, OrbitError};
+use crate::zone::{Zone, ZoneError};
 use softstop::{Scene, Start};
 
 /// How certainly a motion establishes itself: the share of starts in a box that settle on it.
@@ -35,8 +34,8 @@ impl Establishment {
     /// That of a stable motion, in the box that all commands take starts from ([`starting_box`]).
     ///
     /// # Errors
-    /// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
-    pub fn of(orbit: &Orbit, starts: usize, monitor: Monitor<'_>) -> Result<Self, SurveyError> {
+    /// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::Stopped`].
+    pub fn of(orbit: &Orbit, starts: usize, monitor: Monitor<'_>) -> Result<Self, OrbitError> {
         let region = starting_box(&orbit.scene, monitor)?;
         Self::within(orbit, &region, starts, monitor)
     }
@@ -50,7 +49,7 @@ impl Establishment {
         region: &Region,
         starts: usize,
         monitor: Monitor<'_>,
-    ) -> Result<Self, SurveyError> {
+    ) -> Result<Self, OrbitError> {
         let states = region.starts(starts, SEED);
         let reached = BasinTest::of(orbit)?.reached(&states, monitor)?;
         Ok(Self::counted(&reached, region))
@@ -66,7 +65,7 @@ impl Establishment {
         region: &Region,
         starts: usize,
         monitor: Monitor<'_>,
-    ) -> Result<(Self, f64), SurveyError> {
+    ) -> Result<(Self, f64), OrbitError> {
         integrity(orbit, region, &region.starts(starts, SEED), monitor)
     }
 
@@ -100,7 +99,7 @@ pub fn zone_box(
     scene: &Scene,
     zone: &Zone,
     monitor: Monitor<'_>,
-) -> Result<(Region, bool), SurveyError> {
+) -> Result<(Region, bool), OrbitError> {
     let own = starting_box(scene, monitor)?;
     let mut all = Vec::new();
     for place in BOXED {
@@ -146,13 +145,13 @@ impl ErosionProfile {
     /// ball lies in it. The same for any number of threads.
     ///
     /// # Errors
-    /// [`CertaintyError`] if a place lies outside the zone, a motion is lost or the monitor says stop.
+    /// [`ZoneError`] if a place lies outside the zone, a motion is lost or the monitor says stop.
     pub fn of(
         zone: &Zone,
         region: &Region,
         (places, starts): (&[f64], usize),
         monitor: Monitor<'_>,
-    ) -> Result<Self, CertaintyError> {
+    ) -> Result<Self, ZoneError> {
         let orbits = places.iter().map(|place| zone.orbit_at(*place));
         let orbits: Vec<Orbit> = orbits.collect::<Result<_, _>>()?;
         let all = orbits.iter().map(|orbit| Start::from(orbit.state()));
@@ -160,7 +159,7 @@ impl ErosionProfile {
         let widened = held != *region;
         let region = held;
         let states = region.starts(starts, SEED);
-        let place = |(place, orbit): (&f64, &Orbit)| -> Result<Integrity, CertaintyError> {
+        let place = |(place, orbit): (&f64, &Orbit)| -> Result<Integrity, ZoneError> {
             let (certainty, radius) = integrity(orbit, &region, &states, monitor)?;
             Ok(Integrity {
                 place: *place,
@@ -191,7 +190,7 @@ fn integrity(
     region: &Region,
     states: &[Start],
     monitor: Monitor<'_>,
-) -> Result<(Establishment, f64), SurveyError> {
+) -> Result<(Establishment, f64), OrbitError> {
     let basin_test = BasinTest::of(orbit)?;
     let reached = basin_test.reached(states, monitor)?;
     let certainty = Establishment::counted(&reached, region);

@@ -7,12 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use super::basin_test::PERIODS_AT_ONCE;
 use super::survey::{BasinSurvey, CellOutcome, TILE};
-use crate::attractors::SurveyError;
 use crate::batch;
 use crate::monitor::{PIECE, piece, stop_if};
+use crate::orbit::OrbitError;
 use softstop::Start;
 use softstop::internals::budget::Fork;
-use softstop_lanes::Job;
 
 /// As [`TILE`], where each motion goes alone, and takes long.
 const SMALL_TILE: usize = 16;
@@ -34,7 +33,7 @@ struct FollowedCells {
 
 impl BasinSurvey<'_> {
     /// Follows all cells that are open until a ball catches them or the transient is over.
-    pub(super) fn settle(&mut self) -> Result<(), SurveyError> {
+    pub(super) fn settle(&mut self) -> Result<(), OrbitError> {
         let open: Vec<usize> = self.open().collect();
         let tile = if self.ensemble.is_fast() {
             TILE
@@ -61,7 +60,7 @@ impl BasinSurvey<'_> {
     }
 
     /// Follows some cells, piece by piece.
-    fn follow(&self, tile: &[usize]) -> Result<Vec<FollowedCells>, SurveyError> {
+    fn follow(&self, tile: &[usize]) -> Result<Vec<FollowedCells>, OrbitError> {
         let of = ("tile", self.scene, self.grid, self.options, tile[0]);
         let left = tile.iter().map(|cell| (*cell, self.states[*cell]));
         let (mut periods, mut left) = (0, left.collect::<Vec<_>>());
@@ -88,7 +87,7 @@ impl BasinSurvey<'_> {
         left: Vec<(usize, Start)>,
         periods: u64,
         time: Duration,
-    ) -> Result<FollowedCells, SurveyError> {
+    ) -> Result<FollowedCells, OrbitError> {
         let begin = Instant::now();
         let mut all = FollowedCells {
             periods,
@@ -100,15 +99,10 @@ impl BasinSurvey<'_> {
         {
             let stretch = PERIODS_AT_ONCE.min(self.options.transient - all.periods);
             all.periods += stretch;
-            let job = |(_, start): &(usize, Start)| Job {
-                machine: 0,
-                start: *start,
-                periods: stretch,
-            };
-            let jobs: Vec<Job> = all.left.iter().map(job).collect();
+            let motions = all.left.iter().map(|(_, start)| (0, *start, stretch));
             let ask = || stop_if(self.ensemble.note(0).is_err());
-            let outcomes = batch::follow(&self.ensemble.machine, &jobs, &mut (), ask);
-            let outcomes = outcomes.ok_or(SurveyError::Stopped)?;
+            let outcomes = batch::follow(&self.ensemble.machine, motions, &mut (), ask);
+            let outcomes = outcomes.ok_or(OrbitError::Stopped)?;
             let ends = std::mem::take(&mut all.left).into_iter().zip(outcomes);
             for ((cell, _), outcome) in ends {
                 if let Some(error) = outcome.error {

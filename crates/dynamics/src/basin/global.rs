@@ -6,11 +6,11 @@
 //! One orbit continues one attractor; what continues none is new.
 
 use super::{BasinEntropy, BasinOptions, Basins, Class, Grid, basins, wilson};
-use crate::attractors::{SearchOptions, SurveyError, settle};
+use crate::attractors::{SearchOptions, settle};
 use crate::monitor::{Kept, Monitor};
 use crate::motion::MotionKind;
-use crate::orbit::Orbit;
 use crate::orbit::recurrence::{distance, size};
+use crate::orbit::{Orbit, OrbitError};
 use softstop::{Scene, Start};
 
 /// Distance of two orbits of different regimes, in units of the larger one's size, within which one continues the other: a
@@ -44,7 +44,7 @@ pub fn follow_attractors(
     options: &BasinOptions,
     monitor: Monitor<'_>,
     kept: Kept<'_>,
-) -> Result<Vec<BasinsAt>, SurveyError> {
+) -> Result<Vec<BasinsAt>, OrbitError> {
     let each = grid.cells() as u64;
     let all = each * scenes.len() as u64;
     let mut found: Vec<BasinsAt> = Vec::with_capacity(scenes.len());
@@ -90,7 +90,7 @@ struct Claim {
 }
 
 /// Which attractors of the last value go on, the surest first.
-fn claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, SurveyError> {
+fn claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, OrbitError> {
     let mut claims = Vec::new();
     for (old, attractor) in last.basins.classes.iter().zip(&last.attractors) {
         for (class, new) in basins.classes.iter().enumerate() {
@@ -125,7 +125,7 @@ fn carry_over(
     basins: &mut Basins,
     options: &BasinOptions,
     monitor: Monitor<'_>,
-) -> Result<(), SurveyError> {
+) -> Result<(), OrbitError> {
     let search = SearchOptions {
         transient: options.transient,
         longest: options.longest,
@@ -141,7 +141,7 @@ fn carry_over(
         let arrival = match settle(scene, &[seed], &search, monitor) {
             Ok(arrivals) => arrivals.into_iter().next(),
             // A rigid stop may have come to stand before it, say.
-            Err(SurveyError::Motion(_)) => None,
+            Err(OrbitError::Motion(_)) => None,
             Err(stopped) => return Err(stopped),
         };
         if let Some(orbit) = arrival.and_then(|it| it.orbit) {
@@ -152,7 +152,7 @@ fn carry_over(
 }
 
 /// Enters a stable orbit without cells, unless it is known.
-fn enter(basins: &mut Basins, orbit: Orbit) -> Result<(), SurveyError> {
+fn enter(basins: &mut Basins, orbit: Orbit) -> Result<(), OrbitError> {
     for class in &basins.classes {
         if let Some(known) = class.orbit.as_deref()
             && known.periods == orbit.periods
@@ -171,8 +171,8 @@ fn enter(basins: &mut Basins, orbit: Orbit) -> Result<(), SurveyError> {
 
 /// How far apart two orbits are: the largest distance of a state of one at drive angle phi from the nearest one of the
 /// other, in units of the larger one's size.
-fn gap(one: &Orbit, other: &Orbit) -> Result<f64, SurveyError> {
-    let states = |orbit: &Orbit| -> Result<Vec<Start>, SurveyError> {
+fn gap(one: &Orbit, other: &Orbit) -> Result<f64, OrbitError> {
+    let states = |orbit: &Orbit| -> Result<Vec<Start>, OrbitError> {
         Ok(orbit.states()?.into_iter().map(Start::from).collect())
     };
     let (a, b) = (states(one)?, states(other)?);

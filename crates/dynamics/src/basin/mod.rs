@@ -40,7 +40,7 @@ mod survey;
 
 pub use basin_test::BasinTest;
 pub(crate) use basin_test::{TestResult, TestedMotion};
-pub use certainty::{CertaintyError, Establishing, establishing};
+pub use certainty::{Establishing, establishing};
 pub use entropy::BasinEntropy;
 pub use erosion::{ErosionProfile, Establishment, Integrity, zone_box};
 pub use global::{BasinsAt, follow_attractors};

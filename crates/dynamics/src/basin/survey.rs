@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::ball::ContractionBall;
 use super::section::at_section;
 use super::{BasinOptions, Basins, Grid};
-use crate::attractors::SurveyError;
 use crate::attractors::catalogue::{AttractorCatalogue, Status};
 use crate::attractors::ensemble::{Ensemble, EnsembleMember};
 use crate::monitor::{Kept, Monitor, piece, stop_if};
+use crate::orbit::OrbitError;
 use softstop::internals::budget::Fork;
 use softstop::{MotionError, Scene, Start};
 
@@ -69,14 +69,14 @@ struct CellOutcomes {
 /// The basins of a scene on a grid. The monitor is told of the cells done and of all cells; what is known is recalled.
 ///
 /// # Errors
-/// [`SurveyError::Motion`] if the scene is invalid; [`SurveyError::Stopped`].
+/// [`OrbitError::Motion`] if the scene is invalid; [`OrbitError::Stopped`].
 pub fn basins(
     scene: &Scene,
     grid: &Grid,
     options: &BasinOptions,
     monitor: Monitor<'_>,
     kept: Kept<'_>,
-) -> Result<Basins, SurveyError> {
+) -> Result<Basins, OrbitError> {
     let mut ensemble = Ensemble::new(scene, monitor)?;
     ensemble.planned = grid.cells() as u64;
     let mut survey = BasinSurvey {
@@ -100,7 +100,7 @@ pub fn basins(
 
 impl BasinSurvey<'_> {
     /// Brings all cells to drive angle phi.
-    fn bring(&mut self) -> Result<(), SurveyError> {
+    fn bring(&mut self) -> Result<(), OrbitError> {
         let cells = self.grid.cells();
         self.states.reserve(cells);
         self.outcomes.reserve(cells);
@@ -134,7 +134,7 @@ impl BasinSurvey<'_> {
     }
 
     /// A few cells, spread over the grid, fill the catalogue.
-    fn scout(&mut self) -> Result<(), SurveyError> {
+    fn scout(&mut self) -> Result<(), OrbitError> {
         let (columns, rows) = (self.grid.across.cells, self.grid.up.cells);
         let along = |cells: usize| cells.div_ceil(SCOUTS);
         let rows = (along(rows) / 2..rows).step_by(along(rows));
@@ -158,7 +158,7 @@ impl BasinSurvey<'_> {
     }
 
     /// Looks at all cells that no ball has caught.
-    fn judge_all(&mut self) -> Result<(), SurveyError> {
+    fn judge_all(&mut self) -> Result<(), OrbitError> {
         let open: Vec<usize> = self.open().collect();
         for cells in open.chunks(LOOKED) {
             self.look(cells, 0)?;
@@ -167,7 +167,7 @@ impl BasinSurvey<'_> {
     }
 
     /// Follows cells for so many drive periods, and says of each what it has come to.
-    fn look(&mut self, cells: &[usize], periods: u64) -> Result<(), SurveyError> {
+    fn look(&mut self, cells: &[usize], periods: u64) -> Result<(), OrbitError> {
         let of = (
             "look",
             self.scene,
@@ -195,7 +195,7 @@ impl BasinSurvey<'_> {
         Ok(())
     }
 
-    fn look_anew(&mut self, cells: &[usize], periods: u64) -> Result<CellOutcomes, SurveyError> {
+    fn look_anew(&mut self, cells: &[usize], periods: u64) -> Result<CellOutcomes, OrbitError> {
         let seen = self.see(cells, periods)?;
         let mut looked = CellOutcomes::default();
         for (cell, (state, log, error)) in cells.iter().zip(seen) {
@@ -217,7 +217,7 @@ impl BasinSurvey<'_> {
     }
 
     /// Follows cells for so many drive periods and those of a log; motions that take long are kept one by one.
-    fn see(&self, cells: &[usize], periods: u64) -> Result<Vec<SeenCell>, SurveyError> {
+    fn see(&self, cells: &[usize], periods: u64) -> Result<Vec<SeenCell>, OrbitError> {
         if self.ensemble.is_fast() {
             return self.see_together(cells, periods);
         }
@@ -227,12 +227,12 @@ impl BasinSurvey<'_> {
         };
         let fork = Fork::default();
         let seen = cells.par_iter().map(|cell| fork.part(|| one(cell)));
-        let seen = seen.collect::<Result<Vec<_>, SurveyError>>();
+        let seen = seen.collect::<Result<Vec<_>, OrbitError>>();
         fork.join();
         Ok(seen?.concat())
     }
 
-    fn see_together(&self, cells: &[usize], periods: u64) -> Result<Vec<SeenCell>, SurveyError> {
+    fn see_together(&self, cells: &[usize], periods: u64) -> Result<Vec<SeenCell>, OrbitError> {
         let logged = 2 * self.options.longest + 1;
         let states = cells
             .iter()
@@ -247,7 +247,7 @@ impl BasinSurvey<'_> {
         Ok(seen.collect())
     }
 
-    fn judge(&mut self, log: &[Start]) -> Result<CellOutcome, SurveyError> {
+    fn judge(&mut self, log: &[Start]) -> Result<CellOutcome, OrbitError> {
         let known = self.catalogue.orbits.len();
         let status = self.catalogue.judge(log)?;
         for (index, entry) in self.catalogue.orbits.iter().enumerate().skip(known) {

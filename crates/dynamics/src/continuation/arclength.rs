@@ -5,19 +5,22 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::orbit::{NOTHING_LEFT, OrbitError};
 
-/// A system in scaled unknowns. To add one, say what is exact and implement the two methods.
+/// A system in scaled unknowns. To add one, implement its evaluation; what is known exactly besides spares differences.
 pub(crate) trait Equations {
     /// What an evaluation brings to light besides the residual.
     type Point: Clone;
     /// Unknowns for which an evaluation tells the derivatives; those for the others, the slopes, are differences.
-    const EXACT: usize;
+    const EXACT: usize = 0;
 
     /// Residual and more.
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Self::Point>, OrbitError>;
 
     /// Derivatives of the residual, a row for each equation, with these slopes. Their error slows the
     /// convergence; the residual alone decides the result.
-    fn jacobian(&self, here: &Evaluation<Self::Point>, slopes: &DMatrix<f64>) -> DMatrix<f64>;
+    fn jacobian(&self, here: &Evaluation<Self::Point>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
+        let _ = here;
+        slopes.clone()
+    }
 
     /// The slopes where all of them are known exactly.
     fn exact_slopes(&self, here: &Evaluation<Self::Point>) -> Option<DMatrix<f64>> {
@@ -55,6 +58,20 @@ pub(crate) struct Evaluation<P> {
     /// The norm of the residual that rounding alone may leave.
     pub tolerance: f64,
     pub point: P,
+}
+
+/// What rounding leaves of a test function on orbits that stretch little.
+const TEST_TOLERANCE: f64 = 1e-12;
+
+impl<P> Evaluation<P> {
+    /// This evaluation with one equation more: a test function vanishes.
+    pub fn with_test(self, value: f64) -> Self {
+        Self {
+            residual: self.residual.push(value),
+            tolerance: self.tolerance.max(TEST_TOLERANCE),
+            ..self
+        }
+    }
 }
 
 /// A solution.

@@ -21,21 +21,6 @@ const SAME_PARAMETER: f64 = 1e-9;
 const WALK: usize = 200;
 
 impl<F: Family> Continuation<'_, F> {
-    /// The point between two neighbours at which `test` changes its sign.
-    ///
-    /// # Errors
-    /// [`OrbitError`] if a correction fails.
-    pub fn locate(
-        &self,
-        from: &BranchPoint,
-        to: &BranchPoint,
-        test: impl Fn(&BranchPoint) -> f64,
-    ) -> Result<BranchPoint, OrbitError> {
-        self.clearly(from, to, |continuation, ends| {
-            continuation.locate_between(ends, &test)
-        })
-    }
-
     /// The point between two neighbours at which a test of the monodromy matrix vanishes.
     ///
     /// # Errors
@@ -78,13 +63,12 @@ impl<F: Family> Continuation<'_, F> {
         self.point_at(&node)
     }
 
-    fn locate_between(
+    fn value_between(
         &self,
         ends: (&Node<PeriodMap>, &Node<PeriodMap>),
-        test: impl Fn(&BranchPoint) -> f64,
+        parameter: f64,
     ) -> Result<BranchPoint, OrbitError> {
-        let value =
-            |node: &Node<PeriodMap>| self.point_at(node).map_or(f64::NAN, |point| test(&point));
+        let value = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - parameter;
         let (node, _) = locate(&self.shooting, ends, LOCATED_WIDTH, value)?;
         self.point_at(&node)
     }
@@ -107,16 +91,17 @@ impl<F: Family> Continuation<'_, F> {
                 return Ok(point);
             }
         }
-        match self.locate(from, to, |point| point.parameter - parameter) {
+        let located = self.clearly(from, to, |continuation, ends| {
+            continuation.value_between(ends, parameter)
+        });
+        match located {
             Ok(point)
                 if (point.parameter - parameter).abs() <= SAME_PARAMETER * parameter.abs() =>
             {
                 Ok(point)
             }
             other => {
-                let lost = other
-                    .err()
-                    .unwrap_or(OrbitError::Diverged { residual: f64::NAN });
+                let lost = other.err().unwrap_or(OrbitError::LOST);
                 self.walked(from, to, parameter).ok_or(lost)
             }
         }

@@ -177,13 +177,13 @@ impl<'a, F: Family> Continuation<'a, F> {
         let mut goes_on = true;
         while way.points.len() < limits.points {
             if crawled > LONGEST_CRAWL {
-                self.give_up(way, &stepper, &grazing_test, limits, UNSTABLE);
+                self.give_up(way, &stepper, &grazing_test, limits, OrbitError::LOST);
                 return Ok(None);
             }
             let step = stepper.attempt().and_then(|step| {
                 let ahead = GrazingTest::of(&self.shooting, &step.node)?;
                 if !self.may_take(&stepper, &step, (&grazing_test, &ahead)) {
-                    return Err(UNSTABLE);
+                    return Err(OrbitError::LOST);
                 }
                 let specials = self.specials_between(&stepper.node, &step.node)?;
                 let ends = (&stepper.node, &step.node);
@@ -277,7 +277,7 @@ impl<'a, F: Family> Continuation<'a, F> {
                 let sequence = node.here.point.sequence;
                 let is_end = |end: &&Node<PeriodMap>| end.here.point.sequence.agrees(&sequence);
                 if ![from, to].iter().any(is_end) {
-                    return Err(UNSTABLE);
+                    return Err(OrbitError::LOST);
                 }
                 (node, Some(End::Range))
             }
@@ -301,6 +301,3 @@ impl<'a, F: Family> Continuation<'a, F> {
         Ok(end)
     }
 }
-
-/// No step is short enough.
-const UNSTABLE: OrbitError = OrbitError::Diverged { residual: f64::NAN };

@@ -4,8 +4,9 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct};
-use super::critical_impact::{CriticalImpact, CriticalPoint};
-use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
+use super::critical_impact::CriticalImpact;
+use super::grazing_orbit::GrazingOrbit;
+use super::impact_section::SectionPoint;
 use super::normal_form::normal_form_coefficient;
 use super::period_map::PeriodMap;
 use super::point::Graze;
@@ -13,7 +14,6 @@ use super::sequence::Sequence;
 use super::shooting::Critical;
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
-use softstop::{MotionError, Scene};
 
 /// A point of a curve of special points.
 #[derive(Debug, Clone)]
@@ -87,14 +87,36 @@ pub(super) fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
 
 /// A system whose solutions are special points in two parameters, its last two unknowns.
 pub(super) trait Codimension: Equations {
+    /// The machines.
+    type Machines: Family<2>;
+
+    /// The machines, and the drive periods of the orbits.
+    fn orbits(&self) -> (&Self::Machines, u64);
     /// What vanishes on the curve; none on one of grazing.
     fn test(&self) -> Option<Test>;
-    /// Drive periods of the orbits.
-    fn periods(&self) -> u64;
-    fn machine(&self, parameters: [f64; 2]) -> Result<Scene, MotionError>;
-    fn parameters(&self, at: &DVector<f64>) -> [f64; 2];
-    fn describe(&self, node: &Node<Self::Point>) -> Result<CurvePoint, OrbitError>;
-    fn sequence(&self, point: &Self::Point) -> Sequence;
+    /// The state at time 0.
+    fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError>;
+    /// The before-impact velocities of an orbit, its Jacobian, and what it crosses.
+    fn seen(point: &Self::Point) -> (&[f64], Monodromy, Sequence);
+
+    /// The parameters' values.
+    fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
+        let scales = self.orbits().0.parameter_scales();
+        std::array::from_fn(|index| at[at.len() - 2 + index] * scales[index])
+    }
+
+    /// The point of the curve at a node.
+    fn describe(&self, node: &Node<Self::Point>) -> Result<CurvePoint, OrbitError> {
+        let state = self.state_at(&node.at)?;
+        let (impacts, monodromy, _) = Self::seen(&node.here.point);
+        Ok(CurvePoint {
+            parameters: self.parameters(&node.at),
+            position: state.x,
+            velocity: state.y,
+            impacts: impacts.to_vec(),
+            monodromy,
+        })
+    }
 
     /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a direction;
     /// before, it had another one. Not a number where it cannot be computed. At a cusp both parameters turn back, at a
@@ -108,9 +130,10 @@ pub(super) trait Codimension: Equations {
             let value = along_parameters(before).dot(&along_parameters(here));
             return (CodimensionTwo::Cusp, value);
         }
+        let (machines, periods) = self.orbits();
         let coefficient = self.describe(node).and_then(|point| {
-            let scene = self.machine(point.parameters)?;
-            normal_form_coefficient(&scene, self.periods(), Test::Flip, point.state())
+            let scene = machines.scene(point.parameters)?;
+            normal_form_coefficient(&scene, periods, Test::Flip, point.state())
         });
         let value = coefficient.ok().flatten().unwrap_or(f64::NAN);
         (CodimensionTwo::GeneralisedFlip, value)
@@ -129,11 +152,11 @@ pub(super) trait Codimension: Equations {
     /// How far the orbits of a fold are from where they are half their drive periods later, in units of the machine's motion;
     /// none if that number is odd. It vanishes where the curve ends on one of flips.
     fn half_period_gap(&self, point: &CurvePoint) -> Option<Vector2<f64>> {
-        let periods = self.periods();
+        let (machines, periods) = self.orbits();
         if self.test() != Some(Test::Fold) || !periods.is_multiple_of(2) {
             return None;
         }
-        let scene = self.machine(point.parameters).ok()?;
+        let scene = machines.scene(point.parameters).ok()?;
         let map = StroboscopicMap::new(&scene, periods / 2).ok()?;
         let gap = map.apply(point.state()).ok()?.end - point.state();
         let scales = scene.motion_scales();
@@ -142,81 +165,47 @@ pub(super) trait Codimension: Equations {
 }
 
 impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
+    type Machines = F;
+
+    fn orbits(&self) -> (&F, u64) {
+        (self.shooting.family, self.shooting.periods)
+    }
+
     fn test(&self) -> Option<Test> {
         Some(self.test)
     }
 
-    fn periods(&self) -> u64 {
-        self.shooting.periods
+    fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
+        Ok(self.shooting.state(at))
     }
 
-    fn machine(&self, parameters: [f64; 2]) -> Result<Scene, MotionError> {
-        self.shooting.family.scene(parameters)
-    }
-
-    fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        self.shooting.parameters(at)
-    }
-
-    fn describe(&self, node: &Node<PeriodMap>) -> Result<CurvePoint, OrbitError> {
-        let state = self.shooting.state(&node.at);
-        let round = &node.here.point;
-        Ok(CurvePoint {
-            parameters: self.parameters(&node.at),
-            position: state.x,
-            velocity: state.y,
-            impacts: round.impacts.clone(),
-            monodromy: round.monodromy,
-        })
-    }
-
-    fn sequence(&self, point: &PeriodMap) -> Sequence {
-        point.sequence
+    fn seen(round: &PeriodMap) -> (&[f64], Monodromy, Sequence) {
+        (&round.impacts, round.monodromy, round.sequence)
     }
 }
 
 impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
+    type Machines = F;
+
+    fn orbits(&self) -> (&F, u64) {
+        (self.section.family, self.section.periods)
+    }
+
     fn test(&self) -> Option<Test> {
         Some(self.test)
     }
 
-    fn periods(&self) -> u64 {
-        self.section.periods
+    fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
+        self.state(at)
     }
 
-    fn machine(&self, parameters: [f64; 2]) -> Result<Scene, MotionError> {
-        self.section.family.scene(parameters)
-    }
-
-    fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        CriticalImpact::parameters(self, at)
-    }
-
-    fn describe(&self, node: &Node<CriticalPoint>) -> Result<CurvePoint, OrbitError> {
-        let state = self.state(&node.at)?;
-        let CriticalPoint {
-            monodromy, impacts, ..
-        } = node.here.point.clone();
-        Ok(CurvePoint {
-            parameters: CriticalImpact::parameters(self, &node.at),
-            position: state.x,
-            velocity: state.y,
-            impacts,
-            monodromy,
-        })
-    }
-
-    fn sequence(&self, point: &CriticalPoint) -> Sequence {
-        Sequence {
-            impacts: point.impacts.len(),
-            surfaces: usize::from(point.is_cut),
-            ..Sequence::default()
-        }
+    fn seen(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
+        (&point.impacts, point.monodromy, point.sequence())
     }
 
     fn last(
         &self,
-        node: &Node<CriticalPoint>,
+        node: &Node<SectionPoint>,
         step: &DVector<f64>,
     ) -> Option<(CodimensionTwo, CurvePoint)> {
         let (velocity, change) = (node.at[1], step[1]);
@@ -233,49 +222,30 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
 }
 
 impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
+    type Machines = F;
+
+    fn orbits(&self) -> (&F, u64) {
+        (self.section.family, self.section.periods)
+    }
+
     fn test(&self) -> Option<Test> {
         None
     }
 
-    fn periods(&self) -> u64 {
-        self.section.periods
+    fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
+        self.section.state(at, 0.0)
     }
 
-    fn machine(&self, parameters: [f64; 2]) -> Result<Scene, MotionError> {
-        self.section.family.scene(parameters)
-    }
-
-    fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        GrazingOrbit::parameters(self, at)
-    }
-
-    fn describe(&self, node: &Node<GrazingPoint>) -> Result<CurvePoint, OrbitError> {
-        let state = self.state(&node.at)?;
-        let contact = &node.here.point;
-        Ok(CurvePoint {
-            parameters: GrazingOrbit::parameters(self, &node.at),
-            position: state.x,
-            velocity: state.y,
-            impacts: contact.impacts.clone(),
-            monodromy: contact.monodromy,
-        })
-    }
-
-    fn sequence(&self, point: &GrazingPoint) -> Sequence {
-        Sequence {
-            impacts: point.impacts.len(),
-            ..Sequence::default()
-        }
+    fn seen(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
+        (&point.impacts, point.monodromy, point.sequence())
     }
 
     fn degeneracy(
         &self,
-        node: &Node<GrazingPoint>,
+        node: &Node<SectionPoint>,
         _: [&DVector<f64>; 2],
     ) -> (CodimensionTwo, f64) {
-        let scene = self
-            .section
-            .scene(0.0, GrazingOrbit::parameters(self, &node.at));
+        let scene = self.section.scene(0.0, self.parameters(&node.at));
         let is_hard = scene.is_ok_and(|(scene, _)| self.section.face.is_steep(&scene));
         let value = self.recurrence(&node.here.point);
         let kind = CodimensionTwo::ResonantGrazing(self.graze(node));

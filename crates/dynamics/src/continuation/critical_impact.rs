@@ -5,15 +5,15 @@
 //! back to the surface as if it were not there, is smooth down to v = 0, and so is v tr M, whose limit vanishes at resonant
 //! grazing alone: where grazing meets folds and flips (Nordmark 2001; Simpson and Ghosh, arXiv 2602.22797).
 
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, correct};
 use super::face::Face;
-use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
-use super::impact_section::ImpactSection;
-use super::period_map::carry_on;
-use super::shooting::{TEST_TOLERANCE, round_off};
+use super::grazing_orbit::GrazingOrbit;
+use super::impact_section::{ImpactSection, SectionPoint};
+use super::period_map::carry_through;
+use super::shooting::round_off;
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError, PassageRecorder};
 use softstop::internals::Phase;
@@ -25,17 +25,6 @@ use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene,
 pub(crate) struct CriticalImpact<'a, F, const N: usize> {
     pub section: ImpactSection<'a, F, N>,
     pub test: Test,
-}
-
-/// Such an orbit.
-#[derive(Debug, Clone)]
-pub(crate) struct CriticalPoint {
-    /// Jacobian of the map from just before the impact to there.
-    pub monodromy: Monodromy,
-    /// Before-impact velocities in m/s, that of the section first.
-    pub impacts: Vec<f64>,
-    /// True if the orbit meets the surface before its last arc comes back to it.
-    pub is_cut: bool,
 }
 
 impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
@@ -50,9 +39,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         let scene = family.scene(parameters)?;
         let mut motion = scene.motion(Start::from(state))?;
         let mut entries = Entries::default();
-        for period in 1..=periods {
-            carry_on(&mut motion, Clock::at_cycle(period), &mut entries)?;
-        }
+        carry_through(&mut motion, Clock::at_cycle(periods), &mut entries)?;
         let slowest = entries.all.iter();
         let slowest = slowest.min_by(|a, b| a.velocity.abs().total_cmp(&b.velocity.abs()));
         let Some(entry) = slowest.filter(|_| !entries.rests) else {
@@ -72,13 +59,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         let time = motion.clock().time(entry.instant);
         let angle = scene.excitation.phase + scene.excitation.frequency * time;
         let [_, speed] = family.state_scales();
-        let scales = family.parameter_scales();
-        let scaled = parameters.iter().zip(scales);
-        let scaled = scaled.map(|(value, scale)| value / scale);
-        let unknowns = [angle, entry.velocity.abs() / speed]
-            .into_iter()
-            .chain(scaled);
-        let guess = DVector::from_iterator(2 + N, unknowns);
+        let guess = section.unknowns(&[angle, entry.velocity.abs() / speed], parameters);
         Ok(Some((Self { section, test }, guess)))
     }
 
@@ -89,7 +70,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         touch: &DVector<f64>,
         test: Test,
         velocity: f64,
-    ) -> Result<(Self, Node<CriticalPoint>), OrbitError> {
+    ) -> Result<(Self, Node<SectionPoint>), OrbitError> {
         let section = ImpactSection {
             crossings: grazing.section.crossings + 1,
             ..grazing.section
@@ -101,11 +82,6 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         Ok((critical, node))
     }
 
-    pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
-        let scales = self.section.family.parameter_scales();
-        std::array::from_fn(|index| at[2 + index] * scales[index])
-    }
-
     /// Velocity in m/s of the impact at the section, towards the surface.
     fn velocity(&self, at: &DVector<f64>) -> f64 {
         let [_, speed] = self.section.family.state_scales();
@@ -115,7 +91,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
     /// The state at time 0 of the family's scene.
     pub fn state(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
         let velocity = self.section.face.side() * self.velocity(at);
-        self.section.state(at[0], velocity, self.parameters(at))
+        self.section.state(at, velocity)
     }
 
     /// Resonant grazing of these orbits, and its unknowns near them.
@@ -132,16 +108,15 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
 }
 
 impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
-    type Point = CriticalPoint;
-    const EXACT: usize = 0;
+    type Point = SectionPoint;
 
-    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<CriticalPoint>, OrbitError> {
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {
         let velocity = self.velocity(at);
         if velocity <= 0.0 {
             let residual = f64::INFINITY;
             return Err(OrbitError::Diverged { residual });
         }
-        let (scene, position) = self.section.scene(at[0], self.parameters(at))?;
+        let (scene, position) = self.section.scene(at[0], self.section.parameters(at))?;
         let begin = Vector2::new(position, self.section.face.side() * velocity);
         let (drift, around) = self.section.around::<PassageAndLaws>(&scene, begin)?;
         let entry = around.seen.entry(&scene, begin);
@@ -160,19 +135,16 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
         let value = self.test.weighted(&monodromy, at[1]);
         let sizes = self.section.family.state_scales();
         let tolerance = round_off(&scene, &begin, &Monodromy::from(&tangent), sizes);
-        Ok(Evaluation {
-            residual: DVector::from_column_slice(&[drift.x, drift.y, value]),
-            tolerance: tolerance.max(TEST_TOLERANCE),
-            point: CriticalPoint {
+        let orbit = Evaluation {
+            residual: DVector::from_column_slice(drift.as_slice()),
+            tolerance,
+            point: SectionPoint {
                 monodromy,
                 impacts,
                 is_cut: around.is_cut,
             },
-        })
-    }
-
-    fn jacobian(&self, _: &Evaluation<CriticalPoint>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        slopes.clone()
+        };
+        Ok(orbit.with_test(value))
     }
 }
 
@@ -239,19 +211,11 @@ impl Observer for Entries {
 pub(crate) struct ResonantGrazing<'a, F, const N: usize>(pub GrazingOrbit<'a, F, N>);
 
 impl<F: Family<N>, const N: usize> Equations for ResonantGrazing<'_, F, N> {
-    type Point = GrazingPoint;
-    const EXACT: usize = 0;
+    type Point = SectionPoint;
 
-    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<GrazingPoint>, OrbitError> {
+    fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {
         let orbit = self.0.evaluate(at)?;
-        Ok(Evaluation {
-            residual: orbit.residual.push(self.0.recurrence(&orbit.point)),
-            tolerance: orbit.tolerance.max(TEST_TOLERANCE),
-            point: orbit.point,
-        })
-    }
-
-    fn jacobian(&self, _: &Evaluation<GrazingPoint>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        slopes.clone()
+        let value = self.0.recurrence(&orbit.point);
+        Ok(orbit.with_test(value))
     }
 }

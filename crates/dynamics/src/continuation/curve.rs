@@ -89,7 +89,7 @@ pub(super) fn follow<E: Codimension>(
     specials.extend(up.1);
     Ok(Curve {
         kind,
-        periods: equations.periods(),
+        periods: equations.orbits().1,
         points,
         specials,
         ends: (first, up.2),
@@ -105,9 +105,6 @@ pub(super) const CLOSED: f64 = 0.05;
 const CREEPING: f64 = 1e-4;
 const MOST_CREEPING: usize = 40;
 
-/// No step is short enough.
-const LOST: OrbitError = OrbitError::Diverged { residual: f64::NAN };
-
 /// Points of a curve one way, those of codimension two among them, and why it ends.
 type Way = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
 
@@ -119,7 +116,7 @@ fn way<E: Codimension>(
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Way, OrbitError> {
     let origin = start.at.clone();
-    let sequence = equations.sequence(&start.here.point);
+    let sequence = E::seen(&start.here.point).2;
     let mut stepper = Stepper::new(equations, start, along, region.step)?;
     let (mut points, mut specials) = (Vec::new(), Vec::new());
     let mut creeping = 0;
@@ -134,7 +131,7 @@ fn way<E: Codimension>(
         }
         let next = stepper.attempt().map_err(CurveEnd::Lost);
         let next = next.and_then(|step| {
-            if equations.sequence(&step.node.here.point) != sequence {
+            if E::seen(&step.node.here.point).2 != sequence {
                 return Err(CurveEnd::Grazing);
             }
             let end = within(equations, (&last, &step.node), region);
@@ -146,7 +143,7 @@ fn way<E: Codimension>(
             Err(cause) => return Ok((points, specials, cause)),
         };
         if is_merging(equations, (&last, &node)) {
-            return Ok((points, specials, CurveEnd::Lost(LOST)));
+            return Ok((points, specials, CurveEnd::Lost(OrbitError::LOST)));
         }
         let directions = [&stepper.direction, &step.direction];
         let special = special_between(equations, (&last, &node), directions);
@@ -168,7 +165,7 @@ fn way<E: Codimension>(
             return Ok((points, specials, CurveEnd::Range));
         }
         if creeping == MOST_CREEPING {
-            return Ok((points, specials, CurveEnd::Lost(LOST)));
+            return Ok((points, specials, CurveEnd::Lost(OrbitError::LOST)));
         }
         if closed {
             return Ok((points, specials, CurveEnd::Closed));

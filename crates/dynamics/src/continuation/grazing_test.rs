@@ -3,13 +3,11 @@
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
-use nalgebra::DVector;
-
 use super::Family;
 use super::arclength::{Node, correct};
 use super::face::{Face, Touch};
-use super::grazing_orbit::{GrazingOrbit, GrazingPoint};
-use super::impact_section::ImpactSection;
+use super::grazing_orbit::GrazingOrbit;
+use super::impact_section::{ImpactSection, SectionPoint};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
 use super::shooting::Shooting;
@@ -163,11 +161,13 @@ pub(crate) fn grazing<F: Family>(
 ) -> Result<Special, OrbitError> {
     let section = ImpactSection::at(near, (family, periods));
     let touching = GrazingOrbit { section };
-    let guess: DVector<f64> = touching.scaled(near.angle, [parameter]);
+    let guess = touching.section.unknowns(&[near.angle], [parameter]);
     let node = correct(&touching, &guess, None)?;
-    let [parameter] = touching.parameters(&node.at);
-    let state = touching.state(&node.at)?;
-    let GrazingPoint { monodromy, impacts } = node.here.point;
+    let [parameter] = touching.section.parameters(&node.at);
+    let state = touching.section.state(&node.at, 0.0)?;
+    let SectionPoint {
+        monodromy, impacts, ..
+    } = node.here.point;
     let graze = Graze {
         angle: phase + (node.at[0] - phase).rem_euclid(TAU * periods as f64),
         impacts: impacts.len(),

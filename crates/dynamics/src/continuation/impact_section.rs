@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use nalgebra::Vector2;
+use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::face::Face;
-use super::period_map::carry_on;
+use super::period_map::carry_through;
 use super::point::Graze;
-use crate::orbit::OrbitError;
+use super::sequence::Sequence;
+use crate::orbit::{Monodromy, OrbitError};
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene};
 
 /// Where orbits of a family begin and end: at a surface.
@@ -21,6 +22,28 @@ pub(crate) struct ImpactSection<'a, F, const N: usize> {
     pub crossings: usize,
     /// The surface.
     pub face: Face,
+}
+
+/// An orbit seen from a surface.
+#[derive(Debug, Clone)]
+pub(crate) struct SectionPoint {
+    /// Jacobian of the map from just before the surface to there; of an orbit that grazes it, as if it were not there.
+    pub monodromy: Monodromy,
+    /// Before-impact velocities in m/s, that at the surface first; that of a touch is left out.
+    pub impacts: Vec<f64>,
+    /// True if an orbit that does not graze meets the surface before its last arc comes back to it.
+    pub is_cut: bool,
+}
+
+impl SectionPoint {
+    /// What the orbit crosses, as far as that may change along a curve.
+    pub fn sequence(&self) -> Sequence {
+        Sequence {
+            impacts: self.impacts.len(),
+            surfaces: usize::from(self.is_cut),
+            ..Sequence::default()
+        }
+    }
 }
 
 /// The orbit does not cross as often as it should, or there is no such surface.
@@ -37,6 +60,19 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
             crossings: graze.crossings,
             face: graze.face,
         }
+    }
+
+    /// Unknowns of an orbit: its drive angle at the section and what else it has there, then the parameters, scaled.
+    pub fn unknowns(&self, places: &[f64], parameters: [f64; N]) -> DVector<f64> {
+        let scaled = parameters.into_iter().zip(self.family.parameter_scales());
+        let scaled = scaled.map(|(value, scale)| value / scale);
+        DVector::from_iterator(places.len() + N, places.iter().copied().chain(scaled))
+    }
+
+    /// The parameters, which are the last of the unknowns.
+    pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
+        let scales = self.family.parameter_scales();
+        std::array::from_fn(|index| at[at.len() - N + index] * scales[index])
     }
 
     /// The scene with time 0 at the section, where the drive has this angle, and the position of the surface.
@@ -66,23 +102,16 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
         Ok((Vector2::new(drift.x / length, drift.y / speed), watch))
     }
 
-    /// The state at time 0 of the family's scene of an orbit that leaves the section at a drive angle with a velocity.
-    pub fn state(
-        &self,
-        angle: f64,
-        velocity: f64,
-        parameters: [f64; N],
-    ) -> Result<Vector2<f64>, OrbitError> {
+    /// The state at time 0 of the family's scene of an orbit with these unknowns, that leaves the section with a velocity.
+    pub fn state(&self, at: &DVector<f64>, velocity: f64) -> Result<Vector2<f64>, OrbitError> {
+        let (angle, parameters) = (at[0], self.parameters(at));
         let phase = self.family.scene(parameters)?.excitation.phase;
         let (scene, position) = self.scene(angle, parameters)?;
         let gone = ((angle - phase) / TAU).rem_euclid(self.periods as f64);
         let mut motion = scene.motion(Vector2::new(position, velocity).into())?;
         let clock = *motion.clock();
         let duration = (self.periods as f64 - gone) * clock.period();
-        for period in 1..=duration.div_euclid(clock.period()) as u64 {
-            carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
-        }
-        carry_on(&mut motion, clock.instant(duration), &mut ())?;
+        carry_through(&mut motion, clock.instant(duration), &mut ())?;
         Ok(motion.state().into())
     }
 }

@@ -36,7 +36,7 @@ pub(crate) fn locate<E: Equations>(
         };
         let node = correct_with(equations, &guess, Some(&chord), &mut slopes, Accuracy::Full)?;
         if !is_beside((&from.at, &way), &node.at) {
-            return Err(OrbitError::Diverged { residual: f64::NAN });
+            return Err(OrbitError::LOST);
         }
         let value = test(&node);
         known.push((share, value, node));
@@ -49,7 +49,7 @@ pub(crate) fn locate<E: Equations>(
         .rev()
         .min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     best.map(|(share, _, node)| (node, share))
-        .ok_or(OrbitError::Diverged { residual: f64::NAN })
+        .ok_or(OrbitError::LOST)
 }
 
 /// Most rounds, and nodes that the value of a test is followed back to zero through.

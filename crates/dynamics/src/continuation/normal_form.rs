@@ -76,7 +76,7 @@ pub fn normal_form_coefficient(
 }
 
 /// The vector of length 1 that a singular matrix takes to zero.
-fn null_vector(matrix: &Matrix2<f64>) -> Vector2<f64> {
+pub(super) fn null_vector(matrix: &Matrix2<f64>) -> Vector2<f64> {
     let rows = [matrix.row(0), matrix.row(1)];
     let row = if rows[0].norm() >= rows[1].norm() {
         rows[0]

@@ -2,13 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DVector, Vector2};
+use nalgebra::{DVector, Matrix2};
 
 use super::Family;
 use super::arclength::{Node, correct};
 use super::branch::Branch;
 use super::follow::Continuation;
 use super::half_branch::{End, Limits};
+use super::normal_form::null_vector;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
@@ -55,7 +56,7 @@ impl<F: Family> Continuation<'_, F> {
         leads_away: impl Fn(&Node<PeriodMap>, f64) -> bool,
     ) -> Result<(Node<PeriodMap>, DVector<f64>), OrbitError> {
         let at = self.shooting.scaled(from.state(), [from.parameter]);
-        let away = critical_direction(from, multiplier);
+        let away = null_vector(&(from.monodromy.matrix - multiplier * Matrix2::identity()));
         let away = self.shooting.scaled(away, [0.0]).normalize();
         for distance in DISTANCES {
             let guess = &at + distance * &away;
@@ -69,7 +70,7 @@ impl<F: Family> Continuation<'_, F> {
                 return Ok((node, along));
             }
         }
-        Err(OrbitError::Diverged { residual: f64::NAN })
+        Err(OrbitError::LOST)
     }
 
     /// The doublings of a branch, one after the other: the first flip among `specials`, the first on the
@@ -117,17 +118,4 @@ fn flip_sign(point: &BranchPoint) -> bool {
 
 fn is_flip(special: &Special) -> bool {
     special.kind == SpecialKind::Critical(Test::Flip)
-}
-
-/// The eigenvector of a multiplier, from the larger row of the monodromy matrix less that.
-fn critical_direction(point: &BranchPoint, multiplier: f64) -> Vector2<f64> {
-    let m = &point.monodromy;
-    let rows = [(m.m11 - multiplier, m.m12), (m.m21, m.m22 - multiplier)];
-    let [(a, b), other] = rows;
-    let (a, b) = if a.hypot(b) >= other.0.hypot(other.1) {
-        (a, b)
-    } else {
-        other
-    };
-    Vector2::new(-b, a)
 }

@@ -180,6 +180,18 @@ pub(crate) fn carry_on(
     })
 }
 
+/// Carries a motion from time 0 on, one drive period after the other, and by what is left of one to the end.
+pub(super) fn carry_through(
+    motion: &mut Motion,
+    end: Instant,
+    observer: &mut impl Observer,
+) -> Result<(), MotionError> {
+    for cycle in 1..=end.cycles as u64 {
+        carry_on(motion, Clock::at_cycle(cycle), observer)?;
+    }
+    carry_on(motion, end, observer)
+}
+
 struct MapRecorder<'a> {
     scene: &'a Scene,
     clock: Clock,

@@ -12,7 +12,7 @@ use nalgebra::{DVector, Vector2};
 use super::Family;
 use super::arclength::{Node, correct, tangent};
 use super::follow::{Continuation, SectionChange, keeps_sense};
-use super::period_map::{PeriodMap, before_wall, carry_on};
+use super::period_map::{PeriodMap, before_wall, carry_through};
 use super::point::BranchPoint;
 use softstop::internals::{Motion, Phases};
 use softstop::{Clock, MotionError, Scene};
@@ -100,11 +100,8 @@ fn after(
 ) -> Result<Vector2<f64>, MotionError> {
     let begin = before_wall(scene, state).into();
     let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
-    for period in 1..=periods as u64 {
-        carry_on(&mut motion, Clock::at_cycle(period), &mut ())?;
-    }
     let clock = *motion.clock();
     let end = clock.instant(periods * clock.period());
-    carry_on(&mut motion, end, &mut ())?;
+    carry_through(&mut motion, end, &mut ())?;
     Ok(motion.state().into())
 }

@@ -216,22 +216,10 @@ pub(crate) struct Critical<'a, F, const N: usize> {
 
 impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
     type Point = PeriodMap;
-    const EXACT: usize = 0;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<PeriodMap>, OrbitError> {
         let orbit = self.shooting.evaluate(at)?;
         let value = self.test.value(&orbit.point.monodromy);
-        Ok(Evaluation {
-            residual: orbit.residual.push(value),
-            tolerance: orbit.tolerance.max(TEST_TOLERANCE),
-            point: orbit.point,
-        })
-    }
-
-    fn jacobian(&self, _: &Evaluation<PeriodMap>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        slopes.clone()
+        Ok(orbit.with_test(value))
     }
 }
-
-/// What rounding leaves of a test function on orbits that stretch little.
-pub(super) const TEST_TOLERANCE: f64 = 1e-12;

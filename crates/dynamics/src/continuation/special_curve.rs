@@ -56,7 +56,7 @@ fn raw_curve<F: Family<2>>(
         SpecialKind::Grazing(graze) => {
             let section = ImpactSection::at(&graze, (family, periods));
             let touching = GrazingOrbit { section };
-            let guess = touching.scaled(graze.angle, parameters);
+            let guess = touching.section.unknowns(&[graze.angle], parameters);
             follow(&touching, kind, &guess, region, watch)
         }
     }

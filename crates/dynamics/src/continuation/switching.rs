@@ -81,7 +81,7 @@ fn from_grazing<F: Family<2>>(
 ) -> Option<Curve> {
     let section = ImpactSection::at(graze, (family, periods));
     let touching = GrazingOrbit { section };
-    let touch = touching.scaled(graze.angle, parameters);
+    let touch = touching.section.unknowns(&[graze.angle], parameters);
     let beside =
         |velocity: &f64| CriticalImpact::with_weak_impact(&touching, &touch, test, *velocity).ok();
     let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;

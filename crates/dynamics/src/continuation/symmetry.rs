@@ -6,7 +6,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DMatrix, DVector, Vector2};
+use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, correct};
@@ -14,9 +14,9 @@ use super::branch::Branch;
 use super::follow::{Continuation, is_one_sense};
 use super::half_branch::{End, Limits};
 use super::locate::{along_chord, is_beside};
-use super::period_map::{PeriodMap, before_wall, carry_on};
+use super::period_map::{PeriodMap, before_wall, carry_through};
 use super::point::{BranchPoint, Special, SpecialKind};
-use super::shooting::{Shooting, TEST_TOLERANCE, round_off};
+use super::shooting::{Shooting, round_off};
 use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
@@ -58,15 +58,11 @@ impl<F: Family> Shooting<'_, F, 1> {
         let (clock, begin) = (scene.clock(), Clock::at_cycle(0));
         let mut motion = Motion::new(self.phases(&scene), clock, begin, Start::from(state))?;
         let mut tangent = Tangent::default();
-        let whole = self.periods / 2;
-        for period in 1..=whole {
-            carry_on(&mut motion, Clock::at_cycle(period), &mut tangent)?;
-        }
         let half = Instant {
-            cycles: whole as f64,
             offset: 0.5 * scene.period(),
+            ..Clock::at_cycle(self.periods / 2)
         };
-        carry_on(&mut motion, half, &mut tangent)?;
+        carry_through(&mut motion, half, &mut tangent)?;
         motion.tell_arc(&mut tangent);
         let monodromy = Monodromy::from(&tangent);
         let end = Vector2::from(motion.state());
@@ -90,22 +86,16 @@ struct Pitchfork<'a, 'b, F>(&'b Shooting<'a, F, 1>);
 
 impl<F: Family> Equations for Pitchfork<'_, '_, F> {
     type Point = Monodromy;
-    const EXACT: usize = 0;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Monodromy>, OrbitError> {
         let half = self.0.half_round(at)?;
-        let half = half.ok_or(OrbitError::Diverged { residual: f64::NAN })?;
-        let off = half.asymmetry.fixed_rows::<2>(0);
-        let test = Test::Fold.value(&half.monodromy);
-        Ok(Evaluation {
-            residual: DVector::from_vec(vec![off[0], off[1], test]),
-            tolerance: half.tolerance.max(TEST_TOLERANCE),
+        let half = half.ok_or(OrbitError::LOST)?;
+        let symmetric = Evaluation {
+            residual: half.asymmetry.rows(0, 2).into_owned(),
+            tolerance: half.tolerance,
             point: half.monodromy,
-        })
-    }
-
-    fn jacobian(&self, _: &Evaluation<Monodromy>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        slopes.clone()
+        };
+        Ok(symmetric.with_test(Test::Fold.value(&half.monodromy)))
     }
 }
 
@@ -152,7 +142,7 @@ impl<F: Family> Continuation<'_, F> {
         let node = self.pitchfork(&(&from.at + a / (a - b) * &way))?;
         let (share, _) = along_chord((&from.at, &way), &node.at);
         if !(0.0..=1.0).contains(&share) || !is_beside((&from.at, &way), &node.at) {
-            return Err(OrbitError::Diverged { residual: f64::NAN });
+            return Err(OrbitError::LOST);
         }
         let (kind, point) = (SpecialKind::Pitchfork, self.point_at(&node)?);
         Ok(Some((share, Special { kind, point })))

@@ -84,6 +84,9 @@ pub enum OrbitError {
 }
 
 impl OrbitError {
+    /// Newton's method led nowhere, or away.
+    pub(crate) const LOST: Self = Self::Diverged { residual: f64::NAN };
+
     /// [`OrbitError::Stopped`] if a monitor wants to stop.
     pub(crate) fn ask(monitor: Monitor<'_>) -> Result<(), Self> {
         match monitor(0, 0) {

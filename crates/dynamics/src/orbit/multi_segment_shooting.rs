@@ -103,7 +103,7 @@ impl<'a> MultiSegmentShooting<'a> {
     /// [`OrbitError`] if it does not settle, or settles on impacts between which there are others.
     pub(super) fn settle(&self, guess: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
         let found = self.newton(guess, |_| false, &[])?;
-        found.ok_or(diverged(f64::NAN))
+        found.ok_or(OrbitError::LOST)
     }
 
     /// The orbit with one impact, another than those that are known.
@@ -113,7 +113,7 @@ impl<'a> MultiSegmentShooting<'a> {
         known: &[(f64, f64)],
     ) -> Result<Orbit, OrbitError> {
         let found = self.newton(&[guess], |_| false, known)?;
-        found.ok_or(diverged(f64::NAN))
+        found.ok_or(OrbitError::LOST)
     }
 
     /// The orbit that Newton's method settles on; none as soon as a whole step leads to impacts that are known.
@@ -133,7 +133,7 @@ impl<'a> MultiSegmentShooting<'a> {
     ) -> Result<Option<Orbit>, Failed> {
         let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
         let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
-        let mut evaluation = self.evaluate(&at).ok_or(diverged(f64::NAN))?;
+        let mut evaluation = self.evaluate(&at).ok_or(OrbitError::LOST)?;
         let (mut least, mut idle) = (f64::INFINITY, 0);
         let mut nearest = Nearest::NONE;
         for _ in 0..MAX_STEPS {
@@ -171,7 +171,8 @@ impl<'a> MultiSegmentShooting<'a> {
                 return Ok(Some(self.orbit(&at, &evaluation)?));
             }
         }
-        let error = diverged(evaluation.residual.norm());
+        let residual = evaluation.residual.norm();
+        let error = OrbitError::Diverged { residual };
         Err(Failed { error, nearest })
     }
 
@@ -271,8 +272,4 @@ impl<'a> MultiSegmentShooting<'a> {
         }
         Some(evaluation)
     }
-}
-
-fn diverged(residual: f64) -> OrbitError {
-    OrbitError::Diverged { residual }
 }

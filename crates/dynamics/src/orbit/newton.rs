@@ -23,7 +23,7 @@ pub fn fixed_point(
     start: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Passage), OrbitError> {
     let found = find_new_fixed_point(map, start, |_| false)?;
-    found.ok_or(OrbitError::Diverged { residual: f64::NAN })
+    found.ok_or(OrbitError::LOST)
 }
 
 /// The fixed point that Newton's method finds; none as soon as a whole step leads to a state that is known.

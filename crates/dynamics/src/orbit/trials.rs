@@ -8,7 +8,7 @@ use crate::batch::follow;
 use crate::monitor::Monitor;
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
-use softstop_lanes::{BatchObserver, Job, Machine};
+use softstop_lanes::{BatchObserver, Machine};
 
 /// Speeds of the starts, in units of w times the length of the motion.
 const SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
@@ -90,12 +90,10 @@ impl Trials {
     /// Follows those that are open up to a number of drive periods in all.
     pub(super) fn follow(&mut self, machines: &[Machine], until: u64, monitor: Monitor<'_>) {
         let mut open: Vec<&mut Trial> = self.all.iter_mut().filter(|it| it.is_open).collect();
-        let job = |trial: &&mut Trial| Job {
-            machine: trial.machine,
-            start: trial.last.state.into(),
-            periods: until - self.cycle,
-        };
-        let jobs: Vec<Job> = open.iter().map(job).collect();
+        let lasting = until - self.cycle;
+        let motions = open.iter();
+        let motions = motions.map(|it| (it.machine, it.last.state.into(), lasting));
+        let motions: Vec<_> = motions.collect();
         let mut recorder = TrialRecorder {
             trials: &mut open,
             scales: &self.scales,
@@ -103,7 +101,7 @@ impl Trials {
             since: self.cycle,
         };
         // The caller asks the monitor itself.
-        let _ = follow(machines, &jobs, &mut recorder, || monitor(0, 0));
+        let _ = follow(machines, motions, &mut recorder, || monitor(0, 0));
         self.cycle = until;
     }
 }

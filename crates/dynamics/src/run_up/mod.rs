@@ -9,7 +9,6 @@ use std::fmt::{self, Display, Formatter};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::attractors::SurveyError;
 use crate::basin::{BasinTest, at_section};
 use crate::cycle_metrics::PeriodRecorder;
 use crate::monitor::{Monitor, stop_if};
@@ -126,13 +125,13 @@ impl RunUp {
     /// Tries ways into a stable motion; the drive is switched on at so many drive angles.
     ///
     /// # Errors
-    /// [`SurveyError::Motion`] if the motion cannot be computed; [`SurveyError::Stopped`].
+    /// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::Stopped`].
     pub fn of(
         orbit: &Orbit,
         settings: &Settings,
         angles: usize,
         monitor: Monitor<'_>,
-    ) -> Result<Self, SurveyError> {
+    ) -> Result<Self, OrbitError> {
         let basin_test = BasinTest::of(orbit)?;
         let tried = settings.ways.par_iter().map(|way| match way {
             Way::SwitchedOn => {
@@ -140,7 +139,7 @@ impl RunUp {
             }
             _ => changed(orbit, &basin_test, (settings, *way), monitor),
         });
-        let tried = tried.collect::<Result<Vec<Option<Attempt>>, SurveyError>>()?;
+        let tried = tried.collect::<Result<Vec<Option<Attempt>>, OrbitError>>()?;
         Ok(Self {
             ways: tried.into_iter().flatten().collect(),
             most_force: settings.most_force,
@@ -202,7 +201,7 @@ fn switched_on(
     basin_test: &BasinTest,
     (settings, angles): (&Settings, usize),
     monitor: Monitor<'_>,
-) -> Result<Attempt, SurveyError> {
+) -> Result<Attempt, OrbitError> {
     let (scene, rest) = (&orbit.scene, at_rest(&orbit.scene));
     let (phases, angles) = (scene.phases().into(), angles.max(1));
     let angles: Vec<f64> = (0..angles)
@@ -251,7 +250,7 @@ fn changed(
     basin_test: &BasinTest,
     (settings, way): (&Settings, Way),
     monitor: Monitor<'_>,
-) -> Result<Option<Attempt>, SurveyError> {
+) -> Result<Option<Attempt>, OrbitError> {
     let scene = &orbit.scene;
     let Some((parameter, from, direction)) = way.change(scene) else {
         return Ok(None);
@@ -276,7 +275,7 @@ fn changed(
     };
     let mut chains = [Chain::new(scene.clone(), direction)];
     if !plan.run(&mut chains, &|_, _| stop_if(monitor(0, 0).is_break())) {
-        return Err(SurveyError::Stopped);
+        return Err(OrbitError::Stopped);
     }
     let [chain] = chains;
     let last = chain.steps.last().filter(|_| chain.error.is_none());

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::batch::follow;
 use softstop::internals::budget;
 use softstop::{Instant, MotionError, Start};
-use softstop_lanes::{BatchObserver, Job, Machine};
+use softstop_lanes::{BatchObserver, Machine};
 
 /// Follows motions, each of the machine with this number from a state, first unwatched, then watched; none if they were
 /// stopped on the way.
@@ -16,25 +16,18 @@ pub(crate) fn watched(
     watched: u64,
     ask: impl Fn() -> ControlFlow<()>,
 ) -> Option<Vec<Result<MotionRecord, MotionError>>> {
-    let job = |(machine, start): &(usize, Start)| Job {
-        machine: *machine,
-        start: *start,
-        periods: settling,
-    };
-    let mut jobs: Vec<Job> = starts.iter().map(job).collect();
-    let settled = follow(machines, &jobs, &mut (), &ask)?;
-    for (job, outcome) in jobs.iter_mut().zip(&settled) {
-        job.start = outcome.end;
-        job.periods = watched;
-    }
+    let from = starts.iter();
+    let from = from.map(|(machine, start)| (*machine, *start, settling));
+    let settled = follow(machines, from, &mut (), &ask)?;
+    let records = settled.iter();
+    let records = records.map(|outcome| MotionRecord::new(outcome.end, watched as usize));
     let mut log = RecordLog {
         periods: watched as usize,
-        records: jobs
-            .iter()
-            .map(|job| MotionRecord::new(job.start, watched as usize))
-            .collect(),
+        records: records.collect(),
     };
-    let outcomes = follow(machines, &jobs, &mut log, &ask)?;
+    let on = starts.iter().zip(&settled);
+    let on = on.map(|((machine, _), outcome)| (*machine, outcome.end, watched));
+    let outcomes = follow(machines, on, &mut log, &ask)?;
     let errors = settled.into_iter().zip(outcomes);
     let errors = errors.map(|(settled, outcome)| settled.error.or(outcome.error));
     let records = log.records.into_iter().zip(errors);

@@ -1,12 +1,11 @@
 //! Where chaos ends: by its lifetime.
 
-use super::TransitionError;
 use super::explorer::{Explorer, FIRST_MOTIONS, Gathering, is_clear, most};
 use crate::attractors::Arrival;
 use crate::continuation::Family;
 use crate::monitor::piece;
 use crate::motion::MotionKind;
-use crate::orbit::Orbit;
+use crate::orbit::{Orbit, OrbitError};
 use serde::{Deserialize, Serialize};
 use softstop::Start;
 
@@ -40,7 +39,7 @@ pub(super) struct Lasting {
 
 impl<F: Family + Sync> Explorer<'_, F> {
     /// What motions on chaos do at a value in the time given: some of them go first.
-    pub(super) fn lasting(&self, value: f64, states: &[Start]) -> Result<Lasting, TransitionError> {
+    pub(super) fn lasting(&self, value: f64, states: &[Start]) -> Result<Lasting, OrbitError> {
         let of = ("lasting", self.family.scene([value])?, states);
         piece(self.kept, &of, || {
             let (mut states, mut still, mut all) = (states.to_vec(), 0, 0);
@@ -72,7 +71,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         value: f64,
         states: &[Start],
         rising: bool,
-    ) -> Result<(f64, Option<ChaosEnd>), TransitionError> {
+    ) -> Result<(f64, Option<ChaosEnd>), OrbitError> {
         let sign = if rising { 1.0 } else { -1.0 };
         let unit = value.abs();
         let width = self.rules.width * unit;

@@ -1,13 +1,14 @@
 //! What follows beyond the end of a window, and whether the way back leads into it again.
 
+use super::Transition;
 use super::cause::TransitionContext;
 use super::departure_path::DeparturePath;
 use super::explorer::{Explorer, Gathering};
 use super::window::{Window, WindowEnd};
-use super::{Transition, TransitionError};
 use crate::continuation::{Continuation, Family, Limits, SpecialKind, Test};
 use crate::monitor::stop_if;
 use crate::motion::MotionKind;
+use crate::orbit::OrbitError;
 
 /// Share of a window within which the way back is tried.
 const INSIDE: f64 = 0.25;
@@ -28,7 +29,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         &self,
         window: &Window,
         upper: bool,
-    ) -> Result<Option<Departure>, TransitionError> {
+    ) -> Result<Option<Departure>, OrbitError> {
         let end = &window.ends[usize::from(upper)];
         let Some(kind) = end.kind else {
             return Ok(None);
@@ -99,7 +100,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         way: &DeparturePath,
         end: f64,
         sign: f64,
-    ) -> Result<Option<(f64, f64)>, TransitionError> {
+    ) -> Result<Option<(f64, f64)>, OrbitError> {
         let (Some((near, states)), Some((far, last))) = (&way.before, &way.first) else {
             return Ok(None);
         };
@@ -134,7 +135,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         window: &Window,
         end: &WindowEnd,
         upper: bool,
-    ) -> Result<Option<(Option<SpecialKind>, f64)>, TransitionError> {
+    ) -> Result<Option<(Option<SpecialKind>, f64)>, OrbitError> {
         let place = usize::from(upper);
         if let Some((distance, orbit)) = &way.doubled {
             let value = end.point.parameter + if upper { *distance } else { -distance };

@@ -2,17 +2,17 @@
 
 use rayon::prelude::*;
 
+use super::Transition;
 use super::cause::Cause;
 use super::departure::Departure;
 use super::departure_path::is_doubled;
 use super::explorer::Explorer;
 use super::window::Window;
-use super::{Transition, TransitionError};
 use crate::attractors::attractors;
 use crate::continuation::Family;
 use crate::monitor::piece;
 use crate::motion::MotionKind;
-use crate::orbit::Orbit;
+use crate::orbit::{Orbit, OrbitError};
 use softstop::Start;
 
 /// A periodic motion to follow: where it was met, and its orbit.
@@ -39,8 +39,8 @@ impl<F: Family + Sync> Explorer<'_, F> {
     /// of the parameter.
     ///
     /// # Errors
-    /// [`TransitionError`] if a scene cannot be, or the monitor stopped it.
-    pub fn explore(&self, values: &[f64]) -> Result<Vec<Transition>, TransitionError> {
+    /// [`OrbitError`] if a scene cannot be, or the monitor stopped it.
+    pub fn explore(&self, values: &[f64]) -> Result<Vec<Transition>, OrbitError> {
         let mut atlas = KnownMotions::default();
         let (mut met, mut seeds) = (Vec::new(), Vec::new());
         for value in values {
@@ -74,7 +74,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         value: f64,
         met: &mut Vec<Met>,
         seeds: &mut Vec<Seed>,
-    ) -> Result<(), TransitionError> {
+    ) -> Result<(), OrbitError> {
         let scene = self.family.scene([value])?;
         let found: (Vec<Met>, Vec<Seed>) = piece(self.kept, &("survey", &scene), || {
             let survey = attractors(&scene, &self.rules.survey, self.monitor)?;
@@ -85,7 +85,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
                 }
                 met.extend(attractor.orbit.map(|orbit| (value, *orbit)));
             }
-            Ok::<_, TransitionError>((met, seeds))
+            Ok::<_, OrbitError>((met, seeds))
         })?;
         met.extend(found.0);
         seeds.extend(found.1);
@@ -97,7 +97,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         &self,
         atlas: &mut KnownMotions,
         met: Vec<Met>,
-    ) -> Result<Vec<Departure>, TransitionError> {
+    ) -> Result<Vec<Departure>, OrbitError> {
         let mut fresh = Vec::new();
         for (value, orbit) in met {
             let motion = MotionKind::of(&orbit);
@@ -125,7 +125,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         atlas: &mut KnownMotions,
         (value, states): &Seed,
         met: &mut Vec<Met>,
-    ) -> Result<(), TransitionError> {
+    ) -> Result<(), OrbitError> {
         let mut followed = atlas.chaos.iter();
         if followed.any(|(low, high)| (*low..=*high).contains(value)) {
             return Ok(());

@@ -1,11 +1,11 @@
 //! Several motions side by side, and what most of them do.
 
-use super::{Rules, TransitionError};
+use super::Rules;
 use crate::attractors::{Arrival, SearchOptions, settle};
 use crate::continuation::Family;
 use crate::monitor::{Kept, Monitor, piece};
 use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit};
+use crate::orbit::{Exponents, Orbit, OrbitError};
 use serde::{Deserialize, Serialize};
 use softstop::Start;
 
@@ -72,7 +72,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         value: f64,
         starts: &[Start],
         periods: u64,
-    ) -> Result<Vec<Arrival>, TransitionError> {
+    ) -> Result<Vec<Arrival>, OrbitError> {
         let options = SearchOptions {
             transient: periods,
             ..self.rules.survey
@@ -82,16 +82,12 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
     }
 
     /// What most of them do then.
-    pub(super) fn gather(
-        &self,
-        value: f64,
-        starts: &[Start],
-    ) -> Result<Gathering, TransitionError> {
+    pub(super) fn gather(&self, value: f64, starts: &[Start]) -> Result<Gathering, OrbitError> {
         let of = ("gathering", self.family.scene([value])?, starts);
         piece(self.kept, &of, || self.gather_anew(value, starts))
     }
 
-    fn gather_anew(&self, value: f64, starts: &[Start]) -> Result<Gathering, TransitionError> {
+    fn gather_anew(&self, value: f64, starts: &[Start]) -> Result<Gathering, OrbitError> {
         let (first, rest) = starts.split_at(starts.len().min(FIRST_MOTIONS));
         let mut arrivals = self.settle_at(value, first, self.rules.patience)?;
         if !are_alike(&arrivals) {

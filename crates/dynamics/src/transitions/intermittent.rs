@@ -2,15 +2,13 @@
 
 use std::collections::VecDeque;
 
-use super::TransitionError;
 use super::explorer::Explorer;
-use crate::attractors::SurveyError;
 use crate::batch::follow;
 use crate::continuation::Family;
 use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit};
+use crate::orbit::{Exponents, Orbit, OrbitError};
 use softstop::Start;
-use softstop_lanes::{BatchObserver, Job, Machine};
+use softstop_lanes::{BatchObserver, Machine};
 
 /// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
 const ENDURANCE: u64 = 400_000;
@@ -30,7 +28,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         value: f64,
         states: &[Start],
         motion: &MotionKind,
-    ) -> Result<bool, TransitionError> {
+    ) -> Result<bool, OrbitError> {
         let (Some(periods), Some(start)) = (motion.periods(), states.first()) else {
             return Ok(false);
         };
@@ -40,27 +38,24 @@ impl<F: Family + Sync> Explorer<'_, F> {
         if !leaves_in_time {
             return Ok(false);
         }
-        let machine = [Machine::new(&scene).map_err(SurveyError::from)?];
+        let machine = [Machine::new(&scene)?];
         let mut calm = BurstCounter {
             periods: periods as usize,
             ..BurstCounter::default()
         };
-        let mut job = Job {
-            machine: 0,
-            start: *start,
-            periods: PERIODS_BETWEEN_LOOKS,
-        };
+        let mut state = *start;
         for _ in 0..ENDURANCE / PERIODS_BETWEEN_LOOKS {
             let ask = || (self.monitor)(0, 0);
-            let outcomes = follow(&machine, &[job], &mut calm, ask).ok_or(SurveyError::Stopped)?;
+            let motion = std::iter::once((0, state, PERIODS_BETWEEN_LOOKS));
+            let outcomes = follow(&machine, motion, &mut calm, ask).ok_or(OrbitError::Stopped)?;
             for outcome in outcomes {
                 outcome.error.map_or(Ok(()), Err)?;
-                job.start = outcome.end;
+                state = outcome.end;
             }
             if let Some(is_intermittent) = calm.verdict() {
                 return Ok(is_intermittent);
             }
-            let arrivals = self.settle_at(value, &[job.start], 0)?;
+            let arrivals = self.settle_at(value, &[state], 0)?;
             if arrivals.iter().any(|arrival| arrival.orbit.is_some()) {
                 return Ok(false);
             }

@@ -34,12 +34,9 @@ mod window;
 pub use cause::Cause;
 pub use explorer::Explorer;
 
-use thiserror::Error;
-
-use crate::attractors::{SearchOptions, SurveyError};
+use crate::attractors::SearchOptions;
 use crate::motion::MotionKind;
-use crate::orbit::OrbitError;
-use softstop::{MotionError, Start};
+use softstop::Start;
 
 /// A transition from one motion to another.
 #[derive(Debug, Clone)]
@@ -128,23 +125,5 @@ impl Default for Rules {
             width: 1e-8,
             points: 4000,
         }
-    }
-}
-
-/// Why transitions cannot be told.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum TransitionError {
-    /// Motions cannot be found, or the monitor asked to stop.
-    #[error(transparent)]
-    Survey(#[from] SurveyError),
-    /// An orbit cannot be followed.
-    #[error(transparent)]
-    Orbit(#[from] OrbitError),
-}
-
-impl From<MotionError> for TransitionError {
-    fn from(error: MotionError) -> Self {
-        Self::Survey(error.into())
     }
 }

@@ -1,10 +1,10 @@
 //! The values of the parameter for which a periodic motion is stable.
 
-use super::{Rules, TransitionError};
+use super::Rules;
 use crate::continuation::{Branch, BranchPoint, Continuation, Family, Limits, SpecialKind, Test};
 use crate::monitor::stop_if;
 use crate::motion::MotionKind;
-use crate::orbit::Orbit;
+use crate::orbit::{Orbit, OrbitError};
 
 /// One end.
 #[derive(Debug, Clone)]
@@ -29,14 +29,14 @@ impl Window {
     /// The window of a stable orbit at a value of the parameter.
     ///
     /// # Errors
-    /// [`TransitionError::Orbit`] if the orbit is none of the family.
+    /// [`OrbitError`] if the orbit is none of the family.
     pub fn of<F: Family>(
         family: &F,
         value: f64,
         orbit: &Orbit,
         range: (f64, f64),
         rules: &Rules,
-    ) -> Result<Self, TransitionError> {
+    ) -> Result<Self, OrbitError> {
         let limits = Limits {
             range,
             points: rules.points,

@@ -5,8 +5,9 @@ use std::str::FromStr;
 
 use anyhow::Error;
 use softstop::{Allowed, Dimension, Machine, Scene};
-use softstop_dynamics::attractors::{Region, SurveyError};
+use softstop_dynamics::attractors::Region;
 use softstop_dynamics::basin::AxisQuantity;
+use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{Axis, Grid, zone};
 
 use super::BasinArguments;
@@ -101,7 +102,7 @@ impl Plane {
 pub(super) fn grid(
     arguments: &BasinArguments,
     scene: &Scene,
-    region: impl FnOnce() -> Result<Region, SurveyError>,
+    region: impl FnOnce() -> Result<Region, OrbitError>,
 ) -> Result<Grid, Failure> {
     let Plane { across, up } = arguments.plane;
     let shows = |quantity| arguments.plane.shows(quantity);

@@ -2,8 +2,9 @@
 
 use anyhow::Result;
 use softstop::{Parameter, Ratios, Start};
-use softstop_dynamics::attractors::{SearchOptions, SurveyError, attractors};
+use softstop_dynamics::attractors::{SearchOptions, attractors};
 use softstop_dynamics::monitor::piece;
+use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
 use super::Diagram;
@@ -61,7 +62,7 @@ fn seeds(known: &[Diagram], studio: &Studio) -> Result<Vec<(f64, Orbit)>> {
         let orbits: Vec<Orbit> = piece(studio.kept, &("isolated", &scene), || {
             let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;
             let orbits = survey.attractors.into_iter().filter_map(|it| it.orbit);
-            Ok::<_, SurveyError>(orbits.map(|orbit| *orbit).collect())
+            Ok::<_, OrbitError>(orbits.map(|orbit| *orbit).collect())
         })?;
         for orbit in orbits {
             let mut steps = known.iter().flat_map(|diagram| at(diagram, eta));

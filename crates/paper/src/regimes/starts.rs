@@ -5,9 +5,10 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Scene, Start};
-use softstop_dynamics::attractors::{Arrival, SearchOptions, SurveyError, settle};
+use softstop_dynamics::attractors::{Arrival, SearchOptions, settle};
 use softstop_dynamics::internals::evenly;
 use softstop_dynamics::monitor::{Kept, piece};
+use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::blocks;
 use softstop_dynamics::settled::wanders;
 use softstop_dynamics::{MotionKind, Orbit, StroboscopicMap};
@@ -56,7 +57,7 @@ fn hardest(scene: &Scene) -> Result<MotionKind> {
     });
     let arrivals = match arrivals {
         Ok(arrivals) => arrivals,
-        Err(SurveyError::Motion(_)) => return Ok(MotionKind::Lost),
+        Err(OrbitError::Motion(_)) => return Ok(MotionKind::Lost),
         Err(error) => return Err(error.into()),
     };
     let orbits = arrivals.iter().filter_map(|arrival| arrival.orbit.as_ref());

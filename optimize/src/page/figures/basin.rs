@@ -5,8 +5,9 @@ use softstop_console::interrupt;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Mark, Panel, Sign, style};
-use softstop_dynamics::attractors::{SurveyError, starting_box};
+use softstop_dynamics::attractors::starting_box;
 use softstop_dynamics::basin::{BasinOptions, Class, basins};
+use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{self as dynamics, Grid, Orbit};
 use softstop_explore::palette::distinct_colors;
 
@@ -23,8 +24,8 @@ const SPOT: f64 = 4.5;
 /// The basins over the box of starts that all commands take.
 ///
 /// # Errors
-/// [`SurveyError`] if motions cannot be computed, or the user wants to stop.
-pub(super) fn basin(design: &Design) -> Result<Figure, SurveyError> {
+/// [`OrbitError`] if motions cannot be computed, or the user wants to stop.
+pub(super) fn basin(design: &Design) -> Result<Figure, OrbitError> {
     let machine = &design.machine;
     let scene = &machine.scene;
     let region = starting_box(scene, &interrupt::watch)?;

@@ -9,10 +9,10 @@ use super::catalogue::{AttractorCatalogue, Status};
 use super::chaos::Chaos;
 use super::ensemble::{Ensemble, EnsembleMember};
 use super::lifetime::EscapeCounts;
-use super::{Arrival, Attractor, Region, SearchOptions, Survey, SurveyError};
+use super::{Arrival, Attractor, Region, SearchOptions, Survey};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::returns;
-use crate::orbit::{self, Exponents};
+use crate::orbit::{self, Exponents, OrbitError};
 use softstop::{Scene, Start};
 
 /// Starts of the pilot.
@@ -71,12 +71,12 @@ struct Search<'a> {
 /// ```
 ///
 /// # Errors
-/// [`SurveyError::Motion`] if the scene is invalid; [`SurveyError::Stopped`].
+/// [`OrbitError::Motion`] if the scene is invalid; [`OrbitError::Stopped`].
 pub fn attractors(
     scene: &Scene,
     options: &SearchOptions,
     monitor: Monitor<'_>,
-) -> Result<Survey, SurveyError> {
+) -> Result<Survey, OrbitError> {
     let mut search = Search::new(scene, options, monitor)?;
     let run = options.transient + search.logged() as u64;
     search.ensemble.planned = run * (options.starts + PILOT) as u64 + search.patience();
@@ -96,12 +96,12 @@ pub fn attractors(
 ///
 /// # Errors
 /// As [`attractors`].
-pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, SurveyError> {
+pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, OrbitError> {
     Ok(Region::box_with(scene, stays(scene, monitor)?))
 }
 
 /// States of the motions that [`orbit::find`] or 64 starts from far and wide come to.
-pub(crate) fn stays(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, SurveyError> {
+pub(crate) fn stays(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, OrbitError> {
     let options = SearchOptions::default();
     let mut search = Search::new(scene, &options, monitor)?;
     search.ensemble.planned = (options.transient + search.logged() as u64) * PILOT as u64;
@@ -116,12 +116,12 @@ pub(crate) fn stays(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, S
 /// What the motion from one start settles on.
 ///
 /// # Errors
-/// [`SurveyError::Motion`] if the scene is invalid or the motion cannot be computed.
+/// [`OrbitError::Motion`] if the scene is invalid or the motion cannot be computed.
 pub fn classify(
     scene: &Scene,
     start: Start,
     options: &SearchOptions,
-) -> Result<Attractor, SurveyError> {
+) -> Result<Attractor, OrbitError> {
     let mut search = Search::new(scene, options, &unmonitored)?;
     start.validate()?;
     search.launch(vec![start], true)?;
@@ -130,21 +130,21 @@ pub fn classify(
     }
     search.watch()?;
     let found = search.report(Region::far(scene))?.attractors;
-    found.into_iter().next().ok_or(SurveyError::Stopped)
+    found.into_iter().next().ok_or(OrbitError::Stopped)
 }
 
 /// Where motions from several starts are after the transient, in their order: cheaper than
 /// [`classify`], as a motion that has not settled then is not looked at any farther.
 ///
 /// # Errors
-/// [`SurveyError::Motion`] if the scene is invalid or a motion cannot be computed;
-/// [`SurveyError::Stopped`].
+/// [`OrbitError::Motion`] if the scene is invalid or a motion cannot be computed;
+/// [`OrbitError::Stopped`].
 pub fn settle(
     scene: &Scene,
     starts: &[Start],
     options: &SearchOptions,
     monitor: Monitor<'_>,
-) -> Result<Vec<Arrival>, SurveyError> {
+) -> Result<Vec<Arrival>, OrbitError> {
     let mut search = Search::new(scene, options, monitor)?;
     search.launch(starts.to_vec(), true)?;
     let Search {
@@ -168,7 +168,7 @@ impl<'a> Search<'a> {
         scene: &'a Scene,
         options: &SearchOptions,
         monitor: Monitor<'a>,
-    ) -> Result<Self, SurveyError> {
+    ) -> Result<Self, OrbitError> {
         Ok(Self {
             scene,
             options: *options,
@@ -201,7 +201,7 @@ impl<'a> Search<'a> {
     }
 
     /// Lets motions settle from starts and looks at them.
-    fn launch(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), SurveyError> {
+    fn launch(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), OrbitError> {
         let first = self.members.len();
         self.members
             .extend(starts.into_iter().map(|start| SearchMember {
@@ -224,7 +224,7 @@ impl<'a> Search<'a> {
         &mut self,
         which: std::ops::RangeFrom<usize>,
         periods: u64,
-    ) -> Result<(), SurveyError> {
+    ) -> Result<(), OrbitError> {
         let logged = self.logged();
         let members = self.members[which].iter_mut();
         let mut open: Vec<&mut SearchMember> = members.filter(|member| member.is_open()).collect();
@@ -241,7 +241,7 @@ impl<'a> Search<'a> {
     }
 
     /// Watches the motions that have not arrived until patience ends.
-    fn watch(&mut self) -> Result<(), SurveyError> {
+    fn watch(&mut self) -> Result<(), OrbitError> {
         self.gather()?;
         let mut left = self.patience();
         let mut periods = self.options.transient.max(self.logged() as u64);

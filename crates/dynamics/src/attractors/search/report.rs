@@ -2,15 +2,15 @@
 
 use super::super::catalogue::{KnownOrbit, Status};
 use super::super::chaos::Chaos;
-use super::super::{Attractor, Region, Survey, SurveyError};
+use super::super::{Attractor, Region, Survey};
 use super::{Group, Search, SearchMember};
 use crate::extremes::extremes;
 use crate::motion::MotionKind;
-use crate::orbit::Exponents;
+use crate::orbit::{Exponents, OrbitError};
 use softstop::{MotionError, Start};
 
 impl Search<'_> {
-    pub(super) fn report(mut self, region: Region) -> Result<Survey, SurveyError> {
+    pub(super) fn report(mut self, region: Region) -> Result<Survey, OrbitError> {
         let counted = self.members.iter().filter(|member| member.counts).count();
         let mut attractors = self.periodic(counted);
         attractors.extend(self.resting(counted));

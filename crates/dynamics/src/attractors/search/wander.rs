@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::super::SurveyError;
 use super::super::catalogue::Status;
 use super::super::chaos::Chaos;
 use super::super::ensemble::EnsembleMember;
 use super::super::group::groups;
 use super::{BATCH_GROWTH, Group, Search};
-use crate::orbit::{BATCH_PERIODS, Exponents};
+use crate::orbit::{BATCH_PERIODS, Exponents, OrbitError};
 use softstop::Start;
 
 /// Relative error of an exponent that is small enough.
@@ -20,7 +19,7 @@ const LAST_LOOK: usize = 8;
 
 impl Search<'_> {
     /// Groups the wandering motions and asks for their exponents.
-    pub(super) fn gather(&mut self) -> Result<(), SurveyError> {
+    pub(super) fn gather(&mut self) -> Result<(), OrbitError> {
         let wandering: Vec<usize> = self
             .open()
             .filter(|index| self.members[*index].status == Status::Wandering)
@@ -42,7 +41,7 @@ impl Search<'_> {
 
     /// The exponents of a group: of the first of its motions with a positive one that does not settle
     /// meanwhile.
-    fn measure(&mut self, indices: &[usize]) -> Result<Group, SurveyError> {
+    fn measure(&mut self, indices: &[usize]) -> Result<Group, OrbitError> {
         let counts = |index: &&usize| self.members[**index].counts;
         let mut group = Group {
             entered: indices.iter().filter(counts).count(),
@@ -69,7 +68,7 @@ impl Search<'_> {
 
     /// The exponents along the motion from a state, over ever longer times until they are sharp, or the
     /// motion settles; the state then, and whether the motion still wandered.
-    fn exponents(&mut self, state: Start) -> Result<(Exponents, Start, bool), SurveyError> {
+    fn exponents(&mut self, state: Start) -> Result<(Exponents, Start, bool), OrbitError> {
         let mut batch = BATCH_PERIODS.0;
         let mut best = None;
         loop {
@@ -98,7 +97,7 @@ impl Search<'_> {
     }
 
     /// A last look at motions without a positive exponent: do they return after very many periods?
-    pub(super) fn look_far(&mut self) -> Result<(), SurveyError> {
+    pub(super) fn look_far(&mut self) -> Result<(), OrbitError> {
         let logged = LAST_LOOK * self.logged();
         let unsettled: Vec<usize> = self
             .open()

@@ -5,9 +5,10 @@ mod report;
 
 use anyhow::Error;
 use softstop::{Machine, Parameter, Scene};
-use softstop_dynamics::attractors::{Region, SurveyError, starting_box};
+use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{BasinOptions, BasinsAt, follow_attractors};
 use softstop_dynamics::monitor::Kept;
+use softstop_dynamics::orbit::OrbitError;
 
 use super::{BasinArguments, plane};
 use report::{AttractorsReport, columns};
@@ -114,11 +115,11 @@ fn scenes(
 }
 
 /// The smallest box that holds the boxes of starts of all machines.
-fn region(scenes: &[(f64, Scene)]) -> Result<Region, SurveyError> {
+fn region(scenes: &[(f64, Scene)]) -> Result<Region, OrbitError> {
     let mut all: Option<Region> = None;
     for (_, scene) in scenes {
         let own = starting_box(scene, &interrupt::watch)?;
         all = Some(all.map_or(own, |all| all.with(&own)));
     }
-    all.ok_or(SurveyError::Stopped)
+    all.ok_or(OrbitError::Stopped)
 }
