@@ -87,7 +87,7 @@ impl Line<'_> {
         }
     }
 
-    /// The score of the design at a place; where only the velocity counts, without the motion itself, which takes as long again.
+    /// The score of the design at a place; where only the velocity counts, without its orbit, which would take a quarter more.
     fn score_at(&self, place: f64) -> Result<f64, Infeasible> {
         let problem = self.zoned.problem;
         let point = self.point_at(place)?;
