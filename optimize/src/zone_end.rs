@@ -6,10 +6,9 @@ use softstop_explore::zone::lost_by;
 
 /// What ends a zone, in words.
 pub(crate) fn end_name(end: &ZoneEnd) -> String {
-    match end.kind.loss() {
-        None => "g0".to_owned(),
-        Some(_) if end.is(Test::Fold) => "s_SN".to_owned(),
-        Some(_) if end.is(Test::Flip) => "s_PD".to_owned(),
-        Some(loss) => lost_by(&loss),
+    match &end.loss {
+        _ if end.is(Test::Fold) => "s_SN".to_owned(),
+        _ if end.is(Test::Flip) => "s_PD".to_owned(),
+        loss => lost_by(loss),
     }
 }

@@ -6,7 +6,7 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::spread::{ToleranceBox, critical_normal, free_normal};
-use softstop_dynamics::zone::{EndKind, grazing_frequencies};
+use softstop_dynamics::zone::{Loss, grazing_frequencies};
 use softstop_dynamics::{BranchPoint, Zone};
 
 use super::Infeasible;
@@ -59,8 +59,8 @@ impl BoxWindow {
             spread,
         };
         Ok(Some(Self {
-            low: match zone.low.kind {
-                EndKind::Free => Some(corners.low()?),
+            low: match zone.low.loss {
+                Loss::Free => Some(corners.low()?),
                 _ => None,
             },
             high: corners.high(zone)?,

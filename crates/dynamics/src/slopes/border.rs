@@ -15,7 +15,7 @@ use crate::continuation::{
     BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, Test, grazing,
 };
 use crate::orbit::OrbitError;
-use crate::zone::{EndKind, Frequencies, ZoneEnd, ZoneError, grazing_frequencies};
+use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
 
 /// What a border is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,10 +113,10 @@ impl Border {
     /// # Errors
     /// [`ZoneError`] if the end is none that has a normal.
     pub fn end(scene: &Scene, end: &ZoneEnd, parameters: &[Parameter]) -> Result<Self, ZoneError> {
-        match &end.kind {
-            EndKind::Free => Self::free(scene, true, parameters),
-            EndKind::Special(kind) => Ok(Self::of(scene, 1, (*kind, &end.point), parameters)?),
-            EndKind::Other(_) => Err(none(parameters).into()),
+        match (&end.loss, end.special) {
+            (Loss::Free, _) => Self::free(scene, true, parameters),
+            (_, Some(kind)) => Ok(Self::of(scene, 1, (kind, &end.point), parameters)?),
+            (_, None) => Err(none(parameters).into()),
         }
     }
 

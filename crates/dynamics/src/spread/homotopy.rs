@@ -46,7 +46,7 @@ pub fn along(
     let end = ended(&continuation, &mut points, Heading::Up, (0.0, farthest))?;
     Ok(Reached {
         share: end.frequency,
-        loss: end.kind.loss().filter(|loss| *loss != Loss::Range),
+        loss: Some(end.loss).filter(|loss| *loss != Loss::Range),
         point: end.point,
     })
 }

@@ -7,6 +7,8 @@ use crate::orbit::OrbitError;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Loss {
+    /// g0: below it the motion without impacts strikes. The motion itself goes on beyond it.
+    Free,
     /// The motion meets an unstable one and vanishes.
     Fold,
     /// It doubles its period.
@@ -33,7 +35,7 @@ pub enum Loss {
     Lost(OrbitError),
 }
 
-/// One end of a [`Zone`](super::Zone).
+/// One end of a range of frequencies with a stable z = 1 motion.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ZoneEnd {
@@ -41,46 +43,31 @@ pub struct ZoneEnd {
     pub frequency: f64,
     /// The motion there.
     pub point: BranchPoint,
-    /// What it is.
-    pub kind: EndKind,
-}
-
-/// What an end of a zone is.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum EndKind {
-    /// g0: below it the motion without impacts strikes. The z = 1 motion goes on beyond it.
-    Free,
-    /// The motion loses its stability or grazes a surface.
-    Special(SpecialKind),
-    /// It is followed no farther, or ends otherwise.
-    Other(Loss),
+    /// Why the range ends there.
+    pub loss: Loss,
+    /// The bifurcation or grazing that the point is, if it is one.
+    pub special: Option<SpecialKind>,
 }
 
 impl ZoneEnd {
     /// The end at a point of a branch.
-    pub(super) fn at(point: &BranchPoint, kind: EndKind) -> Self {
+    pub(super) fn at(point: &BranchPoint, loss: Loss, special: Option<SpecialKind>) -> Self {
         Self {
             frequency: point.parameter,
             point: point.clone(),
-            kind,
+            loss,
+            special,
         }
+    }
+
+    /// The end at a special point of a branch.
+    pub(super) fn at_special(point: &BranchPoint, kind: SpecialKind) -> Self {
+        Self::at(point, Loss::at(&kind), Some(kind))
     }
 
     /// True if a test of the monodromy matrix vanishes there.
     pub fn is(&self, test: Test) -> bool {
-        self.kind == EndKind::Special(SpecialKind::Critical(test))
-    }
-}
-
-impl EndKind {
-    /// Why the motion ends there; none if it does not.
-    pub fn loss(&self) -> Option<Loss> {
-        match self {
-            Self::Free => None,
-            Self::Special(kind) => Some(Loss::at(kind)),
-            Self::Other(loss) => Some(loss.clone()),
-        }
+        self.special == Some(SpecialKind::Critical(test))
     }
 }
 
@@ -88,19 +75,18 @@ impl EndKind {
 pub(super) fn first_end<'a>(
     branch: &'a Branch,
     mut points: impl Iterator<Item = &'a BranchPoint>,
-) -> Option<(&'a BranchPoint, EndKind)> {
+) -> Option<ZoneEnd> {
     let ends_motion = |kind: &SpecialKind| match kind {
         SpecialKind::Critical(_) | SpecialKind::Pitchfork => true,
         SpecialKind::Grazing(graze) => graze.face == Face::Clearance,
     };
-    points.find_map(|point| {
-        let kind = match branch.special_at(point) {
-            Some(special) if ends_motion(&special.kind) => EndKind::Special(special.kind),
-            None if point.impacts.is_empty() => EndKind::Other(Loss::Grazing),
-            None if point.impacts.len() > 1 => EndKind::Other(Loss::AnotherImpact),
-            _ => return None,
-        };
-        Some((point, kind))
+    points.find_map(|point| match branch.special_at(point) {
+        Some(special) if ends_motion(&special.kind) => {
+            Some(ZoneEnd::at_special(point, special.kind))
+        }
+        None if point.impacts.is_empty() => Some(ZoneEnd::at(point, Loss::Grazing, None)),
+        None if point.impacts.len() > 1 => Some(ZoneEnd::at(point, Loss::AnotherImpact, None)),
+        _ => None,
     })
 }
 

@@ -1,6 +1,6 @@
 //! Where the stable motions of a branch end.
 
-use super::end::{EndKind, Loss, ZoneEnd, first_end};
+use super::end::{Loss, ZoneEnd, first_end};
 use crate::continuation::{BranchPoint, Continuation, Family, Heading, Limits, SpecialKind, Test};
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
@@ -43,13 +43,12 @@ fn end_between<F: Family>(
         let test = test.ok_or(OrbitError::NotIsolated)?;
         beyond = continuation.critical_between(before, &beyond, test)?;
         if (low..=high).contains(&beyond.parameter) {
-            let kind = EndKind::Special(SpecialKind::Critical(test));
-            return Ok(ZoneEnd::at(&beyond, kind));
+            return Ok(ZoneEnd::at_special(&beyond, SpecialKind::Critical(test)));
         }
     }
     let bound = beyond.parameter.clamp(low, high);
     let point = continuation.between(before, &beyond, bound)?;
-    Ok(ZoneEnd::at(&point, EndKind::Other(Loss::Range)))
+    Ok(ZoneEnd::at(&point, Loss::Range, None))
 }
 
 /// The end by a look at every special point, from the last point on, or from the first one if there is nothing to see
@@ -85,10 +84,10 @@ pub(super) fn followed_to_end<F: Family>(
         .points
         .iter()
         .filter(|point| point.parameter != start);
-    if let Some((point, kind)) = first_end(&branch, further.clone()) {
-        let until = further.take_while(|it| it.parameter != point.parameter);
-        points.extend(until.chain([point]).cloned());
-        return Ok(ZoneEnd::at(point, kind));
+    if let Some(end) = first_end(&branch, further.clone()) {
+        let until = further.take_while(|it| it.parameter != end.frequency);
+        points.extend(until.chain([&end.point]).cloned());
+        return Ok(end);
     }
     points.extend(further.filter(|point| point.is_stable()).cloned());
     let end = match heading {
@@ -96,9 +95,8 @@ pub(super) fn followed_to_end<F: Family>(
         Heading::Down => &branch.ends.0,
     };
     let last = points.last().ok_or(OrbitError::NotIsolated)?;
-    let kind = match branch.special_at(last) {
-        Some(special) => EndKind::Special(special.kind),
-        None => EndKind::Other(Loss::of(end)),
-    };
-    Ok(ZoneEnd::at(last, kind))
+    Ok(match branch.special_at(last) {
+        Some(special) => ZoneEnd::at_special(last, special.kind),
+        None => ZoneEnd::at(last, Loss::of(end), None),
+    })
 }

@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 
-use super::end::{EndKind, ZoneEnd};
+use super::end::{Loss, ZoneEnd};
 use super::followed_end::{LONGEST_BRANCH, followed_to_end};
 use super::places::{AT_FOLD, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
@@ -132,8 +132,7 @@ fn from_start(
         frequency_g0,
         low: ZoneEnd {
             frequency: frequency_g0,
-            point: branch[0].clone(),
-            kind: EndKind::Free,
+            ..ZoneEnd::at(&branch[0], Loss::Free, None)
         },
         high,
         branch,
@@ -161,7 +160,7 @@ pub(super) fn upward(
 
 /// True if a surface is grazed at an end.
 fn is_grazing(end: &ZoneEnd) -> bool {
-    matches!(end.kind, EndKind::Special(SpecialKind::Grazing(_)))
+    matches!(end.special, Some(SpecialKind::Grazing(_)))
 }
 
 /// The fold at the highest frequency; none if the branch has none.
@@ -170,8 +169,8 @@ pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
         .iter()
         .filter(|point| point.fold_test().abs() < AT_FOLD);
     let highest = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter))?;
-    let kind = EndKind::Special(SpecialKind::Critical(Test::Fold));
-    Some(ZoneEnd::at(highest, kind))
+    let kind = SpecialKind::Critical(Test::Fold);
+    Some(ZoneEnd::at_special(highest, kind))
 }
 
 /// Adds the folds to a branch, between the neighbours where 1 - tr + det changes its sign; where it leaps over zero, in

@@ -15,7 +15,7 @@ mod stable_range;
 mod stable_ranges;
 
 pub use bounds::Bounds;
-pub use end::{EndKind, Loss, ZoneEnd};
+pub use end::{Loss, ZoneEnd};
 pub use find::{find, find_among, find_with_monitor, find_zones};
 pub(crate) use followed_end::{LONGEST_BRANCH, ended};
 pub use grazing::{free_amplitude, grazing_frequencies};
@@ -23,7 +23,7 @@ pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_with_monitor};
 pub use loss::{end_along, loss_of_stability};
 pub use places::{Zone, ZoneKind};
 pub use single_impact::single_impact;
-pub use stable_range::{StableRange, StableRangeEnd};
+pub use stable_range::StableRange;
 pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
 
 use std::fmt::{self, Display, Formatter};

@@ -2,9 +2,9 @@
 
 use nalgebra::{Vector2, Vector4};
 
-use super::end::Loss;
+use super::end::{Loss, ZoneEnd};
 use super::{Frequencies, Zone};
-use crate::continuation::{ASIDE, Branch, BranchPoint, Continuation, End, Family};
+use crate::continuation::{ASIDE, Branch, BranchPoint, Continuation, End, Family, SpecialKind};
 use crate::orbit::OrbitError;
 use softstop::Scene;
 use softstop::internals::highest;
@@ -12,26 +12,14 @@ use softstop::internals::highest;
 /// Share by which rounding may change a before-impact velocity or a state.
 pub(super) const SAME_BUT_ROUNDING: f64 = 1e-6;
 
-/// One end of a stable range.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct StableRangeEnd {
-    /// Frequency in rad/s.
-    pub frequency: f64,
-    /// Before-impact velocity in m/s there.
-    pub velocity: f64,
-    /// Why the stable range ends there.
-    pub loss: Loss,
-}
-
 /// A range of frequencies with a stable z = 1 motion that changes continuously.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct StableRange {
     /// Its lower end.
-    pub low: StableRangeEnd,
+    pub low: ZoneEnd,
     /// Its upper end.
-    pub high: StableRangeEnd,
+    pub high: ZoneEnd,
     /// The motion that hits hardest.
     pub hardest: BranchPoint,
     /// Its points, in rising order of frequency.
@@ -134,18 +122,18 @@ pub(super) fn stable(
     branch: &Branch,
 ) -> Vec<StableRange> {
     let mut found = Vec::new();
-    let mut part = Part::new(Loss::of(&branch.ends.0));
+    let mut part = Part::new((Loss::of(&branch.ends.0), None));
     for point in in_order(branch) {
         let special = branch.special_at(point);
-        let loss = special.map(|special| Loss::at(&special.kind));
-        if let Some(loss) = loss.or_else(|| part.differs(point)) {
+        let cause = special.map(|special| (Loss::at(&special.kind), Some(special.kind)));
+        if let Some(cause) = cause.or_else(|| Some((part.differs(point)?, None))) {
             part.points.push(point.clone());
-            let part = std::mem::replace(&mut part, Part::new(loss.clone()));
-            found.extend(part.ended(continuation, loss));
+            let part = std::mem::replace(&mut part, Part::new(cause.clone()));
+            found.extend(part.ended(continuation, cause));
         }
         part.points.push(point.clone());
     }
-    found.extend(part.ended(continuation, Loss::of(&branch.ends.1)));
+    found.extend(part.ended(continuation, (Loss::of(&branch.ends.1), None)));
     found
 }
 
@@ -164,14 +152,17 @@ fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
     points
 }
 
+/// Why a part of a branch ends, and the special point there.
+type Cause = (Loss, Option<SpecialKind>);
+
 /// Points between two special ones.
 struct Part {
-    begins: Loss,
+    begins: Cause,
     points: Vec<BranchPoint>,
 }
 
 impl Part {
-    fn new(begins: Loss) -> Self {
+    fn new(begins: Cause) -> Self {
         Self {
             begins,
             points: Vec::new(),
@@ -191,7 +182,7 @@ impl Part {
     fn ended(
         self,
         continuation: &Continuation<'_, Frequencies<'_>>,
-        ends: Loss,
+        ends: Cause,
     ) -> Option<StableRange> {
         let Self { begins, mut points } = self;
         // Both ends may lie on one step.
@@ -204,15 +195,15 @@ impl Part {
         if inner.is_empty() || !inner.iter().all(is_single) {
             return None;
         }
-        let mut losses = [begins, ends];
+        let mut causes = [begins, ends];
         if points[0].parameter > points[points.len() - 1].parameter {
             points.reverse();
-            losses.reverse();
+            causes.reverse();
         }
-        let [below, above] = losses;
+        let [below, above] = causes;
         Some(StableRange {
-            low: StableRangeEnd::new(&points[0], below),
-            high: StableRangeEnd::new(&points[points.len() - 1], above),
+            low: ZoneEnd::at(&points[0], below.0, below.1),
+            high: ZoneEnd::at(&points[points.len() - 1], above.0, above.1),
             hardest: hardest(continuation, &points)?,
             points,
         })
@@ -247,14 +238,4 @@ fn hardest(
     let (top, _) = highest(low, high, TOP_WIDTH * (high - low), height);
     let top = between(top).filter(|top| velocity(top) > velocity(&points[best]));
     Some(top.unwrap_or_else(|| points[best].clone()))
-}
-
-impl StableRangeEnd {
-    fn new(point: &BranchPoint, loss: Loss) -> Self {
-        Self {
-            frequency: point.parameter,
-            velocity: point.before_impact_velocity(),
-            loss,
-        }
-    }
 }
