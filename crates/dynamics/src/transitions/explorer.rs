@@ -78,7 +78,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             ..self.rules.survey
         };
         let scene = self.family.scene([value])?;
-        Ok(settle(&scene, starts, &options, self.monitor)?)
+        settle(&scene, starts, &options, self.monitor)
     }
 
     /// What most of them do then.
