@@ -6,10 +6,9 @@ use serde::Serialize;
 use softstop::Machine;
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::interrupt;
 use softstop_console::record::{Record, below};
-use softstop_console::report::{Stated, motion};
+use softstop_console::report::{motion, stated};
 use softstop_console::sheet::Sheet;
 use softstop_console::table::{heading, sections};
 use softstop_dynamics::Orbit;
@@ -33,7 +32,7 @@ use crate::{cases, placed, started, verdict};
 #[derive(Debug, Serialize)]
 struct Found {
     #[serde(flatten)]
-    machine: Stated,
+    machine: Record,
     #[serde(flatten)]
     motion: Record,
 }
@@ -116,7 +115,7 @@ impl OptimizeReport {
         let machine = &design.machine;
         let limits = at_limits(problem, found);
         let one = |machine: &Machine, orbit: &Orbit, more: Record| Found {
-            machine: Stated::of(machine),
+            machine: stated(machine),
             motion: motion(machine, orbit).and(more),
         };
         let reference = |it: &Reference| (it.name, one(&it.machine, &it.orbit, gain(design, it)));
@@ -193,8 +192,9 @@ impl OptimizeReport {
     }
 }
 
-impl Report for OptimizeReport {
-    fn text(&self) -> String {
+impl OptimizeReport {
+    /// What people read.
+    pub fn text(&self) -> String {
         let units = Units::of(&self.machine);
         let tolerances = self.tolerances.as_ref().map(|it| it.text(&units));
         let proof = self.proof.as_ref();

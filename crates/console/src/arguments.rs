@@ -5,11 +5,38 @@ use std::path::PathBuf;
 use clap::Args;
 use softstop::{Machine, Parameter, UnitSystem};
 
+use crate::budget::BudgetArguments;
 use crate::change::Change;
 use crate::failure::Failure;
 use crate::machine::Regime;
 use crate::older::OlderFlags;
+use crate::output::Format;
 use crate::scene_file::read;
+
+/// What commands that compute something of one machine have in common.
+#[derive(Debug, Args)]
+pub struct CommandArguments {
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t)]
+    pub format: Format,
+    /// The machine.
+    #[command(flatten)]
+    pub machine: MachineArguments,
+    /// What it may cost.
+    #[command(flatten)]
+    pub limit: BudgetArguments,
+}
+
+impl CommandArguments {
+    /// The machine of a command in which the machine's own start plays no part.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] naming what is wrong, or a start that is given.
+    pub fn machine_without_start(&self) -> Result<Machine, Failure> {
+        self.machine.refuse_start()?;
+        self.machine.machine()
+    }
+}
 
 /// Arguments of every command that looks at one machine: a file or a built-in name, changed by `KEY=VALUE`.
 #[derive(Debug, Clone, PartialEq, Default, Args)]

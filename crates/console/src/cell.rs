@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::number::NumberStyle;
+use crate::record::Record;
 
 /// What stands in a column of a row.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -22,6 +23,10 @@ pub enum Cell {
     List(Vec<f64>),
     /// What has parts; for JSON and people alone.
     Told(Told),
+    /// Figures of something else; for JSON alone.
+    Record(Record),
+    /// Those of several things; for JSON alone.
+    Records(Vec<Record>),
 }
 
 /// A value with the words that people read instead.
@@ -33,6 +38,14 @@ pub struct Told {
     /// The words.
     #[serde(skip)]
     pub words: String,
+}
+
+impl From<serde_json::Value> for Told {
+    /// A value without words.
+    fn from(value: serde_json::Value) -> Self {
+        let words = String::new();
+        Self { value, words }
+    }
 }
 
 macro_rules! cells {
@@ -55,6 +68,9 @@ cells! {
     Vec<f64>, numbers => Self::List(numbers);
     [f64; 2], numbers => Self::List(numbers.into());
     Told, told => Self::Told(told);
+    Record, record => Self::Record(record);
+    Vec<Record>, records => Self::Records(records);
+    serde_json::Value, value => Self::Told(value.into());
 }
 
 impl<T: Into<Cell>> From<Option<T>> for Cell {
@@ -85,6 +101,7 @@ impl Cell {
             Self::Number(number) => style.format(*number),
             Self::List(numbers) => format_list(numbers, style),
             Self::Told(told) => told.words.clone(),
+            Self::Record(_) | Self::Records(_) => String::new(),
         }
     }
 }

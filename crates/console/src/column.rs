@@ -139,10 +139,7 @@ pub fn arrays<T>(
         let cells = cells.map(serde_json::to_value).collect::<Result<_, _>>()?;
         value.insert(column.name.to_owned(), cells);
     }
-    Ok(Told {
-        words: String::new(),
-        value: value.into(),
-    })
+    Ok(Told::from(serde_json::Value::from(value)))
 }
 
 /// What the columns of a file mean: a paragraph at the end of `--help`.

@@ -1,22 +1,19 @@
 //! One report in every form: text for people, JSON for programs, tables, and files that are there whole or
 //! not at all.
 //!
-//! A command fills one plain struct, its report, whose field names are the keys of the JSON, and says in
-//! [`Report::text`] what people read, mostly by [`column::text`](crate::column::text) of the columns that
+//! A command hands over its result, mostly a [`Record`](crate::record::Record), whose names are the keys of the JSON, and
+//! what people read of it, mostly by [`column::text`](crate::column::text) of the columns that
 //! CSV has, too. The rest is here: the paths of the files stand in JSON as `files` (kind -> path) and
 //! after the text. The kind is what the file is, `csv`, `json`, `svg`, `png` or `fmu`; where a command has
 //! several of one, its name stands in front: `curves_csv`. What cannot be written is a [`Failure::Run`] that names it.
 //!
 //! ```
-//! use serde::Serialize;
 //! use softstop_console::column::{Column, Units, text};
 //! use softstop_console::columns;
-//! use softstop_console::export::{Export, Report};
+//! use softstop_console::export::Export;
 //! use softstop_console::output::Format;
+//! use softstop_console::record::Record;
 //!
-//! #[derive(Serialize)]
-//! struct Orders { orders: Vec<Order> }
-//! #[derive(Serialize)]
 //! struct Order { z: String, share: f64 }
 //!
 //! fn table() -> [Column<Order>; 2] {
@@ -26,17 +23,12 @@
 //!     }
 //! }
 //!
-//! impl Report for Orders {
-//!     fn text(&self) -> String {
-//!         text(&table(), &self.orders, &Units::SI)
-//!     }
-//! }
-//!
 //! # let folder = tempfile::tempdir().map_err(anyhow::Error::from)?;
-//! let report = Orders { orders: vec![Order { z: "1".to_owned(), share: 0.5 }] };
+//! let orders = [Order { z: "1".to_owned(), share: 0.5 }];
 //! let export = Export::open(folder.path(), &[("csv", "orders.csv"), ("json", "orders.json")])?;
-//! export.table("csv", &table(), &report.orders)?;
-//! export.finish(&report, Format::Text)?;
+//! export.table("csv", &table(), &orders)?;
+//! let result = Record::default().hidden("orders", Record::all(&table(), &orders));
+//! export.finish(&result, text(&table(), &orders, &Units::SI), Format::Text)?;
 //! let table = std::fs::read_to_string(folder.path().join("orders.csv")).map_err(anyhow::Error::from)?;
 //! assert_eq!(table, "z,share\n1,0.5\n");
 //! assert!(folder.path().join("orders.json").exists());
@@ -56,12 +48,6 @@ use crate::column::{Cell, Column};
 use crate::failure::Failure;
 use crate::output::{self, Folder, Format, Staged};
 use crate::sheet::Sheet;
-
-/// What a command found: plain data whose field names are the keys of the JSON.
-pub trait Report: Serialize {
-    /// The same for people.
-    fn text(&self) -> String;
-}
 
 /// A report that was returned instead of printed.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -108,29 +94,20 @@ pub fn hand_over(name: &'static str, array: impl FnOnce() -> Array) {
     });
 }
 
-/// Prints a report that has no files.
-pub fn print(report: &impl Report, format: Format) -> Result<(), Failure> {
-    show(report, "", || output::json(report), format)
+/// Prints a result that has no files, and for people its text.
+pub fn print(result: &impl Serialize, text: String, format: Format) -> Result<(), Failure> {
+    show(output::json(result)?, text, "", format)
 }
 
-/// Prints a report, or returns it to whoever asks for it.
-fn show(
-    report: &impl Report,
-    files: &str,
-    json: impl FnOnce() -> Result<String, Failure>,
-    format: Format,
-) -> Result<(), Failure> {
-    if RETURNED.with_borrow(Option::is_some) {
-        let (text, json) = (report.text(), json()?);
-        RETURNED.with_borrow_mut(|returned| {
-            let returned = returned.get_or_insert_default();
+/// Prints a report and where its files are, or returns it to whoever asks for it.
+fn show(json: String, text: String, files: &str, format: Format) -> Result<(), Failure> {
+    RETURNED.with_borrow_mut(|returned| match (returned, format) {
+        (Some(returned), _) => {
             (returned.text, returned.json) = (text, json);
-        });
-        return Ok(());
-    }
-    output::print(&match format {
-        Format::Json => json()?,
-        Format::Text => report.text() + files,
+            Ok(())
+        }
+        (None, Format::Json) => output::print(&json),
+        (None, Format::Text) => output::print(&(text + files)),
     })
 }
 
@@ -154,11 +131,11 @@ pub fn csv<T>(
     )
 }
 
-/// A report with the paths of its files by kind.
+/// A result with the paths of its files by kind.
 #[derive(Serialize)]
 struct Filed<'a, R> {
     #[serde(flatten)]
-    report: &'a R,
+    result: &'a R,
     files: BTreeMap<String, String>,
 }
 
@@ -289,21 +266,26 @@ impl Export {
     }
 
     /// Writes the JSON into the file whose name says so, if there is one, puts all files in place, takes away what only an
-    /// earlier run has written and prints.
-    pub fn finish(self, report: &impl Report, format: Format) -> Result<(), Failure> {
+    /// earlier run has written and prints the result, or the text of it.
+    pub fn finish(
+        self,
+        result: &impl Serialize,
+        text: String,
+        format: Format,
+    ) -> Result<(), Failure> {
         let place = |(kind, name): &(String, String)| {
             (kind.clone(), self.folder.place(name).display().to_string())
         };
         let files: BTreeMap<_, _> = self.files.iter().map(place).collect();
-        let mut text = "\n".to_owned();
+        let mut written = "\n".to_owned();
         for (kind, path) in &files {
             let older = match Path::new(path).exists() {
                 true => ", in place of an older one",
                 false => "",
             };
-            text += &format!("Written: {path} ({kind}{older})\n");
+            written += &format!("Written: {path} ({kind}{older})\n");
         }
-        let json = output::json(&Filed { report, files })?;
+        let json = output::json(&Filed { result, files })?;
         let stale = self.stale();
         if let Some((kind, _)) = self.json() {
             self.file(kind, json.as_bytes())?;
@@ -313,9 +295,9 @@ impl Export {
         for path in stale {
             let place = path.display();
             fs::remove_file(&path).with_context(|| format!("cannot remove {place}"))?;
-            text += &format!("Removed: {place} (of an earlier run)\n");
+            written += &format!("Removed: {place} (of an earlier run)\n");
         }
-        show(report, &text, || Ok(json), format)
+        show(json, text, &written, format)
     }
 
     /// Kind and name of the file that holds the JSON.

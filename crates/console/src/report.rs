@@ -1,7 +1,5 @@
 //! What several commands report: plain data whose field names are the keys of the JSON.
 
-use std::collections::BTreeMap;
-
 use nalgebra::Complex;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -28,35 +26,26 @@ pub fn multipliers([first, second]: [Complex<f64>; 2]) -> Told {
     }
 }
 
-/// A machine as its user states it, whatever the command.
-#[derive(Debug, Clone, Serialize)]
-pub struct MachineReport {
-    /// Its name, if it has one.
-    pub name: Option<String>,
-    /// `si`, `hertz` (SI with the drive's frequency in Hz) or `ratios`.
-    pub language: &'static str,
-    /// Its units, by what they measure.
-    pub units: BTreeMap<&'static str, &'static str>,
-    /// All that it has, in its own units, by the dotted keys of its file, as `--set` takes them.
-    pub parameters: Map<String, Value>,
+/// A machine as its user states it, whatever the command: its name, if it has one; its language, `si`, `hertz` (SI with the
+/// drive's frequency in Hz) or `ratios`; its units, by what they measure; its [`parameters`].
+pub fn stated_machine(machine: &Machine) -> Record {
+    let language = match machine.unit_system {
+        UnitSystem::Si => "si",
+        UnitSystem::Hertz => "hertz",
+        UnitSystem::Ratios => "ratios",
+    };
+    Record::default()
+        .hidden("name", machine.name.clone())
+        .hidden("language", language)
+        .hidden("units", json!(units::names(machine)))
+        .hidden("parameters", Value::from(parameters(machine)))
 }
 
-impl MachineReport {
-    /// This machine.
-    pub fn of(machine: &Machine) -> Self {
-        let number = |it| Some((machine.name(it).to_owned(), machine.value(it)?.into()));
-        let numbers = machine.parameters().filter_map(number);
-        Self {
-            name: machine.name.clone(),
-            language: match machine.unit_system {
-                UnitSystem::Si => "si",
-                UnitSystem::Hertz => "hertz",
-                UnitSystem::Ratios => "ratios",
-            },
-            units: units::names(machine),
-            parameters: law(&machine.scene.stop).chain(numbers).collect(),
-        }
-    }
+/// All that a machine has, in its own units, by the dotted keys of its file, as `--set` takes them.
+pub fn parameters(machine: &Machine) -> Map<String, Value> {
+    let number = |it| Some((machine.name(it).to_owned(), machine.value(it)?.into()));
+    let numbers = machine.parameters().filter_map(number);
+    law(&machine.scene.stop).chain(numbers).collect()
 }
 
 /// What makes out a stop's law besides numbers: its model, its release, its slopes.
@@ -68,48 +57,40 @@ fn law(stop: &Stop) -> impl Iterator<Item = (String, Value)> + use<> {
         .map(|(key, value)| (format!("stop.{key}"), value))
 }
 
-/// A machine where its keys were promised: one like the paper's by the names of the paper's ratios, too.
-#[derive(Debug, Clone, Serialize)]
-pub struct Stated {
-    /// Regime and ratios of a machine like the paper's, but for its frequency; empty for any other.
-    #[serde(flatten)]
-    pub ratios: Map<String, Value>,
-    /// The machine.
-    pub machine: MachineReport,
-}
-
-impl Stated {
-    /// This machine.
-    pub fn of(machine: &Machine) -> Self {
-        let ratios = machine.ratios().filter(|ratios| ratios.rigid.is_none());
-        Self {
-            ratios: ratios.map_or_else(Map::new, |ratios| flat(machine, &ratios)),
-            machine: MachineReport::of(machine),
-        }
-    }
-}
-
-fn flat(machine: &Machine, ratios: &Ratios) -> Map<String, Value> {
-    let regime = ratios.piercing.map_or(Regime::Unloaded, |_| Regime::Loaded);
-    let named = RATIOS.into_iter().filter_map(|name| {
-        let value = machine.value(machine.parameter(name).ok()?)?;
-        Some((name.to_owned(), value.into()))
+/// A machine where its keys were promised: one like the paper's by regime and the paper's ratios, too, but for its frequency.
+pub fn stated(machine: &Machine) -> Record {
+    let ratios = machine.ratios().filter(|ratios| ratios.rigid.is_none());
+    let ratios = ratios.into_iter().flat_map(|ratios| {
+        RATIOS
+            .map(|name| Some((name, ratio(machine, &ratios, name)?)))
+            .into_iter()
+            .flatten()
     });
-    let others = [
-        ("regime".to_owned(), regime.name().into()),
-        ("preload".to_owned(), ratios.preload.into()),
-    ];
-    named.chain(others).collect()
+    let ratios = ratios.fold(Record::default(), |all, (name, cell)| {
+        all.hidden(name, cell)
+    });
+    ratios.hidden("machine", stated_machine(machine))
 }
 
-/// What the paper's ratios are called in JSON, but for frequency and preload.
-const RATIOS: [&str; 8] = [
-    "damping",
+fn ratio(machine: &Machine, ratios: &Ratios, name: &str) -> Option<Cell> {
+    let regime = ratios.piercing.map_or(Regime::Unloaded, |_| Regime::Loaded);
+    Some(match name {
+        "preload" => ratios.preload.into(),
+        "regime" => regime.name().into(),
+        _ => machine.value(machine.parameter(name).ok()?)?.into(),
+    })
+}
+
+/// What the paper's ratios are called in JSON.
+const RATIOS: [&str; 10] = [
     "clearance",
     "contact_damping",
-    "stiffness",
-    "piercing_stiffness",
+    "damping",
     "piercing_friction",
+    "piercing_stiffness",
+    "preload",
+    "regime",
+    "stiffness",
     "thickness",
     "travel",
 ];
@@ -147,6 +128,16 @@ impl MotionName {
             z: regime.map(|regime| regime.to_string()),
             order: None,
             text: regime.map_or("unsettled".to_owned(), |regime| format!("z = {regime}")),
+        }
+    }
+
+    /// By its names, for programs.
+    pub fn figures(&self) -> Record {
+        let figures = Record::default().hidden("kind", self.kind);
+        let figures = figures.hidden("z", self.z.clone());
+        match &self.order {
+            Some(order) => figures.hidden("order", order.clone()),
+            None => figures,
         }
     }
 

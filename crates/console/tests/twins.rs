@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, Ratios, Units};
-use softstop_console::report::{MachineReport, Stated};
+use softstop_console::report::{stated, stated_machine};
 use softstop_dynamics::{orbit, zone};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -85,14 +85,14 @@ fn zones_of_twins_are_the_same() -> Outcome {
 #[test]
 fn reports_speak_the_units_of_the_machine() -> Outcome {
     let machine = &machines()?[0];
-    let paper = serde_json::to_value(Stated::of(machine))?;
+    let paper = serde_json::to_value(stated(machine))?;
     assert_eq!(paper["regime"], "unloaded");
     assert_eq!(paper["stiffness"], 7.0);
     assert_eq!(paper["machine"]["language"], "ratios");
     assert_eq!(paper["machine"]["units"]["length"], "F0/k1");
     assert_eq!(paper["machine"]["units"]["damping"], "2 sqrt(m k1)");
     assert!(paper["machine"]["parameters"].get("mass").is_none());
-    let twin = serde_json::to_value(Stated::of(&twin(machine)?))?;
+    let twin = serde_json::to_value(stated(&twin(machine)?))?;
     assert!(twin.get("regime").is_none());
     let twin = &twin["machine"];
     assert_eq!(twin["language"], "hertz");
@@ -130,7 +130,7 @@ fn reports_tell_machines_apart_that_move_differently() -> Outcome {
     for changes in differences {
         let mut machine = machines()?[0].clone();
         machine.apply(changes.iter().copied())?;
-        reports.push(serde_json::to_value(MachineReport::of(&machine))?);
+        reports.push(serde_json::to_value(stated_machine(&machine))?);
     }
     for (index, report) in reports.iter().enumerate() {
         assert!(!reports[..index].contains(report), "{report}");

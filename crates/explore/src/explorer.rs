@@ -7,14 +7,13 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, anyhow};
 use clap::Args;
-use serde::Serialize;
 use serde_json::json;
 use softstop::Machine;
 use softstop_console::arguments::MachineArguments;
-use softstop_console::export::{Export, Report};
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::output::{Format, folder_and_file};
-use softstop_console::report::{self, Stated};
+use softstop_console::report;
 use softstop_console::table::heading;
 use softstop_console::units::Units;
 use softstop_draw::style::{self, bifurcation};
@@ -62,34 +61,13 @@ pub fn run(arguments: &ExploreArguments) -> Result<(), Failure> {
     let (folder, file) = folder_and_file(&arguments.output)?;
     let export = Export::of_file("html", folder, file)?;
     export.file("html", page(&machine)?.as_bytes())?;
-    export.finish(&ExploreReport::of(&machine), arguments.format)?;
+    let figures = report::machine(&machine, &[]);
+    let text = heading("Explorer") + &figures.text(&Units::of(&machine));
+    export.finish(&report::stated(&machine), text, arguments.format)?;
     if stdout().is_terminal() {
         open(&arguments.output);
     }
     Ok(())
-}
-
-/// What `softstop explore` reports.
-#[derive(Serialize)]
-struct ExploreReport<'a> {
-    #[serde(flatten)]
-    stated: Stated,
-    #[serde(skip)]
-    machine: &'a Machine,
-}
-
-impl<'a> ExploreReport<'a> {
-    fn of(machine: &'a Machine) -> Self {
-        let stated = Stated::of(machine);
-        Self { stated, machine }
-    }
-}
-
-impl Report for ExploreReport<'_> {
-    fn text(&self) -> String {
-        let machine = report::machine(self.machine, &[]);
-        heading("Explorer") + &machine.text(&Units::of(self.machine))
-    }
 }
 
 /// The document.

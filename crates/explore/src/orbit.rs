@@ -2,20 +2,17 @@
 
 use anyhow::anyhow;
 use clap::Args;
-use serde::Serialize;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::find_with_monitor;
 
-use softstop::{Machine, Parameter, Scene, Stop};
-use softstop_console::arguments::MachineArguments;
-use softstop_console::budget::BudgetArguments;
+use softstop::{Parameter, Scene, Stop};
+use softstop_console::arguments::CommandArguments;
 use softstop_console::column::Units;
-use softstop_console::export::{self, Report};
+use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::output::Format;
 use softstop_console::record::Record;
-use softstop_console::report::{self, Stated};
+use softstop_console::report;
 use softstop_console::table::heading;
 
 const EXAMPLES: &str = "\
@@ -40,24 +37,17 @@ as they do without any damping.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct OrbitArguments {
-    /// How to print the result
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine.
+    /// How it prints its result, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 /// Finds the orbit and prints it.
 pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
-    arguments.machine.refuse_start()?;
-    let machine = arguments.machine.machine()?;
+    let machine = arguments.common.machine_without_start()?;
     let find = || Ok(find_with_monitor(&machine.scene, &interrupt::watch));
     let orbit = arguments
-        .limit
+        .common.limit
         .budget
         .limit(find)?
         .map_err(|error| match error {
@@ -71,44 +61,25 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
             ),
             other => other.into(),
         })?;
-    let report = OrbitReport {
-        stability: if orbit.is_neutral() {
-            "neutral"
-        } else {
-            "stable"
-        },
-        motion: report::motion(&machine, &orbit),
-        stated: Stated::of(&machine),
-        machine: &machine,
+    let stability = if orbit.is_neutral() {
+        "neutral"
+    } else {
+        "stable"
     };
-    export::print(&report, arguments.format)
+    let motion = report::motion(&machine, &orbit);
+    let figures = report::machine(&machine, &[]).and(motion.clone());
+    let title = match stability {
+        "neutral" => "Neutral motion",
+        _ => "Stable motion",
+    };
+    let text = heading(&format!("{title} with one impact per drive period (z = 1)"))
+        + &figures.text(&Units::of(&machine));
+    let result = Record::default().hidden("stability", stability);
+    let result = result.and(motion).and(report::stated(&machine));
+    export::print(&result, text, arguments.common.format)
 }
 
 /// True if nothing stands in the way of the mass.
 fn is_free(scene: &Scene) -> bool {
     scene.stop == Stop::None && scene.piercing.is_none() && scene.wall().is_none()
-}
-
-/// What `softstop orbit` reports.
-#[derive(Debug, Serialize)]
-struct OrbitReport<'a> {
-    stability: &'static str,
-    #[serde(flatten)]
-    motion: Record,
-    #[serde(flatten)]
-    stated: Stated,
-    #[serde(skip)]
-    machine: &'a Machine,
-}
-
-impl Report for OrbitReport<'_> {
-    fn text(&self) -> String {
-        let figures = report::machine(self.machine, &[]).and(self.motion.clone());
-        let title = match self.stability {
-            "neutral" => "Neutral motion",
-            _ => "Stable motion",
-        };
-        heading(&format!("{title} with one impact per drive period (z = 1)"))
-            + &figures.text(&Units::of(self.machine))
-    }
 }

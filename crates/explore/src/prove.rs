@@ -17,12 +17,12 @@ use crate::continuation::seed;
 use softstop_console::arguments::{MachineArguments, refuse_followers_of_frequency};
 use softstop_console::budget::BudgetArguments;
 use softstop_console::column::Units;
-use softstop_console::export::{Export, Report};
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::output::{self, Format, folder_and_file};
 use softstop_console::record::Record;
-use softstop_console::report::{self, MachineReport};
+use softstop_console::report::{self, stated_machine};
 use softstop_console::table::{aligned, heading};
 
 const EXAMPLES: &str = "\
@@ -102,7 +102,7 @@ pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
     if !file.ends_with(".json") {
         export.file("json", output::json(&report)?.as_bytes())?;
     }
-    export.finish(&report, arguments.format)
+    export.finish(&report, report.text(), arguments.format)
 }
 
 /// Refuses a machine with a law that has no closed form.
@@ -209,7 +209,7 @@ pub struct ProofReport<'a> {
     #[serde(flatten)]
     certificate: Certificate,
     #[serde(rename = "machine")]
-    stated: MachineReport,
+    stated: Record,
     #[serde(skip)]
     machine: &'a Machine,
 }
@@ -230,7 +230,7 @@ impl<'a> ProofReport<'a> {
     fn new(certificate: Certificate, machine: &'a Machine) -> Self {
         Self {
             certificate,
-            stated: MachineReport::of(machine),
+            stated: stated_machine(machine),
             machine,
         }
     }
@@ -254,9 +254,8 @@ impl<'a> ProofReport<'a> {
             .with("determinant", "its determinant", shown(proof.determinant))
             .with("stability", "stability", proof.stability)
     }
-}
 
-impl Report for ProofReport<'_> {
+    /// What people read.
     fn text(&self) -> String {
         let proof = &self.certificate;
         let regime = Regime {

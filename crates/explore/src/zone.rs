@@ -2,20 +2,17 @@
 
 use anyhow::anyhow;
 use clap::Args;
-use serde::Serialize;
 
 use crate::continuation::met;
 use softstop::{Dimension, Machine, Parameter};
-use softstop_console::arguments::{MachineArguments, refuse_without_zone, title};
-use softstop_console::budget::BudgetArguments;
+use softstop_console::arguments::{CommandArguments, refuse_without_zone, title};
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
-use softstop_console::export::{self, Report};
+use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::output::Format;
 use softstop_console::record::{Record, below};
-use softstop_console::report::{self, Stated};
+use softstop_console::report;
 use softstop_console::table::heading;
 use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::Face;
@@ -44,27 +41,21 @@ them: where each begins and ends, by what, and its hardest impact. A zone with s
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ZoneArguments {
-    /// How to print the result
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine.
+    /// How it prints its result, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 /// Finds both ends of the zone and prints them.
 pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
-    arguments.machine.refuse_start()?;
-    let machine = arguments.machine.machine()?;
+    let machine = arguments.common.machine_without_start()?;
     refuse_without_zone(&machine)?;
     let why = "the zone is a range of drive frequencies, whatever the machine's own";
     arguments
+        .common
         .machine
         .refuse(&machine, Parameter::Frequency, why)?;
-    let (zone, all) = arguments.limit.budget.limit(|| {
+    let (zone, all) = arguments.common.limit.budget.limit(|| {
         let zone = hysteresis_with_monitor(&machine.scene, &interrupt::watch);
         let all = stable_ranges_with_monitor(&machine.scene, &interrupt::watch);
         Ok((zone, all.map_err(|error| anyhow!(error))?))
@@ -78,22 +69,11 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
             let place = format!("no hysteresis zone found of {}", title(&machine));
             Err(anyhow!(error).context(place).into())
         }
-        zone => export::print(&ZoneReport::new(&machine, &zone, &all), arguments.format),
+        zone => {
+            let (result, text) = report(&machine, &zone, &all);
+            export::print(&result, text, arguments.common.format)
+        }
     }
-}
-
-/// What `softstop zone` reports.
-#[derive(Debug, Serialize)]
-struct ZoneReport<'a> {
-    #[serde(flatten)]
-    zone: Record,
-    /// Why there is no hysteresis zone, if there is none.
-    no_zone: Option<String>,
-    stretches: Vec<Record>,
-    #[serde(flatten)]
-    stated: Stated,
-    #[serde(skip)]
-    machine: &'a Machine,
 }
 
 /// A machine with its zone, if it has one.
@@ -101,19 +81,30 @@ type Zoned<'a> = (&'a Machine, Option<&'a Zone>);
 /// A machine, a stretch of it, and whether that is a part of its zone.
 type Stretched<'a> = (&'a Machine, &'a StableRange, bool);
 
-impl<'a> ZoneReport<'a> {
-    fn new(machine: &'a Machine, zone: &Result<Zone, ZoneError>, all: &[StableRange]) -> Self {
-        let found = zone.as_ref().ok();
-        let in_zone = |one: &StableRange| found.is_some_and(|zone| one.is_part_of(zone));
-        let stretch = |one| Record::of(&stretch_columns(), &(machine, one, in_zone(one)));
-        Self {
-            zone: Record::of(&columns(), &(machine, found)),
-            no_zone: zone.as_ref().err().map(ToString::to_string),
-            stretches: all.iter().map(stretch).collect(),
-            stated: Stated::of(machine),
-            machine,
-        }
-    }
+/// Zone, why there is none if so, and stretches, with the text of them.
+fn report(
+    machine: &Machine,
+    zone: &Result<Zone, ZoneError>,
+    all: &[StableRange],
+) -> (Record, String) {
+    let found = zone.as_ref().ok();
+    let in_zone = |one: &StableRange| found.is_some_and(|zone| one.is_part_of(zone));
+    let stretch = |one| Record::of(&stretch_columns(), &(machine, one, in_zone(one)));
+    let stretches: Vec<Record> = all.iter().map(stretch).collect();
+    let why = zone.as_ref().err().map(ToString::to_string);
+    let zone = Record::of(&columns(), &(machine, found));
+    let units = &Units::of(machine);
+    let told = report::machine(machine, &[Parameter::Frequency]).and(zone.clone());
+    let no_zone = why.iter().map(|why| format!("No zone: {why}\n"));
+    let text = heading("Hysteresis zone of the z = 1 motion")
+        + &told.text(units)
+        + &no_zone.collect::<String>()
+        + "\n"
+        + &heading("Stretches of stable z = 1")
+        + &below(&stretches, units);
+    let result = zone.hidden("no_zone", why);
+    let result = result.hidden("stretches", stretches);
+    (result.and(report::stated(machine)), text)
 }
 
 fn own(machine: &Machine, frequency: f64) -> f64 {
@@ -167,18 +158,4 @@ pub fn lost_by(loss: &Loss) -> String {
         _ => "something else",
     };
     word.to_owned()
-}
-
-impl Report for ZoneReport<'_> {
-    fn text(&self) -> String {
-        let units = &Units::of(self.machine);
-        let machine = report::machine(self.machine, &[Parameter::Frequency]);
-        let why = self.no_zone.iter().map(|why| format!("No zone: {why}\n"));
-        heading("Hysteresis zone of the z = 1 motion")
-            + &machine.and(self.zone.clone()).text(units)
-            + &why.collect::<String>()
-            + "\n"
-            + &heading("Stretches of stable z = 1")
-            + &below(&self.stretches, units)
-    }
 }

@@ -143,7 +143,7 @@ pub fn run(arguments: &PaperArguments) -> Result<(), Failure> {
     folder.stage(REPORT, output::json(&report)?.as_bytes())?;
     folder.commit(&names)?;
     keep.forget();
-    export::print(&report, arguments.format)
+    export::print(&report, report.text(), arguments.format)
 }
 
 fn make(

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::figure::Findings;
-use softstop_console::export::Report;
 use softstop_console::table::heading;
 
 /// All figures of a run.
@@ -35,8 +34,9 @@ pub(super) struct FigureReport {
 /// Figures up to which all numbers are printed, too.
 const FEW: usize = 3;
 
-impl Report for PaperReport {
-    fn text(&self) -> String {
+impl PaperReport {
+    /// What people read.
+    pub(crate) fn text(&self) -> String {
         let mut text = heading("Figures of Peterka 2003, computed anew");
         for figure in &self.figures {
             text += &format!(

@@ -273,7 +273,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         }
         true => export.forgo("html"),
     }
-    export.finish(&report, job.format)?;
+    export.finish(&report, report.text(), job.format)?;
     if let Some(interrupted) = outcome.interrupted {
         interrupt::under_way().close_with(interrupted.closing());
         return Err(Failure::Interrupted);

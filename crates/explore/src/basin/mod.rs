@@ -18,14 +18,12 @@ use softstop_dynamics::zone;
 
 use plane::{Plane, Size};
 use report::{BasinReport, CertaintyReport};
-use softstop_console::arguments::{MachineArguments, refuse_without_zone, title};
-use softstop_console::budget::BudgetArguments;
+use softstop_console::arguments::{CommandArguments, refuse_without_zone, title};
 use softstop_console::column;
 use softstop_console::export::{Array, Export, hand_over};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
-use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::{self, within};
 
@@ -120,15 +118,9 @@ pub struct BasinArguments {
     /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "softstop-basin")]
     pub output: PathBuf,
-    /// How to print the result
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine.
+    /// How it prints its result, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 const PICTURE: [(&str, &str); 3] = [
@@ -153,8 +145,7 @@ fn help() -> String {
 /// Finds the basins, draws them and says how large they are.
 pub fn run(arguments: &BasinArguments) -> Result<(), Failure> {
     let options = options(arguments)?;
-    arguments.machine.refuse_start()?;
-    let machine = arguments.machine.machine()?;
+    let machine = arguments.common.machine_without_start()?;
     match (&arguments.parameter, arguments.along_zone) {
         (Some(name), _) => attractors::run(arguments, &options, &machine, name),
         (None, Some(places)) => along_zone(arguments, &options, &machine, places),
@@ -187,7 +178,7 @@ fn picture(
     let scene = &machine.scene;
     plane::check(arguments)?;
     let export = Export::open(&arguments.output, &PICTURE)?;
-    let limit = arguments.limit.budget;
+    let limit = arguments.common.limit.budget;
     let region = || starting_box(scene, &interrupt::watch);
     let grid = limit.limit(|| plane::grid(arguments, scene, region))?;
     let of = (scene, grid, options);
@@ -208,9 +199,9 @@ fn picture(
         let middles = || (0..axis.cells).map(|cell| axis.value(cell)).collect();
         hand_over(name, || Array::Numbers(middles()));
     }
-    let report = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
+    let (report, text) = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
     export.table("csv", &report::columns(), report::rows(&basins))?;
-    export.finish(&report, arguments.format)?;
+    export.finish(&report, text, arguments.common.format)?;
     keep.forget();
     Ok(())
 }
@@ -225,7 +216,7 @@ fn along_zone(
     plane::check(arguments)?;
     refuse_without_zone(machine)?;
     let export = Export::open(&arguments.output, &ALONG)?;
-    let limit = arguments.limit.budget;
+    let limit = arguments.common.limit.budget;
     let zone = limit.limit(|| {
         let zone = zone::hysteresis_with_monitor(&machine.scene, &interrupt::watch);
         Ok(zone.with_context(|| format!("no hysteresis zone found of {}", title(machine)))?)
@@ -251,10 +242,10 @@ fn along_zone(
     drop(progress);
     let title = format!("Establishing certainty: {}", title(machine));
     let chart = certainty::chart(machine, &found, &title);
-    let report = CertaintyReport::new(machine, (&grid, widened), &found);
+    let (report, text) = CertaintyReport::new(machine, (&grid, widened), &found);
     let rows = found.iter().map(|place| (machine, place));
     export.sheet(["csv", "svg"], &report::places(), rows, &chart)?;
-    export.finish(&report, arguments.format)?;
+    export.finish(&report, text, arguments.common.format)?;
     keep.forget();
     Ok(())
 }

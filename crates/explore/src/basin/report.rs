@@ -5,56 +5,33 @@ use softstop::{Dimension, Machine};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Units};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
-use softstop_console::report::{MachineReport, MotionName};
+use softstop_console::report::{MotionName, stated_machine};
 use softstop_dynamics::basin::{AxisQuantity, Class, Clearing, Establishing};
 use softstop_dynamics::{Axis, Basins, Grid, Regime};
 
 /// The basins of one machine.
 #[derive(Debug, Serialize)]
 pub(super) struct BasinReport {
-    machine: MachineReport,
+    machine: Record,
     /// Where the cells lie.
     grid: Grid,
-    basins: Vec<Named>,
+    basins: Vec<Record>,
     /// What to beware of.
     #[serde(skip_serializing_if = "Option::is_none")]
     warning: Option<String>,
-    #[serde(skip)]
-    text: String,
-}
-
-/// A motion and its figures.
-#[derive(Debug, Serialize)]
-struct Named {
-    #[serde(flatten)]
-    motion: MotionName,
-    #[serde(flatten)]
-    figures: Record,
 }
 
 /// The certainty of z = 1 along the hysteresis zone.
 #[derive(Debug, Serialize)]
 pub(super) struct CertaintyReport {
     /// The machine; its own frequency says where the cells lie.
-    machine: MachineReport,
+    machine: Record,
     /// Where the cells lie.
     grid: Grid,
     /// Whether that is wider than at the machine's own frequency, for the motions of the zone.
     widened: bool,
-    places: Vec<PlaceReport>,
-    #[serde(skip)]
-    text: String,
-}
-
-/// One place of the zone.
-#[derive(Debug, Serialize)]
-struct PlaceReport {
-    #[serde(flatten)]
-    figures: Record,
-    /// All motions there and their shares.
-    motions: Vec<Named>,
+    places: Vec<Record>,
 }
 
 /// A row of `basin.csv`.
@@ -141,70 +118,63 @@ fn range(machine: &Machine, axis: &Axis) -> String {
 }
 
 impl BasinReport {
-    pub(super) fn new(machine: &Machine, basins: &Basins, warning: Option<String>) -> Self {
+    /// The basins, and the text of them.
+    pub(super) fn new(
+        machine: &Machine,
+        basins: &Basins,
+        warning: Option<String>,
+    ) -> (Self, String) {
         let (rows, columns) = (rows(basins), columns());
-        let basins_found = rows.iter().map(|row| Named {
-            motion: MotionName::of(&row.0.motion),
-            figures: Record::of(&columns[NAMING..], row).and(Record::of(&centre(), row)),
+        let found = rows.iter().map(|row| {
+            let figures = Record::of(&columns[NAMING..], row);
+            let name = MotionName::of(&row.0.motion).figures();
+            name.and(figures).and(Record::of(&centre(), row))
         });
-        let told = warning.as_ref();
+        let told = warning.iter();
         let told = told.map(|warning| format!("\nWarning: {warning}.\n"));
-        Self {
-            machine: MachineReport::of(machine),
+        let text = head(machine, &basins.grid)
+            + &below(&Record::all(&columns, &rows), &Units::of(machine))
+            + &told.collect::<String>();
+        let report = Self {
+            machine: stated_machine(machine),
             grid: basins.grid,
-            basins: basins_found.collect(),
-            text: head(machine, &basins.grid)
-                + &below(&Record::all(&columns, &rows), &Units::of(machine))
-                + &told.unwrap_or_default(),
+            basins: found.collect(),
             warning,
-        }
+        };
+        (report, text)
     }
 }
 
 impl CertaintyReport {
+    /// The places, and the text of them.
     pub(super) fn new(
         machine: &Machine,
         (grid, widened): (&Grid, bool),
         found: &[Establishing],
-    ) -> Self {
+    ) -> (Self, String) {
         let columns = places();
-        let share: [Column<Class>; 1] = columns! { Class, it;
-            "share" [None], "of the cells" => it.share;
-        };
-        let motion = |class: &Class| Named {
-            motion: MotionName::of(&class.motion),
-            figures: Record::of(&share, class),
-        };
-        let places = found.iter().map(|place| PlaceReport {
-            figures: Record::of(&columns[..columns.len() - 1], &(machine, place)),
-            motions: place.basins.classes.iter().map(motion).collect(),
-        });
-        let places: Vec<PlaceReport> = places.collect();
-        let figures = places.iter().map(|place| place.figures.clone());
-        let figures: Vec<Record> = figures.collect();
+        let figures = |place| Record::of(&columns[..columns.len() - 1], &(machine, place));
+        let figures: Vec<Record> = found.iter().map(figures).collect();
         let wider = "Wider than at the machine's own frequency, for motions of the zone lie outside that.\n\n";
-        Self {
-            machine: MachineReport::of(machine),
+        let text = "Establishing certainty of z = 1, from g0 (place 0) to s_SN (place 1)\n"
+            .to_owned()
+            + &head(machine, grid)
+            + if widened { wider } else { "" }
+            + &below(&figures, &Units::of(machine));
+        let motion = |class: &Class| {
+            let name = MotionName::of(&class.motion).figures();
+            name.hidden("share", class.share)
+        };
+        let places = figures.into_iter().zip(found).map(|(figures, place)| {
+            let motions = place.basins.classes.iter().map(motion);
+            figures.hidden("motions", motions.collect::<Vec<_>>())
+        });
+        let report = Self {
+            machine: stated_machine(machine),
             grid: *grid,
             widened,
-            text: "Establishing certainty of z = 1, from g0 (place 0) to s_SN (place 1)\n"
-                .to_owned()
-                + &head(machine, grid)
-                + if widened { wider } else { "" }
-                + &below(&figures, &Units::of(machine)),
-            places,
-        }
-    }
-}
-
-impl Report for BasinReport {
-    fn text(&self) -> String {
-        self.text.clone()
-    }
-}
-
-impl Report for CertaintyReport {
-    fn text(&self) -> String {
-        self.text.clone()
+            places: places.collect(),
+        };
+        (report, text)
     }
 }

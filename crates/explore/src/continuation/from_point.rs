@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use softstop::{Machine, Parameter};
 
 use softstop_console::failure::Failure;
-use softstop_console::report::MachineReport;
+use softstop_console::report::parameters;
 use softstop_console::scene_file::open;
 
 /// A point of a branch: the JSON of an earlier run, and which of its points.
@@ -108,10 +108,7 @@ impl Earlier {
                 .iter()
                 .map(|it| machine.name(*it)),
         );
-        let (own, earlier) = (
-            MachineReport::of(machine).parameters,
-            &self.machine.parameters,
-        );
+        let (own, earlier) = (parameters(machine), &self.machine.parameters);
         let mut keys = own.keys().chain(earlier.keys());
         let differs = |key: &&String| own.get(*key) != earlier.get(*key);
         keys.find(|key| differs(key) && !free.contains(&key.as_str()))

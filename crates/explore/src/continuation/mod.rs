@@ -16,14 +16,12 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::{ParameterFamily, Regime};
 
 use from_point::EarlierPoint;
-use report::ContinuationReport;
 pub(crate) use report::met;
-use softstop_console::arguments::MachineArguments;
-use softstop_console::budget::BudgetArguments;
+use report::report;
+use softstop_console::arguments::CommandArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::output::Format;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -102,15 +100,9 @@ pub struct ContinueArguments {
     /// Folder for branches.csv, branches.svg, curves.csv and curves.svg
     #[arg(long, value_name = "DIR", default_value = "softstop-continue")]
     pub output: PathBuf,
-    /// How to print the result
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine.
+    /// How it prints its result, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 const FILES: [(&str, &str); 4] = [
@@ -127,8 +119,7 @@ fn help() -> String {
 
 /// Follows the motion and writes tables and charts.
 pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
-    arguments.machine.refuse_start()?;
-    let mut machine = arguments.machine.machine()?;
+    let mut machine = arguments.common.machine_without_start()?;
     let mut start = (arguments.orbit.periods, arguments.state);
     if let Some(point) = &arguments.from_point {
         let (periods, state) = point.take(&mut machine)?;
@@ -152,7 +143,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     }
     let files = &FILES[..if second.is_some() { 4 } else { 2 }];
     let export = Export::open(&arguments.output, files)?;
-    let limit = arguments.limit.budget;
+    let limit = arguments.common.limit.budget;
     let branches = limit.limit(|| branches::branches(arguments, &machine, &first, start))?;
     let chart = chart::branches(&machine, first.parameter, &branches);
     let rows = tables::branch_rows(&branches);
@@ -177,10 +168,9 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
         curves = Some((second.parameter, found));
     }
     let most = arguments.points;
-    let report =
-        ContinuationReport::new(&machine, first.parameter, most, &branches, curves.as_ref())
-            .map_err(anyhow::Error::from)?;
-    export.finish(&report, arguments.format)
+    let report = report(&machine, first.parameter, most, &branches, curves.as_ref());
+    let (result, text) = report.map_err(anyhow::Error::from)?;
+    export.finish(&result, text, arguments.common.format)
 }
 
 /// A parameter that is followed, where it starts and how far it goes.
@@ -199,7 +189,7 @@ impl Followed {
         name: &str,
         (from, to): (f64, f64),
     ) -> Result<Self, Failure> {
-        let (parameter, unit) = arguments.machine.parameter(machine, flag, name)?;
+        let (parameter, unit) = arguments.common.machine.parameter(machine, flag, name)?;
         let own = machine.value(parameter).unwrap_or(f64::NAN);
         let start = own / unit;
         if from.is_finite() && to.is_finite() && from < to && (from..=to).contains(&start) {

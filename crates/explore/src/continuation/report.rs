@@ -1,6 +1,5 @@
 //! What `softstop continue` found.
 
-use serde::Serialize;
 use softstop::{Machine, MotionError, Parameter};
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
@@ -12,54 +11,10 @@ use softstop_dynamics::orbit::OrbitError;
 use super::tables::{branch_columns, curve_columns, rows_of_branch, rows_of_curve};
 use softstop_console::column::{Column, Told, Unit, Units, arrays};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
-use softstop_console::report::MachineReport;
+use softstop_console::report::stated_machine;
 use softstop_console::table::heading;
 use softstop_console::units;
-
-/// Everything that `softstop continue` found.
-#[derive(Debug, Serialize)]
-pub(super) struct ContinuationReport {
-    machine: MachineReport,
-    parameter: &'static str,
-    /// Of the parameter.
-    unit: &'static str,
-    /// That of the start, and doubled ones.
-    branches: Vec<BranchReport>,
-    /// If they were asked for.
-    curves: Option<CurvesReport>,
-    #[serde(skip)]
-    units: Units,
-}
-
-/// One branch.
-#[derive(Debug, Serialize)]
-struct BranchReport {
-    #[serde(flatten)]
-    figures: Record,
-    /// What is special on it, in order.
-    specials: Vec<Record>,
-}
-
-/// Curves in two parameters.
-#[derive(Debug, Serialize)]
-struct CurvesReport {
-    /// The second parameter.
-    parameter: &'static str,
-    /// Its unit.
-    unit: &'static str,
-    curves: Vec<CurveReport>,
-}
-
-/// One curve.
-#[derive(Debug, Serialize)]
-struct CurveReport {
-    #[serde(flatten)]
-    figures: Record,
-    /// Its points of codimension two, in order.
-    specials: Vec<Record>,
-}
 
 /// A branch or a curve, and the points that it was followed for at most.
 type Followed<'a, T> = (&'a T, usize);
@@ -208,80 +163,78 @@ fn curve_end(end: &CurveEnd, points: usize) -> String {
     }
 }
 
-impl ContinuationReport {
-    pub(super) fn new(
-        machine: &Machine,
-        parameter: Parameter,
-        most: usize,
-        branches: &[Branch],
-        curves: Option<&(Parameter, Vec<Curve>)>,
-    ) -> serde_json::Result<Self> {
-        let branches = branches.iter().enumerate().map(|(number, it)| {
-            let table = arrays(&branch_columns(), rows_of_branch(number, it))?;
-            Ok(BranchReport {
-                figures: Record::of(&branch(), &(it, most)).hidden("table", table),
-                specials: Record::all(&specials(), &classified(machine, parameter, it)),
-            })
-        });
-        let curve_report = |(number, it): (usize, &Curve)| {
-            let table = arrays(&curve_columns(), rows_of_curve(number, it))?;
-            let specials = it.specials.iter().map(|special| (it.kind, special));
-            Ok(CurveReport {
-                figures: Record::of(&curve(), &(it, most)).hidden("table", table),
-                specials: Record::all(&codimension_two(), &specials.collect::<Vec<_>>()),
-            })
+/// What is found: the branch of the start and doubled ones, and curves in two parameters, if they were asked for; and the
+/// text of it.
+pub(super) fn report(
+    machine: &Machine,
+    parameter: Parameter,
+    most: usize,
+    branches: &[Branch],
+    curves: Option<&(Parameter, Vec<Curve>)>,
+) -> serde_json::Result<(Record, String)> {
+    let units = Units::of(machine);
+    let unit = |parameter| units::of_parameter(machine, parameter);
+    let label = |it| units.label(machine.name(it), Unit::Of(unit(it)));
+    let (mut text, mut found) = (String::new(), Vec::new());
+    for (number, it) in branches.iter().enumerate() {
+        let figures = Record::of(&branch(), &(it, most));
+        let specials = Record::all(&specials(), &classified(machine, parameter, it));
+        text += &heading(&format!("Branch along {}", label(parameter)));
+        text += &format!("{}\n", figures.text(&units));
+        text += &match specials.is_empty() {
+            true => "No special points.\n\n".to_owned(),
+            false => below(&specials, &units) + "\n",
         };
-        let unit = |parameter| units::of_parameter(machine, parameter);
-        let curves = curves.map(|(second, curves)| {
-            serde_json::Result::Ok(CurvesReport {
-                parameter: machine.name(*second),
-                unit: unit(*second),
-                curves: curves
-                    .iter()
-                    .enumerate()
-                    .map(curve_report)
-                    .collect::<Result<_, _>>()?,
-            })
-        });
-        Ok(Self {
-            machine: MachineReport::of(machine),
-            parameter: machine.name(parameter),
-            unit: unit(parameter),
-            branches: branches.collect::<serde_json::Result<_>>()?,
-            curves: curves.transpose()?,
-            units: Units::of(machine),
-        })
+        let table = arrays(&branch_columns(), rows_of_branch(number, it))?;
+        found.push(figures.hidden("table", table).hidden("specials", specials));
     }
+    let of_curves = curves.map(|(second, curves)| {
+        text += &heading(&format!(
+            "Curves in {} and {}",
+            label(parameter),
+            label(*second)
+        ));
+        let (found, told) = curves_found(curves, most, &units)?;
+        text += &told;
+        serde_json::Result::Ok(
+            Record::default()
+                .hidden("parameter", machine.name(*second))
+                .hidden("unit", unit(*second))
+                .hidden("curves", found),
+        )
+    });
+    let result = Record::default()
+        .hidden("machine", stated_machine(machine))
+        .hidden("parameter", machine.name(parameter))
+        .hidden("unit", unit(parameter))
+        .hidden("branches", found)
+        .hidden("curves", of_curves.transpose()?);
+    Ok((result, text))
 }
 
-impl Report for ContinuationReport {
-    fn text(&self) -> String {
-        let label = |name, unit| self.units.label(name, Unit::Of(unit));
-        let parameter = label(self.parameter, self.unit);
-        let mut text = String::new();
-        for branch in &self.branches {
-            text += &heading(&format!("Branch along {parameter}"));
-            text += &format!("{}\n", branch.figures.text(&self.units));
-            text += &match branch.specials.is_empty() {
-                true => "No special points.\n\n".to_owned(),
-                false => below(&branch.specials, &self.units) + "\n",
-            };
-        }
-        if let Some(found) = &self.curves {
-            let second = label(found.parameter, found.unit);
-            text += &heading(&format!("Curves in {parameter} and {second}"));
-            let figures: Vec<_> = found.curves.iter().map(|it| it.figures.clone()).collect();
-            text += &match figures.is_empty() {
-                true => "No special points to follow.\n".to_owned(),
-                false => below(&figures, &self.units),
-            };
-            let specials = found.curves.iter().flat_map(|it| &it.specials);
-            let specials: Vec<_> = specials.cloned().collect();
-            if !specials.is_empty() {
-                text += "\nOf codimension two:\n";
-                text += &below(&specials, &self.units);
-            }
-        }
-        text
+/// Curves with their points of codimension two, and the text of them.
+fn curves_found(
+    curves: &[Curve],
+    most: usize,
+    units: &Units,
+) -> serde_json::Result<(Vec<Record>, String)> {
+    let (mut figures, mut specials, mut found) = (Vec::new(), Vec::new(), Vec::new());
+    for (number, it) in curves.iter().enumerate() {
+        let own = it.specials.iter().map(|special| (it.kind, special));
+        let own = Record::all(&codimension_two(), &own.collect::<Vec<_>>());
+        let table = arrays(&curve_columns(), rows_of_curve(number, it))?;
+        let one = Record::of(&curve(), &(it, most));
+        figures.push(one.clone());
+        specials.extend(own.clone());
+        found.push(one.hidden("table", table).hidden("specials", own));
     }
+    let mut text = match figures.is_empty() {
+        true => "No special points to follow.\n".to_owned(),
+        false => below(&figures, units),
+    };
+    if !specials.is_empty() {
+        text += "\nOf codimension two:\n";
+        text += &below(&specials, units);
+    }
+    Ok((found, text))
 }

@@ -25,7 +25,10 @@ pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &S
     let errors = errors.filter(|error| error.is_finite() && *error > 0.0);
     let (small, large) = around(errors.map(f64::log10), 0.0);
     let (low, high) = (small.floor(), large.ceil().min(2.0));
-    let costs = study.entries.iter().map(|entry| cost(entry).log10());
+    let costs = study
+        .entries
+        .iter()
+        .map(|entry| entry.evaluations_per_period.log10());
     let (cheap, dear) = around(costs, 0.0);
     let power = |exponent: f64| 10f64.powf(exponent);
     let ends = |(low, high): (f64, f64)| (power(low), power(high));
@@ -35,7 +38,7 @@ pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &S
             Some(error) if error.is_finite() => error.min(power(high)),
             _ => power(high + 0.5 * STRIP),
         };
-        (cost(entry), height)
+        (entry.evaluations_per_period, height)
     };
     let all = (0.0, f64::INFINITY);
     let strips = [
@@ -86,11 +89,6 @@ pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &S
         subtitle: title(machine),
         ..Chart::new("How simple a model may be", [panel])
     }
-}
-
-/// Evaluations of a drive period.
-const fn cost(entry: &Entry) -> f64 {
-    entry.cost.evaluations_per_period
 }
 
 /// The regimes of all models as an SVG document: a strip over drive frequency for each model and start.

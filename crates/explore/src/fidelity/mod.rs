@@ -12,15 +12,13 @@ use clap::{Args, ValueEnum};
 use softstop::Allowed;
 use softstop_dynamics::models::{Likeness, Quantity};
 
-use report::FidelityReport;
+use report::report;
 use softstop_console::arguments::{
-    MachineArguments, refuse_followers_of_frequency, refuse_stop_below,
+    CommandArguments, refuse_followers_of_frequency, refuse_stop_below,
 };
-use softstop_console::budget::BudgetArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::output::Format;
 use softstop_console::range::{self, within};
 use structure::Structure;
 use study::Study;
@@ -87,15 +85,9 @@ pub struct FidelityArguments {
     /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "softstop-fidelity")]
     pub output: PathBuf,
-    /// How to print the result
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine.
+    /// How it prints its result, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 /// What soft models have in common with the contact.
@@ -146,7 +138,7 @@ fn help() -> String {
 /// Compares the models, writes the files and prints the result.
 pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     check(arguments)?;
-    let machine = arguments.machine.machine()?;
+    let machine = arguments.common.machine.machine()?;
     refuse_stop_below(&machine)?;
     let frequencies = arguments.structure;
     let frequencies = frequencies.then(|| structure::frequencies(&machine, arguments));
@@ -156,7 +148,7 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
     if arguments.structure {
         refuse_followers_of_frequency(&machine)?;
     }
-    let limit = arguments.limit.budget;
+    let limit = arguments.common.limit.budget;
     let study = limit.limit(|| Study::new(&machine, arguments))?;
     let structure = frequencies.map(|frequencies| {
         let motions = Structure::motion_count(&study, frequencies.len());
@@ -177,8 +169,8 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         let chart = chart::regimes(&machine, structure);
         export.sheet(kinds, &structure::columns(), structure.rows(), &chart)?;
     }
-    let report = FidelityReport::new(arguments, (&machine, &study), structure.as_ref());
-    export.finish(&report, arguments.format)
+    let (result, text) = report(arguments, (&machine, &study), structure.as_ref());
+    export.finish(&result, text, arguments.common.format)
 }
 
 fn check(arguments: &FidelityArguments) -> Result<(), Failure> {

@@ -1,10 +1,7 @@
 //! The result, in the machine's own units.
 
-use std::collections::BTreeMap;
-
-use serde::Serialize;
 use serde_json::json;
-use softstop::{Dimension, Machine, Start};
+use softstop::{Dimension, Machine};
 use softstop_dynamics::models::Quantity;
 use softstop_dynamics::zone::Bounds;
 
@@ -13,9 +10,8 @@ use super::structure::{Structure, Track, kind};
 use super::study::{Entry, Name, Study, Unmatched};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Unit, Units};
-use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
-use softstop_console::report::{MachineReport, MotionName};
+use softstop_console::report::{MotionName, stated_machine};
 use softstop_console::table::heading;
 use softstop_console::{columns, units};
 
@@ -37,8 +33,8 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
         "unit" [None], "of its value" => unit(it.machine, it.quantity);
         "value" [Of("unit")], "of the model" => own(it.machine, it.quantity, it.quantity.value(&it.model.answers));
         "error" [None], "relative to the machine's own value" => it.quantity.error(&it.study.truth, &it.model.answers);
-        "evaluations_per_period" [None], "of the law of force" => it.model.cost.evaluations_per_period;
-        "microseconds_per_period" [Of("us")], "median" => it.model.cost.microseconds_per_period;
+        "evaluations_per_period" [None], "of the law of force" => it.model.evaluations_per_period;
+        "microseconds_per_period" [Of("us")], "median" => it.model.microseconds_per_period;
     }
 }
 
@@ -72,8 +68,8 @@ fn figures<'a>() -> [Column<Row<'a>>; 4] {
     columns! { Row<'a>, it;
         "value" [None] Fixed(6), "of the quantity" => own(it.machine, it.quantity, it.quantity.value(&it.model.answers));
         "error" [None] Plain, "of it" => error(it.model.error);
-        "evaluations_per_period" [None] Fixed(1), "of the law of force" => it.model.cost.evaluations_per_period;
-        "microseconds_per_period" [None] Fixed(2), "median" => it.model.cost.microseconds_per_period;
+        "evaluations_per_period" [None] Fixed(1), "of the law of force" => it.model.evaluations_per_period;
+        "microseconds_per_period" [None] Fixed(2), "median" => it.model.microseconds_per_period;
     }
 }
 
@@ -99,8 +95,8 @@ fn tracks<'a>() -> [Column<Tracked<'a>>; 7] {
         "grazing_frequency" [Frequency] Fixed(6), "g0" => bound(it, |it| it.grazing);
         "flip_frequency" [Frequency] Fixed(6), "s_PD" => bound(it, |it| it.flip);
         "fold_frequency" [Frequency] Fixed(6), "s_SN" => bound(it, |it| it.fold);
-        "sequence_from_rest" [None], "regimes in order of frequency" => sequence(it.2, 0);
-        "sequence_flung" [None], "the same, flung" => sequence(it.2, 1);
+        "sequence_from_rest" [None], "regimes in order of frequency" => json!(it.2.sequence(0));
+        "sequence_flung" [None], "the same, flung" => json!(it.2.sequence(1));
     }
 }
 
@@ -109,162 +105,118 @@ fn bound((machine, _, track): &Tracked, one: fn(&Bounds) -> Option<f64>) -> Opti
     own(machine, Quantity::FoldFrequency, bound)
 }
 
-fn sequence(track: &Track, start: usize) -> Told {
-    Told {
-        value: track.sequence(start).into(),
-        words: String::new(),
-    }
+/// A model by its names.
+fn named(name: Name) -> Record {
+    let named = Record::default().hidden("rung", name.rung.name());
+    named.hidden("matched", name.word())
 }
 
-/// A model.
-#[derive(Debug, Serialize)]
-struct ModelReport {
-    #[serde(flatten)]
-    name: Name,
-    is_scene: bool,
-    /// The machine with this stop.
-    machine: MachineReport,
-    /// What it settles on.
-    #[serde(flatten)]
-    motion: MotionName,
-    /// Of the quantity that was asked for.
-    #[serde(flatten)]
-    figures: Record,
-    /// All quantities.
-    answers: BTreeMap<&'static str, Record>,
+/// A model: the machine with its stop, what it settles on, and all quantities of it.
+fn model(row: Row<'_>) -> Record {
+    let entry = row.model;
+    let mut quantities = Quantity::ALL;
+    quantities.sort_by_key(|it| it.name());
+    let answers = quantities
+        .into_iter()
+        .fold(Record::default(), |all, quantity| {
+            all.hidden(
+                quantity.name(),
+                Record::of(&columns()[3..6], &Row { quantity, ..row }),
+            )
+        });
+    let machine = Machine {
+        scene: entry.scene.clone(),
+        preload_deflection: None,
+        ..row.machine.clone()
+    };
+    named(entry.name)
+        .hidden("is_scene", entry.is_truth)
+        .hidden("machine", stated_machine(&machine))
+        .and(MotionName::of_regime(entry.answers.observed.regime).figures())
+        .and(Record::of(&figures(), &row))
+        .hidden("answers", answers)
 }
 
-impl ModelReport {
-    fn new(row: Row) -> Self {
-        let entry = row.model;
-        let answer = |quantity: Quantity| Record::of(&columns()[3..6], &Row { quantity, ..row });
-        Self {
-            name: entry.name,
-            is_scene: entry.is_truth,
-            machine: MachineReport::of(&Machine {
-                scene: entry.scene.clone(),
-                preload_deflection: None,
-                ..row.machine.clone()
-            }),
-            motion: MotionName::of_regime(entry.answers.observed.regime),
-            figures: Record::of(&figures(), &row),
-            answers: Quantity::ALL.map(|it| (it.name(), answer(it))).into(),
+/// Which model to take.
+fn advice(arguments: &FidelityArguments, machine: &Machine, study: &Study) -> String {
+    let matched = match study.velocity {
+        _ if arguments.predictive => {
+            "Matched at the velocity of each model's own motion.".to_owned()
         }
-    }
-}
-
-/// The regimes of a model over the sweep.
-#[derive(Debug, Serialize)]
-struct TrackReport {
-    #[serde(flatten)]
-    name: Name,
-    #[serde(flatten)]
-    figures: Record,
-}
-
-/// The whole result.
-#[derive(Debug, Serialize)]
-pub(super) struct FidelityReport<'a> {
-    machine: MachineReport,
-    /// Where its motion starts.
-    start: Start,
-    quantity: Quantity,
-    unit: &'static str,
-    tolerance: f64,
-    /// The scene's own value.
-    value: Option<f64>,
-    /// Before-impact velocity of the machine's motion.
-    operating_velocity: Option<f64>,
-    predictive: bool,
-    cheapest: Option<Name>,
-    cheapest_is_scene: bool,
-    models: Vec<ModelReport>,
-    unmatched: Vec<Unmatched>,
-    structure: Option<Vec<TrackReport>>,
-    #[serde(skip)]
-    of: (&'a Machine, &'a Study),
-}
-
-impl<'a> FidelityReport<'a> {
-    pub(super) fn new(
-        arguments: &FidelityArguments,
-        (machine, study): (&'a Machine, &'a Study),
-        structure: Option<&Structure>,
-    ) -> Self {
-        let quantity = arguments.quantity;
-        let cheapest = study.cheapest(arguments.tolerance);
-        let models = rows(machine, study).filter(|row| row.quantity == quantity);
-        let track = |structure, track: &Track| TrackReport {
-            name: track.entry.name,
-            figures: Record::of(&tracks(), &(machine, structure, track)),
-        };
-        let regimes = structure.map(|it| it.tracks.iter().map(|own| track(it, own)).collect());
-        Self {
-            machine: MachineReport::of(machine),
-            start: machine.start,
-            quantity,
-            unit: unit(machine, quantity),
-            tolerance: arguments.tolerance,
-            value: own(machine, quantity, quantity.value(&study.truth)),
-            operating_velocity: study.velocity,
-            predictive: arguments.predictive,
-            cheapest: cheapest.map(|entry| entry.name),
-            cheapest_is_scene: cheapest.is_some_and(|entry| entry.is_truth),
-            models: models.map(ModelReport::new).collect(),
-            unmatched: study.unmatched.clone(),
-            structure: regimes,
-            of: (machine, study),
+        Some(velocity) => {
+            let unit = machine.unit(Dimension::Velocity);
+            let matched = format!("Matched at the machine's own {velocity:.6} {unit}");
+            matched.trim_end().to_owned() + "."
         }
-    }
-
-    /// Which model to take.
-    fn advice(&self, units: &Units) -> String {
-        let matched = match self.operating_velocity {
-            _ if self.predictive => {
-                "Matched at the velocity of each model's own motion.".to_owned()
-            }
-            Some(velocity) => {
-                let unit = units.name(Unit::Own(Dimension::Velocity));
-                let matched = format!("Matched at the machine's own {velocity:.6} {unit}");
-                matched.trim_end().to_owned() + "."
-            }
-            None => "The scene's motion has no impact.".to_owned(),
-        };
-        let tolerance = self.tolerance;
-        let found = match self.cheapest {
-            None => format!("No model is within {tolerance}."),
-            Some(name) if self.cheapest_is_scene => format!(
-                "Within {tolerance} nothing costs less than the scene itself ({name}): take it as it is."
-            ),
-            Some(name) => format!("The cheapest model within {tolerance}: {name}."),
-        };
-        format!("{matched} Costs are per drive period.\n{found}\n")
-    }
+        None => "The scene's motion has no impact.".to_owned(),
+    };
+    let tolerance = arguments.tolerance;
+    let found = match study.cheapest(tolerance) {
+        None => format!("No model is within {tolerance}."),
+        Some(Entry { name, is_truth, .. }) if *is_truth => format!(
+            "Within {tolerance} nothing costs less than the scene itself ({name}): take it as it is."
+        ),
+        Some(Entry { name, .. }) => format!("The cheapest model within {tolerance}: {name}."),
+    };
+    format!("{matched} Costs are per drive period.\n{found}\n")
 }
 
-impl Report for FidelityReport<'_> {
-    fn text(&self) -> String {
-        let (machine, study) = self.of;
-        let units = Units::of(machine);
-        let table = |figures: Vec<&Record>| {
-            let named = figures.into_iter().zip(&study.entries).map(|(it, entry)| {
-                let name = Record::default().with("model", "", entry.full_name());
-                name.and(it.clone())
-            });
-            below(&named.collect::<Vec<_>>(), &units)
-        };
-        let models = table(self.models.iter().map(|it| &it.figures).collect());
-        let value = units.label(self.quantity.name(), Unit::Of(self.unit));
-        let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
-        text += &format!("{models}\n{}", self.advice(&units));
-        for Unmatched { name, reason } in &self.unmatched {
-            text += &format!("Without a model: {name}: {reason}\n");
-        }
-        if let Some(tracks) = &self.structure {
-            let title = heading("Regimes over the sweep, from rest and from a flung start");
-            let tracks = table(tracks.iter().map(|it| &it.figures).collect());
-            text += &format!("\n{title}{tracks}");
-        }
-        text
+/// All models, the cheapest one within the tolerance, and their regimes over the sweep; and the text of it.
+pub(super) fn report(
+    arguments: &FidelityArguments,
+    (machine, study): (&Machine, &Study),
+    structure: Option<&Structure<'_>>,
+) -> (Record, String) {
+    let (quantity, tolerance, units) =
+        (arguments.quantity, arguments.tolerance, Units::of(machine));
+    let table = |figures: &[Record]| {
+        let named = figures.iter().zip(&study.entries).map(|(figures, entry)| {
+            let name = Record::default().with("model", "", entry.full_name());
+            name.and(figures.clone())
+        });
+        below(&named.collect::<Vec<_>>(), &units)
+    };
+    let rows = rows(machine, study).filter(|row| row.quantity == quantity);
+    let rows: Vec<Row<'_>> = rows.collect();
+    let value = units.label(quantity.name(), Unit::Of(unit(machine, quantity)));
+    let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
+    text += &table(&Record::all(&figures(), &rows));
+    text += &format!("\n{}", advice(arguments, machine, study));
+    for Unmatched { name, reason } in &study.unmatched {
+        text += &format!("Without a model: {name}: {reason}\n");
     }
+    let sweep = structure.map(|structure| {
+        let tracked = structure.tracks.iter().map(|it| (machine, structure, it));
+        let figures = Record::all(&tracks(), &tracked.collect::<Vec<_>>());
+        let title = heading("Regimes over the sweep, from rest and from a flung start");
+        text += &format!("\n{title}{}", table(&figures));
+        let figures = study.entries.iter().zip(figures);
+        figures
+            .map(|(entry, figures)| named(entry.name).and(figures))
+            .collect::<Vec<_>>()
+    });
+    let cheapest = study.cheapest(tolerance);
+    let unmatched = study.unmatched.iter();
+    let unmatched = unmatched.map(|it| named(it.name).hidden("reason", it.reason.clone()));
+    let result = Record::default()
+        .hidden("machine", stated_machine(machine))
+        .hidden("start", json!(machine.start))
+        .hidden("quantity", quantity.name())
+        .hidden("unit", unit(machine, quantity))
+        .hidden("tolerance", tolerance)
+        .hidden(
+            "value",
+            own(machine, quantity, quantity.value(&study.truth)),
+        )
+        .hidden("operating_velocity", study.velocity)
+        .hidden("predictive", arguments.predictive)
+        .hidden("cheapest", cheapest.map(|entry| named(entry.name)))
+        .hidden(
+            "cheapest_is_scene",
+            cheapest.is_some_and(|entry| entry.is_truth),
+        )
+        .hidden("models", rows.into_iter().map(model).collect::<Vec<_>>())
+        .hidden("unmatched", unmatched.collect::<Vec<_>>())
+        .hidden("structure", sweep);
+    (result, text)
 }

@@ -4,7 +4,6 @@ use std::fmt;
 use std::time::Instant;
 
 use anyhow::{Context, anyhow};
-use serde::Serialize;
 use softstop::internals::Evaluations;
 use softstop::{Clock, Machine, MotionError, Scene, Start};
 use softstop_dynamics::models::{
@@ -18,7 +17,7 @@ use softstop_console::median::median;
 use softstop_console::progress::Progress;
 
 /// A model by its law and by what it has in common with the contact, nothing where that makes no difference.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Name {
     pub(super) rung: Rung,
     pub(super) matched: Option<Likeness>,
@@ -51,24 +50,17 @@ pub(super) struct Entry {
     pub(super) answers: Answers,
     /// Error of the quantity that is asked for.
     pub(super) error: Option<f64>,
-    pub(super) cost: Cost,
+    /// Evaluations of the law of force in a drive period of its settled motion: the same on every machine.
+    pub(super) evaluations_per_period: f64,
+    /// Median time of such a period.
+    pub(super) microseconds_per_period: f64,
     /// It is the scene itself.
     pub(super) is_truth: bool,
 }
 
-/// What a drive period of a model's settled motion takes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Cost {
-    /// Evaluations of the law of force: the same on every machine.
-    pub(super) evaluations_per_period: f64,
-    /// Median time.
-    pub(super) microseconds_per_period: f64,
-}
-
 /// A rung without a model.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub(super) struct Unmatched {
-    #[serde(flatten)]
     pub(super) name: Name,
     pub(super) reason: String,
 }
@@ -112,7 +104,8 @@ impl Study {
                         scene: model.scene,
                         error: quantity.error(&study.truth, &answers),
                         answers,
-                        cost: Cost::default(),
+                        evaluations_per_period: f64::NAN,
+                        microseconds_per_period: f64::NAN,
                     });
                 }
                 Err(error) => study.unmatched.push(Unmatched {
@@ -140,12 +133,12 @@ impl Study {
                 let taken =
                     evaluated(&entry.scene, start, periods).context("cannot time a motion")?;
                 times.push(1e6 * begin.elapsed().as_secs_f64() / periods as f64);
-                entry.cost.evaluations_per_period = taken.evaluations as f64 / periods as f64;
+                entry.evaluations_per_period = taken.evaluations as f64 / periods as f64;
                 progress.step()?;
             }
         }
         for (entry, times) in self.entries.iter_mut().zip(times) {
-            entry.cost.microseconds_per_period = median(times);
+            entry.microseconds_per_period = median(times);
         }
         Ok(())
     }
@@ -153,7 +146,7 @@ impl Study {
     /// The cheapest model within a tolerance; the scene itself always is.
     pub(super) fn cheapest(&self, tolerance: f64) -> Option<&Entry> {
         let models = self.entries.iter();
-        let models = models.map(|entry| (entry.error, entry.cost.evaluations_per_period));
+        let models = models.map(|entry| (entry.error, entry.evaluations_per_period));
         cheapest(&models.collect::<Vec<_>>(), tolerance).map(|place| &self.entries[place])
     }
 }

@@ -9,13 +9,11 @@ use anyhow::Error;
 use clap::Args;
 use softstop_dynamics::attractors::{SearchOptions, attractors, starting_box};
 
-use report::MotionsReport;
-use softstop_console::arguments::MachineArguments;
-use softstop_console::budget::BudgetArguments;
+use report::report;
+use softstop_console::arguments::CommandArguments;
 use softstop_console::export::{self, Export};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::within;
 
@@ -71,22 +69,15 @@ pub struct MotionsArguments {
     /// Folder for motions.json and motions.svg, a picture of all motions; none without it
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// How to print the result
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine.
+    /// How it prints its result, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 /// Finds the motions and prints them.
 pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     let mut options = options(arguments)?;
-    arguments.machine.refuse_start()?;
-    let machine = arguments.machine.machine()?;
+    let machine = arguments.common.machine_without_start()?;
     let export = arguments.output.as_deref();
     let export = export.map(|it| Export::open(it, &FILES)).transpose()?;
     let progress = Progress::new(1, "drive periods at most");
@@ -94,19 +85,19 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
         progress.at_of(done, planned);
         interrupt::go_on()
     };
-    let survey = arguments.limit.budget.limit(|| {
+    let survey = arguments.common.limit.budget.limit(|| {
         let region = starting_box(&machine.scene, &|_, _| interrupt::go_on());
         options.region = Some(region.map_err(Error::from)?);
         Ok(attractors(&machine.scene, &options, &watcher).map_err(Error::from)?)
     })?;
     drop(progress);
-    let report = MotionsReport::new(&machine, &options, &survey);
+    let (result, text) = report(&machine, &options, &survey);
     let Some(export) = export else {
-        return export::print(&report, arguments.format);
+        return export::print(&result, text, arguments.common.format);
     };
     let picture = chart::svg(&machine, &survey).map_err(Error::from)?;
     export.file("svg", picture.as_bytes())?;
-    export.finish(&report, arguments.format)
+    export.finish(&result, text, arguments.common.format)
 }
 
 fn options(arguments: &MotionsArguments) -> Result<SearchOptions, Failure> {

@@ -1,6 +1,5 @@
 //! What `softstop motions` reports.
 
-use serde::Serialize;
 use serde_json::json;
 use softstop::{Dimension, Machine};
 use softstop_dynamics::attractors::{Attractor, Certainty, Chaos, SearchOptions};
@@ -9,104 +8,66 @@ use softstop_dynamics::{Exponents, MotionKind, Orbit, Survey};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Unit, Units};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::record::Record;
-use softstop_console::report::{MachineReport, MotionName, multipliers};
+use softstop_console::report::{MotionName, multipliers, stated_machine};
 use softstop_console::table::heading;
 
-/// All motions of a machine.
-#[derive(Debug, Serialize)]
-pub(super) struct MotionsReport {
-    machine: MachineReport,
-    /// The motions, that with the largest share of starts first.
-    motions: Vec<SettledReport>,
-    /// Starts that the shares count.
-    starts: usize,
-    /// Starts whose motion could not be carried on.
-    lost: usize,
-    /// Why not the first of them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
-    /// Least and largest position of the starts.
-    region_position: [f64; 2],
-    /// Least and largest velocity of the starts.
-    region_velocity: [f64; 2],
-    seed: u64,
-    /// Drive periods computed.
-    periods_computed: u64,
-    #[serde(skip)]
-    title: String,
-    #[serde(skip)]
-    units: Units,
-}
-
-/// One motion.
-#[derive(Debug, Serialize)]
-struct SettledReport {
-    /// Share of the starts that were on it in the end.
-    share: f64,
-    /// How many that were.
-    starts: usize,
-    #[serde(flatten)]
-    name: MotionName,
-    #[serde(flatten)]
-    figures: Record,
-}
-
-impl MotionsReport {
-    pub(super) fn new(machine: &Machine, options: &SearchOptions, survey: &Survey) -> Self {
-        let lost = survey.lost.as_ref();
-        let motions = survey.attractors.iter().map(|attractor| SettledReport {
-            share: attractor.share,
-            starts: attractor.starts,
-            name: MotionName::of(&attractor.motion),
-            figures: figures(attractor),
-        });
-        Self {
-            machine: MachineReport::of(machine),
-            motions: motions.collect(),
-            starts: survey.starts,
-            lost: lost.map_or(0, |(count, _)| *count),
-            reason: lost.map(|(_, error)| error.to_string()),
-            region_position: survey.region.position,
-            region_velocity: survey.region.velocity,
-            seed: options.seed,
-            periods_computed: survey.periods,
-            title: title(machine),
-            units: Units::of(machine),
-        }
+/// All motions of a machine, that with the largest share of starts first, and where they were looked for; and the text of it.
+pub(super) fn report(
+    machine: &Machine,
+    options: &SearchOptions,
+    survey: &Survey,
+) -> (Record, String) {
+    let (
+        Survey {
+            region,
+            starts,
+            periods,
+            ..
+        },
+        units,
+    ) = (survey, Units::of(machine));
+    let mut text = heading(&format!("All motions of {}", title(machine)));
+    let mut motions = Vec::new();
+    for attractor in &survey.attractors {
+        let (name, figures) = (MotionName::of(&attractor.motion), figures(attractor));
+        let order = name.order.iter();
+        let order: String = order
+            .map(|order| format!(", order of impacts {order}"))
+            .collect();
+        let share = 100.0 * attractor.share;
+        text += &format!("\n{}{order} ({share:.1} % of starts)\n", name.text);
+        text += &figures.text(&units);
+        let found = Record::default().hidden("share", attractor.share);
+        let found = found.hidden("starts", attractor.starts);
+        motions.push(found.and(name.figures()).and(figures));
     }
-}
-
-impl Report for MotionsReport {
-    /// One motion after the other, then where they were looked for.
-    fn text(&self) -> String {
-        let mut text = heading(&format!("All motions of {}", self.title));
-        for motion in &self.motions {
-            let (name, share) = (&motion.name.text, 100.0 * motion.share);
-            let order = motion.name.order.as_ref();
-            let order =
-                order.map_or_else(String::new, |order| format!(", order of impacts {order}"));
-            text += &format!("\n{name}{order} ({share:.1} % of starts)\n");
-            text += &motion.figures.text(&self.units);
-        }
-        let range = |name: &str, [low, high]: [f64; 2], dimension| {
-            let sign = self.units.name(Unit::Own(dimension));
-            let told = format!("{low:.4} <= {name} <= {high:.4} {sign}");
-            told.trim_end().to_owned()
-        };
-        text += &format!(
-            "\n{} starts with {} and {}; {} drive periods computed.\n",
-            self.starts,
-            range("x", self.region_position, Dimension::Length),
-            range("x'", self.region_velocity, Dimension::Velocity),
-            self.periods_computed
-        );
-        if let Some(reason) = &self.reason {
-            text += &format!("{} starts were lost: {reason}\n", self.lost);
-        }
-        text
+    let range = |name: &str, [low, high]: [f64; 2], dimension| {
+        let sign = units.name(Unit::Own(dimension));
+        let told = format!("{low:.4} <= {name} <= {high:.4} {sign}");
+        told.trim_end().to_owned()
+    };
+    text += &format!(
+        "\n{starts} starts with {} and {}; {periods} drive periods computed.\n",
+        range("x", region.position, Dimension::Length),
+        range("x'", region.velocity, Dimension::Velocity),
+    );
+    let lost = survey.lost.as_ref();
+    let mut result = Record::default()
+        .hidden("machine", stated_machine(machine))
+        .hidden("motions", motions)
+        .hidden("starts", *starts)
+        .hidden("lost", lost.map_or(0, |(count, _)| *count));
+    if let Some((count, reason)) = lost {
+        text += &format!("{count} starts were lost: {reason}\n");
+        result = result.hidden("reason", reason.to_string());
     }
+    let result = result
+        .hidden("region_position", region.position)
+        .hidden("region_velocity", region.velocity)
+        .hidden("seed", options.seed)
+        .hidden("periods_computed", *periods);
+    (result, text)
 }
 
 /// What is told of a motion, by its kind.

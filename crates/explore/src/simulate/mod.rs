@@ -16,7 +16,7 @@ use softstop::PhaseKind;
 pub use begin::MotionArguments;
 pub(crate) use record::Crossed;
 pub use record::contact_force;
-pub(crate) use report::SimulateReport;
+pub(crate) use report::report;
 pub(crate) use run::{Outcome, Plan, faces};
 
 use softstop_console::column;
@@ -112,12 +112,12 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     let outcome = arguments.motion.limit.budget.limit(run)?;
     samples.close()?;
     crossings.close()?;
-    let report = SimulateReport::new(&plan, &outcome);
     let machine = &begun.machine;
     let title = report::chart_title(machine, plan.periods, plan.drawn);
     let chart = outcome.drawing.svg(machine, &title, &faces(&machine.scene));
     export.file("svg", chart.as_bytes())?;
-    export.finish(&report, arguments.format)
+    let (result, text) = report(&plan, &outcome);
+    export.finish(&result, text, arguments.format)
 }
 
 fn check(arguments: &SimulateArguments) -> Result<(), Failure> {

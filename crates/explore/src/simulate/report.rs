@@ -1,6 +1,5 @@
 //! The summary of a run, in the machine's own units.
 
-use serde::Serialize;
 use serde_json::json;
 use softstop::{Machine, Start};
 
@@ -10,10 +9,9 @@ use super::tally::{Impact, Rest, Visit};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Units};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::number::NumberStyle::Seven;
 use softstop_console::record::{Record, below};
-use softstop_console::report::MachineReport;
+use softstop_console::report::stated_machine;
 use softstop_console::table::{heading, sections};
 
 /// A run.
@@ -92,61 +90,6 @@ fn state(state: Start) -> Told {
     }
 }
 
-/// The summary.
-#[derive(Debug, Serialize)]
-pub(crate) struct SimulateReport {
-    machine: MachineReport,
-    #[serde(flatten)]
-    overview: Record,
-    impacts: ImpactsReport,
-    rests: Vec<Record>,
-    energy: Record,
-    phases: Vec<Record>,
-    #[serde(skip)]
-    title: String,
-    #[serde(skip)]
-    units: Units,
-    /// All rests, also those that are not listed.
-    #[serde(skip)]
-    rest_count: u64,
-}
-
-#[derive(Debug, Serialize)]
-struct ImpactsReport {
-    #[serde(flatten)]
-    figures: Record,
-    /// The last ones; all stand in crossings.csv.
-    last: Vec<Record>,
-}
-
-impl SimulateReport {
-    pub(crate) fn new(plan: &Plan<'_>, outcome: &Outcome) -> Self {
-        let (tally, machine) = (&outcome.tally, &plan.begun.machine);
-        let run = Run {
-            machine,
-            periods: plan.periods,
-            start: plan.begun.start,
-            outcome,
-        };
-        let seen = tally.phases.iter();
-        let seen: Vec<(Visit, f64)> = seen.map(|visit| (*visit, outcome.duration)).collect();
-        Self {
-            machine: MachineReport::of(machine),
-            overview: Record::of(&overview(), &run),
-            impacts: ImpactsReport {
-                figures: Record::of(&impacts(), &run),
-                last: Record::all(&blows(), &tally.impacts.recent),
-            },
-            rests: Record::all(&rests(), &tally.rests),
-            energy: Record::of(&energy(), outcome),
-            phases: Record::all(&visits(), &seen),
-            title: format!("{} (stop: {})", title(machine), machine.scene.stop.model()),
-            units: Units::of(machine),
-            rest_count: tally.rest_count,
-        }
-    }
-}
-
 /// The chart's title.
 pub(super) fn chart_title(machine: &Machine, periods: u64, drawn: u64) -> String {
     let (name, drawn) = (title(machine), periods.min(drawn));
@@ -159,24 +102,47 @@ pub(super) fn chart_title(machine: &Machine, periods: u64, drawn: u64) -> String
 /// Rests that the text lists.
 const SHOWN: usize = 10;
 
-impl Report for SimulateReport {
-    fn text(&self) -> String {
-        let figures = [&self.overview, &self.impacts.figures, &self.energy];
-        let figures = figures.into_iter().cloned();
-        let figures = figures.reduce(Record::and).unwrap_or_default();
-        let shown = &self.rests[..self.rests.len().min(SHOWN)];
-        let mut rests = "Rests".to_owned();
-        if self.rest_count > SHOWN as u64 {
-            rests += &format!(" (the first {SHOWN} of {})", self.rest_count);
-        }
-        let tables = [
-            ("Phases visited", &self.phases[..]),
-            (&rests, shown),
-            ("Last impacts", &self.impacts.last),
-        ];
-        let tables = tables.map(|(title, rows)| (title, below(rows, &self.units)));
-        heading(&format!("Motion of {}", self.title))
-            + &figures.text(&self.units)
-            + &sections(tables)
+/// The summary and the text of it; all impacts stand in crossings.csv, here the last ones.
+pub(crate) fn report(plan: &Plan<'_>, outcome: &Outcome) -> (Record, String) {
+    let (tally, machine) = (&outcome.tally, &plan.begun.machine);
+    let run = Run {
+        machine,
+        periods: plan.periods,
+        start: plan.begun.start,
+        outcome,
+    };
+    let seen = tally.phases.iter();
+    let seen: Vec<(Visit, f64)> = seen.map(|visit| (*visit, outcome.duration)).collect();
+    let phases = Record::all(&visits(), &seen);
+    let rests = Record::all(&rests(), &tally.rests);
+    let last = Record::all(&blows(), &tally.impacts.recent);
+    let overview = Record::of(&overview(), &run);
+    let impacts = Record::of(&impacts(), &run);
+    let energy = Record::of(&energy(), outcome);
+
+    let units = Units::of(machine);
+    let figures = overview.clone().and(impacts.clone()).and(energy.clone());
+    let mut title_of_rests = "Rests".to_owned();
+    if tally.rest_count > SHOWN as u64 {
+        title_of_rests += &format!(" (the first {SHOWN} of {})", tally.rest_count);
     }
+    let tables = [
+        ("Phases visited", &phases[..]),
+        (&title_of_rests, &rests[..rests.len().min(SHOWN)]),
+        ("Last impacts", &last),
+    ];
+    let tables = tables.map(|(title, rows)| (title, below(rows, &units)));
+    let (name, stop) = (title(machine), machine.scene.stop.model());
+    let text = heading(&format!("Motion of {name} (stop: {stop})"))
+        + &figures.text(&units)
+        + &sections(tables);
+
+    let result = Record::default()
+        .hidden("machine", stated_machine(machine))
+        .and(overview)
+        .hidden("impacts", impacts.hidden("last", last))
+        .hidden("rests", rests)
+        .hidden("energy", energy)
+        .hidden("phases", phases);
+    (result, text)
 }

@@ -8,13 +8,13 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
-use serde::Serialize;
 
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
-use softstop_console::export::{Export, Report};
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::output::Format;
+use softstop_console::record::Record;
 use stroke::Stroke;
 use zoo::{Exhibit, Specimen, ZOO};
 
@@ -41,28 +41,12 @@ pub struct StopsArguments {
     pub format: Format,
 }
 
-/// What was drawn.
-#[derive(Debug, Serialize)]
-struct StopsReport {
-    pictures: Vec<PictureReport>,
-}
-
-/// One picture.
-#[derive(Debug, Serialize)]
-struct PictureReport {
-    name: &'static str,
-    title: &'static str,
-    velocity: f64,
-}
-
-impl Report for StopsReport {
-    fn text(&self) -> String {
-        let columns: [Column<PictureReport>; 3] = columns! { PictureReport, it;
-            "picture" [None] Plain, "its file" => it.name;
-            "law" [None] Plain, "what it shows" => it.title;
-            "first_touch" [Velocity] Plain, "velocity there" => it.velocity;
-        };
-        text(&columns, &self.pictures, &Units::SI)
+/// What is told of a picture.
+fn columns() -> [Column<Exhibit>; 3] {
+    columns! { Exhibit, it;
+        "picture" [None] Plain, "its file" => it.name;
+        "law" [None] Plain, "what it shows" => it.title;
+        "first_touch" [Velocity] Plain, "velocity there" => it.speed;
     }
 }
 
@@ -75,15 +59,14 @@ pub fn run(arguments: &StopsArguments) -> Result<(), Failure> {
     for (exhibit, (kind, _)) in ZOO.iter().zip(&files) {
         export.file(kind, picture(exhibit)?.as_bytes())?;
     }
-    let pictures = ZOO.map(|exhibit| PictureReport {
-        name: exhibit.name,
-        title: exhibit.title,
-        velocity: exhibit.speed,
-    });
-    let report = StopsReport {
-        pictures: pictures.into(),
+    let picture = |it: Exhibit| {
+        let named = Record::default().hidden("name", it.name);
+        named.hidden("title", it.title).hidden("velocity", it.speed)
     };
-    export.finish(&report, arguments.format)
+    let pictures = ZOO.map(picture).to_vec();
+    let result = Record::default().hidden("pictures", pictures);
+    let text = text(&columns(), ZOO, &Units::SI);
+    export.finish(&result, text, arguments.format)
 }
 
 /// Free flight before the first touch and after the last that is drawn, over the depth.

@@ -1,6 +1,5 @@
 //! The columns of a row group: values of the axes, and outputs from their blocks.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
 use softstop_console::cell::Cell;
@@ -11,51 +10,12 @@ use super::file::Study;
 use super::outputs::{Output, is_over_budget};
 
 /// A column.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Column {
     /// Numbers, not a number where there is nothing.
     Numbers(Vec<f64>),
-    Words(Words),
-}
-
-/// A column of few different words.
-#[derive(Default)]
-pub(super) struct Words {
-    /// Those that there are.
-    pub all: Vec<String>,
-    /// Of each row, by its place among them.
-    pub places: Vec<Option<usize>>,
-    /// Rows without one since they are over the budget.
-    pub over_budget: u64,
-    known: HashMap<[u64; 2], Option<usize>>,
-}
-
-impl Words {
-    /// Adds the word of these numbers.
-    fn push(&mut self, output: Output, numbers: [f64; 2]) {
-        self.over_budget += u64::from(is_over_budget(numbers[0]));
-        let all = &mut self.all;
-        let place = *self
-            .known
-            .entry(numbers.map(f64::to_bits))
-            .or_insert_with(|| {
-                let word = output.word(numbers)?;
-                let place = all.iter().position(|it| *it == word);
-                Some(place.unwrap_or_else(|| {
-                    all.push(word);
-                    all.len() - 1
-                }))
-            });
-        self.places.push(place);
-    }
-
-    /// How often each stands there.
-    pub fn counts(&self) -> impl Iterator<Item = (&str, u64)> {
-        let mut counts = vec![0; self.all.len()];
-        for place in self.places.iter().flatten() {
-            counts[*place] += 1;
-        }
-        self.all.iter().map(String::as_str).zip(counts)
-    }
+    /// Words, and how many rows have none since they are over the budget.
+    Words(Vec<Option<String>>, u64),
 }
 
 impl Column {
@@ -63,7 +23,23 @@ impl Column {
     pub fn len(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
-            Self::Words(words) => words.places.len(),
+            Self::Words(words, _) => words.len(),
+        }
+    }
+
+    /// The number of a row; not a number if there is none.
+    pub fn number(&self, row: usize) -> f64 {
+        match self {
+            Self::Numbers(numbers) => numbers[row],
+            Self::Words(..) => f64::NAN,
+        }
+    }
+
+    /// The word of a row, if it has one.
+    pub fn word(&self, row: usize) -> Option<&str> {
+        match self {
+            Self::Numbers(_) => None,
+            Self::Words(words, _) => words[row].as_deref(),
         }
     }
 
@@ -71,7 +47,7 @@ impl Column {
     pub fn cell(&self, row: usize) -> Cell {
         match self {
             Self::Numbers(numbers) => Some(numbers[row]).filter(|it| !it.is_nan()).into(),
-            Self::Words(words) => words.places[row].map(|it| words.all[it].clone()).into(),
+            Self::Words(words, _) => words[row].clone().into(),
         }
     }
 
@@ -79,10 +55,11 @@ impl Column {
     fn extend(&mut self, output: Output, numbers: &[f64], points: usize) {
         match self {
             Self::Numbers(all) => all.extend(numbers),
-            Self::Words(words) => {
+            Self::Words(words, over_budget) => {
                 let second = |point| numbers.get(points + point).copied().unwrap_or(f64::NAN);
                 for (point, first) in numbers.iter().take(points).enumerate() {
-                    words.push(output, [*first, second(point)]);
+                    *over_budget += u64::from(is_over_budget(*first));
+                    words.push(output.word([*first, second(point)]));
                 }
             }
         }
@@ -117,7 +94,7 @@ fn coordinates(study: &Study, points: Range<u64>) -> Vec<Column> {
 /// The outputs.
 fn outputs(study: &Study, blocks: &mut Blocks, group: Range<u64>) -> Result<Vec<Column>, Failure> {
     let empty = |output: &Output| match output.is_word() {
-        true => Column::Words(Words::default()),
+        true => Column::Words(Vec::new(), 0),
         false => Column::Numbers(Vec::new()),
     };
     let mut columns: Vec<Column> = study.outputs.iter().map(empty).collect();

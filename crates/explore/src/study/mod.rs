@@ -22,12 +22,12 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::{Args, Subcommand};
-use serde::Serialize;
 use softstop_console::budget::Budget;
-use softstop_console::export::{self, Export, Report};
+use softstop_console::export::{self, Export};
 use softstop_console::failure::Failure;
 use softstop_console::keep::KeepArguments;
 use softstop_console::output::Format;
+use softstop_console::record::Record;
 
 use blocks::{Blocks, Run};
 use file::Study;
@@ -183,12 +183,13 @@ fn part(what: &What, shard: Shard, keep: KeepArguments) -> Result<(), Failure> {
         run.go_on()?;
         run.close(&done)?;
     }
-    let report = ShardReport {
-        study: study.hash.clone(),
-        shard: shard.to_string(),
-        file: done.display().to_string(),
-    };
-    export::print(&report, what.format)
+    let file = done.display().to_string();
+    let text = format!("Shard {shard}: {file}\n");
+    let result = Record::default()
+        .hidden("study", study.hash)
+        .hidden("shard", shard.to_string())
+        .hidden("file", file);
+    export::print(&result, text, what.format)
 }
 
 /// All shards.
@@ -236,19 +237,6 @@ fn export(what: &What) -> Result<Export, Failure> {
 fn write(study: &Study, blocks: &mut Blocks, export: Export, what: &What) -> Result<(), Failure> {
     let csv = what.csv.then(|| export.rows("csv")).transpose()?;
     let summaries = table::write(study, blocks, export.open_file("parquet")?, csv)?;
-    export.finish(&StudyReport::new(study, summaries), what.format)
-}
-
-/// What `softstop study --shard` reports.
-#[derive(Debug, Serialize)]
-struct ShardReport {
-    study: String,
-    shard: String,
-    file: String,
-}
-
-impl Report for ShardReport {
-    fn text(&self) -> String {
-        format!("Shard {}: {}\n", self.shard, self.file)
-    }
+    let report = StudyReport::new(study, summaries);
+    export.finish(&report, report.text(study), what.format)
 }

@@ -6,14 +6,15 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Error, anyhow};
 use clap::Args;
-use serde::Serialize;
-use softstop_console::export::{Export, Report};
+use serde_json::json;
+use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::names::check_file;
 use softstop_console::output::Format;
+use softstop_console::record::Record;
 use softstop_console::scene_file;
 
-use super::read::{Column, read};
+use super::read::read;
 use super::report::{ColumnReport, Manifest};
 use super::{FOLDER, MANIFEST, TABLE};
 
@@ -42,23 +43,6 @@ fn place(text: &str) -> Result<(String, f64), String> {
     let parts = text.split_once('=');
     let parts = parts.and_then(|(name, value)| Some((name.to_owned(), value.parse().ok()?)));
     parts.ok_or_else(|| "must be NAME=VALUE".to_owned())
-}
-
-/// What is drawn.
-#[derive(Debug, Serialize)]
-struct PlotReport {
-    of: String,
-    over: Vec<String>,
-    /// The values of the other axes.
-    at: BTreeMap<String, f64>,
-    points: u64,
-}
-
-impl Report for PlotReport {
-    fn text(&self) -> String {
-        let over = self.over.join(" and ");
-        format!("{} over {over}: {} points", self.of, self.points)
-    }
 }
 
 /// Which points of a study are drawn.
@@ -99,13 +83,16 @@ pub(super) fn run(arguments: &PlotArguments) -> Result<(), Failure> {
     let names = |axis: &usize| manifest.axes[*axis].parameter.clone();
     let at = view.held.iter();
     let at = at.map(|(axis, number)| (names(axis), manifest.axes[*axis].values.at(*number)));
-    let report = PlotReport {
-        of: view.column.name.clone(),
-        over: view.over.iter().map(names).collect(),
-        at: at.collect(),
-        points: points.len() as u64,
-    };
-    export.finish(&report, arguments.format)
+    let at: BTreeMap<String, f64> = at.collect();
+    let over: Vec<String> = view.over.iter().map(names).collect();
+    let (of, points) = (&view.column.name, points.len());
+    let text = format!("{of} over {}: {points} points", over.join(" and "));
+    let result = Record::default()
+        .hidden("of", of.as_str())
+        .hidden("over", json!(over))
+        .hidden("at", json!(at))
+        .hidden("points", points);
+    export.finish(&result, text, arguments.format)
 }
 
 /// A point that is drawn: where it is along the axes, and what is there.
@@ -190,26 +177,19 @@ impl<'a> View<'a> {
         let samples = self.manifest.samples.unwrap_or(1);
         let mut points = Vec::new();
         read(table, &names, |first, columns| {
-            let rows = match &columns[0] {
-                Column::Numbers(numbers) => numbers.len(),
-                Column::Words(words) => words.len(),
-            };
-            for row in 0..rows {
+            for row in 0..columns[0].len() {
                 let point = first + row as u64;
                 if !self.shows(point / samples) || (is_map && !point.is_multiple_of(samples)) {
                     continue;
                 }
-                let at = |column: usize| match columns.get(column) {
-                    Some(Column::Numbers(numbers)) => numbers[row],
-                    _ => f64::NAN,
+                let at = |column: usize| {
+                    let column = columns.get(column);
+                    column.map_or(f64::NAN, |it| it.number(row))
                 };
                 points.push(Point {
                     at: [at(1), at(2)],
                     number: at(0),
-                    word: match &columns[0] {
-                        Column::Words(words) => words[row].clone(),
-                        Column::Numbers(_) => None,
-                    },
+                    word: columns[0].word(row).map(str::to_owned),
                 });
             }
         })?;

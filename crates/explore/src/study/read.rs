@@ -7,12 +7,7 @@ use parquet::column::reader::ColumnReader;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use softstop_console::scene_file;
 
-/// A column as it was written; a number is NaN, a word none where there is nothing.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Column {
-    Numbers(Vec<f64>),
-    Words(Vec<Option<String>>),
-}
+use super::column::Column;
 
 /// Reads columns row group by row group: the first point of each, and the columns in this order.
 ///
@@ -67,7 +62,7 @@ fn values(reader: ColumnReader, rows: usize) -> Result<Column, Error> {
                 0 => None,
                 _ => Some(String::from_utf8_lossy(there.next()?.data()).into_owned()),
             });
-            Column::Words(all.collect())
+            Column::Words(all.collect(), 0)
         }
         _ => bail!("it was not written by softstop"),
     })

@@ -7,13 +7,14 @@ use softstop::Machine;
 use softstop_console::arguments::title;
 use softstop_console::budget::Budget;
 use softstop_console::column::{Unit, Units};
-use softstop_console::export::Report;
 use softstop_console::number::NumberStyle::Seven;
-use softstop_console::report::MachineReport;
+use softstop_console::record::Record;
+use softstop_console::report::stated_machine;
 use softstop_console::table::aligned;
 use softstop_console::units;
 use softstop_dynamics::settled::Settling;
 
+use super::column::Column;
 use super::file::{Certainty, Study};
 use super::outputs::{OVER_BUDGET, is_over_budget};
 use super::values::Values;
@@ -41,21 +42,33 @@ fn is_none(count: &u64) -> bool {
 }
 
 impl Summary {
-    pub fn numbers(&mut self, numbers: &[f64]) {
-        self.values += numbers.iter().filter(|it| !it.is_nan()).count() as u64;
-        self.over_budget += numbers.iter().filter(|it| is_over_budget(**it)).count() as u64;
-        for &number in numbers.iter().filter(|it| it.is_finite()) {
+    /// Adds what a column holds.
+    pub fn add(&mut self, column: &Column) {
+        match column {
+            Column::Numbers(numbers) => numbers.iter().for_each(|it| self.add_number(*it)),
+            Column::Words(words, over_budget) => {
+                self.over_budget += over_budget;
+                words.iter().flatten().for_each(|it| self.add_word(it));
+            }
+        }
+    }
+
+    fn add_number(&mut self, number: f64) {
+        self.values += u64::from(!number.is_nan());
+        self.over_budget += u64::from(is_over_budget(number));
+        if number.is_finite() {
             self.least = Some(self.least.map_or(number, |it| it.min(number)));
             self.greatest = Some(self.greatest.map_or(number, |it| it.max(number)));
         }
     }
 
-    pub fn word(&mut self, word: &str, count: u64) {
-        if word == OVER_BUDGET {
-            self.over_budget += count;
+    fn add_word(&mut self, word: &str) {
+        self.values += 1;
+        self.over_budget += u64::from(word == OVER_BUDGET);
+        match self.words.get_mut(word) {
+            Some(count) => *count += 1,
+            None => _ = self.words.insert(word.to_owned(), 1),
         }
-        self.values += count;
-        *self.words.entry(word.to_owned()).or_default() += count;
     }
 }
 
@@ -87,7 +100,7 @@ pub(super) struct StudyReport {
     version: &'static str,
     /// What studies that come to the same have in common.
     study: String,
-    machine: MachineReport,
+    machine: Record,
     /// Where its motions start, unless an axis says so.
     start: [f64; 2],
     points: u64,
@@ -100,8 +113,6 @@ pub(super) struct StudyReport {
     /// Millions of scan windows that a point may cost.
     budget: Budget,
     columns: Vec<ColumnReport>,
-    #[serde(skip)]
-    title: String,
 }
 
 /// What pictures need of a manifest.
@@ -135,7 +146,7 @@ impl StudyReport {
         Self {
             version: env!("CARGO_PKG_VERSION"),
             study: study.hash.clone(),
-            machine: MachineReport::of(machine),
+            machine: stated_machine(machine),
             start: [machine.start.position, machine.start.velocity],
             points: study.points,
             axes: axes.collect(),
@@ -145,24 +156,11 @@ impl StudyReport {
             certainty: study.certainty,
             budget: study.budget,
             columns: columns.collect(),
-            title: title(machine),
         }
     }
-}
 
-/// A unit by its name in JSON.
-pub(super) fn unit(machine: &Machine, unit: Unit) -> &'static str {
-    match unit {
-        Unit::Own(dimension) => units::name(machine, dimension),
-        other => Units::of(machine).name(other),
-    }
-}
-
-/// Words that people are told of a column.
-const TOLD: usize = 6;
-
-impl Report for StudyReport {
-    fn text(&self) -> String {
+    /// What people read.
+    pub fn text(&self, study: &Study) -> String {
         let mut rows = vec![
             ["output", "points", "least", "greatest"]
                 .map(str::to_owned)
@@ -203,10 +201,21 @@ impl Report for StudyReport {
             .map(|count| format!("\n{count} points {}\n", self.budget.refusal()));
         format!(
             "{}: {} points\n\n{}{}",
-            self.title,
+            title(&study.machine),
             self.points,
             aligned(&rows, |column| column == 0),
             over.unwrap_or_default()
         )
     }
 }
+
+/// A unit by its name in JSON.
+pub(super) fn unit(machine: &Machine, unit: Unit) -> &'static str {
+    match unit {
+        Unit::Own(dimension) => units::name(machine, dimension),
+        other => Units::of(machine).name(other),
+    }
+}
+
+/// Words that people are told of a column.
+const TOLD: usize = 6;

@@ -72,15 +72,7 @@ fn put(
 ) -> Result<(), Failure> {
     let outputs = &columns[columns.len() - summaries.len()..];
     for (summary, column) in summaries.iter_mut().zip(outputs) {
-        match column {
-            Column::Numbers(numbers) => summary.numbers(numbers),
-            Column::Words(words) => {
-                summary.over_budget += words.over_budget;
-                words
-                    .counts()
-                    .for_each(|(word, count)| summary.word(word, count));
-            }
-        }
+        summary.add(column);
     }
     add(parquet, columns).context("study.parquet")?;
     match csv {
@@ -176,11 +168,10 @@ fn add(parquet: &mut SerializedFileWriter<File>, columns: &[Column]) -> Result<(
                 let typed = writer.typed::<DoubleType>();
                 typed.write_batch(&there, Some(&levels), None)?;
             }
-            Column::Words(words) => {
-                let all: Vec<ByteArray> = words.all.iter().map(|it| it.as_str().into()).collect();
-                let there = words.places.iter().flatten();
-                let there: Vec<ByteArray> = there.map(|it| all[*it].clone()).collect();
-                let levels = words.places.iter().map(|it| i16::from(it.is_some()));
+            Column::Words(words, _) => {
+                let there = words.iter().flatten();
+                let there: Vec<ByteArray> = there.map(|it| it.as_str().into()).collect();
+                let levels = words.iter().map(|it| i16::from(it.is_some()));
                 let levels: Vec<i16> = levels.collect();
                 let typed = writer.typed::<ByteArrayType>();
                 typed.write_batch(&there, Some(&levels), None)?;

@@ -11,15 +11,13 @@ use softstop::{Machine, Parameter};
 use softstop_dynamics::{Chain, Direction, Plan};
 
 use crate::sweep::chart::SweepChart;
-use report::SweepReport;
-use softstop_console::arguments::MachineArguments;
-use softstop_console::budget::BudgetArguments;
+use report::report;
+use softstop_console::arguments::CommandArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
-use softstop_console::output::Format;
 use softstop_console::progress::Progress;
 use softstop_console::range::{require, within};
 
@@ -117,15 +115,9 @@ pub struct SweepArguments {
     /// Folder for sweep.csv, sweep.svg and sweep.json
     #[arg(long, value_name = "DIR", default_value = "softstop-sweep")]
     pub output: PathBuf,
-    /// How to print the result
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine.
+    /// How it prints its result, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 const FILES: [(&str, &str); 3] = [
@@ -136,22 +128,28 @@ const FILES: [(&str, &str); 3] = [
 
 /// Sweeps, writes table and chart, and says where the motion jumps.
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
-    arguments.machine.refuse_start()?;
-    let machine = arguments.machine.machine()?;
+    let machine = arguments.common.machine_without_start()?;
     let name = arguments.parameter.as_deref();
     let name = name.unwrap_or_else(|| machine.name(Parameter::Frequency));
-    let (parameter, unit) = arguments.machine.parameter(&machine, "parameter", name)?;
+    let (parameter, unit) = arguments
+        .common
+        .machine
+        .parameter(&machine, "parameter", name)?;
     for (flag, value) in [("--from", arguments.from), ("--to", arguments.to)] {
         require(value.is_finite(), flag, value, "finite")?;
     }
     let ends = [arguments.from * unit, arguments.to * unit];
     let why = "is not used, for it is swept: --from and --to have its values";
-    arguments.machine.refuse(&machine, parameter, why)?;
+    arguments.common.machine.refuse(&machine, parameter, why)?;
     if !arguments.clearances.is_empty() {
         let name = Parameter::Clearance.name();
-        arguments.machine.parameter(&machine, "clearances", name)?;
+        arguments
+            .common
+            .machine
+            .parameter(&machine, "clearances", name)?;
         let why = "is not used, for --clearances has the values";
         arguments
+            .common
             .machine
             .refuse(&machine, Parameter::Clearance, why)?;
     }
@@ -170,15 +168,13 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         true => Ok(()),
         false => Err(Failure::Interrupted),
     };
-    arguments.limit.budget.limit_many(steps, run)?;
+    arguments.common.limit.budget.limit_many(steps, run)?;
     drop(progress);
     let chart = SweepChart::new(&machine, &plan, &chains).svg();
     let rows = steps::rows(&plan, &chains);
     export.sheet(["csv", "svg"], &steps::columns(), rows, &chart)?;
-    export.finish(
-        &SweepReport::new(&machine, &plan, &chains),
-        arguments.format,
-    )?;
+    let (result, text) = report(&machine, &plan, &chains);
+    export.finish(&result, text, arguments.common.format)?;
     keep.forget();
     Ok(())
 }

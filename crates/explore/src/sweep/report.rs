@@ -1,44 +1,16 @@
 //! What a sweep came to.
 
-use serde::Serialize;
 use softstop::Machine;
 use softstop_console::column::{Column, Unit, Units};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::record::{Record, below};
-use softstop_console::report::{MachineReport, MotionName};
+use softstop_console::report::{MotionName, stated_machine};
 use softstop_console::table::sections;
 use softstop_console::units;
 use softstop_dynamics::sweep::{Coexistence, Jump, hysteresis};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan};
 
 use super::steps::clearance;
-
-/// The result.
-#[derive(Debug, Serialize)]
-pub(super) struct SweepReport {
-    machine: MachineReport,
-    #[serde(flatten)]
-    plan: Record,
-    sweeps: Vec<ChainReport>,
-    /// Where up and down differ.
-    hysteresis: Vec<Record>,
-    #[serde(skip)]
-    title: String,
-    #[serde(skip)]
-    units: Units,
-}
-
-/// One sweep.
-#[derive(Debug, Serialize)]
-struct ChainReport {
-    #[serde(flatten)]
-    figures: Record,
-    /// Where it jumps.
-    jumps: Vec<Record>,
-    #[serde(skip)]
-    name: String,
-}
 
 fn plans<'a>() -> [Column<(&'a Machine, &'a Plan)>; 6] {
     columns! { (&'a Machine, &'a Plan), it;
@@ -106,66 +78,60 @@ fn digits(plan: &Plan) -> usize {
     (1.0 - step.log10()).clamp(6.0, 15.0) as usize
 }
 
-impl SweepReport {
-    pub(super) fn new(machine: &Machine, plan: &Plan, all: &[Chain]) -> Self {
-        let (digits, units) = (digits(plan), Units::of(machine));
-        let goes = |way| all.iter().any(|chain| chain.direction == way);
-        let goes_both = goes(Direction::Up) && goes(Direction::Down);
-        let of_machine = |pair: &[Chain]| match pair {
-            [up, down] if goes_both => {
-                let clearance = clearance(plan, up);
-                let zones = hysteresis(up, down).into_iter();
-                zones.map(|zone| (clearance, zone)).collect()
-            }
-            _ => Vec::new(),
-        };
-        let zones_found = all.chunks(2).flat_map(of_machine);
-        let chain = |chain: &Chain| {
-            let jumps_found = chain.jumps();
-            let clearance = clearance(plan, chain).map(|it| format!("clearance {it}, "));
-            ChainReport {
-                figures: Record::of(&chains(), &(plan, chain)),
-                jumps: Record::all(&jumps(digits), &jumps_found),
-                name: clearance.unwrap_or_default() + chain.direction.name(),
-            }
-        };
-        let parameter = Unit::Of(units::of_parameter(machine, plan.parameter));
-        Self {
-            machine: MachineReport::of(machine),
-            plan: Record::of(&plans(), &(machine, plan)),
-            sweeps: all.iter().map(chain).collect(),
-            hysteresis: Record::all(&zones(digits), &zones_found.collect::<Vec<_>>()),
-            title: format!(
-                "{} from {} to {}: {} values of {} drive periods, {:.3e} per period",
-                units.label(machine.name(plan.parameter), parameter),
-                plan.range.0,
-                plan.range.1,
-                plan.steps,
-                plan.periods,
-                plan.rate(),
-            ),
-            units,
-        }
-    }
-}
-
 /// Jumps of a sweep that are told; the file holds all.
 const MOST: usize = 12;
 
-impl Report for SweepReport {
-    fn text(&self) -> String {
-        let sweeps = self.sweeps.iter();
-        let figures: Vec<Record> = sweeps.map(|sweep| sweep.figures.clone()).collect();
-        let mut text = format!("{}\n\n{}", self.title, below(&figures, &self.units));
-        for ChainReport { jumps, name, .. } in &self.sweeps {
-            if !jumps.is_empty() {
-                let told = below(&jumps[..jumps.len().min(MOST)], &self.units);
-                text += &format!("\nJumps, {name}\n{told}");
-            }
-            if jumps.len() > MOST {
-                text += &format!("and {} more\n", jumps.len() - MOST);
-            }
+/// The sweeps with their jumps, and where up and down differ; and the text of it.
+pub(super) fn report(machine: &Machine, plan: &Plan, all: &[Chain]) -> (Record, String) {
+    let (digits, units) = (digits(plan), Units::of(machine));
+    let goes = |way| all.iter().any(|chain| chain.direction == way);
+    let goes_both = goes(Direction::Up) && goes(Direction::Down);
+    let of_machine = |pair: &[Chain]| match pair {
+        [up, down] if goes_both => {
+            let clearance = clearance(plan, up);
+            let zones = hysteresis(up, down).into_iter();
+            zones.map(|zone| (clearance, zone)).collect()
         }
-        text + &sections([("Hysteresis", below(&self.hysteresis, &self.units))])
-    }
+        _ => Vec::new(),
+    };
+    let zones_found: Vec<Zone> = all.chunks(2).flat_map(of_machine).collect();
+    let zones = Record::all(&zones(digits), &zones_found);
+    let figures = all
+        .iter()
+        .map(|chain| Record::of(&chains(), &(plan, chain)));
+    let figures: Vec<Record> = figures.collect();
+
+    let parameter = Unit::Of(units::of_parameter(machine, plan.parameter));
+    let mut text = format!(
+        "{} from {} to {}: {} values of {} drive periods, {:.3e} per period\n\n{}",
+        units.label(machine.name(plan.parameter), parameter),
+        plan.range.0,
+        plan.range.1,
+        plan.steps,
+        plan.periods,
+        plan.rate(),
+        below(&figures, &units),
+    );
+    let sweep = |(chain, figures): (&Chain, Record)| {
+        let jumps = Record::all(&jumps(digits), &chain.jumps());
+        if !jumps.is_empty() {
+            let clearance = clearance(plan, chain).map(|it| format!("clearance {it}, "));
+            let name = clearance.unwrap_or_default() + chain.direction.name();
+            let told = below(&jumps[..jumps.len().min(MOST)], &units);
+            text += &format!("\nJumps, {name}\n{told}");
+        }
+        if jumps.len() > MOST {
+            text += &format!("and {} more\n", jumps.len() - MOST);
+        }
+        figures.hidden("jumps", jumps)
+    };
+    let sweeps: Vec<Record> = all.iter().zip(figures).map(sweep).collect();
+    text += &sections([("Hysteresis", below(&zones, &units))]);
+
+    let result = Record::default()
+        .hidden("machine", stated_machine(machine))
+        .and(Record::of(&plans(), &(machine, plan)))
+        .hidden("sweeps", sweeps)
+        .hidden("hysteresis", zones);
+    (result, text)
 }

@@ -7,14 +7,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use page::{Hit, Page};
+use page::{hit, html, shown};
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::output::{Format, folder_and_file};
 use softstop_console::range::within;
 use strip::Strips;
 
-use crate::simulate::{Crossed, MotionArguments, PERIODS, Plan, SimulateReport};
+use crate::simulate::{Crossed, MotionArguments, PERIODS, Plan, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -74,7 +74,7 @@ pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
     let (mut hits, from) = (Vec::new(), plan.drawn_from());
     let crossed = |crossed: &Crossed| {
         strips.iter_mut().for_each(|strips| strips.take(crossed));
-        hits.extend(Hit::of(crossed).filter(|hit| hit.time >= from));
+        hits.extend(hit(crossed).filter(|_| crossed.time >= from));
         Ok(())
     };
     let run = || plan.run(|_| Ok(()), crossed);
@@ -87,7 +87,8 @@ pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
     }
     let last = outcome.drawing.phases.last();
     let strips = strips.zip(last).map(|(strips, last)| strips.finish(last.0));
-    let page = Page::new(&plan, &outcome, strips.unwrap_or_default(), hits);
-    export.file("html", page.html()?.as_bytes())?;
-    export.finish(&SimulateReport::new(&plan, &outcome), arguments.format)
+    let shown = shown(&plan, &outcome, &strips.unwrap_or_default(), hits);
+    export.file("html", html(&shown)?.as_bytes())?;
+    let (result, text) = report(&plan, &outcome);
+    export.finish(&result, text, arguments.format)
 }

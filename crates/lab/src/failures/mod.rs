@@ -107,7 +107,8 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     }
     drop(progress);
     export.table("csv", &report::table(), report::runs(&atlases))?;
-    export.finish(&FailuresReport::new(&atlases), arguments.format)
+    let report = FailuresReport::new(&atlases);
+    export.finish(&report, report.text(), arguments.format)
 }
 
 fn check(arguments: &FailuresArguments) -> Result<(), Failure> {

@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::atlas::{Atlas, Column, Map};
 use softstop_console::column::{self, Units};
 use softstop_console::columns;
-use softstop_console::export::Report;
 
 /// A run: its atlas and map, and the numbers of its stiffness and of its step.
 pub(super) type Run<'a> = (&'a Atlas, &'a Map, usize, usize);
@@ -96,8 +95,9 @@ impl<'a> FailuresReport<'a> {
     }
 }
 
-impl Report for FailuresReport<'_> {
-    fn text(&self) -> String {
+impl FailuresReport<'_> {
+    /// What people read.
+    pub(super) fn text(&self) -> String {
         self.scenes.iter().map(SceneReport::text).collect()
     }
 }

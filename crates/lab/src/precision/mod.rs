@@ -108,7 +108,7 @@ pub fn run(arguments: &PrecisionArguments) -> Result<(), Failure> {
     drop(progress);
     folder.commit(&names)?;
     let report = PrecisionReport { machine, charts };
-    export::print(&report, arguments.format)
+    export::print(&report, report.text(), arguments.format)
 }
 
 fn check(arguments: &PrecisionArguments) -> Result<(), Failure> {

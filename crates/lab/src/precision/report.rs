@@ -11,7 +11,6 @@ use super::truth::Truth;
 use serde::Serialize;
 use softstop_console::column::{self, Column, Units};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::table::heading;
 use std::collections::BTreeMap;
 
@@ -105,8 +104,9 @@ impl SceneReport {
     }
 }
 
-impl Report for PrecisionReport {
-    fn text(&self) -> String {
+impl PrecisionReport {
+    /// What people read.
+    pub(super) fn text(&self) -> String {
         let charts = self.charts.iter().map(|chart| scene(chart) + "\n");
         let mut text: String = charts.collect();
         if self.charts.len() > 1 {

@@ -123,7 +123,7 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
             aimed: arguments.aimed,
         })?);
     }
-    export::print(&report, arguments.format)?;
+    export::print(&report, report.text(), arguments.format)?;
     match report.check.map_or(0, |check| check.tally.different) {
         0 => Ok(()),
         different => Err(Failure::Run(anyhow!(

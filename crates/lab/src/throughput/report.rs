@@ -11,7 +11,6 @@ use super::zones::Zones;
 use crate::precision::computer::Machine;
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::table::heading;
 
 /// The whole report.
@@ -176,8 +175,9 @@ fn table<'a>() -> [Column<Line<'a>>; 7] {
     }
 }
 
-impl Report for ThroughputReport {
-    fn text(&self) -> String {
+impl ThroughputReport {
+    /// What people read.
+    pub(super) fn text(&self) -> String {
         let (scene, cores) = (&self.scene, &self.both_cores);
         let (low, high) = scene.frequencies;
         let narrower = [&self.avx2, &self.portable].into_iter().flatten();

@@ -59,7 +59,7 @@ pub(super) fn run(
     plane::check(arguments)?;
     let (parameter, scenes) = scenes(arguments, machine, name)?;
     let export = Export::open(&arguments.output, &FILES)?;
-    let limit = arguments.limit.budget;
+    let limit = arguments.common.limit.budget;
     let region = || region(&scenes);
     let grid = limit.limit(|| plane::grid(arguments, &scenes[0].1, region))?;
     let of = (&scenes, grid, options);
@@ -79,9 +79,9 @@ pub(super) fn run(
     };
     let rows = report::rows(&found);
     let chart = chart::svg(&found, &rows);
-    let report = AttractorsReport::new(&found, &rows);
+    let (report, text) = AttractorsReport::new(&found, &rows);
     export.sheet(["csv", "svg"], &columns(), rows, &chart)?;
-    export.finish(&report, arguments.format)?;
+    export.finish(&report, text, arguments.common.format)?;
     keep.forget();
     Ok(())
 }
@@ -92,9 +92,12 @@ fn scenes(
     machine: &Machine,
     name: &str,
 ) -> Result<(Parameter, Vec<(f64, Scene)>), Failure> {
-    let (parameter, unit) = arguments.machine.parameter(machine, "parameter", name)?;
+    let (parameter, unit) = arguments
+        .common
+        .machine
+        .parameter(machine, "parameter", name)?;
     let why = "is not used, for basins are looked for along it: --from and --to have its values";
-    arguments.machine.refuse(machine, parameter, why)?;
+    arguments.common.machine.refuse(machine, parameter, why)?;
     let ends = [arguments.from, arguments.to].map(Option::unwrap_or_default);
     for (flag, value) in ["--from", "--to"].into_iter().zip(ends) {
         require(value.is_finite(), flag, value, "finite")?;

@@ -3,9 +3,8 @@
 use serde::Serialize;
 use softstop_console::column::{Column, Unit, Units, text};
 use softstop_console::columns;
-use softstop_console::export::Report;
 use softstop_console::record::Record;
-use softstop_console::report::{MachineReport, MotionName};
+use softstop_console::report::{MotionName, stated_machine};
 use softstop_console::table::heading;
 use softstop_console::units;
 use softstop_dynamics::Grid;
@@ -116,7 +115,7 @@ fn lives() -> [Column<AttractorReport>; 5] {
 /// The attractors and basins along a parameter.
 #[derive(Debug, Serialize)]
 pub(super) struct AttractorsReport {
-    machine: MachineReport,
+    machine: Record,
     parameter: String,
     unit: &'static str,
     /// Where the cells lie, at all values.
@@ -124,39 +123,28 @@ pub(super) struct AttractorsReport {
     attractors: Vec<AttractorReport>,
     /// The rows of the table.
     basins: Vec<Record>,
-    #[serde(skip)]
-    title: String,
-    #[serde(skip)]
-    units: Units,
 }
 
 impl AttractorsReport {
-    pub(super) fn new(found: &Found<'_>, rows: &[Row<'_>]) -> Self {
+    /// The attractors, and the text of them: a row for each.
+    pub(super) fn new(found: &Found<'_>, rows: &[Row<'_>]) -> (Self, String) {
         let Found {
             machine, parameter, ..
         } = found;
         let (units, name) = (Units::of(machine), machine.name(*parameter));
         let unit = units::of_parameter(machine, *parameter);
-        Self {
-            machine: MachineReport::of(machine),
+        let attractors = attractors(rows);
+        let label = units.label(name, Unit::Of(unit));
+        let title = format!("Attractors of {} along {label}", found.title());
+        let text = heading(&title) + &text(&lives(), &attractors, &units);
+        let report = Self {
+            machine: stated_machine(machine),
             parameter: name.to_owned(),
             unit,
             grid: found.places[0].basins.grid,
-            attractors: attractors(rows),
-            basins: rows.iter().map(|row| Record::of(&columns(), row)).collect(),
-            title: format!(
-                "Attractors of {} along {}",
-                found.title(),
-                units.label(name, Unit::Of(unit))
-            ),
-            units,
-        }
-    }
-}
-
-impl Report for AttractorsReport {
-    /// One row for each attractor.
-    fn text(&self) -> String {
-        heading(&self.title) + &text(&lives(), &self.attractors, &self.units)
+            attractors,
+            basins: Record::all(&columns(), rows),
+        };
+        (report, text)
     }
 }
