@@ -1,9 +1,9 @@
-//! Cells of tables and records, and how people read them.
+//! Cells of tables and records, how people read them, and records, which cells may hold.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::number::NumberStyle;
-use crate::record::Record;
+use crate::units::Unit;
 
 /// What stands in a column of a row.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -38,6 +38,26 @@ pub struct Told {
     /// The words.
     #[serde(skip)]
     pub words: String,
+}
+
+/// Figures in order: in JSON all of them by their names, for people those with a form by their meanings.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Record(pub(crate) Vec<Figure>);
+
+/// A figure.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Figure {
+    pub(crate) name: &'static str,
+    pub(crate) label: String,
+    pub(crate) unit: Unit,
+    pub(crate) form: Option<NumberStyle>,
+    pub(crate) cell: Cell,
+}
+
+impl Serialize for Record {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|it| (it.name, &it.cell)))
+    }
 }
 
 impl From<serde_json::Value> for Told {

@@ -26,7 +26,8 @@
 
 use std::borrow::Borrow;
 
-use crate::record::{Figure, Record, below};
+use crate::cell::Figure;
+use crate::record::{Record, below};
 use crate::table::aligned;
 
 pub use crate::cell::{Cell, Told};

@@ -17,26 +17,12 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
-use serde::{Serialize, Serializer};
-
-use crate::cell::Cell;
+use crate::cell::{Cell, Figure};
 use crate::number::NumberStyle;
 use crate::table::aligned;
 use crate::units::{Unit, Units};
 
-/// Figures in order: in JSON all of them by their names, for people those with a form by their meanings.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Record(pub(crate) Vec<Figure>);
-
-/// A figure.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Figure {
-    pub(crate) name: &'static str,
-    pub(crate) label: String,
-    pub(crate) unit: Unit,
-    pub(crate) form: Option<NumberStyle>,
-    pub(crate) cell: Cell,
-}
+pub use crate::cell::Record;
 
 impl Record {
     /// The same, and a figure for people under a label of its own.
@@ -138,10 +124,4 @@ pub fn below(records: &[Record], units: &Units) -> String {
         let is_word = |row: &Vec<Figure>| matches!(row[index].cell, Cell::Text(_) | Cell::Told(_));
         rows.iter().any(is_word)
     })
-}
-
-impl Serialize for Record {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|it| (it.name, &it.cell)))
-    }
 }
