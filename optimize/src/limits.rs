@@ -31,7 +31,7 @@ impl Limit {
 
 /// All that holds a design back.
 pub fn at_limits(problem: &Problem, found: &Found) -> Vec<Limit> {
-    let points = problem.points(&found.design);
+    let points = problem.operating_points(&found.design);
     let named = found.limits.iter().filter_map(|active| {
         let point = points.iter().find(|it| it.case == active.case)?;
         let found = limit(&point.problem, point.design, &active.limit)?;

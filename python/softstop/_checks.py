@@ -29,6 +29,10 @@ def is_number(value: Any) -> bool:
     return True
 
 
+def _is_whole(value: Any) -> bool:
+    return is_number(value) and isinstance(value, numbers.Integral)
+
+
 def _is_machine(value: Any) -> bool:
     return hasattr(value, "to_toml")
 
@@ -71,7 +75,9 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     ),
     "Mapping[str, Change]": (lambda value: isinstance(value, Mapping), "a mapping"),
     "Point": (
-        lambda value: _are(value, bool, 2, 2) and hasattr(value[0], "specials") and isinstance(value[1], (str, int)),
+        lambda value: _are(value, bool, 2, 2)
+        and hasattr(value[0], "specials")
+        and (isinstance(value[1], str) or _is_whole(value[1])),
         "(branch, point)",
     ),
     "Range": (lambda value: _are(value, is_number, 2, 2), "two numbers"),
@@ -83,7 +89,7 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "Sequence[str]": (lambda value: _are(value, lambda one: isinstance(one, str)), "a sequence of strings"),
     "bool": (lambda value: isinstance(value, (bool, np.bool_)), "True or False"),
     "float": (is_number, "a number"),
-    "int": (lambda value: is_number(value) and isinstance(value, numbers.Integral), "a whole number"),
+    "int": (_is_whole, "a whole number"),
     "str": (lambda value: isinstance(value, str), "a string"),
     "str | os.PathLike[str]": (_is_path, "the path of a file"),
 }

@@ -191,7 +191,8 @@ def zone(machine: Machine, *, budget: int | None = None) -> Zone:
 def continue_(
     machine: Machine, parameter: str, between: Range, *, orbit: str | None = None, state: Range | None = None,
     from_point: Point | None = None, double: int | None = None, second: str | None = None,
-    second_between: Range | None = None, switch: int | None = None, points: int | None = None, budget: int | None = None, progress: bool = True,
+    second_between: Range | None = None, switch: int | None = None, points: int | None = None, budget: int | None = None,
+    progress: bool = True,
 ) -> Branch:
     """Follows a periodic motion along a parameter, through folds, with all its bifurcations.
 

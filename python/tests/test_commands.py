@@ -58,7 +58,7 @@ def test_a_branch_begins_at_a_point_of_an_earlier_one(program, tmp_path):
     words = ["continue", "machine.toml", "--format=json"]
     printed = program(*words, "--parameter=eta", "--from=0.9", "--to=1.5")
     (tmp_path / "earlier.json").write_text(printed, encoding="utf-8")
-    for point in ["PD", "SN", 7]:
+    for point in ["PD", "SN", np.int64(7)]:
         branch = ss.continue_(machine, "rho", (5, 15), from_point=(earlier, point))
         line = ["--parameter=rho", "--from=5", "--to=15", f"--from-point=earlier.json:{point}"]
         printed = json.loads(program(*words, *line))
@@ -66,8 +66,9 @@ def test_a_branch_begins_at_a_point_of_an_earlier_one(program, tmp_path):
         assert dict(branch) == printed
     with pytest.raises(ss.MachineError, match="clearance"):
         ss.continue_(machine.replace(clearance=11), "rho", (5, 15), from_point=(earlier, "PD"))
-    with pytest.raises(ss.MachineError, match="from_point"):
-        ss.continue_(machine, "rho", (5, 15), from_point=("SN", earlier))
+    for wrong in [("SN", earlier), (earlier, True), (earlier, 1.5), earlier]:
+        with pytest.raises(ss.MachineError, match="from_point"):
+            ss.continue_(machine, "rho", (5, 15), from_point=wrong)
 
 
 def test_a_machine_of_a_file_is_the_machine_of_the_program(program):

@@ -89,7 +89,11 @@ impl<'a> SlopeKey<'a> {
         Some(Self {
             is_below,
             chain,
-            index: index.parse().ok().filter(|_| is_known)?,
+            // 07 and +7 would be other names of the same slope.
+            index: index
+                .parse()
+                .ok()
+                .filter(|it: &usize| is_known && it.to_string() == index)?,
             field,
         })
     }

@@ -1,4 +1,4 @@
-//! What several commands report: plain data whose field names are the keys of the JSON.
+//! What several commands report: records whose names are the keys of the JSON.
 
 use nalgebra::Complex;
 use serde::Serialize;

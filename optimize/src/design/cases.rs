@@ -67,7 +67,7 @@ impl Problem {
     /// The tolerances from which machines about a design are drawn, each with the nominal motion, of the drawing and of each case;
     /// none if all is exact.
     pub fn drawn<'a>(&'a self, design: &'a Design) -> Option<Vec<(Tolerances, &'a Orbit)>> {
-        let drawn = self.points(design).into_iter().map(|it| {
+        let drawn = self.operating_points(design).into_iter().map(|it| {
             let spread = it.problem.spread(&it.design.machine)?;
             Some((spread.over(FITTED), &it.design.orbit))
         });

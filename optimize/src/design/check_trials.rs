@@ -204,9 +204,9 @@ impl Trials<'_> {
         self.better_of(found.collect())
     }
 
-    /// The best of some designs.
+    /// The best of some designs, the first of several.
     fn better_of(&self, found: Vec<Candidate>) -> Option<Candidate> {
-        best_by(found, |it| self.score(&it.design))
+        best_by(found.into_iter().rev(), |it| self.score(&it.design))
     }
 
     /// The best motion along the zone of a point of the unit cube that passes and is better than that.

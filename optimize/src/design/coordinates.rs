@@ -15,13 +15,16 @@ pub struct Candidate {
     pub design: Design,
 }
 
-/// The one of the highest score, the first of several.
+/// The one of the highest score, the last of several.
 pub(super) fn best_by<T>(all: impl IntoIterator<Item = T>, score: impl Fn(&T) -> f64) -> Option<T> {
-    all.into_iter()
-        .reduce(|one, other| match score(&other) > score(&one) {
-            true => other,
-            false => one,
-        })
+    let mut all = all.into_iter();
+    let first = all.next()?;
+    Some(
+        all.fold(first, |one, other| match score(&other) < score(&one) {
+            true => one,
+            false => other,
+        }),
+    )
 }
 
 /// Distance from the ends of the cube that is none: a solver comes as near to them as that.

@@ -81,12 +81,12 @@ impl CriticalMachines {
     }
 
     /// Those of an operating point.
-    pub(super) fn at(&self, case: Option<usize>) -> &Self {
+    pub(super) fn for_case(&self, case: Option<usize>) -> &Self {
         case.map_or(self, |index| self.cases.get(index).unwrap_or(&NONE))
     }
 
     /// Those of an operating point, to add to.
-    pub(super) fn at_mut(&mut self, case: Option<usize>) -> &mut Self {
+    pub(super) fn for_case_mut(&mut self, case: Option<usize>) -> &mut Self {
         let Some(index) = case else { return self };
         if self.cases.len() <= index {
             self.cases.resize_with(index + 1, Self::default);
@@ -106,7 +106,7 @@ impl CriticalMachines {
     /// The design of a motion that is as required in the drawing's machine and in all of these, in every case; none if it is
     /// not.
     pub(super) fn design(&self, problem: &Problem, here: Design) -> Option<Design> {
-        here.with_values(problem, |it| self.at(it.case).value(&it.problem, it.design))
+        here.with_values(problem, |it| self.for_case(it.case).value(&it.problem, it.design))
     }
 
     /// What is sought of a motion that is as required in the own machine of an operating point and in all of these.

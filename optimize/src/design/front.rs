@@ -197,7 +197,7 @@ fn tried(
 
 /// Value of a figure, of the worst machine within the tolerances if that is bounded and of the worst case, and of what is sought.
 fn place(problem: &Problem, figure: Figure, at: &Candidate) -> Option<(f64, f64)> {
-    let points = problem.points(&at.design);
+    let points = problem.operating_points(&at.design);
     let values = points
         .iter()
         .map(|it| value(&it.problem, figure, it.design));

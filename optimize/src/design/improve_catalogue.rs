@@ -33,7 +33,7 @@ pub(super) fn improve_catalogue(problem: &Problem, from: &Robust) -> Robust {
             let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
             enforce(problem, &start, best.known.clone()).ok()
         });
-        let next = best_by(sought.collect::<Vec<_>>(), score);
+        let next = best_by(sought.collect::<Vec<_>>().into_iter().rev(), score);
         let least = (1.0 + GAIN) * score(&best);
         match next.filter(|next| score(next) > least) {
             Some(next) if !interrupt::requested() => best = next,

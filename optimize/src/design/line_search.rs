@@ -59,8 +59,8 @@ fn samples(window: Interval) -> [f64; SAMPLES] {
 /// The motions along a zone.
 struct Line<'a> {
     zoned: &'a Zoned<'a>,
-    /// The place of the best that was met, after its cost.
-    best: RefCell<Option<(f64, f64)>>,
+    /// The best that was met: its cost, its place, and its design unless only the velocity counts.
+    best: RefCell<Option<(f64, f64, Option<Design>)>>,
     /// What the one lacks that is nearest to feasible ones.
     lack: RefCell<Option<Infeasible>>,
 }
@@ -69,10 +69,10 @@ impl Line<'_> {
     /// Minus the score of the stable motion that is as required; for others a finite grade above all of those.
     fn cost_at(&self, place: f64) -> f64 {
         match self.score_at(place) {
-            Ok(score) => {
+            Ok((score, design)) => {
                 let mut best = self.best.borrow_mut();
-                if best.is_none_or(|(known, _)| -score < known) {
-                    *best = Some((-score, place));
+                if best.as_ref().is_none_or(|(known, ..)| -score < *known) {
+                    *best = Some((-score, place, design));
                 }
                 -score
             }
@@ -87,13 +87,17 @@ impl Line<'_> {
         }
     }
 
-    /// The score of the design at a place; where only the velocity counts, without its orbit, which would take a quarter more.
-    fn score_at(&self, place: f64) -> Result<f64, Infeasible> {
+    /// The score of the design at a place, and the design; where only the velocity counts, without it, since its orbit would take
+    /// a quarter more.
+    fn score_at(&self, place: f64) -> Result<(f64, Option<Design>), Infeasible> {
         let problem = self.zoned.problem;
         let point = self.point_at(place)?;
         match problem.is_plain() {
-            true => Ok(point.before_impact_velocity()),
-            false => Ok(problem.score(&self.design_at(place, &point)?)),
+            true => Ok((point.before_impact_velocity(), None)),
+            false => {
+                let design = self.design_at(place, &point)?;
+                Ok((problem.score(&design), Some(design)))
+            }
         }
     }
 
@@ -170,7 +174,8 @@ impl Line<'_> {
 
     fn result(&self) -> Result<Design, Infeasible> {
         match self.best.take() {
-            Some((_, place)) => self.design_at(place, &self.point_at(place)?),
+            Some((.., Some(design))) => Ok(design),
+            Some((_, place, None)) => self.design_at(place, &self.point_at(place)?),
             None => Err(self.lack.take().unwrap_or_else(|| Infeasible::unknown(""))),
         }
     }

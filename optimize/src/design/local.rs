@@ -79,7 +79,12 @@ pub fn local(problem: &Problem, at: &At<'_>, known: &CriticalMachines) -> Option
     for (index, (case, point)) in cases.iter().zip(&here.cases).enumerate() {
         let given = exact.as_ref().map(|it| &it.frequency[..]);
         let exact = given.and_then(|given| Linearization::of(case, at, (point, Some(given))));
-        let own = of_point(case, at, (point, exact.as_ref()), known.at(Some(index)))?;
+        let own = of_point(
+            case,
+            at,
+            (point, exact.as_ref()),
+            known.for_case(Some(index)),
+        )?;
         all.add(own, (index, problem.cases[index].weight));
     }
     Some(all)
@@ -185,7 +190,7 @@ fn of_point(
     Some(Local {
         scores: vec![scores],
         constraints,
-        design: is_good.then(|| here.alone(value)),
+        design: is_good.then(|| here.without_cases(value)),
     })
 }
 

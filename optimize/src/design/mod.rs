@@ -78,7 +78,8 @@ pub struct Design {
     pub zone: Zone,
     /// The z = 1 motion.
     pub orbit: Orbit,
-    /// What was sought, in SI units; of the worst machine within the tolerances, if that is what counts.
+    /// What was sought, in SI units; of the worst machine within the tolerances, if that is what counts. Not a number until it is
+    /// judged.
     pub value: f64,
     /// What the design does in each case, in the order of the problem's cases.
     pub cases: Vec<Design>,
@@ -227,7 +228,7 @@ impl Problem {
     /// Whether the drawing's machine is as required, and stands where margin, frequency bounds and the zones of the machines
     /// within the tolerances allow.
     fn is_allowed(&self, design: &Design) -> bool {
-        self.points(design).iter().all(|it| {
+        self.operating_points(design).iter().all(|it| {
             let OperatingPoint {
                 problem, design, ..
             } = it;

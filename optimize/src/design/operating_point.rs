@@ -35,7 +35,7 @@ pub struct OperatingPoint<'a> {
 
 impl Problem {
     /// The operating points of a design, that of the drawing first.
-    pub fn points<'a>(&'a self, design: &'a Design) -> Vec<OperatingPoint<'a>> {
+    pub fn operating_points<'a>(&'a self, design: &'a Design) -> Vec<OperatingPoint<'a>> {
         let own = OperatingPoint {
             case: None,
             problem: Cow::Borrowed(self),
@@ -92,7 +92,7 @@ impl Design {
             let outside = if away > ROUNDING { away } else { 0.0 };
             Some(outside + violation(&problem.met(&design.judged().ok()?)))
         };
-        problem.points(self).iter().map(of_point).sum()
+        problem.operating_points(self).iter().map(of_point).sum()
     }
 
     /// Where the tolerances stay inside the zone; none of that if all is exact.
@@ -101,7 +101,7 @@ impl Design {
     }
 
     /// The design without its cases, with this value of what is sought.
-    pub(super) fn alone(&self, value: f64) -> Self {
+    pub(super) fn without_cases(&self, value: f64) -> Self {
         Self {
             machine: self.machine.clone(),
             place: self.place,
@@ -118,7 +118,7 @@ impl Design {
         problem: &Problem,
         value: impl Fn(&OperatingPoint<'_>) -> Option<f64>,
     ) -> Option<Self> {
-        let values = problem.points(&self);
+        let values = problem.operating_points(&self);
         let values = values.iter().map(value).collect::<Option<Vec<f64>>>()?;
         self.set_values(values);
         Some(self)

@@ -130,8 +130,8 @@ impl Look {
 pub(super) fn look(problem: &Problem, design: &mut Design, known: &mut CriticalMachines) -> Look {
     let mut seen = Look::default();
     let mut values = Vec::new();
-    for it in problem.points(design) {
-        let (own, value) = look_at_point(&it.problem, it.design, known.at_mut(it.case));
+    for it in problem.operating_points(design) {
+        let (own, value) = look_at_point(&it.problem, it.design, known.for_case_mut(it.case));
         seen.is_new |= own.is_new;
         seen.note(own.lack.map(|lack| lack.in_point(problem, it.case)));
         values.push(value);

@@ -57,7 +57,7 @@ impl Problem {
     /// [`OrbitError`] if a motion cannot be computed, or somebody asked to stop.
     pub fn tried(&self, design: &Design) -> Result<Vec<Met>, OrbitError> {
         let mut tried = Vec::new();
-        for it in self.points(design) {
+        for it in self.operating_points(design) {
             let corners = it.problem.corners(it.design);
             for requirement in it.problem.trials() {
                 let own = it.problem.tried_of(requirement, &it.design.orbit, FULL)?;
@@ -122,9 +122,9 @@ impl Problem {
         design: &Design,
         known: &mut CriticalMachines,
     ) -> Result<Vec<Met>, Infeasible> {
-        let points = self.points(design);
+        let points = self.operating_points(design);
         let passed = points.iter().map(|it| {
-            let passed = it.pass_trials(known.at_mut(it.case));
+            let passed = it.pass_trials(known.for_case_mut(it.case));
             passed.map_err(|lack| lack.in_point(self, it.case))
         });
         Ok(passed.collect::<Result<Vec<_>, _>>()?.concat())
@@ -133,8 +133,8 @@ impl Problem {
     /// Whether a design meets the requirements that take many motions, in its own machine and in those within the tolerances that
     /// are known, in all cases.
     pub(super) fn passes(&self, design: &Design, known: &CriticalMachines, effort: Effort) -> bool {
-        self.points(design).iter().all(|it| {
-            let known = &known.at(it.case).tried;
+        self.operating_points(design).iter().all(|it| {
+            let known = &known.for_case(it.case).tried;
             it.problem.passes_at_point(it.design, known, effort)
         })
     }
@@ -160,13 +160,13 @@ impl Problem {
     pub(super) fn least_certainty(&self, design: &Design, known: &CriticalMachines) -> Option<f64> {
         let share = |orbit: &Orbit| Some(self.established(orbit, STARTS).ok()?.interval[0]);
         let mut least = f64::INFINITY;
-        for it in self.points(design) {
+        for it in self.operating_points(design) {
             least = least.min(share(&it.design.orbit)?);
             let Some(spread) = it.problem.spread(&it.design.machine) else {
                 continue;
             };
             let neighbours = Neighbours::new(&spread, &it.design.orbit);
-            for at in &known.at(it.case).tried {
+            for at in &known.for_case(it.case).tried {
                 least = least.min(share(&neighbours.motion(at)?)?);
             }
         }

@@ -16,7 +16,7 @@ pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure>
         case,
         problem,
         design,
-    } in problem.points(design)
+    } in problem.operating_points(design)
     {
         let own = of_motion(&problem, design)?.into_iter();
         met.extend(own.map(|it| Met { case, ..it }));

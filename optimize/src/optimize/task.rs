@@ -73,13 +73,13 @@ impl Job {
         let place = place(arguments, &task);
         let machine = machine(arguments, &task, place.clone())?;
         let sources = Source::all(arguments, place.as_deref())?;
-        let Stated {
+        let TaskParts {
             tolerances,
             required,
             objectives,
             cost,
             cases,
-        } = Stated::new(&machine, &task).map_err(located)?;
+        } = TaskParts::new(&machine, &task).map_err(located)?;
         let Required {
             figures: requirements,
             margin: share,
@@ -265,14 +265,14 @@ impl Job {
 /// [`Failure::Usage`] naming file, line, column, the key, its value and what is allowed.
 pub(super) fn check(machine: &Machine, path: &Path, text: &str) -> Result<(), Failure> {
     let task = TaskSpec::beside_machine(path, text)?.unwrap_or_default();
-    let stated = Stated::new(machine, &task);
+    let stated = TaskParts::new(machine, &task);
     stated
         .map(drop)
         .map_err(|failure| failure.in_text(path, text))
 }
 
 /// What a task states of a machine, each part checked by itself.
-struct Stated {
+struct TaskParts {
     tolerances: Vec<Tolerance>,
     required: Required,
     objectives: Vec<Objective>,
@@ -280,7 +280,7 @@ struct Stated {
     cases: Vec<Case>,
 }
 
-impl Stated {
+impl TaskParts {
     /// Reads a task.
     ///
     /// # Errors

@@ -47,7 +47,7 @@ impl SectionPoint {
 }
 
 /// The orbit does not cross as often as it should, or there is no such surface.
-const LOST: OrbitError = OrbitError::Diverged {
+const NO_CROSSING: OrbitError = OrbitError::Diverged {
     residual: f64::INFINITY,
 };
 
@@ -79,7 +79,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
     pub fn scene(&self, angle: f64, parameters: [f64; N]) -> Result<(Scene, f64), OrbitError> {
         let mut scene = self.family.scene(parameters)?;
         scene.excitation.phase = angle;
-        let position = self.face.position(&scene).ok_or(LOST)?;
+        let position = self.face.position(&scene).ok_or(NO_CROSSING)?;
         Ok((scene, position))
     }
 
@@ -97,7 +97,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
         // bounce without end.
         motion.advance(until, &mut watch)?;
         motion.tell_arc(&mut watch);
-        let drift = watch.found.ok_or(LOST)? - start;
+        let drift = watch.found.ok_or(NO_CROSSING)? - start;
         let [length, speed] = self.family.state_scales();
         Ok((Vector2::new(drift.x / length, drift.y / speed), watch))
     }

@@ -3,7 +3,7 @@
 use crate::continuation::{BorderCollision, Branch, BranchPoint, End, Face, SpecialKind, Test};
 use crate::orbit::OrbitError;
 
-/// Why a stable range ends.
+/// Why a range of stable z = 1 motions, or the hysteresis zone, ends.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Loss {

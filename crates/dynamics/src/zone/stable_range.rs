@@ -153,16 +153,16 @@ fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
 }
 
 /// Why a part of a branch ends, and the special point there.
-type Cause = (Loss, Option<SpecialKind>);
+type RangeEnd = (Loss, Option<SpecialKind>);
 
 /// Points between two special ones.
 struct Part {
-    begins: Cause,
+    begins: RangeEnd,
     points: Vec<BranchPoint>,
 }
 
 impl Part {
-    fn new(begins: Cause) -> Self {
+    fn new(begins: RangeEnd) -> Self {
         Self {
             begins,
             points: Vec::new(),
@@ -182,7 +182,7 @@ impl Part {
     fn ended(
         self,
         continuation: &Continuation<'_, Frequencies<'_>>,
-        ends: Cause,
+        ends: RangeEnd,
     ) -> Option<StableRange> {
         let Self { begins, mut points } = self;
         // Both ends may lie on one step.

@@ -1,6 +1,8 @@
 //! The columns of a row group: values of the axes, and outputs from their blocks.
 
+use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use softstop_console::cell::Cell;
 use softstop_console::failure::Failure;
@@ -9,13 +11,16 @@ use super::blocks::Blocks;
 use super::file::Study;
 use super::outputs::{Output, is_over_budget};
 
+/// Words by the bits of the numbers that they stand for.
+type KnownWords = HashMap<[u64; 2], Option<Arc<str>>>;
+
 /// A column.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Column {
     /// Numbers, not a number where there is nothing.
     Numbers(Vec<f64>),
     /// Words, and how many rows have none since they are over the budget.
-    Words(Vec<Option<String>>, u64),
+    Words(Vec<Option<Arc<str>>>, u64),
 }
 
 impl Column {
@@ -47,19 +52,22 @@ impl Column {
     pub fn cell(&self, row: usize) -> Cell {
         match self {
             Self::Numbers(numbers) => Some(numbers[row]).filter(|it| !it.is_nan()).into(),
-            Self::Words(words, _) => words[row].clone().into(),
+            Self::Words(words, _) => words[row].as_deref().into(),
         }
     }
 
-    /// Adds an output of so many points from its numbers in a block.
-    fn extend(&mut self, output: Output, numbers: &[f64], points: usize) {
+    /// Adds an output of so many points from its numbers in a block; equal words are one.
+    fn extend(&mut self, output: Output, numbers: &[f64], points: usize, known: &mut KnownWords) {
         match self {
             Self::Numbers(all) => all.extend(numbers),
             Self::Words(words, over_budget) => {
                 let second = |point| numbers.get(points + point).copied().unwrap_or(f64::NAN);
                 for (point, first) in numbers.iter().take(points).enumerate() {
                     *over_budget += u64::from(is_over_budget(*first));
-                    words.push(output.word([*first, second(point)]));
+                    let numbers = [*first, second(point)];
+                    let word = known.entry(numbers.map(f64::to_bits));
+                    let word = word.or_insert_with(|| output.word(numbers).map(Into::into));
+                    words.push(word.clone());
                 }
             }
         }
@@ -98,13 +106,14 @@ fn outputs(study: &Study, blocks: &mut Blocks, group: Range<u64>) -> Result<Vec<
         false => Column::Numbers(Vec::new()),
     };
     let mut columns: Vec<Column> = study.outputs.iter().map(empty).collect();
+    let mut known = vec![KnownWords::new(); columns.len()];
     for block in group {
         let numbers = blocks.read(block)?;
         let points = numbers.len() / study.width();
         let mut rest = numbers.as_slice();
-        for (output, column) in study.outputs.iter().zip(&mut columns) {
+        for ((output, column), known) in study.outputs.iter().zip(&mut columns).zip(&mut known) {
             let (own, after) = rest.split_at(points * output.width());
-            column.extend(*output, own, points);
+            column.extend(*output, own, points, known);
             rest = after;
         }
     }

@@ -1,6 +1,7 @@
 //! Results of a study, read from Parquet.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context, Error, bail};
 use parquet::column::reader::ColumnReader;
@@ -60,7 +61,7 @@ fn values(reader: ColumnReader, rows: usize) -> Result<Column, Error> {
             let mut there = there.into_iter();
             let all = levels.iter().map(|level| match level {
                 0 => None,
-                _ => Some(String::from_utf8_lossy(there.next()?.data()).into_owned()),
+                _ => Some(Arc::from(&*String::from_utf8_lossy(there.next()?.data()))),
             });
             Column::Words(all.collect(), 0)
         }

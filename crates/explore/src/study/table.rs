@@ -1,5 +1,6 @@
 //! The results of a study as Parquet and CSV, written row group by row group.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::sync::Arc;
 
@@ -170,7 +171,10 @@ fn add(parquet: &mut SerializedFileWriter<File>, columns: &[Column]) -> Result<(
             }
             Column::Words(words, _) => {
                 let there = words.iter().flatten();
-                let there: Vec<ByteArray> = there.map(|it| it.as_str().into()).collect();
+                let mut known: HashMap<&str, ByteArray> = HashMap::new();
+                let there =
+                    there.map(|it| known.entry(it).or_insert_with(|| (&**it).into()).clone());
+                let there: Vec<ByteArray> = there.collect();
                 let levels = words.iter().map(|it| i16::from(it.is_some()));
                 let levels: Vec<i16> = levels.collect();
                 let typed = writer.typed::<ByteArrayType>();
