@@ -3,12 +3,13 @@
 import subprocess
 import sys
 
+import pytest
 from packages import TOP
 
 EACH = 30
 """Of so many references one is computed again."""
 
 
-def test_stored_references_are_what_many_digits_give():
-    program = TOP / "tests/reference/lab.py"
-    subprocess.run([sys.executable, program, "check", str(EACH)], check=True)
+@pytest.mark.parametrize("check", [["check", str(EACH)], ["closed"]])
+def test_stored_references_are_what_many_digits_give(check):
+    subprocess.run([sys.executable, TOP / "tests/reference/lab.py", *check], check=True)

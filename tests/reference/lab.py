@@ -6,6 +6,7 @@ one, append a line with its scene, periods and stiffness.
 
 Run:  python lab.py             computes all motions again and writes them
       python lab.py check [N]   computes every N-th again and fails if one differs
+      python lab.py closed      compares one motion with the closed form of its arcs
       python lab.py graze       the constants of crates/lab/tests/grazing.rs
 """
 import sys
@@ -13,7 +14,8 @@ import tomllib
 from pathlib import Path
 
 import stops
-from stops import mp, mpf, pi
+from mpmath import exp, findroot, mpc
+from stops import cos, mp, mpf, pi, sin, sqrt
 
 DIGITS = 48, 67
 TOP = Path(__file__).resolve().parents[2]
@@ -101,10 +103,55 @@ def graze():
     print(*map(float, image(0, 0)), [float(it) for row in zip(*columns) for it in row])
 
 
+def motion(damping, stiffness, force, w, time, state):
+    """x'' + damping x' + stiffness x = cos(w t) + force from a state on: position and velocity, in closed form"""
+    answer = 1 / mpc(stiffness - w * w, damping * w)
+
+    def forced(t):
+        turning = answer * exp(mpc(0, w * t))
+        return turning.real + force / stiffness, (mpc(0, w) * turning).real
+
+    decay, own = damping / 2, sqrt(stiffness - damping**2 / 4)
+    x, v = (mpf(it) - of for it, of in zip(state, forced(time), strict=True))
+    beside = (v + decay * x) / own
+
+    def at(t):
+        c, s, shrunk = cos(own * (t - time)), sin(own * (t - time)), exp(-decay * (t - time))
+        free = shrunk * (x * c + beside * s)
+        rate = shrunk * own * (beside * c - x * s) - decay * free
+        position, velocity = forced(t)
+        return position + free, velocity + rate
+
+    return at
+
+
+def closed():
+    """how far flight up to the stop, and contact with it, are from the formulas of their linear laws"""
+    machine, start = read("precision/periodic", 0.0)
+    assert machine["amplitude"] == 1 and machine["stop"]["model"] == "preloaded"
+    mp.dps = DIGITS[1]
+    w, clearance, stop = mpf(machine["frequency"]), mpf(machine["clearance"]), machine["stop"]
+    stiffness, preload = mpf(stop["stiffness"]), mpf(stop["preload"])
+    flight = motion(mpf(machine["damping"]), mpf(1), mpf(0), w, mpf(0), start)
+    rough = next(mpf(n) / 1000 for n in range(10000) if flight(mpf(n) / 1000)[0] > clearance)
+    impact = findroot(lambda t: flight(t)[0] - clearance, rough)
+    damping, force = mpf(machine["contact_damping"]), stiffness * clearance - preload
+    contact = motion(damping, 1 + stiffness, force, w, impact, flight(impact))
+    end = impact + mpf("0.125")
+    found, impacts = run(machine, start, end * w / (2 * pi), DIGITS[1])
+    assert len(impacts) == 1
+    pairs = zip([*found, *impacts[0]], [*contact(end), impact, flight(impact)[1]])
+    return max(float(abs(a - b)) for a, b in pairs)
+
+
 def main():
     args = sys.argv[1:]
     if args[:1] == ["check"]:
         sys.exit(bool(check(int((args[1:] or ["1"])[0]))))
+    if args[:1] == ["closed"]:
+        apart = closed()
+        print(f"{apart:.1e}")
+        sys.exit(apart > 1e-40)
     if args[:1] == ["graze"]:
         return graze()
     tasks = [it.split()[:3] for it in FILE.read_text().splitlines()]
