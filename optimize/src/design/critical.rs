@@ -106,7 +106,9 @@ impl CriticalMachines {
     /// The design of a motion that is as required in the drawing's machine and in all of these, in every case; none if it is
     /// not.
     pub(super) fn design(&self, problem: &Problem, here: Design) -> Option<Design> {
-        here.with_values(problem, |it| self.for_case(it.case).value(&it.problem, it.design))
+        here.with_values(problem, |it| {
+            self.for_case(it.case).value(&it.problem, it.design)
+        })
     }
 
     /// What is sought of a motion that is as required in the own machine of an operating point and in all of these.
