@@ -100,8 +100,7 @@ def test_a_thousand_frequencies_of_200_periods_follow_the_hand(browser, chromium
                 return times;
             }"""
         )
-    # On a slow machine the page draws fewer frequencies between some redraws of a thousand.
-    assert times
+    assert len(times) > 90
     times.sort()
     print(f"redrawn in {times[len(times) // 2]:.0f} ms (median), {times[int(0.95 * len(times))]:.0f} ms (95th percentile)")
 
