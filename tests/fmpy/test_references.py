@@ -6,7 +6,7 @@ import sys
 import pytest
 from packages import TOP
 
-EACH = 30
+EACH = 7
 """Of so many references one is computed again."""
 
 
