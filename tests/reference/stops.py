@@ -910,7 +910,7 @@ def drawn(count):
     return cases
 
 
-FAMILIES["random"] = drawn(40)
+FAMILIES["random"] = drawn(80)
 PATH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stops.json")
 
 
