@@ -311,6 +311,9 @@ fn slopes_are_set_one_by_one() -> Outcome {
             "{key}: {message}"
         );
     }
+    let chain = "[{ from = 0, stiffness = 1 }, { from = 0.3, stiffness = 90 }]";
+    let both = [("stop.loading.0.stiffness", "21"), ("stop.loading", chain)];
+    assert_eq!(changed(20.0, &both)?.scene, whole.scene);
     let twice = [("stop.loading.0.stiffness", "8"); 2];
     assert!(changed(20.0, &twice).is_err_and(|error| error.to_string().contains("twice")));
     Ok(())

@@ -312,8 +312,10 @@ def sweep(
     return _of_machine("sweep", machine, options, Sweep, progress=progress)
 
 
-def _plane(x: Side | None, v: Side | None, phi: Side | None, plane: str | None, size: int | None) -> dict[str, Any]:
-    """Options of a plane of initial states."""
+def _plane(
+    x: Side | None, v: Side | None, phi: Side | None, plane: str | None, size: int | None, **others: Any
+) -> dict[str, Any]:
+    """Options of a plane of initial states, and others."""
     sides = {name: side for name, side in [("x", x), ("v", v), ("phi", phi)] if side is not None}
     options: dict[str, Any] = {name: f"{word_of(name, side[0])}:{word_of(name, side[1])}" for name, side in sides.items()}
 
@@ -321,7 +323,7 @@ def _plane(x: Side | None, v: Side | None, phi: Side | None, plane: str | None, 
         side = sides.get(name)
         return side[2] if side is not None and len(side) == 3 else 400 if size is None else size
 
-    return options | {"plane": plane, "size": [cells(name) for name in (plane or "x,v").split(",")]}
+    return options | {"plane": plane, "size": [cells(name) for name in (plane or "x,v").split(",")]} | others
 
 
 @checked
@@ -371,7 +373,7 @@ def basin(
     >>> basin.labels.shape, basin.dims, basin.motions
     ((40, 30), ('v', 'x'), ['z = 0', 'z = 1'])
     """
-    options = _plane(x, v, phi, plane, size) | {"at": at, "transient": transient, "longest": longest, "budget": budget}
+    options = _plane(x, v, phi, plane, size, at=at, transient=transient, longest=longest, budget=budget)
     return _of_machine("basin", machine, options, Basin, progress=progress)
 
 
@@ -409,7 +411,7 @@ def certainty(
     >>> [place["place"] for place in found.places]
     [0.0, 0.5, 1.0]
     """
-    options = _plane(x, v, phi, plane, size) | {"at": at, "transient": transient, "longest": longest, "budget": budget}
+    options = _plane(x, v, phi, plane, size, at=at, transient=transient, longest=longest, budget=budget)
     return _of_machine("basin", machine, options | {"along_zone": places}, Certainty, progress=progress)
 
 
@@ -456,7 +458,7 @@ def basins(
     (array([1.15, 1.15, 1.25, 1.25]), array([0., 1., 0., 1.]))
     """
     low, high = between
-    options = _plane(x, v, phi, plane, size) | {"at": at, "transient": transient, "longest": longest, "budget": budget}
+    options = _plane(x, v, phi, plane, size, at=at, transient=transient, longest=longest, budget=budget)
     along = {"parameter": parameter, "from": low, "to": high, "steps": steps}
     return _of_machine("basin", machine, options | along, Result, progress=progress)
 

@@ -19,20 +19,22 @@ impl Machine {
         &mut self,
         changes: impl IntoIterator<Item = (&'a str, &'a str)>,
     ) -> Result<(), MachineError> {
-        let changes: Vec<(String, &str)> = changes
+        let mut changes: Vec<(String, &str)> = changes
             .into_iter()
             .map(|(key, value)| (key.replace('-', "_"), value.trim()))
             .collect();
+        // Slopes are those of the chain that is set with them.
+        changes.sort_by_key(|(key, _)| is_slope(key));
         if changes
             .iter()
-            .any(|(key, _)| keys::words().any(|word| word == key) || SlopeKey::parse(key).is_some())
+            .any(|(key, _)| keys::words().any(|word| word == key) || is_slope(key))
         {
             self.rebuild_stops(&changes)?;
         }
         let (mut done, mut ties) = (Vec::new(), Vec::new());
         for (key, value) in &changes {
             let name = match self.expression_of(key, value)? {
-                _ if SlopeKey::parse(key).is_some() => key,
+                None if is_slope(key) => key,
                 None => self.apply_one(key, value)?,
                 Some(parameter) => {
                     ties.push((key.clone(), (*value).to_owned(), None));
@@ -54,10 +56,9 @@ impl Machine {
         let is_of_start = key.starts_with("initial.") || key.starts_with("start.");
         let mut words = keys::words().chain(["name", "description"]);
         let is_word = words.any(|word| word == key);
-        let is_slope = SlopeKey::parse(key).is_some();
         if is_of_start
             || is_word
-            || is_slope
+            || is_slope(key)
             || text.parse::<f64>().is_ok()
             || !keys::is_expression(text)
         {
@@ -175,11 +176,14 @@ fn change_stop(
     below: bool,
 ) -> Result<(), MachineError> {
     for (key, value) in changes {
-        let lettered = |it: &&Parameter| it.about().letter == key || it.name() == key;
-        let named = Parameter::ALL.iter().find(lettered).map(|it| it.name());
-        if SlopeKey::parse(key).is_some() {
+        if let Some(slope) = SlopeKey::parse(key) {
+            if slope.is_below == below {
+                set_slope(stop, &slope, key, number(key, value)?)?;
+            }
             continue;
         }
+        let lettered = |it: &&Parameter| it.about().letter == key || it.name() == key;
+        let named = Parameter::ALL.iter().find(lettered).map(|it| it.name());
         match keys::of_stop(named.unwrap_or(key)) {
             Some((is_below, _)) if is_below != below => None,
             Some((false, "preload_deflection")) => stop.insert("preload".into(), Value::Float(0.0)),
@@ -191,12 +195,11 @@ fn change_stop(
             None => None,
         };
     }
-    for (key, value) in changes {
-        if let Some(slope) = SlopeKey::parse(key).filter(|slope| slope.is_below == below) {
-            set_slope(stop, &slope, key, number(key, value)?)?;
-        }
-    }
     Ok(())
+}
+
+fn is_slope(key: &str) -> bool {
+    SlopeKey::parse(key).is_some()
 }
 
 /// Sets a number of a slope in the table of its stop.
