@@ -91,24 +91,24 @@ pub(super) trait Codimension: Equations {
     type Machines: Family<2>;
 
     /// The machines, and the drive periods of the orbits.
-    fn orbits(&self) -> (&Self::Machines, u64);
+    fn family_and_periods(&self) -> (&Self::Machines, u64);
     /// What vanishes on the curve; none on one of grazing.
     fn test(&self) -> Option<Test>;
     /// The state at time 0.
     fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError>;
     /// The before-impact velocities of an orbit, its Jacobian, and what it crosses.
-    fn seen(point: &Self::Point) -> (&[f64], Monodromy, Sequence);
+    fn orbit_of(point: &Self::Point) -> (&[f64], Monodromy, Sequence);
 
     /// The parameters' values.
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        let scales = self.orbits().0.parameter_scales();
+        let scales = self.family_and_periods().0.parameter_scales();
         std::array::from_fn(|index| at[at.len() - 2 + index] * scales[index])
     }
 
     /// The point of the curve at a node.
     fn describe(&self, node: &Node<Self::Point>) -> Result<CurvePoint, OrbitError> {
         let state = self.state_at(&node.at)?;
-        let (impacts, monodromy, _) = Self::seen(&node.here.point);
+        let (impacts, monodromy, _) = Self::orbit_of(&node.here.point);
         Ok(CurvePoint {
             parameters: self.parameters(&node.at),
             position: state.x,
@@ -130,7 +130,7 @@ pub(super) trait Codimension: Equations {
             let value = along_parameters(before).dot(&along_parameters(here));
             return (CodimensionTwo::Cusp, value);
         }
-        let (machines, periods) = self.orbits();
+        let (machines, periods) = self.family_and_periods();
         let coefficient = self.describe(node).and_then(|point| {
             let scene = machines.scene(point.parameters)?;
             normal_form_coefficient(&scene, periods, Test::Flip, point.state())
@@ -152,7 +152,7 @@ pub(super) trait Codimension: Equations {
     /// How far the orbits of a fold are from where they are half their drive periods later, in units of the machine's motion;
     /// none if that number is odd. It vanishes where the curve ends on one of flips.
     fn half_period_gap(&self, point: &CurvePoint) -> Option<Vector2<f64>> {
-        let (machines, periods) = self.orbits();
+        let (machines, periods) = self.family_and_periods();
         if self.test() != Some(Test::Fold) || !periods.is_multiple_of(2) {
             return None;
         }
@@ -167,7 +167,7 @@ pub(super) trait Codimension: Equations {
 impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
     type Machines = F;
 
-    fn orbits(&self) -> (&F, u64) {
+    fn family_and_periods(&self) -> (&F, u64) {
         (self.shooting.family, self.shooting.periods)
     }
 
@@ -179,7 +179,7 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
         Ok(self.shooting.state(at))
     }
 
-    fn seen(round: &PeriodMap) -> (&[f64], Monodromy, Sequence) {
+    fn orbit_of(round: &PeriodMap) -> (&[f64], Monodromy, Sequence) {
         (&round.impacts, round.monodromy, round.sequence)
     }
 }
@@ -187,7 +187,7 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
 impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
     type Machines = F;
 
-    fn orbits(&self) -> (&F, u64) {
+    fn family_and_periods(&self) -> (&F, u64) {
         (self.section.family, self.section.periods)
     }
 
@@ -199,7 +199,7 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
         self.state(at)
     }
 
-    fn seen(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
+    fn orbit_of(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
         (&point.impacts, point.monodromy, point.sequence())
     }
 
@@ -224,7 +224,7 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
 impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
     type Machines = F;
 
-    fn orbits(&self) -> (&F, u64) {
+    fn family_and_periods(&self) -> (&F, u64) {
         (self.section.family, self.section.periods)
     }
 
@@ -236,7 +236,7 @@ impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
         self.section.state(at, 0.0)
     }
 
-    fn seen(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
+    fn orbit_of(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
         (&point.impacts, point.monodromy, point.sequence())
     }
 

@@ -89,7 +89,7 @@ pub(super) fn follow<E: Codimension>(
     specials.extend(up.1);
     Ok(Curve {
         kind,
-        periods: equations.orbits().1,
+        periods: equations.family_and_periods().1,
         points,
         specials,
         ends: (first, up.2),
@@ -116,7 +116,7 @@ fn way<E: Codimension>(
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Way, OrbitError> {
     let origin = start.at.clone();
-    let sequence = E::seen(&start.here.point).2;
+    let sequence = E::orbit_of(&start.here.point).2;
     let mut stepper = Stepper::new(equations, start, along, region.step)?;
     let (mut points, mut specials) = (Vec::new(), Vec::new());
     let mut creeping = 0;
@@ -131,7 +131,7 @@ fn way<E: Codimension>(
         }
         let next = stepper.attempt().map_err(CurveEnd::Lost);
         let next = next.and_then(|step| {
-            if E::seen(&step.node.here.point).2 != sequence {
+            if E::orbit_of(&step.node.here.point).2 != sequence {
                 return Err(CurveEnd::Grazing);
             }
             let end = within(equations, (&last, &step.node), region);
