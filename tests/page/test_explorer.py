@@ -91,6 +91,8 @@ def test_a_thousand_frequencies_of_200_periods_follow_the_hand(browser, chromium
                 const times = [], slider = byId('clearance');
                 for (let k = 0; k < 100; k++) {
                     performance.clearMeasures();
+                    // A machine so fast that the page asks for a thousand, however long the last ones took.
+                    state.each = 0.01;
                     slider.value = 7 + k / 20;
                     slider.dispatchEvent(new Event('input'));
                     let drawn;
@@ -100,7 +102,7 @@ def test_a_thousand_frequencies_of_200_periods_follow_the_hand(browser, chromium
                 return times;
             }"""
         )
-    assert len(times) > 90
+    assert len(times) == 100
     times.sort()
     print(f"redrawn in {times[len(times) // 2]:.0f} ms (median), {times[int(0.95 * len(times))]:.0f} ms (95th percentile)")
 
