@@ -61,17 +61,12 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
             ),
             other => other.into(),
         })?;
-    let stability = if orbit.is_neutral() {
-        "neutral"
-    } else {
-        "stable"
+    let (stability, title) = match orbit.is_neutral() {
+        true => ("neutral", "Neutral motion"),
+        false => ("stable", "Stable motion"),
     };
     let motion = report::motion(&machine, &orbit);
     let figures = report::machine(&machine, &[]).and(motion.clone());
-    let title = match stability {
-        "neutral" => "Neutral motion",
-        _ => "Stable motion",
-    };
     let text = heading(&format!("{title} with one impact per drive period (z = 1)"))
         + &figures.text(&Units::of(&machine));
     let result = Record::default().hidden("stability", stability);
