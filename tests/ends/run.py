@@ -9,6 +9,8 @@ it ends by itself within the limits: with an answer, or with a message that says
 """
 
 import argparse
+import functools
+import json
 import math
 import os
 import random
@@ -26,10 +28,6 @@ TOP = Path(__file__).resolve().parents[2]
 SECONDS, MEGABYTES = 10, 500
 # What the program says where the budget is spent, and where a panic happens.
 OVER, PANIC = "not settled within", "panicked"
-OUTPUTS = [
-    "kind", "z", "velocity", "impacts_per_period", "exponent", "trace", "frequency_g0", "frequency_sn",
-    "frequency_pd", "velocity_sn", "max_position", "stop_force", "multiplier", "share", "certainty",
-]  # fmt: skip
 
 
 class Tally:
@@ -146,13 +144,20 @@ def axis(machine, path, draw):
     return {"parameter": key(path), "from": low, "to": high, "count": 3, "scale": draw.choice(["linear", "log"])}
 
 
+@functools.cache
+def all_outputs():
+    """The names of what a study can have."""
+    said = subprocess.run([*PROGRAM, "schema", "study"], capture_output=True, check=True).stdout
+    return json.loads(said)["properties"]["outputs"]["items"]["enum"]
+
+
 def study(machine, draw):
     """A study of 9 points of a machine beside it."""
     places = [path for path in numbers(machine) if not any(isinstance(part, int) for part in path)]
     if len(places) < 2:
         return None
     axes = [axis(machine, path, draw) for path in draw.sample(places, 2)]
-    outputs = ["z", "velocity"] if draw.random() < 0.5 else draw.sample(OUTPUTS, draw.randint(1, 5))
+    outputs = ["z", "velocity"] if draw.random() < 0.5 else draw.sample(all_outputs(), draw.randint(1, 5))
     return {"machine": "machine.toml", "outputs": outputs, "axis": axes}
 
 
