@@ -7,7 +7,8 @@ use std::sync::Arc as Shared;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::basin::{BasinTest, TestResult, TestedMotion};
+use crate::basin::{BasinTest, TestedMotion};
+use crate::ensemble::Member;
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError};
 pub use crate::stroke_count::StrokeCount;
@@ -107,7 +108,7 @@ pub fn survives_missing_strips(
     let gaps = angles
         .par_chunks(RUNS_TOGETHER)
         .map(|angles| -> Result<_, OrbitError> {
-            let (mut machines, mut motions, mut starts) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut machines, mut motions) = (Vec::new(), Vec::new());
             for (machine, turned) in angles.iter().enumerate() {
                 let run = line.run(orbit, *turned, missing)?;
                 let mut turned_by = orbit.scene.clone();
@@ -116,21 +117,20 @@ pub fn survives_missing_strips(
                 let angle = turned_by.excitation.phase;
                 machines.push(Machine::new(&turned_by)?);
                 motions.push(TestedMotion {
-                    machine,
+                    member: Member::new(machine, run.motion.state()),
                     angle,
-                    state: run.motion.state(),
                     time: turned / TAU + run.periods as f64,
+                    period: orbit.scene.period(),
                     strokes: run.strokes,
                 });
-                starts.push(angle);
             }
-            let results = basin_test.follow_motions::<true>(&machines, motions, monitor)?;
-            let gap = |(angle, result): (f64, TestResult)| Gap {
-                angle,
-                comes_back: result.reaches,
-                missed: result.missed,
+            let tested = basin_test.follow_motions::<true>(&machines, motions, monitor)?;
+            let gap = |tested: &TestedMotion| Gap {
+                angle: tested.angle,
+                comes_back: tested.reaches(),
+                missed: tested.strokes.missed(tested.time),
             };
-            Ok(starts.into_iter().zip(results).map(gap).collect::<Vec<_>>())
+            Ok(tested.iter().map(gap).collect::<Vec<_>>())
         });
     Ok(StripSurvival {
         missing,

@@ -31,7 +31,7 @@ fn on(scene: &Scene, grid: &Grid) -> Basins {
     let found =
         basins(scene, grid, &BasinOptions::default(), &unmonitored, None).expect("there is one");
     assert_eq!(found.cells.len(), grid.cells());
-    let cells: usize = found.classes.iter().map(|class| class.cells).sum();
+    let cells: usize = found.classes.iter().map(|class| class.starts).sum();
     assert_eq!(cells, grid.cells());
     found
 }
@@ -220,7 +220,7 @@ fn cells_that_cannot_be_are_lost() {
     let beyond = (0..found.grid.cells()).filter(|cell| found.grid.start(*cell).0.position > 12.0);
     let lost = found.classes.last().expect("there is one");
     assert_eq!(lost.motion.to_string(), "lost");
-    assert_eq!(lost.cells, beyond.count());
+    assert_eq!(lost.starts, beyond.count());
 }
 
 /// The machine of each value of the frequency, and its basins and attractors.
@@ -285,7 +285,7 @@ fn attractors_keep_their_numbers_through_the_hysteresis_zone() {
     let at = &found[20];
     let alone = on(&scene.at_frequency(at.value), &states(16));
     for (class, own) in alone.classes.iter().zip(&at.basins.classes) {
-        assert_eq!((&class.motion, class.cells), (&own.motion, own.cells));
+        assert_eq!((&class.motion, class.starts), (&own.motion, own.starts));
     }
     assert!(at.entropy.basin > 0.0 && at.entropy.boundary > Some(at.entropy.basin));
     let last = &found[found.len() - 1];

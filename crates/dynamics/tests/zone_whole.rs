@@ -1,7 +1,7 @@
 //! Zones of all stable z = 1 motions on a branch, against the search over all frequencies and against differences.
 
 use softstop::{Excitation, Parameter, Ratios, Scene, Stop};
-use softstop_dynamics::continuation::{Face, Heading, Test};
+use softstop_dynamics::continuation::{Direction, Face, Test};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::zone::{
@@ -47,7 +47,7 @@ fn it_holds_the_hysteresis_zone() {
         assert_near(whole.high.frequency, part.high.frequency, 1e-12);
         assert_near(whole.frequency_g0, part.frequency_g0, 1e-12);
         let orbit = part.orbit_at(0.5).expect("an orbit");
-        let flip = loss_of_stability(&orbit, Heading::Down, Test::Flip).expect("followed");
+        let flip = loss_of_stability(&orbit, Direction::Down, Test::Flip).expect("followed");
         let flip = flip.expect("a flip").parameter;
         assert!(whole.low.is(Test::Flip) && flip < part.frequency_g0);
         assert_near(whole.low.frequency, flip, 1e-9);

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use anyhow::{Error, Result};
 use serde::Deserialize;
 use softstop::{Machine, Ratios, Scene};
-use softstop_dynamics::basin::{BasinOptions, Class, Clearing, basins};
+use softstop_dynamics::attractors::Attractor;
+use softstop_dynamics::basin::{BasinOptions, Clearing, basins};
 use softstop_dynamics::{Axis, Basins, Grid, MotionKind, StroboscopicMap};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
@@ -101,7 +102,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 /// One of the basins of a plane.
 struct Basin<'a> {
     plane: &'a Plane,
-    class: &'a Class,
+    class: &'a Attractor,
     ball: Option<Clearing>,
 }
 
@@ -113,7 +114,7 @@ fn columns<'a>() -> [Column<Basin<'a>>; 12] {
         "motion" [None], "on which they settle" => it.class.motion.to_string();
         "impact_pattern" [None], "its impacts in each drive period" => it.class.orbit.as_ref().map(|orbit| orbit.pattern().to_string());
         "before_impact_velocity" [None], "of its hardest impact" => it.class.orbit.as_ref().map(|orbit| orbit.before_impact_velocity());
-        "cells" [None], "of the plane" => it.class.cells;
+        "cells" [None], "of the plane" => it.class.starts;
         "share" [None] Plain, "share" => it.class.share;
         "share_low" [None] Plain, "share at least" => it.class.interval[0];
         "share_high" [None] Plain, "share at most" => it.class.interval[1];

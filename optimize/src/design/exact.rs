@@ -3,7 +3,7 @@
 
 use softstop::{Machine, Parameter};
 use softstop_dynamics::Zone;
-use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::continuation::{Direction, Test};
 use softstop_dynamics::slopes::{self, Border, Slopes};
 use softstop_dynamics::zone::{ZoneEnd, loss_of_stability};
 
@@ -135,7 +135,7 @@ impl<'a> Linearization<'a> {
             }
             Figure::FrequencyPd if motion.is_flip_above() => minus(&self.high, &self.frequency),
             Figure::FrequencyPd => {
-                let flip = loss_of_stability(motion.orbit, Heading::Down, Test::Flip).ok()??;
+                let flip = loss_of_stability(motion.orbit, Direction::Down, Test::Flip).ok()??;
                 let scene = &motion.orbit.scene;
                 let border = Border::critical(scene, 1, (Test::Flip, &flip), parameters);
                 Some(above(&border.ok()?))

@@ -5,7 +5,7 @@ use std::slice;
 use softstop::{Machine, MotionError, Parameter};
 use softstop_console::interrupt;
 use softstop_dynamics::basin::Establishment;
-use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::continuation::{Direction, Test};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{end_along, find_zones, free_amplitude, loss_of_stability};
 use softstop_dynamics::{CycleMetrics, Orbit, ParameterFamily, Zone};
@@ -77,14 +77,14 @@ impl<'a> Judged<'a> {
                 scene.least_clearance() - free_amplitude(scene, frequency)
             }
             Figure::ClearanceSn => self.below_fold(frequency),
-            Figure::ClearancePd => self.along(Parameter::Clearance, Heading::Down, Test::Flip),
+            Figure::ClearancePd => self.along(Parameter::Clearance, Direction::Down, Test::Flip),
             _ => f64::NAN,
         }
     }
 
     /// Distance in rad/s from the flip below, infinite if there is none.
     fn above_flip(&self, frequency: f64) -> f64 {
-        match loss_of_stability(self.orbit, Heading::Down, Test::Flip) {
+        match loss_of_stability(self.orbit, Direction::Down, Test::Flip) {
             Ok(Some(flip)) => frequency - flip.parameter,
             Ok(None) => f64::INFINITY,
             Err(_) => f64::NAN,
@@ -153,13 +153,13 @@ impl<'a> Judged<'a> {
 
     /// Distance along a parameter, in SI units, to where the motion is lost, by this or by anything else; infinite if it
     /// is not, NaN if it cannot be followed.
-    fn along(&self, parameter: Parameter, heading: Heading, test: Test) -> f64 {
+    fn along(&self, parameter: Parameter, direction: Direction, test: Test) -> f64 {
         let scene = &self.orbit.scene;
         let Some(from) = parameter.get(scene) else {
             return f64::NAN;
         };
         let family = ParameterFamily::new(scene.clone(), [parameter]).map_err(OrbitError::from);
-        let end = family.and_then(|family| end_along(&family, from, self.orbit, heading, test));
+        let end = family.and_then(|family| end_along(&family, from, self.orbit, direction, test));
         match end {
             Ok(Some(lost)) => (lost - from).abs(),
             Ok(None) => f64::INFINITY,

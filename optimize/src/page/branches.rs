@@ -3,7 +3,7 @@
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_draw::Stroke;
-use softstop_dynamics::continuation::{Continuation, Heading, Test};
+use softstop_dynamics::continuation::{Continuation, Direction, Test};
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::{BranchPoint, Orbit, ParameterFamily, Zone};
 
@@ -129,7 +129,7 @@ fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
     let follower = Continuation::new(&family, 1);
     let from = start.scene.excitation.frequency;
     let mut points = follower
-        .follow(&start, from, Heading::Down, LONGEST, |point| {
+        .follow(&start, from, Direction::Down, LONGEST, |point| {
             let ends = !point.is_stable() || point.parameter < from / FARTHEST;
             stop_if(ends || interrupt::watch(0, 0).is_break())
         })

@@ -4,7 +4,7 @@ use std::mem::{Discriminant, discriminant};
 
 use rayon::prelude::*;
 use softstop::MotionError;
-use softstop_dynamics::continuation::{Heading, Test};
+use softstop_dynamics::continuation::{Direction, Test};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
 use softstop_dynamics::spread::{Reached, ToleranceBox, along, critical_normal, free_normal};
@@ -73,14 +73,14 @@ impl Search<'_> {
         };
         let around = (0..AROUND).map(|index| self.farthest_along(&place(index, dimensions)));
         let centre = vec![0.0; dimensions];
-        let border = |(heading, test, outwards): (Heading, Test, f64)| {
+        let border = |(heading, test, outwards): (Direction, Test, f64)| {
             let point = loss_of_stability(self.nominal, heading, test).ok()??;
             let normal = critical_normal(self.spread, &centre, (test, &point)).ok()?;
             Some((outwards, normal))
         };
         let borders = [
-            (Heading::Up, Test::Fold, 1.0),
-            (Heading::Down, Test::Flip, -1.0),
+            (Direction::Up, Test::Fold, 1.0),
+            (Direction::Down, Test::Flip, -1.0),
         ];
         let free = free_normal(self.spread, &centre).ok();
         let normals = borders.into_iter().filter_map(border);

@@ -3,12 +3,13 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::Certainty;
+use crate::ensemble::Outcome;
 use crate::orbit::recurrence::{distance, returns, size};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use softstop::{Scene, Start};
 
 /// Distance from an orbit at which a motion has arrived, in units of the orbit's size.
-const ARRIVED: f64 = 1e-6;
+pub(crate) const ARRIVED: f64 = 1e-6;
 /// Two orbits of the same period are one if two of their states are as near as the first of these, and the
 /// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows.
 const SAME_ORBIT: (f64, f64) = (1e-7, 1e-3);
@@ -37,29 +38,6 @@ impl KnownOrbit {
 pub(crate) struct AttractorCatalogue<'a> {
     scene: &'a Scene,
     pub orbits: Vec<KnownOrbit>,
-}
-
-/// How it stands with a motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Status {
-    /// It has arrived at this orbit.
-    Arrived(usize),
-    /// It has come to rest for good.
-    AtRest,
-    /// It returns, more and more closely, to this orbit.
-    Approaching(usize),
-    /// It does not repeat.
-    Wandering,
-}
-
-impl Status {
-    /// The orbit at which it has arrived, or will.
-    pub(crate) fn orbit(self) -> Option<usize> {
-        match self {
-            Self::Arrived(orbit) | Self::Approaching(orbit) => Some(orbit),
-            Self::AtRest | Self::Wandering => None,
-        }
-    }
 }
 
 impl<'a> AttractorCatalogue<'a> {
@@ -91,34 +69,34 @@ impl<'a> AttractorCatalogue<'a> {
         gaps.fold(f64::INFINITY, f64::min)
     }
 
-    /// How it stands with a motion whose last states are these; what it turns up is entered.
-    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Status, OrbitError> {
+    /// What a motion has come to whose last states are these; what it turns up is entered.
+    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Outcome, OrbitError> {
         let Some(last) = log.last() else {
-            return Ok(Status::Wandering);
+            return Ok(Outcome::Wandering);
         };
         if let Some(orbit) = self.reached(log) {
-            return Ok(Status::Arrived(orbit));
+            return Ok(Outcome::Arrived(orbit));
         }
         let Some(found) = returns(self.frequency(), log) else {
-            return Ok(Status::Wandering);
+            return Ok(Outcome::Wandering);
         };
         if self.is_at_rest(last)? {
-            return Ok(Status::AtRest);
+            return Ok(Outcome::AtRest);
         }
         let orbit = match Orbit::periodic(self.scene, (*last).into(), found.periods as u64) {
             Ok(orbit) if orbit.is_stable() => orbit,
-            _ => return Ok(Status::Wandering),
+            _ => return Ok(Outcome::Wandering),
         };
         if self.is_at_rest(&orbit.state().into())? {
-            return Ok(Status::AtRest);
+            return Ok(Outcome::AtRest);
         }
         let orbit = self.enter(orbit, found.distance)?;
         let known = &self.orbits[orbit];
         let gap = self.gap(known, last);
         let is_near = found.distance <= ARRIVED && gap <= NEAR_ORBIT * known.size;
         Ok(match is_near || self.reached(log).is_some() {
-            true => Status::Arrived(orbit),
-            false => Status::Approaching(orbit),
+            true => Outcome::Arrived(orbit),
+            false => Outcome::Approaching(orbit),
         })
     }
 

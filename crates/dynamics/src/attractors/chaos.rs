@@ -1,6 +1,6 @@
 //! What a chaotic motion is like.
 
-use super::ensemble::Ensemble;
+use crate::ensemble::Ensemble;
 use crate::extremes::extremes;
 use crate::orbit::{Exponents, OrbitError, StroboscopicMap};
 use softstop::{Scene, Start};

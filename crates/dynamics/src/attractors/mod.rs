@@ -9,7 +9,6 @@
 
 pub(crate) mod catalogue;
 mod chaos;
-pub(crate) mod ensemble;
 mod group;
 mod lifetime;
 mod search;
@@ -22,6 +21,7 @@ pub use starts::Region;
 
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
+use crate::share::wilson;
 use softstop::{MotionError, Start};
 
 /// How certain a periodic motion is.
@@ -37,13 +37,13 @@ pub struct Certainty {
     pub rounding: f64,
 }
 
-/// A motion on which starts settle.
+/// What some of many starts come to.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Attractor {
     /// What it is.
     pub motion: MotionKind,
-    /// A state of it at drive angle phi.
+    /// A state of it at drive angle phi; of what is lost, a start.
     pub state: Start,
     /// The orbit, if it repeats: polished by Newton's method; stable.
     pub orbit: Option<Box<Orbit>>,
@@ -51,14 +51,42 @@ pub struct Attractor {
     pub certainty: Option<Certainty>,
     /// Least and largest position in m at which motions were seen to end, if it rests.
     pub positions: Option<[f64; 2]>,
-    /// What it is like, if it is chaotic.
+    /// What it is like, if it is chaotic and was watched.
     pub chaos: Option<Chaos>,
-    /// Its exponents, unless it rests.
+    /// Its exponents, if they were computed: those of an orbit follow from its multipliers.
     pub exponents: Option<Exponents>,
-    /// Starts of the region that were on it in the end.
+    /// How many starts were on it in the end.
     pub starts: usize,
-    /// Their share of all starts of the region: a rough measure of its basin.
+    /// Their share of all: a measure of its basin.
     pub share: f64,
+    /// Wilson's 95 % interval of the share, as if the starts were drawn at random.
+    pub interval: [f64; 2],
+}
+
+impl Attractor {
+    /// A motion with a state of it, the starts on it and all.
+    pub(crate) fn new(motion: MotionKind, state: Start, (starts, all): (usize, usize)) -> Self {
+        Self {
+            motion,
+            state,
+            orbit: None,
+            certainty: None,
+            positions: None,
+            chaos: None,
+            exponents: None,
+            starts,
+            share: starts as f64 / all.max(1) as f64,
+            interval: wilson(starts, all),
+        }
+    }
+
+    /// A stable orbit.
+    pub(crate) fn repeating(orbit: &Orbit, starts: (usize, usize)) -> Self {
+        Self {
+            orbit: Some(Box::new(orbit.clone())),
+            ..Self::new(MotionKind::of(orbit), orbit.state().into(), starts)
+        }
+    }
 }
 
 /// All motions found.

@@ -7,9 +7,28 @@ use nalgebra::{Matrix2, Vector2};
 use crate::orbit::{Orbit, StroboscopicMap, multipliers};
 use softstop::{MotionError, Start};
 
+/// Balls about the points of some orbits, by their numbers.
+#[derive(Debug, Default)]
+pub(super) struct ContractionBalls(Vec<(usize, ContractionBall)>);
+
+impl ContractionBalls {
+    /// Adds those of an orbit; points about which none was found have none.
+    pub fn add(&mut self, index: usize, orbit: &Orbit) -> Result<(), MotionError> {
+        let balls = ContractionBall::all(orbit)?.into_iter();
+        self.0.extend(balls.map(|ball| (index, ball)));
+        Ok(())
+    }
+
+    /// The orbit in one of whose balls a state lies, the first of several.
+    pub fn caught(&self, state: Start) -> Option<usize> {
+        let ball = self.0.iter().find(|(_, ball)| ball.holds(state));
+        ball.map(|(orbit, _)| *orbit)
+    }
+}
+
 /// Where a motion has arrived: |L (s - c)| <= r.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ContractionBall {
+struct ContractionBall {
     centre: Vector2<f64>,
     shape: Matrix2<f64>,
     /// r^2.
@@ -27,13 +46,13 @@ const LEAST_RADIUS: f64 = 1e-5;
 const TERMS: usize = 20_000;
 
 impl ContractionBall {
-    pub(super) fn holds(&self, state: Start) -> bool {
+    fn holds(&self, state: Start) -> bool {
         let gap = Vector2::new(state.position, state.velocity) - self.centre;
         (self.shape * gap).norm_squared() <= self.square
     }
 
-    /// The balls about all points of an orbit; points about which none was found have none.
-    pub(super) fn all(orbit: &Orbit) -> Result<Vec<Self>, MotionError> {
+    /// The balls about all points of an orbit.
+    fn all(orbit: &Orbit) -> Result<Vec<Self>, MotionError> {
         let map = StroboscopicMap::new(&orbit.scene, orbit.periods)?;
         let states = orbit.states()?;
         let w = orbit.scene.excitation.frequency;

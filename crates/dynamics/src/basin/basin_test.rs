@@ -1,12 +1,14 @@
 //! Which motions come to one stable orbit: all others are not told apart, which costs far less than a survey.
 
 use std::f64::consts::TAU;
+use std::slice::from_ref;
 
 use rayon::prelude::*;
 
-use super::ball::ContractionBall;
+use super::ball::ContractionBalls;
 use super::section::at_section;
-use crate::batch::follow;
+use crate::attractors::catalogue::ARRIVED;
+use crate::ensemble::{Ensemble, HasMember, Member, Outcome};
 use crate::monitor::Monitor;
 use crate::orbit::recurrence::{distance, size};
 use crate::orbit::{Orbit, OrbitError};
@@ -14,8 +16,8 @@ use crate::stroke_count::StrokeCount;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
 use softstop::internals::budget::Fork;
-use softstop::{Excitation, MotionError, Scene, Start};
-use softstop_lanes::{BatchObserver, Machine};
+use softstop::{Excitation, Instant, MotionError, Scene, Start};
+use softstop_lanes::Machine;
 
 /// Motions that go together: enough for all lanes to be busy. It may not depend on how many threads there are.
 const MOTIONS_TOGETHER: usize = 512;
@@ -30,41 +32,54 @@ const MAX_SETTLING: f64 = 20_000.0;
 /// one side alone, and ever more slowly. Drive periods that motions get there.
 const SLOWEST_DECAY: f64 = 1e-5;
 const AT_BORDER: u64 = 512;
-/// Distance from the orbit, in units of its size, at which a motion has arrived that no ball holds; and at a border.
-const ARRIVED: [f64; 2] = [1e-6, 2e-2];
+/// Distance from an orbit at a border, in units of its size, at which a motion has arrived that no ball holds.
+const ARRIVED_AT_BORDER: f64 = 2e-2;
 
 /// A stable orbit with balls about its points in which its map contracts: what lies in one of them comes to it.
 pub struct BasinTest {
-    machine: [Machine; 1],
+    machine: Machine,
     drive: Excitation,
     states: Vec<Start>,
-    balls: Vec<ContractionBall>,
-    /// Those of the motion without impacts, if it is another one: what lies there is lost.
-    away: Vec<ContractionBall>,
+    /// Those of the orbit, and of the motion without impacts if it is another one: what lies there is lost.
+    balls: ContractionBalls,
     patience: u64,
     /// Distance within which a motion has arrived in the end.
     arrived: f64,
 }
 
-/// A motion on its way, at a drive angle in rad that its machine starts with.
-#[derive(Debug, Clone, Copy)]
+/// Numbers of the orbit, and of the motion without impacts.
+const OWN: usize = 0;
+const OTHER: usize = 1;
+
+/// A motion that comes to the orbit or does not.
+#[derive(Debug, Clone)]
 pub(crate) struct TestedMotion {
-    pub machine: usize,
+    pub member: Member,
+    /// Drive angle in rad that its machine starts with.
     pub angle: f64,
-    pub state: Start,
-    /// When that is, in drive periods.
+    /// When it is at its state, in drive periods, and their length in s.
     pub time: f64,
-    /// Its strokes so far.
+    pub period: f64,
+    /// Its strokes so far, if they are counted.
     pub strokes: StrokeCount,
 }
 
-/// What became of a tested motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct TestResult {
-    /// It came to the orbit.
-    pub reaches: bool,
-    /// Strokes missed on its way, if they were counted.
-    pub missed: u64,
+impl TestedMotion {
+    /// True if it has come to the orbit.
+    pub fn reaches(&self) -> bool {
+        self.member.outcome == Outcome::Arrived(OWN)
+    }
+}
+
+impl HasMember for TestedMotion {
+    fn member(&mut self) -> &mut Member {
+        &mut self.member
+    }
+
+    fn impact(&mut self, instant: Instant, _: f64) {
+        let time = self.time + instant.cycles + instant.offset / self.period;
+        self.strokes.record_impact(time);
+    }
 }
 
 impl BasinTest {
@@ -81,21 +96,21 @@ impl BasinTest {
         let (patience, arrived) = match decay {
             _ if decay > SLOWEST_DECAY => {
                 let settling = (SHRUNK / decay).min(MAX_SETTLING);
-                (PATIENCE + settling as u64, ARRIVED[0])
+                (PATIENCE + settling as u64, ARRIVED)
             }
-            _ if decay > -SLOWEST_DECAY && !orbit.is_neutral() => (AT_BORDER, ARRIVED[1]),
+            _ if decay > -SLOWEST_DECAY && !orbit.is_neutral() => (AT_BORDER, ARRIVED_AT_BORDER),
             _ => (0, 0.0),
         };
-        let away = match without_impacts(scene).filter(|_| !orbit.impacts.is_empty()) {
-            Some(other) => ContractionBall::all(&other)?,
-            None => Vec::new(),
-        };
+        let mut balls = ContractionBalls::default();
+        balls.add(OWN, orbit)?;
+        if let Some(other) = without_impacts(scene).filter(|_| !orbit.impacts.is_empty()) {
+            balls.add(OTHER, &other)?;
+        }
         Ok(Self {
-            machine: [Machine::new(scene)?],
+            machine: Machine::new(scene)?,
             drive: scene.excitation,
             states,
-            balls: ContractionBall::all(orbit)?,
-            away,
+            balls,
             patience,
             arrived: arrived * size,
         })
@@ -108,88 +123,67 @@ impl BasinTest {
     /// [`OrbitError::Stopped`].
     pub fn reached(&self, starts: &[Start], monitor: Monitor<'_>) -> Result<Vec<bool>, OrbitError> {
         let motion = |state: &Start| TestedMotion {
-            machine: 0,
+            member: Member::new(0, *state),
             angle: self.drive.phase,
-            state: *state,
             time: 0.0,
+            period: TAU / self.drive.frequency,
             strokes: StrokeCount::after(0.0),
         };
         let follow_motions = |starts: &[Start]| {
-            let motions: Vec<TestedMotion> = starts.iter().map(motion).collect();
-            self.follow_motions::<false>(&self.machine, motions, monitor)
+            let motions = starts.iter().map(motion).collect();
+            self.follow_motions::<false>(from_ref(&self.machine), motions, monitor)
         };
         let (fork, chunks) = (Fork::default(), starts.par_chunks(MOTIONS_TOGETHER));
         let chunks = chunks.map(|starts| fork.part(|| follow_motions(starts)));
         let chunks = chunks.collect::<Result<Vec<_>, OrbitError>>();
         fork.join();
         Ok(chunks?
-            .concat()
             .iter()
-            .map(|result| result.reaches)
+            .flatten()
+            .map(TestedMotion::reaches)
             .collect())
     }
 
-    /// Follows motions until they have reached the orbit or are given up. The machines differ from the orbit's in the drive angle
-    /// alone with which they start.
+    /// Follows motions until they have reached the orbit or are given up, with or without counting their strokes. The
+    /// machines differ from the orbit's in the drive angle alone with which they start.
     pub(crate) fn follow_motions<const COUNTS: bool>(
         &self,
         machines: &[Machine],
         mut motions: Vec<TestedMotion>,
         monitor: Monitor<'_>,
-    ) -> Result<Vec<TestResult>, OrbitError> {
-        let period = TAU / self.drive.frequency;
-        let mut reached = vec![false; motions.len()];
-        let mut left: Vec<usize> = (0..motions.len()).collect();
+    ) -> Result<Vec<TestedMotion>, OrbitError> {
+        let quiet = |_, _| monitor(0, 0);
+        let ensemble = Ensemble::new(machines, &quiet);
+        let mut left: Vec<&mut TestedMotion> = motions.iter_mut().collect();
         let mut periods = 0;
         while !left.is_empty() && periods < self.patience {
-            OrbitError::ask(monitor)?;
-            let open = left.iter().map(|motion| &motions[*motion]);
-            let open = open.map(|it| (it.machine, it.state, PERIODS_AT_ONCE));
-            let open: Vec<_> = open.collect();
-            let mut counter = Counter::<COUNTS> {
-                period,
-                motions: &mut motions,
-                open: &left,
-            };
-            let outcomes = follow(machines, open, &mut counter, || monitor(0, 0));
-            let outcomes = outcomes.ok_or(OrbitError::Stopped)?;
+            ensemble.note(0)?;
+            ensemble.advance_batch::<COUNTS, false, _>(&mut left, PERIODS_AT_ONCE)?;
             periods += PERIODS_AT_ONCE;
-            let ends = left.into_iter().zip(outcomes);
-            left = ends
-                .filter_map(|(motion, outcome)| {
-                    let it = &mut motions[motion];
-                    it.state = outcome.end;
-                    it.time += PERIODS_AT_ONCE as f64;
-                    let outcome = match outcome.error {
-                        Some(_) => Some(false),
-                        None => self.has_reached(it, periods >= self.patience),
-                    };
-                    reached[motion] = outcome == Some(true);
-                    outcome.is_none().then_some(motion)
-                })
-                .collect();
+            for motion in &mut left {
+                motion.time += PERIODS_AT_ONCE as f64;
+                if motion.member.outcome == Outcome::Open {
+                    motion.member.outcome = self.outcome(motion, periods >= self.patience);
+                }
+            }
+            left.retain(|motion| motion.member.outcome == Outcome::Open);
         }
-        let ends = motions.iter().zip(reached);
-        let result = |(motion, reaches): (&TestedMotion, bool)| TestResult {
-            reaches,
-            missed: motion.strokes.missed(motion.time),
-        };
-        Ok(ends.map(result).collect())
+        Ok(motions)
     }
 
-    /// Whether a motion has come to the orbit, or never will; none if that is open still.
-    fn has_reached(&self, motion: &TestedMotion, is_last: bool) -> Option<bool> {
-        let phases = self.machine[0].shared_phases();
-        let Ok(state) = at_section(&phases, self.drive, motion.state, motion.angle) else {
-            return Some(false);
+    /// What a motion has come to.
+    fn outcome(&self, motion: &TestedMotion, is_last: bool) -> Outcome {
+        let phases = self.machine.shared_phases();
+        let state = at_section(&phases, self.drive, motion.member.state, motion.angle);
+        let Ok(state) = state else {
+            return Outcome::Lost;
         };
-        let holds = |balls: &[ContractionBall]| balls.iter().any(|ball| ball.holds(state));
         let is_near = |own: &Start| distance(self.drive.frequency, own, &state) <= self.arrived;
-        match () {
-            () if holds(&self.balls) => Some(true),
-            () if holds(&self.away) => Some(false),
-            () if is_last => Some(self.states.iter().any(is_near)),
-            () => None,
+        match self.balls.caught(state) {
+            Some(orbit) => Outcome::Arrived(orbit),
+            None if !is_last => Outcome::Open,
+            None if self.states.iter().any(is_near) => Outcome::Arrived(OWN),
+            None => Outcome::Wandering,
         }
     }
 }
@@ -206,21 +200,4 @@ fn without_impacts(scene: &Scene) -> Option<Orbit> {
     let state = Vector2::new(swing.re, -drive.frequency * swing.im);
     let orbit = Orbit::periodic(scene, state, 1).ok()?;
     orbit.impacts.is_empty().then_some(orbit)
-}
-
-/// Counts the strokes of those motions that are open.
-struct Counter<'a, const COUNTS: bool> {
-    period: f64,
-    motions: &'a mut [TestedMotion],
-    open: &'a [usize],
-}
-
-impl<const COUNTS: bool> BatchObserver for Counter<'_, COUNTS> {
-    const IMPACTS: bool = COUNTS;
-
-    fn impact(&mut self, job: usize, cycle: u64, offset: f64, _: f64) {
-        let motion = &mut self.motions[self.open[job]];
-        let time = motion.time + cycle as f64 + offset / self.period;
-        motion.strokes.record_impact(time);
-    }
 }

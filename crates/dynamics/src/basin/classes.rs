@@ -1,7 +1,10 @@
 //! What the cells have come to, basin by basin.
 
-use super::survey::{BasinSurvey, CellOutcome};
-use super::{Basins, Class, wilson};
+use super::Basins;
+use super::survey::BasinSurvey;
+use crate::attractors::Attractor;
+use crate::attractors::catalogue::KnownOrbit;
+use crate::ensemble::Outcome;
 use crate::motion::MotionKind;
 use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
 
@@ -12,39 +15,44 @@ impl BasinSurvey<'_> {
             grid: *self.grid,
             classes: Vec::new(),
             cells: vec![0; self.outcomes.len()],
+            lost: self.lost.as_ref().map(|(_, error)| error.clone()),
         };
-        let orbits = self.catalogue.orbits.iter().map(|known| &known.orbit);
-        let mut orbits: Vec<(usize, &Orbit)> = orbits.enumerate().collect();
+        let mut known: Vec<(usize, &KnownOrbit)> =
+            self.catalogue.orbits.iter().enumerate().collect();
         let key = |orbit: &Orbit| (orbit.periods, orbit.impacts.len());
-        orbits.sort_by(|(_, a), (_, b)| key(a).cmp(&key(b)).then(a.compare_velocity(b)));
-        for (index, orbit) in orbits {
-            let class = Class {
-                orbit: Some(Box::new(orbit.clone())),
-                ..Class::of(MotionKind::of(orbit))
+        known.sort_by(|(_, a), (_, b)| {
+            let (a, b) = (&a.orbit, &b.orbit);
+            key(a).cmp(&key(b)).then(a.compare_velocity(b))
+        });
+        for (index, known) in known {
+            let class = |starts| Attractor {
+                certainty: Some(known.certainty),
+                ..Attractor::repeating(&known.orbit, starts)
             };
-            self.enter(&mut basins, CellOutcome::Orbit(index), class);
+            self.enter(&mut basins, |it| it.attractor() == Some(index), class);
         }
-        self.enter(
-            &mut basins,
-            CellOutcome::AtRest,
-            Class::of(MotionKind::Rest),
-        );
-        if let Some(class) = self.wandering()? {
-            self.enter(&mut basins, CellOutcome::Wandering, class);
+        let (wandering, exponents) = self.wandering()?;
+        for (outcome, motion) in [
+            (Outcome::AtRest, MotionKind::Rest),
+            (Outcome::Wandering, wandering),
+            (Outcome::Lost, MotionKind::Lost),
+        ] {
+            let first = self.outcomes.iter().position(|it| *it == outcome);
+            let Some(first) = first else { continue };
+            let class = |starts| Attractor {
+                exponents: exponents.filter(|_| outcome == Outcome::Wandering),
+                ..Attractor::new(motion, self.states[first], starts)
+            };
+            self.enter(&mut basins, |it| it == outcome, class);
         }
-        let lost = Class {
-            error: self.lost.as_ref().map(|(_, error)| error.clone()),
-            ..Class::of(MotionKind::Lost)
-        };
-        self.enter(&mut basins, CellOutcome::Lost, lost);
         Ok(basins)
     }
 
-    /// What the cells are that have not returned.
-    fn wandering(&self) -> Result<Option<Class>, OrbitError> {
+    /// What the cells are that have not returned, and the exponents of the first of them, if there are any.
+    fn wandering(&self) -> Result<(MotionKind, Option<Exponents>), OrbitError> {
         let mut outcomes = self.outcomes.iter();
-        let Some(cell) = outcomes.position(|outcome| *outcome == CellOutcome::Wandering) else {
-            return Ok(None);
+        let Some(cell) = outcomes.position(|outcome| *outcome == Outcome::Wandering) else {
+            return Ok((MotionKind::Unsettled, None));
         };
         let (state, ask) = (self.states[cell].into(), || self.ensemble.note(0));
         let (exponents, _) =
@@ -53,47 +61,26 @@ impl BasinSurvey<'_> {
             true => MotionKind::Chaos,
             false => MotionKind::Unsettled,
         };
-        Ok(Some(Class {
-            exponents: Some(exponents),
-            ..Class::of(motion)
-        }))
+        Ok((motion, Some(exponents)))
     }
 
-    /// Enters the basin of all cells with an outcome, if there are any.
-    fn enter(&self, basins: &mut Basins, outcome: CellOutcome, class: Class) {
-        let all = self.outcomes.len();
+    /// Enters the basin of all cells with some outcome, if there are any.
+    fn enter(
+        &self,
+        basins: &mut Basins,
+        has_come: impl Fn(Outcome) -> bool,
+        class: impl FnOnce((usize, usize)) -> Attractor,
+    ) {
+        let number = basins.classes.len() as u16;
         let mut own = 0;
-        for (cell, _) in self
-            .outcomes
-            .iter()
-            .enumerate()
-            .filter(|it| *it.1 == outcome)
-        {
-            basins.cells[cell] = basins.classes.len() as u16;
-            own += 1;
+        for (cell, outcome) in basins.cells.iter_mut().zip(&self.outcomes) {
+            if has_come(*outcome) {
+                *cell = number;
+                own += 1;
+            }
         }
         if own > 0 {
-            basins.classes.push(Class {
-                cells: own,
-                share: own as f64 / all as f64,
-                interval: wilson(own, all),
-                ..class
-            });
-        }
-    }
-}
-
-impl Class {
-    /// One without cells so far.
-    pub(super) const fn of(motion: MotionKind) -> Self {
-        Self {
-            motion,
-            orbit: None,
-            exponents: None,
-            error: None,
-            cells: 0,
-            share: 0.0,
-            interval: [0.0; 2],
+            basins.classes.push(class((own, self.outcomes.len())));
         }
     }
 }

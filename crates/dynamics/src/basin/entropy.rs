@@ -58,8 +58,10 @@ fn entropy(counts: &[usize]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::basin::{Axis, Class, Grid};
+    use crate::attractors::Attractor;
+    use crate::basin::{Axis, Grid};
     use crate::motion::MotionKind;
+    use softstop::Start;
 
     fn entropy_of(cells: [usize; 2], class: impl Fn(usize, usize) -> u16) -> BasinEntropy {
         let [columns, rows] = cells;
@@ -68,7 +70,10 @@ mod tests {
         let all = (0..columns * rows).map(|cell| class(cell / columns, cell % columns));
         let basins = Basins {
             grid: Grid::states(across, up, 0.0),
-            classes: vec![Class::of(MotionKind::Chaos), Class::of(MotionKind::Rest)],
+            classes: [MotionKind::Chaos, MotionKind::Rest]
+                .map(|it| Attractor::new(it, Start::REST, (0, 1)))
+                .into(),
+            lost: None,
             cells: all.collect(),
         };
         basins.entropy()

@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::basin_test::BasinTest;
-use super::share::wilson;
 use crate::attractors::starts::evenly;
 use crate::attractors::{Region, starting_box, stays};
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
+use crate::share::wilson;
 use crate::zone::{Zone, ZoneError};
 use softstop::{Scene, Start};
 

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::basin_test::PERIODS_AT_ONCE;
-use super::survey::{BasinSurvey, CellOutcome, TILE};
-use crate::batch;
-use crate::monitor::{PIECE, piece, stop_if};
+use super::survey::{BasinSurvey, LostCell, TILE, earlier};
+use crate::ensemble::{Member, Outcome};
+use crate::monitor::{PIECE, piece};
 use crate::orbit::OrbitError;
 use softstop::Start;
 use softstop::internals::budget::Fork;
@@ -19,16 +19,17 @@ const SMALL_TILE: usize = 16;
 /// each time.
 const LONGEST_PIECE: Duration = Duration::from_secs(5);
 
+/// A cell, where its motion is, and what it has come to.
+type FollowedCell = (usize, Start, Outcome);
+
 /// Cells that were followed together for some time.
 #[derive(Serialize, Deserialize)]
 struct FollowedCells {
     /// Drive periods so far.
     periods: u64,
-    /// Those that a ball has caught, and the orbit; none for a lost cell.
-    ended: Vec<(usize, Option<usize>)>,
-    /// Those on their way, and where they are.
-    left: Vec<(usize, Start)>,
-    lost: Option<(usize, String)>,
+    cells: Vec<FollowedCell>,
+    /// Why the first lost cell is lost.
+    lost: Option<LostCell>,
 }
 
 impl BasinSurvey<'_> {
@@ -42,87 +43,83 @@ impl BasinSurvey<'_> {
         };
         let (fork, tiles) = (Fork::default(), open.par_chunks(tile));
         let followed = tiles.map(|tile| fork.part(|| self.follow(tile)));
-        let followed: Result<Vec<Vec<FollowedCells>>, _> = followed.collect();
+        let followed: Result<Vec<_>, OrbitError> = followed.collect();
         fork.join();
-        for tile in followed? {
-            let last = tile.last().map(|followed| followed.left.clone());
-            for (cell, state) in last.into_iter().flatten() {
-                self.states[cell] = state;
+        for (cells, lost) in followed? {
+            for (cell, state, outcome) in cells {
+                (self.states[cell], self.outcomes[cell]) = (state, outcome);
             }
-            for FollowedCells { ended, lost, .. } in tile {
-                for (cell, orbit) in ended {
-                    self.outcomes[cell] = orbit.map_or(CellOutcome::Lost, CellOutcome::Orbit);
-                }
-                self.lose(lost);
-            }
+            self.lose(lost);
         }
         Ok(())
     }
 
-    /// Follows some cells, piece by piece.
-    fn follow(&self, tile: &[usize]) -> Result<Vec<FollowedCells>, OrbitError> {
+    /// Follows some cells, piece by piece; why the first lost one is lost.
+    fn follow(&self, tile: &[usize]) -> Result<(Vec<FollowedCell>, Option<LostCell>), OrbitError> {
         let of = ("tile", self.scene, self.grid, self.options, tile[0]);
-        let left = tile.iter().map(|cell| (*cell, self.states[*cell]));
-        let (mut periods, mut left) = (0, left.collect::<Vec<_>>());
-        let mut pieces: Vec<FollowedCells> = Vec::new();
-        let mut time = PIECE;
+        let open = |cell: &usize| (*cell, self.states[*cell], Outcome::Open);
+        let mut left: Vec<FollowedCell> = tile.iter().map(open).collect();
+        let (mut ended, mut lost) = (Vec::new(), None);
+        let (mut periods, mut time) = (0, PIECE);
         while periods < self.options.transient && !left.is_empty() {
-            let on = || self.follow_on(std::mem::take(&mut left), periods, time);
+            let on = || self.follow_on(&left, periods, time);
             let next = piece(self.kept, &(of, periods), on)?;
-            self.ensemble.note(next.ended.len() as u64)?;
-            periods = next.periods;
-            left.clone_from(&next.left);
-            if let Some(last) = pieces.last_mut() {
-                last.left = Vec::new();
-            }
-            pieces.push(next);
+            let all = next.cells.into_iter();
+            let (open, come): (Vec<_>, Vec<_>) = all.partition(|it| it.2 == Outcome::Open);
+            self.ensemble.note(come.len() as u64)?;
+            ended.extend(come);
+            (periods, left, lost) = (next.periods, open, earlier(lost, next.lost));
             time = (time + PIECE).min(LONGEST_PIECE);
         }
-        Ok(pieces)
+        ended.extend(left);
+        Ok((ended, lost))
     }
 
     /// Follows cells on from so many drive periods for some time.
     fn follow_on(
         &self,
-        left: Vec<(usize, Start)>,
-        periods: u64,
+        cells: &[FollowedCell],
+        mut periods: u64,
         time: Duration,
     ) -> Result<FollowedCells, OrbitError> {
         let begin = Instant::now();
-        let mut all = FollowedCells {
-            periods,
-            ended: Vec::with_capacity(left.len()),
-            left,
-            lost: None,
-        };
-        while all.periods < self.options.transient && !all.left.is_empty() && begin.elapsed() < time
-        {
-            let stretch = PERIODS_AT_ONCE.min(self.options.transient - all.periods);
-            all.periods += stretch;
-            let motions = all.left.iter().map(|(_, start)| (0, *start, stretch));
-            let ask = || stop_if(self.ensemble.note(0).is_err());
-            let outcomes = batch::follow(&self.ensemble.machine, motions, &mut (), ask);
-            let outcomes = outcomes.ok_or(OrbitError::Stopped)?;
-            let ends = std::mem::take(&mut all.left).into_iter().zip(outcomes);
-            for ((cell, _), outcome) in ends {
-                if let Some(error) = outcome.error {
-                    all.ended.push((cell, None));
-                    let lost = (cell, error.to_string());
-                    all.lost = all.lost.take().into_iter().chain([lost]).min();
-                } else if let Some(orbit) = self.caught(outcome.end) {
-                    all.ended.push((cell, Some(orbit)));
-                } else {
-                    all.left.push((cell, outcome.end));
+        let members = cells.iter().map(|cell| Member::new(0, cell.1));
+        let mut members: Vec<Member> = members.collect();
+        let mut open: Vec<&mut Member> = members.iter_mut().collect();
+        while periods < self.options.transient && !open.is_empty() && begin.elapsed() < time {
+            let stretch = PERIODS_AT_ONCE.min(self.options.transient - periods);
+            periods += stretch;
+            self.ensemble
+                .advance_batch::<false, false, _>(&mut open, stretch)?;
+            for member in &mut open {
+                if let Some(orbit) = self.balls.caught(member.state)
+                    && member.error.is_none()
+                {
+                    member.outcome = Outcome::Arrived(orbit);
                 }
             }
+            open.retain(|member| member.outcome == Outcome::Open);
             self.ensemble.note(0)?;
         }
+        let mut all = FollowedCells {
+            periods,
+            cells: Vec::with_capacity(cells.len()),
+            lost: None,
+        };
+        for (
+            (cell, ..),
+            Member {
+                state,
+                outcome,
+                error,
+                ..
+            },
+        ) in cells.iter().zip(members)
+        {
+            all.cells.push((*cell, state, outcome));
+            let lost = error.map(|error| (*cell, error.to_string()));
+            all.lost = earlier(all.lost, lost);
+        }
         Ok(all)
-    }
-
-    /// The orbit in one of whose balls a state lies.
-    fn caught(&self, state: Start) -> Option<usize> {
-        let ball = self.balls.iter().find(|(_, ball)| ball.holds(state));
-        ball.map(|(orbit, _)| *orbit)
     }
 }

@@ -5,10 +5,9 @@
 //! say. The motion from its state is followed at the next value, so that an attractor is found also if no cell leads to it.
 //! One orbit continues one attractor; what continues none is new.
 
-use super::{BasinEntropy, BasinOptions, Basins, Class, Grid, basins, wilson};
-use crate::attractors::{SearchOptions, settle};
+use super::{BasinEntropy, BasinOptions, Basins, Grid, basins};
+use crate::attractors::{Attractor, SearchOptions, settle};
 use crate::monitor::{Kept, Monitor};
-use crate::motion::MotionKind;
 use crate::orbit::recurrence::{distance, size};
 use crate::orbit::{Orbit, OrbitError};
 use softstop::{Scene, Start};
@@ -161,11 +160,8 @@ fn enter(basins: &mut Basins, orbit: Orbit) -> Result<(), OrbitError> {
             return Ok(());
         }
     }
-    basins.classes.push(Class {
-        interval: wilson(0, basins.cells.len()),
-        orbit: Some(Box::new(orbit.clone())),
-        ..Class::of(MotionKind::of(&orbit))
-    });
+    let starts = (0, basins.cells.len());
+    basins.classes.push(Attractor::repeating(&orbit, starts));
     Ok(())
 }
 

@@ -35,11 +35,11 @@ mod global;
 mod grid;
 mod integrity;
 mod section;
-mod share;
 mod survey;
 
+pub use crate::share::wilson;
 pub use basin_test::BasinTest;
-pub(crate) use basin_test::{TestResult, TestedMotion};
+pub(crate) use basin_test::TestedMotion;
 pub use certainty::{Establishing, establishing};
 pub use entropy::BasinEntropy;
 pub use erosion::{ErosionProfile, Establishment, Integrity, zone_box};
@@ -47,33 +47,12 @@ pub use global::{BasinsAt, follow_attractors};
 pub use grid::{Axis, AxisQuantity, Grid};
 pub use integrity::{Clearing, clearing};
 pub(crate) use section::at_section;
-pub use share::wilson;
 pub use survey::basins;
 
 use serde::Serialize;
 
-use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit, Regime};
-
-/// One basin.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Class {
-    /// What its motions settle on; chaos is nothing that returns, with a positive exponent.
-    pub motion: MotionKind,
-    /// The orbit, if they repeat: stable, polished by Newton's method.
-    pub orbit: Option<Box<Orbit>>,
-    /// The exponents of the first motion of what does not return.
-    pub exponents: Option<Exponents>,
-    /// Why the first of what is lost could not be computed.
-    pub error: Option<String>,
-    /// How many cells belong to it.
-    pub cells: usize,
-    /// Their share of all.
-    pub share: f64,
-    /// Wilson's 95 % interval of the share, as if the cells were drawn at random.
-    pub interval: [f64; 2],
-}
+use crate::attractors::Attractor;
+use crate::orbit::Regime;
 
 /// All basins on a grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,11 +60,13 @@ pub struct Class {
 pub struct Basins {
     /// Where the cells lie.
     pub grid: Grid,
-    /// The basins: periodic motions by period, impacts and hardest impact; then rest, chaos, what is unsettled,
-    /// and what is lost.
-    pub classes: Vec<Class>,
+    /// On what their motions settle: periodic motions by period, impacts and hardest impact; then rest, chaos (nothing
+    /// that returns, with a positive exponent), what is unsettled, and what is lost.
+    pub classes: Vec<Attractor>,
     /// The basin of each cell, row by row.
     pub cells: Vec<u16>,
+    /// Why the first of the cells that are lost could not be computed.
+    pub lost: Option<String>,
 }
 
 impl Basins {
@@ -93,7 +74,7 @@ impl Basins {
     pub fn share(&self, regime: Regime) -> (f64, [f64; 2]) {
         let classes = self.classes.iter();
         let own = classes.filter(|class| class.motion.regime() == Some(regime));
-        let cells = own.map(|class| class.cells).sum();
+        let cells = own.map(|class| class.starts).sum();
         let all = self.cells.len();
         (cells as f64 / all as f64, wilson(cells, all))
     }

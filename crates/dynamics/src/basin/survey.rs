@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::ball::ContractionBall;
+use super::ball::ContractionBalls;
 use super::section::at_section;
 use super::{BasinOptions, Basins, Grid};
-use crate::attractors::catalogue::{AttractorCatalogue, Status};
-use crate::attractors::ensemble::{Ensemble, EnsembleMember};
+use crate::attractors::catalogue::AttractorCatalogue;
+use crate::ensemble::{Ensemble, Member, Outcome};
 use crate::monitor::{Kept, Monitor, piece, stop_if};
 use crate::orbit::OrbitError;
 use softstop::internals::budget::Fork;
@@ -24,18 +24,8 @@ const SCOUTS: usize = 16;
 /// Cells that are looked at one by one before what they have come to is kept; so many groups of the ensemble's.
 const LOOKED: usize = 1024;
 
-/// How it stands with a cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum CellOutcome {
-    /// On its way.
-    Open,
-    /// On this orbit of the catalogue.
-    Orbit(usize),
-    AtRest,
-    /// It has not returned.
-    Wandering,
-    Lost,
-}
+/// A cell that is lost, and why.
+pub(super) type LostCell = (usize, String);
 
 pub(super) struct BasinSurvey<'a> {
     pub scene: &'a Scene,
@@ -45,11 +35,11 @@ pub(super) struct BasinSurvey<'a> {
     pub ensemble: Ensemble<'a>,
     pub catalogue: AttractorCatalogue<'a>,
     /// Balls of the orbits in the catalogue.
-    pub balls: Vec<(usize, ContractionBall)>,
+    pub balls: ContractionBalls,
     pub states: Vec<Start>,
-    pub outcomes: Vec<CellOutcome>,
+    pub outcomes: Vec<Outcome>,
     /// Why the first lost cell is lost.
-    pub lost: Option<(usize, String)>,
+    pub lost: Option<LostCell>,
     pub kept: Kept<'a>,
 }
 
@@ -60,10 +50,10 @@ type SeenCell = (Start, Vec<Start>, Option<String>);
 #[derive(Serialize, Deserialize, Default)]
 struct CellOutcomes {
     states: Vec<Start>,
-    outcomes: Vec<CellOutcome>,
+    outcomes: Vec<Outcome>,
     /// Motions by which the catalogue has grown, in order.
     entered: Vec<Vec<Start>>,
-    lost: Option<(usize, String)>,
+    lost: Option<LostCell>,
 }
 
 /// The basins of a scene on a grid. The monitor is told of the cells done and of all cells; what is known is recalled.
@@ -77,7 +67,7 @@ pub fn basins(
     monitor: Monitor<'_>,
     kept: Kept<'_>,
 ) -> Result<Basins, OrbitError> {
-    let mut ensemble = Ensemble::new(scene, monitor)?;
+    let mut ensemble = Ensemble::of(scene, monitor)?;
     ensemble.planned = grid.cells() as u64;
     let mut survey = BasinSurvey {
         scene,
@@ -85,7 +75,7 @@ pub fn basins(
         options: *options,
         ensemble,
         catalogue: AttractorCatalogue::new(scene),
-        balls: Vec::new(),
+        balls: ContractionBalls::default(),
         states: Vec::new(),
         outcomes: Vec::new(),
         lost: None,
@@ -113,10 +103,10 @@ impl BasinSurvey<'_> {
             fork.join();
             for (cell, result) in here.zip(brought) {
                 let (state, outcome) = match result {
-                    Ok(state) => (state, CellOutcome::Open),
+                    Ok(state) => (state, Outcome::Open),
                     Err(error) => {
                         self.lost.get_or_insert((cell, error.to_string()));
-                        (self.grid.start(cell).0, CellOutcome::Lost)
+                        (self.grid.start(cell).0, Outcome::Lost)
                     }
                 };
                 self.states.push(state);
@@ -129,7 +119,7 @@ impl BasinSurvey<'_> {
     /// The state of a cell when the drive angle next is phi.
     fn at_section(&self, cell: usize) -> Result<Start, MotionError> {
         let (start, angle) = self.grid.start(cell);
-        let phases = self.ensemble.machine[0].shared_phases();
+        let phases = self.ensemble.machines[0].shared_phases();
         at_section(&phases, self.scene.excitation, start, angle)
     }
 
@@ -143,18 +133,18 @@ impl BasinSurvey<'_> {
                 let columns_here = (along(columns) / 2..columns).step_by(along(columns));
                 columns_here.map(move |column| row * columns + column)
             })
-            .filter(|cell| self.outcomes[*cell] == CellOutcome::Open)
+            .filter(|cell| self.outcomes[*cell] == Outcome::Open)
             .collect();
         self.look(&cells, self.options.transient)
     }
 
     /// Why a cell is lost; that of the first one stands.
-    pub(super) fn lose(&mut self, lost: Option<(usize, String)>) {
-        self.lost = self.lost.take().into_iter().chain(lost).min();
+    pub(super) fn lose(&mut self, lost: Option<LostCell>) {
+        self.lost = earlier(self.lost.take(), lost);
     }
 
     pub(super) fn open(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.outcomes.len()).filter(|cell| self.outcomes[*cell] == CellOutcome::Open)
+        (0..self.outcomes.len()).filter(|cell| self.outcomes[*cell] == Outcome::Open)
     }
 
     /// Looks at all cells that no ball has caught.
@@ -204,7 +194,7 @@ impl BasinSurvey<'_> {
             looked.outcomes.push(match error {
                 Some(error) => {
                     looked.lost.get_or_insert((*cell, error));
-                    CellOutcome::Lost
+                    Outcome::Lost
                 }
                 None => self.judge(&log)?,
             });
@@ -234,31 +224,29 @@ impl BasinSurvey<'_> {
 
     fn see_together(&self, cells: &[usize], periods: u64) -> Result<Vec<SeenCell>, OrbitError> {
         let logged = 2 * self.options.longest + 1;
-        let states = cells
-            .iter()
-            .map(|cell| EnsembleMember::new(self.states[*cell]));
-        let mut trajectories: Vec<EnsembleMember> = states.collect();
+        let members = cells.iter().map(|cell| Member::new(0, self.states[*cell]));
+        let mut members: Vec<Member> = members.collect();
+        // Periods are not counted, but cells.
         let go_on = |_, _| stop_if(self.ensemble.note(0).is_err());
-        let ensemble = Ensemble::new(self.scene, &go_on)?;
-        let mut all: Vec<&mut EnsembleMember> = trajectories.iter_mut().collect();
+        let ensemble = Ensemble::new(&*self.ensemble.machines, &go_on);
+        let mut all: Vec<&mut Member> = members.iter_mut().collect();
         ensemble.advance(&mut all, periods + logged as u64, logged)?;
-        let seen = trajectories.into_iter();
-        let seen = seen.map(|it| (it.state, it.log, it.error.map(|error| error.to_string())));
+        let seen = members.into_iter();
+        let seen = seen.map(|it| (it.state, it.states, it.error.map(|error| error.to_string())));
         Ok(seen.collect())
     }
 
-    fn judge(&mut self, log: &[Start]) -> Result<CellOutcome, OrbitError> {
+    fn judge(&mut self, log: &[Start]) -> Result<Outcome, OrbitError> {
         let known = self.catalogue.orbits.len();
-        let status = self.catalogue.judge(log)?;
+        let outcome = self.catalogue.judge(log)?;
         for (index, entry) in self.catalogue.orbits.iter().enumerate().skip(known) {
-            let balls = ContractionBall::all(&entry.orbit)?;
-            let balls = balls.into_iter().map(|ball| (index, ball));
-            self.balls.extend(balls);
+            self.balls.add(index, &entry.orbit)?;
         }
-        Ok(match status.orbit() {
-            Some(orbit) => CellOutcome::Orbit(orbit),
-            None if status == Status::AtRest => CellOutcome::AtRest,
-            None => CellOutcome::Wandering,
-        })
+        Ok(outcome)
     }
+}
+
+/// The earlier of two cells that are lost, and why.
+pub(super) fn earlier(one: Option<LostCell>, other: Option<LostCell>) -> Option<LostCell> {
+    one.into_iter().chain(other).min()
 }

@@ -7,7 +7,7 @@ use nalgebra::{DVector, Vector2};
 use super::Family;
 use super::arclength::Node;
 use super::curve::SHORTEST_LOOP;
-use super::follow::{Continuation, Heading, LOCATED_WIDTH, SectionChange};
+use super::follow::{Continuation, LOCATED_WIDTH, SectionChange};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{End, HalfBranch, Limits};
 use super::locate::locate;
@@ -16,6 +16,7 @@ use super::point::{BranchPoint, Special, SpecialKind};
 use super::step_control::SHORT;
 use super::stepper::Stepper;
 use super::test::Test;
+use crate::direction::Direction;
 use crate::orbit::OrbitError;
 
 /// A branch of orbits, in order of arclength.
@@ -75,7 +76,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         }
         let up = self.way(
             start.clone(),
-            &Self::direction(Heading::Up),
+            &Self::direction(Direction::Up),
             limits,
             &mut watch,
         )?;
@@ -86,7 +87,7 @@ impl<'a, F: Family> Continuation<'a, F> {
             },
             _ => self.way(
                 start.clone(),
-                &Self::direction(Heading::Down),
+                &Self::direction(Direction::Down),
                 limits,
                 &mut watch,
             )?,

@@ -11,19 +11,11 @@ use super::point::BranchPoint;
 use super::shooting::{Critical, Shooting};
 use super::stepper::{CurveStep, LARGEST_STEP, Stepper};
 use super::test::Test;
+use crate::direction::Direction;
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
 /// Scaled distance along a branch to which special points are located.
 pub(crate) const LOCATED_WIDTH: f64 = 1e-12;
-
-/// Which way a branch is followed from its start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Heading {
-    /// Towards rising parameters.
-    Up,
-    /// Towards falling parameters.
-    Down,
-}
 
 /// Follows the orbits of a family over a number of drive periods.
 #[derive(Debug)]
@@ -89,10 +81,10 @@ impl<'a, F: Family> Continuation<'a, F> {
     }
 
     /// The direction of rising or falling parameters.
-    pub(super) fn direction(heading: Heading) -> DVector<f64> {
-        let way = match heading {
-            Heading::Up => 1.0,
-            Heading::Down => -1.0,
+    pub(super) fn direction(direction: Direction) -> DVector<f64> {
+        let way = match direction {
+            Direction::Up => 1.0,
+            Direction::Down => -1.0,
         };
         DVector::from_vec(vec![0.0, 0.0, way])
     }
@@ -106,14 +98,14 @@ impl<'a, F: Family> Continuation<'a, F> {
         &self,
         start: &Orbit,
         parameter: f64,
-        heading: Heading,
+        direction: Direction,
         limit: usize,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Vec<BranchPoint>, OrbitError> {
         let node = self.start(parameter, start.state())?;
         let mut points = vec![self.point_at(&node)?];
         let mut turned_at = 0;
-        let mut next = Some(self.set_out(node, Self::direction(heading)));
+        let mut next = Some(self.set_out(node, Self::direction(direction)));
         while let Some(SectionChange {
             continuation,
             node,

@@ -57,12 +57,13 @@ mod switching;
 mod symmetry;
 mod test;
 
+pub use crate::direction::Direction;
 pub(crate) use between::ASIDE;
 pub use branch::Branch;
 pub use codimension_two::{CodimensionTwo, CurvePoint};
 pub use curve::{Curve, CurveEnd, CurveLimits};
 pub use face::Face;
-pub use follow::{Continuation, Heading};
+pub use follow::Continuation;
 pub(crate) use grazing_test::grazing;
 pub use half_branch::{BorderCollision, End, Limits};
 pub(crate) use impact_section::LastArc;

@@ -15,15 +15,14 @@
 //! # Ok::<(), softstop::SceneError>(())
 //! ```
 
-mod record;
 mod settled_motion;
 
-pub(crate) use record::watched;
 pub use settled_motion::{SettledMotion, wanders};
 
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::Region;
+use crate::ensemble::{Ensemble, HasMember, Member, Outcome};
 use crate::monitor::Monitor;
 use crate::orbit::Regime;
 use crate::orbit::recurrence::RETURN;
@@ -54,6 +53,29 @@ impl Default for Settling {
     }
 }
 
+/// A motion that is followed, and what it was seen to have come to last.
+struct FollowedMotion<'a> {
+    scene: &'a Scene,
+    member: Member,
+    seen: Option<SettledMotion>,
+}
+
+impl HasMember for FollowedMotion<'_> {
+    fn member(&mut self) -> &mut Member {
+        &mut self.member
+    }
+}
+
+impl<'a> FollowedMotion<'a> {
+    fn new(scene: &'a Scene, machine: usize, start: Start) -> Self {
+        Self {
+            scene,
+            member: Member::new(machine, start),
+            seen: None,
+        }
+    }
+}
+
 impl Settling {
     /// Follows a motion of each scene from its start; an error where the scene or the start cannot be, or the motion
     /// cannot be computed. Nothing if the monitor, which is not told how much is done, wants to stop.
@@ -62,61 +84,60 @@ impl Settling {
         motions: &[(&Scene, Start)],
         monitor: Monitor<'_>,
     ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
-        let (mut machines, mut scenes, mut starts) = (Vec::new(), Vec::new(), Vec::new());
-        let lowered: Vec<Result<(), MotionError>> = motions
-            .iter()
-            .map(|(scene, start)| {
-                start.validate()?;
-                let machine = Machine::new(scene)?;
-                starts.push((machines.len(), *start));
-                machines.push(machine);
-                scenes.push(*scene);
-                Ok(())
-            })
-            .collect();
-        let mut seen = self
-            .seen((&machines, &scenes), starts, monitor)?
-            .into_iter();
-        let all = lowered.into_iter();
-        Some(
-            all.filter_map(|lowered| {
-                lowered.map_or_else(|error| Some(Err(error)), |()| seen.next())
-            })
-            .collect(),
-        )
+        let mut machines = Vec::new();
+        let motions = motions.iter().map(|(scene, start)| {
+            let mut motion = FollowedMotion::new(scene, machines.len(), *start);
+            let lowered = start.validate().and_then(|()| Ok(Machine::new(scene)?));
+            match lowered {
+                Ok(machine) => machines.push(machine),
+                Err(error) => motion.member.lose(error),
+            }
+            motion
+        });
+        let motions = motions.collect();
+        self.settle(machines, motions, monitor)
     }
 
-    /// What motions come to, each of the machine, and the scene, of this number from a state.
-    fn seen(
+    /// What motions of these machines come to.
+    fn settle(
         &self,
-        (machines, scenes): (&[Machine], &[&Scene]),
-        mut starts: Vec<(usize, Start)>,
+        machines: Vec<Machine>,
+        mut motions: Vec<FollowedMotion<'_>>,
         monitor: Monitor<'_>,
     ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
-        let mut all: Vec<Option<Result<SettledMotion, MotionError>>> = vec![None; starts.len()];
-        let mut open: Vec<usize> = (0..starts.len()).collect();
+        let quiet = |_, _| monitor(0, 0);
+        let ensemble = Ensemble::new(machines, &quiet);
         let (mut followed, mut next) = (0, self.periods);
-        while !open.is_empty() && next >= self.watched {
-            let settling = next - self.watched;
-            let records = watched(machines, &starts, settling, self.watched, || monitor(0, 0))?;
-            followed += next;
-            let mut further = Vec::new();
-            for ((index, start), record) in open.iter().zip(&mut starts).zip(records) {
-                let scene = scenes[start.0];
-                let seen =
-                    record.map(|record| SettledMotion::of(scene, record, self.tolerance, followed));
-                if let Ok(SettledMotion {
-                    periods: None, end, ..
-                }) = seen
-                {
-                    further.push((*index, (start.0, end)));
-                }
-                all[*index] = Some(seen);
+        while next >= self.watched {
+            let open = motions.iter_mut();
+            let mut open: Vec<_> = open.filter(|it| it.member.outcome.is_open()).collect();
+            if open.is_empty() {
+                break;
             }
-            (open, starts) = further.into_iter().unzip();
+            ensemble.observe(&mut open, next, self.watched).ok()?;
+            followed += next;
+            for FollowedMotion {
+                scene,
+                member,
+                seen,
+            } in open
+            {
+                if member.error.is_some() {
+                    continue;
+                }
+                let now = SettledMotion::of(scene, member, self.tolerance, followed);
+                if now.periods.is_some() {
+                    member.outcome = Outcome::Arrived(0);
+                }
+                *seen = Some(now);
+            }
             next = followed.min(self.longest.saturating_sub(followed));
         }
-        all.into_iter().collect()
+        let settled = motions.into_iter().map(|it| match it.member.error {
+            Some(error) => Some(Err(error)),
+            None => it.seen.map(Ok),
+        });
+        settled.collect()
     }
 
     /// The share of so many starts, spread evenly over a region, that lead to z = 1; what cannot be computed does not.
@@ -129,14 +150,13 @@ impl Settling {
         region: Option<Region>,
         monitor: Monitor<'_>,
     ) -> Option<f64> {
-        let machine = [Machine::new(scene).ok()?];
+        let machine = vec![Machine::new(scene).ok()?];
         let region = region.unwrap_or_else(|| Region::box_with(scene, []));
         let starts = region.starts(starts, 0).into_iter();
-        let starts: Vec<(usize, Start)> = starts.map(|start| (0, start)).collect();
-        let count = starts.len() as f64;
-        let seen = self.seen((&machine, &[scene]), starts, monitor)?;
+        let motions = starts.map(|start| FollowedMotion::new(scene, 0, start));
+        let seen = self.settle(machine, motions.collect(), monitor)?;
         let regimes = seen.iter().flatten().map(SettledMotion::regime);
         let come = regimes.filter(|regime| *regime == Some(Regime::ONE));
-        Some(come.count() as f64 / count)
+        Some(come.count() as f64 / seen.len() as f64)
     }
 }

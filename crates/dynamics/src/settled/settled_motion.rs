@@ -1,6 +1,6 @@
 //! What a motion is seen to have come to.
 
-use super::record::MotionRecord;
+use crate::ensemble::Member;
 use crate::motion::MotionKind;
 use crate::orbit::recurrence::settles_on;
 use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};
@@ -34,11 +34,13 @@ pub struct SettledMotion {
 
 impl SettledMotion {
     /// What the record of a motion shows that was followed for so many drive periods in all.
-    pub(crate) fn of(scene: &Scene, record: MotionRecord, tolerance: f64, followed: u64) -> Self {
-        let MotionRecord { states, impacts } = record;
+    pub(crate) fn of(scene: &Scene, member: &Member, tolerance: f64, followed: u64) -> Self {
+        let Member {
+            states, impacts, ..
+        } = member;
         let watched = states.len() - 1;
-        let found = settles_on(scene.excitation.frequency, &states, tolerance)
-            .map(|periods| smallest_period(scene, &states, periods));
+        let found = settles_on(scene.excitation.frequency, states, tolerance)
+            .map(|periods| smallest_period(scene, states, periods));
         let length = found.unwrap_or(watched);
         let first = (watched - length) as f64;
         // They are in order of time.

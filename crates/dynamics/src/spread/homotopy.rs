@@ -1,6 +1,6 @@
 //! The z = 1 motion on a straight way out from the nominal machine.
 
-use crate::continuation::{BranchPoint, Continuation, Family, Heading};
+use crate::continuation::{BranchPoint, Continuation, Direction, Family};
 use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
 use crate::zone::{Frequencies, LONGEST_BRANCH, Loss, ended};
@@ -39,11 +39,11 @@ pub fn along(
         state_scales: Frequencies(&nominal.scene).state_scales(),
     };
     let continuation = Continuation::new(&family, 1);
-    let mut points = continuation.follow(nominal, 0.0, Heading::Up, LONGEST_BRANCH, |point| {
+    let mut points = continuation.follow(nominal, 0.0, Direction::Up, LONGEST_BRANCH, |point| {
         let inside = (0.0..farthest).contains(&point.parameter);
         stop_if(!inside || !point.is_stable())
     })?;
-    let end = ended(&continuation, &mut points, Heading::Up, (0.0, farthest))?;
+    let end = ended(&continuation, &mut points, Direction::Up, (0.0, farthest))?;
     Ok(Reached {
         share: end.frequency,
         loss: Some(end.loss).filter(|loss| *loss != Loss::Range),

@@ -34,27 +34,9 @@ pub use settle::Step;
 
 use thiserror::Error;
 
+pub use crate::direction::Direction;
 use crate::orbit::recurrence::RETURN;
 use softstop::{Machine, Parameter, Start};
-
-/// Which way the parameter goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Direction {
-    /// It rises.
-    Up,
-    /// It falls.
-    Down,
-}
-
-impl Direction {
-    /// In a word.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Up => "up",
-            Self::Down => "down",
-        }
-    }
-}
 
 /// How a parameter is swept.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,6 @@
 //! Sweeps side by side in the lanes.
 
 use std::convert::Infallible;
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -10,14 +9,12 @@ use serde::{Deserialize, Serialize};
 
 use super::settle::Step;
 use super::{Chain, Plan};
+use crate::ensemble::{Ensemble, Member};
 use crate::monitor::{Kept, Monitor, PIECE, piece};
-use crate::settled::{SettledMotion, watched};
+use crate::settled::SettledMotion;
 use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Parameter, Scene};
 use softstop_lanes::Machine;
-
-/// Whether to go on.
-type Ask<'a> = &'a dyn Fn() -> ControlFlow<()>;
 
 /// What a chain comes to in a piece of work.
 #[derive(Serialize, Deserialize)]
@@ -45,7 +42,7 @@ impl Plan {
         let fork = Fork::default();
         let run = |group: &mut [Chain]| {
             while !stopped.load(Ordering::Relaxed) {
-                let ask = || monitor(done.load(Ordering::Relaxed), all);
+                let ask = |_, _| monitor(done.load(Ordering::Relaxed), all);
                 let Some(steps) = self.step(group, &ask) else {
                     stopped.store(true, Ordering::Relaxed);
                     break;
@@ -54,7 +51,7 @@ impl Plan {
                     break;
                 }
                 done.fetch_add(steps, Ordering::Relaxed);
-                if ask().is_break() || begin.elapsed() >= time || budget::is_spent() {
+                if ask(0, 0).is_break() || begin.elapsed() >= time || budget::is_spent() {
                     stopped.store(true, Ordering::Relaxed);
                 }
             }
@@ -124,12 +121,12 @@ impl Plan {
 
     /// Makes the next step of those chains of a group that are the farthest behind; how many there are. None is made
     /// where it is stopped.
-    fn step(&self, group: &mut [Chain], ask: Ask<'_>) -> Option<u64> {
+    fn step(&self, group: &mut [Chain], monitor: Monitor<'_>) -> Option<u64> {
         let afloat = group.iter().filter(|chain| !self.is_complete(chain));
         let Some(step) = afloat.map(|chain| chain.steps.len()).min() else {
             return Some(0);
         };
-        let (mut moved, mut machines, mut starts) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut moved, mut machines, mut members) = (Vec::new(), Vec::new(), Vec::new());
         for (index, chain) in group.iter_mut().enumerate() {
             if self.is_complete(chain) || chain.steps.len() != step {
                 continue;
@@ -137,7 +134,7 @@ impl Plan {
             match self.lowered(chain) {
                 Ok((scene, machine)) => {
                     let state = chain.steps.last().map_or(self.start, |step| step.end);
-                    starts.push((machines.len(), state));
+                    members.push(Member::new(machines.len(), state));
                     machines.push(machine);
                     moved.push((index, scene));
                 }
@@ -145,15 +142,18 @@ impl Plan {
             }
         }
         let count = moved.len() as u64;
-        let looked = self.watched();
-        let records = watched(&machines, &starts, self.periods - looked, looked, ask)?;
-        for ((index, scene), record) in moved.into_iter().zip(records) {
+        let ensemble = Ensemble::new(machines, monitor);
+        let mut open: Vec<&mut Member> = members.iter_mut().collect();
+        let observed = ensemble.observe(&mut open, self.periods, self.watched());
+        observed.ok()?;
+        for ((index, scene), member) in moved.into_iter().zip(members) {
             let chain = &mut group[index];
-            let made = record.and_then(|record| {
-                let seen = SettledMotion::of(&scene, record, self.tolerance, self.periods);
-                let value = self.value(step, chain.direction);
-                Step::new(value, &scene, seen, self.heights)
-            });
+            let seen = SettledMotion::of(&scene, &member, self.tolerance, self.periods);
+            let value = self.value(step, chain.direction);
+            let made = match member.error {
+                Some(error) => Err(error),
+                None => Step::new(value, &scene, seen, self.heights),
+            };
             match made {
                 Ok(step) => chain.steps.push(step),
                 Err(error) => chain.error = Some(error.to_string()),

@@ -1,7 +1,9 @@
 //! Where the stable motions of a branch end.
 
 use super::end::{Loss, ZoneEnd, first_end};
-use crate::continuation::{BranchPoint, Continuation, Family, Heading, Limits, SpecialKind, Test};
+use crate::continuation::{
+    BranchPoint, Continuation, Direction, Family, Limits, SpecialKind, Test,
+};
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
@@ -13,7 +15,7 @@ pub(crate) const LONGEST_BRANCH: usize = 2000;
 pub(crate) fn ended<F: Family>(
     continuation: &Continuation<'_, F>,
     points: &mut Vec<BranchPoint>,
-    heading: Heading,
+    direction: Direction,
     range: (f64, f64),
 ) -> Result<ZoneEnd, OrbitError> {
     let is_beyond =
@@ -26,7 +28,7 @@ pub(crate) fn ended<F: Family>(
         points.push(end.point.clone());
         return Ok(end);
     }
-    followed_to_end(continuation, points, heading, range)
+    followed_to_end(continuation, points, direction, range)
 }
 
 /// The end of stable motions between a point before it and one beyond: where a test vanishes, or the bound of the range
@@ -56,16 +58,16 @@ fn end_between<F: Family>(
 pub(super) fn followed_to_end<F: Family>(
     continuation: &Continuation<'_, F>,
     points: &mut Vec<BranchPoint>,
-    heading: Heading,
+    direction: Direction,
     range: (f64, f64),
 ) -> Result<ZoneEnd, OrbitError> {
     let last = points.len().checked_sub(1).ok_or(OrbitError::NotIsolated)?;
     let from = |index: usize| {
         let start = &points[index];
         let limits = Limits {
-            range: match heading {
-                Heading::Up => (start.parameter, range.1),
-                Heading::Down => (range.0, start.parameter),
+            range: match direction {
+                Direction::Up => (start.parameter, range.1),
+                Direction::Down => (range.0, start.parameter),
             },
             points: LONGEST_BRANCH,
         };
@@ -77,7 +79,7 @@ pub(super) fn followed_to_end<F: Family>(
     let (index, mut branch) = from(last).or_else(|_| from(0))?;
     points.truncate(index + 1);
     let start = points[index].parameter;
-    if heading == Heading::Down {
+    if direction == Direction::Down {
         branch.points.reverse();
     }
     let further = branch
@@ -90,9 +92,9 @@ pub(super) fn followed_to_end<F: Family>(
         return Ok(end);
     }
     points.extend(further.filter(|point| point.is_stable()).cloned());
-    let end = match heading {
-        Heading::Up => &branch.ends.1,
-        Heading::Down => &branch.ends.0,
+    let end = match direction {
+        Direction::Up => &branch.ends.1,
+        Direction::Down => &branch.ends.0,
     };
     let last = points.last().ok_or(OrbitError::NotIsolated)?;
     Ok(match branch.special_at(last) {

@@ -12,7 +12,7 @@ use super::end::{Loss, ZoneEnd};
 use super::followed_end::{LONGEST_BRANCH, followed_to_end};
 use super::places::{AT_FOLD, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
-use crate::continuation::{BranchPoint, Continuation, Heading, SpecialKind, Test};
+use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_monitor};
 use softstop::Scene;
@@ -121,7 +121,7 @@ fn from_start(
         (None, UpperEnd::FoldOrGrazing) => {
             let none = no_fold(frequency_g0, &branch);
             branch.truncate(1);
-            let end = followed_to_end(&continuation, &mut branch, Heading::Up, range).ok();
+            let end = followed_to_end(&continuation, &mut branch, Direction::Up, range).ok();
             end.filter(is_grazing).ok_or(none)?
         }
     };
@@ -146,13 +146,14 @@ pub(super) fn upward(
     (lowest, highest): (f64, f64),
     monitor: Monitor<'_>,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
-    let mut branch = continuation.follow(start, lowest, Heading::Up, LONGEST_BRANCH, |point| {
-        let flipped = !point.is_stable() && point.fold_test() > 0.0;
-        let weak = point.before_impact_velocity() < WEAKEST * start.before_impact_velocity();
-        let outside = point.parameter < lowest || point.parameter > highest;
-        let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
-        stop_if(flipped || outside || ends_in_grazing || monitor(0, 0).is_break())
-    })?;
+    let mut branch =
+        continuation.follow(start, lowest, Direction::Up, LONGEST_BRANCH, |point| {
+            let flipped = !point.is_stable() && point.fold_test() > 0.0;
+            let weak = point.before_impact_velocity() < WEAKEST * start.before_impact_velocity();
+            let outside = point.parameter < lowest || point.parameter > highest;
+            let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
+            stop_if(flipped || outside || ends_in_grazing || monitor(0, 0).is_break())
+        })?;
     OrbitError::ask(monitor)?;
     insert_folds(continuation, &mut branch);
     Ok(branch)

@@ -1,7 +1,7 @@
 //! Where a motion loses its stability as the drive's frequency, or another parameter, changes.
 
 use super::Frequencies;
-use crate::continuation::{BranchPoint, Continuation, Family, Heading, Test};
+use crate::continuation::{BranchPoint, Continuation, Direction, Family, Test};
 use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
 
@@ -17,7 +17,7 @@ const FARTHEST_FACTOR: f64 = 4.0;
 /// [`OrbitError`] if the branch cannot be begun.
 pub fn loss_of_stability(
     orbit: &Orbit,
-    heading: Heading,
+    direction: Direction,
     test: Test,
 ) -> Result<Option<BranchPoint>, OrbitError> {
     let from = orbit.scene.excitation.frequency;
@@ -25,7 +25,7 @@ pub fn loss_of_stability(
     let continuation = Continuation::new(&family, 1);
     located(
         &continuation,
-        &stable(&continuation, from, orbit, heading)?,
+        &stable(&continuation, from, orbit, direction)?,
         test,
     )
 }
@@ -40,11 +40,11 @@ pub fn end_along<F: Family>(
     family: &F,
     from: f64,
     orbit: &Orbit,
-    heading: Heading,
+    direction: Direction,
     test: Test,
 ) -> Result<Option<f64>, OrbitError> {
     let continuation = Continuation::new(family, 1);
-    let branch = stable(&continuation, from, orbit, heading)?;
+    let branch = stable(&continuation, from, orbit, direction)?;
     if let Some(lost) = located(&continuation, &branch, test)? {
         return Ok(Some(lost.parameter));
     }
@@ -61,9 +61,9 @@ fn stable<F: Family>(
     continuation: &Continuation<'_, F>,
     from: f64,
     orbit: &Orbit,
-    heading: Heading,
+    direction: Direction,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
-    continuation.follow(orbit, from, heading, MAX_POINTS, |point| {
+    continuation.follow(orbit, from, direction, MAX_POINTS, |point| {
         stop_if(!point.is_stable() || !is_near(point, from))
     })
 }

@@ -8,7 +8,7 @@ use super::places::{Zone, ZoneKind};
 use super::stable_range::SAME_BUT_ROUNDING;
 use super::stable_ranges::FOLLOWED;
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
-use crate::continuation::{BranchPoint, Continuation, Heading};
+use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError, hardest_single};
 use softstop::Scene;
@@ -112,15 +112,15 @@ fn about(
     let mut above = upward(&continuation, start, (frequency, range.1), monitor)?;
     let high = match highest_fold(&above) {
         Some(fold) => fold,
-        None => ended(&continuation, &mut above, Heading::Up, range)?,
+        None => ended(&continuation, &mut above, Direction::Up, range)?,
     };
     let mut branch =
-        continuation.follow(start, frequency, Heading::Down, LONGEST_BRANCH, |point| {
+        continuation.follow(start, frequency, Direction::Down, LONGEST_BRANCH, |point| {
             let ends = !point.is_stable() || point.parameter < range.0;
             stop_if(ends || monitor(0, 0).is_break())
         })?;
     OrbitError::ask(monitor)?;
-    let low = ended(&continuation, &mut branch, Heading::Down, range)?;
+    let low = ended(&continuation, &mut branch, Direction::Down, range)?;
     branch.reverse();
     branch.extend(above.into_iter().skip(1));
     let (frequency_g0_below, frequency_g0) = match grazing_frequencies(scene) {

@@ -2,7 +2,8 @@
 
 use softstop::{Dimension, Machine};
 use softstop_draw::{Axis, Chart, Layer, Mark, Panel, Sign, style};
-use softstop_dynamics::basin::{AxisQuantity, Class};
+use softstop_dynamics::attractors::Attractor;
+use softstop_dynamics::basin::AxisQuantity;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Axis as BasinAxis, Basins, Regime};
 
@@ -83,7 +84,7 @@ fn name(machine: &Machine, axis: &BasinAxis) -> String {
 }
 
 /// What a basin is called.
-fn label(class: &Class) -> String {
+fn label(class: &Attractor) -> String {
     let motion = &class.motion;
     match (motion.told_order(), motion.regime()) {
         (Some(order), Some(regime)) if motion.class() == MotionClass::Paired => {

@@ -7,7 +7,8 @@ use softstop_console::column::{Column, Units};
 use softstop_console::columns;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MotionName, stated_machine};
-use softstop_dynamics::basin::{AxisQuantity, Class, Clearing, Establishing};
+use softstop_dynamics::attractors::Attractor;
+use softstop_dynamics::basin::{AxisQuantity, Clearing, Establishing};
 use softstop_dynamics::{Axis, Basins, Grid, Regime};
 
 /// The basins of one machine.
@@ -35,7 +36,7 @@ pub(super) struct CertaintyReport {
 }
 
 /// A row of `basin.csv`.
-pub(super) type Basin<'a> = (&'a Class, Option<Clearing>);
+pub(super) type Basin<'a> = (&'a Attractor, Option<Clearing>);
 
 /// Columns of `basin.csv` that say what the motion is.
 const NAMING: usize = 3;
@@ -48,7 +49,7 @@ pub(super) fn columns<'a>() -> [Column<Basin<'a>>; 10] {
         "order" [None] Plain, "impacts in each of its drive periods" => it.0.motion.order().map(ToString::to_string);
         "before_impact_velocity" [Velocity] Fixed(4), "of its hardest impact" => it.0.orbit.as_ref().map(|it| it.before_impact_velocity());
         "exponent" [None], "Lyapunov's, per drive period, unless periodic" => it.0.exponents.map(|it| it.per_period[0]);
-        "cells" [None], "that belong to it" => it.0.cells;
+        "cells" [None], "that belong to it" => it.0.starts;
         "share" [None] Fixed(5), "of all cells" => it.0.share;
         "share_low" [None] Fixed(5), "lower end of its 95 % interval" => it.0.interval[0];
         "share_high" [None] Fixed(5), "upper end of it" => it.0.interval[1];
@@ -161,7 +162,7 @@ impl CertaintyReport {
             + &head(machine, grid)
             + if widened { wider } else { "" }
             + &below(&figures, &Units::of(machine));
-        let motion = |class: &Class| {
+        let motion = |class: &Attractor| {
             let name = MotionName::of(&class.motion).figures();
             name.hidden("share", class.share)
         };

@@ -5,8 +5,8 @@ use softstop_console::interrupt;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Mark, Panel, Sign, style};
-use softstop_dynamics::attractors::starting_box;
-use softstop_dynamics::basin::{BasinOptions, Class, basins};
+use softstop_dynamics::attractors::{Attractor, starting_box};
+use softstop_dynamics::basin::{BasinOptions, basins};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{self as dynamics, Grid, Orbit};
 use softstop_explore::palette::distinct_colors;
@@ -44,7 +44,7 @@ pub(super) fn basin(design: &Design) -> Result<Figure, OrbitError> {
     )?;
     let classes = || found.classes.iter();
     let own = classes().position(|it| is_own(it.orbit.as_deref(), &design.orbit));
-    let name = |(index, class): (usize, &Class)| match own == Some(index) {
+    let name = |(index, class): (usize, &Attractor)| match own == Some(index) {
         true => format!("{}, the design", class.motion),
         false => class.motion.to_string(),
     };

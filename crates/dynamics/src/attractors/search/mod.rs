@@ -4,12 +4,13 @@ mod report;
 mod wander;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-use super::catalogue::{AttractorCatalogue, Status};
+use super::catalogue::AttractorCatalogue;
 use super::chaos::Chaos;
-use super::ensemble::{Ensemble, EnsembleMember};
 use super::lifetime::EscapeCounts;
 use super::{Arrival, Attractor, Region, SearchOptions, Survey};
+use crate::ensemble::{Ensemble, Member, Outcome};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::returns;
 use crate::orbit::{self, Exponents, OrbitError};
@@ -27,8 +28,7 @@ const FIRST_LOOK: u64 = 4;
 
 /// A motion of the search.
 struct SearchMember {
-    trajectory: EnsembleMember,
-    status: Status,
+    member: Member,
     /// Its group, if it wanders.
     group: Option<usize>,
     /// It started in the region.
@@ -125,7 +125,7 @@ pub fn classify(
     let mut search = Search::new(scene, options, &unmonitored)?;
     start.validate()?;
     search.launch(vec![start], true)?;
-    if let Some(error) = &search.members[0].trajectory.error {
+    if let Some(error) = &search.members[0].member.error {
         return Err(error.clone().into());
     }
     search.watch()?;
@@ -152,12 +152,12 @@ pub fn settle(
     } = search;
     let orbit = |at: usize| catalogue.orbits[at].orbit.clone();
     let frequency = scene.excitation.frequency;
-    let arrival = |member: SearchMember| match member.trajectory.error {
+    let arrival = |SearchMember { member, .. }: SearchMember| match member.error {
         Some(error) => Err(error.into()),
         None => Ok(Arrival {
-            state: member.trajectory.state,
-            returns: returns(frequency, &member.trajectory.log).is_some(),
-            orbit: member.status.orbit().map(orbit),
+            state: member.state,
+            returns: returns(frequency, &member.states).is_some(),
+            orbit: member.outcome.attractor().map(orbit),
         }),
     };
     members.into_iter().map(arrival).collect()
@@ -172,7 +172,7 @@ impl<'a> Search<'a> {
         Ok(Self {
             scene,
             options: *options,
-            ensemble: Ensemble::new(scene, monitor)?,
+            ensemble: Ensemble::of(scene, monitor)?,
             catalogue: AttractorCatalogue::new(scene),
             members: Vec::new(),
             groups: BTreeMap::new(),
@@ -194,47 +194,46 @@ impl<'a> Search<'a> {
 
     /// Where motions stay: at the orbits at which they have arrived, or where they were last.
     fn stays(&self) -> impl Iterator<Item = &Start> + Clone {
-        self.members.iter().flat_map(|member| match member.status {
-            Status::Arrived(orbit) => self.catalogue.orbits[orbit].states(),
-            _ => &member.trajectory.log,
+        let members = self.members.iter().map(|it| &it.member);
+        members.flat_map(|member| match member.outcome {
+            Outcome::Arrived(orbit) => self.catalogue.orbits[orbit].states(),
+            _ => &member.states,
         })
     }
 
     /// Lets motions settle from starts and looks at them.
     fn launch(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), OrbitError> {
         let first = self.members.len();
-        self.members
-            .extend(starts.into_iter().map(|start| SearchMember {
-                trajectory: EnsembleMember::new(start),
-                status: Status::Wandering,
-                group: None,
-                counts,
-            }));
+        let members = starts.into_iter().map(|start| SearchMember {
+            member: Member::new(0, start),
+            group: None,
+            counts,
+        });
+        self.members.extend(members);
+        let all = first..self.members.len();
         let (transient, logged) = (self.options.transient, self.logged() as u64);
         let early = transient / FIRST_LOOK;
         if self.ensemble.leaps() && early < FIRST_LOOK * logged {
-            return self.carry_on(first.., transient + logged);
+            return self.carry_on(all, transient + logged, self.logged());
         }
-        self.carry_on(first.., early + logged)?;
-        self.carry_on(first.., (transient - early).max(logged))
+        self.carry_on(all.clone(), early + logged, self.logged())?;
+        self.carry_on(all, (transient - early).max(logged), self.logged())
     }
 
-    /// Carries on the motions that have not arrived and looks at them.
+    /// Carries on the motions that have not arrived and looks at so many of their last states.
     fn carry_on(
         &mut self,
-        which: std::ops::RangeFrom<usize>,
+        which: Range<usize>,
         periods: u64,
+        logged: usize,
     ) -> Result<(), OrbitError> {
-        let logged = self.logged();
-        let members = self.members[which].iter_mut();
-        let mut open: Vec<&mut SearchMember> = members.filter(|member| member.is_open()).collect();
-        let trajectories = open.iter_mut().map(|member| &mut member.trajectory);
-        let mut trajectories: Vec<&mut EnsembleMember> = trajectories.collect();
-        self.ensemble.advance(&mut trajectories, periods, logged)?;
+        let members = self.members[which].iter_mut().map(|it| &mut it.member);
+        let mut open: Vec<&mut Member> = members.filter(|it| it.outcome.is_open()).collect();
+        self.ensemble.advance(&mut open, periods, logged)?;
         for member in open {
             self.ensemble.note(0)?;
-            if member.trajectory.error.is_none() {
-                member.status = self.catalogue.judge(&member.trajectory.log)?;
+            if member.error.is_none() {
+                member.outcome = self.catalogue.judge(&member.states)?;
             }
         }
         Ok(())
@@ -252,11 +251,11 @@ impl<'a> Search<'a> {
             if before.is_empty() || periods < self.logged() as u64 {
                 break;
             }
-            self.carry_on(0.., periods)?;
+            self.carry_on(0..self.members.len(), periods, self.logged())?;
             left -= periods * before.len() as u64;
             for index in before {
                 let member = &self.members[index];
-                let gone = !member.is_open();
+                let gone = !member.member.outcome.is_open();
                 if let Some(group) = member.group.and_then(|group| self.groups.get_mut(&group)) {
                     group.escapes.note(periods, gone);
                 }
@@ -267,17 +266,6 @@ impl<'a> Search<'a> {
     }
 
     fn open(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.members.len()).filter(|index| self.members[*index].is_open())
-    }
-}
-
-impl SearchMember {
-    fn is_open(&self) -> bool {
-        let settled = matches!(self.status, Status::Arrived(_) | Status::AtRest);
-        self.trajectory.error.is_none() && !settled
-    }
-
-    fn wanders(&self) -> bool {
-        self.trajectory.error.is_none() && self.status == Status::Wandering
+        (0..self.members.len()).filter(|index| self.members[*index].member.outcome.is_open())
     }
 }

@@ -1,13 +1,14 @@
 //! What a search has found.
 
-use super::super::catalogue::{KnownOrbit, Status};
+use super::super::catalogue::KnownOrbit;
 use super::super::chaos::Chaos;
 use super::super::{Attractor, Region, Survey};
 use super::{Group, Search, SearchMember};
+use crate::ensemble::Outcome;
 use crate::extremes::extremes;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, OrbitError};
-use softstop::{MotionError, Start};
+use softstop::MotionError;
 
 impl Search<'_> {
     pub(super) fn report(mut self, region: Region) -> Result<Survey, OrbitError> {
@@ -17,7 +18,7 @@ impl Search<'_> {
         attractors.extend(self.wandering(counted));
         attractors.sort_by_key(|attractor| std::cmp::Reverse(attractor.starts));
         let members = self.members.iter_mut();
-        let errors = members.filter_map(|member| member.trajectory.error.take());
+        let errors = members.filter_map(|member| member.member.error.take());
         let errors: Vec<MotionError> = errors.collect();
         Ok(Survey {
             attractors,
@@ -32,14 +33,12 @@ impl Search<'_> {
         let known = self.catalogue.orbits.iter().enumerate();
         let attractor = |(index, known): (usize, &KnownOrbit)| {
             let here =
-                |member: &&SearchMember| member.counts && member.status.orbit() == Some(index);
+                |it: &&SearchMember| it.counts && it.member.outcome.attractor() == Some(index);
             let starts = self.members.iter().filter(here).count();
-            let (orbit, motion) = (&known.orbit, MotionKind::of(&known.orbit));
             Attractor {
                 certainty: Some(known.certainty),
-                exponents: Some(Exponents::of(orbit)),
-                orbit: Some(Box::new(orbit.clone())),
-                ..Attractor::new(motion, orbit.state().into(), (starts, counted))
+                exponents: Some(Exponents::of(&known.orbit)),
+                ..Attractor::repeating(&known.orbit, (starts, counted))
             }
         };
         known.map(attractor).collect()
@@ -48,8 +47,9 @@ impl Search<'_> {
     /// Chaos, chaos that ends, and what has not settled.
     fn wandering(&self, counted: usize) -> Vec<Attractor> {
         let attractor = |(number, group): (&usize, &Group)| {
-            let wanders =
-                |member: &&SearchMember| member.group == Some(*number) && member.wanders();
+            let wanders = |it: &&SearchMember| {
+                it.group == Some(*number) && it.member.outcome == Outcome::Wandering
+            };
             let left: Vec<&SearchMember> = self.members.iter().filter(wanders).collect();
             let starts = left.iter().filter(|member| member.counts).count();
             let chaos = group.chaos();
@@ -62,7 +62,7 @@ impl Search<'_> {
                     (motion, chaos.state, chaos.exponents)
                 }
                 None => {
-                    let state = left.first()?.trajectory.state;
+                    let state = left.first()?.member.state;
                     (MotionKind::Unsettled, state, group.exponents?)
                 }
             };
@@ -77,20 +77,13 @@ impl Search<'_> {
 
     /// Rest, if some motions end there.
     fn resting(&self, counted: usize) -> Option<Attractor> {
-        let rests = |member: &&SearchMember| member.status == Status::AtRest;
+        let rests = |it: &&SearchMember| it.member.outcome == Outcome::AtRest;
         let members: Vec<&SearchMember> = self.members.iter().filter(rests).collect();
-        let positions = members
-            .iter()
-            .map(|member| member.trajectory.state.position);
-        let positions = extremes(positions)?;
+        let positions = extremes(members.iter().map(|it| it.member.state.position))?;
         let starts = members.iter().filter(|member| member.counts).count();
         Some(Attractor {
             positions: Some(positions),
-            ..Attractor::new(
-                MotionKind::Rest,
-                members[0].trajectory.state,
-                (starts, counted),
-            )
+            ..Attractor::new(MotionKind::Rest, members[0].member.state, (starts, counted))
         })
     }
 }
@@ -104,22 +97,5 @@ impl Group {
             entered: self.entered,
             ..self.chaos?
         })
-    }
-}
-
-impl Attractor {
-    /// A motion with a state of it, the starts on it and all.
-    fn new(motion: MotionKind, state: Start, (starts, counted): (usize, usize)) -> Self {
-        Self {
-            motion,
-            state,
-            orbit: None,
-            certainty: None,
-            positions: None,
-            chaos: None,
-            exponents: None,
-            starts,
-            share: starts as f64 / counted.max(1) as f64,
-        }
     }
 }

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::super::catalogue::Status;
 use super::super::chaos::Chaos;
-use super::super::ensemble::EnsembleMember;
 use super::super::group::groups;
 use super::{BATCH_GROWTH, Group, Search};
+use crate::ensemble::{Member, Outcome};
 use crate::orbit::{BATCH_PERIODS, Exponents, OrbitError};
 use softstop::Start;
 
@@ -22,9 +21,9 @@ impl Search<'_> {
     pub(super) fn gather(&mut self) -> Result<(), OrbitError> {
         let wandering: Vec<usize> = self
             .open()
-            .filter(|index| self.members[*index].status == Status::Wandering)
+            .filter(|index| self.members[*index].member.outcome == Outcome::Wandering)
             .collect();
-        let log = |index: &usize| self.members[*index].trajectory.log.as_slice();
+        let log = |index: &usize| self.members[*index].member.states.as_slice();
         let logs: Vec<&[Start]> = wandering.iter().map(log).collect();
         let numbers = groups(&logs, || self.ensemble.note(0))?;
         let mut of_group: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -48,7 +47,7 @@ impl Search<'_> {
             ..Group::default()
         };
         for &index in indices.iter().take(TRIES) {
-            let state = self.members[index].trajectory.state;
+            let state = self.members[index].member.state;
             let (exponents, end, wanders) = self.exponents(state)?;
             let larger = |best: &Exponents| exponents.per_period[0] > best.per_period[0];
             if group.exponents.as_ref().is_none_or(larger) {
@@ -76,11 +75,11 @@ impl Search<'_> {
             let along = Exponents::along_with_monitor(self.scene, state.into(), batch, ask);
             let (exponents, end) = along?;
             self.ensemble.note(exponents.periods)?;
-            let mut after = EnsembleMember::new(end.into());
+            let mut after = Member::new(0, end.into());
             let logged = self.logged();
             self.ensemble
                 .advance(&mut [&mut after], logged as u64, logged)?;
-            let wanders = self.catalogue.judge(&after.log)? == Status::Wandering;
+            let wanders = self.catalogue.judge(&after.states)? == Outcome::Wandering;
             let found = (exponents, after.state, wanders);
             if !wanders {
                 return Ok(best.unwrap_or(found));
@@ -104,11 +103,7 @@ impl Search<'_> {
             .filter(|index| !self.is_chaotic(*index))
             .collect();
         for index in unsettled {
-            let trajectory = &mut self.members[index].trajectory;
-            self.ensemble
-                .advance(&mut [trajectory], logged as u64, logged)?;
-            let status = self.catalogue.judge(&self.members[index].trajectory.log)?;
-            self.members[index].status = status;
+            self.carry_on(index..index + 1, logged as u64, logged)?;
         }
         Ok(())
     }

@@ -97,7 +97,7 @@ fn stacked(at: &BasinsAt, attractor: usize) -> (f64, [usize; 2], usize) {
     let basins = at.attractors.iter().zip(&at.basins.classes);
     let below = |least: usize| {
         let own = basins.clone().filter(|(it, _)| **it < least);
-        own.map(|(_, class)| class.cells).sum()
+        own.map(|(_, class)| class.starts).sum()
     };
     (
         at.value,

@@ -8,7 +8,8 @@ use softstop_console::report::{MotionName, stated_machine};
 use softstop_console::table::heading;
 use softstop_console::units;
 use softstop_dynamics::Grid;
-use softstop_dynamics::basin::{BasinsAt, Class, Clearing};
+use softstop_dynamics::attractors::Attractor;
+use softstop_dynamics::basin::{BasinsAt, Clearing};
 
 use super::Found;
 
@@ -16,7 +17,7 @@ use super::Found;
 pub(super) struct Row<'a> {
     pub(super) at: &'a BasinsAt,
     pub(super) attractor: usize,
-    pub(super) class: &'a Class,
+    pub(super) class: &'a Attractor,
     pub(super) ball: Option<Clearing>,
 }
 
@@ -24,7 +25,7 @@ pub(super) struct Row<'a> {
 pub(super) fn rows<'a>(found: &'a Found<'_>) -> Vec<Row<'a>> {
     let of_place = |at: &'a BasinsAt| {
         let basins = at.attractors.iter().zip(&at.basins.classes).enumerate();
-        let row = |(index, (attractor, class)): (usize, (&usize, &'a Class))| Row {
+        let row = |(index, (attractor, class)): (usize, (&usize, &'a Attractor))| Row {
             at,
             attractor: *attractor,
             class,
