@@ -1,11 +1,10 @@
 //! Periodic motions of impact oscillators and what becomes of them: [`orbit`] (z = p/n, Floquet
 //! multipliers, exponents) → [`continuation`] (branches, folds, flips, grazings) → [`zone`] (where
-//! impacts and rest coexist) → [`settled`], [`attractors`], [`basin`], [`sweep`], [`transitions`] (what is
-//! seen from many starts), told in one vocabulary ([`motion`]), and [`models`] (how simple a model of a scene may be). What a
-//! machine does in service: [`figure`] (their names), [`cycle_metrics`] (figures of a period), [`supply`] (missing strips), [`run_up`] (from rest to work).
+//! impacts and rest coexist) → [`settled`], [`attractors`], [`basin`], [`sweep`] (what is seen from many starts),
+//! told in one vocabulary ([`motion`]). What a machine does in service: [`figure`] (their names), [`cycle_metrics`] (figures of a period), [`supply`] (missing strips), [`run_up`] (from rest to work).
 //!
 //! Records and errors that will grow are `non_exhaustive`; options, which a user fills in, and the enumerations that say
-//! what a motion, an end or a model is, are not, so that a match says what a new one asks for.
+//! what a motion or an end is, are not, so that a match says what a new one asks for.
 //!
 //! What they all speak of stands at the root; the rest is where it is computed. Work that may be long takes a
 //! [`monitor::Monitor`], [`monitor::unmonitored`] if nobody looks on.
@@ -32,7 +31,6 @@ mod direction;
 mod ensemble;
 mod extremes;
 pub mod figure;
-pub mod models;
 pub mod monitor;
 pub mod motion;
 pub mod orbit;
@@ -45,7 +43,6 @@ pub mod spread;
 mod stroke_count;
 pub mod supply;
 pub mod sweep;
-pub mod transitions;
 pub mod zone;
 
 pub use attractors::Survey;
@@ -63,6 +60,8 @@ pub use zone::Zone;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::attractors::starts::evenly;
+    pub use crate::batch::follow as follow_batch;
+    pub use crate::cycle_metrics::peak;
     pub use crate::orbit::regime::ImpactCounter;
     pub use crate::orbit::turn::turns;
 }

@@ -1,4 +1,4 @@
-//! The tests of orbits, branches, attractors, basins, sweeps and models, as one program.
+//! The tests of orbits, branches, attractors, basins and sweeps, as one program.
 
 mod attractors;
 mod basin;
@@ -9,7 +9,6 @@ mod cycle_metrics;
 mod ends;
 mod examples;
 mod exponents;
-mod fidelity;
 mod grazing;
 mod in_service;
 mod invariants;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
 
+use crate::transitions::{Rules, Transition};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
@@ -11,7 +12,6 @@ use softstop_console::column::Column;
 use softstop_console::record::Record;
 use softstop_dynamics::attractors::SearchOptions;
 use softstop_dynamics::monitor::{Kept, piece};
-use softstop_dynamics::transitions::{Rules, Transition};
 
 use crate::table1::{self, paper};
 

@@ -3,12 +3,12 @@
 
 use std::collections::VecDeque;
 
+use crate::transitions::Transition;
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use softstop::{Ratios, Start};
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::monitor::piece;
-use softstop_dynamics::transitions::Transition;
 use softstop_lanes::{BatchObserver, Job, Machine};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};

@@ -20,6 +20,7 @@ mod regimes;
 mod report;
 mod supply;
 pub mod table1;
+pub mod transitions;
 mod ways;
 
 use std::path::PathBuf;

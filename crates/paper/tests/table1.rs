@@ -2,10 +2,10 @@
 //! `softstop-lab table1`.
 
 use softstop_dynamics::attractors::SearchOptions;
-use softstop_dynamics::transitions::Rules;
 use softstop_paper::table1::paper::{INTERVALS, ROWS};
 use softstop_paper::table1::report::{RowReport, TableReport};
 use softstop_paper::table1::{transitions, values};
+use softstop_paper::transitions::Rules;
 use softstop_testing::tolerance::GROWN;
 use softstop_testing::{assert_near, is_near};
 

@@ -1,9 +1,11 @@
 //! How certainly the z = 1 motion establishes itself along the hysteresis zone.
 
-use super::{BasinOptions, Basins, Grid, basins};
+use super::survey::basins_of_all;
+use super::{BasinOptions, Basins, Grid};
 use crate::monitor::{Kept, Monitor};
 use crate::orbit::Regime;
 use crate::zone::{Zone, ZoneError};
+use softstop::Scene;
 
 /// The basins at one place of the zone.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,24 +38,20 @@ pub fn establishing(
     monitor: Monitor<'_>,
     kept: Kept<'_>,
 ) -> Result<Vec<Establishing>, ZoneError> {
-    let each = grid.cells() as u64;
-    let at = |(index, place): (usize, &f64)| {
-        if !(0.0..=1.0).contains(place) {
-            return Err(ZoneError::Outside { share: *place });
-        }
-        let before = each * index as u64;
-        let all = each * places.len() as u64;
-        let scene = zone.scene_at(*place);
-        let monitor = |done, _| monitor(before + done, all);
-        let basins = basins(&scene, grid, options, &monitor, kept)?;
+    if let Some(place) = places.iter().find(|it| !(0.0..=1.0).contains(*it)) {
+        return Err(ZoneError::Outside { share: *place });
+    }
+    let scenes: Vec<Scene> = places.iter().map(|place| zone.scene_at(*place)).collect();
+    let all = basins_of_all(&scenes, grid, options, monitor, kept)?;
+    let at = |((place, scene), basins): ((&f64, &Scene), Basins)| {
         let (certainty, interval) = basins.share(Regime::ONE);
-        Ok(Establishing {
+        Establishing {
             place: *place,
             frequency: scene.excitation.frequency,
             certainty,
             interval,
             basins,
-        })
+        }
     };
-    places.iter().enumerate().map(at).collect()
+    Ok(places.iter().zip(&scenes).zip(all).map(at).collect())
 }

@@ -5,7 +5,8 @@
 //! say. The motion from its state is followed at the next value, so that an attractor is found also if no cell leads to it.
 //! One orbit continues one attractor; what continues none is new.
 
-use super::{BasinEntropy, BasinOptions, Basins, Grid, basins};
+use super::survey::basins_of_all;
+use super::{BasinEntropy, BasinOptions, Basins, Grid};
 use crate::attractors::{Attractor, SearchOptions, settle};
 use crate::monitor::{Kept, Monitor};
 use crate::orbit::recurrence::{distance, size};
@@ -44,15 +45,13 @@ pub fn follow_attractors(
     monitor: Monitor<'_>,
     kept: Kept<'_>,
 ) -> Result<Vec<BasinsAt>, OrbitError> {
-    let each = grid.cells() as u64;
-    let all = each * scenes.len() as u64;
+    let cells = (grid.cells() * scenes.len()) as u64;
+    let all = scenes.iter().map(|(_, scene)| scene);
+    let all = basins_of_all(all, grid, options, monitor, kept)?;
+    let pause = |_, _| monitor(cells, cells);
     let mut found: Vec<BasinsAt> = Vec::with_capacity(scenes.len());
     let mut known = 0;
-    for (index, (value, scene)) in scenes.iter().enumerate() {
-        let before = each * index as u64;
-        let watch = |done, _| monitor(before + done, all);
-        let mut basins = basins(scene, grid, options, &watch, kept)?;
-        let pause = |_, _| monitor(before + each, all);
+    for ((value, scene), mut basins) in scenes.iter().zip(all) {
         let mut surest = Vec::new();
         if let Some(last) = found.last() {
             carry_over(last, scene, &mut basins, options, &pause)?;

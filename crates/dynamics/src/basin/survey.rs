@@ -88,6 +88,27 @@ pub fn basins(
     survey.report()
 }
 
+/// The basins of several scenes on one grid, in order. The monitor is told of the cells done of all scenes.
+///
+/// # Errors
+/// As [`basins`].
+pub(super) fn basins_of_all<'a>(
+    scenes: impl IntoIterator<Item = &'a Scene, IntoIter: ExactSizeIterator>,
+    grid: &Grid,
+    options: &BasinOptions,
+    monitor: Monitor<'_>,
+    kept: Kept<'_>,
+) -> Result<Vec<Basins>, OrbitError> {
+    let (scenes, each) = (scenes.into_iter(), grid.cells() as u64);
+    let all = each * scenes.len() as u64;
+    let one = |(index, scene)| {
+        let before = each * index as u64;
+        let monitor = |done, _| monitor(before + done, all);
+        basins(scene, grid, options, &monitor, kept)
+    };
+    scenes.enumerate().map(one).collect()
+}
+
 impl BasinSurvey<'_> {
     /// Brings all cells to drive angle phi.
     fn bring(&mut self) -> Result<(), OrbitError> {

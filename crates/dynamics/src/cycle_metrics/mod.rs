@@ -5,7 +5,8 @@ mod record;
 use serde::{Deserialize, Serialize};
 
 use crate::orbit::Orbit;
-pub(crate) use record::{PeriodRecorder, peak};
+pub(crate) use record::PeriodRecorder;
+pub use record::peak;
 use softstop::{MotionError, Stop};
 
 /// Figures of one period of a periodic motion, in SI units; of z = 1 it is one drive period, one stroke.

@@ -87,7 +87,7 @@ impl<'a> PeriodRecorder<'a> {
 }
 
 /// The largest value of a quantity on an arc, by the time in s since its start.
-pub(crate) fn peak(scene: &Scene, arc: &Arc<'_>, elapsed: f64, value: impl Fn(f64) -> f64) -> f64 {
+pub fn peak(scene: &Scene, arc: &Arc<'_>, elapsed: f64, value: impl Fn(f64) -> f64) -> f64 {
     let rate = |phase: &Phase| (phase.law.stiffness.abs() / scene.mass).sqrt();
     let rate = scene.excitation.frequency + arc.phase.map_or(0.0, rate);
     largest((0.0, elapsed), rate, value)

@@ -73,7 +73,7 @@ impl Exponents {
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
-    pub(crate) fn grow(scene: &Scene, state: Vector2<f64>) -> Result<bool, MotionError> {
+    pub fn grow(scene: &Scene, state: Vector2<f64>) -> Result<bool, MotionError> {
         let mut walk = Walk::new(scene, state)?;
         let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), BATCH_PERIODS.0);
         loop {

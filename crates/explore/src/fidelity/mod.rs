@@ -1,6 +1,7 @@
 //! `softstop fidelity`: how simple a model of a scene may be.
 
 mod chart;
+pub mod models;
 mod report;
 mod structure;
 mod study;
@@ -9,8 +10,8 @@ use std::path::PathBuf;
 
 use clap::builder::{StringValueParser, TypedValueParser};
 use clap::{Args, ValueEnum};
+use models::{Likeness, Quantity};
 use softstop::Allowed;
-use softstop_dynamics::models::{Likeness, Quantity};
 
 use report::report;
 use softstop_console::arguments::{

@@ -1,8 +1,8 @@
 //! The result, in the machine's own units.
 
+use super::models::Quantity;
 use serde_json::json;
 use softstop::{Dimension, Machine};
-use softstop_dynamics::models::Quantity;
 use softstop_dynamics::zone::Bounds;
 
 use super::FidelityArguments;

@@ -3,13 +3,13 @@
 use std::fmt;
 use std::time::Instant;
 
-use anyhow::{Context, anyhow};
-use softstop::internals::Evaluations;
-use softstop::{Clock, Machine, MotionError, Scene, Start};
-use softstop_dynamics::models::{
+use super::models::{
     Answers, FidelityError, Ladder, Likeness, Model, Observation, Quantity, Rung, cheapest,
     from_model, from_truth,
 };
+use anyhow::{Context, anyhow};
+use softstop::internals::Evaluations;
+use softstop::{Clock, Machine, MotionError, Scene, Start};
 
 use super::FidelityArguments;
 use softstop_console::failure::Failure;

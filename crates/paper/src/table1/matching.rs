@@ -1,7 +1,7 @@
 //! Which transition is which row of the paper.
 
+use crate::transitions::Transition;
 use softstop_dynamics::MotionKind;
-use softstop_dynamics::transitions::Transition;
 
 use super::paper::PaperRow;
 

@@ -9,12 +9,12 @@ mod swept;
 
 use std::path::PathBuf;
 
+use crate::transitions::{Explorer, Rules, Transition};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::ParameterFamily;
 use softstop_dynamics::monitor::{Kept, Memory};
-use softstop_dynamics::transitions::{Explorer, Rules, Transition};
 
 pub use markdown::markdown;
 use report::TableReport;
@@ -163,8 +163,7 @@ pub fn transitions(
         bar.at(done);
         interrupt::go_on()
     };
-    let found = Explorer::new(&family, range, *rules, &watcher);
-    let found = found.recalling(kept).explore(values);
+    let found = Explorer::new(&family, range, *rules, &watcher, kept).explore(values);
     drop(bar);
     Ok(found?)
 }

@@ -1,7 +1,7 @@
 //! Table 1 as data: rows beside those of the paper, with remarks.
 
+use crate::transitions::{Cause, Rules, Transition};
 use serde::Serialize;
-use softstop_dynamics::transitions::{Cause, Rules, Transition};
 use softstop_dynamics::{MotionKind, Regime};
 
 use super::matching::{Match, find};

@@ -1,8 +1,8 @@
 //! What a sweep makes of a transition: it loses a motion later than it ends, and comes to the next later still.
 
+use crate::transitions::Transition;
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::monitor::unmonitored;
-use softstop_dynamics::transitions::Transition;
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
 
 /// A sweep over the end of a motion.

@@ -1,7 +1,7 @@
 //! Transitions of motions along one parameter: where each stable motion ends, by what, what follows,
 //! and whether the way back leads over the same value.
 //!
-//! Nothing is told of the motions. [`crate::attractors`] finds them at a few values of the parameter;
+//! Nothing is told of the motions. [`softstop_dynamics::attractors`] finds them at a few values of the parameter;
 //! each periodic one is followed to both ends of its stability (grazing, fold, flip); beyond each
 //! end [`Explorer::explore`] lets the motion go and sees where it settles; motions found so are followed
 //! in turn. Chaos is followed by its lifetime until it ends.
@@ -9,11 +9,11 @@
 //! ```
 //! use softstop::{Parameter, Ratios};
 //! use softstop_dynamics::ParameterFamily;
-//! use softstop_dynamics::transitions::{Explorer, Rules};
+//! use softstop_paper::transitions::{Explorer, Rules};
 //! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
-//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &unmonitored);
+//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &unmonitored, None);
 //! let transitions = explorer.explore(&[1.2])?;
 //! // The grazing of z = 0 at g0 and the fold of z = 1, both with hysteresis.
 //! let symbols: Vec<String> = transitions.iter().map(|it| it.symbols()).collect();
@@ -34,9 +34,9 @@ mod window;
 pub use cause::Cause;
 pub use explorer::Explorer;
 
-use crate::attractors::SearchOptions;
-use crate::motion::MotionKind;
 use softstop::Start;
+use softstop_dynamics::attractors::SearchOptions;
+use softstop_dynamics::motion::MotionKind;
 
 /// A transition from one motion to another.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@ mod observed;
 
 use softstop::{Excitation, Ratios, Release, Scene, Start, Stop};
 use softstop_dynamics::Regime;
-use softstop_dynamics::models::{
+use softstop_explore::fidelity::models::{
     Answers, Contact, FidelityError, Ladder, Likeness, Observation, Quantity, Rung, cheapest,
     from_model, from_truth, matching,
 };

@@ -1,9 +1,9 @@
 //! One contact by itself: what it takes, how deep it goes, how long it lasts.
 
-use crate::orbit::StroboscopicMap;
 use softstop::{
     Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, SceneError, Start,
 };
+use softstop_dynamics::StroboscopicMap;
 
 /// What a contact is like that begins with a given velocity, with nothing but the contact's own forces
 /// (neither suspension nor drive): the limit in which a rigid stop's restitution is defined.

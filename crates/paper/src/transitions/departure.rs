@@ -5,10 +5,10 @@ use super::cause::TransitionContext;
 use super::departure_path::DeparturePath;
 use super::explorer::{Explorer, Gathering};
 use super::window::{Window, WindowEnd};
-use crate::continuation::{Continuation, Family, Limits, SpecialKind, Test};
-use crate::monitor::stop_if;
-use crate::motion::MotionKind;
-use crate::orbit::OrbitError;
+use softstop_dynamics::continuation::{Continuation, Family, Limits, SpecialKind, Test};
+use softstop_dynamics::monitor::stop_if;
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::OrbitError;
 
 /// Share of a window within which the way back is tried.
 const INSIDE: f64 = 0.25;

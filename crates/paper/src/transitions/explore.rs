@@ -8,12 +8,12 @@ use super::departure::Departure;
 use super::departure_path::is_doubled;
 use super::explorer::Explorer;
 use super::window::Window;
-use crate::attractors::attractors;
-use crate::continuation::Family;
-use crate::monitor::piece;
-use crate::motion::MotionKind;
-use crate::orbit::{Orbit, OrbitError};
 use softstop::Start;
+use softstop_dynamics::attractors::attractors;
+use softstop_dynamics::continuation::Family;
+use softstop_dynamics::monitor::piece;
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::{Orbit, OrbitError};
 
 /// A periodic motion to follow: where it was met, and its orbit.
 type Met = (f64, Orbit);

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::Observation;
-use crate::orbit::{OrbitError, Regime};
-use crate::zone::Bounds;
 use softstop::{Dimension, Scene};
+use softstop_dynamics::orbit::{OrbitError, Regime};
+use softstop_dynamics::zone::Bounds;
 
 macro_rules! quantities {
     ($($(#[$what:meta])* $quantity:ident $name:literal $dimension:ident;)*) => {

@@ -1,7 +1,7 @@
 //! Why a motion ends: the words of Peterka 2003, Table 2.
 
-use crate::continuation::{SpecialKind, Test};
-use crate::motion::MotionKind;
+use softstop_dynamics::continuation::{SpecialKind, Test};
+use softstop_dynamics::motion::MotionKind;
 
 /// Why a motion ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 //! A [`Ladder`] holds the models of one scene, each derived from it by the formulas of [`matching`] so that
 //! it agrees with the scene's own contact ([`Contact`]) at one velocity, the *operating velocity*. What a
 //! model gives is an [`Observation`] of its motion, or one of the bounds of its z = 1 motion
-//! ([`Bounds`](crate::zone::Bounds));
+//! ([`Bounds`](softstop_dynamics::zone::Bounds));
 //! a [`Quantity`] tells how far it is from that of the scene itself.
 
 mod contact;

@@ -1,9 +1,9 @@
 //! What a motion meets beyond the end of its window.
 
 use super::explorer::Gathering;
-use crate::motion::MotionKind;
-use crate::orbit::Orbit;
 use softstop::Start;
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::Orbit;
 
 /// What a motion has met beyond the end of its window.
 #[derive(Default)]

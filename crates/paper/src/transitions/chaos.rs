@@ -1,13 +1,13 @@
 //! Where chaos ends: by its lifetime.
 
 use super::explorer::{Explorer, FIRST_MOTIONS, Gathering, is_clear, most};
-use crate::attractors::Arrival;
-use crate::continuation::Family;
-use crate::monitor::piece;
-use crate::motion::MotionKind;
-use crate::orbit::{Orbit, OrbitError};
 use serde::{Deserialize, Serialize};
 use softstop::Start;
+use softstop_dynamics::attractors::Arrival;
+use softstop_dynamics::continuation::Family;
+use softstop_dynamics::monitor::piece;
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::{Orbit, OrbitError};
 
 /// Largest step of the parameter on the way, as a share of it.
 const STRIDE: f64 = 2e-4;

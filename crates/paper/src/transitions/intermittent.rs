@@ -3,11 +3,11 @@
 use std::collections::VecDeque;
 
 use super::explorer::Explorer;
-use crate::batch::follow;
-use crate::continuation::Family;
-use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit, OrbitError};
 use softstop::Start;
+use softstop_dynamics::continuation::Family;
+use softstop_dynamics::internals::follow_batch;
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::{Exponents, Orbit, OrbitError};
 use softstop_lanes::{BatchObserver, Machine};
 
 /// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
@@ -47,7 +47,8 @@ impl<F: Family + Sync> Explorer<'_, F> {
         for _ in 0..ENDURANCE / PERIODS_BETWEEN_LOOKS {
             let ask = || (self.monitor)(0, 0);
             let motion = std::iter::once((0, state, PERIODS_BETWEEN_LOOKS));
-            let outcomes = follow(&machine, motion, &mut calm, ask).ok_or(OrbitError::Stopped)?;
+            let outcomes =
+                follow_batch(&machine, motion, &mut calm, ask).ok_or(OrbitError::Stopped)?;
             for outcome in outcomes {
                 outcome.error.map_or(Ok(()), Err)?;
                 state = outcome.end;

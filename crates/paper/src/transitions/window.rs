@@ -1,10 +1,12 @@
 //! The values of the parameter for which a periodic motion is stable.
 
 use super::Rules;
-use crate::continuation::{Branch, BranchPoint, Continuation, Family, Limits, SpecialKind, Test};
-use crate::monitor::stop_if;
-use crate::motion::MotionKind;
-use crate::orbit::{Orbit, OrbitError};
+use softstop_dynamics::continuation::{
+    Branch, BranchPoint, Continuation, Family, Limits, SpecialKind, Test,
+};
+use softstop_dynamics::monitor::stop_if;
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::{Orbit, OrbitError};
 
 /// One end.
 #[derive(Debug, Clone)]

@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use crate::cycle_metrics::peak;
-use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
 use softstop::internals::work;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start, Work,
 };
+use softstop_dynamics::internals::peak;
+use softstop_dynamics::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
 
 /// What the settled motion of a machine gives.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -80,11 +80,11 @@ impl Observation {
         let periods = regime.map_or(LONG, |regime| regime.periods);
         let sums = Sums::default();
         let mut seen = ObservationRecorder { scene, sums };
-        let map = StroboscopicMap::new(scene, periods)?;
-        map.observe(start.into(), &mut seen)?;
-        let sums = seen.sums;
-        let max_position = map.max_position(start.into())?;
-        let clock = map.clock();
+        let mut motion = scene.motion(start)?;
+        motion.advance(Clock::at_cycle(periods), &mut seen)?;
+        motion.tell_arc(&mut seen);
+        let (sums, clock) = (seen.sums, motion.clock());
+        let max_position = StroboscopicMap::new(scene, periods)?.max_position(start.into())?;
         let mean = |sum: f64| (sums.impacts > 0).then(|| sum / sums.impacts as f64);
         Ok(Self {
             start,

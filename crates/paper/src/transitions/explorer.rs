@@ -1,13 +1,13 @@
 //! Several motions side by side, and what most of them do.
 
 use super::Rules;
-use crate::attractors::{Arrival, SearchOptions, settle};
-use crate::continuation::Family;
-use crate::monitor::{Kept, Monitor, piece};
-use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit, OrbitError};
 use serde::{Deserialize, Serialize};
 use softstop::Start;
+use softstop_dynamics::attractors::{Arrival, SearchOptions, settle};
+use softstop_dynamics::continuation::Family;
+use softstop_dynamics::monitor::{Kept, Monitor, piece};
+use softstop_dynamics::motion::MotionKind;
+use softstop_dynamics::orbit::{Exponents, Orbit, OrbitError};
 
 /// Relative differences between motions started side by side.
 const SPREAD: f64 = 1e-9;
@@ -49,21 +49,21 @@ pub(super) fn is_clear(those: usize, all: usize) -> bool {
 
 impl<'a, F: Family + Sync> Explorer<'a, F> {
     /// A search in a range of the parameter. The monitor is told of the drive periods of one look at
-    /// motions after the other.
-    pub fn new(family: &'a F, range: (f64, f64), rules: Rules, monitor: Monitor<'a>) -> Self {
+    /// motions after the other; what is known is recalled.
+    pub fn new(
+        family: &'a F,
+        range: (f64, f64),
+        rules: Rules,
+        monitor: Monitor<'a>,
+        kept: Kept<'a>,
+    ) -> Self {
         Self {
             family,
             range,
             rules,
             monitor,
-            kept: None,
+            kept,
         }
-    }
-
-    /// This search, in which what is known is recalled.
-    #[must_use]
-    pub fn recalling(self, kept: Kept<'a>) -> Self {
-        Self { kept, ..self }
     }
 
     /// Holds the parameter and lets motions settle.
