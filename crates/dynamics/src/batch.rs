@@ -8,7 +8,7 @@ use softstop_lanes::{BatchObserver, Job, Machine, Outcome};
 
 /// Follows motions on this thread, each of the machine with this number from a state for so many drive periods; none if
 /// they were stopped on the way.
-pub fn follow<W: BatchObserver>(
+pub(crate) fn follow<W: BatchObserver>(
     machines: &[Machine],
     motions: impl IntoIterator<Item = (usize, Start, u64)>,
     watch: &mut W,

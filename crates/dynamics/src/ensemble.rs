@@ -26,7 +26,7 @@ const RECORD_COST: u64 = 32;
 
 /// What a motion of an ensemble has come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum Outcome {
+pub enum Outcome {
     /// It is on its way.
     Open,
     /// It has arrived at the attractor with this number.
@@ -43,7 +43,7 @@ pub(crate) enum Outcome {
 
 impl Outcome {
     /// The attractor at which the motion has arrived, or will.
-    pub fn attractor(self) -> Option<usize> {
+    pub(crate) fn attractor(self) -> Option<usize> {
         match self {
             Self::Arrived(attractor) | Self::Approaching(attractor) => Some(attractor),
             _ => None,
@@ -51,18 +51,19 @@ impl Outcome {
     }
 
     /// True as long as the motion may come to something else.
-    pub fn is_open(self) -> bool {
+    pub(crate) fn is_open(self) -> bool {
         matches!(self, Self::Open | Self::Approaching(_) | Self::Wandering)
     }
 }
 
 /// A motion of an ensemble.
 #[derive(Debug, Clone)]
-pub(crate) struct Member {
+pub struct Member {
     /// The number of its machine.
     pub machine: usize,
     /// Its latest state at drive angle phi.
     pub state: Start,
+    /// What it has come to.
     pub outcome: Outcome,
     /// Why it is lost.
     pub error: Option<MotionError>,
@@ -73,6 +74,7 @@ pub(crate) struct Member {
 }
 
 impl Member {
+    /// One that begins at a state of a machine.
     pub fn new(machine: usize, state: Start) -> Self {
         Self {
             machine,
@@ -85,13 +87,14 @@ impl Member {
     }
 
     /// Ends the motion.
-    pub fn lose(&mut self, error: MotionError) {
+    pub(crate) fn lose(&mut self, error: MotionError) {
         (self.outcome, self.error) = (Outcome::Lost, Some(error));
     }
 }
 
 /// What holds a motion of an ensemble, and is told of what happens in it: the motion keeps that unless it is said otherwise.
-pub(crate) trait HasMember: Send {
+pub trait HasMember: Send {
+    /// The motion.
     fn member(&mut self) -> &mut Member;
 
     /// An impact, at an instant since the beginning of the batch, with this velocity in m/s towards the stop.
@@ -115,15 +118,16 @@ impl HasMember for Member {
 }
 
 /// The machines of the motions, and how much work has been done.
-pub(crate) struct Ensemble<'a> {
-    pub machines: Cow<'a, [Machine]>,
+pub struct Ensemble<'a> {
+    pub(crate) machines: Cow<'a, [Machine]>,
     monitor: Monitor<'a>,
     done: AtomicU64,
     /// Work that will be done at most, in drive periods unless its owner counts otherwise.
-    pub planned: u64,
+    pub(crate) planned: u64,
 }
 
 impl<'a> Ensemble<'a> {
+    /// That of some machines.
     pub fn new(machines: impl Into<Cow<'a, [Machine]>>, monitor: Monitor<'a>) -> Self {
         Self {
             machines: machines.into(),
@@ -134,26 +138,29 @@ impl<'a> Ensemble<'a> {
     }
 
     /// That of one scene.
+    ///
+    /// # Errors
+    /// [`OrbitError::Motion`] if it is invalid.
     pub fn of(scene: &Scene, monitor: Monitor<'a>) -> Result<Self, OrbitError> {
         Ok(Self::new(vec![Machine::new(scene)?], monitor))
     }
 
     /// True if many motions cost little.
-    pub fn is_fast(&self) -> bool {
+    pub(crate) fn is_fast(&self) -> bool {
         self.machines[0].is_for_lanes()
     }
 
     /// True if long motions that settle cost as little as short ones.
-    pub fn leaps(&self) -> bool {
+    pub(crate) fn leaps(&self) -> bool {
         self.machines[0].leaps()
     }
 
-    pub fn done(&self) -> u64 {
+    pub(crate) fn done(&self) -> u64 {
         self.done.load(Ordering::Relaxed)
     }
 
     /// Counts work; an error if the monitor wants to stop, or the budget is spent.
-    pub fn note(&self, periods: u64) -> Result<(), OrbitError> {
+    pub(crate) fn note(&self, periods: u64) -> Result<(), OrbitError> {
         let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
         match (self.monitor)(done, self.planned.max(done)) {
             ControlFlow::Continue(()) if !budget::is_spent() => Ok(()),
@@ -163,7 +170,7 @@ impl<'a> Ensemble<'a> {
 
     /// Carries those that are open on for `periods` drive periods on all threads, counted, and records the states of the
     /// last `recorded` of them.
-    pub fn advance<M: HasMember>(
+    pub(crate) fn advance<M: HasMember>(
         &self,
         members: &mut [&mut M],
         periods: u64,
@@ -204,7 +211,7 @@ impl<'a> Ensemble<'a> {
 
     /// Carries those that are open on for some drive periods on this thread, first unobserved, and records the states
     /// and impacts of the last `recorded` of them, the state at their beginning among them.
-    pub fn observe<M: HasMember>(
+    pub(crate) fn observe<M: HasMember>(
         &self,
         members: &mut [&mut M],
         periods: u64,
@@ -224,6 +231,9 @@ impl<'a> Ensemble<'a> {
 
     /// Carries those that are open on for some drive periods on this thread, told of their impacts and of the ends of
     /// drive periods or not; how many they are.
+    ///
+    /// # Errors
+    /// [`OrbitError::Stopped`].
     pub fn advance_batch<const IMPACTS: bool, const PERIODS: bool, M: HasMember>(
         &self,
         members: &mut [&mut M],

@@ -60,8 +60,8 @@ pub use zone::Zone;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::attractors::starts::evenly;
-    pub use crate::batch::follow as follow_batch;
     pub use crate::cycle_metrics::peak;
+    pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
     pub use crate::orbit::turn::turns;
 }

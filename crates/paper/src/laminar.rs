@@ -1,21 +1,21 @@
 //! How long the old motion lasts between bursts beside an ISN of Table 1 (Pomeau and Manneville 1980): stretches of
 //! drive periods with its order of impacts, over the distance from where it loses its stability.
 
-use std::collections::VecDeque;
-
-use crate::transitions::Transition;
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
-use softstop::{Ratios, Start};
+use softstop::{Instant, Ratios, Start};
 use softstop_dynamics::StroboscopicMap;
+use softstop_dynamics::internals::{Ensemble, HasMember, Member};
 use softstop_dynamics::monitor::piece;
-use softstop_lanes::{BatchObserver, Job, Machine};
+use softstop_lanes::Machine;
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::table1::{matching, paper};
+use crate::transitions::{ImpactOrder, Transition};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::csv;
+use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// Rows with an ISN.
@@ -100,30 +100,22 @@ fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<Beside>> {
     let progress = Progress::new(cases.len() as u64, "distances");
     let (mut motions, mut machines) = (Vec::new(), Vec::new());
     for ((row, transition), distance) in cases {
-        if let Some((motion, machine)) = Motion::beside(*row, transition, *distance)? {
+        if let Some((mut motion, machine)) = Motion::beside(*row, transition, *distance)? {
+            motion.member.machine = machines.len();
             motions.push(motion);
             machines.push(machine);
         }
     }
-    let mut left: Vec<usize> = (0..motions.len()).collect();
+    let go_on = |_, _| interrupt::go_on();
+    let ensemble = Ensemble::new(machines, &go_on);
+    let mut left: Vec<&mut Motion> = motions.iter_mut().collect();
     for _ in 0..ENDURANCE / LOOK {
-        let job = |index: &usize| Job {
-            machine: *index,
-            start: motions[*index].state,
-            periods: LOOK,
-        };
-        let jobs: Vec<Job> = left.iter().map(job).collect();
-        let mut watch = Together {
-            motions: &mut motions,
-            left: &left,
-        };
-        let outcomes = softstop_lanes::run(&machines, &jobs, &mut watch);
-        for (index, outcome) in left.iter().zip(outcomes) {
-            outcome.error.map_or(Ok(()), Err)?;
-            motions[*index].state = outcome.end;
-        }
         let before = left.len();
-        left.retain(|index| !motions[*index].is_known());
+        ensemble.advance_batch::<true, true, _>(&mut left, LOOK)?;
+        if let Some(error) = left.iter_mut().find_map(|it| it.member.error.take()) {
+            return Err(error.into());
+        }
+        left.retain(|motion| !motion.is_known());
         progress.steps((before - left.len()) as u64)?;
         if left.is_empty() {
             break;
@@ -137,10 +129,12 @@ struct Motion {
     row: usize,
     eta: f64,
     distance: f64,
-    state: Start,
+    member: Member,
     /// Impacts in the present drive period.
     impacts: usize,
-    counter: Counter,
+    order: ImpactOrder,
+    /// Drive periods in a row with the order of the old motion.
+    length: u64,
     /// Its stretches; the first one begins where the motion was started, not where chaos throws it.
     lengths: Vec<u64>,
     /// Shortest stretch that counts, in drive periods.
@@ -168,13 +162,15 @@ impl Motion {
         }
         let direction = if transition.rising { 1.0 } else { -1.0 };
         let eta = transition.value + direction * distance;
+        let beside = Start::new(start.position - APART * machine.clearance, start.velocity);
         let motion = Self {
             row,
             eta,
             distance,
-            state: Start::new(start.position - APART * machine.clearance, start.velocity),
+            member: Member::new(0, beside),
             impacts: 0,
-            counter: Counter::new(order),
+            order: ImpactOrder::new(&order),
+            length: 0,
             lengths: Vec::new(),
             calm: CALM * regime.periods,
         };
@@ -200,62 +196,27 @@ impl Motion {
     }
 }
 
-/// Watches the motions that are not known yet.
-struct Together<'a> {
-    motions: &'a mut [Motion],
-    left: &'a [usize],
-}
-
-impl BatchObserver for Together<'_> {
-    const IMPACTS: bool = true;
-    const PERIODS: bool = true;
-
-    fn impact(&mut self, job: usize, _: u64, _: f64, _: f64) {
-        self.motions[self.left[job]].impacts += 1;
+impl HasMember for Motion {
+    fn member(&mut self) -> &mut Member {
+        &mut self.member
     }
 
-    fn period(&mut self, job: usize, _: u64, _: Start) {
-        let motion = &mut self.motions[self.left[job]];
-        let impacts = std::mem::take(&mut motion.impacts);
-        if !motion.is_known() {
-            let (ended, calm) = (motion.counter.enter(impacts), motion.calm);
-            motion
-                .lengths
-                .extend(ended.filter(|length| *length >= calm));
-        }
-    }
-}
-
-/// Counts drive periods in a row with an order of impacts, from wherever it begins.
-struct Counter {
-    /// The order, twice in a row.
-    twice: Vec<usize>,
-    last: VecDeque<usize>,
-    length: u64,
-}
-
-impl Counter {
-    fn new(order: Vec<usize>) -> Self {
-        Self {
-            twice: order.repeat(2),
-            last: VecDeque::new(),
-            length: 0,
-        }
+    fn impact(&mut self, _: Instant, _: f64) {
+        self.impacts += 1;
     }
 
-    /// The length of the stretch that this drive period ends, if it does.
-    fn enter(&mut self, impacts: usize) -> Option<u64> {
-        self.last.push_back(impacts);
-        let periods = self.twice.len() / 2;
-        if self.last.len() > periods {
-            self.last.pop_front();
+    fn period(&mut self, _: Start) {
+        let impacts = std::mem::take(&mut self.impacts);
+        if self.is_known() {
+            return;
         }
-        let mut orders = self.twice.windows(periods);
-        if orders.any(|order| self.last.iter().eq(order)) {
+        if self.order.goes_on(impacts) {
             self.length += 1;
-            return None;
+            return;
         }
-        Some(std::mem::take(&mut self.length)).filter(|length| *length > 0)
+        let length = std::mem::take(&mut self.length);
+        self.lengths
+            .extend(Some(length).filter(|it| *it >= self.calm));
     }
 }
 

@@ -1,14 +1,12 @@
 //! Intermittent chaos beside the end of a motion: long stretches of the motion as it was, between bursts.
 
-use std::collections::VecDeque;
-
+use super::ImpactOrder;
 use super::explorer::Explorer;
-use softstop::Start;
+use softstop::{Instant, Start};
 use softstop_dynamics::continuation::Family;
-use softstop_dynamics::internals::follow_batch;
+use softstop_dynamics::internals::{Ensemble, HasMember, Member};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Exponents, Orbit, OrbitError};
-use softstop_lanes::{BatchObserver, Machine};
 
 /// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
 const ENDURANCE: u64 = 400_000;
@@ -38,25 +36,17 @@ impl<F: Family + Sync> Explorer<'_, F> {
         if !leaves_in_time {
             return Ok(false);
         }
-        let machine = [Machine::new(&scene)?];
-        let mut calm = BurstCounter {
-            periods: periods as usize,
-            ..BurstCounter::default()
-        };
-        let mut state = *start;
+        let ensemble = Ensemble::of(&scene, self.monitor)?;
+        let mut calm = BurstCounter::new(*start, periods as usize);
         for _ in 0..ENDURANCE / PERIODS_BETWEEN_LOOKS {
-            let ask = || (self.monitor)(0, 0);
-            let motion = std::iter::once((0, state, PERIODS_BETWEEN_LOOKS));
-            let outcomes =
-                follow_batch(&machine, motion, &mut calm, ask).ok_or(OrbitError::Stopped)?;
-            for outcome in outcomes {
-                outcome.error.map_or(Ok(()), Err)?;
-                state = outcome.end;
+            ensemble.advance_batch::<true, true, _>(&mut [&mut calm], PERIODS_BETWEEN_LOOKS)?;
+            if let Some(error) = calm.member.error {
+                return Err(error.into());
             }
             if let Some(is_intermittent) = calm.verdict() {
                 return Ok(is_intermittent);
             }
-            let arrivals = self.settle_at(value, &[state], 0)?;
+            let arrivals = self.settle_at(value, &[calm.member.state], 0)?;
             if arrivals.iter().any(|arrival| arrival.orbit.is_some()) {
                 return Ok(false);
             }
@@ -74,17 +64,16 @@ fn leaving(orbit: &Orbit) -> f64 {
     }
 }
 
-/// Counts how often the order of impacts ceases to be that of the first period.
-#[derive(Default)]
+/// Counts how often the order of impacts of a motion ceases to be that of its first period.
 struct BurstCounter {
-    /// Impacts in each of the last drive periods.
-    last: VecDeque<usize>,
-    /// Impacts in the present one.
+    member: Member,
+    /// Impacts in the present drive period.
     impacts: usize,
-    /// Drive periods of the motion.
+    /// Drive periods of the motion, and the impacts in each of the first of them.
     periods: usize,
-    /// The first of its periods.
-    pattern: Vec<usize>,
+    first: Vec<usize>,
+    /// Their order, once they are all there.
+    order: Option<ImpactOrder>,
     /// Drive periods for which the order has been that of the motion.
     length: u64,
     /// The longest such stretch.
@@ -96,15 +85,16 @@ struct BurstCounter {
     is_elsewhere: bool,
 }
 
-impl BatchObserver for BurstCounter {
-    const IMPACTS: bool = true;
-    const PERIODS: bool = true;
+impl HasMember for BurstCounter {
+    fn member(&mut self) -> &mut Member {
+        &mut self.member
+    }
 
-    fn impact(&mut self, _: usize, _: u64, _: f64, _: f64) {
+    fn impact(&mut self, _: Instant, _: f64) {
         self.impacts += 1;
     }
 
-    fn period(&mut self, _: usize, _: u64, _: Start) {
+    fn period(&mut self, _: Start) {
         let impacts = std::mem::take(&mut self.impacts);
         if self.verdict().is_none() {
             self.enter(impacts);
@@ -113,6 +103,21 @@ impl BatchObserver for BurstCounter {
 }
 
 impl BurstCounter {
+    fn new(start: Start, periods: usize) -> Self {
+        Self {
+            member: Member::new(0, start),
+            impacts: 0,
+            periods,
+            first: Vec::new(),
+            order: None,
+            length: 0,
+            longest: 0,
+            since: 0,
+            bursts: 0,
+            is_elsewhere: false,
+        }
+    }
+
     /// Whether there are bursts over and over, once that is known.
     fn verdict(&self) -> Option<bool> {
         let is_known = self.bursts >= BURSTS || self.is_elsewhere;
@@ -120,17 +125,20 @@ impl BurstCounter {
     }
 
     fn enter(&mut self, impacts: usize) {
-        self.last.push_back(impacts);
-        if self.last.len() < self.periods {
+        if self.first.len() < self.periods {
+            self.first.push(impacts);
+        }
+        if self.first.len() < self.periods {
             return;
         }
-        if self.last.len() > self.periods {
-            self.last.pop_front();
-        }
-        if self.pattern.is_empty() {
-            self.pattern = self.last.iter().copied().collect();
-        }
-        if self.is_old() {
+        let goes_on = match &mut self.order {
+            Some(order) => order.goes_on(impacts),
+            none => {
+                let order = none.insert(ImpactOrder::new(&self.first));
+                self.first.iter().fold(false, |_, it| order.goes_on(*it))
+            }
+        };
+        if goes_on {
             self.length += 1;
             self.longest = self.longest.max(self.length);
             self.since = 0;
@@ -142,12 +150,5 @@ impl BurstCounter {
         self.length = 0;
         self.since += 1;
         self.is_elsewhere = self.since > self.longest.max(CALM * self.periods as u64);
-    }
-
-    /// True if the last periods show the motion's order of impacts, from wherever it begins.
-    fn is_old(&self) -> bool {
-        let orders = [&self.pattern[..]; 2].concat();
-        let mut orders = orders.windows(self.periods);
-        orders.any(|order| self.last.iter().eq(order))
     }
 }

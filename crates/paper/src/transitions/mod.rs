@@ -28,11 +28,13 @@ mod departure;
 mod departure_path;
 mod explore;
 mod explorer;
+mod impact_order;
 mod intermittent;
 mod window;
 
 pub use cause::Cause;
 pub use explorer::Explorer;
+pub(crate) use impact_order::ImpactOrder;
 
 use softstop::Start;
 use softstop_dynamics::attractors::SearchOptions;
