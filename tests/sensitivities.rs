@@ -55,7 +55,10 @@ fn turned(scene: &Scene, start: Start, turns: f64) -> (Vector2<f64>, Option<Vect
     let until = clock.after(Clock::at_cycle(0), turns * clock.period());
     motion.advance(until, &mut watch).expect("bounded");
     motion.tell_arc(&mut watch);
-    (motion.state().into(), watch.at_drive_angle(&motion))
+    let (arc, now, state) = (motion.arc(), motion.now(), motion.state());
+    let along = (&arc, motion.clock().elapsed(arc.start, now));
+    let change = watch.at_drive_angle(along, state, motion.clock().time(now));
+    (state.into(), change)
 }
 
 /// Richardson's extrapolation of central differences, with its error.

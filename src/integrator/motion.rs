@@ -149,6 +149,11 @@ impl Motion {
         &self.phases
     }
 
+    /// The phases it moves through, shared.
+    pub fn shared_phases(&self) -> Shared<Phases> {
+        self.phases.clone()
+    }
+
     /// What the mass does now.
     pub fn kind(&self) -> PhaseKind {
         self.phases.kind(self.mode)

@@ -26,7 +26,7 @@ pub struct Arc<'a> {
     /// 1 where what holds on it is a stop above, or none, -1 where it is one below.
     pub side: f64,
     /// When it ends, in s after the start, with state and drive there, where a crossing has told them.
-    pub(super) end: Option<(f64, Start, Drive)>,
+    pub(crate) end: Option<(f64, Start, Drive)>,
 }
 
 impl Arc<'_> {

@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use super::{Tangent, saltation};
-use crate::integrator::{Arc, Crossing, Motion, Observer};
+use crate::integrator::{Arc, Crossing, Observer, Start};
 
 /// Watches a motion from time 0 and gathers d(state)/d(w), the state at time 0 held: x' of the variational
 /// equation x'' + 2 a x' + b x = -A t sin(w t + phi), linearized along a power law, with the saltation matrices of the crossings.
@@ -24,22 +24,25 @@ impl Default for FrequencySensitivity {
 }
 
 impl FrequencySensitivity {
-    /// d(state)/d(w) in m s/rad and m/rad at the present drive angle, once the arc under way is told; none
-    /// where a law has no closed form.
-    pub fn at_drive_angle(&self, motion: &Motion) -> Option<Vector2<f64>> {
-        let arc = motion.arc();
+    /// d(state)/d(w) in m s/rad and m/rad at the drive angle at a time in s, so many seconds after the start of the arc that
+    /// was told last, where the mass is in a state; none where a law has no closed form.
+    pub fn at_drive_angle(
+        &self,
+        (arc, elapsed): (&Arc<'_>, f64),
+        state: Start,
+        time: f64,
+    ) -> Option<Vector2<f64>> {
         let flow = &arc.course.flow;
-        let state = motion.state();
         let rate = if arc.course.is_held() {
             Vector2::zeros()
         } else {
             let (x, v) = (state.position, state.velocity);
             let hertz = arc.phase.and_then(|phase| phase.hertz);
             let press = hertz.map_or(0.0, |hertz| hertz.force(x, v) / hertz.mass);
-            let push = arc.course.push(motion.elapsed()) - press;
+            let push = arc.course.push(elapsed) - press;
             Vector2::new(v, flow.acceleration(x, v, push))
         };
-        Some(self.change? - rate * (motion.clock().time(motion.now()) / flow.frequency))
+        Some(self.change? - rate * (time / flow.frequency))
     }
 }
 

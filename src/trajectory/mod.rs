@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use crate::error::MotionError;
-use crate::flow::ArcSolution;
+use crate::flow::{ArcSolution, Drive};
 use crate::integrator::{
     Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, mechanical_energy, polynomial,
     work,
 };
-use crate::phases::PhaseKind;
+use crate::phases::{PhaseId, PhaseKind, Phases};
 use crate::scene::Scene;
 
 /// One arc of a trajectory.
@@ -26,6 +26,45 @@ pub struct KeptArc {
     pub course: ArcSolution,
     /// What the mass does on it.
     pub kind: PhaseKind,
+    /// Which phase; none while the mass is held.
+    #[doc(hidden)]
+    pub phase: Option<PhaseId>,
+    /// The crossing at its end, if there is one.
+    #[doc(hidden)]
+    pub crossing: Option<Crossing>,
+    side: f64,
+    end: Option<(f64, Start, Drive)>,
+}
+
+impl KeptArc {
+    /// An arc that has ended so many seconds after its start.
+    #[doc(hidden)]
+    pub fn new(arc: &Arc<'_>, duration: f64) -> Self {
+        Self {
+            start: arc.start,
+            duration,
+            course: arc.course.clone(),
+            kind: arc.kind,
+            phase: arc.phase.map(|phase| phase.id),
+            crossing: None,
+            side: arc.side,
+            end: arc.end,
+        }
+    }
+
+    /// The arc as an observer of a motion through these phases sees it.
+    #[doc(hidden)]
+    pub fn seen<'a>(&'a self, clock: &'a Clock, phases: &'a Phases) -> Arc<'a> {
+        Arc {
+            start: self.start,
+            clock,
+            course: &self.course,
+            phase: self.phase.map(|phase| &phases[phase]),
+            kind: self.kind,
+            side: self.side,
+            end: self.end,
+        }
+    }
 }
 
 /// A mass that touches: when, and how fast.
@@ -183,12 +222,7 @@ struct Recorder {
 impl Observer for Recorder {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.work += work(arc, self.mass, elapsed);
-        self.arcs.push(KeptArc {
-            start: arc.start,
-            duration: elapsed,
-            course: arc.course.clone(),
-            kind: arc.kind,
-        });
+        self.arcs.push(KeptArc::new(arc, elapsed));
     }
 
     fn crossing(&mut self, crossing: &Crossing) {

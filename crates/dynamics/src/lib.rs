@@ -34,6 +34,7 @@ pub mod figure;
 pub mod monitor;
 pub mod motion;
 pub mod orbit;
+mod period;
 pub mod points;
 pub mod run_up;
 pub mod settled;
@@ -60,10 +61,11 @@ pub use zone::Zone;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::attractors::starts::evenly;
-    pub use crate::cycle_metrics::peak;
+    pub use crate::cycle_metrics::peak_force;
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
-    pub use crate::orbit::turn::turns;
+    pub use crate::period::turn::turns;
+    pub use crate::period::PeriodTrajectory;
 }
 
 pub use nalgebra;

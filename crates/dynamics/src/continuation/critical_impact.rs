@@ -15,9 +15,10 @@ use super::impact_section::{ImpactSection, SectionPoint};
 use super::period_map::carry_through;
 use super::shooting::round_off;
 use super::test::Test;
-use crate::orbit::{Monodromy, OrbitError, PassageRecorder};
+use crate::orbit::{Monodromy, OrbitError};
+use crate::period::PeriodTrajectory;
 use softstop::internals::Phase;
-use softstop::{Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start};
+use softstop::{Clock, CrossingKind, MotionError, Scene};
 
 /// Orbits on which a test vanishes, in unknowns: drive angle of their slowest impact, its velocity and the parameters,
 /// scaled.
@@ -37,12 +38,17 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         parameters: [f64; N],
     ) -> Result<Option<(Self, DVector<f64>)>, MotionError> {
         let scene = family.scene(parameters)?;
-        let mut motion = scene.motion(Start::from(state))?;
-        let mut entries = Entries::default();
-        carry_through(&mut motion, Clock::at_cycle(periods), &mut entries)?;
-        let slowest = entries.all.iter();
-        let slowest = slowest.min_by(|a, b| a.velocity.abs().total_cmp(&b.velocity.abs()));
-        let Some(entry) = slowest.filter(|_| !entries.rests) else {
+        scene.validate()?;
+        let machine = (scene.phases().into(), scene.clock());
+        let end = Clock::at_cycle(periods);
+        let over = |motion: &mut _, kept: &mut _| carry_through(motion, end, kept);
+        let motion = PeriodTrajectory::run(machine, state, over)?;
+        let entries = motion.crossings().filter(|it| {
+            let enters = matches!(it.kind, CrossingKind::Surface { forward: true, .. });
+            enters || matches!(it.kind, CrossingKind::Rebound { .. })
+        });
+        let slowest = entries.min_by(|a, b| a.velocity.abs().total_cmp(&b.velocity.abs()));
+        let Some(entry) = slowest.filter(|_| motion.rests().next().is_none()) else {
             return Ok(None);
         };
         let face = Face::at(&scene, entry.position);
@@ -53,10 +59,10 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         let section = ImpactSection {
             family,
             periods,
-            crossings: entries.crossings - usize::from(!is_told),
+            crossings: motion.crossings().count() - usize::from(!is_told),
             face,
         };
-        let time = motion.clock().time(entry.instant);
+        let time = motion.clock.time(entry.instant);
         let angle = scene.excitation.phase + scene.excitation.frequency * time;
         let [_, speed] = family.state_scales();
         let guess = section.unknowns(&[angle, entry.velocity.abs() / speed], parameters);
@@ -118,13 +124,12 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
         }
         let (scene, position) = self.section.scene(at[0], self.section.parameters(at))?;
         let begin = Vector2::new(position, self.section.face.side() * velocity);
-        let (drift, around) = self.section.around::<PassageAndLaws>(&scene, begin)?;
-        let entry = around.seen.entry(&scene, begin);
-        let PassageRecorder {
-            tangent, impacts, ..
-        } = around.seen.passage;
+        let (drift, around) = self.section.around(&scene, begin)?;
+        let entry = entry(&around.motion, &scene, begin);
+        let tangent = around.motion.tangent();
         let is_impact = entry.is_some() && self.section.face.is_clearance();
-        let told = impacts.iter().map(|it| it.before_impact_velocity);
+        let told = around.motion.impacts();
+        let told = told.map(|it| it.before_impact_velocity);
         let impacts = is_impact
             .then_some(velocity)
             .into_iter()
@@ -148,61 +153,19 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
     }
 }
 
-/// A passage, and the laws of its first arc and of its last.
-#[derive(Default)]
-struct PassageAndLaws {
-    passage: PassageRecorder,
-    first: Option<Phase>,
-    last: Option<Phase>,
-}
-
-impl Observer for PassageAndLaws {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.passage.arc(arc, elapsed);
-        self.last = arc.phase.cloned();
-        if self.first.is_none() {
-            self.first.clone_from(&self.last);
-        }
+/// The saltation matrix of the entry from the last law of a motion that is taken on to where it began into the first, which
+/// the motion does not tell; none at a rigid stop, whose rebound it tells. Both have the drive's force, so that plays no part
+/// in the jump.
+fn entry(motion: &PeriodTrajectory, scene: &Scene, begin: Vector2<f64>) -> Option<Matrix2<f64>> {
+    let (lowest, highest) = scene.reach();
+    if begin.x == lowest || begin.x == highest {
+        return None;
     }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.passage.crossing(crossing);
-    }
-}
-
-impl PassageAndLaws {
-    /// The saltation matrix of the entry from the last law into the first, which a motion from there does not tell; none at a
-    /// rigid stop, whose rebound it tells. Both have the drive's force, so that plays no part in the jump.
-    fn entry(&self, scene: &Scene, begin: Vector2<f64>) -> Option<Matrix2<f64>> {
-        let (lowest, highest) = scene.reach();
-        if begin.x == lowest || begin.x == highest {
-            return None;
-        }
-        let acceleration = |phase: &Phase| phase.acceleration(begin.x, begin.y, 0.0, scene.mass);
-        let jump = acceleration(self.first.as_ref()?) - acceleration(self.last.as_ref()?);
-        Some(Matrix2::new(1.0, 0.0, jump / begin.y, 1.0))
-    }
-}
-
-/// Surfaces that a motion enters, and how often it crosses any.
-#[derive(Default)]
-struct Entries {
-    all: Vec<Crossing>,
-    crossings: usize,
-    rests: bool,
-}
-
-impl Observer for Entries {
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.crossings += 1;
-        match crossing.kind {
-            CrossingKind::Surface { forward: true, .. } | CrossingKind::Rebound { .. } => {
-                self.all.push(*crossing);
-            }
-            CrossingKind::Rest => self.rests = true,
-            _ => {}
-        }
-    }
+    let acceleration = |phase: &Phase| phase.acceleration(begin.x, begin.y, 0.0, scene.mass);
+    let first = motion.arcs().find_map(|(arc, _)| arc.phase)?;
+    let last = motion.arcs().last()?.0.phase?;
+    let jump = acceleration(first) - acceleration(last);
+    Some(Matrix2::new(1.0, 0.0, jump / begin.y, 1.0))
 }
 
 /// Grazing orbits between whose touches the mass comes back to the surface at all velocities alike, so that a weak impact

@@ -194,7 +194,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         let scene = self.shooting.family.scene([point.parameter])?;
         let map = StroboscopicMap::new(&scene, self.shooting.periods)?;
         let passage = map.apply(point.state())?;
-        Orbit::on(&scene, &map, point.state(), &passage)
+        Ok(Orbit::on(&scene, map.periods(), point.state(), passage))
     }
 
     /// A node as it is seen at drive angle phi.

@@ -12,7 +12,7 @@ use super::arclength::{Equations, Evaluation, Node};
 use super::impact_section::{ImpactSection, SectionPoint};
 use super::point::Graze;
 use super::shooting::round_off;
-use crate::orbit::{Monodromy, OrbitError, PassageRecorder};
+use crate::orbit::{Monodromy, OrbitError};
 
 /// Grazing orbits of a family, in unknowns: drive angle of the touch, scaled parameters.
 #[derive(Debug)]
@@ -46,9 +46,9 @@ impl<F: Family<N>, const N: usize> Equations for GrazingOrbit<'_, F, N> {
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {
         let (scene, position) = self.section.scene(at[0], self.section.parameters(at))?;
         let touch = Vector2::new(position, 0.0);
-        let (drift, around) = self.section.around::<PassageRecorder>(&scene, touch)?;
-        let monodromy = Monodromy::from(&around.seen.tangent);
-        let impacts = around.seen.impacts.iter();
+        let (drift, around) = self.section.around(&scene, touch)?;
+        let monodromy = Monodromy::from(&around.motion.tangent());
+        let impacts = around.motion.impacts();
         let impacts = impacts.map(|it| it.before_impact_velocity).collect();
         let sizes = self.section.family.state_scales();
         Ok(Evaluation {
@@ -68,9 +68,8 @@ impl<F: Family<N>, const N: usize> Equations for GrazingOrbit<'_, F, N> {
         at: &DVector<f64>,
     ) -> Result<(DVector<f64>, bool), OrbitError> {
         let (scene, position) = self.section.scene(at[0], self.section.parameters(at))?;
-        let (drift, _) = self
-            .section
-            .around::<()>(&scene, Vector2::new(position, 0.0))?;
+        let touch = Vector2::new(position, 0.0);
+        let (drift, _) = self.section.around(&scene, touch)?;
         Ok((DVector::from_column_slice(drift.as_slice()), true))
     }
 }

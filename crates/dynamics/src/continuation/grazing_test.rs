@@ -12,7 +12,9 @@ use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
 use super::shooting::Shooting;
 use crate::orbit::OrbitError;
-use softstop::MotionError;
+use crate::period::PeriodTrajectory;
+use crate::period::turn::turns;
+use softstop::{Crossing, CrossingKind, MotionError, Scene};
 
 /// An orbit's slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
@@ -44,12 +46,12 @@ impl GrazingTest {
         let scene = shooting.scene(&node.at)?;
         let round = &node.here.point;
         let total = round.sequence.crossings();
-        let motion = shooting.kept_motion(&node.at)?;
-        let taken = round.slowest.map_or(0, |touch| motion.taken(touch.time));
+        let motion = &round.trajectory;
+        let taken = round.slowest.map_or(0, |touch| taken(motion, touch.time));
         Ok(Self {
             dying: round.slowest,
             gentle: Face::ALL.map(|face| face.is_gentle(&scene)),
-            rising: motion.nearest_turn(&scene),
+            rising: nearest_turn(motion, &scene),
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
             drive: (scene.excitation.phase, scene.excitation.frequency),
@@ -183,4 +185,63 @@ pub(crate) fn grazing<F: Family>(
             monodromy,
         },
     })
+}
+
+/// The turning point of a motion that comes nearest to a surface of the scene ahead of it, if any turns before one.
+fn nearest_turn(motion: &PeriodTrajectory, scene: &Scene) -> Option<Touch> {
+    let faces = Face::ALL.into_iter();
+    let faces = faces.filter_map(|face| Some((face, face.position(scene)?)));
+    let faces: Vec<(Face, f64)> = faces.collect();
+    let on_arcs = motion.arcs().flat_map(|(arc, elapsed)| {
+        let back = arc.course.departure.velocity > 0.0;
+        let turns = turns(arc.course, elapsed, back);
+        turns.map(move |turn| (turn.back, arc.begin() + turn.elapsed, turn.position, false))
+    });
+    let crossings = motion.crossings();
+    let reversals = crossings.filter(|it| it.kind == CrossingKind::Reversal);
+    let reversals = reversals.map(|it| {
+        let back = it.acceleration_before < 0.0;
+        (back, motion.clock.time(it.instant), it.position, true)
+    });
+    let touches = on_arcs.chain(reversals);
+    let touches = touches.flat_map(|(back, time, position, reverses)| {
+        let side = if back { 1.0 } else { -1.0 };
+        faces.iter().map(move |&(face, level)| Touch {
+            time,
+            amount: side * (level - position),
+            face,
+            reverses,
+        })
+    });
+    let ahead = touches.filter(|touch| touch.amount > 0.0);
+    ahead.reduce(|known, touch| {
+        let is_equal = touch.reverses && touch.amount == known.amount;
+        match touch.amount < known.amount || is_equal {
+            true => touch,
+            false => known,
+        }
+    })
+}
+
+/// How many crossings of a motion go with one, at a time in s, if it dies: a rebound with the rest right after it, all up
+/// to the way back through a surface otherwise.
+fn taken(motion: &PeriodTrajectory, time: f64) -> usize {
+    let all: Vec<&Crossing> = motion.crossings().collect();
+    let is_it = |one: &&Crossing| motion.clock.time(one.instant) == time;
+    let Some(index) = all.iter().position(is_it) else {
+        return 0;
+    };
+    let Crossing { kind, position, .. } = *all[index];
+    let (before, after) = (&all[..index], &all[index + 1..]);
+    if matches!(kind, CrossingKind::Rebound { .. }) {
+        let rests = |kind| matches!(kind, CrossingKind::Rest | CrossingKind::Release);
+        return 1 + after.iter().take_while(|one| rests(one.kind)).count();
+    }
+    let same = |one: &&Crossing| one.position == position;
+    let ways = [
+        after.iter().position(same),
+        before.iter().rev().position(same),
+    ];
+    let between = ways.into_iter().flatten().min();
+    between.map_or(1, |between| between + 2)
 }

@@ -7,10 +7,12 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::face::Face;
-use super::period_map::carry_through;
+use super::period_map::state_after;
 use super::point::Graze;
 use super::sequence::Sequence;
+use crate::monitor::stop_if;
 use crate::orbit::{Monodromy, OrbitError};
+use crate::period::PeriodTrajectory;
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene};
 
 /// Where orbits of a family begin and end: at a surface.
@@ -83,23 +85,17 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
         Ok((scene, position))
     }
 
-    /// How far a motion from a state at the section is from it after its periods, in units of the family's scales, and what
-    /// an observer has seen on the way.
-    pub fn around<O: Observer + Default>(
+    /// How far a motion from a state at the section is from it after its periods, in units of the family's scales, and the
+    /// motion.
+    pub fn around(
         &self,
         scene: &Scene,
         start: Vector2<f64>,
-    ) -> Result<(Vector2<f64>, LastArc<O>), OrbitError> {
-        let mut motion = scene.motion(start.into())?;
-        let until = Clock::at_cycle(self.periods);
-        let mut watch = LastArc::new(*motion.clock(), self.crossings, until, O::default());
-        // What comes after the last crossing of the orbit is not looked at: without the surface the mass may
-        // bounce without end.
-        motion.advance(until, &mut watch)?;
-        motion.tell_arc(&mut watch);
-        let drift = watch.found.ok_or(NO_CROSSING)? - start;
+    ) -> Result<(Vector2<f64>, LastArc), OrbitError> {
+        let around = LastArc::taken_on(scene, start, (self.crossings, self.periods))?;
+        let drift = around.motion.end - start;
         let [length, speed] = self.family.state_scales();
-        Ok((Vector2::new(drift.x / length, drift.y / speed), watch))
+        Ok((Vector2::new(drift.x / length, drift.y / speed), around))
     }
 
     /// The state at time 0 of the family's scene of an orbit with these unknowns, that leaves the section with a velocity.
@@ -108,80 +104,87 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
         let phase = self.family.scene(parameters)?.excitation.phase;
         let (scene, position) = self.scene(angle, parameters)?;
         let gone = ((angle - phase) / TAU).rem_euclid(self.periods as f64);
-        let mut motion = scene.motion(Vector2::new(position, velocity).into())?;
-        let clock = *motion.clock();
-        let duration = (self.periods as f64 - gone) * clock.period();
-        carry_through(&mut motion, clock.instant(duration), &mut ())?;
-        Ok(motion.state().into())
+        let machine = (&scene, scene.phases().into());
+        let begin = Vector2::new(position, velocity);
+        Ok(state_after(machine, begin, self.periods as f64 - gone)?)
     }
 }
 
-/// Takes the arc after a number of crossings on to the end, whether or not something comes in between, and lets another
-/// observer see the motion so.
-pub(crate) struct LastArc<O> {
-    clock: Clock,
-    left: usize,
-    until: Instant,
-    pub seen: O,
-    /// State in the end.
-    pub found: Option<Vector2<f64>>,
+/// A motion whose arc after a number of crossings is taken on to the end, whether or not something comes in between.
+pub(crate) struct LastArc {
+    /// The motion so.
+    pub motion: PeriodTrajectory,
     /// True if something comes in between, more than rounding before the end.
     pub is_cut: bool,
+    left: usize,
+    until: Instant,
+    is_found: bool,
 }
 
 /// Share of the last arc that rounding may leave of it.
 const ROUNDING: f64 = 1e-6;
 
-impl<O: Observer> LastArc<O> {
-    pub fn new(clock: Clock, crossings: usize, until: Instant, seen: O) -> Self {
-        Self {
-            clock,
+impl LastArc {
+    /// The motion of a scene from a state at time 0 over some drive periods.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if it does not cross as often, or cannot be computed.
+    pub fn taken_on(
+        scene: &Scene,
+        start: Vector2<f64>,
+        (crossings, periods): (usize, u64),
+    ) -> Result<Self, OrbitError> {
+        let mut motion = scene.motion(start.into())?;
+        let until = Clock::at_cycle(periods);
+        let mut around = Self {
+            motion: PeriodTrajectory::empty(motion.shared_phases(), *motion.clock()),
+            is_cut: false,
             left: crossings,
             until,
-            seen,
-            found: None,
-            is_cut: false,
-        }
+            is_found: false,
+        };
+        // What comes after the last crossing of the orbit is not looked at: without the surface the mass may
+        // bounce without end.
+        motion.advance(until, &mut around)?;
+        motion.tell_arc(&mut around);
+        around.is_found.then_some(around).ok_or(NO_CROSSING)
     }
 
     /// Takes an arc on to the end. A series holds no farther than its law: another arc goes on from its end. A mass that is held
     /// touches nothing: it gives no end.
     fn extend(&mut self, arc: &Arc<'_>, lasts: f64) {
-        let elapsed = self.clock.elapsed(arc.start, self.until);
+        let elapsed = arc.clock.elapsed(arc.start, self.until);
         if lasts < elapsed && arc.course.is_series() {
-            return self.seen.arc(arc, lasts);
+            return self.motion.arc(arc, lasts);
         }
         if arc.course.is_held() {
             return;
         }
-        let drive = self.clock.drive(self.until);
-        let (position, velocity) = arc.course.at(elapsed, drive);
-        self.seen.arc(arc, elapsed);
+        self.motion.arc(arc, elapsed);
+        let (position, velocity) = arc.course.at(elapsed, arc.clock.drive(self.until));
+        self.motion.end = Vector2::new(position, velocity);
         self.is_cut = lasts < (1.0 - ROUNDING) * elapsed;
-        self.found = Some(Vector2::new(position, velocity));
+        self.is_found = true;
     }
 }
 
-impl<O: Observer> Observer for LastArc<O> {
+impl Observer for LastArc {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        match (self.left, self.found) {
-            (0, None) => self.extend(arc, elapsed),
-            (0, Some(_)) => {}
-            _ => self.seen.arc(arc, elapsed),
+        match (self.left, self.is_found) {
+            (0, false) => self.extend(arc, elapsed),
+            (0, true) => {}
+            _ => self.motion.arc(arc, elapsed),
         }
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
-        if self.found.is_none() {
-            self.seen.crossing(crossing);
+        if !self.is_found {
+            self.motion.crossing(crossing);
             self.left = self.left.saturating_sub(1);
         }
     }
 
     fn progress(&mut self, _: u64) -> ControlFlow<()> {
-        if self.found.is_some() {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
+        stop_if(self.is_found)
     }
 }

@@ -40,7 +40,6 @@ mod grazing_orbit;
 mod grazing_test;
 mod half_branch;
 mod impact_section;
-mod kept_motion;
 mod locate;
 mod normal_form;
 mod parameter_family;

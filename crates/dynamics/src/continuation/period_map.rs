@@ -4,13 +4,12 @@ use std::sync::Arc as Shared;
 
 use nalgebra::Vector2;
 
-use super::face::{Face, Touch};
-use super::sequence::Sequence;
+use super::face::Touch;
+use super::sequence::{CountedCrossings, Sequence};
 use crate::orbit::Monodromy;
+use crate::period::PeriodTrajectory;
 use softstop::internals::{FrequencySensitivity, Motion, Phases};
-use softstop::{
-    Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Scene, Start,
-};
+use softstop::{Arc, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scene};
 
 /// The image of a state after a number of drive periods from time 0, its derivatives, and what happens on the way.
 #[derive(Debug, Clone)]
@@ -31,6 +30,8 @@ pub(crate) struct PeriodMap {
     pub slowest: Option<Touch>,
     /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
     pub margin: f64,
+    /// All of the motion.
+    pub trajectory: Shared<PeriodTrajectory>,
 }
 
 impl PeriodMap {
@@ -42,34 +43,41 @@ impl PeriodMap {
         state: Vector2<f64>,
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
-        let mut detuning = FrequencySensitivity::default();
-        let (followed, by_frequency) = if by_frequency {
-            let (followed, motion) = follow(machine, periods, state, &mut detuning)?;
-            (followed, detuning.at_drive_angle(&motion))
-        } else {
-            let (followed, _) = follow(machine, periods, state, &mut detuning.tangent)?;
-            (followed, None)
-        };
+        let scene = machine.0;
         let Followed {
             start,
             ends,
-            recorder,
-        } = followed;
-        let (lowest, highest) = recorder.scene.reach();
+            trajectory,
+        } = follow(machine, periods, state)?;
+        let mut sensitivity = FrequencySensitivity::default();
+        if by_frequency {
+            trajectory.tell(&mut sensitivity);
+        } else {
+            trajectory.tell(&mut sensitivity.tangent);
+        }
+        let time = trajectory.clock.time(Clock::at_cycle(periods));
+        let change = |(arc, elapsed): (Arc<'_>, f64)| {
+            sensitivity.at_drive_angle((&arc, elapsed), trajectory.end.into(), time)
+        };
+        let by_frequency = by_frequency.then(|| change(trajectory.arcs().last()?));
+        let (lowest, highest) = scene.reach();
         let at_wall = start.x == lowest || start.x == highest;
+        let margin = margin(&trajectory, periods);
+        let crossings = CountedCrossings::of(scene, &trajectory);
         Ok(Self {
             start,
             ends,
             // Whatever comes to rest at a rigid stop goes on alike.
-            monodromy: match at_wall && recorder.margin == 0.0 {
+            monodromy: match at_wall && margin == 0.0 {
                 true => Monodromy::ZERO,
-                false => Monodromy::from(&detuning.tangent),
+                false => Monodromy::from(&sensitivity.tangent),
             },
-            by_frequency,
-            impacts: recorder.impacts,
-            sequence: recorder.sequence,
-            slowest: recorder.slowest,
-            margin: recorder.margin,
+            by_frequency: by_frequency.flatten(),
+            impacts: crossings.impacts().collect(),
+            sequence: crossings.sequence(scene),
+            slowest: crossings.slowest(),
+            margin,
+            trajectory: trajectory.into(),
         })
     }
 
@@ -79,65 +87,74 @@ impl PeriodMap {
     }
 }
 
+/// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
+fn margin(trajectory: &PeriodTrajectory, periods: u64) -> f64 {
+    let begins = |arc: &&KeptArc| arc.start == Clock::at_cycle(0);
+    let mut first = trajectory.arcs.iter().take_while(begins);
+    if first.any(|arc| arc.course.is_held()) {
+        return 0.0;
+    }
+    let period = trajectory.clock.period();
+    let times = trajectory.crossings();
+    let times = times.map(|it| it.instant.cycles + it.instant.offset / period);
+    times.fold(f64::INFINITY, |margin, time| {
+        margin.min(time).min(periods as f64 - time)
+    })
+}
+
 /// The image alone of a state, and how often the motion crosses what, without any derivative.
 pub(crate) fn image(
     machine: (&Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Sequence), MotionError> {
-    let (Followed { ends, recorder, .. }, _) = follow(machine, periods, state, &mut ())?;
-    Ok((ends[ends.len() - 1], recorder.sequence))
+    let scene = machine.0;
+    let trajectory = follow(machine, periods, state)?.trajectory;
+    let sequence = CountedCrossings::of(scene, &trajectory).sequence(scene);
+    Ok((trajectory.end, sequence))
 }
 
 /// A motion from a state over the periods.
-pub(super) struct Followed<'a> {
+struct Followed {
     start: Vector2<f64>,
     ends: Vec<Vector2<f64>>,
-    recorder: MapRecorder<'a>,
+    trajectory: PeriodTrajectory,
 }
 
-/// Follows a motion over the periods, which another observer watches, too.
-pub(super) fn follow<'a>(
-    (scene, phases): (&'a Scene, Shared<Phases>),
+/// Follows a motion over the periods.
+fn follow(
+    (scene, phases): (&Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
-    other: &mut impl Observer,
-) -> Result<(Followed<'a>, Motion), MotionError> {
+) -> Result<Followed, MotionError> {
     let start = before_wall(scene, state);
-    let begin = Start::from(start);
-    begin.validate()?;
-    let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
-    let mut recorder = MapRecorder {
-        scene,
-        clock: *motion.clock(),
-        impacts: Vec::new(),
-        sequence: Sequence::default(),
-        slowest: None,
-        margin: f64::INFINITY,
-        periods: periods as f64,
-        is_held: false,
-        touched: None,
-        row: None,
-    };
     let mut ends = Vec::with_capacity(periods as usize);
-    for period in 1..=periods {
-        carry_on(
-            &mut motion,
-            Clock::at_cycle(period),
-            &mut (&mut recorder, &mut *other),
-        )?;
-        ends.push(motion.state().into());
-    }
-    motion.tell_arc(&mut (&mut recorder, other));
-    recorder.sequence.impacts = recorder.impacts.len();
-    Ok((
-        Followed {
-            start,
-            ends,
-            recorder,
-        },
-        motion,
-    ))
+    let over = |motion: &mut Motion, kept: &mut PeriodTrajectory| {
+        for period in 1..=periods {
+            carry_on(motion, Clock::at_cycle(period), kept)?;
+            ends.push(motion.state().into());
+        }
+        Ok(())
+    };
+    let trajectory = PeriodTrajectory::run((phases, scene.clock()), start, over)?;
+    Ok(Followed {
+        start,
+        ends,
+        trajectory,
+    })
+}
+
+/// The state of a valid scene, with its phases, so many drive periods after one at time 0.
+pub(super) fn state_after(
+    (scene, phases): (&Scene, Shared<Phases>),
+    state: Vector2<f64>,
+    periods: f64,
+) -> Result<Vector2<f64>, MotionError> {
+    let clock = scene.clock();
+    let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), state.into())?;
+    let end = clock.instant(periods * clock.period());
+    carry_through(&mut motion, end, &mut ())?;
+    Ok(motion.state().into())
 }
 
 /// Distance and speed, in the scene's scales, within which a mass rests at a rigid stop.
@@ -190,130 +207,4 @@ pub(super) fn carry_through(
         carry_on(motion, Clock::at_cycle(cycle), observer)?;
     }
     carry_on(motion, end, observer)
-}
-
-struct MapRecorder<'a> {
-    scene: &'a Scene,
-    clock: Clock,
-    impacts: Vec<f64>,
-    sequence: Sequence,
-    slowest: Option<Touch>,
-    margin: f64,
-    periods: f64,
-    is_held: bool,
-    /// The position at which a surface without a jump of the force was passed forward last, and whether the mass has
-    /// turned since.
-    touched: Option<(f64, bool)>,
-    row: Option<Row>,
-}
-
-/// Ever weaker bounces at one place.
-struct Row {
-    position: f64,
-    /// That of the last.
-    velocity: f64,
-    /// Up to the first: what happens how often, and impacts.
-    sequence: Sequence,
-    impacts: usize,
-}
-
-impl Observer for MapRecorder<'_> {
-    fn arc(&mut self, arc: &Arc<'_>, _: f64) {
-        let was_held = std::mem::replace(&mut self.is_held, arc.course.is_held());
-        if self.is_held && arc.start == Clock::at_cycle(0) {
-            self.margin = 0.0;
-        }
-        self.sequence.holds += usize::from(self.is_held && !was_held);
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        let Instant { cycles, offset } = crossing.instant;
-        let time = cycles + offset / self.clock.period();
-        self.margin = self.margin.min(time).min(self.periods - time);
-        self.impacts.extend(crossing.impact_velocity());
-        match crossing.kind {
-            CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => self.passes(crossing),
-            CrossingKind::Reversal => self.turns(),
-            CrossingKind::Rest => self.rests(),
-            CrossingKind::Switch | CrossingKind::Release => self.sequence.others += 1,
-        }
-        let bounces = matches!(crossing.kind, CrossingKind::Rebound { .. });
-        if bounces || crossing.impact_velocity().is_some() {
-            self.bounces(crossing);
-        }
-    }
-}
-
-impl MapRecorder<'_> {
-    fn turns(&mut self) {
-        self.sequence.reversals += 1;
-        if let Some((_, turned)) = &mut self.touched {
-            *turned = true;
-        }
-    }
-
-    fn passes(&mut self, crossing: &Crossing) {
-        self.sequence.surfaces += 1;
-        let amount = crossing.velocity.abs();
-        let face = Face::at(self.scene, crossing.position);
-        self.sequence.faces += usize::from(face.is_some());
-        let gentle = face.is_none_or(|face| face.is_gentle(self.scene));
-        let touched = self.touched.take();
-        let is_back = matches!(crossing.kind, CrossingKind::Surface { forward: false, .. });
-        let is_onward = amount > 0.0 && !is_back;
-        if gentle {
-            self.sequence.gentle[0] += 1;
-            // Turning back in between comes and goes with the touch.
-            match touched {
-                Some((position, true)) if position == crossing.position => {
-                    self.sequence.gentle[1] += 1;
-                }
-                _ if is_onward => self.touched = Some((crossing.position, false)),
-                _ => {}
-            }
-        }
-        if self.slowest.is_none_or(|known| amount < known.amount)
-            && let Some(face) = face
-        {
-            self.slowest = Some(Touch {
-                time: self.clock.time(crossing.instant),
-                amount,
-                face,
-                reverses: false,
-            });
-        }
-    }
-
-    fn bounces(&mut self, crossing: &Crossing) {
-        let (position, velocity) = (crossing.position, crossing.velocity.abs());
-        match &mut self.row {
-            Some(row) if row.position == position && velocity < row.velocity => {
-                row.velocity = velocity;
-            }
-            row => {
-                *row = Some(Row {
-                    position,
-                    velocity,
-                    sequence: self.sequence,
-                    impacts: self.impacts.len(),
-                });
-            }
-        }
-    }
-
-    /// A row of ever weaker bounces counts as its first: how many of them are told one by one is the
-    /// simulation's choice.
-    fn rests(&mut self) {
-        if let Some(row) = self.row.take() {
-            self.impacts.truncate(row.impacts);
-            let Sequence { rests, holds, .. } = self.sequence;
-            self.sequence = Sequence {
-                rests,
-                holds,
-                ..row.sequence
-            };
-        }
-        self.sequence.rests += 1;
-        self.slowest = None;
-    }
 }

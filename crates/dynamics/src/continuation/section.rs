@@ -5,17 +5,15 @@
 //! at a rigid wall it jumps from before the impact to after it, and at rest it does not change at all. No short step of
 //! a smooth curve leads over that. Seen in the middle of the longest flight the same branch is smooth.
 
-use std::sync::Arc as Shared;
-
-use nalgebra::{DVector, Vector2};
+use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Node, correct, tangent};
 use super::follow::{Continuation, SectionChange, keeps_sense};
-use super::period_map::{PeriodMap, before_wall, carry_through};
+use super::period_map::{PeriodMap, before_wall, state_after};
 use super::point::BranchPoint;
-use softstop::internals::{Motion, Phases};
-use softstop::{Clock, MotionError, Scene};
+use crate::period::PeriodTrajectory;
+use softstop::MotionError;
 
 /// Drive periods between the section and a crossing within which the crossing may stand in the way.
 const NEAR_CROSSING: f64 = 0.05;
@@ -63,8 +61,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         if margin > NEAR_CROSSING {
             return None;
         }
-        let motion = self.shooting.kept_motion(&node.at).ok()?;
-        let (middle, gap) = motion.longest_flight(self.shooting.periods);
+        let (middle, gap) = longest_flight(&node.here.point.trajectory, self.shooting.periods);
         (0.5 * gap > FARTHER * margin).then(|| self.with_turn(self.shooting.turn + middle))
     }
 
@@ -77,7 +74,8 @@ impl<'a, F: Family> Continuation<'a, F> {
         let whole = self.shooting.periods as f64;
         let scene = self.shooting.scene(at)?;
         let machine = (&scene, self.shooting.phases(&scene));
-        let state = after(machine, self.shooting.state(at), periods.rem_euclid(whole))?;
+        let begin = before_wall(&scene, self.shooting.state(at));
+        let state = state_after(machine, begin, periods.rem_euclid(whole))?;
         Ok(self.shooting.scaled(state, self.shooting.parameters(at)))
     }
 
@@ -92,16 +90,26 @@ impl<'a, F: Family> Continuation<'a, F> {
     }
 }
 
-/// The state so many drive periods after time 0.
-fn after(
-    (scene, phases): (&Scene, Shared<Phases>),
-    state: Vector2<f64>,
-    periods: f64,
-) -> Result<Vector2<f64>, MotionError> {
-    let begin = before_wall(scene, state).into();
-    let mut motion = Motion::new(phases, scene.clock(), Clock::at_cycle(0), begin)?;
-    let clock = *motion.clock();
-    let end = clock.instant(periods * clock.period());
-    carry_through(&mut motion, end, &mut ())?;
-    Ok(motion.state().into())
+/// Middle and length of the longest time in which a motion, which repeats after so many drive periods, crosses nothing and
+/// is not held, in drive periods.
+fn longest_flight(motion: &PeriodTrajectory, periods: u64) -> (f64, f64) {
+    let ended = motion.arcs.iter();
+    let all = ended.filter_map(|arc| {
+        let time = motion.clock.time(arc.crossing?.instant);
+        let flies = !(arc.course.is_held() || arc.course.is_chattering());
+        Some((time / motion.clock.period(), flies))
+    });
+    // The longest flight may lead over time 0.
+    let again = all.clone().take(1);
+    let again = again.map(|(time, flies)| (time + periods as f64, flies));
+    let pairs = all.clone().zip(all.skip(1).chain(again));
+    let flights = pairs.filter(|(_, (_, flies))| *flies);
+    let flights = flights.map(|((from, _), (to, _))| (0.5 * (from + to), to - from));
+    flights.fold((0.0, 0.0), |longest, flight| {
+        if flight.1 > longest.1 {
+            flight
+        } else {
+            longest
+        }
+    })
 }

@@ -1,6 +1,9 @@
 //! What an orbit crosses, and how often.
 
+use super::face::{Face, Touch};
 use super::half_branch::BorderCollision;
+use crate::period::PeriodTrajectory;
+use softstop::{Crossing, CrossingKind, Scene};
 
 /// How often an orbit crosses what; it changes only where the orbit grazes something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -62,4 +65,120 @@ impl Sequence {
     pub fn crossings(&self) -> usize {
         self.surfaces + self.reversals + self.others
     }
+}
+
+/// The crossings of a motion that count, each with the face that it passes: of a row of ever weaker bounces that ends in
+/// rest the first alone, as how many of them are told one by one is the simulation's choice.
+pub(crate) struct CountedCrossings<'a> {
+    trajectory: &'a PeriodTrajectory,
+    all: Vec<(&'a Crossing, Option<Face>)>,
+}
+
+impl<'a> CountedCrossings<'a> {
+    /// Those of a motion of a scene.
+    pub fn of(scene: &Scene, trajectory: &'a PeriodTrajectory) -> Self {
+        let mut all: Vec<(&Crossing, Option<Face>)> = Vec::new();
+        // Which one is the first of the present row of bounces, and how fast the last is.
+        let mut row: Option<(usize, f64)> = None;
+        for crossing in trajectory.crossings() {
+            if crossing.kind == CrossingKind::Rest
+                && let Some((first, _)) = row.take()
+            {
+                all.truncate(first + 1);
+            }
+            let (position, speed) = (crossing.position, crossing.velocity.abs());
+            let is_rebound = matches!(crossing.kind, CrossingKind::Rebound { .. });
+            if is_rebound || crossing.kind.is_impact() {
+                let goes_on =
+                    row.filter(|(first, last)| all[*first].0.position == position && speed < *last);
+                let first = goes_on.map_or(all.len(), |(first, _)| first);
+                row = Some((first, speed));
+            }
+            let face = passes(crossing).then(|| Face::at(scene, position));
+            all.push((crossing, face.flatten()));
+        }
+        Self { trajectory, all }
+    }
+
+    /// Before-impact velocities in m/s, in order of time.
+    pub fn impacts(&self) -> impl Iterator<Item = f64> {
+        self.all.iter().filter_map(|(it, _)| it.impact_velocity())
+    }
+
+    /// The slowest crossing of a face since the mass was at rest.
+    pub fn slowest(&self) -> Option<Touch> {
+        let is_rest = |(it, _): &(&Crossing, _)| it.kind == CrossingKind::Rest;
+        let rest = self.all.iter().rposition(is_rest);
+        let since = self.all[rest.map_or(0, |rest| rest + 1)..].iter();
+        let touches = since.filter_map(|(crossing, face)| {
+            Some(Touch {
+                time: self.trajectory.clock.time(crossing.instant),
+                amount: crossing.velocity.abs(),
+                face: (*face)?,
+                reverses: false,
+            })
+        });
+        touches.min_by(|a, b| a.amount.total_cmp(&b.amount))
+    }
+
+    /// How often the motion crosses what.
+    pub fn sequence(&self, scene: &Scene) -> Sequence {
+        let held = self.trajectory.arcs.iter().map(|arc| arc.course.is_held());
+        let before = std::iter::once(false).chain(held.clone());
+        let mut sequence = Sequence {
+            holds: held.zip(before).filter(|(is, was)| *is && !was).count(),
+            ..Sequence::default()
+        };
+        // Where a surface without a jump of the force was passed forward last, and whether the mass has turned since.
+        let mut touched = None;
+        for (crossing, face) in &self.all {
+            sequence.impacts += usize::from(crossing.kind.is_impact());
+            match crossing.kind {
+                CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => {
+                    sequence.surfaces += 1;
+                    sequence.faces += usize::from(face.is_some());
+                    let gentle = face.is_none_or(|face| face.is_gentle(scene));
+                    touched = sequence.pass(crossing, gentle, touched);
+                }
+                CrossingKind::Reversal => {
+                    sequence.reversals += 1;
+                    touched = touched.map(|(position, _)| (position, true));
+                }
+                CrossingKind::Rest => sequence.rests += 1,
+                CrossingKind::Switch | CrossingKind::Release => sequence.others += 1,
+            }
+        }
+        sequence
+    }
+}
+
+impl Sequence {
+    /// Counts a surface that is passed with or without a jump of the force: what is touched from there on.
+    fn pass(
+        &mut self,
+        crossing: &Crossing,
+        gentle: bool,
+        touched: Option<(f64, bool)>,
+    ) -> Option<(f64, bool)> {
+        if !gentle {
+            return None;
+        }
+        self.gentle[0] += 1;
+        // Turning back in between comes and goes with the touch.
+        if touched == Some((crossing.position, true)) {
+            self.gentle[1] += 1;
+            return None;
+        }
+        let is_back = matches!(crossing.kind, CrossingKind::Surface { forward: false, .. });
+        let is_onward = crossing.velocity != 0.0 && !is_back;
+        is_onward.then_some((crossing.position, false))
+    }
+}
+
+/// True if a surface is passed or a rigid stop hit.
+fn passes(crossing: &Crossing) -> bool {
+    matches!(
+        crossing.kind,
+        CrossingKind::Surface { .. } | CrossingKind::Rebound { .. }
+    )
 }

@@ -9,7 +9,6 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{DIFFERENCE, Equations, Evaluation};
-use super::kept_motion::KeptMotion;
 use super::period_map::{PeriodMap, image};
 use super::test::Test;
 use crate::orbit::OrbitError;
@@ -87,13 +86,6 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         );
         self.lowered.replace(Some(phases.clone()));
         phases
-    }
-
-    /// The arcs and crossings of the orbit at a place.
-    pub fn kept_motion(&self, at: &DVector<f64>) -> Result<KeptMotion, MotionError> {
-        let scene = self.scene(at)?;
-        let machine = (&scene, self.phases(&scene));
-        KeptMotion::of(machine, self.periods, self.state(at))
     }
 
     /// True if all machines of the family differ by the drive's frequency alone.

@@ -6,7 +6,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DVector, Vector2};
+use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, correct};
@@ -20,8 +20,8 @@ use super::shooting::{Shooting, round_off};
 use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
-use softstop::internals::Motion;
-use softstop::{Clock, Instant, MotionError, Scene, Start, Tangent};
+use crate::period::PeriodTrajectory;
+use softstop::{Clock, Instant, MotionError, Scene};
 
 /// Scaled distance of half a round from the mirror image of its start up to which an orbit is symmetric.
 const SYMMETRIC: f64 = 1e-7;
@@ -55,20 +55,17 @@ impl<F: Family> Shooting<'_, F, 1> {
             return Ok(None);
         }
         let state = before_wall(&scene, self.state(at));
-        let (clock, begin) = (scene.clock(), Clock::at_cycle(0));
-        let mut motion = Motion::new(self.phases(&scene), clock, begin, Start::from(state))?;
-        let mut tangent = Tangent::default();
         let half = Instant {
             offset: 0.5 * scene.period(),
             ..Clock::at_cycle(self.periods / 2)
         };
-        carry_through(&mut motion, half, &mut tangent)?;
-        motion.tell_arc(&mut tangent);
-        let monodromy = Monodromy::from(&tangent);
-        let end = Vector2::from(motion.state());
+        let machine = (self.phases(&scene), scene.clock());
+        let over_half = |motion: &mut _, kept: &mut _| carry_through(motion, half, kept);
+        let motion = PeriodTrajectory::run(machine, state, over_half)?;
+        let monodromy = Monodromy::from(&motion.tangent());
         let scales = self.family.state_scales();
         Ok(Some(HalfRound {
-            asymmetry: self.scaled(-end - self.state(at), [0.0]),
+            asymmetry: self.scaled(-motion.end - self.state(at), [0.0]),
             tolerance: round_off(&scene, &state, &monodromy, scales),
             monodromy,
         }))

@@ -1,13 +1,14 @@
 //! What one period of a periodic motion does: how far it goes, how hard it hits, what it presses, what it costs.
 
-mod record;
+mod figures;
 
 use serde::{Deserialize, Serialize};
 
 use crate::orbit::Orbit;
-pub(crate) use record::PeriodRecorder;
-pub use record::peak;
-use softstop::{MotionError, Stop};
+pub use figures::peak_force;
+pub(crate) use figures::{AT_STOP, largest_force};
+use figures::{AT_STRIP, energies, peak_power};
+use softstop::{CrossingKind, MotionError, PhaseKind, Stop};
 
 /// Figures of one period of a periodic motion, in SI units; of z = 1 it is one drive period, one stroke.
 ///
@@ -89,7 +90,8 @@ impl CycleMetrics {
     /// [`MotionError`] if its motion cannot be computed.
     pub fn of(orbit: &Orbit) -> Result<Self, MotionError> {
         let scene = &orbit.scene;
-        let (seen, _) = PeriodRecorder::over(scene, orbit.state().into(), orbit.periods)?;
+        let motion = orbit.trajectory()?;
+        let (supplied, losses) = energies(scene, &motion);
         let duration = scene.period() * orbit.periods as f64;
         let energy = |velocity: f64| 0.5 * scene.mass * velocity * velocity;
         let hardest = orbit.before_impact_velocity();
@@ -101,28 +103,34 @@ impl CycleMetrics {
         let behind = scene
             .wall()
             .filter(|_| !matches!(scene.stop, Stop::Rigid { .. }));
+        let lowest = motion.min_position();
+        let force = |kinds: &[PhaseKind]| largest_force(scene, &motion, kinds);
+        let (stop_force, strip_force) = (force(AT_STOP), force(AT_STRIP));
+        let blows = motion.crossings();
+        let blows = blows.filter(|it| matches!(it.kind, CrossingKind::Rebound { .. }));
+        let impulses = blows.map(|it| scene.mass * (it.velocity - it.velocity_after));
         Ok(Self {
             duration,
             impact_velocity: hardest,
             impact_energy: energy(hardest),
             impact_power: orbit.before_impact_velocities().map(energy).sum::<f64>() / duration,
             highest,
-            lowest: seen.lowest,
-            length: highest - seen.lowest,
+            lowest,
+            length: highest - lowest,
             beyond_strip: scene
                 .piercing
                 .map(|strip| highest - (scene.clearance + strip.thickness)),
-            strips: seen.strips,
+            strips: motion.crossings().filter(|it| it.pierces()).count() as u64,
             before_wall: behind.map(|wall| wall.position - highest),
-            contact_force: seen.contact_force,
-            stop_force: seen.stop_force,
-            stop_force_above_preload: (seen.stop_force - preload).max(0.0),
-            strip_force: seen.strip_force,
-            impulse: seen.impulse,
-            supplied: seen.supplied,
-            losses: seen.losses,
-            mean_power: seen.supplied / duration,
-            peak_power: seen.power,
+            contact_force: stop_force.max(strip_force).max(force(&[PhaseKind::Gap])),
+            stop_force,
+            stop_force_above_preload: (stop_force - preload).max(0.0),
+            strip_force,
+            impulse: impulses.fold(0.0, f64::max),
+            supplied,
+            losses,
+            mean_power: supplied / duration,
+            peak_power: peak_power(scene, &motion),
         })
     }
 }

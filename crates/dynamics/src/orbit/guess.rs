@@ -3,8 +3,9 @@
 use nalgebra::Vector2;
 
 use super::StroboscopicMap;
-use super::turn::turns;
-use softstop::{Arc, Clock, Crossing, MotionError, Observer, PhaseKind, Scene};
+use crate::period::PeriodTrajectory;
+use crate::period::turn::turns;
+use softstop::{MotionError, PhaseKind, Scene};
 
 /// Distance from the face, in units of the largest position, within which a mass nearly hits it.
 const NEAR_MISS: f64 = 0.01;
@@ -19,19 +20,13 @@ pub(super) fn guesses(
     state: Vector2<f64>,
     periods: u64,
 ) -> Result<Vec<Impacts>, MotionError> {
-    let mut seen = NearMisses {
-        clock: scene.clock(),
-        face: scene.clearance,
-        impacts: Impacts::new(),
-        miss: None,
-    };
-    StroboscopicMap::new(scene, periods)?.observe(state, &mut seen)?;
-    let NearMisses { impacts, miss, .. } = seen;
+    let motion = StroboscopicMap::new(scene, periods)?.trajectory(state)?;
+    let impacts: Impacts = motion.timed_impacts().collect();
     let mut guesses = Vec::new();
     if !impacts.is_empty() {
         guesses.push(impacts.clone());
     }
-    if let Some((depth, miss)) = miss
+    if let Some((depth, miss)) = nearest_miss(&motion, scene.clearance)
         && depth <= NEAR_MISS * (scene.clearance.abs() + depth)
     {
         let at = impacts.partition_point(|impact| impact.0 < miss.0);
@@ -48,37 +43,20 @@ pub(super) fn guesses(
     Ok(guesses)
 }
 
-/// Records impacts and the nearest miss.
-struct NearMisses {
-    clock: Clock,
-    face: f64,
-    impacts: Impacts,
-    /// How near the nearest miss comes in m, when, and how fast an impact there would be if the face stood
-    /// as much nearer.
-    miss: Option<(f64, (f64, f64))>,
-}
-
-impl Observer for NearMisses {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        if arc.kind != PhaseKind::Free {
-            return;
-        }
-        for turn in turns(arc.course, elapsed, true).filter(|turn| turn.back) {
-            let at = self.clock.after(arc.start, turn.elapsed);
-            let push = arc.course.flow.amplitude * self.clock.drive(at).cos;
+/// How near in m the free mass comes to the face without an impact, when, and how fast an impact there would be if the face
+/// stood as much nearer.
+fn nearest_miss(motion: &PeriodTrajectory, face: f64) -> Option<(f64, (f64, f64))> {
+    let free = motion.arcs().filter(|(arc, _)| arc.kind == PhaseKind::Free);
+    let misses = free.flat_map(|(arc, elapsed)| {
+        let back = turns(arc.course, elapsed, true).filter(|turn| turn.back);
+        back.map(move |turn| {
+            let push = arc.course.flow.amplitude * arc.drive(turn.elapsed).cos;
             let acceleration = arc.course.flow.acceleration(turn.position, 0.0, push);
-            let depth = self.face - turn.position;
-            if self.miss.is_none_or(|(least, _)| depth < least) {
-                let speed = (2.0 * acceleration.abs() * depth.max(0.0)).sqrt();
-                self.miss = Some((depth, (self.clock.time(at), speed)));
-            }
-        }
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        if let Some(velocity) = crossing.impact_velocity() {
-            self.impacts
-                .push((self.clock.time(crossing.instant), velocity));
-        }
-    }
+            let depth = face - turn.position;
+            let speed = (2.0 * acceleration.abs() * depth.max(0.0)).sqrt();
+            let at = arc.clock.after(arc.start, turn.elapsed);
+            (depth, (arc.clock.time(at), speed))
+        })
+    });
+    misses.min_by(|a, b| a.0.total_cmp(&b.0))
 }

@@ -5,12 +5,9 @@ use std::sync::Arc as Shared;
 use nalgebra::Vector2;
 
 use super::Monodromy;
-use super::turn::turns;
+use crate::period::PeriodTrajectory;
 use softstop::internals::{Motion, Phases, Scales};
-use softstop::{
-    Arc, Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, Start, Tangent,
-    Touch,
-};
+use softstop::{Clock, Instant, MotionError, Scene, Start, Touch};
 
 /// Times what rounding leaves of a residual by which it may be off.
 const ROUNDINGS: f64 = 100.0;
@@ -39,6 +36,8 @@ pub struct Passage {
     /// Ends of complete chatter: infinitely many ever weaker impacts that end in rest, of which `impacts`
     /// holds only those before the summed ones.
     pub rests: Vec<Instant>,
+    /// All of it.
+    pub(crate) trajectory: PeriodTrajectory,
 }
 
 impl StroboscopicMap {
@@ -76,14 +75,15 @@ impl StroboscopicMap {
     /// # Errors
     /// [`MotionError`] if the state is not finite or the motion unbounded.
     pub fn apply(&self, state: Vector2<f64>) -> Result<Passage, MotionError> {
-        let mut seen = PassageRecorder::default();
-        let end = self.observe(state, &mut seen)?;
+        let trajectory = self.trajectory(state)?;
+        let tangent = trajectory.tangent();
         Ok(Passage {
-            end,
-            monodromy: Monodromy::from(&seen.tangent),
-            damping_integral: seen.tangent.damping_integral,
-            impacts: seen.impacts,
-            rests: seen.rests,
+            end: trajectory.end,
+            monodromy: Monodromy::from(&tangent),
+            damping_integral: tangent.damping_integral,
+            impacts: trajectory.impacts().collect(),
+            rests: trajectory.rests().collect(),
+            trajectory,
         })
     }
 
@@ -100,7 +100,11 @@ impl StroboscopicMap {
     /// # Errors
     /// As [`StroboscopicMap::apply`].
     pub fn image(&self, state: Vector2<f64>) -> Result<Vector2<f64>, MotionError> {
-        self.observe(state, &mut ())
+        let start = Start::from(state);
+        start.validate()?;
+        let mut motion = Motion::new(self.phases.clone(), self.clock, Clock::at_cycle(0), start)?;
+        motion.advance(Clock::at_cycle(self.periods), &mut ())?;
+        Ok(motion.state().into())
     }
 
     /// The largest position in m on the way from a state.
@@ -108,63 +112,16 @@ impl StroboscopicMap {
     /// # Errors
     /// As [`StroboscopicMap::apply`].
     pub fn max_position(&self, state: Vector2<f64>) -> Result<f64, MotionError> {
-        let mut highest = Highest(state.x);
-        let end = self.observe(state, &mut highest)?;
-        Ok(highest.0.max(end.x))
+        Ok(self.trajectory(state)?.max_position())
     }
 
-    /// The image of a state, with all arcs and crossings on the way told to an observer.
-    pub(crate) fn observe(
-        &self,
-        state: Vector2<f64>,
-        observer: &mut impl Observer,
-    ) -> Result<Vector2<f64>, MotionError> {
-        let start = Start::from(state);
-        start.validate()?;
-        let mut motion = Motion::new(self.phases.clone(), self.clock, Clock::at_cycle(0), start)?;
-        motion.advance(Clock::at_cycle(self.periods), observer)?;
-        motion.tell_arc(observer);
-        Ok(motion.state().into())
-    }
-}
-
-/// Records the tangent, the impacts and the ends of chatter of a motion.
-#[derive(Default)]
-pub(crate) struct PassageRecorder {
-    pub tangent: Tangent,
-    pub impacts: Vec<Touch>,
-    rests: Vec<Instant>,
-}
-
-impl Observer for PassageRecorder {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.tangent.arc(arc, elapsed);
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.tangent.crossing(crossing);
-        if let Some(velocity) = crossing.impact_velocity() {
-            self.impacts.push(Touch {
-                instant: crossing.instant,
-                before_impact_velocity: velocity,
-            });
-        }
-        if crossing.kind == CrossingKind::Rest {
-            self.rests.push(crossing.instant);
-        }
-    }
-}
-
-/// Keeps the largest position.
-struct Highest(f64);
-
-impl Observer for Highest {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let turns = turns(arc.course, elapsed, true).map(|turn| turn.position);
-        self.0 = turns.fold(self.0, f64::max);
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.0 = self.0.max(crossing.position);
+    /// The motion from a state.
+    ///
+    /// # Errors
+    /// As [`StroboscopicMap::apply`].
+    pub fn trajectory(&self, state: Vector2<f64>) -> Result<PeriodTrajectory, MotionError> {
+        let machine = (self.phases.clone(), self.clock);
+        let end = Clock::at_cycle(self.periods);
+        PeriodTrajectory::run(machine, state, |motion, kept| motion.advance(end, kept))
     }
 }

@@ -20,12 +20,10 @@ mod scan;
 mod search;
 mod smallest;
 mod trials;
-pub(crate) mod turn;
 
 pub(crate) use exponents::BATCH_PERIODS;
 pub use exponents::Exponents;
 pub(crate) use hardest::hardest_single;
-pub(crate) use map::PassageRecorder;
 pub use map::{Passage, StroboscopicMap};
 pub use monodromy::Monodromy;
 pub(crate) use newton::NOTHING_LEFT;

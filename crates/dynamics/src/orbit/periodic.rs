@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::guess::guesses;
 use super::newton::fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
+use crate::period::PeriodTrajectory;
 use softstop::{Instant, MotionError, Scene, Touch};
 
 /// Distance in units of 1 + |state| within which a state that has returned after n periods has also
@@ -136,30 +137,33 @@ impl Orbit {
             let apart = size(&(own - state));
             let stays = once.monodromy.is_stable() || !passage.monodromy.is_stable();
             if apart <= SAME_AFTER_PART * unit || apart <= map.doubt(state, &passage) && stays {
-                return Self::on(scene, &shorter, own, &once);
+                return Ok(Self::on(scene, part, own, once));
             }
         }
-        Self::on(scene, &map, state, &passage)
+        Ok(Self::on(scene, periods, state, passage))
     }
 
     /// The orbit through a fixed point of the map over its own period that is already known.
-    pub(crate) fn on(
-        scene: &Scene,
-        map: &StroboscopicMap,
-        state: Vector2<f64>,
-        passage: &Passage,
-    ) -> Result<Self, OrbitError> {
-        Ok(Self {
+    pub(crate) fn on(scene: &Scene, periods: u64, state: Vector2<f64>, passage: Passage) -> Self {
+        Self {
             scene: scene.clone(),
-            periods: map.periods(),
+            periods,
             position: state.x,
             velocity: state.y,
-            impacts: passage.impacts.clone(),
-            rests: passage.rests.clone(),
-            max_position: map.max_position(state)?,
+            max_position: passage.trajectory.max_position(),
+            impacts: passage.impacts,
+            rests: passage.rests,
             monodromy: passage.monodromy,
             damping_integral: passage.damping_integral,
-        })
+        }
+    }
+
+    /// Its motion over the period.
+    ///
+    /// # Errors
+    /// [`MotionError`] if it cannot be computed.
+    pub(crate) fn trajectory(&self) -> Result<PeriodTrajectory, MotionError> {
+        StroboscopicMap::new(&self.scene, self.periods)?.trajectory(self.state())
     }
 
     /// z = p/n. Of complete chatter only the impacts before the summed ones count.

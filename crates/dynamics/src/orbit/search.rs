@@ -266,8 +266,7 @@ impl<'a> FixedPoints<'a> {
                 if !passage.monodromy.is_stable() {
                     return;
                 }
-                let orbit = Orbit::on(self.scene, &self.map, state, &passage);
-                self.stable.extend(orbit);
+                self.stable.push(Orbit::on(self.scene, 1, state, passage));
                 return;
             }
             Ok(_) => Orbit::near(self.scene, state).ok(),

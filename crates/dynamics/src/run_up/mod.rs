@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::basin::{BasinTest, at_section};
-use crate::cycle_metrics::PeriodRecorder;
+use crate::cycle_metrics::{AT_STOP, largest_force};
 use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
-use crate::orbit::{Orbit, OrbitError, Regime};
+use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap};
 use crate::sweep::{Chain, Plan};
 use softstop::{Machine, MotionError, Parameter, Scene, Start};
 
@@ -104,10 +104,11 @@ pub struct Peaks {
 impl Peaks {
     /// Goes on with some periods; the state after them.
     fn take(&mut self, scene: &Scene, start: Start, periods: u64) -> Result<Start, MotionError> {
-        let (seen, end) = PeriodRecorder::over(scene, start, periods)?;
-        self.stop_force = self.stop_force.max(seen.stop_force);
-        self.highest = self.highest.max(seen.highest);
-        Ok(end)
+        let motion = StroboscopicMap::new(scene, periods)?.trajectory(start.into())?;
+        let force = largest_force(scene, &motion, AT_STOP);
+        self.stop_force = self.stop_force.max(force);
+        self.highest = self.highest.max(motion.max_position());
+        Ok(motion.end.into())
     }
 }
 

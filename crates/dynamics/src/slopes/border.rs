@@ -7,8 +7,8 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::internals::{Motion, ParameterSensitivity};
-use softstop::{Clock, Parameter, Scene, SceneError, Start};
+use softstop::internals::ParameterSensitivity;
+use softstop::{Parameter, Scene, SceneError};
 
 use super::variation::{Variation, lowered, none};
 use crate::continuation::{
@@ -288,24 +288,16 @@ fn touch(
     let mut scene = scene.clone();
     scene.excitation.phase = graze.angle;
     let place = graze.face.position(&scene).ok_or_else(missing)?;
-    let phases = std::sync::Arc::new(scene.phases());
+    let start = Vector2::new(place, 0.0);
+    let motion = LastArc::taken_on(&scene, start, (graze.crossings, periods))?.motion;
+    let phases = &motion.phases;
     let all = [parameters, &[Parameter::Phase]].concat();
-    let by = lowered(&scene, &phases, &all)?;
-    let clock = scene.clock();
-    let start = Start::new(place, 0.0);
-    let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), start)?;
-    let until = Clock::at_cycle(periods);
-    let mut watch = LastArc::new(
-        clock,
-        graze.crossings,
-        until,
-        ParameterSensitivity::new(&phases, &by),
-    );
-    motion.advance(until, &mut watch)?;
-    motion.tell_arc(&mut watch);
-    let columns = watch.seen.columns().ok_or_else(missing)?;
+    let by = lowered(&scene, phases, &all)?;
+    let mut sensitivity = ParameterSensitivity::new(phases, &by);
+    motion.tell(&mut sensitivity);
+    let columns = sensitivity.columns().ok_or_else(missing)?;
     let drift = |index: usize| {
-        let moved = by[index].place(&phases, place);
+        let moved = by[index].place(phases, place);
         columns[2 + index].xy() + moved * (columns[0].xy() - Vector2::x())
     };
     let last = parameters.len();

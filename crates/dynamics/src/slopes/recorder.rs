@@ -7,7 +7,7 @@ use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKin
 
 use super::figure::DifferentiatedFigure;
 use super::peak::peaks;
-use crate::orbit::turn::turns;
+use crate::period::turn::turns;
 
 /// What was seen, with derivatives by position and velocity at time 0, then by the parameters.
 #[derive(Debug, Clone, Default)]

@@ -2,12 +2,12 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use softstop::internals::{Lowered, Motion, Phases};
-use softstop::{Clock, MotionError, Parameter, Scene, Start, Tangent};
+use softstop::internals::{Lowered, Phases};
+use softstop::{MotionError, Parameter, Scene};
 
 use super::figure::DifferentiatedFigure;
 use super::recorder::{FigureRecorder, RecordedFigures};
-use crate::orbit::{Monodromy, OrbitError};
+use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
 
 /// 1 - tr + det in units of the size of the monodromy matrix up to which a motion is at a fold to rounding.
 const SINGULAR: f64 = 1e-11;
@@ -49,18 +49,10 @@ impl Variation {
         periods: u64,
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
-        scene.validate()?;
-        let phases = std::sync::Arc::new(scene.phases());
-        let by = lowered(scene, &phases, parameters)?;
-        let clock = scene.clock();
-        let begin = Start::from(start);
-        begin.validate()?;
-        let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), begin)?;
-        let mut recorder = FigureRecorder::new(&phases, &by, clock);
-        let mut tangent = Tangent::default();
-        let observer = &mut (&mut recorder, &mut tangent);
-        motion.advance(Clock::at_cycle(periods), observer)?;
-        motion.tell_arc(observer);
+        let motion = StroboscopicMap::new(scene, periods)?.trajectory(start)?;
+        let by = lowered(scene, &motion.phases, parameters)?;
+        let mut recorder = FigureRecorder::new(&motion.phases, &by, motion.clock);
+        motion.tell(&mut recorder);
         let columns = recorder
             .influence
             .columns()
@@ -73,7 +65,7 @@ impl Variation {
             parameters: parameters.to_vec(),
             start,
             frequency: scene.excitation.frequency,
-            monodromy: Monodromy::from(&tangent),
+            monodromy: Monodromy::from(&motion.tangent()),
             columns: columns.to_vec(),
             supplied,
             watched: recorder.watched,

@@ -1,8 +1,6 @@
 //! One contact by itself: what it takes, how deep it goes, how long it lasts.
 
-use softstop::{
-    Clock, Crossing, CrossingKind, Instant, MotionError, Observer, Scene, SceneError, Start,
-};
+use softstop::{Crossing, CrossingKind, MotionError, Scene, SceneError, Start};
 use softstop_dynamics::StroboscopicMap;
 
 /// What a contact is like that begins with a given velocity, with nothing but the contact's own forces
@@ -39,26 +37,24 @@ impl Contact {
         }
         let bare = bare(scene);
         let start = Start::new(bare.clearance, velocity);
-        let mut exit = ExitRecorder {
-            clearance: bare.clearance,
-            found: None,
+        let mut cycles = 1;
+        let (motion, exit) = loop {
+            let motion = StroboscopicMap::new(&bare, cycles)?.trajectory(start.into())?;
+            let is_exit = |it: &&Crossing| comes_back(it, bare.clearance);
+            let exit = motion.crossings().find(is_exit).copied();
+            if exit.is_some() || cycles >= MAX_CONTACT_PERIODS {
+                break (motion, exit);
+            }
+            cycles *= 2;
         };
-        let mut motion = bare.motion(start)?;
-        let clock = *motion.clock();
-        let mut cycles = 0;
-        while exit.found.is_none() && cycles < MAX_CONTACT_PERIODS {
-            cycles = (2 * cycles).max(1);
-            motion.advance(Clock::at_cycle(cycles), &mut exit)?;
-        }
-        let map = StroboscopicMap::new(&bare, cycles)?;
-        let deepest = map.max_position(start.into())?;
-        let (restitution, duration) = exit.found.map_or((0.0, f64::INFINITY), |(at, speed)| {
-            (speed / velocity, clock.time(at))
+        let (restitution, duration) = exit.map_or((0.0, f64::INFINITY), |exit| {
+            let after = -exit.velocity_after;
+            (after / velocity, motion.clock.time(exit.instant))
         });
         Ok(Self {
             velocity,
             restitution,
-            penetration: deepest - bare.clearance,
+            penetration: motion.max_position() - bare.clearance,
             duration,
         })
     }
@@ -76,23 +72,12 @@ fn bare(scene: &Scene) -> Scene {
     bare
 }
 
-/// Waits for the mass to come back through the clearance.
-struct ExitRecorder {
-    clearance: f64,
-    /// When, and how fast.
-    found: Option<(Instant, f64)>,
-}
-
-impl Observer for ExitRecorder {
-    fn crossing(&mut self, crossing: &Crossing) {
-        let leaves = match crossing.kind {
-            CrossingKind::Surface { forward, .. } => !forward,
-            CrossingKind::Rebound { .. } => true,
-            _ => false,
-        };
-        let outside = crossing.position == self.clearance && crossing.velocity_after < 0.0;
-        if leaves && outside && self.found.is_none() {
-            self.found = Some((crossing.instant, -crossing.velocity_after));
-        }
-    }
+/// True if the mass comes back through a clearance.
+fn comes_back(crossing: &Crossing, clearance: f64) -> bool {
+    let leaves = match crossing.kind {
+        CrossingKind::Surface { forward, .. } => !forward,
+        CrossingKind::Rebound { .. } => true,
+        _ => false,
+    };
+    leaves && crossing.position == clearance && crossing.velocity_after < 0.0
 }

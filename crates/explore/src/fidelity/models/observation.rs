@@ -5,10 +5,8 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use softstop::internals::work;
-use softstop::{
-    Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start, Work,
-};
-use softstop_dynamics::internals::peak;
+use softstop::{Clock, Crossing, CrossingKind, MotionError, PhaseKind, Scene, Start, Touch};
+use softstop_dynamics::internals::peak_force;
 use softstop_dynamics::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
 
 /// What the settled motion of a machine gives.
@@ -78,77 +76,42 @@ impl Observation {
     /// A settled motion, observed over the periods in which it repeats.
     fn over(scene: &Scene, start: Start, regime: Option<Regime>) -> Result<Self, MotionError> {
         let periods = regime.map_or(LONG, |regime| regime.periods);
-        let sums = Sums::default();
-        let mut seen = ObservationRecorder { scene, sums };
-        let mut motion = scene.motion(start)?;
-        motion.advance(Clock::at_cycle(periods), &mut seen)?;
-        motion.tell_arc(&mut seen);
-        let (sums, clock) = (seen.sums, motion.clock());
-        let max_position = StroboscopicMap::new(scene, periods)?.max_position(start.into())?;
-        let mean = |sum: f64| (sums.impacts > 0).then(|| sum / sums.impacts as f64);
+        let motion = StroboscopicMap::new(scene, periods)?.trajectory(start.into())?;
+        let (mut supplied, mut lost, mut contact_time) = (0.0, 0.0, 0.0);
+        let mut peak: Option<f64> = None;
+        for kept in &motion.arcs {
+            let along = (&motion.seen(kept), kept.duration);
+            let work = work(along.0, scene.mass, along.1);
+            supplied += work.supplied;
+            if kept.kind != PhaseKind::Free {
+                contact_time += kept.duration;
+                lost += work.dissipated;
+                let force = kept.phase.map(|_| peak_force(scene, along));
+                peak = peak.into_iter().chain(force).reduce(f64::max);
+            }
+            let crossing = kept.crossing.as_ref();
+            lost += crossing.map_or(0.0, |crossing| crossing.lost_energy(scene.mass));
+        }
+        let rebounds = |it: &Crossing| matches!(it.kind, CrossingKind::Rebound { .. });
+        let impacts: Vec<Touch> = motion.impacts().collect();
+        let clock = motion.clock;
+        let mean = |sum: f64| (!impacts.is_empty()).then(|| sum / impacts.len() as f64);
+        let drives = impacts.iter().map(|impact| clock.drive(impact.instant));
+        let (sine, cosine) = drives.fold((0.0, 0.0), |(sine, cosine), drive| {
+            (sine + drive.sin, cosine + drive.cos)
+        });
         Ok(Self {
             start,
             periods,
             regime,
-            impacts: sums.impacts,
-            before_impact_velocity: mean(sums.velocity),
-            impact_phase: (sums.impacts > 0).then(|| sums.sine.atan2(sums.cosine).rem_euclid(TAU)),
-            peak_force: sums.peak_force.filter(|_| sums.rebounds == 0),
-            contact_time: mean(sums.contact_time),
-            energy_per_impact: mean(sums.lost),
-            max_position,
-            mean_power: sums.work.supplied / clock.time(Clock::at_cycle(periods)),
+            impacts: impacts.len() as u64,
+            before_impact_velocity: mean(impacts.iter().map(|it| it.before_impact_velocity).sum()),
+            impact_phase: mean(0.0).map(|_| f64::atan2(sine, cosine).rem_euclid(TAU)),
+            peak_force: peak.filter(|_| !motion.crossings().any(rebounds)),
+            contact_time: mean(contact_time),
+            energy_per_impact: mean(lost),
+            max_position: motion.max_position(),
+            mean_power: supplied / clock.time(Clock::at_cycle(periods)),
         })
-    }
-}
-
-#[derive(Default)]
-struct Sums {
-    impacts: u64,
-    rebounds: u64,
-    velocity: f64,
-    cosine: f64,
-    sine: f64,
-    peak_force: Option<f64>,
-    contact_time: f64,
-    lost: f64,
-    work: Work,
-}
-
-/// Adds up what a motion gives.
-struct ObservationRecorder<'a> {
-    scene: &'a Scene,
-    sums: Sums,
-}
-
-impl Observer for ObservationRecorder<'_> {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let work = work(arc, self.scene.mass, elapsed);
-        self.sums.work += work;
-        if arc.kind == PhaseKind::Free {
-            return;
-        }
-        self.sums.contact_time += elapsed;
-        self.sums.lost += work.dissipated;
-        if let Some(phase) = arc.phase {
-            let highest = peak(self.scene, arc, elapsed, |time| {
-                let Start { position, velocity } = arc.at(time);
-                phase.side * phase.contact_force(position, velocity)
-            });
-            let known = self.sums.peak_force.unwrap_or(highest);
-            self.sums.peak_force = Some(highest.max(known));
-        }
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.sums.lost += crossing.lost_energy(self.scene.mass);
-        self.sums.rebounds += u64::from(matches!(crossing.kind, CrossingKind::Rebound { .. }));
-        if let Some(velocity) = crossing.impact_velocity() {
-            let drive = self.scene.clock().drive(crossing.instant);
-            self.sums.impacts += 1;
-            self.sums.velocity += velocity;
-            self.sums.cosine += drive.cos;
-            self.sums.sine += drive.sin;
-        }
     }
 }

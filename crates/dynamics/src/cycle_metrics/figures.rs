@@ -1,0 +1,78 @@
+//! Forces, powers and energies along the arcs of a motion.
+
+use super::Losses;
+use crate::period::PeriodTrajectory;
+use softstop::internals::{Phase, largest, shares};
+use softstop::{Arc, PhaseKind, Scene, Start};
+
+/// What the mass does while it touches the strip, and while it touches the stop.
+pub(super) const AT_STRIP: &[PhaseKind] = &[PhaseKind::Pierce, PhaseKind::Cut, PhaseKind::Stuck];
+pub(crate) const AT_STOP: &[PhaseKind] =
+    &[PhaseKind::Stop, PhaseKind::Released, PhaseKind::Resting];
+
+/// The largest value of a quantity on an arc, by the time in s since its start.
+fn peak(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64), value: impl Fn(f64) -> f64) -> f64 {
+    let rate = |phase: &Phase| (phase.law.stiffness.abs() / scene.mass).sqrt();
+    let rate = scene.excitation.frequency + arc.phase.map_or(0.0, rate);
+    largest((0.0, elapsed), rate, value)
+}
+
+/// Force of the drive in N.
+fn drive(scene: &Scene, arc: &Arc<'_>, elapsed: f64) -> f64 {
+    scene.excitation.amplitude * arc.drive(elapsed).cos
+}
+
+/// Largest force of contact in N on an arc; a mass that is held is pressed by what would move it.
+pub fn peak_force(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64)) -> f64 {
+    peak(scene, (arc, elapsed), |elapsed| {
+        let Start { position, velocity } = arc.at(elapsed);
+        let force = match arc.phase {
+            Some(phase) => phase.contact_force(position, velocity),
+            None => drive(scene, arc, elapsed) - scene.stiffness * position,
+        };
+        arc.side * force
+    })
+}
+
+/// Largest force of contact in N of a motion while it does one of these; 0 if that presses nowhere.
+pub(crate) fn largest_force(scene: &Scene, motion: &PeriodTrajectory, kinds: &[PhaseKind]) -> f64 {
+    let arcs = motion.arcs();
+    let arcs = arcs.filter(|(arc, _)| kinds.contains(&arc.kind));
+    let peaks = arcs.map(|(arc, elapsed)| peak_force(scene, (&arc, elapsed)));
+    peaks.fold(0.0, f64::max)
+}
+
+/// Largest power of the drive in W of a motion.
+pub(super) fn peak_power(scene: &Scene, motion: &PeriodTrajectory) -> f64 {
+    let peaks = motion.arcs().map(|(arc, elapsed)| {
+        peak(scene, (&arc, elapsed), |elapsed| {
+            drive(scene, &arc, elapsed) * arc.at(elapsed).velocity
+        })
+    });
+    peaks.fold(0.0, f64::max)
+}
+
+/// Work of the drive in J over a motion, and where it goes.
+pub(super) fn energies(scene: &Scene, motion: &PeriodTrajectory) -> (f64, Losses) {
+    let (mut supplied, mut losses) = (0.0, Losses::default());
+    let is_undamped = |phase: &Phase| phase.law.damping == scene.damping;
+    for kept in &motion.arcs {
+        let arc = motion.seen(kept);
+        let lasting = shares(&arc, scene.mass, kept.duration);
+        supplied += lasting.supplied;
+        losses.impacts += lasting.bounces;
+        *match arc.kind {
+            PhaseKind::Free => &mut losses.free_damping,
+            PhaseKind::Released if arc.phase.is_some_and(is_undamped) => &mut losses.free_damping,
+            _ => &mut losses.contact_damping,
+        } += lasting.damper;
+        *match arc.kind {
+            PhaseKind::Pierce | PhaseKind::Cut => &mut losses.strip,
+            _ => &mut losses.stop,
+        } += lasting.law;
+        if let Some(crossing) = &kept.crossing {
+            losses.impacts += crossing.lost_energy(scene.mass);
+        }
+    }
+    (supplied, losses)
+}

@@ -1,0 +1,152 @@
+//! The motion over some drive periods, kept: what is asked of it follows without running it again.
+
+pub mod turn;
+
+use std::sync::Arc as Shared;
+
+use nalgebra::Vector2;
+
+use softstop::internals::{Motion, Phases};
+use softstop::{
+    Arc, Clock, Crossing, CrossingKind, Instant, KeptArc, MotionError, Observer, Start, Tangent,
+    Touch,
+};
+use turn::turns;
+
+/// The arcs and crossings of a motion from time 0 on, in order of time.
+#[derive(Debug, Clone)]
+pub struct PeriodTrajectory {
+    /// The phases it moves through.
+    pub phases: Shared<Phases>,
+    /// The clock of its instants.
+    pub clock: Clock,
+    /// Its arcs, each with the crossing at its end.
+    pub arcs: Vec<KeptArc>,
+    /// Position and velocity in the end.
+    pub end: Vector2<f64>,
+}
+
+impl PeriodTrajectory {
+    /// A motion through phases of which nothing is kept yet.
+    pub fn empty(phases: Shared<Phases>, clock: Clock) -> Self {
+        Self {
+            phases,
+            clock,
+            arcs: Vec::new(),
+            end: Vector2::zeros(),
+        }
+    }
+
+    /// The motion through phases from a state at time 0, as far as it is advanced.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the state is not finite or beyond a rigid stop, and that of advancing.
+    pub fn run(
+        (phases, clock): (Shared<Phases>, Clock),
+        state: Vector2<f64>,
+        advance: impl FnOnce(&mut Motion, &mut Self) -> Result<(), MotionError>,
+    ) -> Result<Self, MotionError> {
+        let start = Start::from(state);
+        start.validate()?;
+        let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), start)?;
+        let mut kept = Self::empty(phases, clock);
+        advance(&mut motion, &mut kept)?;
+        motion.tell_arc(&mut kept);
+        kept.end = motion.state().into();
+        Ok(kept)
+    }
+
+    /// Tells an observer of all arcs and crossings.
+    pub fn tell(&self, observer: &mut impl Observer) {
+        for kept in &self.arcs {
+            observer.arc(&self.seen(kept), kept.duration);
+            if let Some(crossing) = &kept.crossing {
+                observer.crossing(crossing);
+            }
+        }
+    }
+
+    /// An observer of its own kind that has been told of all.
+    pub fn told<O: Observer + Default>(&self) -> O {
+        let mut observer = O::default();
+        self.tell(&mut observer);
+        observer
+    }
+
+    /// One of its arcs as observers see it.
+    pub fn seen<'a>(&'a self, kept: &'a KeptArc) -> Arc<'a> {
+        kept.seen(&self.clock, &self.phases)
+    }
+
+    /// Its arcs as observers see them, and how long each lasts, in s.
+    pub fn arcs(&self) -> impl Iterator<Item = (Arc<'_>, f64)> {
+        self.arcs
+            .iter()
+            .map(|kept| (self.seen(kept), kept.duration))
+    }
+
+    /// Its crossings.
+    pub fn crossings(&self) -> impl Iterator<Item = &Crossing> + Clone {
+        self.arcs.iter().filter_map(|arc| arc.crossing.as_ref())
+    }
+
+    /// Its exact Jacobian.
+    pub fn tangent(&self) -> Tangent {
+        self.told()
+    }
+
+    /// Its impacts.
+    pub fn impacts(&self) -> impl Iterator<Item = Touch> {
+        self.crossings().filter_map(|crossing| {
+            Some(Touch {
+                instant: crossing.instant,
+                before_impact_velocity: crossing.impact_velocity()?,
+            })
+        })
+    }
+
+    /// Times in s and before-impact velocities in m/s of its impacts.
+    pub fn timed_impacts(&self) -> impl Iterator<Item = (f64, f64)> {
+        let timed = |touch: Touch| (self.clock.time(touch.instant), touch.before_impact_velocity);
+        self.impacts().map(timed)
+    }
+
+    /// When complete chatter ends.
+    pub fn rests(&self) -> impl Iterator<Item = Instant> {
+        let rests = self.crossings().filter(|it| it.kind == CrossingKind::Rest);
+        rests.map(|crossing| crossing.instant)
+    }
+
+    /// The largest position in m.
+    pub fn max_position(&self) -> f64 {
+        self.farthest(true, f64::max)
+    }
+
+    /// The lowest position in m.
+    pub fn min_position(&self) -> f64 {
+        self.farthest(false, f64::min)
+    }
+
+    /// The farthest position in m of turning points, crossings and ends.
+    fn farthest(&self, back: bool, farther: impl Fn(f64, f64) -> f64) -> f64 {
+        let begin = self.arcs.first();
+        let begin = begin.map_or(self.end.x, |arc| arc.course.departure.position);
+        let arcs = self.arcs.iter();
+        let turns = arcs.flat_map(|arc| turns(&arc.course, arc.duration, back));
+        let positions = turns.map(|turn| turn.position);
+        let positions = positions.chain(self.crossings().map(|crossing| crossing.position));
+        positions.fold(farther(begin, self.end.x), farther)
+    }
+}
+
+impl Observer for PeriodTrajectory {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        self.arcs.push(KeptArc::new(arc, elapsed));
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) {
+        if let Some(last) = self.arcs.last_mut() {
+            last.crossing = Some(*crossing);
+        }
+    }
+}
