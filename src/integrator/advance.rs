@@ -37,7 +37,7 @@ impl Motion {
     pub fn advance(
         &mut self,
         until: Instant,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<(), MotionError> {
         self.watch(until, observer).map(drop)
     }
@@ -50,7 +50,7 @@ impl Motion {
     pub fn watch(
         &mut self,
         until: Instant,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
         self.watch_before(until, None, observer)
     }
@@ -61,7 +61,7 @@ impl Motion {
         &mut self,
         until: Instant,
         halt: Option<Instant>,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
         let finite = until.cycles.is_finite() && until.offset.is_finite();
         if !finite || until.partial_cmp(&self.now).is_none_or(Ordering::is_lt) {
@@ -120,7 +120,7 @@ impl Motion {
     }
 
     /// Tells `observer` of the arc that is under way, up to the present time.
-    pub fn tell_arc(&self, observer: &mut impl Observer) {
+    pub fn tell_arc(&self, observer: &mut dyn Observer) {
         observer.arc(&self.arc(), self.elapsed());
     }
 
@@ -225,7 +225,7 @@ impl Motion {
     }
 
     /// Takes up the motion where a course ends that was not meant to go further.
-    pub(super) fn go_on(&mut self, elapsed: f64, observer: &mut impl Observer) {
+    pub(super) fn go_on(&mut self, elapsed: f64, observer: &mut dyn Observer) {
         let drive = self.end_arc(elapsed, None, observer);
         let Mode::Chattering(hold) = self.mode else {
             return self.next_step(elapsed, drive);
@@ -243,7 +243,7 @@ impl Motion {
         &mut self,
         elapsed: f64,
         state: Option<Start>,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Drive {
         let at = self.clock.after(self.start, elapsed);
         let drive = self.clock.drive(at);
@@ -267,7 +267,7 @@ impl Motion {
         self.begin(departure, self.mode, finer, None);
     }
 
-    pub(super) fn cross(&mut self, found: Found, observer: &mut impl Observer) {
+    pub(super) fn cross(&mut self, found: Found, observer: &mut dyn Observer) {
         // A mass that leaves rest and is back at once has not moved.
         let moved = self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
         let velocity = match self.mode {
@@ -290,7 +290,7 @@ impl Motion {
         landing: Reset,
         before: Start,
         drive: Drive,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) {
         let (push, after) = (self.push(drive), landing.state);
         let acceleration_before = self.acceleration(self.mode, before, push);

@@ -40,7 +40,7 @@ impl Motion {
     }
 
     /// Lets the crossing happen that the motion stands before.
-    fn cross_now(&mut self, observer: &mut impl Observer) {
+    fn cross_now(&mut self, observer: &mut dyn Observer) {
         match self.outlook {
             NextEvent::Crossing(found) => self.cross(found, observer),
             NextEvent::Ends(elapsed) => self.go_on(elapsed, observer),
@@ -53,7 +53,7 @@ impl Motion {
     pub(crate) fn advance_like(
         &mut self,
         other: &Self,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<(), MotionError> {
         let (clock, now, near) = (self.clock, other.now, self.resolution());
         let is_now = |at: Instant| clock.elapsed(at, now).abs() <= near;
@@ -84,7 +84,7 @@ impl Simulation {
         &mut self,
         until: f64,
         halt: f64,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
         self.watch_halting(until, Some(halt), observer)
     }
@@ -101,7 +101,7 @@ impl Simulation {
 
     /// Lets the crossing happen that the machine stands before, with those that follow at the same instant; false if it
     /// stands before none. A motion that fails right after it fails in the next step.
-    pub fn cross(&mut self, observer: &mut impl Observer) -> bool {
+    pub fn cross(&mut self, observer: &mut dyn Observer) -> bool {
         if !self.motion.is_at_crossing() {
             return false;
         }

@@ -193,7 +193,7 @@ pub trait Observer {
 /// Watches nothing.
 impl Observer for () {}
 
-impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
+impl<A: Observer + ?Sized, B: Observer + ?Sized> Observer for (&mut A, &mut B) {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.0.arc(arc, elapsed);
         self.1.arc(arc, elapsed);

@@ -40,7 +40,7 @@ impl Simulation {
     }
 
     /// Tells of all arcs and crossings since the mark; the first arc may have begun before it.
-    pub(super) fn replay(&self, observer: &mut impl Observer) -> Result<(), MotionError> {
+    pub(super) fn replay(&self, observer: &mut dyn Observer) -> Result<(), MotionError> {
         let mut motion = self.marked().0.clone();
         motion.advance_like(&self.motion, observer)?;
         motion.tell_arc(observer);

@@ -132,7 +132,7 @@ impl Simulation {
     pub fn watch(
         &mut self,
         until: f64,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
         self.watch_halting(until, None, observer)
     }
@@ -142,7 +142,7 @@ impl Simulation {
         &mut self,
         until: f64,
         halt: Option<f64>,
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
         self.check_reach(until)?;
         let clock = *self.motion.clock();

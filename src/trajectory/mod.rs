@@ -161,7 +161,7 @@ impl Scene {
         start: Start,
         end: Instant,
         forces: &[AppliedForce],
-        observer: &mut impl Observer,
+        observer: &mut dyn Observer,
     ) -> Result<Trajectory, MotionError> {
         let mut motion = self.motion(start)?;
         let energy_before = mechanical_energy(self, &motion);

@@ -64,8 +64,8 @@ pub mod internals {
     pub use crate::cycle_metrics::peak_force;
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
-    pub use crate::period::turn::turns;
     pub use crate::period::PeriodTrajectory;
+    pub use crate::period::turn::turns;
 }
 
 pub use nalgebra;

@@ -41,7 +41,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         scene.validate()?;
         let machine = (scene.phases().into(), scene.clock());
         let end = Clock::at_cycle(periods);
-        let over = |motion: &mut _, kept: &mut _| carry_through(motion, end, kept);
+        let over = |motion: &mut _, kept: &mut PeriodTrajectory| carry_through(motion, end, kept);
         let motion = PeriodTrajectory::run(machine, state, over)?;
         let entries = motion.crossings().filter(|it| {
             let enters = matches!(it.kind, CrossingKind::Surface { forward: true, .. });

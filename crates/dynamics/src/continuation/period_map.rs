@@ -182,7 +182,7 @@ const MAX_PERIOD_WORK: u64 = 1 << 21;
 pub(crate) fn carry_on(
     motion: &mut Motion,
     until: Instant,
-    observer: &mut impl Observer,
+    observer: &mut dyn Observer,
 ) -> Result<(), MotionError> {
     let mut effort = Effort::windows(MAX_PERIOD_WORK);
     if motion
@@ -201,7 +201,7 @@ pub(crate) fn carry_on(
 pub(super) fn carry_through(
     motion: &mut Motion,
     end: Instant,
-    observer: &mut impl Observer,
+    observer: &mut dyn Observer,
 ) -> Result<(), MotionError> {
     for cycle in 1..=end.cycles as u64 {
         carry_on(motion, Clock::at_cycle(cycle), observer)?;

@@ -60,7 +60,8 @@ impl<F: Family> Shooting<'_, F, 1> {
             ..Clock::at_cycle(self.periods / 2)
         };
         let machine = (self.phases(&scene), scene.clock());
-        let over_half = |motion: &mut _, kept: &mut _| carry_through(motion, half, kept);
+        let over_half =
+            |motion: &mut _, kept: &mut PeriodTrajectory| carry_through(motion, half, kept);
         let motion = PeriodTrajectory::run(machine, state, over_half)?;
         let monodromy = Monodromy::from(&motion.tangent());
         let scales = self.family.state_scales();

@@ -57,7 +57,7 @@ impl PeriodTrajectory {
     }
 
     /// Tells an observer of all arcs and crossings.
-    pub fn tell(&self, observer: &mut impl Observer) {
+    pub fn tell(&self, observer: &mut dyn Observer) {
         for kept in &self.arcs {
             observer.arc(&self.seen(kept), kept.duration);
             if let Some(crossing) = &kept.crossing {
