@@ -17,6 +17,7 @@ mod placed;
 pub mod report;
 pub mod robust;
 pub mod searched;
+pub mod spread;
 mod started;
 mod tolerated;
 mod verdict;

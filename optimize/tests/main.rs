@@ -21,6 +21,7 @@ mod refusals;
 mod report;
 mod robust;
 mod simulate;
+mod spread;
 mod study;
 mod sweep;
 mod ties;

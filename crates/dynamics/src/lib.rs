@@ -40,7 +40,6 @@ pub mod run_up;
 pub mod settled;
 mod share;
 pub mod slopes;
-pub mod spread;
 mod stroke_count;
 pub mod supply;
 pub mod sweep;
@@ -61,11 +60,14 @@ pub use zone::Zone;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::attractors::starts::evenly;
+    pub use crate::continuation::period_map::carry_on;
     pub use crate::cycle_metrics::peak_force;
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
     pub use crate::period::PeriodTrajectory;
     pub use crate::period::turn::turns;
+    pub use crate::zone::Frequencies;
+    pub use crate::zone::followed_end::{LONGEST_BRANCH, ended};
 }
 
 pub use nalgebra;

@@ -17,7 +17,6 @@ mod machine_reference;
 mod slopes;
 mod slopes_of_borders;
 mod slopes_of_designs;
-mod spread;
 mod steep;
 mod stop_invariants;
 mod sweep;

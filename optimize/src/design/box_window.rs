@@ -2,10 +2,10 @@
 //! the box that brings it nearest, which the signs of its normal name (Moennigmann and Marquardt 2002). What else is lost
 //! within the box, [`robustify`](super::robustify) looks for.
 
+use crate::spread::{ToleranceBox, critical_normal, free_normal};
 use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::slopes::Border;
-use softstop_dynamics::spread::{ToleranceBox, critical_normal, free_normal};
 use softstop_dynamics::zone::{Loss, grazing_frequencies};
 use softstop_dynamics::{BranchPoint, Zone};
 

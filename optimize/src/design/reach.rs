@@ -1,11 +1,11 @@
 //! Directions within the tolerances in which a search has met a loss of the motion, and how far the motion goes on in each,
 //! with derivatives.
 
+use crate::spread::{Reached, ToleranceBox, along};
 use softstop::Scene;
 use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::slopes::Border;
-use softstop_dynamics::spread::{Reached, ToleranceBox, along};
 use softstop_dynamics::zone::Loss;
 
 use super::Design;

@@ -1,8 +1,8 @@
 //! How machines within the tolerances of a point of the search change with its coordinates.
 
+use crate::spread::ToleranceBox;
 use softstop::{Machine, Parameter};
 use softstop_dynamics::slopes::Border;
-use softstop_dynamics::spread::ToleranceBox;
 
 use super::differences::{difference, machine_differences};
 use super::exact::Linearization;

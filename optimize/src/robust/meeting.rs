@@ -2,12 +2,12 @@
 
 use std::mem::{Discriminant, discriminant};
 
+use crate::spread::{Reached, ToleranceBox, along, critical_normal, free_normal};
 use rayon::prelude::*;
 use softstop::MotionError;
 use softstop_dynamics::continuation::{Direction, Test};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
-use softstop_dynamics::spread::{Reached, ToleranceBox, along, critical_normal, free_normal};
 use softstop_dynamics::zone::{Loss, grazing_frequencies, loss_of_stability};
 use softstop_dynamics::{BranchPoint, Orbit};
 

@@ -31,10 +31,10 @@ pub(crate) use nearest::first_losses;
 pub(crate) use neighbours::Neighbours;
 pub use rates::rates;
 
+use crate::spread::ToleranceBox;
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes::Slopes;
-use softstop_dynamics::spread::ToleranceBox;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
 use crate::design::cost::{Cost, value_of_motion};

@@ -6,12 +6,12 @@
 //! corner of the box that lies farthest along n, or n itself in the ball. A step towards it is shortened until t falls;
 //! it ends where the tangent plane there leaves nothing to gain.
 
+use crate::spread::{ToleranceBox, along};
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
-use softstop_dynamics::spread::{ToleranceBox, along};
 use softstop_dynamics::zone::Loss;
 
 use super::corners::corners;

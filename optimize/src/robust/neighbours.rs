@@ -1,10 +1,10 @@
 //! Motions of machines near one whose motion is known.
 
+use crate::spread::{Settled, ToleranceBox, along, in_coordinates, varied};
 use nalgebra::Vector2;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes;
-use softstop_dynamics::spread::{Settled, ToleranceBox, along, in_coordinates, varied};
 
 use super::Tolerances;
 

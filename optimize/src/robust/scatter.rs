@@ -1,12 +1,12 @@
 //! Which tolerance eats the margin.
 
+use crate::spread::{
+    MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, critical_normal, free_normal,
+};
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, place};
-use softstop_dynamics::spread::{
-    MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, critical_normal, free_normal,
-};
 use softstop_dynamics::zone::{ZoneError, ZoneKind, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 

@@ -1,10 +1,8 @@
 //! Whether machines are as required: by polynomials fitted to some of them where these leave no doubt, else by the motion.
 
+use crate::spread::{MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, is_inside};
 use rayon::prelude::*;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::spread::{
-    MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, is_inside,
-};
 use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::Tolerances;

@@ -3,12 +3,12 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::spread::{MotionOutcome, PolynomialModel, Settled, ToleranceBox};
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{BLOCK, blocks, place};
-use softstop_dynamics::spread::{MotionOutcome, PolynomialModel, Settled, ToleranceBox};
 use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;

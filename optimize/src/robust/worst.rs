@@ -1,12 +1,12 @@
 //! The worst machine between the bounds.
 
+use crate::spread::{ToleranceBox, in_coordinates, varied};
 use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::{Figure, Sense};
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::slopes;
-use softstop_dynamics::spread::{ToleranceBox, in_coordinates, varied};
 
 use super::Tolerances;
 use super::corners::corners;

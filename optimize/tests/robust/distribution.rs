@@ -6,7 +6,6 @@ use softstop_dynamics::basin::wilson;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::points::random;
-use softstop_dynamics::spread::ToleranceBox;
 use softstop_dynamics::{CycleMetrics, Orbit};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::problem::{Tolerance, Width};
@@ -15,6 +14,7 @@ use softstop_optimize::design::search::{SearchError, Settings, Unwatched};
 use softstop_optimize::design::solution::{Beside, Solution};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::robust::{self, Distribution, FITTED, Tolerances, normal_quantile, verify};
+use softstop_optimize::spread::ToleranceBox;
 
 use super::{Outcome, press};
 

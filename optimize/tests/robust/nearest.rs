@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use softstop::Parameter;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::spread::{ToleranceBox, along};
 use softstop_dynamics::zone::{self, Loss};
 use softstop_optimize::robust::{Manifold, Nearest, Norm, Settings, nearest, verify};
+use softstop_optimize::spread::{ToleranceBox, along};
 
 use super::{Outcome, machines, press, shop, spread};
 

@@ -6,10 +6,10 @@ use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, SceneError, Units};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::points::{BLOCK, place};
-use softstop_dynamics::spread::ToleranceBox;
 use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
 use softstop_optimize::robust::{Distribution, Settings, Tolerance, Tolerances, verify};
+use softstop_optimize::spread::ToleranceBox;
 
 use super::{Outcome, machines, press, shop, spread};
 

@@ -6,12 +6,12 @@ use softstop::Parameter;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::place;
-use softstop_dynamics::spread::{ToleranceBox, along};
 use softstop_dynamics::{CycleMetrics, Orbit, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::robust::{
     Settings, Tolerances, Worst, sensitivities, shares, verify, worst,
 };
+use softstop_optimize::spread::{ToleranceBox, along};
 
 use super::{Outcome, machines, press, shop, spread};
 

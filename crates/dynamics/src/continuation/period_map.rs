@@ -179,7 +179,10 @@ pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
 const MAX_PERIOD_WORK: u64 = 1 << 21;
 
 /// Carries a motion on by a drive period at most.
-pub(crate) fn carry_on(
+///
+/// # Errors
+/// [`MotionError`] if it cannot be computed.
+pub fn carry_on(
     motion: &mut Motion,
     until: Instant,
     observer: &mut dyn Observer,

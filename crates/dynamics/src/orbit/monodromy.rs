@@ -49,7 +49,7 @@ impl Monodromy {
     }
 
     /// The inverse of 1 - M: changes of the fixed point by what the map is moved by; none at a fold.
-    pub(crate) fn resolvent(&self) -> Option<Matrix2<f64>> {
+    pub fn resolvent(&self) -> Option<Matrix2<f64>> {
         let m = &self.matrix;
         let adjugate = Matrix2::new(1.0 - m.m22, m.m12, m.m21, 1.0 - m.m11);
         let inverse = adjugate / self.fold_test();

@@ -8,11 +8,14 @@ use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
 /// Points after which a branch is given up.
-pub(crate) const LONGEST_BRANCH: usize = 2000;
+pub const LONGEST_BRANCH: usize = 2000;
 
 /// Where stable motions end that were followed from the first of these points on; the last point is then there. Where
 /// that shows in none of the tests, as at a grazing, every special point of the branch is looked at.
-pub(crate) fn ended<F: Family>(
+///
+/// # Errors
+/// [`OrbitError`] if the branch cannot be followed.
+pub fn ended<F: Family>(
     continuation: &Continuation<'_, F>,
     points: &mut Vec<BranchPoint>,
     direction: Direction,

@@ -5,7 +5,7 @@
 mod bounds;
 mod end;
 mod find;
-mod followed_end;
+pub(crate) mod followed_end;
 mod grazing;
 mod hysteresis;
 mod loss;
@@ -17,7 +17,6 @@ mod stable_ranges;
 pub use bounds::Bounds;
 pub use end::{Loss, ZoneEnd};
 pub use find::{find, find_among, find_with_monitor, find_zones};
-pub(crate) use followed_end::{LONGEST_BRANCH, ended};
 pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_with_monitor};
 pub use loss::{end_along, loss_of_stability};
@@ -177,7 +176,9 @@ impl From<SceneError> for ZoneError {
 }
 
 /// One scene at all frequencies.
-pub(crate) struct Frequencies<'a>(pub &'a Scene);
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct Frequencies<'a>(pub &'a Scene);
 
 impl Family for Frequencies<'_> {
     fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {

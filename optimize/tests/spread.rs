@@ -3,9 +3,9 @@
 use approx::assert_relative_eq;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::spread::{PolynomialModel, Settled, ToleranceBox, along};
 use softstop_dynamics::zone::{Loss, hysteresis};
 use softstop_dynamics::{Continuation, Limits, Orbit};
+use softstop_optimize::spread::{PolynomialModel, Settled, ToleranceBox, along};
 use softstop_testing::assert_relative;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;

@@ -4,8 +4,8 @@ use nalgebra::Vector2;
 use rayon::prelude::*;
 
 use super::{PolynomialModel, Reached, Settled, ToleranceBox, along};
-use crate::orbit::{Orbit, OrbitError};
-use crate::zone::Loss;
+use softstop_dynamics::orbit::{Orbit, OrbitError};
+use softstop_dynamics::zone::Loss;
 
 /// How many times farther from where they should be other motions may be than those that are known, and so far anyway, in
 /// the scales of the motion.

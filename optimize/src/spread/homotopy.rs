@@ -1,10 +1,11 @@
 //! The z = 1 motion on a straight way out from the nominal machine.
 
-use crate::continuation::{BranchPoint, Continuation, Direction, Family};
-use crate::monitor::stop_if;
-use crate::orbit::{Orbit, OrbitError};
-use crate::zone::{Frequencies, LONGEST_BRANCH, Loss, ended};
 use softstop::{MotionError, Scene};
+use softstop_dynamics::continuation::{BranchPoint, Continuation, Direction, Family};
+use softstop_dynamics::internals::{Frequencies, LONGEST_BRANCH, ended};
+use softstop_dynamics::monitor::stop_if;
+use softstop_dynamics::orbit::{Orbit, OrbitError};
+use softstop_dynamics::zone::Loss;
 
 use super::ToleranceBox;
 

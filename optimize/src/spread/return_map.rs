@@ -4,10 +4,11 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{RowVector2, Vector2};
 
-use crate::continuation::{BranchPoint, Test, carry_on};
-use crate::orbit::Monodromy;
 use softstop::internals::{Motion, Phases};
 use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene, Start, Tangent};
+use softstop_dynamics::continuation::{BranchPoint, Test};
+use softstop_dynamics::internals::carry_on;
+use softstop_dynamics::orbit::Monodromy;
 
 /// Periods that are looked at before a motion is given up.
 const LOOKS: usize = 6;

@@ -1,11 +1,11 @@
 //! Exact derivatives by the coordinates of a spread: normals of borders, and the chain rule for all else.
 
 use super::ToleranceBox;
-use crate::continuation::{BranchPoint, Test};
-use crate::orbit::OrbitError;
-use crate::slopes::Border;
-use crate::zone::ZoneError;
 use softstop::{Parameter, Scene};
+use softstop_dynamics::continuation::{BranchPoint, Test};
+use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::slopes::Border;
+use softstop_dynamics::zone::ZoneError;
 
 /// Change of a coordinate over which the machine's parameters are differenced: exact where they are linear in it, or
 /// products of two that are.
