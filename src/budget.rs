@@ -12,16 +12,16 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(crate) const CROSSING: u64 = 64;
 /// What the derivatives at a node of a scan cost, in windows, where a window is not passed at once.
 pub(crate) const JETS: u64 = 8;
-/// What they cost at a node that is computed anew.
+/// What the derivatives at a node cost that is computed anew.
 pub(crate) const NODE: u64 = 96;
 /// What a search of a window costs, in windows, on its Taylor polynomial.
 pub(crate) const POLYNOMIAL: u64 = 128;
 /// What a halving costs, in windows: of a window whose polynomial leaves open what happens, or of a bracket in which
 /// Newton's method does not converge.
 pub(crate) const HALVING: u64 = 4;
-/// What answers to forces cost, in windows, where there is no closed form.
+/// What zero-state responses cost, in windows, where there is no closed form.
 pub(crate) const RESPONSES: u64 = 32;
-/// What they cost besides for each doubling of their time.
+/// What zero-state responses cost besides for each doubling of their time.
 pub(crate) const DOUBLING: u64 = 8;
 /// What a Taylor step costs besides, in windows, that tells how small changes go on along it.
 pub(crate) const TANGENT: u64 = 256;
@@ -62,8 +62,8 @@ pub fn charge(windows: u64) -> bool {
     left > 0
 }
 
-/// Windows that are left.
-pub fn left() -> u64 {
+/// Windows that are left of the budget of this thread.
+pub fn windows_left() -> u64 {
     LEFT.get()
 }
 
@@ -92,7 +92,7 @@ impl Default for Fork {
 
 impl Fork {
     /// Does a part, on any thread. Where the others have spent all, it has nothing: it is discarded with them.
-    pub fn part<T>(&self, work: impl FnOnce() -> T) -> T {
+    pub fn run_part<T>(&self, work: impl FnOnce() -> T) -> T {
         let is_open = self.spent.load(Ordering::Relaxed) < self.left;
         let (done, spent) = within(if is_open { self.left } else { 0 }, work);
         let add = |sum: u64| Some(sum.saturating_add(spent));
@@ -103,7 +103,7 @@ impl Fork {
     }
 
     /// Charges what all parts have cost, once they have ended.
-    pub fn join(self) {
+    pub fn charge_parts(self) {
         charge(self.spent.into_inner());
     }
 }
@@ -130,9 +130,9 @@ mod tests {
         let cost = |parts: [u64; 3]| {
             let all = || {
                 let fork = Fork::default();
-                let part = |cost| fork.part(|| charge(cost));
+                let part = |cost| fork.run_part(|| charge(cost));
                 let ends = parts.map(part);
-                fork.join();
+                fork.charge_parts();
                 (ends, is_spent())
             };
             within(10, all).0

@@ -7,7 +7,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SceneError {
     /// A parameter lies outside its range.
-    #[error("{name} = {}: must be {allowed}", plain(*value))]
+    #[error("{name} = {}: must be {allowed}", plain_number(*value))]
     OutOfRange {
         /// The parameter's name, as in TOML and in the FMU.
         name: &'static str,
@@ -20,7 +20,7 @@ pub enum SceneError {
     #[error(
         "{name} = {}: must be {bound} {} beside the other values of this machine; doubles do not resolve time scales \
          that lie farther apart",
-        plain(*value), plain(*limit)
+        plain_number(*value), plain_number(*limit)
     )]
     TimeScales {
         /// The parameter's name, as in TOML and in the FMU.
@@ -38,7 +38,7 @@ pub enum SceneError {
     /// Stops on both sides that leave no way between them.
     #[error(
         "clearance = {} and stop.below.clearance = {}: their sum, the way between both stops, must be > 0",
-        plain(*clearance), plain(*below)
+        plain_number(*clearance), plain_number(*below)
     )]
     NoWay {
         /// Clearance of the stop above in m.
@@ -64,7 +64,7 @@ pub enum SceneError {
     #[error(
         "{list}[{index}]: from = {}, stiffness = {}: the first slope must begin at 0, each further \
          one beyond the one before it, and stiffness must be finite and >= 0, both at most 1e24",
-        plain(*from), plain(*stiffness)
+        plain_number(*from), plain_number(*stiffness)
     )]
     Slope {
         /// Which of the two lists.
@@ -101,9 +101,9 @@ pub enum MachineError {
     /// A key that no machine has.
     #[error(
         "{}{key}: unknown key{}{}; known are {known}",
-        at(*line),
+        line_prefix(*line),
         did_you_mean(*meant),
-        of_turns(key, *meant)
+        rpm_hint(key, *meant)
     )]
     UnknownKey {
         /// Its line in the file.
@@ -116,7 +116,7 @@ pub enum MachineError {
         known: String,
     },
     /// A table that no file has.
-    #[error("{}[{table}]: unknown table (did you mean [{meant}]?)", at(Some(*line)))]
+    #[error("{}[{table}]: unknown table (did you mean [{meant}]?)", line_prefix(Some(*line)))]
     UnknownTable {
         /// The line of a key in it.
         line: usize,
@@ -134,7 +134,7 @@ pub enum MachineError {
         has: String,
     },
     /// A value out of its range.
-    #[error("{}{source}", at(*line))]
+    #[error("{}{source}", line_prefix(*line))]
     Value {
         /// Its line in the file.
         line: Option<usize>,
@@ -142,7 +142,7 @@ pub enum MachineError {
         source: SceneError,
     },
     /// A value that is no number.
-    #[error("{}{key} = {value}: must be a number", at(*line))]
+    #[error("{}{key} = {value}: must be a number", line_prefix(*line))]
     NotANumber {
         /// Its line in the file.
         line: Option<usize>,
@@ -152,7 +152,7 @@ pub enum MachineError {
         value: String,
     },
     /// An expression that gives no value of a parameter.
-    #[error("{}{key} = {text:?}: {what}", at(*line))]
+    #[error("{}{key} = {text:?}: {what}", line_prefix(*line))]
     Expression {
         /// Its line in the file.
         line: Option<usize>,
@@ -206,7 +206,7 @@ impl From<SceneError> for MachineError {
 }
 
 /// A number as it is, or with a power of ten if it would be long.
-pub fn plain(value: f64) -> String {
+pub fn plain_number(value: f64) -> String {
     match value.abs() {
         0.0 | 1e-5..1e16 => value.to_string(),
         size if size.is_finite() => format!("{value:e}"),
@@ -214,12 +214,13 @@ pub fn plain(value: f64) -> String {
     }
 }
 
-fn at(line: Option<usize>) -> String {
+/// The number of a line, before an error in it.
+fn line_prefix(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))
 }
 
 /// How revolutions per minute are stated, if a key in Hz is meant by one that speaks of them.
-fn of_turns(key: &str, meant: Option<&str>) -> &'static str {
+fn rpm_hint(key: &str, meant: Option<&str>) -> &'static str {
     match meant {
         Some(meant) if key.ends_with("rpm") && meant.ends_with("_hz") => {
             ": revolutions per minute over 60"

@@ -1,6 +1,6 @@
 //! A root between two ends, to a width that is asked for.
 
-/// The end of a search.
+/// A bracket of a root.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bracket {
     /// Ends between which the function changes its sign.
@@ -10,7 +10,7 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// The middle.
+    /// The middle of the bracket.
     pub fn middle(&self) -> f64 {
         0.5 * (self.ends.0 + self.ends.1)
     }
@@ -26,7 +26,7 @@ const SLACK: f64 = 1.0;
 ///
 /// # Errors
 /// The function's own.
-pub fn narrow<E>(
+pub fn narrow_root<E>(
     low: (f64, f64),
     high: (f64, f64),
     width: f64,
@@ -80,13 +80,13 @@ pub fn narrow<E>(
 
 #[cfg(test)]
 mod tests {
-    use super::narrow;
+    use super::narrow_root;
 
     type Never = std::convert::Infallible;
 
     fn evaluations(width: f64) -> usize {
         let function = |x: f64| x.exp() - 2.0;
-        let bracket = narrow::<Never>((0.0, -1.0), (1.0, function(1.0)), width, |x| {
+        let bracket = narrow_root::<Never>((0.0, -1.0), (1.0, function(1.0)), width, |x| {
             Ok(function(x))
         })
         .expect("a root");
@@ -107,7 +107,7 @@ mod tests {
     /// A jump is found as by bisection.
     #[test]
     fn a_jump_costs_no_more_than_bisection_and_one() {
-        let bracket = narrow::<Never>((0.0, -1.0), (1.0, 1e9), 2f64.powi(-30), |x| {
+        let bracket = narrow_root::<Never>((0.0, -1.0), (1.0, 1e9), 2f64.powi(-30), |x| {
             Ok(if x < 0.3 { -1.0 } else { 1e9 })
         })
         .expect("a jump");

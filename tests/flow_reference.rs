@@ -33,7 +33,7 @@ fn flow_agrees_with_forty_digits() {
         };
         let elapsed = get("elapsed");
         let drive = Drive::at(get("drive_angle") + w * elapsed);
-        let (x, v) = ArcSolution::new(&flow, departure).at(elapsed, drive);
+        let (x, v) = ArcSolution::new(&flow, departure).state_at(elapsed, drive);
         let checks = [
             (x, "expected_position", "position_sensitivity"),
             (v, "expected_velocity", "velocity_sensitivity"),

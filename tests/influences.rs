@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
-use softstop::internals::{Lowered, ParameterSensitivity};
+use softstop::internals::{ParameterSensitivity, PhaseDerivatives};
 use softstop::{Clock, CrossingKind, Parameter, Scene, Start, Trajectory};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{Meets, cases, machines, start_below};
@@ -29,7 +29,7 @@ fn after(scene: &Scene, start: Start, periods: u64) -> Option<(Vector3<f64>, Vec
 /// The exact derivative of the same by a parameter.
 fn exact(scene: &Scene, start: Start, periods: u64, parameter: Parameter) -> Option<Vector3<f64>> {
     let phases = scene.phases();
-    let by = [Lowered::by(parameter, scene, &phases).ok()?];
+    let by = [PhaseDerivatives::new(parameter, scene, &phases).ok()?];
     let mut influence = ParameterSensitivity::new(&phases, &by);
     let mut motion = scene.motion(start).ok()?;
     motion

@@ -217,7 +217,7 @@ fn assert_arcs_stay_in_their_layers(
         for k in 1..200 {
             let elapsed = arc.duration * f64::from(k) / 200.0;
             let angle = scene.excitation.frequency * (arc.start.offset + elapsed);
-            let (x, v) = arc.course.at(elapsed, Drive::at(angle));
+            let (x, v) = arc.course.state_at(elapsed, Drive::at(angle));
             let room = 1e-12 * (1.0 + x.abs());
             prop_assert!(
                 x >= low - room && x <= high + room,

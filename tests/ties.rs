@@ -141,9 +141,9 @@ fn what_is_wrong_is_named_with_its_place() -> Outcome {
     assert!(error.to_string().contains("follows itself"), "{error}");
     let machine = Machine::from_toml(UNBALANCE)?;
     assert!(matches!(
-        machine.free("clearance"),
+        machine.free_parameter("clearance"),
         Err(MachineError::Follows { .. })
     ));
-    assert!(machine.free("excitation.frequency").is_ok());
+    assert!(machine.free_parameter("excitation.frequency").is_ok());
     Ok(())
 }

@@ -4,8 +4,7 @@ use crate::flow::{ArcSolution, DEGREE, Node, Taylor};
 
 /// g = `position` x + `velocity` v + `push` q - `level`; the event is g rising through zero.
 ///
-/// q is the push per mass, p(t) + A cos(angle): the force that is not the phase's own spring or
-/// damper.
+/// q is the push per mass, p(t) + A cos(angle): the force that is not the phase's own spring or damper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guard {
     /// Weight of the position, in 1/m.
@@ -79,8 +78,8 @@ impl Guard {
         }
     }
 
-    /// -g.
-    pub(crate) fn reversed(&self) -> Self {
+    /// The guard -g.
+    pub(crate) fn negated(&self) -> Self {
         Self {
             position: -self.position,
             velocity: -self.velocity,
@@ -93,12 +92,12 @@ impl Guard {
     pub(crate) fn mirrored(&self) -> Self {
         Self {
             level: self.level,
-            ..self.reversed()
+            ..self.negated()
         }
     }
 
     /// The rounding that g may carry at a state under a push.
-    pub(super) fn rounding(&self, position: f64, velocity: f64, push: f64) -> f64 {
+    pub(super) fn rounding_at(&self, position: f64, velocity: f64, push: f64) -> f64 {
         let terms = [
             self.position * position,
             self.velocity * velocity,
@@ -114,7 +113,7 @@ impl Guard {
     }
 
     /// g at a state, for a guard that does not ask for the push.
-    pub fn value(&self, position: f64, velocity: f64) -> f64 {
+    pub fn value_at(&self, position: f64, velocity: f64) -> f64 {
         self.position * position + self.velocity * velocity - self.level
     }
 
@@ -137,7 +136,7 @@ impl Guard {
     }
 
     /// Taylor coefficients of g about the expansion point.
-    pub(crate) fn polynomial(&self, taylor: &Taylor) -> [f64; DEGREE + 1] {
+    pub(crate) fn taylor_coefficients(&self, taylor: &Taylor) -> [f64; DEGREE + 1] {
         let (x, q) = (&taylor.position, &taylor.push);
         let mut g: [f64; DEGREE + 1] =
             std::array::from_fn(|n| self.position * x[n] + self.push * q[n]);
@@ -149,4 +148,15 @@ impl Guard {
         g[0] -= self.level;
         g
     }
+}
+
+/// Which of the guards rises first, by the time of the rise of each, and when; of two at once the first.
+pub(super) fn earliest_rise(
+    guards: &[Guard],
+    rise: impl Fn(&Guard) -> Option<f64>,
+) -> Option<(usize, f64)> {
+    let rises = guards.iter().map(rise).enumerate();
+    rises
+        .filter_map(|(index, rise)| Some((index, rise?)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
 }

@@ -18,7 +18,7 @@ pub(super) struct Candidate<'a> {
     pub rounding: f64,
 }
 
-/// Value and first derivative at one point.
+/// A function at one point: its value and first derivative.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     pub at: f64,
@@ -45,33 +45,34 @@ const DEEPEST: u32 = 60;
 impl Candidate<'_> {
     /// The first s between two points at which g rises from <= 0 to > 0.
     pub fn first_rise(&self, left: Point, right: Point) -> Option<f64> {
-        let (low, high) = self.isolate(left, right, 0)?;
-        Some(self.polish(low, high))
+        let (low, high) = self.isolate_rise(left, right, 0)?;
+        Some(self.refine_rise(low, high))
     }
 
-    fn isolate(&self, left: Point, right: Point, depth: u32) -> Option<(Point, Point)> {
-        match judge(left, right, self.bound, self.rounding) {
+    /// An interval on which g rises through zero once, the first between two points, by halving.
+    fn isolate_rise(&self, left: Point, right: Point, depth: u32) -> Option<(Point, Point)> {
+        match judge_interval(left, right, self.bound, self.rounding) {
             Verdict::NoRise => None,
             Verdict::Rise => Some((left, right)),
-            Verdict::RiseFromBottom => through_zero(self.extremum(left, right), right),
-            Verdict::RiseToTop => through_zero(left, self.extremum(left, right)),
+            Verdict::RiseFromBottom => bracket_of_rise(self.extremum_between(left, right), right),
+            Verdict::RiseToTop => bracket_of_rise(left, self.extremum_between(left, right)),
             Verdict::Unknown => {
                 let middle = 0.5 * (left.at + right.at);
                 let is_smallest = middle <= left.at || middle >= right.at;
                 if depth == DEEPEST || is_smallest || !budget::charge(budget::HALVING) {
-                    return through_zero(left, right);
+                    return bracket_of_rise(left, right);
                 }
-                let middle = self.point(middle);
-                self.isolate(left, middle, depth + 1)
-                    .or_else(|| self.isolate(middle, right, depth + 1))
+                let middle = self.point_at(middle);
+                self.isolate_rise(left, middle, depth + 1)
+                    .or_else(|| self.isolate_rise(middle, right, depth + 1))
             }
         }
     }
 
-    /// The point at which g' changes its sign, once, between two points.
-    fn extremum(&self, left: Point, right: Point) -> Point {
+    /// The point between two others at which g' changes its sign, once.
+    fn extremum_between(&self, left: Point, right: Point) -> Point {
         let sign = if left.rate > 0.0 { -1.0 } else { 1.0 };
-        let derivative = self.derivative();
+        let derivative = self.derivative_coefficients();
         let at = bracketed_newton(
             (left.at, sign * left.rate),
             (right.at, sign * right.rate),
@@ -81,18 +82,18 @@ impl Candidate<'_> {
                 (sign * rate, sign * curvature)
             },
         );
-        self.point(at)
+        self.point_at(at)
     }
 
     /// The zero through which g rises between two points.
-    fn polish(&self, low: Point, high: Point) -> f64 {
-        let guess = guess(low, high);
+    fn refine_rise(&self, low: Point, high: Point) -> f64 {
+        let guess = guess_rise(low, high);
         bracketed_newton((low.at, low.value), (high.at, high.value), guess, |s| {
             evaluate(self.coefficients, s)
         })
     }
 
-    fn derivative(&self) -> [f64; DEGREE + 1] {
+    fn derivative_coefficients(&self) -> [f64; DEGREE + 1] {
         let mut rates = [0.0; DEGREE + 1];
         for (n, c) in self.coefficients.iter().enumerate().skip(1) {
             rates[n - 1] = n as f64 * c;
@@ -101,14 +102,14 @@ impl Candidate<'_> {
     }
 
     /// g and its rate at a place.
-    pub fn point(&self, at: f64) -> Point {
+    pub fn point_at(&self, at: f64) -> Point {
         let (value, rate) = evaluate(self.coefficients, at);
         Point { at, value, rate }
     }
 }
 
 /// What is proven of g between two points, with |g''''| <= `bound`.
-pub(super) fn judge(left: Point, right: Point, bound: f64, rounding: f64) -> Verdict {
+pub(super) fn judge_interval(left: Point, right: Point, bound: f64, rounding: f64) -> Verdict {
     let span = right.at - left.at;
     let third = span / 3.0;
     let square = span * span;
@@ -118,7 +119,7 @@ pub(super) fn judge(left: Point, right: Point, bound: f64, rounding: f64) -> Ver
         right.value - third * right.rate,
         right.value,
     ];
-    let (low, high) = extremes(&bernstein);
+    let (low, high) = min_and_max(&bernstein);
     let slack = bound * square * square / 384.0;
     if high + slack < 0.0 || low - slack > 0.0 {
         return Verdict::NoRise;
@@ -129,29 +130,31 @@ pub(super) fn judge(left: Point, right: Point, bound: f64, rounding: f64) -> Ver
     }
     if !slack.is_finite() {
         // The motion is about to leave the range of numbers; halving cannot help.
-        return rise_if(left, right);
+        return rise_by_ends(left, right);
     }
     // Bernstein coefficients of the interpolant's derivative, and its largest error
     // sqrt(3)/216 bound span^3 (Birkhoff and Priver 1967).
     let slopes = [left.rate, (bernstein[2] - bernstein[1]) / third, right.rate];
     let slack = 0.00802 * bound * square * span;
-    let (low, high) = extremes(&slopes);
+    let (low, high) = min_and_max(&slopes);
     if low - slack > 0.0 {
-        return rise_if(left, right);
+        return rise_by_ends(left, right);
     }
     if high + slack < 0.0 {
         return Verdict::NoRise;
     }
-    judge_curvature(left, right, slopes, bound * square / 12.0)
+    judge_by_curvature(left, right, slopes, bound * square / 12.0)
 }
 
-fn judge_curvature(left: Point, right: Point, slopes: [f64; 3], slack: f64) -> Verdict {
+/// What the sign of the curvature proves of g between two points, by the slopes of the interpolant and the error of
+/// its curvature.
+fn judge_by_curvature(left: Point, right: Point, slopes: [f64; 3], slack: f64) -> Verdict {
     let half = 0.5 * (right.at - left.at);
     let curvatures = [
         (slopes[1] - slopes[0]) / half,
         (slopes[2] - slopes[1]) / half,
     ];
-    let (low, high) = extremes(&curvatures);
+    let (low, high) = min_and_max(&curvatures);
     let turns = left.rate * right.rate < 0.0;
     if low - slack > 0.0 {
         // Convex: beyond the bottom there is at most one zero, and g rises through it.
@@ -166,7 +169,7 @@ fn judge_curvature(left: Point, right: Point, slopes: [f64; 3], slack: f64) -> V
     } else if high + slack < 0.0 {
         // Concave: g rises before the top only.
         if right.value > 0.0 || !turns {
-            rise_if(left, right)
+            rise_by_ends(left, right)
         } else {
             Verdict::RiseToTop
         }
@@ -176,16 +179,16 @@ fn judge_curvature(left: Point, right: Point, slopes: [f64; 3], slack: f64) -> V
 }
 
 /// About where g rises through zero between two points, if they tell.
-pub(super) fn guess(low: Point, high: Point) -> Option<f64> {
+pub(super) fn guess_rise(low: Point, high: Point) -> Option<f64> {
     if low.rate > 0.0 {
-        inverse_hermite(low, high)
+        zero_by_inverse_hermite(low, high)
     } else {
-        parabola(low, high)
+        zero_of_parabola(low, high)
     }
 }
 
 /// Where the cubic through both ends, taken as position over value, passes zero.
-fn inverse_hermite(low: Point, high: Point) -> Option<f64> {
+fn zero_by_inverse_hermite(low: Point, high: Point) -> Option<f64> {
     let rise = high.value - low.value;
     let span = high.at - low.at;
     let u = -low.value / rise;
@@ -196,19 +199,21 @@ fn inverse_hermite(low: Point, high: Point) -> Option<f64> {
     steep.then_some(low.at + share * span)
 }
 
-fn rise_if(left: Point, right: Point) -> Verdict {
-    if through_zero(left, right).is_some() {
+/// A rise if the values at the ends have opposite signs, where at most one is possible.
+fn rise_by_ends(left: Point, right: Point) -> Verdict {
+    if bracket_of_rise(left, right).is_some() {
         Verdict::Rise
     } else {
         Verdict::NoRise
     }
 }
 
-fn through_zero(left: Point, right: Point) -> Option<(Point, Point)> {
+/// Both points, if g rises from <= 0 to > 0 between them.
+fn bracket_of_rise(left: Point, right: Point) -> Option<(Point, Point)> {
     (left.value <= 0.0 && right.value > 0.0).then_some((left, right))
 }
 
-fn extremes(values: &[f64]) -> (f64, f64) {
+fn min_and_max(values: &[f64]) -> (f64, f64) {
     values
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
@@ -217,7 +222,7 @@ fn extremes(values: &[f64]) -> (f64, f64) {
 }
 
 /// The later zero of the parabola through both values with the first slope.
-fn parabola(low: Point, high: Point) -> Option<f64> {
+fn zero_of_parabola(low: Point, high: Point) -> Option<f64> {
     let span = high.at - low.at;
     let curvature = (high.value - low.value - low.rate * span) / (span * span);
     let root = (low.rate * low.rate - 4.0 * curvature * low.value).sqrt();

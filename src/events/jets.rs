@@ -4,7 +4,7 @@ use super::guard::Guard;
 use super::isolate::Point;
 use crate::flow::{ArcSolution, LinearLaw, Node, Window};
 
-/// Derivatives of position (0..=6) and push (0..=4) at a node.
+/// Derivatives of position (of order 0 to 6) and push (0 to 4) at a node.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Jets {
     pub node: Node,
@@ -14,11 +14,12 @@ pub(super) struct Jets {
     drive: f64,
 }
 
+/// 1/n!.
 const INVERSE_FACTORIALS: [f64; 6] = [1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0];
 
 /// Value and first derivative of a guard function at both ends of a window.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ends {
+pub(super) struct GuardEnds {
     pub left: (f64, f64),
     pub right: (f64, f64),
 }
@@ -27,7 +28,7 @@ impl Jets {
     #[inline(always)]
     pub fn new(course: &ArcSolution, node: Node) -> Self {
         let flow = &course.flow;
-        let (constant, ramp) = course.push_at(node.elapsed);
+        let (constant, ramp) = course.linear_push_at(node.elapsed);
         let (w, a) = (flow.frequency, flow.amplitude);
         let (cos, sin) = (a * node.drive.cos, a * w * node.drive.sin);
         let square = w * w;
@@ -78,13 +79,13 @@ impl Jets {
     }
 
     /// The rounding that g may carry at this node.
-    pub fn rounding(&self, guard: &Guard) -> f64 {
-        guard.rounding(self.position[0], self.position[1], self.push[0])
+    pub fn guard_rounding(&self, guard: &Guard) -> f64 {
+        guard.rounding_at(self.position[0], self.position[1], self.push[0])
     }
 
     /// g and g' at this node.
     #[inline(always)]
-    pub fn guard(&self, guard: &Guard) -> (f64, f64) {
+    pub fn guard_value_and_rate(&self, guard: &Guard) -> (f64, f64) {
         let (x, q) = (&self.position, &self.push);
         (
             guard.position * x[0] + guard.velocity * x[1] + guard.push * q[0] - guard.level,
@@ -92,9 +93,9 @@ impl Jets {
         )
     }
 
-    /// Bound on |g''| over `span` seconds from this node, as in [`Jets::bound`]. Under heavy damping
-    /// it is the sharper one: high derivatives drown in the rounding of the damper's force.
-    pub fn low_bound(&self, flow: &LinearLaw, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
+    /// Bound on |g''| over `span` seconds from this node, as [`Jets::bound_g4`] is one on |g''''|.
+    /// Under heavy damping it is the sharper one: high derivatives drown in the rounding of the damper's force.
+    pub fn bound_g2(&self, flow: &LinearLaw, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
         let x = &self.position;
         let square = flow.frequency * flow.frequency;
         let drive = self.drive * square;
@@ -111,7 +112,7 @@ impl Jets {
     /// derivative of the push, which is at most A w^4: variation of constants with the bounds on
     /// the fundamental solutions gives |x''''| <= |x4| C + |x5| S + A w^4 span S.
     #[inline(always)]
-    pub fn bound(&self, flow: &LinearLaw, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
+    pub fn bound_g4(&self, flow: &LinearLaw, guard: &Guard, span: f64, (c, s): (f64, f64)) -> f64 {
         let x = &self.position;
         let square = flow.frequency * flow.frequency;
         let drive = self.drive * square * square;
@@ -129,7 +130,7 @@ impl Jets {
     /// there, for a guard that does not ask for the push.
     pub fn stays_below(&self, flow: &LinearLaw, guard: &Guard, span: f64) -> bool {
         let [value, rate, second, third, ..] = self.guard_series(guard);
-        let fourth = self.bound(flow, guard, span, flow.window_bounds) / 24.0;
+        let fourth = self.bound_g4(flow, guard, span, flow.window_bounds) / 24.0;
         let bend = span * (second.max(0.0) + span * (third.max(0.0) + span * fourth));
         let steepest = rate + bend;
         if value == 0.0 {
@@ -140,8 +141,8 @@ impl Jets {
     }
 }
 
-impl Ends {
-    /// Those of a guard that asks for nothing but the position.
+impl GuardEnds {
+    /// Ends of a window for a guard that depends on nothing but the position.
     #[inline(always)]
     pub fn of_window(guard: &Guard, window: &Window<'_>) -> Self {
         let end = |node: &Node| {
@@ -157,8 +158,8 @@ impl Ends {
     #[inline(always)]
     pub fn new(guard: &Guard, left: &Jets, right: &Jets) -> Self {
         Self {
-            left: left.guard(guard),
-            right: right.guard(guard),
+            left: left.guard_value_and_rate(guard),
+            right: right.guard_value_and_rate(guard),
         }
     }
 
@@ -210,7 +211,7 @@ pub(crate) fn is_clear_near_start(course: &ArcSolution, guards: &[Guard], until:
     if !course.is_bounded() {
         return false;
     }
-    let jets = Jets::new(course, course.start());
+    let jets = Jets::new(course, course.start_node());
     let stays = |guard: &Guard| guard.push == 0.0 && jets.stays_below(&course.flow, guard, until);
     guards.iter().all(stays)
 }

@@ -3,19 +3,19 @@
 //! The jets of the nearer node tell about where it is; a state evaluated there lies so close to it that a
 //! short Taylor polynomial is exact.
 
-use super::Guard;
-use super::isolate::{Point, guess};
+use super::guard::Guard;
+use super::isolate::{Point, guess_rise};
 use super::jets::Jets;
 use crate::flow::{ArcSolution, Node};
 
 /// Share of a flow's reach over which a polynomial of degree 5 is exact.
 const CLOSE: f64 = 1.0 / 512.0;
-/// Looks for a state that is so close.
+/// Most states that are evaluated before one is close enough.
 const LOOKS: usize = 4;
 
 /// Time since departure, position and velocity where `guard`, which does not ask for the push, rises through zero
 /// between `left` and `right`, where it rises once at most; none if it takes more to tell.
-pub(super) fn pinpoint(
+pub(super) fn pinpoint_rise(
     course: &ArcSolution,
     guard: &Guard,
     (left, right): (&Node, &Node),
@@ -25,7 +25,7 @@ pub(super) fn pinpoint(
     let start = left.elapsed;
     let reach = course.flow.reach;
     let outer = if low.rate > 0.0 { low.at } else { high.at };
-    let first = guess(low, high).unwrap_or(outer);
+    let first = guess_rise(low, high).unwrap_or(outer);
     let nearer_right = first > 0.5 * (low.at + high.at);
     let (origin, nearer) = if nearer_right {
         (high.at, right)
@@ -33,7 +33,7 @@ pub(super) fn pinpoint(
         (low.at, left)
     };
     let series = Jets::new(course, *nearer).guard_series(guard);
-    let mut at = origin + newton(&series, first - origin, CLOSE * reach)?;
+    let mut at = origin + zero_by_newton(&series, first - origin, CLOSE * reach)?;
     for _ in 0..LOOKS {
         if !within(at) {
             return None;
@@ -44,15 +44,15 @@ pub(super) fn pinpoint(
             from,
             change,
         } = StateNearRise::new(course, guard, start, at);
-        let rest = match reverted(&series) {
+        let rest = match zero_by_reversion(&series) {
             Some(rest) => rest,
-            None => newton(&series, 0.0, 0.25 * f64::EPSILON * near.node.elapsed)?,
+            None => zero_by_newton(&series, 0.0, 0.25 * f64::EPSILON * near.node.elapsed)?,
         };
         if rest.abs() <= CLOSE * reach.min(8.0 * at) {
             let mut further = near.position_series();
             let rate = std::mem::take(&mut further[1]);
             further[0] = 0.0;
-            let (way, rise) = evaluate(&further, rest);
+            let (way, rise) = value_and_rate(&further, rest);
             let position = from.0 + (change.0 + (rate * rest + way));
             let velocity = from.1 + (change.1 + rise);
             let elapsed = near.node.elapsed + rest;
@@ -76,7 +76,7 @@ struct StateNearRise {
 }
 
 impl StateNearRise {
-    /// `at` seconds after a start.
+    /// The state `at` seconds after a start.
     fn new(course: &ArcSolution, guard: &Guard, start: f64, at: f64) -> Self {
         if start == 0.0
             && let Some((node, change)) = course.node_near_start(at)
@@ -84,7 +84,7 @@ impl StateNearRise {
             let near = Jets::new(course, node);
             let mut series = near.guard_series(guard);
             let from = (course.departure.position, course.departure.velocity);
-            let begin = guard.value(from.0, from.1);
+            let begin = guard.value_at(from.0, from.1);
             series[0] = begin + (guard.position * change.0 + guard.velocity * change.1);
             return Self {
                 near,
@@ -93,7 +93,7 @@ impl StateNearRise {
                 change,
             };
         }
-        let near = Jets::new(course, course.node(start + at));
+        let near = Jets::new(course, course.node_at(start + at));
         Self {
             series: near.guard_series(guard),
             from: (near.node.position, near.node.velocity),
@@ -105,7 +105,7 @@ impl StateNearRise {
 
 /// The zero next to 0 through which the series rises, by reverting it and, where that is not exact, one step of
 /// Newton's method that is.
-fn reverted(c: &[f64; 6]) -> Option<f64> {
+fn zero_by_reversion(c: &[f64; 6]) -> Option<f64> {
     let inverse = 1.0 / c[1];
     let [a, b, d] = [c[2], c[3], c[4]].map(|c| c * inverse);
     let s = -c[0] * inverse;
@@ -120,7 +120,7 @@ fn reverted(c: &[f64; 6]) -> Option<f64> {
     if size <= SMALL {
         return Some(rest);
     }
-    let (value, rate) = evaluate(c, rest);
+    let (value, rate) = value_and_rate(c, rest);
     Some(rest - value / rate)
 }
 
@@ -131,10 +131,10 @@ const MODEST: f64 = 1.0 / (1u64 << 7) as f64;
 
 /// Newton's method from `at` to a zero through which the series rises, until a next step, foreseen from the
 /// last two as for quadratic convergence, would be below `grain`.
-fn newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
+fn zero_by_newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
     let mut last = f64::INFINITY;
     for _ in 0..MOST_STEPS {
-        let (value, rate) = evaluate(series, at);
+        let (value, rate) = value_and_rate(series, at);
         let step = value / rate;
         at -= step;
         if !(rate > 0.0 && step.abs() < last) {
@@ -149,11 +149,12 @@ fn newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
     None
 }
 
+/// Most steps of Newton's method.
 const MOST_STEPS: usize = 8;
 
-/// Value and first derivative.
+/// Value and first derivative of a polynomial of degree 5.
 #[inline]
-fn evaluate(c: &[f64; 6], s: f64) -> (f64, f64) {
+fn value_and_rate(c: &[f64; 6], s: f64) -> (f64, f64) {
     let square = s * s;
     let value = (c[0] + c[1] * s) + square * ((c[2] + c[3] * s) + square * (c[4] + c[5] * s));
     let rate =

@@ -1,11 +1,11 @@
 //! Arithmetic expressions of named values, with exact derivatives by the chain rule.
 
+mod operations;
 mod parser;
-mod step;
 
+use operations::Step;
+pub use operations::{Differentiated, chained};
 use parser::Parser;
-use step::Step;
-pub use step::{Differentiated, chained};
 
 /// Characters of an expression at most.
 const MAX_LENGTH: usize = 1000;
@@ -26,11 +26,11 @@ impl Expression {
         if text.chars().count() > MAX_LENGTH {
             return Err(format!("has more than {MAX_LENGTH} characters"));
         }
-        let (steps, names) = Parser::read(text)?;
+        let (steps, names) = Parser::parse(text)?;
         Ok(Self { steps, names })
     }
 
-    /// A number.
+    /// The expression that is a number.
     pub(crate) fn constant(value: f64) -> Self {
         Self {
             steps: vec![Step::Number(value)],
@@ -43,8 +43,8 @@ impl Expression {
         &self.names
     }
 
-    /// Its value, and its derivatives by the named values.
-    pub fn at(&self, values: &[f64]) -> Differentiated {
+    /// The value of the expression, and its derivatives by the named values.
+    pub fn eval(&self, values: &[f64]) -> Differentiated {
         let mut stack: Vec<Differentiated> = Vec::new();
         let constant = |value| Differentiated {
             value,
@@ -53,10 +53,10 @@ impl Expression {
         for step in &self.steps {
             let last = stack.pop();
             match (*step, last) {
-                (Step::Unary(of), Some(last)) => stack.push(of.at(&last)),
+                (Step::Unary(of), Some(last)) => stack.push(of.apply(&last)),
                 (Step::Binary(of), Some(last)) => {
                     let first = stack.pop();
-                    stack.extend(first.map(|first| of.at(&first, &last)));
+                    stack.extend(first.map(|first| of.apply(&first, &last)));
                 }
                 (step, last) => {
                     stack.extend(last);
@@ -118,7 +118,7 @@ mod tests {
             let indices: Option<Vec<usize>> = expression.names().iter().map(named).collect();
             let indices = indices.ok_or(text)?;
             let values: Vec<f64> = indices.iter().map(|index| given[*index].1).collect();
-            let found = expression.at(&values);
+            let found = expression.eval(&values);
             assert!((found.value - value).abs() < 1e-12, "{text}");
             for (own, by) in indices.iter().map(|index| by[*index]).zip(found.by) {
                 assert!((own - by).abs() < 1e-12, "{text}");
@@ -131,11 +131,11 @@ mod tests {
     fn what_has_no_value_has_none_of_its_maximum() -> Result<(), String> {
         for text in ["max(ln(-1), 3)", "max(3, ln(-1))", "min(3, x)", "min(x, 3)"] {
             assert!(
-                Expression::parse(text)?.at(&[f64::NAN]).value.is_nan(),
+                Expression::parse(text)?.eval(&[f64::NAN]).value.is_nan(),
                 "{text}"
             );
         }
-        let power = Expression::parse("x^0")?.at(&[0.0]);
+        let power = Expression::parse("x^0")?.eval(&[0.0]);
         assert_eq!((power.value, power.by[0]), (1.0, 0.0));
         Ok(())
     }

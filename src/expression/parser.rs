@@ -8,7 +8,7 @@
 //! atom    = number | name | "(" sum ")" | function "(" sum { "," sum } ")"
 //! ```
 
-use super::step::{Binary, Step, Unary};
+use super::operations::{Binary, Step, Unary};
 
 /// The functions that an expression may call.
 const FUNCTIONS: [(&str, Step); 6] = [
@@ -37,14 +37,14 @@ impl<'a> Parser<'a> {
     ///
     /// # Errors
     /// What is wrong where, in words.
-    pub fn read(text: &'a str) -> Result<(Vec<Step>, Vec<String>), String> {
+    pub fn parse(text: &'a str) -> Result<(Vec<Step>, Vec<String>), String> {
         let mut parser = Self {
             rest: text.trim_start(),
             steps: Vec::new(),
             names: Vec::new(),
             depth: 0,
         };
-        parser.sum()?;
+        parser.parse_sum()?;
         match parser.rest {
             "" => Ok((parser.steps, parser.names)),
             _ => Err(parser.unexpected("an operator")),
@@ -52,14 +52,14 @@ impl<'a> Parser<'a> {
     }
 
     /// Takes a sign, if it is one of these, and the space behind it.
-    fn sign(&mut self, signs: &[char]) -> Option<char> {
+    fn take_sign(&mut self, signs: &[char]) -> Option<char> {
         let sign = self.rest.chars().next().filter(|it| signs.contains(it))?;
-        self.take(sign.len_utf8());
+        self.take_bytes(sign.len_utf8());
         Some(sign)
     }
 
     /// Takes so many bytes and the space behind them.
-    fn take(&mut self, bytes: usize) -> &'a str {
+    fn take_bytes(&mut self, bytes: usize) -> &'a str {
         let (taken, rest) = self.rest.split_at(bytes);
         self.rest = rest.trim_start();
         taken
@@ -72,22 +72,22 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn push(&mut self, step: Step) {
+    fn push_step(&mut self, step: Step) {
         self.steps.push(step);
     }
 
-    fn sum(&mut self) -> Result<(), String> {
+    fn parse_sum(&mut self) -> Result<(), String> {
         self.depth += 1;
         if self.depth > DEEPEST {
             return Err(format!(
                 "has more than {DEEPEST} brackets within each other"
             ));
         }
-        self.product()?;
-        while let Some(sign) = self.sign(&['+', '-']) {
-            self.product()?;
+        self.parse_product()?;
+        while let Some(sign) = self.take_sign(&['+', '-']) {
+            self.parse_product()?;
             let is_sum = sign == '+';
-            self.push(Step::Binary(if is_sum {
+            self.push_step(Step::Binary(if is_sum {
                 Binary::Plus
             } else {
                 Binary::Minus
@@ -97,12 +97,12 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn product(&mut self) -> Result<(), String> {
-        self.signed()?;
-        while let Some(sign) = self.sign(&['*', '/']) {
-            self.signed()?;
+    fn parse_product(&mut self) -> Result<(), String> {
+        self.parse_signed()?;
+        while let Some(sign) = self.take_sign(&['*', '/']) {
+            self.parse_signed()?;
             let is_product = sign == '*';
-            self.push(Step::Binary(if is_product {
+            self.push_step(Step::Binary(if is_product {
                 Binary::Times
             } else {
                 Binary::Over
@@ -111,29 +111,29 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn signed(&mut self) -> Result<(), String> {
+    fn parse_signed(&mut self) -> Result<(), String> {
         let mut is_negative = false;
-        while let Some(sign) = self.sign(&['+', '-']) {
+        while let Some(sign) = self.take_sign(&['+', '-']) {
             is_negative ^= sign == '-';
         }
-        self.atom()?;
-        if self.sign(&['^']).is_some() {
-            self.signed()?;
-            self.push(Step::Binary(Binary::Power));
+        self.parse_atom()?;
+        if self.take_sign(&['^']).is_some() {
+            self.parse_signed()?;
+            self.push_step(Step::Binary(Binary::Power));
         }
         if is_negative {
-            self.push(Step::Unary(Unary::Minus));
+            self.push_step(Step::Unary(Unary::Minus));
         }
         Ok(())
     }
 
-    fn atom(&mut self) -> Result<(), String> {
-        if self.sign(&['(']).is_some() {
-            self.sum()?;
-            return self.close();
+    fn parse_atom(&mut self) -> Result<(), String> {
+        if self.take_sign(&['(']).is_some() {
+            self.parse_sum()?;
+            return self.take_closing();
         }
-        if let Some(number) = self.number()? {
-            self.push(Step::Number(number));
+        if let Some(number) = self.parse_number()? {
+            self.push_step(Step::Number(number));
             return Ok(());
         }
         let is_of_name = |it: char| it.is_alphanumeric() || it == '_' || it == '.';
@@ -142,53 +142,53 @@ impl<'a> Parser<'a> {
         if length == 0 {
             return Err(self.unexpected("a number, a name or a bracket"));
         }
-        let name = self.take(length);
+        let name = self.take_bytes(length);
         match self.rest.starts_with('(') {
-            true => self.call(name),
+            true => self.parse_call(name),
             false => {
-                self.name(name);
+                self.push_name(name);
                 Ok(())
             }
         }
     }
 
-    fn name(&mut self, name: &str) {
+    fn push_name(&mut self, name: &str) {
         let names = &mut self.names;
         let known = names.iter().position(|it| it == name);
         let index = known.unwrap_or_else(|| {
             names.push(name.to_owned());
             names.len() - 1
         });
-        self.push(Step::Name(index));
+        self.push_step(Step::Name(index));
     }
 
-    fn call(&mut self, name: &str) -> Result<(), String> {
+    fn parse_call(&mut self, name: &str) -> Result<(), String> {
         let known = FUNCTIONS.iter().find(|(own, _)| *own == name);
         let Some((_, step)) = known else {
             let known = FUNCTIONS.map(|(own, _)| own).join(", ");
             return Err(format!("has no function {name}; known are {known}"));
         };
-        self.sign(&['(']);
-        self.sum()?;
+        self.take_sign(&['(']);
+        self.parse_sum()?;
         if matches!(step, Step::Binary(_)) {
-            if self.sign(&[',']).is_none() {
+            if self.take_sign(&[',']).is_none() {
                 return Err(self.unexpected("a comma"));
             }
-            self.sum()?;
+            self.parse_sum()?;
         }
-        self.push(*step);
-        self.close()
+        self.push_step(*step);
+        self.take_closing()
     }
 
-    fn close(&mut self) -> Result<(), String> {
-        match self.sign(&[')']) {
+    fn take_closing(&mut self) -> Result<(), String> {
+        match self.take_sign(&[')']) {
             Some(_) => Ok(()),
             None => Err(self.unexpected("a closing bracket")),
         }
     }
 
     /// Takes a number, if one stands here.
-    fn number(&mut self) -> Result<Option<f64>, String> {
+    fn parse_number(&mut self) -> Result<Option<f64>, String> {
         let is_start = |it: char| it.is_ascii_digit() || it == '.';
         if !self.rest.starts_with(is_start) {
             return Ok(None);
@@ -202,7 +202,7 @@ impl<'a> Parser<'a> {
         let text = &self.rest[..length];
         let number = text.parse::<f64>().ok().filter(|it| it.is_finite());
         let number = number.ok_or_else(|| format!("has {text:?}, which is no number"))?;
-        self.take(length);
+        self.take_bytes(length);
         Ok(Some(number))
     }
 }

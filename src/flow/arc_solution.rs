@@ -1,15 +1,16 @@
-//! One motion along a flow, from one departure.
+//! The exact motion of one arc, from its departure on.
 
 use std::sync::Arc;
 
 use nalgebra::Vector2;
 
-use super::near_start::near_start;
-use super::particular::Particular;
-use super::place::Node;
-use super::response::Responses;
+use super::departure::Node;
+use super::linear_law::LARGEST_LOSS;
+use super::near_start::change_near_start;
+use super::particular_solution::ParticularSolution;
 use super::taylor::linear_push_series;
-use super::{Chatter, Departure, Drive, Hertz, LARGEST_LOSS, LinearLaw, Taylor, TaylorStep};
+use super::zero_state_responses::ZeroStateResponses;
+use super::{Chatter, Departure, Drive, Hertz, LinearLaw, Taylor, TaylorStep};
 
 /// The exact motion that follows from a departure.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,9 +25,9 @@ pub struct ArcSolution {
 /// How states are evaluated; those of a linear law beyond the reach of one Taylor polynomial.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
-    /// Particular solution plus the free deviation from it at departure.
+    /// ParticularSolution solution plus the free deviation from it at departure.
     Particular {
-        particular: Particular,
+        particular: ParticularSolution,
         deviation: Vector2<f64>,
     },
     /// Answers from rest, by doubling.
@@ -43,11 +44,11 @@ impl Form {
     fn new(flow: &LinearLaw, departure: &Departure) -> Self {
         match flow.steady {
             _ if !departure.push.is_linear() => {
-                Self::TaylorStep(Arc::new(TaylorStep::pushed(flow, departure, 0.0)))
+                Self::TaylorStep(Arc::new(TaylorStep::of_linear_law(flow, departure, 0.0)))
             }
             Some(steady) if is_well_conditioned(flow, departure) => {
-                let particular = Particular::new(flow, departure, steady);
-                let (x, v) = particular.at(0.0, departure.drive);
+                let particular = ParticularSolution::new(flow, departure, steady);
+                let (x, v) = particular.state_at(0.0, departure.drive);
                 let deviation = Vector2::new(departure.position - x, departure.velocity - v);
                 Self::Particular {
                     particular,
@@ -62,17 +63,17 @@ impl Form {
 impl ArcSolution {
     /// The motion of `flow` from `departure`; under a push of degree 2 or higher, one step of it.
     pub fn new(flow: &LinearLaw, departure: Departure) -> Self {
-        Self::of(flow, departure, Form::new(flow, &departure))
+        Self::with_form(flow, departure, Form::new(flow, &departure))
     }
 
-    /// Replaces this one by the motion from another departure.
-    pub(crate) fn renew(&mut self, flow: &LinearLaw, departure: Departure) {
+    /// Replaces this motion by that of `flow` from another departure.
+    pub(crate) fn restart(&mut self, flow: &LinearLaw, departure: Departure) {
         self.form = Form::new(flow, &departure);
         self.flow = *flow;
         self.departure = departure;
     }
 
-    fn of(flow: &LinearLaw, departure: Departure, form: Form) -> Self {
+    fn with_form(flow: &LinearLaw, departure: Departure, form: Form) -> Self {
         Self {
             flow: *flow,
             departure,
@@ -80,21 +81,21 @@ impl ArcSolution {
         }
     }
 
-    /// The next step of `flow`, where rounding took `low` from the position.
-    pub(crate) fn resumed(flow: &LinearLaw, departure: Departure, low: f64) -> Self {
-        let segment = TaylorStep::pushed(flow, &departure, low);
-        Self::of(flow, departure, Form::TaylorStep(Arc::new(segment)))
+    /// The next Taylor step of `flow`, where rounding took `low` from the position.
+    pub(crate) fn next_step(flow: &LinearLaw, departure: Departure, low: f64) -> Self {
+        let segment = TaylorStep::of_linear_law(flow, &departure, low);
+        Self::with_form(flow, departure, Form::TaylorStep(Arc::new(segment)))
     }
 
-    /// One step of `flow` together with a power law, from `deflection` m beyond its face, in the place of this one.
-    pub(crate) fn renew_nonlinear(
+    /// Replaces this motion by one step of `flow` together with a power law, from `deflection` m beyond its face.
+    pub(crate) fn restart_nonlinear(
         &mut self,
         flow: &LinearLaw,
         hertz: &Hertz,
         departure: Departure,
         deflection: f64,
     ) {
-        let segment = TaylorStep::new(flow, hertz, &departure, deflection);
+        let segment = TaylorStep::of_contact(flow, hertz, &departure, deflection);
         if let Form::TaylorStep(before) = &mut self.form
             && let Some(place) = Arc::get_mut(before)
         {
@@ -108,11 +109,11 @@ impl ArcSolution {
 
     /// The last bounces on a rigid stop at the departure's position.
     pub(crate) fn chattering(flow: &LinearLaw, departure: Departure, chatter: Chatter) -> Self {
-        Self::of(flow, departure, Form::Chatter(chatter))
+        Self::with_form(flow, departure, Form::Chatter(chatter))
     }
 
     /// The Taylor step that the motion is followed in, if it is.
-    pub(crate) fn segment(&self) -> Option<&TaylorStep> {
+    pub(crate) fn taylor_step(&self) -> Option<&TaylorStep> {
         match &self.form {
             Form::TaylorStep(segment) => Some(segment),
             _ => None,
@@ -124,7 +125,7 @@ impl ArcSolution {
         self.chatter().is_some()
     }
 
-    /// The bounces summed.
+    /// The last bounces on a rigid stop, if it is those, summed.
     pub(crate) fn chatter(&self) -> Option<&Chatter> {
         match &self.form {
             Form::Chatter(chatter) => Some(chatter),
@@ -132,19 +133,18 @@ impl ArcSolution {
         }
     }
 
-    /// A mass held at the departure's position while the drive turns; under a push of degree 2 or
-    /// higher, for one step.
+    /// A mass held at the departure's position while the drive turns; under a push of degree 2 or higher, for one step.
     pub fn held(flow: &LinearLaw, departure: Departure) -> Self {
         let form = if departure.push.is_linear() {
             Form::Held
         } else {
-            Form::TaylorStep(Arc::new(TaylorStep::held(flow, &departure)))
+            Form::TaylorStep(Arc::new(TaylorStep::of_held_mass(flow, &departure)))
         };
-        Self::of(flow, departure, form)
+        Self::with_form(flow, departure, form)
     }
 
     /// True if a state anywhere costs no more than a few elementary functions.
-    pub(crate) fn is_quick(&self) -> bool {
+    pub(crate) fn is_closed_form(&self) -> bool {
         matches!(self.form, Form::Particular { .. })
     }
 
@@ -162,23 +162,22 @@ impl ArcSolution {
         }
     }
 
-    /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive
-    /// stands at `drive`.
-    pub fn at(&self, elapsed: f64, drive: Drive) -> (f64, f64) {
+    /// Position in m and velocity in m/s, `elapsed` >= 0 seconds after departure, when the drive stands at `drive`.
+    pub fn state_at(&self, elapsed: f64, drive: Drive) -> (f64, f64) {
         match &self.form {
             Form::Held => return (self.departure.position, 0.0),
             Form::TaylorStep(_) if elapsed <= 0.0 => {
                 return (self.departure.position, self.departure.velocity);
             }
-            Form::TaylorStep(segment) => return segment.state(elapsed),
+            Form::TaylorStep(segment) => return segment.state_after(elapsed),
             Form::Chatter(chatter) => {
-                let (distance, velocity) = chatter.at(elapsed);
+                let (distance, velocity) = chatter.state_after(elapsed);
                 return (self.departure.position + distance, velocity);
             }
             Form::Particular { .. } | Form::Responses => {}
         }
         if elapsed <= 0.5 * self.flow.reach {
-            let (way, rise) = near_start(&self.flow, &self.departure, elapsed);
+            let (way, rise) = change_near_start(&self.flow, &self.departure, elapsed);
             return (
                 self.departure.position + way,
                 self.departure.velocity + rise,
@@ -189,23 +188,25 @@ impl ArcSolution {
                 particular,
                 deviation,
             } => {
-                let (x, v) = particular.at(elapsed, drive);
-                let free = self.flow.modes.at(elapsed) * deviation;
+                let (x, v) = particular.state_at(elapsed, drive);
+                let free = self.flow.modes.transition(elapsed) * deviation;
                 (x + free.x, v + free.y)
             }
             _ => match self.flow.late {
                 Some((steady, settled)) if elapsed >= settled => {
-                    Particular::new(&self.flow, &self.departure, steady).at(elapsed, drive)
+                    ParticularSolution::new(&self.flow, &self.departure, steady)
+                        .state_at(elapsed, drive)
                 }
-                _ => self.by_responses(elapsed),
+                _ => self.state_by_responses(elapsed),
             },
         }
     }
 
-    fn by_responses(&self, elapsed: f64) -> (f64, f64) {
+    /// Position and velocity of a linear law by its zero-state responses.
+    fn state_by_responses(&self, elapsed: f64) -> (f64, f64) {
         let (from, flow) = (&self.departure, &self.flow);
-        let free = flow.modes.at(elapsed) * Vector2::new(from.position, from.velocity);
-        let answers = Responses::at(&flow.modes, flow.frequency, elapsed);
+        let free = flow.modes.transition(elapsed) * Vector2::new(from.position, from.velocity);
+        let answers = ZeroStateResponses::after_time(&flow.modes, flow.frequency, elapsed);
         let Drive { cos, sin } = from.drive;
         let state = free
             + (from.push.value() * answers.constant
@@ -214,18 +215,18 @@ impl ArcSolution {
         (state.x, state.y)
     }
 
-    /// Value and rate of a linear push per mass, seen from a node.
-    pub(crate) fn push_at(&self, elapsed: f64) -> (f64, f64) {
+    /// Value and rate of a linear push per mass, `elapsed` seconds after departure.
+    pub(crate) fn linear_push_at(&self, elapsed: f64) -> (f64, f64) {
         let push = &self.departure.push;
         (push.value() + push.rate() * elapsed, push.rate())
     }
 
     /// Taylor polynomials about a node.
     pub(crate) fn expand(&self, node: &Node) -> Taylor {
-        let push = linear_push_series(&self.flow, node.drive, self.push_at(node.elapsed));
-        let taylor = Taylor::under(&self.flow, (node.position, node.velocity), push);
+        let push = linear_push_series(&self.flow, node.drive, self.linear_push_at(node.elapsed));
+        let taylor = Taylor::expand(&self.flow, (node.position, node.velocity), push);
         match self.departure.acceleration {
-            _ if self.is_held() => taylor.at_rest(node.position),
+            _ if self.is_held() => taylor.held_at(node.position),
             Some(acceleration) if node.elapsed == 0.0 => {
                 taylor.with_acceleration(&self.flow, acceleration)
             }
@@ -256,9 +257,9 @@ impl ArcSolution {
             Form::Particular { particular, .. } if particular.slope == 0.0 => {
                 let (y, rate) = node.deviation;
                 let steady = particular.cosine.hypot(particular.sine);
-                around(
+                widened_interval(
                     particular.offset,
-                    steady + self.flow.modes.envelope(y, rate),
+                    steady + self.flow.modes.amplitude_bound(y, rate),
                 )
             }
             _ => (f64::NEG_INFINITY, f64::INFINITY),
@@ -269,10 +270,24 @@ impl ArcSolution {
     pub(crate) fn push_range(&self) -> (f64, f64) {
         let push = &self.departure.push;
         if push.rate() == 0.0 {
-            around(push.value(), self.flow.amplitude)
+            widened_interval(push.value(), self.flow.amplitude)
         } else {
             (f64::NEG_INFINITY, f64::INFINITY)
         }
+    }
+
+    /// The push per mass in m/s^2, `elapsed` seconds after departure.
+    pub(crate) fn push(&self, elapsed: f64) -> f64 {
+        if let Form::TaylorStep(segment) = &self.form {
+            return segment.push_at(segment.sigma_after(elapsed));
+        }
+        self.linear_push_at(elapsed).0 + self.flow.amplitude * self.drive_at(elapsed).cos
+    }
+
+    /// The drive `elapsed` seconds after departure.
+    pub(super) fn drive_at(&self, elapsed: f64) -> Drive {
+        let turn = Drive::at(self.flow.frequency * elapsed);
+        self.departure.drive.turned(turn)
     }
 }
 
@@ -280,7 +295,7 @@ impl ArcSolution {
 const MODEST: f64 = 1e100;
 
 /// An interval, widened by more than the rounding of its ends.
-fn around(centre: f64, radius: f64) -> (f64, f64) {
+fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {
     let slack = 1e-12 * (centre.abs() + radius);
     (centre - radius - slack, centre + radius + slack)
 }

@@ -1,4 +1,4 @@
-//! The last bounces on a rigid stop, infinitely many in a finite time, summed.
+//! The sum of the last bounces on a rigid stop, infinitely many in a finite time.
 //!
 //! Pressed onto the stop with the acceleration A, a mass that leaves it with the speed w is back after
 //! 2 w / A and leaves with R w: the bounces end after T = 2 w / (A (1 - R)). Under dry friction the way
@@ -53,14 +53,13 @@ pub(crate) struct Pressing {
     pub stiffness: f64,
     /// Drive period in s.
     pub period: f64,
-    /// Rounding in m of the position at which another law takes over; none if one law holds on both
-    /// ways.
+    /// Rounding in m of the position at which another law takes over; none if one law holds on both ways.
     pub grain: Option<f64>,
 }
 
 impl Pressing {
     /// Bound in m/s^2 on what the push changes by within `duration`.
-    fn drift(&self, duration: f64) -> f64 {
+    fn push_change(&self, duration: f64) -> f64 {
         (self.drive_rate + self.push.largest_rate(duration)) * duration
     }
 }
@@ -83,7 +82,7 @@ impl Chatter {
             ratio,
         };
         let change = |sum: &Self| {
-            2.0 * (by.drift(sum.duration) + by.damping * speed + by.stiffness * height)
+            2.0 * (by.push_change(sum.duration) + by.damping * speed + by.stiffness * height)
         };
         let ratio = restitution * (back / out).sqrt();
         let sum = Some(series(ratio)).filter(|_| ratio < 1.0);
@@ -95,13 +94,13 @@ impl Chatter {
         let rough = |sum: &Self| low(ROUGH) && change(sum) <= STEADY * weakest;
         // What is lost in rounding: a series that the push outlasts, or else a last bounce.
         let lost = || {
-            let steady = |sum: &Self| by.drift(sum.duration) <= STEADY * weakest;
+            let steady = |sum: &Self| by.push_change(sum.duration) <= STEADY * weakest;
             low(FINEST).then(|| sum.filter(steady).unwrap_or(series(0.0)))
         };
         sum.filter(|sum| exact(sum) || rough(sum)).or_else(lost)
     }
 
-    /// It on a stop above, by 1, or below, by -1.
+    /// These bounces on a stop above, by 1, or below, by -1.
     pub fn on_side(self, side: f64) -> Self {
         let (out, back) = self.accelerations;
         Self {
@@ -111,9 +110,8 @@ impl Chatter {
         }
     }
 
-    /// Position in m, counted from the stop, and velocity in m/s, `elapsed` seconds after the first
-    /// departure.
-    pub fn at(&self, elapsed: f64) -> (f64, f64) {
+    /// Position in m, counted from the stop, and velocity in m/s, `elapsed` seconds after the first departure.
+    pub fn state_after(&self, elapsed: f64) -> (f64, f64) {
         let left = 1.0 - elapsed / self.duration;
         if left <= 0.0 {
             return (0.0, 0.0);
@@ -161,12 +159,12 @@ mod tests {
         let first = 1e-9 * (1.0 / 2.0 + 1.0 / 3f64.sqrt());
         let ratio = 0.6 * (1.5f64 / 2.0).sqrt();
         for share in [0.1, 0.3, 0.7, 0.99] {
-            let (x, v) = chatter.at(share * first);
-            let (y, u) = chatter.at(first * (1.0 + ratio * share));
+            let (x, v) = chatter.state_after(share * first);
+            let (y, u) = chatter.state_after(first * (1.0 + ratio * share));
             assert!((y - ratio * ratio * x).abs() < 1e-12 * x.abs());
             assert!((u - ratio * v).abs() < 1e-6 * 1e-9);
         }
-        assert_eq!(chatter.at(chatter.duration), (0.0, 0.0));
+        assert_eq!(chatter.state_after(chatter.duration), (0.0, 0.0));
     }
 
     #[test]

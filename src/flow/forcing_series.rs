@@ -12,7 +12,7 @@ impl ForcingSeries {
     /// None if there is no such part.
     pub fn new(force: &Polynomial) -> Option<Self> {
         (!force.is_linear()).then(|| {
-            let curved = force.with(0, 0.0).with(1, 0.0);
+            let curved = force.with_derivative(0, 0.0).with_derivative(1, 0.0);
             Self(curved.derivatives().map(|derivative| {
                 let mut series = ZERO;
                 series[0] = derivative;

@@ -1,4 +1,4 @@
-//! Gauss's rule over a stretch of time.
+//! Gauss's quadrature rule.
 
 /// Nodes and weights of the eight-point Gauss rule on [-1, 1] (Abramowitz and Stegun, table 25.4). Over one Taylor
 /// reach its error on the products of force and velocity is under 1e-17.
@@ -16,4 +16,18 @@ const EIGHT: [(f64, f64); 8] = [
 /// The eight-point rule's nodes and weights on [0, `span`].
 pub(crate) fn gauss_nodes(span: f64) -> [(f64, f64); 8] {
     EIGHT.map(|(place, weight)| (0.5 * span * (1.0 + place), 0.5 * span * weight))
+}
+
+/// The integral between two times of a function that oscillates no faster than with `rate` in rad/s.
+pub(crate) fn integrate((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let panels = (rate * (to - from)).ceil().max(1.0);
+    let width = (to - from) / panels;
+    let mut sum = 0.0;
+    for panel in 0..panels as u64 {
+        let start = from + width * panel as f64;
+        for (time, weight) in gauss_nodes(width) {
+            sum += weight * value(start + time);
+        }
+    }
+    sum
 }

@@ -37,7 +37,7 @@ impl Hertz {
         self.side * (position - self.origin)
     }
 
-    /// It seen on a side: 1 as it is, -1 with positions counted the other way.
+    /// This law seen on a side: 1 as it is, -1 with positions counted the other way.
     pub(crate) fn on_side(self, side: f64) -> Self {
         Self {
             origin: side * self.origin,
@@ -46,15 +46,15 @@ impl Hertz {
         }
     }
 
-    /// 1 + lambda d', not below zero.
-    pub(crate) fn grip(&self, velocity: f64) -> f64 {
+    /// 1 + lambda d', not below zero, at a velocity.
+    pub(crate) fn dissipation_factor(&self, velocity: f64) -> f64 {
         (1.0 + self.dissipation * (self.side * velocity)).max(0.0)
     }
 
     /// Force in N against the direction of the position.
     pub fn force(&self, position: f64, velocity: f64) -> f64 {
         let depth = self.deflection(position).max(0.0);
-        let force = self.stiffness * depth.powf(self.exponent) * self.grip(velocity);
+        let force = self.stiffness * depth.powf(self.exponent) * self.dissipation_factor(velocity);
         self.side * force
     }
 
@@ -68,7 +68,7 @@ impl Hertz {
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m while it presses.
     pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
         let depth = self.deflection(position).max(0.0);
-        let grip = self.grip(velocity);
+        let grip = self.dissipation_factor(velocity);
         let steepness = self.stiffness * self.exponent * depth.powf(self.exponent - 1.0);
         let damping = self.stiffness * depth.powf(self.exponent) * self.dissipation;
         (steepness * grip, damping)
@@ -78,7 +78,7 @@ impl Hertz {
     /// zero at the face, where they may not exist.
     pub fn curvatures(&self, position: f64, velocity: f64) -> (f64, f64) {
         let (depth, n) = (self.deflection(position), self.exponent);
-        let grip = self.grip(velocity);
+        let grip = self.dissipation_factor(velocity);
         if depth <= 0.0 || grip <= 0.0 {
             return (0.0, 0.0);
         }
@@ -93,8 +93,8 @@ impl Hertz {
         [2.0, 3.0, 4.0, 5.0].into_iter().find(is_whole)
     }
 
-    /// Force per mass and per d^n (1 + lambda v).
-    pub(super) fn rate(&self) -> f64 {
+    /// The factor of d^n (1 + lambda v) in the force per mass, kappa.
+    pub(super) fn factor(&self) -> f64 {
         self.stiffness / self.mass
     }
 }

@@ -1,11 +1,12 @@
-//! The linear equation that small changes along a Taylor step obey.
+//! The variational equation along a Taylor step.
 
-use super::pairs::Products;
-use super::series::{Series, ZERO, integral, power, product};
+use super::products::Products;
+use super::series::{Series, ZERO, integral, power_series, product};
 use super::taylor::{DEGREE, RECIPROCALS};
 use super::taylor_step::TaylorStep;
 
-/// With y the change of the position and u that of the velocity, by sigma, r = d(time)/d(sigma):
+/// The equation of the change y of the position and the change u of the velocity, by sigma; r = d(time)/d(sigma), d and
+/// v deflection and velocity, 2 a and b linear damping and stiffness, kappa, lambda and n those of the power law:
 ///
 /// ```text
 /// y' = r u    u' = force - 2 a r u - kappa lambda d^n r u - (b + kappa n d^(n-1) (1 + lambda v)) r y
@@ -22,23 +23,23 @@ pub(super) struct Linearized {
 }
 
 impl Linearized {
-    pub fn of(step: &TaylorStep) -> Self {
-        let (rate, hertz) = (step.rate(), &step.hertz);
+    pub fn along_step(step: &TaylorStep) -> Self {
+        let (rate, hertz) = (step.time_rate_series(), &step.hertz);
         let mut stiffness = rate.map(|rate| step.stiffness * rate);
         let mut grip = None;
         if step.is_pressed {
-            let (kappa, n) = (hertz.rate(), hertz.exponent);
+            let (kappa, n) = (hertz.factor(), hertz.exponent);
             // d^(n-1) r
             let mut steepness = match &step.stretch {
                 // Of a sphere it is the deflection.
                 Some(stretch) if stretch.index * n - 1.0 == stretch.index => step.depth,
-                Some(stretch) => power(&stretch.root, stretch.index * n - 1.0),
-                None => power(&step.depth, n - 1.0),
+                Some(stretch) => power_series(&stretch.root, stretch.index * n - 1.0),
+                None => power_series(&step.depth, n - 1.0),
             };
             if hertz.dissipation > 0.0 {
                 let factor = kappa * hertz.dissipation;
                 grip = Some(product(&steepness, &step.depth).map(|power| factor * power));
-                let damped = product(&steepness, &step.velocity());
+                let damped = product(&steepness, &step.velocity_series());
                 for (steepness, damped) in steepness.iter_mut().zip(damped) {
                     *steepness += hertz.dissipation * damped;
                 }
@@ -61,17 +62,17 @@ impl Linearized {
         self.damping * time + grip
     }
 
-    /// y and u from (1, 0), from (0, 1), and, if there is a force, from (0, 0) under it.
-    pub fn solve(&self, force: Option<&Series>) -> [[Series; 2]; 3] {
+    /// Solutions (y, u) as series in sigma from (1, 0), from (0, 1) and, if there is a force, from (0, 0) under it.
+    pub fn solve_variations(&self, force: Option<&Series>) -> [[Series; 2]; 3] {
         let mut found = [[ZERO; 2]; 3];
         (found[0][0][0], found[1][1][0]) = (1.0, 1.0);
         let (mut free, mut forced, mut grips) = (Products::ZERO, Products::ZERO, Products::ZERO);
         for k in 0..DEGREE {
             let [[y0, u0], [y1, u1], [y2, u2]] = found.each_ref().map(|[y, u]| [y[k], u[k]]);
             let (rate, stiffness) = (self.rate[k], self.stiffness[k]);
-            let [pull, way] = free.next(k, [[stiffness; 2], [rate; 2]], [[y0, y1], [u0, u1]]);
+            let [pull, way] = free.next_terms(k, [[stiffness; 2], [rate; 2]], [[y0, y1], [u0, u1]]);
             let [gripped, [gripped2, _]] = match &self.grip {
-                Some(grip) => grips.next(k, [[grip[k]; 2]; 2], [[u0, u1], [u2, 0.0]]),
+                Some(grip) => grips.next_terms(k, [[grip[k]; 2]; 2], [[u0, u1], [u2, 0.0]]),
                 None => [[0.0; 2]; 2],
             };
             let next = RECIPROCALS[k + 1];
@@ -84,7 +85,7 @@ impl Linearized {
                 go_on(column, way[column], pull[column] + gripped[column]);
             }
             if let Some(force) = force {
-                let [[pull, way]] = forced.next(k, [[stiffness, rate]], [[y2, u2]]);
+                let [[pull, way]] = forced.next_terms(k, [[stiffness, rate]], [[y2, u2]]);
                 go_on(2, way, pull + gripped2 - force[k]);
             }
         }

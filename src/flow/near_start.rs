@@ -1,4 +1,4 @@
-//! Ways soon after a departure, by the Taylor series about it, no further than it counts.
+//! The motion soon after a departure, by the Taylor series about it, with no more terms than it needs.
 //!
 //! Each term obeys the law itself: with T_n = c_n t^n and Q_n = q_n t^n of position and push,
 //! (n + 1)(n + 2) T_(n+2) = t^2 Q_n - 2 a t (n + 1) T_(n+1) - b t^2 T_n.
@@ -29,7 +29,7 @@ const FACTORS: [[[f64; 3]; 2]; (MOST_TERMS - 3) / 2] = {
 };
 
 /// What position and velocity have changed by under a linear push, up to half a reach after the departure.
-pub(super) fn near_start(flow: &LinearLaw, from: &Departure, elapsed: f64) -> (f64, f64) {
+pub(super) fn change_near_start(flow: &LinearLaw, from: &Departure, elapsed: f64) -> (f64, f64) {
     if elapsed == 0.0 {
         return (0.0, 0.0);
     }

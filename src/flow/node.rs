@@ -1,9 +1,10 @@
-//! From node to node: a course is scanned window by window.
+//! Nodes of an arc: its states, and how a scan steps from one to the next, window by window.
 
 use super::arc_solution::{ArcSolution, Form};
-use super::near_start::near_start;
-use super::particular::Particular;
-use super::place::{Drive, Node};
+use super::departure::Node;
+use super::drive::Drive;
+use super::near_start::change_near_start;
+use super::particular_solution::ParticularSolution;
 
 /// What is known of a scan window.
 pub(crate) struct Window<'a> {
@@ -25,38 +26,33 @@ const SETTLED: f64 = 16.0 * f64::EPSILON;
 
 impl ArcSolution {
     /// The departure as a node.
-    pub fn start(&self) -> Node {
+    pub fn start_node(&self) -> Node {
         let from = &self.departure;
-        self.placed(0.0, from.drive, (from.position, from.velocity))
+        self.node_of_state(0.0, from.drive, (from.position, from.velocity))
     }
 
     /// The node at `elapsed`, evaluated afresh.
-    pub fn node(&self, elapsed: f64) -> Node {
+    pub fn node_at(&self, elapsed: f64) -> Node {
         let drive = self.drive_at(elapsed);
-        self.placed(elapsed, drive, self.at(elapsed, drive))
+        self.node_of_state(elapsed, drive, self.state_at(elapsed, drive))
     }
 
     /// The node of a linear law within half a reach, with what position and velocity have changed by.
     pub(crate) fn node_near_start(&self, elapsed: f64) -> Option<(Node, (f64, f64))> {
-        if elapsed > 0.5 * self.flow.reach || !self.is_quick() {
+        if elapsed > 0.5 * self.flow.reach || !self.is_closed_form() {
             return None;
         }
-        let (way, rise) = near_start(&self.flow, &self.departure, elapsed);
+        let (way, rise) = change_near_start(&self.flow, &self.departure, elapsed);
         let state = (
             self.departure.position + way,
             self.departure.velocity + rise,
         );
-        let node = self.placed(elapsed, self.drive_at(elapsed), state);
+        let node = self.node_of_state(elapsed, self.drive_at(elapsed), state);
         Some((node, (way, rise)))
     }
 
-    pub(super) fn drive_at(&self, elapsed: f64) -> Drive {
-        let turn = Drive::at(self.flow.frequency * elapsed);
-        self.departure.drive.turned(turn)
-    }
-
     /// The node at `elapsed` where drive and state are known.
-    pub(crate) fn placed(
+    pub(crate) fn node_of_state(
         &self,
         elapsed: f64,
         drive: Drive,
@@ -64,7 +60,7 @@ impl ArcSolution {
     ) -> Node {
         let deviation = match self.form {
             Form::Particular { particular, .. } => {
-                let (x, v) = particular.at(elapsed, drive);
+                let (x, v) = particular.state_at(elapsed, drive);
                 (position - x, velocity - v)
             }
             _ => (0.0, 0.0),
@@ -83,29 +79,29 @@ impl ArcSolution {
     /// The node one scan window on: by rotation where that is possible, evaluated afresh every few
     /// windows, so that neither times nor states drift.
     #[inline]
-    pub(crate) fn next(&self, node: &Node) -> Node {
+    pub(crate) fn next_node(&self, node: &Node) -> Node {
         if self.flow.long_window > LONG * self.flow.window && self.is_settled(node) {
-            return self.node(node.elapsed + self.flow.long_window);
+            return self.node_at(node.elapsed + self.flow.long_window);
         }
         let (origin, windows) = (node.origin, node.windows + 1);
         let elapsed = origin + f64::from(windows) * self.flow.window;
         let particular = match self.form {
             Form::Particular { particular, .. } if windows % ROTATIONS != 0 => particular,
-            _ if windows >= MOST_WINDOWS => return self.node(elapsed),
+            _ if windows >= MOST_WINDOWS => return self.node_at(elapsed),
             _ => {
                 return Node {
                     origin,
                     windows,
-                    ..self.node(elapsed)
+                    ..self.node_at(elapsed)
                 };
             }
         };
-        self.rotated(&particular, node)
+        self.rotated_node(&particular, node)
     }
 
-    /// The node one scan window on.
+    /// The node one scan window on, by the transition matrix of a window and the turn of the drive.
     #[inline(always)]
-    fn rotated(&self, particular: &Particular, node: &Node) -> Node {
+    fn rotated_node(&self, particular: &ParticularSolution, node: &Node) -> Node {
         let (origin, windows) = (node.origin, node.windows + 1);
         let elapsed = origin + f64::from(windows) * self.flow.window;
         let (free, (y, rate)) = (&self.flow.window_modes, node.deviation);
@@ -114,7 +110,7 @@ impl ArcSolution {
             free.m21 * y + free.m22 * rate,
         );
         let drive = node.drive.turned(self.flow.window_turn);
-        let (x, v) = particular.at(elapsed, drive);
+        let (x, v) = particular.state_at(elapsed, drive);
         Node {
             elapsed,
             position: x + deviation.0,
@@ -126,8 +122,8 @@ impl ArcSolution {
         }
     }
 
-    /// Passes the scan windows that are reached by rotation and `is_clear` of something, up to `until`. Where one is
-    /// not, it ends at its left end, and tells its right end and its bound.
+    /// Moves the node on over scan windows that are reached by rotation and are clear, as `is_clear` says, up to
+    /// `until`; at a window that is not, returns its right end and its bound.
     #[inline(never)]
     pub(crate) fn skip_clear_windows(
         &self,
@@ -155,7 +151,7 @@ impl ArcSolution {
         let (most, rest) = flow.window_bounds;
         let driven = flow.amplitude * square * square * flow.window * rest;
         while node.elapsed < until && !(node.windows + 1).is_multiple_of(ROTATIONS) {
-            let next = self.rotated(&particular, node);
+            let next = self.rotated_node(&particular, node);
             let ((y, rate), Drive { cos, sin }) = (node.deviation, node.drive);
             let x4 = cosine * cos + sine * sin + (fourth.0 * y + fourth.1 * rate);
             let x5 = flow.frequency * (sine * cos - cosine * sin) + (fifth.0 * y + fifth.1 * rate);
@@ -179,7 +175,7 @@ impl ArcSolution {
             Form::Particular { particular, .. } => {
                 let (y, rate) = node.deviation;
                 let size = node.position.abs() + particular.offset.abs();
-                self.flow.modes.envelope(y, rate) <= SETTLED * size
+                self.flow.modes.amplitude_bound(y, rate) <= SETTLED * size
             }
             Form::Responses => {
                 let late = self.flow.late;

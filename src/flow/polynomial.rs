@@ -29,7 +29,7 @@ impl Polynomial {
     }
 
     /// This polynomial with another derivative of one order, at most [`HIGHEST_ORDER`].
-    pub const fn with(mut self, order: usize, derivative: f64) -> Self {
+    pub const fn with_derivative(mut self, order: usize, derivative: f64) -> Self {
         self.derivatives[order] = derivative;
         self
     }
@@ -53,23 +53,23 @@ impl Polynomial {
         !higher.fold(false, |some, derivative| some | (*derivative != 0.0))
     }
 
-    /// p(t).
-    pub fn at(&self, t: f64) -> f64 {
+    /// The value p(t).
+    pub fn eval(&self, t: f64) -> f64 {
         if self.is_linear() {
             self.value() + self.rate() * t
         } else {
-            expanded(&self.derivatives, t)
+            taylor_sum(&self.derivatives, t)
         }
     }
 
-    /// This polynomial seen from t = `t`: its derivatives there, each summed anew, so that only
+    /// This polynomial as a function of the time after t = `t`: its derivatives there, each summed anew, so that only
     /// their own rounding is added.
     pub fn shifted(&self, t: f64) -> Self {
         if self.is_linear() {
-            return Self::linear(self.at(t), self.rate());
+            return Self::linear(self.eval(t), self.rate());
         }
         Self::new(std::array::from_fn(|order| {
-            expanded(&self.derivatives[order..], t)
+            taylor_sum(&self.derivatives[order..], t)
         }))
     }
 
@@ -79,7 +79,7 @@ impl Polynomial {
         if self.is_linear() {
             return Self::linear(value, self.rate() / mass);
         }
-        Self::new(self.derivatives.map(|derivative| derivative / mass)).with(0, value)
+        Self::new(self.derivatives.map(|derivative| derivative / mass)).with_derivative(0, value)
     }
 
     /// -p(t).
@@ -89,11 +89,11 @@ impl Polynomial {
 
     /// A bound on the first derivative from 0 to `t`.
     pub(crate) fn largest_rate(&self, t: f64) -> f64 {
-        expanded(&self.derivatives.map(f64::abs)[1..], t)
+        taylor_sum(&self.derivatives.map(f64::abs)[1..], t)
     }
 
-    /// Coefficients p_k / k!.
-    pub(super) fn coefficients(&self) -> [f64; HIGHEST_ORDER + 1] {
+    /// Coefficients p_k / k! of t^k.
+    pub(super) fn taylor_coefficients(&self) -> [f64; HIGHEST_ORDER + 1] {
         let mut factorial = 1.0;
         std::array::from_fn(|k| {
             if k > 1 {
@@ -104,8 +104,8 @@ impl Polynomial {
     }
 }
 
-/// Sum of derivatives[k] t^k / k!.
-fn expanded(derivatives: &[f64], t: f64) -> f64 {
+/// Sum of d_k t^k / k!, the d_k being `derivatives`.
+fn taylor_sum(derivatives: &[f64], t: f64) -> f64 {
     let terms = derivatives.iter().enumerate().rev();
     terms.fold(0.0, |sum, (k, derivative)| {
         derivative + sum * (t / (k + 1) as f64)
@@ -122,8 +122,8 @@ mod tests {
     fn values_are_those_of_the_written_out_sum() {
         // At t = 2, with 2^k / k! as a fraction over 315.
         let by_hand = 1.0 - 4.0 + 6.0 - 16.0 / 3.0 + 10.0 / 3.0 - 1.6 + 28.0 / 45.0 - 64.0 / 315.0;
-        assert!((CURVE.at(2.0) - by_hand).abs() < 1e-14);
-        assert_eq!(Polynomial::linear(0.3, -0.7).at(1.7), 0.3 + -0.7 * 1.7);
+        assert!((CURVE.eval(2.0) - by_hand).abs() < 1e-14);
+        assert_eq!(Polynomial::linear(0.3, -0.7).eval(1.7), 0.3 + -0.7 * 1.7);
     }
 
     #[test]
@@ -133,7 +133,7 @@ mod tests {
             assert!((a - b).abs() < 1e-13 * a.abs().max(1.0), "{a} {b}");
         }
         assert_eq!(CURVE.shifted(0.0), CURVE);
-        assert!((once.at(0.5) - CURVE.at(2.0)).abs() < 1e-14);
+        assert!((once.eval(0.5) - CURVE.eval(2.0)).abs() < 1e-14);
     }
 
     #[test]

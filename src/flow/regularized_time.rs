@@ -1,41 +1,42 @@
-//! Taylor steps along a stretched time, at the face of a power law, and of a sphere throughout.
+//! Taylor steps under a power law in regularised time, at its face, and on a sphere throughout.
 
-use super::expansion::{converges, converges_of_sphere, outgrown, shell};
+use super::convergence::{convergence_reach, first_span, sphere_convergence_reach};
 use super::forcing_series::ForcingSeries;
 use super::hertz::Hertz;
+use super::power_law_step::linear_span;
 use super::series::{PowerRecurrence, ReversedSeries, ZERO, convolve, majorant, value};
-use super::sphere::is_spherical;
+use super::sphere::is_sphere;
 use super::taylor::{DEGREE, RECIPROCALS, evaluate};
 use super::taylor_step::{RegularizedTime, TaylorStep};
 use super::{Departure, LinearLaw};
 
 impl TaylorStep {
-    /// The step in sigma.
-    pub(super) fn from_root(
+    /// The step in regularised time, by series in sigma of the root of the deflection.
+    pub(super) fn in_regularized_time(
         flow: &LinearLaw,
         hertz: &Hertz,
         from: &Departure,
         deflection: f64,
     ) -> Self {
-        let mut segment = Self::blank(flow, hertz);
+        let mut segment = Self::without_motion(flow, hertz);
         let deflection = deflection.max(0.0);
-        let (stretch, holds) = if is_spherical(hertz, from) {
+        let (stretch, holds) = if is_sphere(hertz, from) {
             let stretch = match hertz.dissipation > 0.0 {
-                true => segment.along_sphere::<true>(flow, from, deflection),
-                false => segment.along_sphere::<false>(flow, from, deflection),
+                true => segment.expand_sphere::<true>(flow, from, deflection),
+                false => segment.expand_sphere::<false>(flow, from, deflection),
             };
-            let holds = converges_of_sphere(&stretch.velocity);
+            let holds = sphere_convergence_reach(&stretch.velocity);
             (stretch, holds)
         } else {
-            let stretch = segment.along_root(flow, from, deflection);
-            let holds = converges(&stretch.velocity);
+            let stretch = segment.expand_root(flow, from, deflection);
+            let holds = convergence_reach(&stretch.velocity);
             (stretch, holds)
         };
         // What is below rounding of the velocity is so of the root.
-        segment.reach = holds.min(stretch.reach(flow.reach, from.push.is_linear()));
+        segment.reach = holds.min(stretch.reach_within(flow.reach, from.push.is_linear()));
         if !segment.is_pressed && hertz.stiffness > 0.0 {
             let bounds = [segment.depth, stretch.velocity, stretch.time].map(|s| majorant(&s));
-            segment.reach = shell(hertz, segment.reach, |span| {
+            segment.reach = linear_span(hertz, segment.reach, |span| {
                 let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
                 (depth, speed, time)
             });
@@ -43,12 +44,12 @@ impl TaylorStep {
         segment.contact = stretch.last_contact(segment.reach);
         segment.end = value(&stretch.time, segment.contact);
         segment.stretch = Some(stretch);
-        segment.last = segment.moved_at(segment.contact);
+        segment.last = segment.place_at(segment.contact);
         segment
     }
 
-    /// The series in sigma.
-    fn along_root(
+    /// Computes the series of the root of the deflection and of all others in sigma.
+    fn expand_root(
         &mut self,
         flow: &LinearLaw,
         from: &Departure,
@@ -58,7 +59,7 @@ impl TaylorStep {
         let index = hertz.root_index().unwrap_or(2.0);
         let root = deflection.powf(1.0 / index);
         let (twice_decay, b, w) = (flow.damping(), flow.modes.stiffness, flow.frequency);
-        let (kappa, lambda) = (hertz.rate(), hertz.dissipation);
+        let (kappa, lambda) = (hertz.factor(), hertz.dissipation);
         let mut stretch = Box::<RegularizedTime>::default();
         stretch.index = index;
         let RegularizedTime {
@@ -81,10 +82,10 @@ impl TaylorStep {
         let mut rungs = ForcingSeries::new(&from.push);
         let share = 1.0 / index;
         for k in 0..=DEGREE {
-            roots.set(k, s[k]);
+            roots.set_coefficient(k, s[k]);
             let stretch = rates.coefficient(s, &roots, k);
-            rate.set(k, stretch);
-            steepness.set(k, steepnesses.coefficient(s, &roots, k));
+            rate.set_coefficient(k, stretch);
+            steepness.set_coefficient(k, steepnesses.coefficient(s, &roots, k));
             // The deflection itself, not the power of its rounded root: a surface may stand there.
             self.depth[k] = if k == 0 { deflection } else { rate.times(s, k) };
             power[k] = steepness.times(&self.depth, k);
@@ -121,7 +122,7 @@ impl TaylorStep {
 impl RegularizedTime {
     /// Sigma up to which time stays within `limit`, and no power of a force that is not linear outgrows what the motion
     /// begins with.
-    fn reach(&self, limit: f64, is_linear: bool) -> f64 {
+    fn reach_within(&self, limit: f64, is_linear: bool) -> f64 {
         // With s = s0 + v sigma / m, t is the integral of s^(m - 1).
         let m = self.index;
         let speed = self.velocity[0].abs() / m;
@@ -134,12 +135,11 @@ impl RegularizedTime {
             return within;
         }
         within
-            .min(outgrown(&self.root))
-            .min(outgrown(&self.velocity))
+            .min(first_span(&self.root))
+            .min(first_span(&self.velocity))
     }
 
-    /// The last sigma within reach at which the root is not negative. Within one step it passes zero
-    /// once.
+    /// The last sigma within reach at which the root is not negative. Within one step it passes zero once.
     fn last_contact(&self, reach: f64) -> f64 {
         if value(&self.root, reach) >= 0.0 {
             return reach;

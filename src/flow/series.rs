@@ -16,8 +16,8 @@ impl ReversedSeries {
     /// The series that vanishes.
     pub const ZERO: Self = Self(ZERO);
 
-    /// All of a series.
-    pub fn of(series: &Series) -> Self {
+    /// A series, reversed.
+    pub fn from_series(series: &Series) -> Self {
         let mut turned = *series;
         turned.reverse();
         Self(turned)
@@ -25,11 +25,11 @@ impl ReversedSeries {
 
     /// Sets the k-th coefficient.
     #[inline(always)]
-    pub fn set(&mut self, k: usize, coefficient: f64) {
+    pub fn set_coefficient(&mut self, k: usize, coefficient: f64) {
         self.0[DEGREE - k] = coefficient;
     }
 
-    /// The k-th coefficient of the product with another series. What both had last is added last.
+    /// The k-th coefficient of the product with another series; the product of the newest coefficients is added last.
     #[inline(always)]
     pub fn times(&self, other: &Series, k: usize) -> f64 {
         let (a, b) = (&other[..=k], &self.0[DEGREE - k..]);
@@ -90,7 +90,7 @@ pub(super) enum PowerRecurrence {
     Whole(Vec<Series>),
     /// Any exponent of a series that does not begin with zero.
     Any { exponent: f64, series: Series },
-    /// Of a series that begins with zero: left out.
+    /// A power of a series that begins with zero, which is left out.
     LeftOut,
 }
 
@@ -114,7 +114,7 @@ impl PowerRecurrence {
         }
     }
 
-    /// The k-th coefficient, from those of `base`, also turned, up to the k-th. To be asked for in order.
+    /// The k-th coefficient, from those of `base`, and reversed in `turned`, up to the k-th. To be asked for in order.
     #[inline]
     pub fn coefficient(&mut self, base: &Series, turned: &ReversedSeries, k: usize) -> f64 {
         match self {
@@ -140,16 +140,16 @@ impl PowerRecurrence {
     }
 }
 
-/// All coefficients of a power.
-pub(super) fn power(base: &Series, exponent: f64) -> Series {
+/// All coefficients of a power of a series.
+pub(super) fn power_series(base: &Series, exponent: f64) -> Series {
     let mut power = PowerRecurrence::new(exponent, base[0]);
-    let turned = ReversedSeries::of(base);
+    let turned = ReversedSeries::from_series(base);
     std::array::from_fn(|k| power.coefficient(base, &turned, k))
 }
 
 /// The product of two series.
 pub(super) fn product(a: &Series, b: &Series) -> Series {
-    let turned = ReversedSeries::of(a);
+    let turned = ReversedSeries::from_series(a);
     std::array::from_fn(|k| turned.times(b, k))
 }
 

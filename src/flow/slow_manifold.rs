@@ -12,19 +12,22 @@ use crate::budget;
 
 use super::hertz::Hertz;
 use super::modes::Modes;
-use super::series::{Series, convolve, derivative, power};
+use super::series::{Series, convolve, derivative, power_series};
 use super::taylor::DEGREE;
 
+/// Number of coefficients of the series.
 const ORDER: usize = DEGREE + 1;
+/// Most steps of Newton's method.
 const NEWTON_STEPS: usize = 12;
 /// Lifetimes of a mode within a step after which nothing of it is left.
 const LIFETIMES: f64 = 30.0;
 /// Largest deviation of a start from the slow motion, in roundings.
 const ALLOWED: f64 = 64.0 * f64::EPSILON;
 
-/// d'' + `twice_decay` d' + `stiffness` d + kappa d^n (1 + lambda d') = `push`, as series in time.
+/// The equation of motion in contact, d'' + `twice_decay` d' + `stiffness` d + kappa d^n (1 + lambda d') = `push`, as
+/// series in time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Equation<'a> {
+pub(super) struct SlowEquation<'a> {
     pub twice_decay: f64,
     pub stiffness: f64,
     pub hertz: &'a Hertz,
@@ -32,12 +35,12 @@ pub(super) struct Equation<'a> {
     pub push: &'a Series,
 }
 
-/// A slow motion.
+/// A motion on the slow manifold, and its derivatives by the start and the push.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SlowManifold {
     /// Deflection in m.
     pub depth: Series,
-    /// d(deflection)/d(deflection at the start); zero where not even that is remembered.
+    /// d(deflection)/d(deflection at the start); zero where its influence decays within the step.
     pub memory: Series,
     /// d(deflection)/d(velocity at the start), as a multiple of the memory, in s; to first order in the
     /// ratio of the slow rate to the fast one.
@@ -46,46 +49,47 @@ pub(super) struct SlowManifold {
     pub answer: Series,
 }
 
-/// Damping and stiffness of the contact along a motion.
+/// Derivatives of the force of contact by velocity (damping) and deflection (stiffness) along a motion, and the force.
 struct Slopes {
     damping: Series,
     stiffness: Series,
     force: Series,
 }
 
-impl Equation<'_> {
+impl SlowEquation<'_> {
     /// The slow motion through a start (deflection, velocity), if the start lies on one and steps of
     /// length `span` are long against the modes that die out.
     pub fn slow_motion(&self, (d, v): (f64, f64), span: f64) -> Option<SlowManifold> {
         let hertz = self.hertz;
-        let press = hertz.rate() * d.powf(hertz.exponent);
+        let press = hertz.factor() * d.powf(hertz.exponent);
         let damping = self.twice_decay + press * hertz.dissipation;
         let grip = 1.0 + hertz.dissipation * v;
         let stiffness = self.stiffness + hertz.exponent * press / d * grip;
         let modes = Modes::new(0.5 * damping, stiffness);
         let (slow, fast) = modes.decay_rates();
-        let forgets = slow * span >= LIFETIMES;
+        let decays = slow * span >= LIFETIMES;
         // A mode that is remembered must be resolved.
-        let span = if forgets { span } else { span.min(1.0 / slow) };
+        let span = if decays { span } else { span.min(1.0 / slow) };
         if fast * span < LIFETIMES {
             return None;
         }
-        let depth = self.solve(d, span, forgets)?;
+        let depth = self.solve_series(d, span, decays)?;
         let tolerance = |value: f64, scale: f64| ALLOWED * (value.abs() + scale);
         let speed = tolerance(v, (self.push[0] / damping).abs());
         let near = (depth[0] - d).abs() <= tolerance(d, 0.0) && (depth[1] - v).abs() <= speed;
-        near.then(|| self.creep(depth, span, forgets))
+        near.then(|| self.with_derivatives(depth, span, decays))
     }
 
-    fn slopes(&self, depth: &Series) -> Slopes {
+    /// The slopes of the contact force along a motion with this series of its deflection.
+    fn slopes_along(&self, depth: &Series) -> Slopes {
         let velocity = derivative(depth);
         let (kappa, lambda, n) = (
-            self.hertz.rate(),
+            self.hertz.factor(),
             self.hertz.dissipation,
             self.hertz.exponent,
         );
-        let w = power(depth, n);
-        let steep = power(depth, n - 1.0);
+        let w = power_series(depth, n);
+        let steep = power_series(depth, n - 1.0);
         let mut slopes = Slopes {
             damping: w.map(|w| kappa * lambda * w),
             stiffness: std::array::from_fn(|k| {
@@ -98,17 +102,17 @@ impl Equation<'_> {
         slopes
     }
 
-    /// Newton's method for all coefficients, scaled by powers of `span`. Where the start is remembered
-    /// its deflection is kept.
-    fn solve(&self, d: f64, span: f64, forgets: bool) -> Option<Series> {
+    /// The series of the deflection, all coefficients together by Newton's method, scaled by powers of `span`. Unless
+    /// the influence of the start decays within the span, its deflection `d` is kept.
+    fn solve_series(&self, d: f64, span: f64, decays: bool) -> Option<Series> {
         let mut depth = [0.0; ORDER];
         depth[0] = d;
         let mut last = f64::INFINITY;
         for _ in 0..NEWTON_STEPS {
             budget::charge(budget::CREEP);
-            let slopes = self.slopes(&depth);
-            let matrix = jacobian(&slopes, span, forgets);
-            let residual = self.residual(&depth, &slopes, span, forgets);
+            let slopes = self.slopes_along(&depth);
+            let matrix = jacobian(&slopes, span, decays);
+            let residual = self.residual(&depth, &slopes, span, decays);
             let step = matrix.lu().solve(&residual)?;
             let mut size: f64 = 0.0;
             for k in 0..ORDER {
@@ -127,12 +131,14 @@ impl Equation<'_> {
         None
     }
 
+    /// The coefficients of the left side of the equation less its right side, scaled by powers of `span`, as the rows
+    /// of [`jacobian`].
     fn residual(
         &self,
         depth: &Series,
         slopes: &Slopes,
         span: f64,
-        forgets: bool,
+        decays: bool,
     ) -> SVector<f64, ORDER> {
         let at = |k: usize| depth.get(k).copied().unwrap_or(0.0);
         let row = |k: usize| {
@@ -140,17 +146,17 @@ impl Equation<'_> {
             let inertia = second * first * at(k + 2) + self.twice_decay * first * at(k + 1);
             inertia + self.stiffness * depth[k] + slopes.force[k] - self.push[k]
         };
-        SVector::from_fn(|index, _| match (forgets, index) {
+        SVector::from_fn(|index, _| match (decays, index) {
             (true, k) => row(k) * span.powi(k as i32),
             (false, 0) => 0.0,
             (false, k) => row(k - 1) * span.powi(k as i32 - 1),
         })
     }
 
-    /// The motion with what it remembers of its start.
-    fn creep(&self, depth: Series, span: f64, forgets: bool) -> SlowManifold {
-        let slopes = self.slopes(&depth);
-        let matrix = jacobian(&slopes, span, forgets).lu();
+    /// The motion with this series, and its derivatives.
+    fn with_derivatives(&self, depth: Series, span: f64, decays: bool) -> SlowManifold {
+        let slopes = self.slopes_along(&depth);
+        let matrix = jacobian(&slopes, span, decays).lu();
         let solve = |row: usize| -> Series {
             let mut unit = SVector::<f64, ORDER>::zeros();
             unit[row] = 1.0;
@@ -158,7 +164,7 @@ impl Equation<'_> {
                 std::array::from_fn(|k| solution[k] / span.powi(k as i32))
             })
         };
-        let (memory, mut answer) = if forgets {
+        let (memory, mut answer) = if decays {
             ([0.0; ORDER], solve(0))
         } else {
             (solve(0), solve(1))
@@ -179,9 +185,9 @@ impl Equation<'_> {
     }
 }
 
-/// Of the residual by the scaled coefficients; its first row keeps the deflection at the start if that
-/// is remembered.
-fn jacobian(slopes: &Slopes, span: f64, forgets: bool) -> SMatrix<f64, ORDER, ORDER> {
+/// Derivative of the residual by the scaled coefficients; unless the influence of the start decays, its first row
+/// keeps the deflection at the start.
+fn jacobian(slopes: &Slopes, span: f64, decays: bool) -> SMatrix<f64, ORDER, ORDER> {
     let entry = |k: usize, j: usize| {
         let mut entry = 0.0;
         if j == k + 2 {
@@ -195,7 +201,7 @@ fn jacobian(slopes: &Slopes, span: f64, forgets: bool) -> SMatrix<f64, ORDER, OR
         }
         entry * span.powi(k as i32 - j as i32)
     };
-    SMatrix::from_fn(|index, j| match (forgets, index) {
+    SMatrix::from_fn(|index, j| match (decays, index) {
         (true, k) => entry(k, j),
         (false, 0) => f64::from(u8::from(j == 0)),
         (false, k) => entry(k - 1, j),

@@ -1,4 +1,4 @@
-//! The law of Hertz himself, n = 3/2, along the square root s of the deflection D.
+//! Taylor steps under Hertz's law of a sphere, n = 3/2, as series of the square root s of the deflection D.
 //!
 //! With dt = s dsigma every term of the equation is a product of few series:
 //!
@@ -7,25 +7,25 @@
 //! ```
 
 use super::hertz::Hertz;
-use super::pairs::Products;
+use super::products::Products;
 use super::taylor::{DEGREE, RECIPROCALS};
 use super::taylor_step::{RegularizedTime, TaylorStep};
 use super::{Departure, LinearLaw};
 
-/// True if it is this law, under a constant push beside the drive.
-pub(super) fn is_spherical(hertz: &Hertz, from: &Departure) -> bool {
+/// True if the law is Hertz's own, n = 3/2, under a constant push beside the drive.
+pub(super) fn is_sphere(hertz: &Hertz, from: &Departure) -> bool {
     hertz.exponent == 1.5 && from.push.is_linear() && from.push.rate() == 0.0
 }
 
 impl TaylorStep {
-    /// The series in sigma; `GRIPS`: the law dissipates.
-    pub(super) fn along_sphere<const GRIPS: bool>(
+    /// Computes the series in sigma; `GRIPS`: the law dissipates.
+    pub(super) fn expand_sphere<const GRIPS: bool>(
         &mut self,
         flow: &LinearLaw,
         from: &Departure,
         deflection: f64,
     ) -> Box<RegularizedTime> {
-        let (kappa, b, w) = (self.hertz.rate(), flow.modes.stiffness, flow.frequency);
+        let (kappa, b, w) = (self.hertz.factor(), flow.modes.stiffness, flow.frequency);
         let grip = kappa * self.hertz.dissipation;
         let constant = from.push.value() - b * self.hertz.origin;
         let mut stretch = Box::<RegularizedTime>::default();
@@ -48,14 +48,14 @@ impl TaylorStep {
                 break;
             }
             stretch.time[k + 1] = rate * s;
-            let [[by_cos, by_sin], [mut press, squared]] = linear.next(
+            let [[by_cos, by_sin], [mut press, squared]] = linear.next_terms(
                 k,
                 [[cos, sin], [b * s + kappa * deep, next]],
                 [[s; 2], [deep, s]],
             );
             if GRIPS {
-                let [[square, gripped]] = squares.next(k, [[deep, v]], [[deep, 0.0]]);
-                squares.amend(k, [[deep, square]]);
+                let [[square, gripped]] = squares.next_terms(k, [[deep, v]], [[deep, 0.0]]);
+                squares.replace_right(k, [[deep, square]]);
                 press += grip * (gripped + from.velocity * square);
             }
             deep = squared + start * next;

@@ -28,17 +28,17 @@ pub(super) const RECIPROCALS: [f64; DEGREE + 3] = {
 
 impl Taylor {
     /// Expands the motion from (x, v) under a push.
-    pub fn under(flow: &LinearLaw, (x, v): (f64, f64), push: [f64; DEGREE + 1]) -> Self {
+    pub fn expand(flow: &LinearLaw, (x, v): (f64, f64), push: [f64; DEGREE + 1]) -> Self {
         let mut position = [0.0; DEGREE + 1];
         position[0] = x;
         position[1] = v;
         let mut taylor = Self { position, push };
-        taylor.follow(flow, 0);
+        taylor.continue_recurrence(flow, 0);
         taylor
     }
 
     /// Coefficients of the position from the `first` + 2 before them.
-    fn follow(&mut self, flow: &LinearLaw, first: usize) {
+    fn continue_recurrence(&mut self, flow: &LinearLaw, first: usize) {
         let (twice_decay, b) = (2.0 * flow.modes.decay, flow.modes.stiffness);
         let position = &mut self.position;
         for n in first..DEGREE - 1 {
@@ -48,8 +48,8 @@ impl Taylor {
         }
     }
 
-    /// This drive, with the mass at rest at `position`.
-    pub fn at_rest(mut self, position: f64) -> Self {
+    /// The polynomials of the same push, with the mass held at `position`.
+    pub fn held_at(mut self, position: f64) -> Self {
         self.position = [0.0; DEGREE + 1];
         self.position[0] = position;
         self
@@ -58,7 +58,7 @@ impl Taylor {
     /// This motion where the initial acceleration is known.
     pub fn with_acceleration(mut self, flow: &LinearLaw, acceleration: f64) -> Self {
         self.position[2] = 0.5 * acceleration;
-        self.follow(flow, 1);
+        self.continue_recurrence(flow, 1);
         self
     }
 
@@ -76,7 +76,7 @@ impl Taylor {
     }
 
     /// Position and velocity `s` seconds on.
-    pub fn state(&self, s: f64) -> (f64, f64) {
+    pub fn state_after(&self, s: f64) -> (f64, f64) {
         evaluate(&self.position, s)
     }
 }
@@ -86,7 +86,7 @@ pub(super) fn push_series(flow: &LinearLaw, from: &Departure) -> [f64; DEGREE + 
     let (value, rate) = (from.push.value(), from.push.rate());
     let mut push = linear_push_series(flow, from.drive, (value, rate));
     if !from.push.is_linear() {
-        let higher = from.push.coefficients();
+        let higher = from.push.taylor_coefficients();
         for (sum, coefficient) in push.iter_mut().zip(higher).skip(2) {
             *sum += coefficient;
         }

@@ -1,7 +1,7 @@
-//! One Taylor step.
+//! One Taylor step: the motion over a short time as power series.
 //!
 //! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. Away from
-//! the face, and with n = 2, it is followed in time itself ([`super::pressed`]), but for n = 3/2 under a constant push
+//! the face, and with n = 2, it is followed in time itself ([`super::power_law_in_time`]), but for n = 3/2 under a constant push
 //! ([`super::sphere`]). At the face d^n has a branch point unless n is whole. If n is a
 //! multiple of 1/m it goes away where the m-th root s of d is the unknown and a stretched time sigma,
 //! dt = s^(m-1) dsigma, the variable (as Levi-Civita did for collisions, 1920):
@@ -13,17 +13,17 @@
 //! All are power series in sigma whose coefficients follow one from the other (Moore 1966). For
 //! other n, while the power law's part of the motion is below rounding, it is left out right at the face. So it is
 //! on a start from rest at the face, where sigma is time itself; and so it is in slow motion under heavy damping
-//! ([`super::slow_manifold`]) and where there is no power law ([`super::pushed`]).
+//! ([`super::slow_manifold`]) and where there is no power law ([`super::linear_in_time`]).
 
 use serde::{Deserialize, Serialize};
 
 use super::LinearLaw;
 use super::hertz::Hertz;
-use super::series::{Series, ZERO, curved_part, derivative, power, product, value};
+use super::series::{Series, ZERO, curved_part, derivative, power_series, product, value};
 use super::slow_manifold::SlowManifold;
 use super::taylor::{evaluate, evaluate_from};
 
-/// The motion of one step, as series in sigma.
+/// The motion of one step, as series in sigma: time, or a regularised time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct TaylorStep {
     /// Deflection in m at departure.
@@ -45,7 +45,7 @@ pub(crate) struct TaylorStep {
     /// Length of the step in time, in s.
     pub end: f64,
     /// Where the step ends.
-    pub(super) last: Moved,
+    pub(super) last: StepPlace,
     pub(super) hertz: Hertz,
     /// Damping over mass in 1/s, the power law's left out.
     pub(super) damping: f64,
@@ -57,7 +57,7 @@ pub(crate) struct TaylorStep {
     pub(super) is_mirrored: bool,
 }
 
-/// Series of a stretched time.
+/// Series of a step in regularised time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct RegularizedTime {
     /// Which root: m >= 2.
@@ -70,9 +70,9 @@ pub(super) struct RegularizedTime {
     pub time: Series,
 }
 
-/// A place along a step.
+/// A state along a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Moved {
+pub(super) struct StepPlace {
     /// Deflection in m.
     pub deflection: f64,
     /// What rounding took from it, in m.
@@ -81,10 +81,10 @@ pub(super) struct Moved {
     pub velocity: f64,
 }
 
-/// A position more sharply than by its rounded value: where it counts from a nonlinear face, by the
-/// deflection; else by what rounding took from it.
+/// What is known of a position beyond its rounded value: where it counts from a nonlinear face, the deflection; else
+/// what rounding took from it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Finer {
+pub(crate) struct FinePlace {
     /// Deflection in m.
     pub deflection: f64,
     /// Rest in m.
@@ -92,8 +92,8 @@ pub(crate) struct Finer {
 }
 
 impl TaylorStep {
-    /// One without a motion yet.
-    pub(super) fn blank(flow: &LinearLaw, hertz: &Hertz) -> Self {
+    /// A step under this law without a motion yet.
+    pub(super) fn without_motion(flow: &LinearLaw, hertz: &Hertz) -> Self {
         Self {
             hertz: *hertz,
             damping: flow.damping(),
@@ -102,12 +102,12 @@ impl TaylorStep {
         }
     }
 
-    /// Lets a step in time end there, or a millionth sooner: a length of few digits is added to a time without
+    /// Lets a step in time end at `reach`, or a millionth sooner: a length of few digits is added to a time without
     /// rounding, so that equal steps do not drift.
-    pub(super) fn ends_at(&mut self, reach: f64) {
+    pub(super) fn end_at(&mut self, reach: f64) {
         let reach = f64::from_bits(reach.to_bits() & (u64::MAX << 32));
         (self.reach, self.contact, self.end) = (reach, reach, reach);
-        self.last = self.moved_at(reach);
+        self.last = self.place_at(reach);
     }
 
     /// -1 if it is mirrored, else 1.
@@ -120,15 +120,16 @@ impl TaylorStep {
         self.stretch.is_none() && self.depth[1..] == ZERO[1..]
     }
 
-    pub(super) fn velocity(&self) -> Series {
+    /// The series of the velocity in m/s.
+    pub(super) fn velocity_series(&self) -> Series {
         match &self.stretch {
             Some(stretch) => stretch.velocity,
             None => derivative(&self.depth),
         }
     }
 
-    /// Time since departure in s.
-    pub(super) fn times(&self) -> Series {
+    /// The series of the time since departure in s.
+    pub(super) fn time_series(&self) -> Series {
         match &self.stretch {
             Some(stretch) => stretch.time,
             None => {
@@ -139,25 +140,25 @@ impl TaylorStep {
         }
     }
 
-    /// d(time)/d(sigma).
-    pub(super) fn rate(&self) -> Series {
-        derivative(&self.times())
+    /// The series of d(time)/d(sigma).
+    pub(super) fn time_rate_series(&self) -> Series {
+        derivative(&self.time_series())
     }
 
-    /// d^n, where the power law acts.
-    pub(super) fn power(&self) -> Series {
+    /// The series of d^n, where the power law acts.
+    pub(super) fn powers(&self) -> Series {
         match &self.stretch {
             _ if !self.is_pressed => ZERO,
             Some(stretch) => {
                 let steepness = stretch.index * (self.hertz.exponent - 1.0);
-                product(&power(&stretch.root, steepness), &self.depth)
+                product(&power_series(&stretch.root, steepness), &self.depth)
             }
-            None => power(&self.depth, self.hertz.exponent),
+            None => power_series(&self.depth, self.hertz.exponent),
         }
     }
 
-    /// Sigma at a time: Newton's method on a function that grows, kept inside its bracket.
-    pub fn parameter_at(&self, elapsed: f64) -> f64 {
+    /// Sigma after a time: Newton's method on a function that grows, kept inside its bracket.
+    pub fn sigma_after(&self, elapsed: f64) -> f64 {
         if elapsed >= self.end {
             return self.contact;
         }
@@ -191,37 +192,37 @@ impl TaylorStep {
         at
     }
 
-    /// Position in m and velocity in m/s.
-    pub fn state(&self, elapsed: f64) -> (f64, f64) {
-        self.state_of(&self.moved(elapsed))
+    /// Position in m and velocity in m/s after a time.
+    pub fn state_after(&self, elapsed: f64) -> (f64, f64) {
+        self.state_of_place(&self.place_after(elapsed))
     }
 
     /// Position and velocity at sigma.
     pub fn state_at(&self, sigma: f64) -> (f64, f64) {
-        self.state_of(&self.moved_at(sigma))
+        self.state_of_place(&self.place_at(sigma))
     }
 
     /// Position and velocity where the mass leaves contact, or else where the step ends.
     pub fn last_state(&self) -> (f64, f64) {
-        self.state_of(&self.last)
+        self.state_of_place(&self.last)
     }
 
-    fn state_of(&self, moved: &Moved) -> (f64, f64) {
+    fn state_of_place(&self, moved: &StepPlace) -> (f64, f64) {
         let (position, velocity) = (self.hertz.origin + moved.deflection, moved.velocity);
         (self.side() * position, self.side() * velocity)
     }
 
-    fn moved(&self, elapsed: f64) -> Moved {
+    fn place_after(&self, elapsed: f64) -> StepPlace {
         if elapsed >= self.end {
             self.last
         } else {
-            self.moved_at(self.parameter_at(elapsed))
+            self.place_at(self.sigma_after(elapsed))
         }
     }
 
-    pub(super) fn moved_at(&self, sigma: f64) -> Moved {
+    pub(super) fn place_at(&self, sigma: f64) -> StepPlace {
         if let Some(stretch) = &self.stretch {
-            return Moved {
+            return StepPlace {
                 deflection: value(&stretch.root, sigma).powi(stretch.index as i32),
                 low: 0.0,
                 velocity: value(&stretch.velocity, sigma),
@@ -232,27 +233,27 @@ impl TaylorStep {
         // The sum without error of Knuth (1969, 4.2.2, theorem B).
         let sum = start + way;
         let taken = sum - start;
-        Moved {
+        StepPlace {
             deflection: sum,
             low: (start - (sum - taken)) + (way - taken),
             velocity,
         }
     }
 
-    /// What it was told of its start beyond the rounded position.
-    pub fn finer_start(&self) -> Finer {
-        Finer {
+    /// What is known of the start beyond the rounded position.
+    pub fn fine_start(&self) -> FinePlace {
+        FinePlace {
             deflection: self.departed,
             low: self.low,
         }
     }
 
-    /// What the step knows of its end beyond the rounded position.
-    pub fn finer(&self, elapsed: f64) -> Finer {
-        let Moved {
+    /// What is known of the position after a time beyond its rounded value.
+    pub fn fine_at(&self, elapsed: f64) -> FinePlace {
+        let StepPlace {
             deflection, low, ..
-        } = self.moved(elapsed);
-        Finer { deflection, low }
+        } = self.place_after(elapsed);
+        FinePlace { deflection, low }
     }
 
     /// Push per mass in m/s^2 at sigma.
@@ -261,7 +262,7 @@ impl TaylorStep {
     }
 
     /// Time since departure at sigma, in s.
-    pub fn time_at(&self, sigma: f64) -> f64 {
+    pub fn time_at_sigma(&self, sigma: f64) -> f64 {
         match &self.stretch {
             Some(stretch) => value(&stretch.time, sigma),
             None => sigma,
@@ -281,9 +282,9 @@ impl TaylorStep {
         tangent + position.abs() * curved_part(series, span) < 0.0
     }
 
-    /// `position` x + `velocity` v + `push` q - `level` as a series in sigma; where it is the distance
-    /// from the face itself, that of the root, which has the same sign.
-    pub fn combination(&self, position: f64, velocity: f64, push: f64, level: f64) -> Series {
+    /// The guard `position` x + `velocity` v + `push` q - `level` as a series in sigma; where it is the distance from
+    /// the face itself, that of its root, which has the same sign.
+    pub fn guard_series(&self, position: f64, velocity: f64, push: f64, level: f64) -> Series {
         let [position, velocity, push] = [position, velocity, push].map(|it| self.side() * it);
         // Seen from the face, a surface at the face is at zero exactly.
         let level = level - position * self.hertz.origin;
@@ -296,7 +297,7 @@ impl TaylorStep {
             *term *= position;
         }
         if velocity != 0.0 {
-            let rates = self.velocity();
+            let rates = self.velocity_series();
             sum = std::array::from_fn(|k| sum[k] + velocity * rates[k]);
         }
         if push != 0.0 {

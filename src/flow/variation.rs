@@ -1,131 +1,199 @@
-//! Answers along a course: of a linear law by doubling, along a Taylor step by the transition of its start and Gauss's
-//! rule.
+//! Variational equations of an arc: how its states, and the energy supplied along it, change with its start and with
+//! the push; exact.
 
-use nalgebra::{Matrix3x2, Vector3};
+use nalgebra::{Matrix2, Vector2};
+
+use crate::budget;
 
 use super::arc_solution::{ArcSolution, Form};
-use super::gauss::gauss_nodes;
 use super::linearized::Linearized;
-use super::parameter_response::{Answer, ParameterResponse};
-use super::series::{Series, ZERO, convolve, product, value};
+use super::series::{Series, derivative, integral_of_product, product, value};
 use super::taylor_step::TaylorStep;
+use super::zero_state_responses::ZeroStateResponses;
 
-/// Halvings of a step towards the face, where d^n ln d is not smooth.
-const HALVINGS: i32 = 16;
+/// Derivatives of the state along an arc.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Transition {
+    /// By the state at departure.
+    pub matrix: Matrix2<f64>,
+    /// Integral of the damping coefficient over time and mass.
+    pub damping: f64,
+    /// By the drive's frequency, the state at departure held; none where it is not asked for or has no closed form.
+    pub by_frequency: Option<Vector2<f64>>,
+}
+
+impl Transition {
+    /// The derivatives along an arc on which the mass is held.
+    pub fn of_held_mass(course: &ArcSolution) -> Self {
+        Self {
+            matrix: Matrix2::new(1.0, 0.0, 0.0, 0.0),
+            damping: 0.0,
+            by_frequency: (!course.is_chattering()).then(Vector2::zeros),
+        }
+    }
+}
+
+/// A small change of a motion: of position and velocity at departure, and of the constant push per mass from there on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Variation {
+    pub position: f64,
+    pub velocity: f64,
+    pub push: f64,
+}
 
 impl ArcSolution {
-    /// The answers `elapsed` seconds after departure, that to d^n ln d only if `logarithm` is asked for. None where
-    /// they are not known: in bounces summed, in slow motion under heavy damping, under a force that is not constant.
-    pub(crate) fn answers(&self, elapsed: f64, logarithm: bool) -> Option<ParameterResponse> {
+    /// The change of position and velocity, `elapsed` seconds after departure, that a change there brings. A held mass
+    /// stays where it is.
+    pub(crate) fn state_variation(&self, elapsed: f64, by: Variation) -> (f64, f64) {
         match &self.form {
-            Form::Held => Some(ParameterResponse {
-                free: Matrix3x2::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-                forced: [Answer::zeros(); 9],
-                travel: (0.0, 0.0),
-            }),
-            Form::Particular { .. } | Form::Responses if self.departure.push.rate() == 0.0 => {
-                Some(self.flow.answers(&self.departure, elapsed))
+            Form::Held | Form::Chatter(_) => (by.position, 0.0),
+            Form::TaylorStep(segment) if segment.is_still() => (by.position, 0.0),
+            Form::TaylorStep(segment) => {
+                let sigma = segment.sigma_after(elapsed);
+                let [position, velocity] = segment.state_variation(by);
+                (value(&position, sigma), value(&velocity, sigma))
             }
-            Form::TaylorStep(segment)
-                if segment.creep.is_none() && segment.hertz.stiffness > 0.0 =>
-            {
-                Some(self.answers_of_step(segment, segment.parameter_at(elapsed), logarithm))
+            Form::Particular { .. } | Form::Responses => {
+                let modes = &self.flow.modes;
+                let mut state = modes.transition(elapsed) * Vector2::new(by.position, by.velocity);
+                if by.push != 0.0 {
+                    let answers =
+                        ZeroStateResponses::after_time(modes, self.flow.frequency, elapsed);
+                    state += by.push * answers.constant;
+                }
+                (state.x, state.y)
+            }
+        }
+    }
+
+    /// How the state after `elapsed` changes with that at departure and, if that is `since` seconds after the instant at
+    /// which the drive's angle is held, with the drive's frequency.
+    pub(crate) fn transition(&self, elapsed: f64, since: Option<f64>) -> Transition {
+        if let Form::TaylorStep(step) = &self.form {
+            let force = since.and_then(|since| self.detuning_force(step, since));
+            return step.transition(elapsed, force.as_ref());
+        }
+        let matrix = self.flow.transition(elapsed);
+        let by_frequency = match (&self.form, since) {
+            (Form::Particular { particular, .. }, Some(since)) => {
+                let answer = |elapsed: f64, drive| {
+                    particular.frequency_derivative(&self.flow, since + elapsed, drive)
+                };
+                let start = answer(0.0, self.departure.drive);
+                Some(answer(elapsed, self.drive_at(elapsed)) - matrix * start)
             }
             _ => None,
-        }
-    }
-
-    /// With Y the transition from the start and J the row of its work, d(end) = (Y, J) d(start) + the integral of
-    /// (Y, J) Y(s)^-1 (0, f(s)) - (0, J(s) Y(s)^-1 (0, f(s))).
-    fn answers_of_step(&self, step: &TaylorStep, to: f64, logarithm: bool) -> ParameterResponse {
-        let law = Linearized::of(step);
-        let rate = law.rate;
-        let (cos, sin) = self.turning(&rate);
-        let against = product(&rate, &cos);
-        let [first, second, _] = step.changes(&law, None);
-        let columns = [first, second].map(|[y, u]| {
-            let work = product(&against, &u);
-            let work = std::array::from_fn(|k| match k {
-                0 => 0.0,
-                _ => work[k - 1] / k as f64,
-            });
-            [y, u, work]
-        });
-        let free = |sigma: f64| -> Matrix3x2<f64> {
-            let column = |of: &[Series; 3]| Vector3::from(of.each_ref().map(|s| value(s, sigma)));
-            Matrix3x2::from_columns(&columns.each_ref().map(column))
         };
-        let hertz = &step.hertz;
-        let mut sums = [Vector3::zeros(); 9];
-        let mut travel = (0.0, 0.0);
-        for (sigma, weight) in step.nodes(to, logarithm) {
-            let y = free(sigma);
-            let determinant = y[(0, 0)] * y[(1, 1)] - y[(0, 1)] * y[(1, 0)];
-            let back = [-y[(0, 1)] / determinant, y[(0, 0)] / determinant];
-            let time = weight * value(&rate, sigma);
-            let work = y[(2, 0)] * back[0] + y[(2, 1)] * back[1];
-            let kernel = time * Vector3::new(back[0], back[1], work);
-            let moved = step.moved_at(sigma);
-            let (depth, velocity) = (moved.deflection, moved.velocity);
-            let (cos, sin) = (value(&cos, sigma), value(&sin, sigma));
-            let grip = 1.0 + hertz.dissipation * velocity;
-            let deep = depth.max(0.0);
-            let power = step.side() * deep.powf(hertz.exponent);
-            let log = if power != 0.0 { deep.ln() } else { 0.0 };
-            let sources = [
-                1.0,
-                step.side() * depth,
-                step.side() * velocity,
-                cos,
-                sin,
-                power * grip,
-                power * velocity,
-                power * log * grip,
-                deep.powf(hertz.exponent - 1.0) * grip,
-            ];
-            for (sum, source) in sums.iter_mut().zip(sources) {
-                *sum += source * kernel;
-            }
-            travel.0 += step.side() * time * cos * velocity;
-            travel.1 += step.side() * time * sin * velocity;
-        }
-        let free = free(to);
-        ParameterResponse {
-            free,
-            forced: sums.map(|sum| free * sum.xy() - Answer::new(0.0, 0.0, sum.z)),
-            travel,
+        Transition {
+            matrix,
+            damping: self.flow.damping() * elapsed,
+            by_frequency,
         }
     }
 
-    /// Cosine and sine of the drive angle as series in sigma.
-    fn turning(&self, rate: &Series) -> (Series, Series) {
-        let w = self.flow.frequency;
-        let (mut cos, mut sin) = (ZERO, ZERO);
-        (cos[0], sin[0]) = (self.departure.drive.cos, self.departure.drive.sin);
-        for k in 0..ZERO.len() - 1 {
-            let share = w / (k + 1) as f64;
-            cos[k + 1] = -share * convolve(rate, &sin, k);
-            sin[k + 1] = share * convolve(rate, &cos, k);
+    /// The force -A t sin(angle) per mass and d(time)/d(sigma) along a step under its drive and a constant push: by sigma,
+    /// that push changes by -A sin(angle) w d(time)/d(sigma). None in slow motion, whose changes are those by a constant
+    /// push.
+    fn detuning_force(&self, step: &TaylorStep, since: f64) -> Option<Series> {
+        let push = &self.departure.push;
+        if step.creep.is_some() || !push.is_linear() || push.rate() != 0.0 {
+            return None;
         }
-        (cos, sin)
+        let mut time = step.time_series();
+        time[0] += since;
+        let force = product(&time, &derivative(&step.push));
+        Some(force.map(|coefficient| coefficient / self.flow.frequency))
+    }
+
+    /// The change of the work of the push per mass up to `elapsed`; `law` is the part of the constant
+    /// push that is the phase's own force.
+    pub(crate) fn supply_variation(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
+        match &self.form {
+            Form::Held | Form::Chatter(_) => 0.0,
+            Form::TaylorStep(segment) if segment.is_still() => 0.0,
+            Form::TaylorStep(segment) => segment.supply_variation(elapsed, by, law),
+            Form::Particular { .. } | Form::Responses => {
+                self.supply_variation_of_linear(elapsed, by, law)
+            }
+        }
+    }
+
+    /// The supply variation of a linear law: its work is a quadratic form of the departure, so that a central
+    /// difference of any width is its derivative.
+    fn supply_variation_of_linear(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
+        let (from, w) = (self.departure, self.flow.frequency);
+        let norm = |x: f64, v: f64, c: f64| x.abs() + v.abs() / w + c.abs() / (w * w);
+        let size = norm(by.position, by.velocity, by.push);
+        if size == 0.0 {
+            return 0.0;
+        }
+        let motion = norm(from.position, from.velocity, self.flow.amplitude);
+        let width = if motion > 0.0 { motion / size } else { 1.0 };
+        let work = |width: f64| {
+            let mut moved = from;
+            moved.position += width * by.position;
+            moved.velocity += width * by.velocity;
+            moved.push = from
+                .push
+                .with_derivative(0, from.push.value() + width * by.push);
+            moved.acceleration = None;
+            let course = Self::new(&self.flow, moved);
+            course
+                .work_integrals(&course.node_at(elapsed), law)
+                .supplied
+        };
+        (work(width) - work(-width)) / (2.0 * width)
     }
 }
 
 impl TaylorStep {
-    /// Nodes and weights of Gauss's rule from 0 to `to`; at a face, if asked for, in pieces halved towards both ends.
-    fn nodes(&self, to: f64, halved: bool) -> Vec<(f64, f64)> {
-        if !halved || self.stretch.is_none() {
-            return gauss_nodes(to).to_vec();
+    /// How the state changes with that at the start and under a force per mass and d(time)/d(sigma).
+    fn transition(&self, elapsed: f64, force: Option<&Series>) -> Transition {
+        budget::charge(budget::TANGENT);
+        let sigma = self.sigma_after(elapsed);
+        let law = Linearized::along_step(self);
+        let columns = self.variations(&law, force);
+        let [first, second, forced] =
+            columns.map(|[y, u]| Vector2::new(value(&y, sigma), value(&u, sigma)));
+        Transition {
+            matrix: Matrix2::from_columns(&[first, second]),
+            damping: law.damping_integral(self.time_at_sigma(sigma), sigma),
+            by_frequency: force.map(|_| self.side() * forced),
         }
-        let mut nodes = Vec::new();
-        for level in 1..=HALVINGS {
-            let (from, last) = (0.5f64.powi(level + 1), level == HALVINGS);
-            let from = if last { 0.0 } else { from };
-            for (place, weight) in gauss_nodes(0.5f64.powi(level) - from) {
-                nodes.push((to * (from + place), to * weight));
-                nodes.push((to * (1.0 - from - place), to * weight));
+    }
+
+    /// The changes of position and velocity as series in sigma.
+    fn state_variation(&self, by: Variation) -> [Series; 2] {
+        let law = Linearized::along_step(self);
+        let [first, second, pushed] = self.variations(&law, Some(&law.rate));
+        [0, 1].map(|of| {
+            std::array::from_fn(|k| {
+                by.position * first[of][k] + by.velocity * second[of][k] + by.push * pushed[of][k]
+            })
+        })
+    }
+
+    /// Position and velocity, as series in sigma, from (1, 0), from (0, 1), and from (0, 0) under a force, if there is one,
+    /// per mass and d(time)/d(sigma): in slow motion a constant push.
+    pub(super) fn variations(&self, law: &Linearized, force: Option<&Series>) -> [[Series; 2]; 3] {
+        match &self.creep {
+            Some(creep) => {
+                let echo = creep.memory.map(|memory| creep.echo * memory);
+                [creep.memory, echo, creep.answer].map(|y| [y, derivative(&y)])
             }
+            None => law.solve_variations(force),
         }
-        nodes
+    }
+
+    /// The change of the work of the push per mass up to `elapsed`, as [`ArcSolution::supply_variation`].
+    fn supply_variation(&self, elapsed: f64, by: Variation, law: f64) -> f64 {
+        let [_, changed] = self.state_variation(by);
+        let rate = self.time_rate_series();
+        let mut push = self.push;
+        push[0] -= self.side() * law;
+        let to = self.sigma_after(elapsed);
+        let travel = integral_of_product(&rate, &self.velocity_series(), to);
+        let work = integral_of_product(&product(&rate, &push), &changed, to) + by.push * travel;
+        self.side() * work
     }
 }

@@ -13,11 +13,11 @@ use super::start::Start;
 use crate::budget;
 use crate::error::MotionError;
 use crate::events::{Found, Guard, NextEvent, first_crossing};
-use crate::flow::{Drive, Finer, Node};
+use crate::flow::{Drive, FinePlace, Node};
 use crate::phases::{Mode, Phase};
 
-/// Crossings at one and the same instant that a motion may make: more than any row of bounces that is shorter than the
-/// resolution of time.
+/// Most crossings at one and the same instant: more than any row of bounces that is shorter than the resolution of
+/// time.
 const MOST_AT_ONCE: u32 = 1_000_000;
 /// How many of them a Taylor step counts as, of which a contact takes some tens, or the end of a row of bounces.
 const STEP_AT_ONCE: u32 = 100;
@@ -26,8 +26,7 @@ const STEP_AT_ONCE: u32 = 100;
 const MOST_IN_A_PERIOD: u64 = 1 << 28;
 
 impl Motion {
-    /// Advances to `until`, or to where `observer` stops it, telling it of every finished arc and every
-    /// crossing.
+    /// Advances to `until`, or to where `observer` stops it, telling it of every finished arc and every crossing.
     ///
     /// # Errors
     /// [`MotionError::TimeBackwards`] if `until` lies in the past, [`MotionError::Unbounded`] if the
@@ -91,12 +90,12 @@ impl Motion {
             }
             let windows = match self.outlook {
                 NextEvent::Crossing(found) => {
-                    self.cross(found, observer);
+                    self.pass_crossing(found, observer);
                     budget::charge(budget::CROSSING);
                     budget::CROSSING
                 }
                 NextEvent::Ends(elapsed) => {
-                    self.go_on(elapsed, observer);
+                    self.end_step(elapsed, observer);
                     budget::TAYLOR_STEP
                 }
                 NextEvent::ClearUntil(node) => {
@@ -124,9 +123,8 @@ impl Motion {
         observer.arc(&self.arc(), self.elapsed());
     }
 
-    /// Moves on along the present arc if it reaches to `until`; false if something happens before, or
-    /// may happen for all that is known. `until` does not lie in the past, unless by the rounding of a
-    /// crossing.
+    /// Moves on along the present arc if it reaches to `until`; false if something happens before, or may happen for
+    /// all that is known. `until` does not lie in the past, unless by the rounding of a crossing.
     ///
     /// # Errors
     /// [`MotionError::Unbounded`].
@@ -148,7 +146,7 @@ impl Motion {
             return Ok(false);
         }
         if !self.course.is_bounded() {
-            let (position, velocity) = self.course.at(horizon, self.clock.drive(until));
+            let (position, velocity) = self.course.state_at(horizon, self.clock.drive(until));
             if !(position.is_finite() && velocity.is_finite()) {
                 let time = self.clock.time(until);
                 return Err(MotionError::Unbounded { time, position });
@@ -179,6 +177,7 @@ impl Motion {
         MotionError::Endless { time, position }
     }
 
+    /// Searches the next event up to `horizon` seconds into the arc, unless it is known.
     fn look_ahead(&mut self, horizon: f64) -> Result<(), MotionError> {
         if let NextEvent::ClearUntil(node) = self.outlook
             && node.elapsed < horizon
@@ -191,7 +190,7 @@ impl Motion {
                 horizon
             };
             let is_open = !budget::is_spent();
-            let found = is_open.then(|| self.search(node, until));
+            let found = is_open.then(|| self.search_next_event(node, until));
             let found = found.filter(|_| !budget::is_spent());
             self.outlook = found.ok_or_else(|| self.over_budget())?;
         }
@@ -207,38 +206,39 @@ impl Motion {
         Ok(())
     }
 
-    fn search(&self, node: Node, horizon: f64) -> NextEvent {
-        first_crossing(&self.course, &self.guards(), node, horizon)
+    /// The next event from a node on, up to `horizon`.
+    fn search_next_event(&self, node: Node, horizon: f64) -> NextEvent {
+        first_crossing(&self.course, &self.present_guards(), node, horizon)
     }
 
     /// The guards that watch the present arc.
-    pub(super) fn guards(&self) -> Cow<'_, [Guard]> {
+    pub(super) fn present_guards(&self) -> Cow<'_, [Guard]> {
         match self.mode {
             Mode::Moving(phase) => Cow::Borrowed(&self.phases[phase].guards),
             Mode::Held(hold) => {
                 let since = &self.course.departure;
                 let push = since.push.value() + self.phases.amplitude * since.drive.cos;
-                Cow::Owned(self.phases.releases(hold, since.position, push))
+                Cow::Owned(self.phases.release_guards(hold, since.position, push))
             }
             Mode::Chattering(_) => Cow::Borrowed(&[]),
         }
     }
 
-    /// Takes up the motion where a course ends that was not meant to go further.
-    pub(super) fn go_on(&mut self, elapsed: f64, observer: &mut dyn Observer) {
+    /// Ends a Taylor step, or a row of summed bounces, and begins what follows.
+    pub(super) fn end_step(&mut self, elapsed: f64, observer: &mut dyn Observer) {
         let drive = self.end_arc(elapsed, None, observer);
         let Mode::Chattering(hold) = self.mode else {
             return self.next_step(elapsed, drive);
         };
         let position = self.course.departure.position;
         let speed = self.course.chatter().map_or(0.0, |chatter| chatter.speed);
-        let mode = self.phases.leave(hold, position, self.push(drive));
+        let mode = self.phases.mode_from_rest(hold, position, self.push(drive));
         let rest = Reset::new(position, 0.0, mode, CrossingKind::Rest);
-        self.take_up(rest, Start::new(position, speed), drive, observer);
+        self.begin_after_reset(rest, Start::new(position, speed), drive, observer);
     }
 
-    /// Ends the present arc, in the state that a crossing tells, tells of it, and lets the next one begin there:
-    /// where the drive then stands.
+    /// Ends the present arc, in the state that a crossing tells, tells the observer of it, and lets the next one begin
+    /// there: the drive at that instant.
     fn end_arc(
         &mut self,
         elapsed: f64,
@@ -249,43 +249,44 @@ impl Motion {
         let drive = self.clock.drive(at);
         let end = state.map(|state| (elapsed, state, drive));
         observer.arc(&Arc { end, ..self.arc() }, elapsed);
-        self.force.go_on(&self.clock, at, elapsed);
+        self.force.next_arc(&self.clock, at, elapsed);
         (self.start, self.now) = (at, at);
         drive
     }
 
     /// The next Taylor step, from the very place at which the last one ended.
     fn next_step(&mut self, elapsed: f64, drive: Drive) {
-        let (position, velocity) = self.course.at(elapsed, drive);
-        let finer = self.course.segment().map(|last| last.finer(elapsed));
+        let (position, velocity) = self.course.state_at(elapsed, drive);
+        let finer = self.course.taylor_step().map(|last| last.fine_at(elapsed));
         let (position, finer) = match (self.phase(), finer) {
-            (Some(phase), Some(finer)) if phase.hertz.is_none() => within(phase, position, finer),
+            (Some(phase), Some(finer)) if phase.hertz.is_none() => confine(phase, position, finer),
             _ => (position, finer),
         };
         let state = Start::new(position, velocity);
-        let departure = self.departure(state, drive, self.mode, None);
-        self.begin(departure, self.mode, finer, None);
+        let departure = self.departure_in(state, drive, self.mode, None);
+        self.begin_course(departure, self.mode, finer, None);
     }
 
-    pub(super) fn cross(&mut self, found: Found, observer: &mut dyn Observer) {
+    /// Ends the arc at a crossing and begins the next one.
+    pub(super) fn pass_crossing(&mut self, found: Found, observer: &mut dyn Observer) {
         // A mass that leaves rest and is back at once has not moved.
         let moved = self.course.departure.velocity != 0.0 || !self.is_instant(found.elapsed);
         let velocity = match self.mode {
-            Mode::Moving(phase) => self.phases.onward(phase, &found),
+            Mode::Moving(phase) => self.phases.crossing_velocity(phase, &found),
             Mode::Held(_) | Mode::Chattering(_) => found.velocity,
         };
         let before = Start::new(found.position, velocity);
         let drive = self.end_arc(found.elapsed, Some(before), observer);
-        if let Some(surface) = self.surface_of(found.guard) {
-            self.hum.count(surface, found.velocity);
+        if let Some(surface) = self.endless_surface(found.guard) {
+            self.hum.count_crossing(surface, found.velocity);
         }
-        let landing = self.land(&found, self.push(drive), moved);
-        self.note_strip(landing.kind);
-        self.take_up(landing, before, drive, observer);
+        let landing = self.reset_after(&found, self.push(drive), moved);
+        self.remember_piercing(landing.kind);
+        self.begin_after_reset(landing, before, drive, observer);
     }
 
-    /// Goes on from a crossing at the start of the next arc, and tells of it.
-    fn take_up(
+    /// Begins the arc after a reset, and tells of the crossing.
+    fn begin_after_reset(
         &mut self,
         landing: Reset,
         before: Start,
@@ -293,13 +294,13 @@ impl Motion {
         observer: &mut dyn Observer,
     ) {
         let (push, after) = (self.push(drive), landing.state);
-        let acceleration_before = self.acceleration(self.mode, before, push);
+        let acceleration_before = self.acceleration_in(self.mode, before, push);
         match landing.chatter {
             Some(chatter) => {
-                let departure = self.departure(after, drive, landing.mode, None);
-                self.begin(departure, landing.mode, None, Some(chatter));
+                let departure = self.departure_in(after, drive, landing.mode, None);
+                self.begin_course(departure, landing.mode, None, Some(chatter));
             }
-            None => self.depart(after, drive, landing.mode),
+            None => self.begin_arc(after, drive, landing.mode),
         }
         observer.crossing(&Crossing {
             instant: self.start,
@@ -308,14 +309,13 @@ impl Motion {
             velocity: before.velocity,
             velocity_after: after.velocity,
             acceleration_before,
-            acceleration_after: self.acceleration(landing.mode, after, push),
+            acceleration_after: self.acceleration_in(landing.mode, after, push),
         });
     }
 }
 
-/// The place between two steps of a linear phase: within its surfaces, so that none is passed unseen by
-/// rounding.
-fn within(phase: &Phase, position: f64, finer: Finer) -> (f64, Option<Finer>) {
+/// The place between two steps of a linear phase: within its surfaces, so that none is passed unseen by rounding.
+fn confine(phase: &Phase, position: f64, finer: FinePlace) -> (f64, Option<FinePlace>) {
     let beside = if finer.low > 0.0 {
         position.next_up()
     } else if finer.low < 0.0 {
@@ -323,6 +323,6 @@ fn within(phase: &Phase, position: f64, finer: Finer) -> (f64, Option<Finer>) {
     } else {
         position
     };
-    let inside = phase.confine(beside) == beside;
-    (phase.confine(position), inside.then_some(finer))
+    let inside = phase.confine_position(beside) == beside;
+    (phase.confine_position(position), inside.then_some(finer))
 }

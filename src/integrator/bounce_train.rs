@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::phases::{SurfaceId, Threshold};
 
-/// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast
-/// as one before it.
+/// A row of bounces: crossings of one and the same surface, reversals left out, none of them twice as fast as one
+/// before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BounceTrain {
     surface: SurfaceId,
@@ -36,8 +36,8 @@ const PATIENCE: u32 = 10_000;
 const FAINT: f64 = 1e-11;
 
 impl BounceTrain {
-    /// Counts a crossing.
-    pub fn count(&mut self, surface: SurfaceId, velocity: f64) {
+    /// Counts a crossing of a surface.
+    pub fn count_crossing(&mut self, surface: SurfaceId, velocity: f64) {
         let speed = velocity.abs();
         if surface != self.surface || speed > 2.0 * self.slowest {
             *self = Self {
@@ -50,8 +50,8 @@ impl BounceTrain {
         self.slowest = self.slowest.min(speed);
     }
 
-    /// What counts as rest after this row.
-    pub fn threshold(&self) -> Threshold {
+    /// The bounces that count as rest after this row.
+    pub fn rest_threshold(&self) -> Threshold {
         if self.crossings < PATIENCE {
             return Threshold::ROUNDING;
         }

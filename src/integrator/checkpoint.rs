@@ -24,8 +24,8 @@ pub(super) struct CheckpointState<M = Motion> {
 }
 
 impl<M> Checkpoint<M> {
-    /// This checkpoint with another motion.
-    pub fn with<N, E>(&self, motion: impl Fn(&M) -> Result<N, E>) -> Result<Checkpoint<N>, E> {
+    /// This checkpoint with its motion made into another form.
+    pub fn map<N, E>(&self, motion: impl Fn(&M) -> Result<N, E>) -> Result<Checkpoint<N>, E> {
         Ok(match self {
             Self::OnArc(instant) => Checkpoint::OnArc(*instant),
             Self::Before(origin) => Checkpoint::Before(Box::new(CheckpointState {

@@ -89,10 +89,11 @@ impl Clock {
                 offset,
             };
         }
-        self.carried(from.cycles, offset)
+        self.carry_periods(from.cycles, offset)
     }
 
-    fn carried(&self, cycles: f64, offset: f64) -> Instant {
+    /// The instant with whole periods carried from the offset into the cycles.
+    fn carry_periods(&self, cycles: f64, offset: f64) -> Instant {
         let mut whole = (offset / self.period).floor();
         let mut offset = (-whole).mul_add(self.period, offset) - whole * self.period_low;
         if offset < 0.0 {

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::clock::{Clock, Instant};
 use super::impact::Impact;
 use super::observer::{Arc, Crossing, CrossingKind, Observer};
-use super::replay::integral;
 use super::simulation::Simulation;
 use super::start::Start;
 use crate::error::MotionError;
-use crate::peak::largest;
+use crate::flow::integrate;
+use crate::peak::largest_value;
 use crate::phases::PhaseKind;
 use crate::scene::Scene;
 
@@ -57,7 +57,7 @@ impl Simulation {
         if self.was_free() {
             return Ok(Contacts::default());
         }
-        let (motion, from) = self.marked();
+        let (motion, from) = self.motion_passing_mark();
         let mut watch = ContactRecorder {
             scene: &self.scene,
             clock: *motion.clock(),
@@ -98,8 +98,8 @@ impl Observer for ContactRecorder<'_> {
         let rate = self.scene.excitation.frequency + arc.phase.map_or(0.0, |_| fastest);
 
         // F = push - k1 x - b1 x' - m x'', of which the last two have integrals.
-        self.contacts.impulse += integral((from, elapsed), rate, rest);
-        let (begin, end) = (arc.at(from), arc.node(elapsed));
+        self.contacts.impulse += integrate((from, elapsed), rate, rest);
+        let (begin, end) = (arc.at(from), arc.node_after(elapsed));
         self.contacts.impulse -= damping * (end.position - begin.position);
         self.contacts.impulse -= mass * (end.velocity - begin.velocity);
 
@@ -111,7 +111,7 @@ impl Observer for ContactRecorder<'_> {
             );
             arc.side * force
         };
-        let peak = largest((from, elapsed), rate, force);
+        let peak = largest_value((from, elapsed), rate, force);
         self.contacts.peak = self.contacts.peak.max(peak);
     }
 

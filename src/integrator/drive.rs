@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::checkpoint::Checkpoint;
 use super::clock::Clock;
-use super::force::polynomial;
+use super::force::force_from_derivatives;
 use super::simulation::Simulation;
 use crate::error::MotionError;
 
@@ -30,7 +30,7 @@ impl Simulation {
         angle: f64,
         force: &[f64],
     ) -> Result<(), MotionError> {
-        let force = polynomial(force)?;
+        let force = force_from_derivatives(force)?;
         if !angle.is_finite() {
             return Err(MotionError::NotFinite {
                 name: "drive angle",
@@ -40,10 +40,10 @@ impl Simulation {
         let mut scene = self.scene.clone();
         (scene.excitation.amplitude, scene.excitation.frequency) = (amplitude, frequency);
         scene.validate()?;
-        let phases = self.motion.phases().driven(amplitude, frequency);
+        let phases = self.motion.phases().with_drive(amplitude, frequency);
         let clock = Clock::new(frequency, angle.rem_euclid(TAU));
         let work = self.tallies.work_under_way(&self.motion);
-        self.restart();
+        self.restart_clock();
         let now = Clock::at_cycle(0);
         if self.motion.set_drive(phases, clock, now, force) {
             self.tallies.counts.work += work;
@@ -54,7 +54,7 @@ impl Simulation {
     }
 
     /// Lets the time of another clock begin now.
-    pub(super) fn restart(&mut self) {
+    pub(super) fn restart_clock(&mut self) {
         self.earlier = self.last_impact();
         self.tallies.counts.last_impact = None;
         self.epoch = self.now;

@@ -8,13 +8,12 @@ use super::Observer;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort(u64);
 
-/// Windows that are scanned between two looks at the effort left.
+/// Windows of an arc that are scanned before the observer is asked whether to go on.
 pub(super) const CHUNK: u32 = 1 << 20;
 
 impl Effort {
-    /// About as much as scanning this many windows of time costs. A window is the reciprocal of the
-    /// fastest of drive and free motion; a crossing costs as much as 64 of them, a Taylor step as
-    /// much as 128.
+    /// About as much as scanning this many windows of time costs. A window is the reciprocal of the fastest of drive
+    /// and free motion; a crossing costs as much as 64 of them, a Taylor step as much as 128.
     pub const fn windows(windows: u64) -> Self {
         Self(windows)
     }

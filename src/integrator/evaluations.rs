@@ -14,7 +14,7 @@ pub struct Evaluations {
 
 impl Observer for Evaluations {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let windows = if arc.course.segment().is_some() {
+        let windows = if arc.course.taylor_step().is_some() {
             0
         } else {
             (elapsed / arc.course.flow.window).ceil() as u64

@@ -9,7 +9,7 @@ use super::observer::Arc;
 use super::start::Start;
 use crate::error::MotionError;
 use crate::events::{NextEvent, is_clear_near_start};
-use crate::flow::{ArcSolution, Chatter, Departure, Drive, Finer, Polynomial};
+use crate::flow::{ArcSolution, Chatter, Departure, Drive, FinePlace, Polynomial};
 use crate::phases::{Mode, Phase, PhaseId, PhaseKind, Phases, Store, Surface};
 
 /// The exact motion of a scene, arc by arc.
@@ -45,14 +45,14 @@ impl Motion {
         at: Instant,
         start: Start,
     ) -> Result<Self, MotionError> {
-        Self::with(phases, clock, at, start, Polynomial::default(), true)
+        Self::with_force(phases, clock, at, start, Polynomial::default(), true)
     }
 
     /// A motion under an external force in N that begins with the motion, with or without a strip.
     ///
     /// # Errors
     /// As [`Motion::new`].
-    pub fn with(
+    pub fn with_force(
         phases: impl Into<Shared<Phases>>,
         clock: Clock,
         at: Instant,
@@ -62,7 +62,7 @@ impl Motion {
     ) -> Result<Self, MotionError> {
         let phases = phases.into();
         let position = start.position;
-        let is_passed = |wall: &&Surface| position != wall.position && wall.holds(position);
+        let is_passed = |wall: &&Surface| position != wall.position && wall.is_reached(position);
         if let Some(&Surface { position: wall, .. }) = phases.walls().find(is_passed) {
             return Err(MotionError::BeyondStop { position, wall });
         }
@@ -74,9 +74,9 @@ impl Motion {
             push: Polynomial::default(),
             acceleration: None,
         };
-        let course = ArcSolution::held(&phases.held(), departure);
+        let course = ArcSolution::held(&phases.law_of_held_mass(), departure);
         let push = phases.push(drive, &force);
-        let mode = phases.locate(start.position, start.velocity, push, fed);
+        let mode = phases.mode_at(start.position, start.velocity, push, fed);
         let outlook = NextEvent::Never;
         let mut motion = Self {
             phases,
@@ -92,7 +92,7 @@ impl Motion {
             hum: BounceTrain::default(),
             is_put: false,
         };
-        motion.depart(start, drive, mode);
+        motion.begin_arc(start, drive, mode);
         Ok(motion)
     }
 
@@ -104,7 +104,7 @@ impl Motion {
             && let Some((released, _)) = self.phases[located].released
             && released == known
         {
-            self.depart(
+            self.begin_arc(
                 self.state(),
                 self.clock.drive(self.now),
                 Mode::Moving(known),
@@ -164,11 +164,11 @@ impl Motion {
         self.mode.phase().map(|phase| &self.phases[phase])
     }
 
-    /// What the stop stores now.
+    /// The energy store of the stop now.
     pub fn store(&self) -> &Store {
         let phase = match self.mode {
             Mode::Moving(phase) => phase,
-            Mode::Held(hold) | Mode::Chattering(hold) => hold.outer(),
+            Mode::Held(hold) | Mode::Chattering(hold) => hold.outer_phase(),
         };
         &self.phases[phase].store
     }
@@ -181,9 +181,9 @@ impl Motion {
     /// Position and velocity now.
     pub fn state(&self) -> Start {
         let drive = self.clock.drive(self.now);
-        let (position, velocity) = self.course.at(self.elapsed(), drive);
+        let (position, velocity) = self.course.state_at(self.elapsed(), drive);
         let bounding = self.phase().filter(|_| !self.is_put);
-        let confine = |phase: &Phase| phase.confine(position);
+        let confine = |phase: &Phase| phase.confine_position(position);
         Start::new(bounding.map_or(position, confine), velocity)
     }
 
@@ -196,9 +196,9 @@ impl Motion {
             course: &self.course,
             phase,
             kind: self.kind(),
-            side: match (phase, self.mode.hold()) {
+            side: match (phase, self.mode.sticking()) {
                 (Some(phase), _) => phase.side,
-                (None, Some(hold)) => self.phases.side(hold),
+                (None, Some(hold)) => self.phases.side_of_hold(hold),
                 (None, None) => 1.0,
             },
             end: None,
@@ -222,15 +222,16 @@ impl Motion {
         self.fed = fed;
     }
 
-    /// Begins an arc at the present start instant.
-    pub(super) fn depart(&mut self, state: Start, drive: Drive, mode: Mode) {
+    /// Begins an arc in this state and mode at the present start instant.
+    pub(super) fn begin_arc(&mut self, state: Start, drive: Drive, mode: Mode) {
         let acceleration =
             (state.velocity == 0.0).then(|| self.acceleration_at_rest(state.position, drive, mode));
-        let departure = self.departure(state, drive, mode, acceleration);
-        self.begin(departure, mode, None, None);
+        let departure = self.departure_in(state, drive, mode, acceleration);
+        self.begin_course(departure, mode, None, None);
     }
 
-    pub(super) fn departure(
+    /// The departure of an arc in this state and mode.
+    pub(super) fn departure_in(
         &self,
         state: Start,
         drive: Drive,
@@ -248,16 +249,15 @@ impl Motion {
         }
     }
 
-    /// Sets the course of an arc; between two steps `finer` says more sharply than the departure where the
-    /// mass is.
-    pub(super) fn begin(
+    /// Sets the course of an arc; between two steps `finer` says more sharply than the departure where the mass is.
+    pub(super) fn begin_course(
         &mut self,
         departure: Departure,
         mode: Mode,
-        finer: Option<Finer>,
+        finer: Option<FinePlace>,
         chatter: Option<Chatter>,
     ) {
-        let held = || self.phases.held();
+        let held = || self.phases.law_of_held_mass();
         match (mode, chatter) {
             (Mode::Moving(phase), _) => {
                 let phase = &self.phases[phase];
@@ -266,12 +266,12 @@ impl Motion {
                         let rounded = hertz.deflection(departure.position);
                         let deflection = finer.map_or(rounded, |finer| finer.deflection);
                         self.course
-                            .renew_nonlinear(&phase.flow, hertz, departure, deflection);
+                            .restart_nonlinear(&phase.flow, hertz, departure, deflection);
                     }
-                    (None, Some(Finer { low, .. })) => {
-                        self.course = ArcSolution::resumed(&phase.flow, departure, low);
+                    (None, Some(FinePlace { low, .. })) => {
+                        self.course = ArcSolution::next_step(&phase.flow, departure, low);
                     }
-                    (None, None) => self.course.renew(&phase.flow, departure),
+                    (None, None) => self.course.restart(&phase.flow, departure),
                 }
             }
             (Mode::Chattering(_), Some(chatter)) => {
@@ -282,6 +282,30 @@ impl Motion {
             }
         }
         (self.mode, self.is_put) = (mode, false);
-        self.outlook = NextEvent::ClearUntil(self.course.start());
+        self.outlook = NextEvent::ClearUntil(self.course.start_node());
+    }
+
+    /// Acceleration in m/s^2 with which a mass at rest starts in a mode: the very number by which the mode was chosen.
+    pub(super) fn acceleration_at_rest(&self, position: f64, drive: Drive, mode: Mode) -> f64 {
+        match (self.mode, mode) {
+            (Mode::Moving(_) | Mode::Chattering(_), Mode::Moving(phase)) => {
+                let push = self.push(drive);
+                self.phases.acceleration(phase, position, 0.0, push)
+            }
+            // A held mass is let go in balance.
+            _ => 0.0,
+        }
+    }
+
+    /// Push of drive and external force per mass, in m/s^2, at the start of the present arc.
+    pub(super) fn push(&self, drive: Drive) -> f64 {
+        self.phases.push(drive, self.force.on_arc())
+    }
+
+    /// Acceleration in m/s^2 in a mode.
+    pub(super) fn acceleration_in(&self, mode: Mode, at: Start, push: f64) -> f64 {
+        let Start { position, velocity } = at;
+        let moving = |phase| self.phases.acceleration(phase, position, velocity, push);
+        mode.phase().map_or(0.0, moving)
     }
 }

@@ -15,10 +15,10 @@ pub struct Arc<'a> {
     pub start: Instant,
     /// The clock of its instants.
     pub clock: &'a Clock,
-    /// Its exact motion.
+    /// The exact motion along the arc.
     #[doc(hidden)]
     pub course: &'a ArcSolution,
-    /// Its phase; none while the mass is held.
+    /// The phase of the arc; none while the mass is held.
     #[doc(hidden)]
     pub phase: Option<&'a Phase>,
     /// What the mass does on it.
@@ -30,13 +30,13 @@ pub struct Arc<'a> {
 }
 
 impl Arc<'_> {
-    /// Where it has come to `elapsed` seconds after the start, at its end or on the way.
-    pub(super) fn node(&self, elapsed: f64) -> Node {
+    /// The node `elapsed` seconds after the start, at the end of the arc or on the way.
+    pub(super) fn node_after(&self, elapsed: f64) -> Node {
         match self.end {
-            Some((at, Start { position, velocity }, drive)) if at == elapsed => {
-                self.course.placed(elapsed, drive, (position, velocity))
-            }
-            _ => self.course.node(elapsed),
+            Some((at, Start { position, velocity }, drive)) if at == elapsed => self
+                .course
+                .node_of_state(elapsed, drive, (position, velocity)),
+            _ => self.course.node_at(elapsed),
         }
     }
 
@@ -52,7 +52,7 @@ impl Arc<'_> {
 
     /// The state `elapsed` seconds after the start.
     pub fn at(&self, elapsed: f64) -> Start {
-        let (position, velocity) = self.course.at(elapsed, self.drive(elapsed));
+        let (position, velocity) = self.course.state_at(elapsed, self.drive(elapsed));
         Start::new(position, velocity)
     }
 }

@@ -14,13 +14,13 @@ pub type Rate = (f64, f64);
 pub struct Rates {
     /// Fourth derivative of the position, in m/s^4.
     pub snap: f64,
-    /// Of the contact force, in N/s and N/s^2.
+    /// Rates of the contact force, in N/s and N/s^2.
     pub contact_force: Rate,
-    /// Of the mechanical energy, in W and W/s.
+    /// Rates of the mechanical energy, in W and W/s.
     pub mechanical: Rate,
-    /// Of the energy supplied, in W and W/s.
+    /// Rates of the energy supplied, in W and W/s.
     pub supplied: Rate,
-    /// Of the energy dissipated, in W and W/s.
+    /// Rates of the energy dissipated, in W and W/s.
     pub dissipated: Rate,
 }
 

@@ -5,22 +5,8 @@ use super::clock::{Clock, Instant};
 use super::observer::{Arc, Observer};
 use super::simulation::Simulation;
 use crate::error::MotionError;
-use crate::flow::{Polynomial, gauss_nodes};
+use crate::flow::{Polynomial, integrate};
 use crate::phases::PhaseKind;
-
-/// The integral between two times of a function that oscillates no faster than with `rate` in rad/s.
-pub(super) fn integral((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let panels = (rate * (to - from)).ceil().max(1.0);
-    let width = (to - from) / panels;
-    let mut sum = 0.0;
-    for panel in 0..panels as u64 {
-        let start = from + width * panel as f64;
-        for (time, weight) in gauss_nodes(width) {
-            sum += weight * value(start + time);
-        }
-    }
-    sum
-}
 
 impl Simulation {
     /// Work in J, over the stretch of [`Simulation::contacts`], of a force that has these derivatives where it begins.
@@ -28,8 +14,8 @@ impl Simulation {
     /// # Errors
     /// [`MotionError`] if the stretch cannot be gone through again.
     pub fn work_of(&self, force: &Polynomial) -> Result<f64, MotionError> {
-        let (motion, from) = self.marked();
-        let mut watch = Working {
+        let (motion, from) = self.motion_passing_mark();
+        let mut watch = WorkRecorder {
             clock: *motion.clock(),
             from,
             force,
@@ -41,7 +27,7 @@ impl Simulation {
 
     /// Tells of all arcs and crossings since the mark; the first arc may have begun before it.
     pub(super) fn replay(&self, observer: &mut dyn Observer) -> Result<(), MotionError> {
-        let mut motion = self.marked().0.clone();
+        let mut motion = self.motion_passing_mark().0.clone();
         motion.advance_like(&self.motion, observer)?;
         motion.tell_arc(observer);
         Ok(())
@@ -54,21 +40,21 @@ impl Simulation {
 }
 
 /// Adds up the work of a force from an instant on.
-struct Working<'a> {
+struct WorkRecorder<'a> {
     clock: Clock,
     from: Instant,
     force: &'a Polynomial,
     work: f64,
 }
 
-impl Observer for Working<'_> {
+impl Observer for WorkRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let since = self.clock.elapsed(arc.start, self.from);
         let flow = &arc.course.flow;
         let rate = flow.frequency + flow.modes.fastest_rate();
-        let power = |time: f64| self.force.at(time - since) * arc.at(time).velocity;
+        let power = |time: f64| self.force.eval(time - since) * arc.at(time).velocity;
         if elapsed > since {
-            self.work += integral((since.max(0.0), elapsed), rate, power);
+            self.work += integrate((since.max(0.0), elapsed), rate, power);
         }
     }
 }

@@ -1,17 +1,17 @@
-//! What a crossing leads to: state, mode and kind right after it.
+//! The reset at a crossing: state, mode and kind right after it.
 
 use super::motion::Motion;
 use super::observer::CrossingKind;
 use super::start::Start;
 use crate::events::Found;
-use crate::flow::{Chatter, Drive, Polynomial, Pressing};
+use crate::flow::{Chatter, Polynomial, Pressing};
 use crate::phases::{Beyond, Exit, Mode, PhaseId, Phases, Sticking, Surface, SurfaceId, Threshold};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
 /// to no end in finite time, as those on a preloaded face.
 const ENDLESS: f64 = 1.0 - 1.0 / (1u64 << 16) as f64;
 
-/// State, mode and kind of a crossing, right after it.
+/// State, mode and kind right after a crossing.
 pub(crate) struct Reset {
     pub state: Start,
     pub mode: Mode,
@@ -47,7 +47,7 @@ impl Phases {
 
     /// The velocity of a crossing out of a phase: rounding may turn that of a touch the other way.
     #[inline]
-    pub(super) fn onward(&self, phase: PhaseId, found: &Found) -> f64 {
+    pub(super) fn crossing_velocity(&self, phase: PhaseId, found: &Found) -> f64 {
         match self[phase].exits[found.guard] {
             Exit::Forward(_) | Exit::Backward(_) => {
                 if self[phase].guards[found.guard].position > 0.0 {
@@ -63,75 +63,50 @@ impl Phases {
 
 impl Motion {
     /// The surface that a guard watches, if bounces on it may go on for ever.
-    pub(super) fn surface_of(&self, guard: usize) -> Option<SurfaceId> {
+    pub(super) fn endless_surface(&self, guard: usize) -> Option<SurfaceId> {
         self.phases.endless_surface(self.mode.phase()?, guard)
     }
 
-    /// State and mode right after a crossing; `moved` as for [`ResetContext::leave`].
-    pub(super) fn land(&self, found: &Found, push: f64, moved: bool) -> Reset {
+    /// State and mode right after a crossing; `moved` as for [`ResetContext::reset`].
+    pub(super) fn reset_after(&self, found: &Found, push: f64, moved: bool) -> Reset {
         match self.mode {
-            Mode::Moving(phase) => self.ground().leave(phase, found, push, moved),
+            Mode::Moving(phase) => self.reset_context().reset(phase, found, push, moved),
             Mode::Held(hold) | Mode::Chattering(hold) => {
-                let mode = hold.released(found.guard);
+                let mode = hold.after_release(found.guard);
                 Reset::new(found.position, 0.0, mode, CrossingKind::Release)
             }
         }
     }
 
-    fn ground(&self) -> ResetContext<'_> {
+    fn reset_context(&self) -> ResetContext<'_> {
         ResetContext {
             phases: &self.phases,
             fed: self.fed,
             pierced: self.pierced,
-            threshold: self.hum.threshold(),
+            threshold: self.hum.rest_threshold(),
             force: self.force.on_arc(),
             period: self.clock().period(),
         }
     }
 
     /// Remembers whether the strip of this stroke is pierced.
-    pub(super) fn note_strip(&mut self, kind: CrossingKind) {
+    pub(super) fn remember_piercing(&mut self, kind: CrossingKind) {
         if kind.pierces() {
             self.pierced = true;
         } else if matches!(kind, CrossingKind::Surface { impact: true, .. }) {
             self.pierced = false;
         }
     }
-
-    /// Acceleration in m/s^2 with which a mass at rest starts in a mode: the very number by which the
-    /// mode was chosen.
-    pub(super) fn acceleration_at_rest(&self, position: f64, drive: Drive, mode: Mode) -> f64 {
-        match (self.mode, mode) {
-            (Mode::Moving(_) | Mode::Chattering(_), Mode::Moving(phase)) => {
-                let push = self.push(drive);
-                self.phases.acceleration(phase, position, 0.0, push)
-            }
-            // A held mass is let go in balance.
-            _ => 0.0,
-        }
-    }
-
-    /// Push of drive and external force per mass, in m/s^2, at the start of the present arc.
-    pub(super) fn push(&self, drive: Drive) -> f64 {
-        self.phases.push(drive, self.force.on_arc())
-    }
-
-    /// Acceleration in m/s^2 in a mode.
-    pub(super) fn acceleration(&self, mode: Mode, at: Start, push: f64) -> f64 {
-        let Start { position, velocity } = at;
-        let moving = |phase| self.phases.acceleration(phase, position, velocity, push);
-        mode.phase().map_or(0.0, moving)
-    }
 }
 
-/// What the rules of a landing ask for.
+/// What the rules of a reset need to know of a motion.
 pub(crate) struct ResetContext<'a> {
     pub phases: &'a Phases,
     /// A strip lies beyond the clearance.
     pub fed: bool,
     /// The strip of this stroke is pierced.
     pub pierced: bool,
-    /// What counts as a bounce.
+    /// The bounces that count as rest.
     pub threshold: Threshold,
     /// The external force in N from now on.
     pub force: &'a Polynomial,
@@ -140,16 +115,16 @@ pub(crate) struct ResetContext<'a> {
 }
 
 impl ResetContext<'_> {
-    /// State and mode right after a crossing out of a phase; `moved` is false for a mass that is back at
-    /// once where it left rest.
-    pub(crate) fn leave(&self, phase: PhaseId, found: &Found, push: f64, moved: bool) -> Reset {
-        let onward = self.phases.onward(phase, found);
+    /// State and mode right after a crossing out of a phase; `moved` is false for a mass that is back at once where it
+    /// left rest.
+    pub(crate) fn reset(&self, phase: PhaseId, found: &Found, push: f64, moved: bool) -> Reset {
+        let onward = self.phases.crossing_velocity(phase, found);
         let phase = &self.phases[phase];
-        let position = phase.confine(found.position);
+        let position = phase.confine_position(found.position);
         match phase.exits[found.guard] {
             Exit::Reversal { forward, backward } => {
                 let hold = Sticking::between(forward, backward);
-                let mode = self.phases.turn(hold, position, push);
+                let mode = self.phases.mode_at_reversal(hold, position, push);
                 Reset::new(position, 0.0, mode, CrossingKind::Reversal)
             }
             Exit::Switch(to) => {
@@ -161,40 +136,41 @@ impl ResetContext<'_> {
                 let velocity = if moved { onward } else { 0.0 };
                 match self.phases.beyond(at, self.fed) {
                     Beyond::Wall { restitution } => self.rebound(at, velocity, push, restitution),
-                    Beyond::Phase(_) => self.pass(at, velocity, push, true),
+                    Beyond::Phase(_) => self.pass_surface(at, velocity, push, true),
                 }
             }
             Exit::Backward(surface) => {
                 let at = &self.phases[surface];
-                self.pass(at, onward, push, false)
+                self.pass_surface(at, onward, push, false)
             }
         }
     }
 
-    fn pass(&self, at: &Surface, velocity: f64, push: f64, forward: bool) -> Reset {
+    /// The reset where a surface is passed.
+    fn pass_surface(&self, at: &Surface, velocity: f64, push: f64, forward: bool) -> Reset {
         let mode = self
             .phases
-            .at_surface(at, velocity, push, self.fed, self.threshold);
+            .mode_at_surface(at, velocity, push, self.fed, self.threshold);
         let held = matches!(mode, Mode::Held(_));
         let kind = CrossingKind::Surface {
             forward,
             impact: forward && at.is_clearance,
-            pierces: forward && self.pierces(at),
+            pierces: forward && self.pierces_strip(at),
         };
         let velocity = if held { 0.0 } else { velocity };
         Reset::new(at.position, velocity, mode, kind)
     }
 
-    /// Newton's impact law v+ = -R v-.
+    /// The reset by Newton's impact law v+ = -R v-.
     fn rebound(&self, at: &Surface, velocity: f64, push: f64, restitution: f64) -> Reset {
         let kind = CrossingKind::Rebound {
             impact: at.is_clearance,
-            pierces: self.pierces(at),
+            pierces: self.pierces_strip(at),
         };
         let (position, speed) = (at.position, restitution * (at.side * velocity));
         let velocity = -at.side * speed;
-        let hold = at.hold(Beyond::Wall { restitution });
-        let held = self.phases.leave(hold, position, push);
+        let hold = at.sticking_at(Beyond::Wall { restitution });
+        let held = self.phases.mode_from_rest(hold, position, push);
         let rests = matches!(held, Mode::Held(_));
         let faint = || {
             let endless = restitution > ENDLESS && self.phases.is_faint(at, speed, push, self.fed);
@@ -206,7 +182,7 @@ impl ResetContext<'_> {
         let chatter = self.chatter(at, speed, push, restitution);
         let mode = match chatter {
             Some(_) => Mode::Chattering(hold),
-            None => Mode::Moving(self.phases.pressing(at.before, position, velocity)),
+            None => Mode::Moving(self.phases.pressing_phase(at.before, position, velocity)),
         };
         Reset {
             chatter,
@@ -223,7 +199,7 @@ impl ResetContext<'_> {
         let largest = |values: [f64; 2]| values[0].abs().max(values[1].abs()) / phases.mass;
         let drive = phases.amplitude * phases.frequency;
         let velocity = -at.side * speed;
-        let two_laws = back != out || phases.pressing(out, at.position, velocity) != out;
+        let two_laws = back != out || phases.pressing_phase(out, at.position, velocity) != out;
         let pressing = Pressing {
             accelerations: (rest(out), rest(back)),
             drive_rate: drive,
@@ -238,7 +214,7 @@ impl ResetContext<'_> {
     }
 
     /// True if moving on to a surface pierces a strip that the stroke has not pierced yet.
-    fn pierces(&self, at: &Surface) -> bool {
+    fn pierces_strip(&self, at: &Surface) -> bool {
         let fed = self.fed || at.beyond_unfed.is_none();
         at.is_far_side && fed && !self.pierced
     }

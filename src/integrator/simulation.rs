@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::checkpoint::{Checkpoint, CheckpointState};
 use super::clock::{Clock, Instant};
-use super::force::polynomial;
+use super::force::force_from_derivatives;
 use super::impact::Impact;
 use super::motion::Motion;
 use super::start::Start;
@@ -66,15 +66,14 @@ impl Begin {
     }
 }
 
-/// Drive periods up to which the drive angle is resolved.
+/// Most drive periods since time 0 at which a double resolves the drive angle.
 const LAST_CYCLE: f64 = 9.0e15;
 
 impl Simulation {
     /// The machine from a [`Start`] at time 0 s, or as a [`Begin`] says.
     ///
     /// # Errors
-    /// [`MotionError`] if the scene is invalid, the start or the time not finite, or the start beyond
-    /// a rigid stop.
+    /// [`MotionError`] if the scene is invalid, the start or the time not finite, or the start beyond a rigid stop.
     pub fn new(scene: &Scene, begin: impl Into<Begin>) -> Result<Self, MotionError> {
         let Begin { start, time, fed } = begin.into();
         scene.validate()?;
@@ -92,7 +91,8 @@ impl Simulation {
             counts: Counts::default(),
         };
         let at = clock.instant(time);
-        let motion = Motion::with(scene.phases(), clock, at, start, Polynomial::default(), fed)?;
+        let motion =
+            Motion::with_force(scene.phases(), clock, at, start, Polynomial::default(), fed)?;
         Ok(Self {
             scene: scene.clone(),
             motion,
@@ -221,7 +221,7 @@ impl Simulation {
     /// [`MotionError::ForceNotFinite`] if one of them is not finite, [`MotionError::ForceOrder`] if one
     /// beyond the highest order is not zero; nothing is changed then.
     pub fn set_force(&mut self, derivatives: &[f64]) -> Result<(), MotionError> {
-        let force = polynomial(derivatives)?;
+        let force = force_from_derivatives(derivatives)?;
         if self.motion.force() != force {
             let work = self.tallies.work_under_way(&self.motion);
             if self.motion.set_force(force) {
@@ -258,10 +258,10 @@ impl Simulation {
             clock = Clock::new(new.frequency, angle);
             at = Clock::at_cycle(0);
         }
-        let motion = self.motion.resumed(scene.phases(), clock, at)?;
+        let motion = self.motion.restarted_through(scene.phases(), clock, at)?;
         self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
         if retimed {
-            self.restart();
+            self.restart_clock();
         }
         (self.motion, self.scene) = (motion, scene.clone());
         self.mark = Checkpoint::OnArc(self.motion.now());

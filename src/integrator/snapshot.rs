@@ -19,7 +19,7 @@ use super::start::Start;
 use super::tallies::{Counts, Tallies};
 use crate::error::MotionError;
 use crate::events::NextEvent;
-use crate::flow::{Chatter, Departure, Finer, Polynomial, TaylorStep};
+use crate::flow::{Chatter, Departure, FinePlace, Polynomial, TaylorStep};
 use crate::phases::{Mode, Phases, Sticking};
 use crate::scene::Scene;
 
@@ -32,14 +32,14 @@ pub struct Snapshot {
     now: f64,
     begin: f64,
     counts: Counts,
-    motion: Moving,
-    mark: Checkpoint<Moving>,
+    motion: MotionData,
+    mark: Checkpoint<MotionData>,
     earlier: Option<Impact>,
 }
 
 /// [`Motion`] as data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Moving {
+struct MotionData {
     /// Drive angle in rad at the clock's time 0.
     angle: f64,
     mode: Mode,
@@ -50,7 +50,7 @@ struct Moving {
     now: Instant,
     departure: Departure,
     /// What is known of the departure beyond its rounded position.
-    finer: Option<Finer>,
+    finer: Option<FinePlace>,
     chatter: Option<Chatter>,
     outlook: NextEvent,
     hum: BounceTrain,
@@ -58,8 +58,8 @@ struct Moving {
     is_put: bool,
 }
 
-impl Moving {
-    fn of(motion: &Motion) -> Self {
+impl MotionData {
+    fn from_motion(motion: &Motion) -> Self {
         Self {
             angle: motion.clock.phase,
             mode: motion.mode,
@@ -69,7 +69,7 @@ impl Moving {
             start: motion.start,
             now: motion.now,
             departure: motion.course.departure,
-            finer: motion.course.segment().map(TaylorStep::finer_start),
+            finer: motion.course.taylor_step().map(TaylorStep::fine_start),
             chatter: motion.course.chatter().copied(),
             outlook: motion.outlook,
             hum: motion.hum,
@@ -77,18 +77,19 @@ impl Moving {
         }
     }
 
-    fn motion(&self, scene: &Scene, phases: &Shared<Phases>) -> Result<Motion, MotionError> {
+    /// The motion, which goes on bit for bit.
+    fn to_motion(&self, scene: &Scene, phases: &Shared<Phases>) -> Result<Motion, MotionError> {
         self.validate(phases)?;
         let clock = Clock::new(scene.excitation.frequency, self.angle);
         let given = Start::new(self.departure.position, self.departure.velocity);
         // One that was put there may be beyond a rigid stop.
-        let passed = phases.walls().find(|wall| wall.holds(given.position));
+        let passed = phases.walls().find(|wall| wall.is_reached(given.position));
         let start = match passed.filter(|_| self.is_put) {
             Some(wall) => Start::new(wall.position, given.velocity),
             None => given,
         };
         let force = Polynomial::default();
-        let fresh = Motion::with(phases.clone(), clock, self.start, start, force, self.fed)?;
+        let fresh = Motion::with_force(phases.clone(), clock, self.start, start, force, self.fed)?;
         let mut motion = Motion {
             pierced: self.pierced,
             force: self.force,
@@ -98,51 +99,51 @@ impl Moving {
         };
         if self.is_put {
             (motion.mode, motion.now) = (self.mode, self.start);
-            motion.put(given);
+            motion.put_in_state(given);
             motion.now = self.now;
         } else {
-            motion.begin(self.departure, self.mode, self.finer, self.chatter);
+            motion.begin_course(self.departure, self.mode, self.finer, self.chatter);
         }
         motion.outlook = self.outlook;
-        let guards = motion.guards().len();
+        let guards = motion.present_guards().len();
         if matches!(self.outlook, NextEvent::Crossing(found) if found.guard >= guards) {
-            return Err(broken("a crossing of a surface that does not exist"));
+            return Err(invalid("a crossing of a surface that does not exist"));
         }
         Ok(motion)
     }
 
     fn validate(&self, phases: &Phases) -> Result<(), MotionError> {
-        let held = self.mode.hold().into_iter().flat_map(Sticking::phases);
+        let held = self.mode.sticking().into_iter().flat_map(Sticking::phases);
         let mut named = self.mode.phase().into_iter().chain(held);
         if named.any(|phase| phase.index() >= phases.phases.len()) {
-            return Err(broken("a phase that does not exist"));
+            return Err(invalid("a phase that does not exist"));
         }
         let (start, now) = (self.start, self.now);
         let times = [start.cycles, start.offset, now.cycles, now.offset];
         let numbers = [self.angle, self.departure.position, self.departure.velocity];
         if times.iter().chain(&numbers).any(|n| !n.is_finite()) || now < start {
-            return Err(broken("numbers that no motion has"));
+            return Err(invalid("numbers that no motion has"));
         }
         Ok(())
     }
 }
 
-fn broken(what: &'static str) -> MotionError {
+fn invalid(what: &'static str) -> MotionError {
     MotionError::Snapshot { what }
 }
 
 impl Simulation {
     /// All that is needed to go on from here.
     pub fn snapshot(&self) -> Snapshot {
-        let moving = |motion: &Motion| Ok::<_, Infallible>(Moving::of(motion));
-        let Ok(mark) = self.mark.with(moving);
+        let moving = |motion: &Motion| Ok::<_, Infallible>(MotionData::from_motion(motion));
+        let Ok(mark) = self.mark.map(moving);
         Snapshot {
             scene: self.scene.clone(),
             epoch: self.epoch,
             now: self.now,
             begin: self.begin,
             counts: self.tallies.counts,
-            motion: Moving::of(&self.motion),
+            motion: MotionData::from_motion(&self.motion),
             mark,
             earlier: self.earlier,
         }
@@ -157,10 +158,10 @@ impl Simulation {
         scene.validate()?;
         let times = [snapshot.epoch, snapshot.now, snapshot.begin];
         if times.iter().any(|time| !time.is_finite()) {
-            return Err(broken("times that are not finite"));
+            return Err(invalid("times that are not finite"));
         }
         let phases: Shared<Phases> = scene.phases().into();
-        let motion = snapshot.motion.motion(scene, &phases)?;
+        let motion = snapshot.motion.to_motion(scene, &phases)?;
         Ok(Self {
             scene: scene.clone(),
             motion,
@@ -171,7 +172,7 @@ impl Simulation {
                 counts: snapshot.counts,
             },
             begin: snapshot.begin,
-            mark: snapshot.mark.with(|motion| motion.motion(scene, &phases))?,
+            mark: snapshot.mark.map(|it| it.to_motion(scene, &phases))?,
             earlier: snapshot.earlier,
         })
     }

@@ -7,7 +7,7 @@ use super::motion::Motion;
 use super::observer::{Arc, Crossing, Observer};
 use super::{Work, work};
 
-/// Impacts, pierced strips and energies since the start.
+/// Counts of impacts and pierced strips, and energies, since the start.
 #[derive(Debug, Clone)]
 pub(super) struct Tallies {
     pub mass: f64,
@@ -20,14 +20,14 @@ pub(super) struct Counts {
     pub impacts: u64,
     pub pierced: u64,
     /// Of the impacts, those on a stop below.
-    #[serde(default, skip_serializing_if = "is_none")]
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub below: u64,
     /// When the last impact was, and its before-impact velocity in m/s.
     pub last_impact: Option<(Instant, f64)>,
     pub work: Work,
 }
 
-fn is_none(count: &u64) -> bool {
+fn is_zero(count: &u64) -> bool {
     *count == 0
 }
 

@@ -40,11 +40,11 @@ impl<'a> Walk<'a> {
     /// [`MotionError`] if the scene or the start make no sense.
     pub fn new(scene: &'a Scene, start: Start) -> Result<Self, MotionError> {
         scene.motion(start)?;
-        Ok(Self::through(scene, start, Cow::Owned(scene.phases())))
+        Ok(Self::on_phases(scene, start, Cow::Owned(scene.phases())))
     }
 
     /// A walk for a scene and a start that make sense, through the scene's phases.
-    pub fn through(scene: &'a Scene, start: Start, phases: Cow<'a, Phases>) -> Self {
+    pub fn on_phases(scene: &'a Scene, start: Start, phases: Cow<'a, Phases>) -> Self {
         let mut walk = Self {
             scene,
             phases,
@@ -58,7 +58,7 @@ impl<'a> Walk<'a> {
         };
         let Start { position, velocity } = start;
         let push = walk.push();
-        walk.enter(walk.phases.locate(position, velocity, push, true), push);
+        walk.enter_mode(walk.phases.mode_at(position, velocity, push, true), push);
         walk
     }
 
@@ -67,22 +67,22 @@ impl<'a> Walk<'a> {
         self.time
     }
 
-    /// The state right after it.
+    /// The state right after the last crossing.
     pub fn state(&self) -> Start {
         self.state
     }
 
-    /// The phase whose law holds from there on; none while the mass is held.
+    /// The phase whose law holds after the last crossing; none while the mass is held.
     pub fn phase(&self) -> Option<&Phase> {
-        self.index().map(|phase| &self.phases[phase])
+        self.phase_id().map(|phase| &self.phases[phase])
     }
 
-    /// Which of the scene's phases it is.
-    pub fn index(&self) -> Option<PhaseId> {
+    /// The id of the phase.
+    pub fn phase_id(&self) -> Option<PhaseId> {
         self.mode.phase()
     }
 
-    /// The guards that end it. While the mass is held they ask for the push alone.
+    /// The guards that end the present phase. While the mass is held they ask for the push alone.
     pub fn guards(&self) -> &[Guard] {
         self.phase().map_or(&self.releases, |phase| &phase.guards)
     }
@@ -114,18 +114,19 @@ impl<'a> Walk<'a> {
                     position: before.position,
                     velocity: before.velocity,
                 };
-                self.leave(phase, &found, push)
+                self.reset(phase, &found, push)
             }
-            Mode::Held(hold) | Mode::Chattering(hold) => (self.state, hold.released(guard)),
+            Mode::Held(hold) | Mode::Chattering(hold) => (self.state, hold.after_release(guard)),
         };
         self.state = state;
-        self.enter(mode, push);
+        self.enter_mode(mode, push);
         Ok(())
     }
 
-    fn leave(&mut self, phase: PhaseId, found: &Found, push: f64) -> (Start, Mode) {
+    /// State and mode after a crossing out of a phase, by the rules of [`ResetContext`].
+    fn reset(&mut self, phase: PhaseId, found: &Found, push: f64) -> (Start, Mode) {
         if let Some(surface) = self.phases.endless_surface(phase, found.guard) {
-            self.hum.count(surface, found.velocity);
+            self.hum.count_crossing(surface, found.velocity);
         }
         let moved = self.state.velocity != 0.0 || found.elapsed > 0.0;
         let force = Polynomial::default();
@@ -133,11 +134,11 @@ impl<'a> Walk<'a> {
             phases: &self.phases,
             fed: true,
             pierced: false,
-            threshold: self.hum.threshold(),
+            threshold: self.hum.rest_threshold(),
             force: &force,
             period: self.scene.period(),
         };
-        let landing = ground.leave(phase, found, push, moved);
+        let landing = ground.reset(phase, found, push, moved);
         if landing.kind.is_impact() {
             let (time, velocity) = (self.time, found.velocity);
             self.impacts.push(Impact { time, velocity });
@@ -145,16 +146,16 @@ impl<'a> Walk<'a> {
         match landing.mode {
             Mode::Chattering(hold) => {
                 let position = landing.state.position;
-                let mode = self.phases.leave(hold, position, push);
+                let mode = self.phases.mode_from_rest(hold, position, push);
                 (Start::new(position, 0.0), mode)
             }
             mode => (landing.state, mode),
         }
     }
 
-    fn enter(&mut self, mode: Mode, push: f64) {
-        let releases = |hold| self.phases.releases(hold, self.state.position, push);
-        self.releases = mode.hold().map(releases).unwrap_or_default();
+    fn enter_mode(&mut self, mode: Mode, push: f64) {
+        let releases = |hold| self.phases.release_guards(hold, self.state.position, push);
+        self.releases = mode.sticking().map(releases).unwrap_or_default();
         self.mode = mode;
     }
 
@@ -165,6 +166,7 @@ impl<'a> Walk<'a> {
         drive.amplitude / self.scene.mass * angle.cos()
     }
 
+    /// Refuses more crossings at one instant than a method gets on with.
     fn check_progress(&mut self, elapsed: f64) -> Result<(), MotionError> {
         let instant = elapsed <= 4.0 * f64::EPSILON * self.time.max(self.scene.period());
         self.at_once = if instant { self.at_once + 1 } else { 0 };

@@ -43,10 +43,10 @@ pub fn work(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Work {
     }
 }
 
-/// Work from the start of an arc to `elapsed` seconds later, by what took it.
+/// Work from the start of an arc to `elapsed` seconds later, for a machine with mass `mass`, by what took it.
 pub fn shares(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Shares {
     if let Some(chatter) = arc.course.chatter() {
-        let (_, velocity) = chatter.at(elapsed);
+        let (_, velocity) = chatter.state_after(elapsed);
         let lost = (chatter.speed - velocity) * (chatter.speed + velocity);
         return Shares {
             bounces: 0.5 * mass * lost,
@@ -56,8 +56,8 @@ pub fn shares(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Shares {
     let Some(phase) = arc.phase else {
         return Shares::default();
     };
-    let end = arc.node(elapsed);
-    let power = arc.course.power(&end, phase.law.force / mass);
+    let end = arc.node_after(elapsed);
+    let power = arc.course.work_integrals(&end, phase.law.force / mass);
     let (low, high) = (arc.course.departure.position, end.position);
     let stored = phase.store.energy_at(high) - phase.store.energy_at(low);
     Shares {

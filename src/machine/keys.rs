@@ -1,4 +1,4 @@
-//! The keys of machine files that are no numbers of a scene, and what a misspelt key was meant to be.
+//! The keys of machine files: those that are no numbers of a scene, and what a misspelt one was meant to be.
 
 use std::f64::consts::TAU;
 
@@ -15,29 +15,31 @@ const RELEASE: &str = "stop.release";
 const LOADING: &str = "stop.loading";
 const UNLOADING: &str = "stop.unloading";
 
-/// Keys of a stop that are no numbers.
-pub(super) struct Words {
+/// Keys of a stop whose values are no numbers.
+pub(super) struct WordKeys {
     pub model: &'static str,
     pub release: &'static str,
     pub loading: &'static str,
     pub unloading: &'static str,
 }
 
-pub(super) const OF_STOP: Words = Words {
+/// The keys of the stop above whose values are no numbers.
+pub(super) const OF_STOP: WordKeys = WordKeys {
     model: MODEL,
     release: RELEASE,
     loading: LOADING,
     unloading: UNLOADING,
 };
 
-pub(super) const OF_STOP_BELOW: Words = Words {
+/// The keys of the stop below whose values are no numbers.
+pub(super) const OF_STOP_BELOW: WordKeys = WordKeys {
     model: "stop.below.model",
     release: "stop.below.release",
     loading: "stop.below.loading",
     unloading: "stop.below.unloading",
 };
 
-impl Words {
+impl WordKeys {
     pub const fn all(&self) -> [&'static str; 4] {
         [self.model, self.release, self.loading, self.unloading]
     }
@@ -52,13 +54,13 @@ impl Words {
     }
 }
 
-/// Keys of the stops that are no numbers: they make a new stop.
-pub(super) fn words() -> impl Iterator<Item = &'static str> {
+/// The keys of both stops whose values are no numbers: they make a new stop.
+pub(super) fn word_keys() -> impl Iterator<Item = &'static str> {
     OF_STOP.all().into_iter().chain(OF_STOP_BELOW.all())
 }
 
 /// The stop of a key, true if it is the one below, and the key's name in its table.
-pub(super) fn of_stop(key: &str) -> Option<(bool, &str)> {
+pub(super) fn split_stop_key(key: &str) -> Option<(bool, &str)> {
     let field = key.strip_prefix("stop.")?;
     Some(match field.strip_prefix("below.") {
         Some(field) => (true, field),
@@ -81,7 +83,7 @@ pub(super) struct SlopeKey<'a> {
 impl<'a> SlopeKey<'a> {
     /// The parts of a key; none if it is not that of a slope.
     pub fn parse(key: &'a str) -> Option<Self> {
-        let (is_below, key) = of_stop(key)?;
+        let (is_below, key) = split_stop_key(key)?;
         let (chain, rest) = key.split_once('.')?;
         let (index, field) = rest.split_once('.')?;
         let is_known =
@@ -99,7 +101,7 @@ impl<'a> SlopeKey<'a> {
     }
 }
 
-/// Keys of a file that are no [`Parameter`], of machines in SI units.
+/// Keys of a file that name no [`Parameter`], of machines in SI units.
 pub(super) const FURTHER: [&str; 14] = [
     FREQUENCY_HZ,
     MODEL,
@@ -117,7 +119,7 @@ pub(super) const FURTHER: [&str; 14] = [
     "description",
 ];
 
-/// Tables of a file that are no part of the machine: what `softstop optimize` is to do with it.
+/// Tables of a file that are no part of the machine: the task of `softstop optimize`.
 pub(super) const TASK: [&str; 7] = [
     "vary",
     "tolerance",
@@ -129,7 +131,7 @@ pub(super) const TASK: [&str; 7] = [
 ];
 
 /// All keys of a file in a system of units.
-pub(super) fn all(unit_system: UnitSystem) -> Vec<&'static str> {
+pub(super) fn all_keys(unit_system: UnitSystem) -> Vec<&'static str> {
     let ratios = unit_system == UnitSystem::Ratios;
     let numbers = Parameter::ALL
         .into_iter()
@@ -141,7 +143,7 @@ pub(super) fn all(unit_system: UnitSystem) -> Vec<&'static str> {
 }
 
 /// The one of these keys that a misspelt one may mean.
-pub(super) fn meant(key: &str, keys: &[&'static str]) -> Option<&'static str> {
+pub(super) fn meant_key(key: &str, keys: &[&'static str]) -> Option<&'static str> {
     let called = Parameter::ALL
         .into_iter()
         .find(|parameter| parameter.is_called(key) && keys.contains(&parameter.name()));
@@ -150,7 +152,7 @@ pub(super) fn meant(key: &str, keys: &[&'static str]) -> Option<&'static str> {
     }
     meant_table(key, keys)
         .map(|(_, meant)| meant)
-        .or_else(|| nearest(key, keys))
+        .or_else(|| nearest_name(key, keys))
 }
 
 /// The table of a key, if none of these keys is in it, and that of [`TASK`] that it may mean.
@@ -160,27 +162,28 @@ pub(super) fn meant_table<'a>(
 ) -> Option<(&'a str, &'static str)> {
     let (table, _) = key.split_once('.')?;
     let is_table = |key: &&str| key.split_once('.').is_some_and(|(own, _)| own == table);
-    let meant = nearest(table, &TASK).filter(|_| !keys.iter().any(is_table))?;
+    let meant = nearest_name(table, &TASK).filter(|_| !keys.iter().any(is_table))?;
     Some((table, meant))
 }
 
-/// Letters of a misspelt name at most; no name has a third of that.
+/// Most letters of a misspelt name; no name has a third of that.
 const LONGEST: usize = 200;
 
 /// The one of these names that a misspelt one may mean; dots part a name, and its last part may stand alone.
-pub fn nearest(name: &str, known: &[&'static str]) -> Option<&'static str> {
+pub fn nearest_name(name: &str, known: &[&'static str]) -> Option<&'static str> {
     if name.len() > LONGEST {
         return None;
     }
     let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
-    let distance =
-        |known: &&'static str| edits(name, known).min(1 + edits(&last(name), &last(known)));
+    let distance = |known: &&'static str| {
+        edit_distance(name, known).min(1 + edit_distance(&last(name), &last(known)))
+    };
     let nearest = known.iter().copied().min_by_key(distance)?;
     (distance(&nearest) <= (name.len() / 3).max(1)).then_some(nearest)
 }
 
 /// Letters to put in, take out or change to make one word of another.
-fn edits(a: &str, b: &str) -> usize {
+fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, letter) in a.chars().enumerate() {
@@ -196,7 +199,7 @@ fn edits(a: &str, b: &str) -> usize {
 }
 
 /// The parameter that a key states in another way than by its name.
-pub(super) fn stated_otherwise(key: &str) -> Option<Parameter> {
+pub(super) fn other_statement_of(key: &str) -> Option<Parameter> {
     match key {
         FREQUENCY_HZ | "frequency_hz" => Some(Parameter::Frequency),
         DEFLECTION | "preload_deflection" => Some(Parameter::Preload),
@@ -209,7 +212,7 @@ pub(super) fn is_expression(text: &str) -> bool {
     let is_of_word = |it: char| it.is_alphanumeric() || "_.".contains(it);
     let is_parameter = |it: &Parameter| it.is_called(text);
     !text.chars().all(is_of_word)
-        || stated_otherwise(text).is_some()
+        || other_statement_of(text).is_some()
         || Parameter::ALL.iter().any(is_parameter)
 }
 
@@ -221,20 +224,18 @@ fn is_ratio(key: &str, parameter: Parameter) -> bool {
 }
 
 impl Machine {
-    /// The parameter of this name, letter or older name that it has, or that this key states otherwise.
-    /// `stiffness` is that of the suspension, or of the stop in ratios; only machines in ratios know the
-    /// letters of ratios.
+    /// The parameter of this name, letter or older name that it has, or that this key states otherwise. `stiffness` is
+    /// that of the suspension, or of the stop in ratios; only machines in ratios know the letters of ratios.
     ///
     /// # Errors
-    /// [`MachineError::Lacks`] or [`MachineError::UnknownKey`], with what it has instead;
-    /// [`MachineError::Ratio`].
+    /// [`MachineError::Lacks`] or [`MachineError::UnknownKey`], with what it has instead; [`MachineError::Ratio`].
     pub fn parameter(&self, name: &str) -> Result<Parameter, MachineError> {
         let name = name.replace('-', "_");
         let known = |parameter: &Parameter| match parameter {
             Parameter::Frequency => self.unit_system != UnitSystem::Ratios,
             _ => true,
         };
-        let otherwise = stated_otherwise(&name).filter(known);
+        let otherwise = other_statement_of(&name).filter(known);
         let named = |parameter: &Parameter| name == parameter.name();
         let called = |parameter: &Parameter| parameter.is_called(&name);
         let found = self
@@ -242,7 +243,7 @@ impl Machine {
             .find(|parameter| otherwise == Some(*parameter) || named(parameter))
             .or_else(|| self.parameters().find(called));
         match found {
-            None => Err(self.unknown(&name, self.numbers())),
+            None => Err(self.unknown_key(&name, self.parameter_names())),
             Some(found) if self.unit_system != UnitSystem::Ratios && is_ratio(&name, found) => {
                 Err(MachineError::Ratio(name, self.name(found)))
             }
@@ -258,10 +259,10 @@ impl Machine {
     pub fn stated(&self, key: &str) -> Result<(Parameter, f64), MachineError> {
         let parameter = self.parameter(key)?;
         let key = key.replace('-', "_");
-        let otherwise = stated_otherwise(&key).is_some();
+        let otherwise = other_statement_of(&key).is_some();
         match (parameter, self.unit_system) {
             (Parameter::Preload, _) if otherwise != self.preload_deflection.is_some() => {
-                Err(self.unknown(&key, self.numbers()))
+                Err(self.unknown_key(&key, self.parameter_names()))
             }
             (Parameter::Frequency, UnitSystem::Hertz) if !otherwise => Ok((parameter, 1.0 / TAU)),
             (Parameter::Frequency, UnitSystem::Si) if otherwise => Ok((parameter, TAU)),
@@ -269,13 +270,13 @@ impl Machine {
         }
     }
 
-    /// The names of its parameters.
-    fn numbers(&self) -> Vec<&'static str> {
+    /// The names of the parameters of this machine.
+    fn parameter_names(&self) -> Vec<&'static str> {
         self.parameters().map(|it| self.name(it)).collect()
     }
 
-    /// All keys of a file that it has.
-    pub(super) fn keys(&self) -> Vec<&'static str> {
+    /// All keys of a file that this machine has.
+    pub(super) fn file_keys(&self) -> Vec<&'static str> {
         let has = |key: &&str| match *key {
             FREQUENCY_HZ => self.unit_system == UnitSystem::Si,
             DEFLECTION => {
@@ -289,11 +290,11 @@ impl Machine {
             _ => true,
         };
         let further = FURTHER.into_iter().filter(has);
-        self.numbers().into_iter().chain(further).collect()
+        self.parameter_names().into_iter().chain(further).collect()
     }
 
-    /// Why it does not have this key; what it has.
-    pub(super) fn unknown(&self, key: &str, has: Vec<&'static str>) -> MachineError {
+    /// The error that this machine does not have a key, with those that it `has`.
+    pub(super) fn unknown_key(&self, key: &str, has: Vec<&'static str>) -> MachineError {
         let exists = FURTHER.contains(&key) || Parameter::ALL.iter().any(|it| it.is_called(key));
         if exists {
             return MachineError::Lacks {
@@ -304,7 +305,7 @@ impl Machine {
         MachineError::UnknownKey {
             line: None,
             key: key.to_owned(),
-            meant: meant(key, &has),
+            meant: meant_key(key, &has),
             known: has.join(", "),
         }
     }

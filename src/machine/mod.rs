@@ -1,13 +1,13 @@
 //! Machines as their users state them: in files, on command lines, in their own units.
 
-mod change;
-mod file;
+mod apply_changes;
+mod expressions;
 mod keys;
-mod lines;
-mod ties;
-mod write;
+mod line_numbers;
+mod read_file;
+mod write_file;
 
-pub use keys::nearest;
+pub use keys::nearest_name;
 
 use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
@@ -64,9 +64,9 @@ impl UnitSystem {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
-    /// Its name, if it has one.
+    /// Name of the machine, if it has one.
     pub name: Option<String>,
-    /// What it is, in a sentence, if its user has said so.
+    /// What the machine is, in a sentence, if its user has said so.
     pub description: Option<String>,
     /// The machine in SI units; with m = k1 = F0 = 1 if it is stated in ratios.
     pub scene: Scene,
@@ -122,14 +122,14 @@ impl Machine {
         })
     }
 
-    /// The parameters that it has. One that is stated in ratios has no mass, suspension and drive amplitude of its
-    /// own.
+    /// The parameters that this machine has. One that is stated in ratios has no mass, suspension and drive amplitude
+    /// of its own.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter> + '_ {
         let mut all = Parameter::ALL.into_iter();
         std::iter::from_fn(move || all.find(|parameter| self.value(*parameter).is_some()))
     }
 
-    /// The value of a parameter in its own units, if it has it.
+    /// The value of a parameter in the units of this machine, if it has it.
     pub fn value(&self, parameter: Parameter) -> Option<f64> {
         let value = parameter.get(&self.scene)?;
         match parameter {
@@ -153,7 +153,7 @@ impl Machine {
                 parameter.set(&mut self.scene, value);
             }
         }
-        self.follow();
+        self.update_followers();
     }
 
     /// The machine at another frequency of its drive, in rad/s, with what follows it; nothing happens if that follows
@@ -178,7 +178,7 @@ impl Machine {
         }
         Allowed::Finite.check(keys::POSITION, self.start.position)?;
         Allowed::Finite.check(keys::VELOCITY, self.start.velocity)?;
-        self.scene.validate().map_err(|error| self.in_own(error))
+        self.scene.validate().map_err(|error| self.own_error(error))
     }
 
     /// Checks its name and its description: a name has no control characters and none that XML refuses, a description
@@ -202,8 +202,8 @@ impl Machine {
         Ok(())
     }
 
-    /// A limit of the scene in its own units.
-    fn in_own(&self, error: SceneError) -> SceneError {
+    /// The error of a scene with its numbers in the units of this machine.
+    fn own_error(&self, error: SceneError) -> SceneError {
         match error {
             SceneError::TimeScales {
                 name,
@@ -225,7 +225,7 @@ impl Machine {
         }
     }
 
-    /// Its dimensionless figures, if it is stated in ratios and is a machine like the paper's.
+    /// Dimensionless ratios of the machine, if it is stated in ratios and is a machine like the paper's.
     pub fn ratios(&self) -> Option<Ratios> {
         if self.unit_system != UnitSystem::Ratios || self.scene.excitation.phase != 0.0 {
             return None;
@@ -254,16 +254,16 @@ impl Machine {
 
     /// A quantity in SI units in its own ones.
     pub fn to_own(&self, dimension: Dimension, value: f64) -> f64 {
-        value / self.in_si(dimension)
+        value / self.own_unit_in_si(dimension)
     }
 
     /// A quantity in its own units in SI ones.
     pub fn to_si(&self, dimension: Dimension, value: f64) -> f64 {
-        value * self.in_si(dimension)
+        value * self.own_unit_in_si(dimension)
     }
 
-    /// Its own unit of a quantity, in SI units.
-    const fn in_si(&self, dimension: Dimension) -> f64 {
+    /// The unit of the machine for a quantity, in SI units.
+    const fn own_unit_in_si(&self, dimension: Dimension) -> f64 {
         match (self.unit_system, dimension) {
             (UnitSystem::Ratios, Dimension::Damping) => 2.0,
             (UnitSystem::Hertz, Dimension::Frequency) => std::f64::consts::TAU,
@@ -298,7 +298,7 @@ impl Machine {
     /// The label of an axis or a column: what it is, with its unit in brackets, or with the paper's symbol
     /// if the machine is stated in ratios.
     pub fn label(&self, what: &str, symbol: &str, dimension: Dimension) -> String {
-        self.labelled(what, symbol, self.unit(dimension))
+        self.label_with_unit(what, symbol, self.unit(dimension))
     }
 
     /// What a parameter is, as this machine states it, and its symbol in the paper; empty if it has none there.
@@ -316,10 +316,11 @@ impl Machine {
     /// The label of a parameter.
     pub fn label_of(&self, parameter: Parameter) -> String {
         let (what, symbol) = self.meaning_of(parameter);
-        self.labelled(what, symbol, self.unit_of(parameter))
+        self.label_with_unit(what, symbol, self.unit_of(parameter))
     }
 
-    fn labelled(&self, what: &str, symbol: &str, unit: &str) -> String {
+    /// A label with unit or symbol, as [`Machine::label`].
+    fn label_with_unit(&self, what: &str, symbol: &str, unit: &str) -> String {
         match (self.unit_system, unit) {
             (UnitSystem::Ratios, _) if !symbol.is_empty() => format!("{what} {symbol}"),
             (_, "") => what.to_owned(),

@@ -10,7 +10,7 @@ impl PhaseId {
     /// The free phase.
     pub const FREE: Self = Self(0);
 
-    /// Its place among [`Phases::phases`].
+    /// Index of the phase among [`Phases::phases`](super::Phases::phases).
     pub const fn index(self) -> usize {
         self.0 as usize
     }

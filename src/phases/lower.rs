@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::plan::{Plan, layers};
+use super::layer_plan::{LayerPlan, plan_layers};
 use super::{
     Beyond, Exit, Law, Layer, Phase, PhaseId, PhaseKind, Phases, Stack, Store, Surface, SurfaceId,
 };
@@ -10,7 +10,8 @@ use crate::events::Guard;
 use crate::flow::{Hertz, LinearLaw};
 use crate::scene::Scene;
 
-pub(super) fn lower(scene: &Scene) -> Phases {
+/// The phases of a scene.
+pub(super) fn lower_scene(scene: &Scene) -> Phases {
     let free = Law {
         damping: scene.damping,
         stiffness: scene.stiffness,
@@ -24,14 +25,14 @@ pub(super) fn lower(scene: &Scene) -> Phases {
         surfaces: Vec::new(),
     };
     builder.add_phase(PhaseKind::Free, free, None, Store::default());
-    let unfed = builder.stack(&layers(scene, free, false));
+    let unfed = builder.add_stack(&plan_layers(scene, free, false));
     let fed = match scene.piercing {
-        Some(_) => builder.stack(&layers(scene, free, true)),
+        Some(_) => builder.add_stack(&plan_layers(scene, free, true)),
         None => unfed.clone(),
     };
     builder.join_to_free(&fed, &unfed);
     let below = match scene.mirrored() {
-        Some(mirrored) => builder.stack_below(mirrored, free),
+        Some(mirrored) => builder.add_stack_below(mirrored, free),
         None => Stack::default(),
     };
     Phases {
@@ -46,6 +47,7 @@ pub(super) fn lower(scene: &Scene) -> Phases {
     }
 }
 
+/// The phases and surfaces of a scene, as they are added.
 struct Builder<'a> {
     scene: Cow<'a, Scene>,
     /// 1 as the scene is, -1 where it is a mirrored one: its plans then count positions downwards.
@@ -95,7 +97,7 @@ impl Builder<'_> {
     }
 
     /// A guard of the plans as one of positions.
-    fn guard(&self, planned: Guard) -> Guard {
+    fn planned_guard(&self, planned: Guard) -> Guard {
         if self.side < 0.0 {
             planned.mirrored()
         } else {
@@ -104,25 +106,25 @@ impl Builder<'_> {
     }
 
     fn add_exit(&mut self, phase: PhaseId, guard: Guard, exit: Exit) {
-        let guard = self.guard(guard);
+        let guard = self.planned_guard(guard);
         let phase = &mut self.phases[phase.index()];
         phase.guards.push(guard);
         phase.exits.push(exit);
     }
 
     /// Adds the stack of a stop below, of the machine that is mirrored.
-    fn stack_below(&mut self, mirrored: Scene, free: Law) -> Stack {
-        let plans = layers(&mirrored, free, false);
+    fn add_stack_below(&mut self, mirrored: Scene, free: Law) -> Stack {
+        let plans = plan_layers(&mirrored, free, false);
         (self.scene, self.side) = (Cow::Owned(mirrored), -1.0);
-        let stack = self.stack(&plans);
+        let stack = self.add_stack(&plans);
         self.join_to_free(&stack, &stack);
         stack
     }
 
     /// Adds the layers of one stack, from the clearance on, and the wall that ends it.
-    fn stack(&mut self, plans: &[Plan]) -> Stack {
+    fn add_stack(&mut self, plans: &[LayerPlan]) -> Stack {
         let wall = self.scene.wall();
-        let within = |plan: &&Plan| wall.is_none_or(|wall| plan.from < wall.position);
+        let within = |plan: &&LayerPlan| wall.is_none_or(|wall| plan.from < wall.position);
         let mut layers: Vec<Layer> = Vec::with_capacity(plans.len());
         for plan in plans.iter().filter(within) {
             let layer = self.add_layer(plan, layers.last().copied());
@@ -140,7 +142,7 @@ impl Builder<'_> {
         Stack { layers, wall }
     }
 
-    fn add_layer(&mut self, plan: &Plan, before: Option<Layer>) -> Layer {
+    fn add_layer(&mut self, plan: &LayerPlan, before: Option<Layer>) -> Layer {
         let store = Store {
             spring: plan.spring,
             hertz: plan.hertz,
@@ -164,9 +166,9 @@ impl Builder<'_> {
         if let Some((law, pulls)) = plan.released {
             let released = self.add_phase(PhaseKind::Released, law, None, store);
             self.add_exit(released, falling, Exit::Backward(surface));
-            self.add_exit(released, pulls.reversed(), Exit::Switch(inward));
+            self.add_exit(released, pulls.negated(), Exit::Switch(inward));
             self.add_exit(inward, pulls, Exit::Switch(released));
-            self.phases[inward.index()].released = Some((released, self.guard(pulls)));
+            self.phases[inward.index()].released = Some((released, self.planned_guard(pulls)));
         }
         Layer {
             from: self.side * plan.from,
@@ -188,7 +190,7 @@ impl Builder<'_> {
         let surface = SurfaceId(self.surfaces.len());
         self.surfaces.push(Surface {
             position: self.side * position,
-            before: before.map_or(PhaseId::FREE, Layer::outward),
+            before: before.map_or(PhaseId::FREE, Layer::outward_phase),
             beyond,
             beyond_unfed: None,
             side: self.side,
@@ -196,9 +198,9 @@ impl Builder<'_> {
             is_far_side,
         });
         if let Some(before) = before {
-            let released = self.phases[before.inward().index()].released;
+            let released = self.phases[before.inward_phase().index()].released;
             let guard = Guard::rising_to(position);
-            self.add_exit(before.inward(), guard, Exit::Forward(surface));
+            self.add_exit(before.inward_phase(), guard, Exit::Forward(surface));
             if let Some((released, _)) = released {
                 self.add_exit(released, guard, Exit::Forward(surface));
             }
@@ -208,7 +210,7 @@ impl Builder<'_> {
 
     /// Lets the free phase end at a clearance.
     fn join_to_free(&mut self, fed: &Stack, unfed: &Stack) {
-        let (Some(first), Some(empty)) = (fed.first(), unfed.first()) else {
+        let (Some(first), Some(empty)) = (fed.first_surface(), unfed.first_surface()) else {
             return;
         };
         if first != empty {
@@ -221,7 +223,7 @@ impl Builder<'_> {
 
 impl Layer {
     /// The phase on the way towards the stop.
-    const fn inward(self) -> PhaseId {
+    const fn inward_phase(self) -> PhaseId {
         if self.side < 0.0 {
             self.backward
         } else {
@@ -230,7 +232,7 @@ impl Layer {
     }
 
     /// The phase on the way back.
-    const fn outward(self) -> PhaseId {
+    const fn outward_phase(self) -> PhaseId {
         if self.side < 0.0 {
             self.forward
         } else {
@@ -241,7 +243,7 @@ impl Layer {
 
 impl Stack {
     /// The surface at which it begins.
-    fn first(&self) -> Option<SurfaceId> {
+    fn first_surface(&self) -> Option<SurfaceId> {
         self.layers.first().map(|layer| layer.surface).or(self.wall)
     }
 }

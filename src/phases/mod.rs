@@ -1,18 +1,17 @@
-//! The waist of the house: a scene lowered to the few smooth laws that it can reach.
+//! A scene lowered to the few smooth laws (phases) that it can reach, and the surfaces between them.
 //!
-//! The positions are cut into layers (free, strip, stop, ...), each with one law for the way forward
-//! and, where there is dry friction, another for the way back. Nothing behind this module asks
-//! which stop it was.
+//! The positions are cut into layers (free, strip, stop, ...), each with one law for the way forward and, where there
+//! is dry friction, another for the way back. Nothing behind this module asks which stop it was.
 
 mod id;
+mod layer_plan;
 mod lower;
-mod plan;
-mod settle;
+mod mode;
 mod store;
 
 pub use id::{PhaseId, SurfaceId};
-pub(crate) use settle::Threshold;
-pub use settle::{Mode, Sticking};
+pub(crate) use mode::Threshold;
+pub use mode::{Mode, Sticking};
 pub use store::{Spring, Store};
 
 use std::ops::Index;
@@ -43,13 +42,12 @@ pub enum PhaseKind {
     Chatter,
     /// Held by dry friction.
     Stuck,
-    /// Held at the face of a stop: of a preloaded one by a force below its preload, of a rigid one
-    /// by any force.
+    /// Held at the face of a stop: of a preloaded one by a force below its preload, of a rigid one by any force.
     Resting,
 }
 
 /// m x'' + `damping` x' + `stiffness` x = `force` + F0 cos(w t + phi) + f(t).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Law {
     /// Damping in N s/m.
     pub damping: f64,
@@ -62,11 +60,11 @@ pub struct Law {
 /// One smooth law and what ends it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {
-    /// Which one.
+    /// The id of this phase.
     pub id: PhaseId,
-    /// What it is.
+    /// What the phase is in the machine.
     pub kind: PhaseKind,
-    /// Its law, or the linear part of it.
+    /// The law of the phase, or its linear part.
     pub law: Law,
     /// What stop and strip add to the suspension's law.
     pub(crate) contact: Law,
@@ -74,11 +72,11 @@ pub struct Phase {
     pub flow: LinearLaw,
     /// The nonlinear part of the law.
     pub hertz: Option<Hertz>,
-    /// Its guards.
+    /// The guards that end the phase.
     pub guards: Vec<Guard>,
     /// What each guard leads to.
     pub exits: Vec<Exit>,
-    /// What the stop stores.
+    /// The energy that the stop stores.
     pub store: Store,
     /// The phase that holds instead while this guard is above zero: contact does not pull.
     pub(crate) released: Option<(PhaseId, Guard)>,
@@ -119,7 +117,7 @@ pub enum Beyond {
 /// A position at which the law changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surface {
-    /// Where it is, in m.
+    /// Position in m.
     pub position: f64,
     /// The phase before it, on the way back.
     pub before: PhaseId,
@@ -157,7 +155,7 @@ pub struct Phases {
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Stack {
     layers: Vec<Layer>,
-    /// Its surface.
+    /// The surface of that rigid stop.
     wall: Option<SurfaceId>,
 }
 
@@ -177,28 +175,26 @@ impl Scene {
     /// Lowers the scene to its phases. The scene must have passed [`Scene::validate`].
     #[doc(hidden)]
     pub fn phases(&self) -> Phases {
-        lower::lower(self)
+        lower::lower_scene(self)
     }
 }
 
 impl Phases {
     /// Changes the frequency in rad/s of the drive, and with it no law.
-    pub fn tune(&mut self, frequency: f64) {
+    pub fn set_frequency(&mut self, frequency: f64) {
         self.frequency = frequency;
         for phase in &mut self.phases {
-            phase.flow = phase.flow.tuned(frequency);
+            phase.flow = phase.flow.with_frequency(frequency);
         }
     }
-}
 
-impl Phases {
     /// These laws under another drive, of this amplitude in N and frequency in rad/s.
-    pub(crate) fn driven(&self, amplitude: f64, frequency: f64) -> Self {
+    pub(crate) fn with_drive(&self, amplitude: f64, frequency: f64) -> Self {
         let mut phases = self.clone();
         let amplitude = amplitude / self.mass;
         (phases.amplitude, phases.frequency) = (amplitude, frequency);
         for phase in &mut phases.phases {
-            phase.flow = phase.flow.driven(amplitude, frequency);
+            phase.flow = phase.flow.with_drive(amplitude, frequency);
         }
         phases
     }
@@ -239,7 +235,7 @@ impl Phases {
         }
     }
 
-    /// The phase at this velocity in the layer of a phase.
+    /// The phase at this velocity in the layer of a phase, which dry friction may divide in two.
     pub(crate) fn at_velocity(&self, phase: PhaseId, velocity: f64) -> PhaseId {
         let reversal = |exit: &Exit| match *exit {
             Exit::Reversal { forward, .. } if velocity > 0.0 => Some(forward),
@@ -250,7 +246,7 @@ impl Phases {
     }
 
     /// 1 where a stop above holds the mass, -1 where one below does.
-    pub(crate) fn side(&self, hold: Sticking) -> f64 {
+    pub(crate) fn side_of_hold(&self, hold: Sticking) -> f64 {
         let sides = hold.phases().map(|phase| self[phase].side);
         let on_wall = if hold.backward.is_none() { -1.0 } else { 1.0 };
         sides.fold(on_wall, f64::min)
@@ -262,8 +258,8 @@ impl Phases {
         walls.map(|wall| &self[wall])
     }
 
-    /// The drive alone, for a mass that is held.
-    pub(crate) fn held(&self) -> LinearLaw {
+    /// The law of a mass that is held: the drive alone.
+    pub(crate) fn law_of_held_mass(&self) -> LinearLaw {
         LinearLaw::new(1.0, 0.0, 0.0, self.amplitude, self.frequency)
     }
 
@@ -298,8 +294,7 @@ impl Phase {
             .acceleration(position, velocity, push + force / mass)
     }
 
-    /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop
-    /// together.
+    /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop together.
     pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
         let of_hertz = |hertz: Hertz| hertz.slopes(position, velocity);
         let (stiffness, damping) = self.hertz.map_or((0.0, 0.0), of_hertz);
@@ -307,7 +302,7 @@ impl Phase {
     }
 
     /// The position without the rounding that would put it beyond a surface that ends the phase.
-    pub(crate) fn confine(&self, position: f64) -> f64 {
+    pub(crate) fn confine_position(&self, position: f64) -> f64 {
         let surfaces = self.guards.iter().filter(|guard| guard.velocity == 0.0);
         surfaces.fold(position, |x, guard| {
             if guard.position > 0.0 {

@@ -13,7 +13,7 @@ pub struct Store {
 }
 
 impl Store {
-    /// It seen on a side: 1 as it is, -1 with positions counted the other way.
+    /// This energy seen on a side: 1 as it is, -1 with positions counted the other way.
     pub(super) fn on_side(self, side: f64) -> Self {
         let Spring { origin, force, .. } = self.spring;
         Self {
@@ -32,7 +32,7 @@ impl Store {
         self.spring.energy_at(position) + hertz
     }
 
-    /// Its derivative: the elastic force in N.
+    /// Elastic force in N at a position, the derivative of the energy.
     pub fn force_at(&self, position: f64) -> f64 {
         let hertz = self.hertz.map_or(0.0, |hertz| hertz.force(position, 0.0));
         let spring = &self.spring;

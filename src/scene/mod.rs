@@ -1,17 +1,16 @@
-//! What stands on the table: plain, validated data.
+//! The scene: a machine as plain, validated data.
 
 mod allowed;
-mod pace;
 mod parameter;
 mod ratios;
 mod scales;
 mod stop;
 mod ties;
+mod time_scales;
 mod units;
 mod validate;
 
 pub use allowed::Allowed;
-pub use pace::{FASTEST, HEAVIEST};
 pub use parameter::{About, Dimension, Parameter};
 pub use ratios::Ratios;
 pub use scales::Scales;
@@ -19,6 +18,7 @@ pub(crate) use stop::stiffness_from;
 pub use stop::{Below, Release, RigidStop, Slope, Stop, force_of};
 pub use ties::Ties;
 pub(crate) use ties::{Quantity, Tie};
+pub use time_scales::{FASTEST, HEAVIEST};
 pub use units::Units;
 
 use serde::{Deserialize, Serialize};
@@ -51,8 +51,7 @@ pub struct Scene {
     pub excitation: Excitation,
     /// Clearance r in m; negative means interference.
     pub clearance: f64,
-    /// Total viscous damping b while bodies touch (x > r) in N s/m, >= 0. It replaces
-    /// [`Scene::damping`] there.
+    /// Total viscous damping b while bodies touch (x > r) in N s/m, >= 0. It replaces [`Scene::damping`] there.
     pub contact_damping: f64,
     /// The stop.
     pub stop: Stop,

@@ -3,17 +3,17 @@
 use super::{Allowed, Scene, Stop};
 use crate::error::SceneError;
 
-/// What is to be known of a parameter.
+/// The description of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct About {
-    /// Which one.
+    /// The parameter.
     pub parameter: Parameter,
-    /// Its name in TOML, in `--set`, in messages and in the FMU.
+    /// Name of the parameter in TOML, in `--set`, in messages and in the FMU.
     pub name: &'static str,
-    /// Its letter (Peterka 2003): the dimensionless one, where there are two.
+    /// Letter of the parameter (Peterka 2003): the dimensionless one, where there are two.
     pub letter: &'static str,
-    /// Its letter in charts of dimensionless machines.
+    /// Letter of the parameter in charts of dimensionless machines.
     pub symbol: &'static str,
     /// What it is also called: letters with a dimension, and the names of 0.1.0.
     pub aliases: &'static [&'static str],
@@ -90,6 +90,7 @@ macro_rules! table {
             $(#[doc = concat!("`", $name, "`, ", $letter, ": ", $meaning, ".")] $parameter,)*
         }
 
+        /// The descriptions of all parameters, in their order.
         const TABLE: &[About] = &[$(About {
             parameter: Parameter::$parameter,
             name: $name,
@@ -194,12 +195,12 @@ macro_rules! place {
 }
 
 impl Parameter {
-    /// All about it.
+    /// The description of this parameter.
     pub const fn about(self) -> &'static About {
         &TABLE[self as usize]
     }
 
-    /// Its name in TOML, in messages and in the FMU.
+    /// Name of the parameter in TOML, in messages and in the FMU.
     pub const fn name(self) -> &'static str {
         self.about().name
     }
@@ -234,7 +235,7 @@ impl Parameter {
         })
     }
 
-    /// Its value in SI units, if the machine has it.
+    /// Value of the parameter in SI units, if the machine has it.
     pub fn get(self, scene: &Scene) -> Option<f64> {
         place!(self, scene).copied()
     }

@@ -1,4 +1,4 @@
-//! What is large and what is small on a machine.
+//! Typical lengths and rates of a machine and of its motions.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -8,9 +8,9 @@ use super::Scene;
 /// machine in other units behaves the same.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
-    /// In m.
+    /// Length in m.
     pub length: f64,
-    /// In rad/s.
+    /// Rate in rad/s.
     pub rate: f64,
 }
 
@@ -18,8 +18,8 @@ pub struct Scales {
 const SOFT: f64 = 0.01;
 
 impl Scene {
-    /// Those of the machine, the units of [`Ratios`](super::Ratios): the static deflection F0/k1 and
-    /// Omega = sqrt(k1/m). A suspension far softer than m w^2 is replaced by that.
+    /// The scales of the machine, the units of [`Ratios`](super::Ratios): the static deflection F0/k1 and Omega =
+    /// sqrt(k1/m). A suspension far softer than m w^2 is replaced by that.
     #[doc(hidden)]
     pub fn scales(&self) -> Scales {
         let w = self.excitation.frequency;
@@ -30,7 +30,7 @@ impl Scene {
         }
     }
 
-    /// Those of its motions under this drive: the larger clearance or the amplitude F0/(m w^2) of a free mass,
+    /// The scales of its motions under this drive: the larger clearance or the amplitude F0/(m w^2) of a free mass,
     /// whichever is larger, and w.
     #[doc(hidden)]
     pub fn motion_scales(&self) -> Scales {
@@ -52,7 +52,7 @@ fn or_one(length: f64, other: f64) -> f64 {
 }
 
 impl Scales {
-    /// In m/s.
+    /// Length times rate, in m/s.
     pub fn speed(&self) -> f64 {
         self.length * self.rate
     }
@@ -68,9 +68,8 @@ impl Scales {
         Matrix2::new(xx, xv * self.rate, vx / self.rate, vv)
     }
 
-    /// What rounding alone may leave of P(s) - s in these units: that of the state, as the map
-    /// stretches it.
-    pub fn rounding(&self, state: &Vector2<f64>, jacobian: &Matrix2<f64>) -> f64 {
+    /// What rounding alone may leave of P(s) - s in these units: that of the state, as the map stretches it.
+    pub fn map_rounding(&self, state: &Vector2<f64>, jacobian: &Matrix2<f64>) -> f64 {
         1e-13 * (1.0 + self.state(state).norm()) * (1.0 + self.jacobian(jacobian).norm())
     }
 }

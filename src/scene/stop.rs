@@ -27,13 +27,12 @@ pub enum Stop {
         #[serde(default)]
         unloading: Vec<Slope>,
     },
-    /// F = stiffness d^exponent max(0, 1 + dissipation v) (Fig. 2c; Hertz 1882; Hunt and Crossley
-    /// 1975).
+    /// F = stiffness d^exponent max(0, 1 + dissipation v) (Fig. 2c; Hertz 1882; Hunt and Crossley 1975).
     Hertz {
         /// Stiffness in N/m^exponent, >= 0.
         stiffness: f64,
         /// Exponent, >= 1; 3/2 for a sphere.
-        #[serde(default = "sphere")]
+        #[serde(default = "sphere_exponent")]
         exponent: f64,
         /// Hunt and Crossley's factor in s/m, >= 0.
         #[serde(default)]
@@ -67,7 +66,7 @@ impl Stop {
     }
 }
 
-const fn sphere() -> f64 {
+const fn sphere_exponent() -> f64 {
     1.5
 }
 

@@ -1,4 +1,4 @@
-//! Parameters that follow others by an expression.
+//! Ties: parameters that follow others by an expression.
 
 use std::sync::Arc;
 
@@ -14,26 +14,26 @@ pub(crate) struct Quantity {
 }
 
 impl Quantity {
-    /// Its unit in a scene, in SI units: that of a preload as a deflection is the stiffness of the stop.
-    fn unit(self, scene: &Scene) -> f64 {
+    /// The unit of the quantity in a scene, in SI units: that of a preload as a deflection is the stiffness of the stop.
+    fn unit_in(self, scene: &Scene) -> f64 {
         let stiffness = || Parameter::StopStiffness.get(scene).unwrap_or(f64::NAN);
         self.unit.unwrap_or_else(stiffness)
     }
 
-    /// Its value in a scene; not a number if the scene lacks it.
-    pub fn value(self, scene: &Scene) -> f64 {
-        self.parameter.get(scene).unwrap_or(f64::NAN) / self.unit(scene)
+    /// The value of the quantity in a scene; not a number if the scene lacks it.
+    pub fn value_in(self, scene: &Scene) -> f64 {
+        self.parameter.get(scene).unwrap_or(f64::NAN) / self.unit_in(scene)
     }
 
-    fn set(self, scene: &mut Scene, value: f64) {
-        self.parameter.set(scene, value * self.unit(scene));
+    fn set_in(self, scene: &mut Scene, value: f64) {
+        self.parameter.set(scene, value * self.unit_in(scene));
     }
 }
 
 /// A parameter that follows others.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tie {
-    /// The key that states it, and as what.
+    /// The key that states the parameter, and the text of the expression.
     pub key: &'static str,
     pub text: String,
     pub quantity: Quantity,
@@ -57,19 +57,19 @@ impl Tie {
         }
     }
 
-    /// Its value in the unit of its key.
-    pub fn value(&self, scene: &Scene) -> f64 {
-        let values: Vec<f64> = self.terms.iter().map(|term| term.value(scene)).collect();
-        self.expression.at(&values).value
+    /// The value of the tied parameter in the unit of its key.
+    pub fn value_in(&self, scene: &Scene) -> f64 {
+        let values: Vec<f64> = self.terms.iter().map(|term| term.value_in(scene)).collect();
+        self.expression.eval(&values).value
     }
 
-    /// Sets it in a scene.
-    pub fn follow(&self, scene: &mut Scene) {
-        self.quantity.set(scene, self.value(scene));
+    /// Sets the parameter in a scene.
+    pub fn apply_to(&self, scene: &mut Scene) {
+        self.quantity.set_in(scene, self.value_in(scene));
     }
 
-    /// Its derivative in SI units, where those of some parameters are known and all others are constant.
-    fn rate(&self, scene: &Scene, rates: &[(Parameter, f64)]) -> f64 {
+    /// Derivative of the tied parameter in SI units, where those of some parameters are known and all others are constant.
+    fn derivative_in(&self, scene: &Scene, rates: &[(Parameter, f64)]) -> f64 {
         let of = |parameter: Parameter| {
             let known = rates.iter().find(|(own, _)| *own == parameter);
             known.map_or(0.0, |(_, rate)| *rate)
@@ -78,17 +78,17 @@ impl Tie {
             Some(_) => 0.0,
             None => of(Parameter::StopStiffness),
         };
-        let values: Vec<f64> = self.terms.iter().map(|term| term.value(scene)).collect();
-        let own = self.expression.at(&values);
+        let values: Vec<f64> = self.terms.iter().map(|term| term.value_in(scene)).collect();
+        let own = self.expression.eval(&values);
         let terms = self.terms.iter().zip(&values).zip(&own.by);
         let by_terms = terms.map(|((term, value), by)| {
-            by * (of(term.parameter) - value * of_unit(*term)) / term.unit(scene)
+            by * (of(term.parameter) - value * of_unit(*term)) / term.unit_in(scene)
         });
-        by_terms.sum::<f64>() * self.quantity.unit(scene) + own.value * of_unit(self.quantity)
+        by_terms.sum::<f64>() * self.quantity.unit_in(scene) + own.value * of_unit(self.quantity)
     }
 
     /// True if its expression has one of these parameters.
-    pub fn follows(&self, parameters: &[Parameter]) -> bool {
+    pub fn follows_any(&self, parameters: &[Parameter]) -> bool {
         let mut terms = self.terms.iter();
         terms.any(|term| parameters.contains(&term.parameter))
     }
@@ -113,7 +113,7 @@ impl Ties {
     }
 
     /// The tie of a parameter, if it follows others.
-    pub(crate) fn of(&self, parameter: Parameter) -> Option<&Tie> {
+    pub(crate) fn tie_of(&self, parameter: Parameter) -> Option<&Tie> {
         let mut ties = self.0.iter().map(AsRef::as_ref);
         ties.find(|tie: &&Tie| tie.quantity.parameter == parameter)
     }
@@ -126,7 +126,7 @@ impl Scene {
         let mut scene = self.clone();
         scene.excitation.frequency = frequency;
         for tie in &self.followers.0 {
-            tie.follow(&mut scene);
+            tie.apply_to(&mut scene);
         }
         scene
     }
@@ -137,7 +137,7 @@ impl Scene {
         let mut rates = vec![(Parameter::Frequency, 1.0)];
         for tie in &self.followers.0 {
             let parameter = tie.quantity.parameter;
-            let rate = tie.rate(self, &rates);
+            let rate = tie.derivative_in(self, &rates);
             rates.retain(|(own, _)| *own != parameter);
             rates.push((parameter, rate));
         }

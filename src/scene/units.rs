@@ -35,7 +35,7 @@ impl Units {
     }
 
     /// A dimensionless quantity with its unit.
-    fn of(&self, dimension: Dimension, value: f64) -> f64 {
+    fn with_unit(&self, dimension: Dimension, value: f64) -> f64 {
         match dimension {
             Dimension::Mass => value * self.mass,
             Dimension::Stiffness => value * self.stiffness,
@@ -69,7 +69,7 @@ impl Scene {
         };
         for parameter in Parameter::ALL {
             if let Some(value) = parameter.get(self) {
-                let value = units.of(parameter.about().dimension, value);
+                let value = units.with_unit(parameter.about().dimension, value);
                 parameter.set(&mut scene, value);
             }
         }

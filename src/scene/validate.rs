@@ -4,12 +4,12 @@ use super::{Allowed, Parameter, Scene, Slope, Stop, force_of};
 use crate::error::SceneError;
 
 /// Refuses slopes out of order, and a way back that would give more than the way forward took.
-fn slopes(loading: &[Slope], unloading: &[Slope]) -> Result<(), SceneError> {
+fn check_slopes(loading: &[Slope], unloading: &[Slope]) -> Result<(), SceneError> {
     if loading.is_empty() {
         return Err(SceneError::NoSlope);
     }
-    in_order("stop.loading", loading)?;
-    in_order("stop.unloading", unloading)?;
+    check_order("stop.loading", loading)?;
+    check_order("stop.unloading", unloading)?;
     if unloading.is_empty() {
         return Ok(());
     }
@@ -32,7 +32,7 @@ fn slopes(loading: &[Slope], unloading: &[Slope]) -> Result<(), SceneError> {
     Ok(())
 }
 
-fn in_order(list: &'static str, slopes: &[Slope]) -> Result<(), SceneError> {
+fn check_order(list: &'static str, slopes: &[Slope]) -> Result<(), SceneError> {
     for (index, slope) in slopes.iter().enumerate() {
         let fits = match index.checked_sub(1) {
             None => slope.from == 0.0,
@@ -69,9 +69,9 @@ impl Scene {
 
     fn validate_stop(&self) -> Result<(), SceneError> {
         if let Stop::PiecewiseLinear { loading, unloading } = &self.stop {
-            slopes(loading, unloading)?;
+            check_slopes(loading, unloading)?;
         }
-        self.validate_pace()
+        self.validate_time_scales()
     }
 
     fn validate_below(&self) -> Result<(), SceneError> {

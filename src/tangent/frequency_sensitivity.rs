@@ -48,7 +48,7 @@ impl FrequencySensitivity {
 
 impl Observer for FrequencySensitivity {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let transition = self.tangent.along(arc, elapsed, Some(arc.begin()));
+        let transition = self.tangent.extend_along(arc, elapsed, Some(arc.begin()));
         let change = self.change.zip(transition.by_frequency);
         self.change = change.map(|(change, by)| transition.matrix * change + by);
     }

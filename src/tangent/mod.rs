@@ -1,13 +1,13 @@
 //! The exact Jacobian of a motion: free transitions joined by saltation matrices.
 
 mod frequency_sensitivity;
-mod lowered;
 mod parameter_sensitivity;
+mod phase_derivatives;
 mod sensitivity;
 
 pub use frequency_sensitivity::FrequencySensitivity;
-pub use lowered::Lowered;
 pub use parameter_sensitivity::ParameterSensitivity;
+pub use phase_derivatives::PhaseDerivatives;
 pub use sensitivity::{Perturbation, Sensitivity};
 
 use nalgebra::Matrix2;
@@ -20,9 +20,8 @@ use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
 pub struct Tangent {
     /// The product so far.
     pub matrix: Matrix2<f64>,
-    /// Integral of the damping coefficient over time and mass. As long as the mass neither turns
-    /// nor sticks under dry friction, det(matrix) = exp(-damping_integral) times R^2 for each rebound
-    /// from a rigid stop (Liouville).
+    /// Integral of the damping coefficient over time and mass. As long as the mass neither turns nor sticks under dry
+    /// friction, det(matrix) = exp(-damping_integral) times R^2 for each rebound from a rigid stop (Liouville).
     pub damping_integral: f64,
     /// Determinant of the product, the product of the determinants of its factors: free of the cancellation between
     /// entries that a weak impact makes large.
@@ -40,13 +39,14 @@ impl Default for Tangent {
 }
 
 impl Tangent {
-    /// Goes along an arc: its transition, from so many seconds after the instant at which the drive's angle is held.
-    fn along(&mut self, arc: &Arc<'_>, elapsed: f64, since: Option<f64>) -> Transition {
+    /// Multiplies by the transition along an arc; `since`: seconds from the instant at which the drive angle is held
+    /// to its start.
+    fn extend_along(&mut self, arc: &Arc<'_>, elapsed: f64, since: Option<f64>) -> Transition {
         let transition = match arc.phase {
             Some(_) => arc.course.transition(elapsed, since),
             None => {
                 self.determinant = 0.0;
-                Transition::held(arc.course)
+                Transition::of_held_mass(arc.course)
             }
         };
         self.damping_integral += transition.damping;
@@ -58,7 +58,7 @@ impl Tangent {
 
 impl Observer for Tangent {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.along(arc, elapsed, None);
+        self.extend_along(arc, elapsed, None);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {

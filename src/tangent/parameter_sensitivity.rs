@@ -1,7 +1,7 @@
 //! How a motion changes with its start and with any parameters of its machine: exact, across crossings whose surfaces and
 //! resets change, too.
 
-use super::lowered::Lowered;
+use super::phase_derivatives::PhaseDerivatives;
 use crate::flow::{Answer, ArcSolution, Source};
 use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
 use crate::phases::{Phase, Phases};
@@ -13,7 +13,7 @@ use crate::phases::{Phase, Phases};
 pub struct ParameterSensitivity<'a> {
     phases: &'a Phases,
     drive: f64,
-    by: &'a [Lowered],
+    by: &'a [PhaseDerivatives],
     columns: Vec<Answer>,
     /// Energy in J that the drive has supplied.
     pub supplied: f64,
@@ -24,7 +24,7 @@ pub struct ParameterSensitivity<'a> {
 
 impl<'a> ParameterSensitivity<'a> {
     /// At the start of a motion of `phases`.
-    pub fn new(phases: &'a Phases, by: &'a [Lowered]) -> Self {
+    pub fn new(phases: &'a Phases, by: &'a [PhaseDerivatives]) -> Self {
         let mut columns = vec![Answer::zeros(); 2 + by.len()];
         (columns[0].x, columns[1].y) = (1.0, 1.0);
         Self {
@@ -44,17 +44,8 @@ impl<'a> ParameterSensitivity<'a> {
         (self.is_known && self.columns.iter().all(finite)).then_some(&self.columns)
     }
 
-    /// The columns `elapsed` seconds after the start of an arc that is not told yet.
-    pub fn within(
-        &self,
-        (course, phase): (&ArcSolution, Option<&Phase>),
-        elapsed: f64,
-    ) -> Option<Vec<Answer>> {
-        self.along((course, phase), elapsed).map(|found| found.0)
-    }
-
-    /// The columns along an arc, with the energy supplied meanwhile.
-    fn along(
+    /// The columns `elapsed` seconds after the start of an arc that is not told yet, and the energy supplied meanwhile.
+    pub fn columns_along(
         &self,
         (course, phase): (&ArcSolution, Option<&Phase>),
         elapsed: f64,
@@ -74,18 +65,18 @@ impl<'a> ParameterSensitivity<'a> {
         let forces: Vec<_> = self
             .by
             .iter()
-            .map(|by| by.forces(phase, mass, self.drive, origin))
+            .map(|by| by.sources(phase, mass, self.drive, origin))
             .collect();
         let logarithm = forces
             .iter()
             .any(|forces| forces[Source::Logarithm as usize] != 0.0);
-        let answers = course.answers(elapsed, logarithm)?;
+        let answers = course.response(elapsed, logarithm)?;
         let columns = self.columns.iter().enumerate().map(|(index, start)| {
             // Energies are in J, answers in m.
             let from = Answer::new(start.x, start.y, 0.0);
             let mut end = match index.checked_sub(2) {
-                None => answers.to(&from, &[0.0; 9]),
-                Some(index) => answers.to(&from, &forces[index]),
+                None => answers.combined(&from, &[0.0; 9]),
+                Some(index) => answers.combined(&from, &forces[index]),
             };
             end.z = start.z + self.drive * end.z;
             if let Some(by) = index.checked_sub(2).map(|index| &self.by[index]) {
@@ -99,9 +90,9 @@ impl<'a> ParameterSensitivity<'a> {
 
     /// How much later a crossing of a surface, or a turn under dry friction, happens, in s by each column, before it is
     /// told.
-    pub fn delays(&self, crossing: &Crossing) -> Vec<f64> {
+    pub fn crossing_delays(&self, crossing: &Crossing) -> Vec<f64> {
         let (v, a) = (crossing.velocity, crossing.acceleration_before);
-        let places = self.surfaces_at(crossing);
+        let places = self.surface_derivatives(crossing);
         let delay = |(column, (place, _)): (&Answer, (f64, f64))| match crossing.kind {
             CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => (place - column.x) / v,
             CrossingKind::Reversal => -column.y / a,
@@ -110,11 +101,11 @@ impl<'a> ParameterSensitivity<'a> {
         self.columns.iter().zip(places).map(delay).collect()
     }
 
-    /// Changes of position and restitution of the surface that is crossed, by each column.
-    fn surfaces_at(&self, crossing: &Crossing) -> Vec<(f64, f64)> {
+    /// Derivatives of position and restitution of the surface that is crossed, by each column.
+    fn surface_derivatives(&self, crossing: &Crossing) -> Vec<(f64, f64)> {
         let mut surfaces = self.phases.surfaces.iter();
         let found = surfaces.position(|surface| surface.position == crossing.position);
-        let change = |by: &Lowered| found.map_or((0.0, 0.0), |index| by.surfaces[index]);
+        let change = |by: &PhaseDerivatives| found.map_or((0.0, 0.0), |index| by.surfaces[index]);
         let starts = [(0.0, 0.0); 2].into_iter();
         starts.chain(self.by.iter().map(change)).collect()
     }
@@ -128,7 +119,7 @@ impl Observer for ParameterSensitivity<'_> {
             self.is_known = false;
             return;
         }
-        match self.along((arc.course, arc.phase), elapsed) {
+        match self.columns_along((arc.course, arc.phase), elapsed) {
             Some((columns, supplied)) => {
                 self.columns = columns;
                 self.supplied += supplied;
@@ -142,8 +133,8 @@ impl Observer for ParameterSensitivity<'_> {
         let (v_after, a_after) = (crossing.velocity_after, crossing.acceleration_after);
         let push = self.drive * self.cos;
         let is_held = v_after == 0.0 && a_after == 0.0;
-        let delays = self.delays(crossing);
-        let surfaces = self.surfaces_at(crossing);
+        let delays = self.crossing_delays(crossing);
+        let surfaces = self.surface_derivatives(crossing);
         let columns = self.columns.iter_mut().zip(delays).zip(surfaces);
         for ((column, delay), (place, restitution)) in columns {
             match crossing.kind {

@@ -3,42 +3,42 @@
 
 use super::saltation;
 use crate::error::MotionError;
-use crate::flow::Change;
+use crate::flow::Variation;
 use crate::integrator::{Arc, Crossing, CrossingKind, Motion, Observer, Simulation, Start};
 use crate::scene::Scene;
 
 /// A direction of change at the beginning of the last advance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Perturbation {
-    /// Of the position, in m.
+    /// Change of the position, in m.
     pub position: f64,
-    /// Of the velocity, in m/s.
+    /// Change of the velocity, in m/s.
     pub velocity: f64,
-    /// Of the external force from there on, in N.
+    /// Change of the external force from there on, in N.
     pub force: f64,
 }
 
-/// What it brings: the derivatives of the present outputs along the direction.
+/// The derivatives of the present outputs along the direction.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Sensitivity {
-    /// Of the position, in m.
+    /// Derivative of the position, in m.
     pub position: f64,
-    /// Of the velocity, in m/s.
+    /// Derivative of the velocity, in m/s.
     pub velocity: f64,
-    /// Of the acceleration, in m/s^2.
+    /// Derivative of the acceleration, in m/s^2.
     pub acceleration: f64,
-    /// Of the contact force, in N.
+    /// Derivative of the contact force, in N.
     pub contact_force: f64,
-    /// Of the mechanical energy, in J.
+    /// Derivative of the mechanical energy, in J.
     pub mechanical: f64,
-    /// Of the energy supplied, in J.
+    /// Derivative of the energy supplied, in J.
     pub supplied: f64,
-    /// Of the energy dissipated, in J.
+    /// Derivative of the energy dissipated, in J.
     pub dissipated: f64,
-    /// Of the time of the last impact, in s; 0 if it was before the last advance.
+    /// Derivative of the time of the last impact, in s; 0 if it was before the last advance.
     pub impact_time: f64,
-    /// Of its before-impact velocity, in m/s.
+    /// Derivative of its before-impact velocity, in m/s.
     pub impact_velocity: f64,
 }
 
@@ -52,7 +52,7 @@ impl Simulation {
     pub fn sensitivity(&self, by: &Perturbation) -> Result<Sensitivity, MotionError> {
         let (scene, now) = (self.scene(), self.motion());
         let mut motion = self.motion_at_mark();
-        let stored = change_of_energy(scene, &motion, by.position, by.velocity);
+        let stored = energy_change(scene, &motion, by.position, by.velocity);
         let mut watch = SensitivityRecorder {
             mass: scene.mass,
             force: by.force,
@@ -64,8 +64,8 @@ impl Simulation {
         if motion.elapsed() > 0.0 {
             motion.tell_arc(&mut watch);
         }
-        let mechanical = change_of_energy(scene, now, watch.position, watch.velocity);
-        let (acceleration, contact_force) = watch.forces(scene, now);
+        let mechanical = energy_change(scene, now, watch.position, watch.velocity);
+        let (acceleration, contact_force) = watch.force_changes(scene, now);
         Ok(Sensitivity {
             position: watch.position,
             velocity: watch.velocity,
@@ -81,7 +81,7 @@ impl Simulation {
 }
 
 /// Change in J of the mechanical energy with that of the state.
-fn change_of_energy(scene: &Scene, motion: &Motion, position: f64, velocity: f64) -> f64 {
+fn energy_change(scene: &Scene, motion: &Motion, position: f64, velocity: f64) -> f64 {
     let Start {
         position: x,
         velocity: v,
@@ -106,15 +106,15 @@ struct SensitivityRecorder {
 
 impl Observer for SensitivityRecorder {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let by = Change {
+        let by = Variation {
             position: self.position,
             velocity: self.velocity,
             push: self.force / self.mass,
         };
         let law = arc.phase.map_or(0.0, |phase| phase.law.force / self.mass);
-        self.supplied += self.mass * arc.course.changed_supply(elapsed, by, law);
+        self.supplied += self.mass * arc.course.supply_variation(elapsed, by, law);
         self.push = self.mass * (arc.course.push(elapsed) - law);
-        (self.position, self.velocity) = arc.course.changed(elapsed, by);
+        (self.position, self.velocity) = arc.course.state_variation(elapsed, by);
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
@@ -138,7 +138,7 @@ impl Observer for SensitivityRecorder {
 
 impl SensitivityRecorder {
     /// Changes of acceleration and contact force.
-    fn forces(&self, scene: &Scene, motion: &Motion) -> (f64, f64) {
+    fn force_changes(&self, scene: &Scene, motion: &Motion) -> (f64, f64) {
         let Some(phase) = motion.phase() else {
             return (0.0, self.force - scene.stiffness * self.position);
         };

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::MotionError;
 use crate::flow::{ArcSolution, Drive};
 use crate::integrator::{
-    Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, mechanical_energy, polynomial,
-    work,
+    Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, force_from_derivatives,
+    mechanical_energy, work,
 };
 use crate::phases::{PhaseId, PhaseKind, Phases};
 use crate::scene::Scene;
@@ -21,7 +21,7 @@ pub struct KeptArc {
     pub start: Instant,
     /// How long it lasts, in s.
     pub duration: f64,
-    /// Its exact motion.
+    /// The exact motion along the arc.
     #[doc(hidden)]
     pub course: ArcSolution,
     /// What the mass does on it.
@@ -81,7 +81,7 @@ pub struct Touch {
 pub struct AppliedForce {
     /// When it begins, in s.
     pub from: f64,
-    /// Its derivatives then, as in [`Simulation::set_force`](crate::Simulation::set_force): value in N, rate in N/s, and so on.
+    /// Derivatives of the force then, as in [`Simulation::set_force`](crate::Simulation::set_force): value in N, rate in N/s, and so on.
     pub derivatives: Vec<f64>,
 }
 
@@ -91,9 +91,9 @@ pub struct AppliedForce {
 pub struct Trajectory {
     /// The clock of its instants.
     pub clock: Clock,
-    /// Its arcs in order of time, without gaps.
+    /// Arcs in order of time, without gaps.
     pub arcs: Vec<KeptArc>,
-    /// Its crossings in order of time.
+    /// Crossings in order of time.
     pub crossings: Vec<Crossing>,
     /// Energies supplied and dissipated, in J.
     pub work: Work,
@@ -123,7 +123,7 @@ impl Trajectory {
         if next == self.arcs.len() && elapsed > arc.duration {
             return None;
         }
-        let (position, velocity) = arc.course.at(elapsed, self.clock.drive(instant));
+        let (position, velocity) = arc.course.state_at(elapsed, self.clock.drive(instant));
         Some(Start::new(position, velocity))
     }
 
@@ -180,7 +180,7 @@ impl Scene {
                 break;
             }
             let before = motion.clone();
-            if motion.set_force(polynomial(&force.derivatives)?) {
+            if motion.set_force(force_from_derivatives(&force.derivatives)?) {
                 before.tell_arc(&mut recorder);
             }
         }
@@ -211,6 +211,7 @@ impl Scene {
     }
 }
 
+/// Keeps the arcs and crossings of a motion.
 #[derive(Default)]
 struct Recorder {
     mass: f64,

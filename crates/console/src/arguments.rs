@@ -150,7 +150,7 @@ impl MachineArguments {
         let refused = |error| Failure::usage(format!("--{flag} {name}: {error}"));
         let own = (machine.scene.stiffness / machine.scene.mass).sqrt();
         if name != "eta" || machine.unit_system == UnitSystem::Ratios {
-            return machine.free(name).map_err(refused);
+            return machine.free_parameter(name).map_err(refused);
         }
         if own == 0.0 {
             let what = "is in units of sqrt(k1/m), but stiffness = 0";
@@ -159,7 +159,7 @@ impl MachineArguments {
             )));
         }
         let key = Parameter::Frequency.name();
-        let (frequency, _) = machine.free(key).map_err(refused)?;
+        let (frequency, _) = machine.free_parameter(key).map_err(refused)?;
         let followers = machine.followers(frequency);
         if [Parameter::Mass, Parameter::Suspension]
             .iter()
@@ -200,7 +200,7 @@ pub fn refuse_stop_below(machine: &Machine) -> Result<(), Failure> {
 /// [`Failure::Usage`] naming the stop, or the frequency and its expression.
 pub fn refuse_without_zone(machine: &Machine) -> Result<(), Failure> {
     refuse_stop_below(machine)?;
-    let free = machine.free(machine.name(Parameter::Frequency));
+    let free = machine.free_parameter(machine.name(Parameter::Frequency));
     free.map(|_| ())
         .map_err(|error| Failure::usage(error.to_string()))
 }

@@ -24,7 +24,7 @@ pub(crate) fn follow<W: BatchObserver>(
         watch,
         ask,
         answer: ControlFlow::Continue(()),
-        left: budget::left(),
+        left: budget::windows_left(),
     };
     let outcomes = softstop_lanes::run(machines, &jobs, &mut asking);
     budget::charge(BATCH_COST + outcomes.len() as u64);
@@ -61,9 +61,9 @@ impl<W: BatchObserver, A: FnMut() -> ControlFlow<()>> BatchObserver for Asking<'
 
     fn goes_on(&mut self) -> ControlFlow<()> {
         // The engine that motions are handed over to has charged its part.
-        let charged = self.left.saturating_sub(budget::left());
+        let charged = self.left.saturating_sub(budget::windows_left());
         let is_left = budget::charge(WORK_COST * ASKED.saturating_sub(charged));
-        self.left = budget::left();
+        self.left = budget::windows_left();
         self.answer = match is_left {
             true => (self.ask)(),
             // What the motions have come to is discarded with all the work.

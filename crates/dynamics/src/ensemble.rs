@@ -152,7 +152,7 @@ impl<'a> Ensemble<'a> {
 
     /// True if long motions that settle cost as little as short ones.
     pub(crate) fn leaps(&self) -> bool {
-        self.machines[0].leaps()
+        self.machines[0].skips_periods()
     }
 
     pub(crate) fn done(&self) -> u64 {
@@ -178,9 +178,10 @@ impl<'a> Ensemble<'a> {
     ) -> Result<(), OrbitError> {
         let fork = Fork::default();
         let chunks = members.par_chunks_mut(MEMBERS_AT_ONCE);
-        let advanced = chunks
-            .try_for_each(|chunk| fork.part(|| self.advance_together(chunk, periods, recorded)));
-        fork.join();
+        let advanced = chunks.try_for_each(|chunk| {
+            fork.run_part(|| self.advance_together(chunk, periods, recorded))
+        });
+        fork.charge_parts();
         advanced
     }
 

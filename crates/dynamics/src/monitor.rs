@@ -55,9 +55,9 @@ pub fn piece<T: Serialize + DeserializeOwned, E>(
         budget::charge(cost);
         return Ok(known);
     }
-    let before = budget::left();
+    let before = budget::windows_left();
     let done = work()?;
-    let left = budget::left();
+    let left = budget::windows_left();
     if left > 0
         && let Ok(bytes) = rmp_serde::to_vec(&(before - left, &done))
     {

@@ -87,7 +87,7 @@ fn samples(trajectory: &Trajectory, end: f64) -> Vec<[f64; 3]> {
         for step in 0..=steps as u32 {
             let elapsed = shown * f64::from(step) / steps;
             let drive = clock.drive(clock.after(arc.start, elapsed));
-            let (position, velocity) = arc.course.at(elapsed, drive);
+            let (position, velocity) = arc.course.state_at(elapsed, drive);
             samples.push([begin + elapsed, position, velocity]);
         }
     }

@@ -1,12 +1,14 @@
-//! The constants of a phase, once for all motions of a machine.
+//! The constants of the law of a phase, computed once for all motions of a machine.
 
 use std::f64::consts::TAU;
+
+use nalgebra::{Complex, Vector2};
 
 use super::law::{Constants, SPAN, TERMS};
 use softstop::PhaseKind;
 use softstop::internals::{Beyond, Exit, Hertz, Modes, Phase, Phases, SurfaceId};
 
-/// Most windows per drive period.
+/// Most windows per drive period that lanes scan.
 const FINEST: f64 = 65_536.0;
 /// Least stiffness per mass, in units of the drive's w^2, with which a constant force is described by a static
 /// deflection: a larger one would cost the motion its digits.
@@ -15,20 +17,20 @@ const SOFTEST: f64 = 1e-2;
 /// the mass creeps, which the safe engine follows in long steps.
 const EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
 const CREEPING: f64 = 100.0;
-/// Where the safe engine has to decide, relative to the size of the motion.
+/// Distance from a guard within which the safe engine decides, relative to the size of the motion.
 const AMBIGUITY: f64 = 1e-10;
-/// Relative to the size of the velocity.
+/// Velocity below which the safe engine decides, relative to the largest velocity.
 const SLOW: f64 = 1e-5;
 
 impl Constants {
-    /// Sets those of a phase, from none; none if only the safe engine follows it.
-    pub fn set_to(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
+    /// Sets all constants to those of a phase, from zero; none if only the safe engine can follow it.
+    pub fn set_to_phase(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         (self.low, self.high) = (f64::NEG_INFINITY, f64::INFINITY);
         if let Some(hertz) = &phase.hertz {
-            return self.set_to_power(phases, phase, hertz);
+            return self.set_to_power_law(phases, phase, hertz);
         }
         let constants = self;
-        constants.set_flow(phases, phase)?;
+        constants.set_linear_law(phases, phase)?;
         let mut guarded = false;
         for (guard, exit) in phase.guards.iter().zip(&phase.exits) {
             match *exit {
@@ -59,27 +61,27 @@ impl Constants {
             constants.level = f64::INFINITY;
         }
         let flow = &phase.flow;
-        constants.set_side();
-        constants.set_grain(flow.frequency.max(flow.modes.fastest_rate()));
+        constants.set_single_end();
+        constants.set_ambiguity(flow.frequency.max(flow.modes.fastest_rate()));
         let is_free = phase.kind == PhaseKind::Free;
-        let reach = if constants.is_plain() || is_free {
+        let reach = if constants.has_one_end() || is_free {
             f64::INFINITY
         } else {
             constants.window
         };
         constants.set_bounds(&flow.modes, flow.frequency, reach);
-        if constants.releases_first(constants.low, 1.0) {
+        if constants.is_released_before(constants.low, 1.0) {
             constants.low = f64::NEG_INFINITY;
         }
-        if constants.releases_first(constants.high, -1.0) {
+        if constants.is_released_before(constants.high, -1.0) {
             constants.high = f64::INFINITY;
         }
-        constants.turn(constants.side);
+        constants.apply_side(constants.side);
         Some(())
     }
 
-    /// Sets those under a power law with nothing behind it.
-    fn set_to_power(&mut self, phases: &Phases, phase: &Phase, hertz: &Hertz) -> Option<()> {
+    /// Sets the constants of a phase under a power law; none if only the safe engine can follow it.
+    fn set_to_power_law(&mut self, phases: &Phases, phase: &Phase, hertz: &Hertz) -> Option<()> {
         let constants = self;
         for exit in &phase.exits {
             match *exit {
@@ -88,7 +90,7 @@ impl Constants {
                 Exit::Forward(_) | Exit::Reversal { .. } => return None,
             }
         }
-        constants.set_side();
+        constants.set_single_end();
         if !EXPONENTS.contains(&hertz.exponent) || constants.end != hertz.origin {
             return None;
         }
@@ -115,27 +117,27 @@ impl Constants {
         Some(())
     }
 
-    /// True if a power law acts.
-    pub fn presses(&self) -> bool {
+    /// True if a power law acts in the phase.
+    pub fn has_power_law(&self) -> bool {
         self.press > 0.0
     }
 
-    /// True if no motion comes to an end of the phase, the lower one for `side` = 1, but through the further guard: there it is
-    /// by_velocity x', not below zero on the way out. So a contact that must not pull ends before it is open.
-    fn releases_first(&self, end: f64, side: f64) -> bool {
+    /// True if the further guard ends the phase before the position `end` does, the lower one for `side` = 1: there it
+    /// is by_velocity x', not below zero on the way out. So a contact that must not pull ends before it is open.
+    fn is_released_before(&self, end: f64, side: f64) -> bool {
         let off = self.by_position * end - self.level;
         side * self.by_velocity < 0.0 && off.abs() <= 4.0 * f64::EPSILON * self.level.abs()
     }
 
     /// True if one position and nothing else ends the phase, and its free motion never grows.
-    pub fn is_plain(&self) -> bool {
+    pub fn has_one_end(&self) -> bool {
         let one_sided = self.low.is_finite() != self.high.is_finite();
         let plain = one_sided && self.level == f64::INFINITY && self.stiffness < 0.0;
-        plain || self.presses()
+        plain || self.has_power_law()
     }
 
-    /// The phases that follow on it, the further ones first.
-    pub fn beyond(&self) -> impl Iterator<Item = usize> {
+    /// The phases that follow on this one, those on the way to the stop first.
+    pub fn successors(&self) -> impl Iterator<Item = usize> {
         let ends = [
             (self.high.is_finite(), self.beyond_high),
             (self.level.is_finite(), self.beyond_guard),
@@ -145,17 +147,17 @@ impl Constants {
         real.map(|(_, beyond)| beyond as usize)
     }
 
-    /// Those of a phase that not one position alone ends, with x itself in the place of the guard.
-    pub fn of_position(&self) -> Self {
+    /// The constants of a phase with several ends: of position x itself, not of the distance from one of them.
+    pub fn in_absolute_position(&self) -> Self {
         let mut constants = *self;
-        constants.turn(self.side);
+        constants.apply_side(self.side);
         (constants.side, constants.edge) = (1.0, -self.offset);
         constants.guarded = 1.0;
         constants
     }
 
-    /// Sees the steady motion from the guard's side.
-    fn turn(&mut self, side: f64) {
+    /// Multiplies the constants of the steady motion by `side`, -1 for a guard below.
+    fn apply_side(&mut self, side: f64) {
         for constant in [
             &mut self.cosine,
             &mut self.sine,
@@ -187,9 +189,10 @@ impl Constants {
         }
     }
 
-    fn set_flow(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
+    /// Sets the constants of the linear law; none if it is too stiff or too soft for windows.
+    fn set_linear_law(&mut self, phases: &Phases, phase: &Phase) -> Option<()> {
         let flow = &phase.flow;
-        let (cosine, sine) = flow.steady()?;
+        let (cosine, sine) = flow.steady_state()?;
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
         let window = SPAN / fastest;
@@ -197,7 +200,7 @@ impl Constants {
         if TAU / w > FINEST * window || (soft && phase.law.force != 0.0) {
             return None;
         }
-        let [[xx, vx], [xv, vv]] = flow.modes.at(window).data.0;
+        let [[xx, vx], [xv, vv]] = flow.modes.transition(window).data.0;
         let (sin, cos) = (w * window).sin_cos();
         let force = phase.law.force / phases.mass;
         let square = (cosine * cosine + sine * sine).max(f64::MIN_POSITIVE);
@@ -214,7 +217,7 @@ impl Constants {
             xv,
             vx,
             vv,
-            response: response(&flow.modes, window),
+            response: free_response(&flow.modes, window),
             cosine_of_position: cosine / square,
             cosine_of_velocity: sine / (w * square),
             sine_of_position: sine / square,
@@ -230,8 +233,8 @@ impl Constants {
         Some(())
     }
 
-    /// Chooses the one end of a phase.
-    fn set_side(&mut self) {
+    /// Copies the one end of a phase that one position ends into the constants of that guard.
+    fn set_single_end(&mut self) {
         let is_low = self.high == f64::INFINITY && self.low > f64::NEG_INFINITY;
         if is_low {
             (self.side, self.edge) = (-1.0, self.offset - self.low);
@@ -248,7 +251,7 @@ impl Constants {
     /// solutions over the time `reach`, plus w^4 times the steady amplitude; |v''''| likewise.
     fn set_bounds(&mut self, modes: &Modes, w: f64, reach: f64) {
         let scale = self.window.powi(4) / 384.0;
-        let (c, s) = modes.bounds(reach);
+        let (c, s) = modes.solution_bounds(reach);
         let amplitude = self.swing * scale;
         self.longest = s;
         // Rows of derivatives: y^(n) = row.0 y + row.1 y'.
@@ -264,8 +267,8 @@ impl Constants {
         (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
     }
 
-    /// Sets below what the safe engine has to decide: differences that rounding may have made.
-    fn set_grain(&mut self, fastest: f64) {
+    /// Sets the distances from a guard, and the velocities, below which rounding may decide: the safe engine does.
+    fn set_ambiguity(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
         let size = finite(self.low)
             .max(finite(self.high))
@@ -273,6 +276,19 @@ impl Constants {
         self.ambiguity = AMBIGUITY * size;
         self.slow = SLOW * size * fastest;
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
+    }
+
+    /// Position and velocity of the steady motion when the drive stands at an angle, cos + i sin.
+    pub fn steady_state_at(&self, Complex { re: cos, im: sin }: Complex<f64>) -> Vector2<f64> {
+        let p = self.cosine * cos + self.sine * sin;
+        let q = self.cosine_rate * cos + self.sine_rate * sin;
+        Vector2::new(p, q) * self.side
+    }
+
+    /// Amplitude of the drive's force per mass at the frequency w, from that of the steady motion.
+    pub fn drive_acceleration(&self, w: f64) -> f64 {
+        let (elastic, damped) = (self.stiffness + w * w, self.damping * w);
+        self.swing * elastic.hypot(damped)
     }
 }
 
@@ -287,8 +303,8 @@ const RECIPROCALS: [f64; TERMS] = {
     table
 };
 
-/// The free motion's polynomial: x'' + 2 a x' + b x = 0, term by term.
-fn response(modes: &Modes, window: f64) -> [f64; TERMS] {
+/// The polynomial of the free motion from (0, 1), x'' + 2 a x' + b x = 0, term by term.
+fn free_response(modes: &Modes, window: f64) -> [f64; TERMS] {
     let (damping, stiffness) = (
         2.0 * modes.decay * window,
         modes.stiffness * window * window,

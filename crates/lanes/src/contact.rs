@@ -14,26 +14,27 @@
 
 use pulp::Simd;
 
-use super::decide_window::WindowEnd;
+use super::contact_series::{ContactSeries, ContactState};
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
-use super::power::{ContactPlace, Power};
+use super::move_lanes::LaneEnd;
 
-/// Lanes in contact wait until so many of eight are, or for so many rounds.
+/// Lanes in contact wait until this many of eight are in contact, or for this many rounds.
 const QUORUM: usize = 7;
 const PATIENCE: usize = 6;
-/// Steps that are taken at most before the other phases are looked after again.
+/// Most Taylor steps before the other phases have their turn.
 const MOST_STEPS: usize = 64;
-/// Share of a drive period that this many steps cover at least: slower lanes are the safe engine's.
+/// Least share of a drive period that this many steps cover: slower contacts are left to the safe engine.
 const LEAST: f64 = 1.0 / 16.0;
 /// Distance, in drive periods, of a release from the end of a period that rounding could bridge.
 const BRIDGED: f64 = 1e-12;
 
-/// How far lanes have come in a contact, and what became of them.
+/// The way of the lanes through one contact: where each has come to, and whether it still goes on, has left contact,
+/// has arrived at the end of its time, or is to be decided by the safe engine.
 struct ContactPath<S: Simd, const N: usize> {
-    place: ContactPlace<S, N>,
-    /// Length of a step.
+    place: ContactState<S, N>,
+    /// Length of the last step, in the regularised time sigma.
     step: Lanes<S, N>,
     going: Mask<S, N>,
     left: Mask<S, N>,
@@ -42,21 +43,20 @@ struct ContactPath<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Moves the lanes `active` that are in contact under a power law, once most lanes are: a contact takes long. The
-    /// other ones.
+    /// Moves the lanes `active` that are in contact under a power law once most lanes are; the other ones.
     #[inline(always)]
-    pub fn contact(&mut self, phase: usize, active: Mask<S, N>) -> Mask<S, N> {
+    pub fn advance_contacts(&mut self, phase: usize, active: Mask<S, N>) -> Mask<S, N> {
         let press = self.laws[phase].press;
         let pressed = active & press.like(0.0).below(press);
         let count = pressed.count();
         if count == 0 {
             return active;
         }
-        if 8 * count >= QUORUM * self.state.busy().count() || self.waited >= PATIENCE {
+        if 8 * count >= QUORUM * self.state.busy_lanes().count() || self.waited >= PATIENCE {
             self.waited = 0;
-            let (ended, doubtful) = self.press(phase, pressed, self.due());
+            let (ended, doubtful) = self.step_through_contact(phase, pressed, self.time_to_stop());
             if (ended | doubtful).any() {
-                self.serve(ended, doubtful);
+                self.serve_lanes(ended, doubtful);
             }
         } else {
             self.waited += 1;
@@ -64,10 +64,10 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         active.and_not(pressed)
     }
 
-    /// Moves the lanes `active`, which are in contact, to the end of it, or to where they have to stop; those that
-    /// came to the end of their job, and those that the safe engine has to take.
+    /// Moves the lanes `active`, which are in contact, to the end of it, or to where they have to stop. Returns those
+    /// that came to the end of their job, and those that the safe engine has to take.
     #[inline(always)]
-    fn press(
+    fn step_through_contact(
         &mut self,
         phase: usize,
         active: Mask<S, N>,
@@ -83,7 +83,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let root = (law.side * (self.state.x - law.end))
             .max(zero)
             .square_root();
-        let place = ContactPlace {
+        let place = ContactState {
             root,
             velocity: law.side * self.state.v,
             angle: self.state.angle,
@@ -92,7 +92,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let moves = zero.below(root) | zero.below(place.velocity);
         let mut path = ContactPath {
             place,
-            step: law.longest(&place),
+            step: place.longest_step(law),
             going: active & moves,
             left: active.and_not(active),
             arrived: active.and_not(active),
@@ -101,7 +101,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let mut steps = 0;
         while path.going.any() && steps < MOST_STEPS {
             power.expand(law, frequency, &path.place);
-            path.advance(law, power, due, period * due.like(BRIDGED));
+            path.step(law, power, due, period * due.like(BRIDGED));
             steps += 1;
         }
         let slow = path.going & path.place.time.below(period * due.like(LEAST));
@@ -110,7 +110,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let place = path.place;
         let x = (law.side * place.root).mul_add(place.root, law.end);
         let v = law.side * place.velocity;
-        let end = WindowEnd {
+        let end = LaneEnd {
             x: left.choose(law.end, x),
             v,
             beyond: law.beyond_end,
@@ -118,27 +118,28 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             before: v,
         };
         let moved = active & zero.below(place.time);
-        self.settle((moved, left), &end, place.angle, place.time);
-        (self.arrive(arrived), doubtful)
+        self.move_lanes((moved, left), &end, place.angle, place.time);
+        (self.end_periods(arrived), doubtful)
     }
 }
 
 impl<S: Simd, const N: usize> ContactPath<S, N> {
-    /// One step.
+    /// One Taylor step of the lanes that go on, cut at release or at the time `due` (`bridged`: what rounding could
+    /// bridge).
     #[inline(always)]
-    fn advance(
+    fn step(
         &mut self,
         law: &Law<S, N>,
-        power: &Power<S, N>,
+        power: &ContactSeries<S, N>,
         due: Lanes<S, N>,
         bridged: Lanes<S, N>,
     ) {
         let zero = due.like(0.0);
-        let (reach, of) = power.reach(self.step, self.going);
+        let (reach, of) = power.step_length(self.step, self.going);
         self.step = reach;
-        let sigma = reach.min(law.longest(&self.place));
-        let release = power.release(sigma, of);
-        let mut next = power.at(&self.place, release.sigma);
+        let sigma = reach.min(self.place.longest_step(law));
+        let release = power.find_release(sigma, of);
+        let mut next = power.state_at(&self.place, release.sigma);
         self.doubtful = self.doubtful | of.and_not(release.decided);
         if zero.below(law.grip).any() {
             let slips = of.and_not(power.stays_faster(law.slip, release.sigma));
@@ -151,27 +152,17 @@ impl<S: Simd, const N: usize> ContactPath<S, N> {
         let late = late.and_not(near);
         if late.any() {
             let (rest, whole) = (due - self.place.time, next.time - self.place.time);
-            let (sigma, found) = power.sigma_at(rest, (release.sigma, whole), late);
-            let mut there = power.at(&self.place, sigma);
+            let (sigma, found) = power.sigma_at_time(rest, (release.sigma, whole), late);
+            let mut there = power.state_at(&self.place, sigma);
             there.time = due;
-            next = ContactPlace::choose(late, &there, &next);
+            next = ContactState::choose(late, &there, &next);
             self.doubtful = self.doubtful | late.and_not(found);
             self.arrived = self.arrived | (late & found);
             leaves = leaves.and_not(late);
         }
         let moved = (of & release.decided).and_not(self.doubtful);
         self.left = self.left | (leaves & moved);
-        self.place = ContactPlace::choose(moved, &next, &self.place);
+        self.place = ContactState::choose(moved, &next, &self.place);
         self.going = self.going.and_not(self.left | self.arrived | self.doubtful);
-    }
-}
-
-impl<S: Simd, const N: usize> Law<S, N> {
-    /// The longest step along which the drive and the suspension stay within a Taylor series.
-    #[inline(always)]
-    fn longest(&self, place: &ContactPlace<S, N>) -> Lanes<S, N> {
-        let four = self.window.like(4.0);
-        let by_speed = (self.window * four / place.velocity.abs()).square_root();
-        (self.window / place.root).min(by_speed)
     }
 }

@@ -18,7 +18,7 @@ pub(super) struct ContractionNorm {
 }
 
 impl ContractionNorm {
-    /// That of a map with a spectral radius below 1: with g a little above that radius, P'P is the sum of
+    /// The norm for a map with a spectral radius below 1: with g a little above that radius, P'P is the sum of
     /// (M'/g)^k (M/g)^k over all k (Stein's equation).
     pub fn of_map(map: &Matrix2<f64>) -> Option<Self> {
         let radius = spectral_radius(map.trace(), map.determinant());
@@ -30,22 +30,22 @@ impl ContractionNorm {
         }
         let to = sum.cholesky()?.l().transpose();
         let from = to.try_inverse()?;
-        let rate = length(&(to * map * from));
+        let rate = spectral_norm(&(to * map * from));
         (rate < 1.0).then_some(Self { to, from, rate })
     }
 
-    /// Length of a vector.
-    pub fn length(&self, vector: &Vector2<f64>) -> f64 {
+    /// The norm of a vector.
+    pub fn norm_of(&self, vector: &Vector2<f64>) -> f64 {
         (self.to * vector).norm()
     }
 
-    /// The largest length of vectors with entries of these sizes at most.
-    pub fn largest(&self, entries: &Vector2<f64>) -> f64 {
+    /// The largest norm of vectors with entries of at most these sizes.
+    pub fn largest_norm(&self, entries: &Vector2<f64>) -> f64 {
         (self.to.abs() * entries).norm()
     }
 
-    /// The most that a vector of length 1 is in Euclidean length.
-    pub fn spread(&self) -> f64 {
+    /// The largest Euclidean length of a vector of norm 1.
+    pub fn largest_length(&self) -> f64 {
         self.from.norm()
     }
 }
@@ -60,8 +60,8 @@ pub(super) fn spectral_radius(trace: f64, determinant: f64) -> f64 {
     }
 }
 
-/// The most that a matrix lengthens a vector.
-fn length(matrix: &Matrix2<f64>) -> f64 {
+/// The largest factor by which a matrix lengthens a vector.
+fn spectral_norm(matrix: &Matrix2<f64>) -> f64 {
     let (square, area) = (matrix.norm_squared(), matrix.determinant());
     let spread = (square * square - 4.0 * area * area).max(0.0).sqrt();
     (0.5 * (square + spread)).sqrt()
@@ -87,8 +87,8 @@ mod tests {
             for angle in 0..32 {
                 let (sin, cos) = (0.2 * f64::from(angle)).sin_cos();
                 let vector = Vector2::new(cos, sin);
-                let mapped = norm.length(&(map * vector));
-                assert!(mapped <= norm.rate * norm.length(&vector) * (1.0 + 1e-9));
+                let mapped = norm.norm_of(&(map * vector));
+                assert!(mapped <= norm.rate * norm.norm_of(&vector) * (1.0 + 1e-9));
             }
         }
         let saddle = Matrix2::new(1.01, 0.0, 0.0, 0.5);

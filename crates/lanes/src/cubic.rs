@@ -1,10 +1,10 @@
-//! The cubic with given values and slopes at the ends of a stretch.
+//! The cubic Hermite interpolant: values and slopes given at the ends of a stretch of time.
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Mask};
+use super::lanes::{Lanes, Mask, Pair};
 
-/// In units of the stretch: c(t) = value + t (slope + t (bend + (t - 1) twist)).
+/// A cubic on a stretch of time, t in units of it: c(t) = value + t (slope + t (bend + (t - 1) twist)).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cubic<S: Simd, const N: usize> {
     pub value: Lanes<S, N>,
@@ -17,11 +17,7 @@ pub(super) struct Cubic<S: Simd, const N: usize> {
 
 impl<S: Simd, const N: usize> Cubic<S, N> {
     #[inline(always)]
-    pub fn new(
-        left: (Lanes<S, N>, Lanes<S, N>),
-        right: (Lanes<S, N>, Lanes<S, N>),
-        span: Lanes<S, N>,
-    ) -> Self {
+    pub fn interpolate(left: Pair<S, N>, right: Pair<S, N>, span: Lanes<S, N>) -> Self {
         let (slope, last_slope) = (span * left.1, span * right.1);
         let rise = right.0 - left.0;
         Self {
@@ -35,15 +31,15 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
     }
 
     #[inline(always)]
-    fn at(&self, t: Lanes<S, N>) -> Lanes<S, N> {
+    fn eval(&self, t: Lanes<S, N>) -> Lanes<S, N> {
         let one = t.like(1.0);
         let bend = (t - one).mul_add(self.twist, self.bend);
         t.mul_add(t.mul_add(bend, self.slope), self.value)
     }
 
-    /// Its largest value on the stretch.
+    /// The largest value on the stretch.
     #[inline(always)]
-    pub fn top(&self) -> Lanes<S, N> {
+    pub fn maximum(&self) -> Lanes<S, N> {
         let Self {
             slope,
             bend,
@@ -63,15 +59,15 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         let t = over / under;
         let inside = zero.below(t) & t.below(one);
         inside
-            .choose(self.at(t), self.value)
+            .choose(self.eval(t), self.value)
             .max(self.value.max(self.end))
     }
 
-    /// Where the cubic rises from below to above zero near `root`, true if every function does that is nowhere
-    /// further from it than `error_bound`, and with its slope than 3.08 error bound (Birkhoff and Priver 1967: 384 * 0.00802),
-    /// and if none of them rises through zero before. Those that leave zero at the left end fall there. For the lanes `of`.
+    /// True where every function rises through zero once, near `root`, that is nowhere further from the cubic than
+    /// `error_bound`, and with its slope than 3.08 error bound (Birkhoff and Priver 1967: 384 * 0.00802). Those that
+    /// leave zero at the left end fall there. For the lanes `of`.
     #[inline(always)]
-    pub fn rises(
+    pub fn rises_once(
         &self,
         error_bound: Lanes<S, N>,
         root: Lanes<S, N>,
@@ -91,7 +87,7 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         if rising.any() {
             // Up, down and up again?
             let winds = zero.below(self.slope.min(self.last_slope)) & middle.below(zero);
-            let near = self.at(root).abs().below(error_bound * one.like(NEAR));
+            let near = self.eval(root).abs().below(error_bound * one.like(NEAR));
             let slope = self.slope_at(root);
             let curvature = first.abs().max(curve.abs());
             let least = slope.mul_add(one.like(SLOPE), curvature * one.like(BAND));
@@ -103,13 +99,48 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         rises
     }
 
-    /// Its slope.
+    /// The slope of the cubic.
     #[inline(always)]
     pub fn slope_at(&self, t: Lanes<S, N>) -> Lanes<S, N> {
         let two = t.like(2.0);
         let behind = t - t.like(1.0);
         let curve = (t * self.twist).mul_add(behind.mul_add(two, t), (two * t) * self.bend);
         curve + self.slope
+    }
+
+    /// About where the cubic rises through zero in the lanes `of`, in units of the stretch: the zero of the parabola
+    /// through the left end and the right value, then a step of Newton's method; where it `leaves` zero at the left
+    /// end, the other zero.
+    #[inline(always)]
+    pub fn guess_rise(&self, leaves: Mask<S, N>, of: Mask<S, N>) -> Lanes<S, N> {
+        let Self {
+            value,
+            slope,
+            bend,
+            twist,
+            ..
+        } = *self;
+        let (zero, one) = (value.like(0.0), value.like(1.0));
+        // c + b t + a t^2
+        let c = leaves.choose(slope, value.min(zero));
+        let b = leaves.choose(bend - twist, slope);
+        let a = leaves.choose(twist, bend);
+        let (twice, half) = (a + a, c + c);
+        let discriminant = b.mul_add(b, -(twice * half));
+        let root = discriminant.max(zero).square_root();
+        let at = -half / (b + root);
+        let plain = zero.at_most(at) & at.at_most(one);
+        let plain = plain.choose(at, one.like(0.5));
+        let rising = of.and_not(leaves);
+        if !rising.any() {
+            return plain;
+        }
+        let behind = at - one;
+        let off = twist * at * at * behind;
+        let slope = (twist * at).mul_add(at + behind + behind, root);
+        let better = at - off / slope;
+        let inside = zero.at_most(better) & better.at_most(one);
+        (inside & rising).choose(better, plain)
     }
 }
 
@@ -118,5 +149,5 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
 /// is twice the difference of two slopes).
 const SLOPE: f64 = 3.3;
 const BAND: f64 = 4.6;
-/// What the cubic may be at its root, in slacks.
+/// Largest value of the cubic at its root, in units of the error bound.
 const NEAR: f64 = 0.02;

@@ -1,23 +1,25 @@
 //! One cycle of a motion from impact to impact, linearised, and how far other motions may be from it.
 //!
-//! [`Cycle::linearise`] gathers the exact derivatives from crossing to crossing; `certificate` bounds what they leave out
+//! [`Cycle::linearise`] gathers the exact derivatives from crossing to crossing; `return_bounds` bounds what they leave out
 //! for all motions that begin in a ball about the cycle.
 
 use std::ops::Range;
 
 use nalgebra::{Complex, Matrix2, RowVector2, Vector2};
 
+use super::cycle_state::{CycleState, Derivatives, Drive, Jet, Passage};
+use super::cycle_windows::CycleWindows;
+use super::face::Face;
 use super::law::Constants;
-use super::place::{CyclePlace, Derivatives, Drive, Face, Jet, Passage};
-use super::window::Windows;
 use softstop::internals::Modes;
 
-/// Most windows of a cycle.
+/// Most windows into which a cycle is divided.
 const MAX_WINDOWS: usize = 4096;
-/// The longest window under a force that draws back, in windows of the scan, and the shortest as a share of the longest.
+/// Longest window of a cycle under a force that draws back, in windows of the scan, and the shortest as a share of it.
 const LONGEST: f64 = 2.0;
 const SHORTEST: f64 = 1.0 / 256.0;
-/// Difference of the two ways to the end of an arc, relative to the size of the motion, from which it is not trusted.
+/// Largest difference between the end of an arc by its linear law and the crossing that was recorded, relative to the
+/// size of the motion, with which the arc is trusted.
 const AGREEMENT: f64 = 1e-9;
 
 /// A passage and cos + i sin of the drive's angle then.
@@ -28,14 +30,15 @@ type Instant<'a> = (&'a Passage, Complex<f64>);
 #[derive(Debug)]
 pub(super) struct CycleArc {
     phase: usize,
-    /// The cycle and cos + i sin of the drive's angle at its start, its length in s, and its way out.
-    start: CyclePlace,
+    /// The cycle at its start and cos + i sin of the drive angle, its length in s, the faces at which it begins and
+    /// ends.
+    start: CycleState,
     angle: Complex<f64>,
     duration: f64,
     entry: Face,
     exit: Face,
     modes: Modes,
-    /// Its windows among those of the cycle.
+    /// Range of the windows of the arc among those of the cycle.
     pub windows: Range<usize>,
     /// 2 a and |b| of its law, the amplitudes of the force per mass and of the steady motion.
     pub damping: f64,
@@ -61,7 +64,7 @@ pub(super) struct CycleArc {
 #[derive(Debug, Default)]
 pub(super) struct Cycle {
     pub arcs: Vec<CycleArc>,
-    pub windows: Windows,
+    pub windows: CycleWindows,
     /// Derivative of the next return.
     pub map: Matrix2<f64>,
     /// The drive's frequency.
@@ -69,7 +72,8 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
-    /// Linearises the cycle from `from` through all `passages`; none if a law is not linear or a crossing not transversal.
+    /// Linearises the cycle from the return `from` through all `passages`, velocities in units of `velocity`; none if
+    /// a law is not linear or a crossing not transversal.
     pub fn linearise(
         &mut self,
         laws: &[Constants],
@@ -83,11 +87,11 @@ impl Cycle {
         let mut at = from;
         let mut state = Matrix2::new(0.0, 0.0, velocity, 0.0);
         let mut delay = RowVector2::new(0.0, 1.0 / drive.frequency);
-        let mut angle = drive.angle(at.offset);
+        let mut angle = drive.angle_at(at.offset);
         for passage in passages {
-            let turned = drive.angle(passage.offset);
+            let turned = drive.angle_at(passage.offset);
             let between = ((&at, angle), (passage, turned));
-            self.arc(&laws[at.phase], drive, between, (&state, &delay))?;
+            self.add_arc(&laws[at.phase], drive, between, (&state, &delay))?;
             let arc = self.arcs.last()?;
             angle = turned;
             state = arc.reset * arc.at_end.tangent;
@@ -106,8 +110,9 @@ impl Cycle {
         (is_finite && !self.arcs.is_empty()).then_some(())
     }
 
-    /// One arc, from a passage to the next, each with cos + i sin of the drive's angle there; with the derivatives of state and delay at its start.
-    fn arc(
+    /// Adds the arc from a passage to the next, each with cos + i sin of the drive angle there, with the derivatives
+    /// of state and delay at its start; none as for the whole cycle.
+    fn add_arc(
         &mut self,
         law: &Constants,
         drive: &Drive,
@@ -115,7 +120,7 @@ impl Cycle {
         (state, delay): (&Matrix2<f64>, &RowVector2<f64>),
     ) -> Option<()> {
         let duration = (from.left - to.left) * drive.period + (to.offset - from.offset);
-        if law.presses() || duration <= 0.0 {
+        if law.has_power_law() || duration <= 0.0 {
             return None;
         }
         let (kept, velocity) = match to.position {
@@ -123,14 +128,14 @@ impl Cycle {
             x if x == law.low => (law.bounce_low, to.velocity),
             _ => (1.0, to.velocity_after),
         };
-        let start = law.place(drive, (from.position, from.velocity_after), angle);
-        let end = law.place(drive, (to.position, velocity), turned);
+        let start = law.state_at(drive, (from.position, from.velocity_after), angle);
+        let end = law.state_at(drive, (to.position, velocity), turned);
         let modes = Modes::new(-0.5 * law.damping, -law.stiffness);
-        let transition = modes.at(duration);
+        let transition = modes.transition(duration);
         let off = (transition * start.free - end.free).abs();
         let size = law.swing + law.offset.abs() + to.position.abs();
         let [_, v, a, _] = end.jet;
-        let exit = law.face_at(to);
+        let exit = law.crossed_face(to);
         let rate = exit.position * v + exit.velocity * a;
         if off.x + off.y * law.window > AGREEMENT * size || rate <= 0.0 {
             return None;
@@ -143,15 +148,15 @@ impl Cycle {
             angle,
             duration,
             modes,
-            entry: law.face_at(from),
+            entry: law.crossed_face(from),
             exit,
             windows: 0..0,
             damping: law.damping.abs(),
             stiffness: law.stiffness.abs(),
-            force: law.force(drive.frequency),
+            force: law.drive_acceleration(drive.frequency),
             swing: law.swing,
             end: end.jet,
-            rounding: off + rounding(law, &end, drive.period),
+            rounding: off + state_rounding(law, &end, drive.period),
             gradient,
             reset: Matrix2::new(1.0, 0.0, 0.0, kept) * onto,
             at_end: Derivatives::default(),
@@ -159,24 +164,24 @@ impl Cycle {
             state: *state,
             delay: *delay,
         };
-        arc.at_end = arc.derivatives(transition, &end);
+        arc.at_end = arc.derivatives_at(transition, &end);
         self.arcs.push(arc);
         Some(())
     }
 
-    /// Divides the arcs into windows that show what the faces of their phases tolerate; none if that takes too many.
-    pub fn divide(&mut self, laws: &[Constants], drive: &Drive) -> Option<()> {
+    /// Divides the arcs into windows that show how far other motions may deviate; none if that takes too many.
+    pub fn divide_into_windows(&mut self, laws: &[Constants], drive: &Drive) -> Option<()> {
         for arc in &mut self.arcs {
             let first = self.windows.all.len();
-            arc.divide(&laws[arc.phase], drive, &mut self.windows)?;
+            arc.divide_arc(&laws[arc.phase], drive, &mut self.windows)?;
             arc.windows = first..self.windows.all.len();
         }
         Some(())
     }
 }
 
-/// What rounding may change of a state: one unit in the last place of each term that it is the sum of, and of the time.
-fn rounding(law: &Constants, place: &CyclePlace, period: f64) -> Vector2<f64> {
+/// What rounding may change of a state: one unit in the last place of each of its terms and of the time.
+fn state_rounding(law: &Constants, place: &CycleState, period: f64) -> Vector2<f64> {
     let [x, v, a, _] = place.jet.map(f64::abs);
     let free = place.free.abs();
     let steady = Vector2::new(law.swing + law.offset.abs(), place.steady_rate.x.abs());
@@ -184,8 +189,8 @@ fn rounding(law: &Constants, place: &CyclePlace, period: f64) -> Vector2<f64> {
 }
 
 impl CycleArc {
-    /// The derivatives at a place of the arc, with the transition up to there.
-    fn derivatives(&self, transition: Matrix2<f64>, place: &CyclePlace) -> Derivatives {
+    /// The derivatives of the state at an instant of the arc, with the transition up to there.
+    fn derivatives_at(&self, transition: Matrix2<f64>, place: &CycleState) -> Derivatives {
         let response = place.steady_rate - transition * self.start.steady_rate;
         Derivatives {
             transition,
@@ -194,28 +199,28 @@ impl CycleArc {
         }
     }
 
-    /// Adds the windows of the arc; those that show nothing are halved.
-    fn divide(&self, law: &Constants, drive: &Drive, windows: &mut Windows) -> Option<()> {
+    /// Adds the windows of the arc; those in which a bound does not suffice are halved.
+    fn divide_arc(&self, law: &Constants, drive: &Drive, windows: &mut CycleWindows) -> Option<()> {
         let longest = if law.stiffness < 0.0 { LONGEST } else { 1.0 };
         let count = (self.duration * law.per_window / longest).ceil();
         let whole = self.duration / count.max(1.0);
         let (mut here, mut transition) = (self.start, Matrix2::identity());
         let (mut angle, mut elapsed, mut step) = (self.angle, 0.0, whole);
-        let mut over = self.over(drive, step);
+        let mut over = self.step_propagators(drive, step);
         while elapsed < self.duration {
             let (free, turn) = over;
             let turned = turn * angle;
-            let there = law.place_of(drive, free * here.free, law.steady_at(turned));
+            let there = law.state_of(drive, free * here.free, law.steady_state_at(turned));
             let is_last = elapsed + 1.5 * step > self.duration;
-            let at_start = self.derivatives(transition, &here);
+            let at_start = self.derivatives_at(transition, &here);
             let entry = (elapsed == 0.0).then_some(self.entry);
             let ends = (entry, is_last.then_some(self.exit));
-            if !windows.add(law, (&here, &there), step, ends, at_start) {
+            if !windows.add_window(law, (&here, &there), step, ends, at_start) {
                 step *= 0.5;
                 if step < whole * SHORTEST {
                     return None;
                 }
-                over = self.over(drive, step);
+                over = self.step_propagators(drive, step);
                 continue;
             }
             if windows.all.len() > MAX_WINDOWS {
@@ -231,9 +236,9 @@ impl CycleArc {
         Some(())
     }
 
-    /// Transition and turn of the drive over a step.
-    fn over(&self, drive: &Drive, step: f64) -> (Matrix2<f64>, Complex<f64>) {
+    /// Transition matrix of the free motion, and cos + i sin by which the drive turns, over a step.
+    fn step_propagators(&self, drive: &Drive, step: f64) -> (Matrix2<f64>, Complex<f64>) {
         let turn = Complex::cis(drive.frequency * step);
-        (self.modes.at(step), turn)
+        (self.modes.transition(step), turn)
     }
 }

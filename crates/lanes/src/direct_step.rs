@@ -1,37 +1,37 @@
-//! Straight through a phase, without windows: to the position that ends it in the direction of the velocity, or to where
-//! the velocity ends.
+//! Crosses a phase in one step, without windows: to the position that ends it in the direction of the velocity, or to
+//! where the velocity passes zero.
 
 use pulp::Simd;
 
-use super::decide_window::WindowEnd;
 use super::engine::Engine;
 use super::guard_interval::GuardInterval;
-use super::lanes::{Lanes, Mask};
+use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
-use super::local;
+use super::local_taylor;
+use super::move_lanes::LaneEnd;
 use super::parts::Parts;
 use super::scan::LEAVING;
-use super::taylor::MOMENT;
+use super::sine_cosine::MOMENT;
 
-/// Share of a window that a crossing stays before the end of the period or job: more than rounding could bridge.
+/// Least time, in windows, that a crossing lies before the end of the period or job: more than rounding could bridge.
 const BEFORE: f64 = 1e-4;
 
-/// A way out of the phase, and what the lane is on it.
+/// The way of each lane to the end of its phase.
 struct DirectPath<S: Simd, const N: usize> {
-    /// Forward, and from rest.
+    /// Lanes that move upwards, and lanes that start from rest.
     up: Mask<S, N>,
     rests: Mask<S, N>,
-    /// To where the velocity ends; else to the surface.
+    /// Lanes whose velocity passes zero before they come to the surface.
     turns: Mask<S, N>,
     surface: Lanes<S, N>,
     acceleration: Lanes<S, N>,
-    /// About when.
+    /// Approximate duration.
     time: Lanes<S, N>,
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// Moves the lanes on whose velocity provably keeps its sign up to the end of the phase, and that meet no further
-    /// guard before; those that are left.
+    /// Moves the lanes to the end of their phase whose velocity provably keeps its sign up to there, and that meet no
+    /// further guard before. Returns those that are left.
     #[inline(always)]
     pub fn direct_step(
         &mut self,
@@ -43,31 +43,32 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let frequency = self.state.drive.frequency;
         let (x, v) = (self.state.x, self.state.v);
         let (zero, one) = (x.like(0.0), x.like(1.0));
-        let here = self.parts(law);
-        let path = self.path(law, &here);
+        let here = self.motion_parts(law);
+        let path = self.direct_path(law, &here);
         let turns = active & path.turns;
-        let parts = here.at(law, frequency, &here.next(law), path.time);
-        let derivatives = local::derivatives(law, frequency, &parts);
-        let mut sought = local::guard::<S, N, false>(&derivatives, (one, zero, zero));
+        let parts = here.within_window(law, frequency, &here.after_window(law), path.time);
+        let derivatives = local_taylor::motion_derivatives(law, frequency, &parts);
+        let mut sought = local_taylor::guard_taylor::<S, N, false>(&derivatives, (one, zero, zero));
         sought[0] = sought[0] - path.surface;
         if turns.any() {
-            let velocity = local::guard::<S, N, true>(&derivatives, (zero, one, zero));
+            let velocity =
+                local_taylor::guard_taylor::<S, N, true>(&derivatives, (zero, one, zero));
             for (sought, velocity) in sought.iter_mut().zip(velocity) {
                 *sought = turns.choose(velocity, *sought);
             }
         }
-        let crossing = local::zero(&sought, law.window, active);
+        let crossing = local_taylor::nearby_zero(&sought, law.window, active);
         let moment = crossing.time;
         let time = path.time + moment;
         let latest = law.window.min(due - law.window * due.like(BEFORE));
         let in_time = zero.below(time) & time.below(latest);
 
         let (mut end_x, mut end_v) = (path.surface, crossing.slope);
-        let mut rate = local::second(&sought, moment);
+        let mut rate = local_taylor::curvature_at(&sought, moment);
         let distance = (path.surface - x).abs();
         let mut apart = law.ambiguity.below(distance);
         if turns.any() {
-            let (position, _) = local::state(&derivatives, moment);
+            let (position, _) = local_taylor::position_and_velocity_at(&derivatives, moment);
             let short = ((position - x).abs() + law.ambiguity).below(distance);
             apart = turns.choose_mask(short, apart);
             rate = turns.choose(crossing.slope, rate);
@@ -75,33 +76,35 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             end_v = turns.choose(zero, end_v);
         }
         let ends = [(v, path.acceleration), (end_v, rate)];
-        let alone = path.is_straight(law, &here, time, ends);
+        let alone = path.keeps_direction(law, &here, time, ends);
         let hits = active & crossing.sure & in_time & apart & alone;
 
         let beyond = path.up.choose(law.beyond_high, law.beyond_low);
         let bounce = path.up.choose(law.bounce, law.bounce_low);
         let impact = path.up.choose(law.impact, law.impact_low);
-        let end = WindowEnd {
+        let end = LaneEnd {
             x: end_x,
             v: end_v * turns.choose(one, bounce),
             beyond: turns.choose(law.beyond_guard, beyond),
             impact: turns.choose(zero, impact),
             before: end_v,
         };
-        let angle = law.angle(&parts.turned::<MOMENT>(frequency, moment));
+        let angle = parts
+            .turn_drive::<MOMENT>(frequency, moment)
+            .drive_angle(law);
         self.state.share = hits.choose(one, self.state.share);
-        self.settle((hits, hits), &end, angle, time);
+        self.move_lanes((hits, hits), &end, angle, time);
         active.and_not(hits)
     }
 
-    /// The way that the lanes would go if their acceleration changed at a constant rate.
+    /// The way of the lanes if their acceleration changed at a constant rate.
     #[inline(always)]
-    fn path(&self, law: &Law<S, N>, here: &Parts<S, N>) -> DirectPath<S, N> {
+    fn direct_path(&self, law: &Law<S, N>, here: &Parts<S, N>) -> DirectPath<S, N> {
         let (x, v) = (self.state.x, self.state.v);
         let frequency = self.state.drive.frequency;
         let (zero, half) = (x.like(0.0), x.like(0.5));
-        let acceleration = law.acceleration(frequency, here);
-        let (jerk, snap) = law.jerk_and_snap(frequency, here);
+        let acceleration = here.acceleration(law, frequency);
+        let (jerk, snap) = here.jerk_and_snap(law, frequency);
         let rests = v.equals(zero);
         let up = zero.below(rests.choose(acceleration, v));
         let surface = up.choose(law.high, law.low);
@@ -111,12 +114,12 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let root = square.square_root();
         let start = twice / (v + up.choose(root, -root));
         let (third, sixth) = (jerk * x.like(1.0 / 6.0), snap * x.like(1.0 / 24.0));
-        let mean = after(v, [acceleration * half, third, sixth], start);
+        let mean = cubic_value(v, [acceleration * half, third, sixth], start);
         let off = start.mul_add(mean, -distance);
         let change = [acceleration, jerk * half, snap * x.like(1.0 / 6.0)];
-        let mut time = start - off / after(v, change, start);
-        let last = after(v, change, time);
-        let turns = zero.below(up.choose(last, -last)).not() & law.reverses();
+        let mut time = start - off / cubic_value(v, change, start);
+        let last = cubic_value(v, change, time);
+        let turns = zero.below(up.choose(last, -last)).not() & law.ends_at_reversal();
         if turns.any() {
             let start = -v / acceleration;
             let bend = start.mul_add(snap * x.like(1.0 / 3.0), jerk) * half;
@@ -136,22 +139,22 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 }
 
 impl<S: Simd, const N: usize> DirectPath<S, N> {
-    /// True where the velocity, with the acceleration as `ends` say now and after `time`, keeps its sign, and the
-    /// further guard is not met.
+    /// True where the velocity keeps its sign for `time`, by its values and rates at both `ends`, and no further guard
+    /// is met.
     #[inline(always)]
-    fn is_straight(
+    fn keeps_direction(
         &self,
         law: &Law<S, N>,
         here: &Parts<S, N>,
         time: Lanes<S, N>,
-        ends: [(Lanes<S, N>, Lanes<S, N>); 2],
+        ends: [Pair<S, N>; 2],
     ) -> Mask<S, N> {
         let [(v0, a0), (v1, a1)] = ends;
         let one = time.like(1.0);
         let third = time * one.like(1.0 / 3.0);
         let share = time * law.per_window;
         let square = share * share;
-        let error_bound = law.rate_error_bound(here) * (square * square);
+        let error_bound = here.velocity_error(law) * (square * square);
         let side = self.up.choose(one, -one);
         let (b1, b2) = (side * third.mul_add(a0, v0), side * (v1 - third * a1));
         // At an end where it is zero its first Bernstein coefficient needs no proof.
@@ -159,24 +162,24 @@ impl<S: Simd, const N: usize> DirectPath<S, N> {
         let last = self.turns.choose(b2, side * v1);
         let margin = (self.rests | self.turns).choose(error_bound * one.like(LEAVING), error_bound);
         let keeps = (law.slow + margin).below(first.min(last).min(b1.min(b2)));
-        let reverses = law.reverses();
+        let reverses = law.ends_at_reversal();
         let away = (side * law.by_velocity).below(one.like(0.0));
         let mut alone = reverses & away;
         if keeps.and_not(reverses).any() {
             let [(v0, a0), (v1, a1)] = ends;
             let x = here.y + (here.p - law.edge);
             let ends = [[x, v0, a0], [self.surface, v1, a1]];
-            let error_bounds = (law.error_bound(here) * (square * square), error_bound);
-            let interval = GuardInterval::of_further(law, ends, time, error_bounds);
-            alone = alone | interval.is_clear(law).and_not(reverses);
+            let error_bounds = (here.position_error(law) * (square * square), error_bound);
+            let interval = GuardInterval::of_further_guard(law, ends, time, error_bounds);
+            alone = alone | interval.is_clear_of_further(law).and_not(reverses);
         }
         keeps & alone
     }
 }
 
-/// A value some time later, from it and its changes, term by term.
+/// value + time (first + time (second + time third)).
 #[inline(always)]
-fn after<S: Simd, const N: usize>(
+fn cubic_value<S: Simd, const N: usize>(
     value: Lanes<S, N>,
     [first, second, third]: [Lanes<S, N>; 3],
     time: Lanes<S, N>,

@@ -1,18 +1,17 @@
-//! The engine with the instructions of this processor.
+//! Chooses the instruction set of this processor and runs the engine with it.
 
 use pulp::{Simd, WithSimd};
 
 use super::engine::Engine;
-use super::job::{Instructions, Job, Outcome};
+use super::job::{Instructions, Job, Outcome, Task};
 use super::machine::Machine;
 use super::observer::ObserverHandle;
-use super::task::Task;
 
-/// Registers that go side by side.
+/// Registers that hold the lanes side by side.
 pub(super) const ABREAST: usize = 2;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it.
-pub(super) fn run<'a>(
+pub(super) fn run_jobs<'a>(
     machines: &'a [Machine],
     jobs: &'a [Job],
     watch: ObserverHandle<'a>,
@@ -28,7 +27,7 @@ pub(super) fn run<'a>(
         },
     };
     match instructions {
-        Instructions::OneByOne => alone(task),
+        Instructions::OneByOne => run_one_by_one(task),
         _ => dispatch(Batch::<ABREAST>(task), instructions),
     }
 }
@@ -67,8 +66,8 @@ fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Outp
     }
 }
 
-/// Does a task in one register alone where registers are wide.
-fn alone(task: Task) -> Vec<Outcome> {
+/// Does a task one motion after another, in a single register where registers are wide.
+fn run_one_by_one(task: Task) -> Vec<Outcome> {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     if let Some(simd) = pulp::x86::V3::try_new() {
         return Simd::vectorize(simd, Batch::<1>(task));
@@ -84,6 +83,6 @@ impl<const N: usize> WithSimd for Batch<'_, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        Engine::<S, N>::new(simd, self.0).run()
+        Engine::<S, N>::new(simd, self.0).run_jobs()
     }
 }

@@ -1,4 +1,4 @@
-//! The lock-step loop over the lanes.
+//! The loop in which all lanes advance in lock-step, and the jobs that it deals to them.
 //!
 //! What limits it: on Zen 4 a 512-bit operation takes both halves of a pipe pair, and the multiplying pair is busy for some
 //! 1,400 of 2,040 cycles a period; latency takes the rest. A decision about a window is one chain of some 400 cycles, which
@@ -25,41 +25,40 @@
 
 use pulp::Simd;
 
-use super::job::{Job, Outcome};
+use super::contact_series::ContactSeries;
+use super::job::{Job, Outcome, Task};
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::machine::Machine;
-use super::outline::Outline;
-use super::power::Power;
+use super::phase_graph::PhaseGraph;
+use super::phase_order::phase_order;
 use super::returns::Returns;
-use super::round::round;
-use super::safe::{self, Resumed, SafeStart};
+use super::safe_engine::{self, Resumed, SafeStart};
 use super::state::State;
-use super::task::Task;
 use softstop::Start;
 
-/// Rounds after which the watcher is asked, and what they cost, in scan windows.
+/// Rounds of the loop after which the observer is asked whether to go on, and what they cost, in scan windows.
 const ROUNDS: usize = 16;
 const WINDOWS: u64 = 1 << 10;
-/// The free phase: one that not one position alone ends lies between two stops.
+/// The index of the free phase: with several ends, it lies between two stops.
 const FREE: usize = 0;
 
-/// All lanes and what they work at.
+/// The lanes, the laws of their machines, and the jobs.
 pub(super) struct Engine<'a, S: Simd, const N: usize> {
     pub task: Task<'a>,
     pub laws: Vec<Law<S, N>>,
-    /// Phases that in some machine end not at one position alone.
+    /// Phases that several things end in some machine.
     guarded: Vec<bool>,
-    /// Phases that in some machine have a power law.
+    /// Phases that have a power law in some machine.
     presses: Vec<bool>,
-    /// The phases in the order of a round.
+    /// The phases in the order in which a round visits them.
     order: Vec<usize>,
     pub state: State<S, N>,
     /// The series of contacts under a power law, where there are any.
-    pub power: Option<Box<Power<S, N>>>,
+    pub power: Option<Box<ContactSeries<S, N>>>,
     /// The returns of each lane to its impacts.
     pub returns: Vec<Returns>,
-    /// How many lanes try a cycle.
+    /// Number of lanes that follow a trial cycle.
     pub trials: usize,
     /// Rounds that lanes in contact have waited.
     pub waited: usize,
@@ -67,6 +66,7 @@ pub(super) struct Engine<'a, S: Simd, const N: usize> {
     lanes: Vec<Option<usize>>,
     /// The machine whose laws each lane has.
     installed: Vec<Option<usize>>,
+    /// The next job to begin.
     next: usize,
     outcomes: Vec<Outcome>,
 }
@@ -77,14 +77,14 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         // Of the machines that have jobs: there may be many more.
         let machines = task.jobs.iter().map(|job| &task.machines[job.machine]);
         let outlines = machines.filter_map(|machine| machine.outline.as_ref());
-        let outlines = Outline::different(outlines);
+        let outlines = PhaseGraph::distinct(outlines);
         let most = outlines
             .iter()
             .map(|outline| outline.count)
             .max()
             .unwrap_or(1);
-        let guarded = |phase: usize| outlines.iter().any(|outline| !outline.is_plain(phase));
-        let presses = |phase: usize| outlines.iter().any(|outline| outline.presses(phase));
+        let guarded = |phase: usize| outlines.iter().any(|outline| !outline.has_one_end(phase));
+        let presses = |phase: usize| outlines.iter().any(|outline| outline.has_power_law(phase));
         let presses: Vec<bool> = (0..most).map(presses).collect();
         let is_any = presses.contains(&true);
         let outcomes = task.jobs.iter().map(|job| Outcome {
@@ -100,9 +100,9 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             laws: vec![Law::new(simd); most],
             guarded: (0..most).map(guarded).collect(),
             presses,
-            order: round(&outlines, most),
+            order: phase_order(&outlines, most),
             state: State::idle(simd),
-            power: is_any.then(|| Box::new(Power::new(simd))),
+            power: is_any.then(|| Box::new(ContactSeries::new(simd))),
             returns: returns.collect(),
             trials: 0,
             waited: 0,
@@ -115,7 +115,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     }
 
     #[inline(always)]
-    pub fn run(mut self) -> Vec<Outcome> {
+    pub fn run_jobs(mut self) -> Vec<Outcome> {
         for lane in 0..Lanes::<S, N>::COUNT.min(self.task.at_once) {
             self.take_next(lane);
         }
@@ -124,9 +124,9 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             for at in 0..self.order.len() {
                 let phase = self.order[at];
                 let here = self.state.phase.equals(self.state.phase.like(phase as f64));
-                let mut active = self.state.busy() & here;
+                let mut active = self.state.busy_lanes() & here;
                 if self.presses[phase] {
-                    active = self.contact(phase, active);
+                    active = self.advance_contacts(phase, active);
                 }
                 if self.guarded[phase] {
                     let guarded = active
@@ -135,18 +135,18 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
                             .like(0.0)
                             .below(self.laws[phase].guarded);
                     if guarded.any() {
-                        self.step::<true>(phase, guarded);
+                        self.step_phase::<true>(phase, guarded);
                     }
                     active = active.and_not(guarded);
                 }
                 if active.any() {
-                    self.step::<false>(phase, active);
+                    self.step_phase::<false>(phase, active);
                 }
             }
             steps += 1;
             if steps % ROUNDS == 0 {
-                self.call_back();
-                if self.task.watch.worked(WINDOWS).is_break() {
+                self.end_overdue_trials();
+                if self.task.watch.count_work(WINDOWS).is_break() {
                     break;
                 }
             }
@@ -154,23 +154,24 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         self.outcomes
     }
 
-    pub fn serve(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
+    /// Gives lanes whose job has ended the next one, and hands doubtful ones to the safe engine.
+    pub fn serve_lanes(&mut self, ended: Mask<S, N>, doubtful: Mask<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             let (ended, doubtful) = (ended.get(lane), doubtful.get(lane));
-            if !(ended || doubtful) || self.goes_back(lane) {
+            if !(ended || doubtful) || self.end_trial(lane) {
                 continue;
             }
             if doubtful {
                 self.hand_over(lane);
             } else {
-                self.finish(lane);
+                self.finish_job(lane);
             }
         }
     }
 
     /// Time in s until a lane has to stop: at the end of its job or, if periods are watched, of the period.
     #[inline(always)]
-    pub fn due(&self) -> Lanes<S, N> {
+    pub fn time_to_stop(&self) -> Lanes<S, N> {
         let State {
             left,
             offset,
@@ -185,11 +186,11 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         periods.mul_add(drive.period, -offset)
     }
 
-    /// Moves the lanes that are in a phase to the end of it, or as far as they come in a few windows. `GUARDED`: it
-    /// may end by more than one position.
+    /// Moves the lanes that are in a phase to the end of it, or as far as they come in a few windows. `GUARDED`:
+    /// something else than one position may end it.
     #[inline(always)]
-    fn step<const GUARDED: bool>(&mut self, phase: usize, active: Mask<S, N>) {
-        let due = self.due();
+    fn step_phase<const GUARDED: bool>(&mut self, phase: usize, active: Mask<S, N>) {
+        let due = self.time_to_stop();
         let between = GUARDED && phase == FREE;
         let active = if GUARDED && !between {
             self.direct_step(phase, active, due)
@@ -201,26 +202,26 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         }
         let law = &self.laws[phase];
         let mut reached = if GUARDED && !between {
-            self.stand(law, active)
+            self.stand_before_window(law, active)
         } else {
-            self.scan::<GUARDED>(law, active, due * law.per_window)
+            self.scan_windows::<GUARDED>(law, active, due * law.per_window)
         };
         if !GUARDED || between {
-            self.leap::<GUARDED>(phase, active, &mut reached);
+            self.skip_calm_periods::<GUARDED>(phase, active, &mut reached);
         }
         let (ended, doubtful) = self.decide_window::<GUARDED>(phase, active, &reached, due);
         if (ended | doubtful).any() {
-            self.serve(ended, doubtful);
+            self.serve_lanes(ended, doubtful);
         }
     }
 
     /// The job of a lane and how many of its periods are complete.
-    pub fn progress(&self, lane: usize) -> Option<(usize, u64)> {
-        self.progress_with(lane, self.state.left.get(lane))
+    pub fn job_progress(&self, lane: usize) -> Option<(usize, u64)> {
+        self.job_progress_with(lane, self.state.left.get(lane))
     }
 
-    /// The job of a lane and its drive periods so far, with so many left.
-    pub fn progress_with(&self, lane: usize, left: f64) -> Option<(usize, u64)> {
+    /// The job of a lane and how many of its periods are complete when `left` are left.
+    pub fn job_progress_with(&self, lane: usize, left: f64) -> Option<(usize, u64)> {
         let job = self.lanes[lane]?;
         Some((job, self.task.jobs[job].periods - left as u64))
     }
@@ -228,8 +229,8 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     /// Puts the next job into a lane.
     fn take_next(&mut self, lane: usize) {
         self.lanes[lane] = None;
-        self.state.stop(lane);
-        while self.next < self.task.jobs.len() && self.task.watch.worked(0).is_continue() {
+        self.state.end_job(lane);
+        while self.next < self.task.jobs.len() && self.task.watch.count_work(0).is_continue() {
             let job = self.next;
             self.next += 1;
             let Job { machine, start, .. } = self.task.jobs[job];
@@ -243,34 +244,34 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             if self.task.jobs[job].periods == 0 {
                 continue;
             }
-            let begun = safe::begin(&self.task.machines[machine], start);
+            let begun = safe_engine::start_phase(&self.task.machines[machine], start);
             let resumed = match begun {
                 Ok(Some(phase)) => Some(Resumed {
                     cycle: 0,
                     state: start,
                     phase,
                 }),
-                Ok(None) => self.follow(place),
+                Ok(None) => self.follow_safely(place),
                 Err(error) => {
                     self.outcomes[job].error = Some(error);
                     None
                 }
             };
             if let Some(resumed) = resumed {
-                self.install(lane, job);
-                self.resume(lane, job, &resumed);
+                self.install_laws(lane, job);
+                self.resume_job(lane, job, &resumed);
                 return;
             }
         }
     }
 
     /// The machine of a lane's job.
-    pub fn machine(&self, lane: usize) -> Option<&'a Machine> {
+    pub fn machine_of(&self, lane: usize) -> Option<&'a Machine> {
         self.installed[lane].map(|index| &self.task.machines[index])
     }
 
     /// Gives a lane the laws of a job's machine.
-    fn install(&mut self, lane: usize, job: usize) {
+    fn install_laws(&mut self, lane: usize, job: usize) {
         let index = self.task.jobs[job].machine;
         self.lanes[lane] = Some(job);
         if self.installed[lane].replace(index) == Some(index) {
@@ -278,31 +279,33 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         }
         let machine = &self.task.machines[index];
         for (law, constants) in self.laws.iter_mut().zip(machine.laws.iter().flatten()) {
-            if constants.is_plain() {
+            if constants.has_one_end() {
                 law.set(lane, constants);
             } else {
-                law.set(lane, &constants.of_position());
+                law.set(lane, &constants.in_absolute_position());
             }
         }
-        self.state.install(lane, machine);
+        self.state.set_drive(lane, machine);
     }
 
-    fn resume(&mut self, lane: usize, job: usize, resumed: &Resumed) {
+    /// Lets a lane go on with a job from the beginning of a drive period.
+    fn resume_job(&mut self, lane: usize, job: usize, resumed: &Resumed) {
         let periods = self.task.jobs[job].periods;
         self.state.periods.set(lane, periods as f64);
         let left = periods - resumed.cycle;
-        self.state.resume(lane, resumed.state, resumed.phase, left);
-        self.begin_noting(lane);
+        self.state
+            .begin_period(lane, resumed.state, resumed.phase, left);
+        self.begin_recording(lane);
     }
 
-    /// Lets the safe engine follow a job; where it can go on in a lane, unless it has come to its end.
-    fn follow(&mut self, place: SafeStart) -> Option<Resumed> {
+    /// Lets the safe engine follow a job to where it can go on in a lane; none if it comes to its end before.
+    fn follow_safely(&mut self, place: SafeStart) -> Option<Resumed> {
         let Job {
             machine, periods, ..
         } = self.task.jobs[place.job];
         let outcome = &mut self.outcomes[place.job];
         let machine = &self.task.machines[machine];
-        match safe::follow(machine, place, periods, &mut self.task.watch, outcome) {
+        match safe_engine::follow_safely(machine, place, periods, &mut self.task.watch, outcome) {
             Ok(resumed) => resumed,
             Err(error) => {
                 outcome.error = Some(error);
@@ -313,7 +316,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
 
     /// Hands a lane to the safe engine for the rest of the period.
     fn hand_over(&mut self, lane: usize) {
-        let Some((job, cycle)) = self.progress(lane) else {
+        let Some((job, cycle)) = self.job_progress(lane) else {
             return;
         };
         let offset = self.state.offset.get(lane);
@@ -323,23 +326,23 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             cycle,
             offset,
             state: if begun {
-                self.within_phase(lane)
+                self.state_within_phase(lane)
             } else {
-                self.state.state(lane)
+                self.state.position_and_velocity(lane)
             },
             phase: begun.then(|| self.state.phase.get(lane) as usize),
         };
         self.state.take_counts(lane, &mut self.outcomes[job]);
-        match self.follow(place) {
-            Some(resumed) => self.resume(lane, job, &resumed),
+        match self.follow_safely(place) {
+            Some(resumed) => self.resume_job(lane, job, &resumed),
             None => self.take_next(lane),
         }
     }
 
-    /// The state of a lane, on its own side of the ends of its phase: one that moves on and has come to an end
-    /// by rounding is put beside it, or the safe engine would take the crossing for done.
-    fn within_phase(&self, lane: usize) -> Start {
-        let Start { position, velocity } = self.state.state(lane);
+    /// The state of a lane, on its own side of the ends of its phase: one that rounding has put onto an end is put
+    /// beside it, or the safe engine would take the crossing for done.
+    fn state_within_phase(&self, lane: usize) -> Start {
+        let Start { position, velocity } = self.state.position_and_velocity(lane);
         let law = &self.laws[self.state.phase.get(lane) as usize];
         let position = if velocity > 0.0 {
             position.min(law.high.get(lane).next_down())
@@ -351,16 +354,16 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         Start { position, velocity }
     }
 
-    /// Counts drive periods that a lane leaps over.
-    pub fn count_leapt(&mut self, lane: usize, periods: f64) {
+    /// Counts drive periods that a lane skips.
+    pub fn count_skipped(&mut self, lane: usize, periods: f64) {
         if let Some(job) = self.lanes[lane] {
             self.outcomes[job].leapt += periods as u64;
         }
     }
 
-    fn finish(&mut self, lane: usize) {
+    fn finish_job(&mut self, lane: usize) {
         if let Some(job) = self.lanes[lane] {
-            self.outcomes[job].end = self.state.state(lane);
+            self.outcomes[job].end = self.state.position_and_velocity(lane);
             self.state.take_counts(lane, &mut self.outcomes[job]);
         }
         self.take_next(lane);

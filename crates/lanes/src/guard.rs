@@ -1,17 +1,17 @@
-//! The guard that ends a phase, and where it rises through zero.
+//! The guard that ends a phase, lane by lane: a linear function of position and velocity that rises through zero.
 
 use pulp::Simd;
 
 use super::guard_interval::GuardInterval;
-use super::lanes::{Lanes, Mask};
+use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
-use super::parts::{Hull, Parts};
+use super::parts::Parts;
 
-/// A window, or the part of it that is looked at.
+/// The window that is decided, or the first part of it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ahead<S: Simd, const N: usize> {
+pub(super) struct WindowAhead<S: Simd, const N: usize> {
     pub frequency: Lanes<S, N>,
-    /// The motion now, at the end of what is looked at, and a window from now.
+    /// The motion now, at the end of the part that is decided, and a window from now.
     pub here: Parts<S, N>,
     pub there: Parts<S, N>,
     pub next: Parts<S, N>,
@@ -20,7 +20,7 @@ pub(super) struct Ahead<S: Simd, const N: usize> {
     pub scale: Lanes<S, N>,
 }
 
-/// The guard that each lane has to look at: g = position x + velocity v - level.
+/// The guard that each lane may meet in its window: g = position x + velocity v - level.
 pub(super) struct Guard<S: Simd, const N: usize> {
     pub position: Lanes<S, N>,
     pub velocity: Lanes<S, N>,
@@ -28,50 +28,52 @@ pub(super) struct Guard<S: Simd, const N: usize> {
     pub ambiguity: Lanes<S, N>,
     pub slow: Lanes<S, N>,
     pub error_bound: Lanes<S, N>,
-    /// The lower end of the phase, or the further guard; else the upper end.
+    /// Lanes whose guard is the lower end of the phase, or the further guard; else it is the upper end.
     pub is_low: Mask<S, N>,
     pub is_further: Mask<S, N>,
-    /// Lanes that meet none, and lanes that may meet more than one.
+    /// Lanes that meet no guard in the window, and lanes that may meet more than one.
     pub none: Mask<S, N>,
     pub several: Mask<S, N>,
 }
 
-impl<S: Simd, const N: usize> Ahead<S, N> {
+impl<S: Simd, const N: usize> WindowAhead<S, N> {
     /// The motion at a time within the window.
     #[inline(always)]
-    pub fn at(&self, law: &Law<S, N>, time: Lanes<S, N>) -> Parts<S, N> {
-        self.here.at(law, self.frequency, &self.next, time)
+    pub fn motion_at(&self, law: &Law<S, N>, time: Lanes<S, N>) -> Parts<S, N> {
+        self.here
+            .within_window(law, self.frequency, &self.next, time)
     }
 
     /// Position from the edge, velocity and acceleration.
     #[inline(always)]
-    fn state(&self, law: &Law<S, N>, parts: &Parts<S, N>) -> [Lanes<S, N>; 3] {
+    fn state_from_edge(&self, law: &Law<S, N>, parts: &Parts<S, N>) -> [Lanes<S, N>; 3] {
         [
             parts.y + (parts.p - law.edge),
             parts.u + parts.q,
-            law.acceleration(self.frequency, parts),
+            parts.acceleration(law, self.frequency),
         ]
     }
 }
 
 impl<S: Simd, const N: usize> Guard<S, N> {
+    /// The guard that each lane may meet in the window ahead.
     #[inline(always)]
-    pub fn of<const GUARDED: bool>(
+    pub fn of_window<const GUARDED: bool>(
         law: &Law<S, N>,
-        ahead: &Ahead<S, N>,
+        ahead: &WindowAhead<S, N>,
         error_bound: Lanes<S, N>,
     ) -> Self {
         let error_bound = error_bound * ahead.scale;
         if GUARDED {
-            Self::of_several(law, ahead, error_bound)
+            Self::nearest_guard(law, ahead, error_bound)
         } else {
-            Self::of_one(law, error_bound)
+            Self::single_guard(law, error_bound)
         }
     }
 
-    /// The one that ends the phase.
+    /// The guard of a phase that one position ends.
     #[inline(always)]
-    fn of_one(law: &Law<S, N>, error_bound: Lanes<S, N>) -> Self {
+    fn single_guard(law: &Law<S, N>, error_bound: Lanes<S, N>) -> Self {
         let zero = error_bound.like(0.0);
         let never = zero.below(zero);
         Self {
@@ -88,36 +90,36 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         }
     }
 
-    /// The one that may be met.
+    /// Of the guards of a phase with several ends, the one that the motion may meet by its hull.
     #[inline(always)]
-    fn of_several(law: &Law<S, N>, ahead: &Ahead<S, N>, error_bound: Lanes<S, N>) -> Self {
+    fn nearest_guard(law: &Law<S, N>, ahead: &WindowAhead<S, N>, error_bound: Lanes<S, N>) -> Self {
         let one = error_bound.like(1.0);
         let third = ahead.span * one.like(1.0 / 3.0);
-        let [x0, v0, a0] = ahead.state(law, &ahead.here);
-        let [x1, v1, a1] = ahead.state(law, &ahead.there);
-        let hull = Hull::of((x0, v0), (x1, v1), third, error_bound);
-        let is_low = law.low.below(hull.low).not();
-        let is_high = hull.high.below(law.high).not();
+        let [x0, v0, a0] = ahead.state_from_edge(law, &ahead.here);
+        let [x1, v1, a1] = ahead.state_from_edge(law, &ahead.there);
+        let (lowest, highest) = cubic_hull((x0, v0), (x1, v1), third, error_bound);
+        let is_low = law.low.below(lowest).not();
+        let is_high = highest.below(law.high).not();
         let mut guard = Self {
             position: is_low.choose(-one, one),
             level: is_low.choose(-law.low, law.high),
             is_low,
             none: (is_low | is_high).not(),
             several: is_low & is_high,
-            ..Self::of_one(law, error_bound)
+            ..Self::single_guard(law, error_bound)
         };
-        let rate_error_bound = law.rate_error_bound(&ahead.here) * ahead.scale;
+        let rate_error_bound = ahead.here.velocity_error(law) * ahead.scale;
         let ends = [[x0, v0, a0], [x1, v1, a1]];
         let interval =
-            GuardInterval::of_further(law, ends, ahead.span, (error_bound, rate_error_bound));
+            GuardInterval::of_further_guard(law, ends, ahead.span, (error_bound, rate_error_bound));
         let further = interval.stays_below().not();
-        guard.turn_to_further(law, further, rate_error_bound);
+        guard.use_further_guard(law, further, rate_error_bound);
         guard
     }
 
-    /// Looks at the further guard in the lanes `at` instead.
+    /// Replaces the guard by the further one in the lanes `at`.
     #[inline(always)]
-    fn turn_to_further(&mut self, law: &Law<S, N>, at: Mask<S, N>, rate_error_bound: Lanes<S, N>) {
+    fn use_further_guard(&mut self, law: &Law<S, N>, at: Mask<S, N>, rate_error: Lanes<S, N>) {
         let (a, b) = (law.by_position, law.by_velocity);
         self.several = self.several | at.and_not(self.none);
         self.none = self.none.and_not(at);
@@ -127,29 +129,45 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         self.velocity = at.choose(b, self.velocity);
         self.level = at.choose(law.level, self.level);
         self.error_bound = at.choose(
-            a.abs() * self.error_bound + b.abs() * rate_error_bound,
+            a.abs() * self.error_bound + b.abs() * rate_error,
             self.error_bound,
         );
         self.ambiguity = at.choose(self.ambiguity * law.guard_scale, self.ambiguity);
         self.slow = at.choose(self.slow * law.guard_scale, self.slow);
     }
 
-    /// Value and rate.
+    /// Value and rate of the guard along a motion.
     #[inline(always)]
-    pub fn of_parts<const GUARDED: bool>(
+    pub fn value_and_rate<const GUARDED: bool>(
         &self,
         law: &Law<S, N>,
-        ahead: &Ahead<S, N>,
+        ahead: &WindowAhead<S, N>,
         parts: &Parts<S, N>,
-    ) -> (Lanes<S, N>, Lanes<S, N>) {
+    ) -> Pair<S, N> {
         if !GUARDED {
             return (parts.y + (parts.p - law.edge), parts.u + parts.q);
         }
-        let [x, v, a] = ahead.state(law, parts);
+        let [x, v, a] = ahead.state_from_edge(law, parts);
         let by_position = self.position.mul_add(x, -self.level);
         (
             self.velocity.mul_add(v, by_position),
             self.velocity.mul_add(a, self.position * v),
         )
     }
+}
+
+/// Bounds (low, high) on the position of a motion with these positions and velocities at both ends, by the Bernstein
+/// coefficients of its cubic; `third` is a third of the time between, |x''''| span^4 / 384 <= `error_bound`.
+#[inline(always)]
+fn cubic_hull<S: Simd, const N: usize>(
+    left: Pair<S, N>,
+    right: Pair<S, N>,
+    third: Lanes<S, N>,
+    error_bound: Lanes<S, N>,
+) -> Pair<S, N> {
+    let (b1, b2) = (third.mul_add(left.1, left.0), right.0 - third * right.1);
+    (
+        left.0.min(right.0).min(b1.min(b2)) - error_bound,
+        left.0.max(right.0).max(b1.max(b2)) + error_bound,
+    )
 }

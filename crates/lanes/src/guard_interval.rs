@@ -5,19 +5,19 @@
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Mask};
+use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
 
 /// A guard function g on [0, span]: values and rates at both ends, and error bound = |g''''| span^4 / 384.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GuardInterval<S: Simd, const N: usize> {
-    pub left: (Lanes<S, N>, Lanes<S, N>),
-    pub right: (Lanes<S, N>, Lanes<S, N>),
+    pub left: Pair<S, N>,
+    pub right: Pair<S, N>,
     pub span: Lanes<S, N>,
     pub error_bound: Lanes<S, N>,
 }
 
-/// What a stretch is; a lane in which nothing is true has to be looked at more closely.
+/// What is proven of a stretch; a lane in which nothing is true has to be divided further.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Verdict<S: Simd, const N: usize> {
     /// g rises through zero nowhere.
@@ -29,19 +29,19 @@ pub(super) struct Verdict<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> GuardInterval<S, N> {
-    /// The further guard's, between two ends with their positions, velocities and accelerations; `error_bounds`: of position
-    /// and velocity.
+    /// The interval of the further guard between two ends with their positions, velocities and accelerations;
+    /// `error_bounds`: of position and velocity.
     #[inline(always)]
-    pub fn of_further(
+    pub fn of_further_guard(
         law: &Law<S, N>,
         [left, right]: [[Lanes<S, N>; 3]; 2],
         span: Lanes<S, N>,
-        (error_bound, rate_error_bound): (Lanes<S, N>, Lanes<S, N>),
+        (error_bound, rate_error_bound): Pair<S, N>,
     ) -> Self {
         let (a, b) = (law.by_position.abs(), law.by_velocity.abs());
         Self {
-            left: law.further(left),
-            right: law.further(right),
+            left: law.further_guard(left),
+            right: law.further_guard(right),
             span,
             error_bound: a.mul_add(error_bound, b * rate_error_bound),
         }
@@ -49,7 +49,7 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
 
     /// The inner two Bernstein coefficients of the cubic.
     #[inline(always)]
-    fn inner(&self) -> (Lanes<S, N>, Lanes<S, N>) {
+    fn inner_bernstein(&self) -> Pair<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let third = self.span * g0.like(1.0 / 3.0);
         (third.mul_add(d0, g0), g1 - third * d1)
@@ -58,14 +58,14 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
     /// True where the hull of g lies below zero.
     #[inline(always)]
     pub fn stays_below(&self) -> Mask<S, N> {
-        let (b1, b2) = self.inner();
+        let (b1, b2) = self.inner_bernstein();
         let high = self.left.0.max(self.right.0).max(b1.max(b2));
         (high + self.error_bound).below(high.like(0.0))
     }
 
     /// True where the further guard provably does not rise through zero, nor comes within rounding of it at the end.
     #[inline(always)]
-    pub fn is_clear(&self, law: &Law<S, N>) -> Mask<S, N> {
+    pub fn is_clear_of_further(&self, law: &Law<S, N>) -> Mask<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let (zero, scale) = (g0.like(0.0), law.guard_scale);
         let (ambiguity, slow) = (law.ambiguity * scale, law.slow * scale);
@@ -77,15 +77,15 @@ impl<S: Simd, const N: usize> GuardInterval<S, N> {
             error_bound,
             ..*self
         };
-        interval.decide(touches, leaves).clear.and_not(ends_there)
+        interval.judge(touches, leaves).clear.and_not(ends_there)
     }
 
-    /// Judges all lanes. `touches`: the guard begins within rounding of zero; `leaves`: and it falls there.
+    /// What is proven in each lane. `touches`: the guard begins within rounding of zero; `leaves`: and it falls there.
     #[inline(always)]
-    pub fn decide(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> Verdict<S, N> {
+    pub fn judge(&self, touches: Mask<S, N>, leaves: Mask<S, N>) -> Verdict<S, N> {
         let ((g0, d0), (g1, d1)) = (self.left, self.right);
         let zero = g0.like(0.0);
-        let (b1, b2) = self.inner();
+        let (b1, b2) = self.inner_bernstein();
         let inverse = g0.like(1.0) / self.span;
         let slopes = [d0, (b2 - b1) * inverse * g0.like(3.0), d1];
         // sqrt(3)/216 |g''''| span^3 (Birkhoff and Priver 1967), and |g''''| span^2 / 12.

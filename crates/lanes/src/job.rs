@@ -1,5 +1,7 @@
 //! What the lanes are given and what they give back.
 
+use super::machine::Machine;
+use super::observer::ObserverHandle;
 use softstop::{MotionError, Start};
 
 /// One motion to follow, from drive period 0 on.
@@ -41,4 +43,13 @@ pub enum Instructions {
     Portable,
     /// One motion after another, each alone in one register of at most 256 bits.
     OneByOne,
+}
+
+/// Jobs, the machines that they name, and who watches them.
+pub(super) struct Task<'a> {
+    pub machines: &'a [Machine],
+    pub jobs: &'a [Job],
+    pub watch: ObserverHandle<'a>,
+    /// Most lanes to use.
+    pub at_once: usize,
 }

@@ -29,6 +29,9 @@ pub(super) struct Lanes<S: Simd, const N: usize> {
     registers: [S::f64s; N],
 }
 
+/// Two numbers per lane: a value and its rate, or position and velocity, or cosine and sine.
+pub(super) type Pair<S, const N: usize> = (Lanes<S, N>, Lanes<S, N>);
+
 /// One truth value per lane. Smaller ones would travel packed in one integer, and be unpacked for each use.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
@@ -38,7 +41,7 @@ pub(super) struct Mask<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Lanes<S, N> {
-    /// How many there are.
+    /// Number of lanes.
     pub const COUNT: usize = N * S::F64_LANES;
 
     #[inline(always)]
@@ -176,8 +179,8 @@ impl<S: Simd, const N: usize> Mask<S, N> {
 }
 
 macro_rules! operator {
-    ($trait:ident, $name:ident, $intrinsic:ident) => {
-        impl<S: Simd, const N: usize> $trait for Lanes<S, N> {
+    ($trait:ident, $name:ident, $type:ident, $intrinsic:ident) => {
+        impl<S: Simd, const N: usize> $trait for $type<S, N> {
             type Output = Self;
 
             #[inline(always)]
@@ -188,10 +191,12 @@ macro_rules! operator {
     };
 }
 
-operator!(Add, add, add_f64s);
-operator!(Sub, sub, sub_f64s);
-operator!(Mul, mul, mul_f64s);
-operator!(Div, div, div_f64s);
+operator!(Add, add, Lanes, add_f64s);
+operator!(Sub, sub, Lanes, sub_f64s);
+operator!(Mul, mul, Lanes, mul_f64s);
+operator!(Div, div, Lanes, div_f64s);
+operator!(BitAnd, bitand, Mask, and_m64s);
+operator!(BitOr, bitor, Mask, or_m64s);
 
 impl<S: Simd, const N: usize> Neg for Lanes<S, N> {
     type Output = Self;
@@ -199,23 +204,5 @@ impl<S: Simd, const N: usize> Neg for Lanes<S, N> {
     #[inline(always)]
     fn neg(self) -> Self {
         each!(self => self.neg_f64s())
-    }
-}
-
-impl<S: Simd, const N: usize> BitAnd for Mask<S, N> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        each!(self => self.and_m64s(other))
-    }
-}
-
-impl<S: Simd, const N: usize> BitOr for Mask<S, N> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        each!(self => self.or_m64s(other))
     }
 }

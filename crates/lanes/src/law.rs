@@ -1,8 +1,8 @@
-//! What a lane must know of a phase.
+//! The law of a phase as the lanes hold it: constants of the equation of motion, of its ends and of error bounds.
 
 use pulp::Simd;
 
-use super::lanes::Lanes;
+use super::lanes::{Lanes, Mask, Pair};
 
 /// Product of window and fastest rate.
 pub(super) const SPAN: f64 = 1.2;
@@ -15,8 +15,8 @@ macro_rules! law {
         #[derive(Debug, Clone, Copy, Default, PartialEq)]
         pub(super) struct Constants {
             $($(#[$doc])* pub $field: f64,)*
-            /// The free motion from (0, 1): position over window as a polynomial of time over window, from its
-            /// linear term on.
+            /// The free motion from (0, 1): position over window as polynomial of time over window, from the linear
+            /// term on.
             pub response: [f64; TERMS],
         }
 
@@ -46,9 +46,9 @@ macro_rules! law {
 }
 
 law! {
-    /// - 2 a.
+    /// x'' = damping x' + stiffness (x - static deflection) + drive: minus the damping over the mass, -2 a.
     damping,
-    /// - b.
+    /// Minus the stiffness over the mass, -b.
     stiffness,
     /// Particular solution: offset + side (cosine cos + sine sin); its velocity: side (cosine_rate cos + sine_rate sin).
     offset,
@@ -103,7 +103,7 @@ law! {
     level,
     /// Size of that guard against a position's.
     guard_scale,
-    /// Phases beyond high, low and the further guard.
+    /// Phases beyond the positions high and low and beyond the further guard.
     beyond_high,
     beyond_low,
     beyond_guard,
@@ -131,4 +131,59 @@ law! {
     /// Positions closer than this to a guard are not decided here, nor velocities below `slow`.
     ambiguity,
     slow,
+}
+
+impl<S: Simd, const N: usize> Law<S, N> {
+    /// Velocity and acceleration from position and velocity of a free motion, and so on for the derivatives of these.
+    #[inline(always)]
+    pub fn differentiate_free(&self, (free, rate): Pair<S, N>) -> Pair<S, N> {
+        (rate, self.stiffness.mul_add(free, self.damping * rate))
+    }
+
+    /// True where the further guard is the velocity itself: the phase ends as it passes zero, under dry friction.
+    #[inline(always)]
+    pub fn ends_at_reversal(&self) -> Mask<S, N> {
+        let zero = self.level.like(0.0);
+        self.by_position.equals(zero) & self.level.equals(zero)
+    }
+
+    /// Value and rate of the further guard at a position, velocity and acceleration.
+    #[inline(always)]
+    pub fn further_guard(&self, [x, v, a]: [Lanes<S, N>; 3]) -> Pair<S, N> {
+        let by_position = self.by_position.mul_add(x, -self.level);
+        (
+            self.by_velocity.mul_add(v, by_position),
+            self.by_velocity.mul_add(a, self.by_position * v),
+        )
+    }
+
+    /// Upper and lower end of the phase as side (x - offset); the lower one at minus infinity where one position ends
+    /// it.
+    #[inline(always)]
+    pub fn edges<const GUARDED: bool>(&self) -> Pair<S, N> {
+        if GUARDED {
+            (self.high + self.edge, self.low + self.edge)
+        } else {
+            (self.edge, self.edge.like(f64::NEG_INFINITY))
+        }
+    }
+
+    /// Position and velocity of a free motion (y, u) after whole windows, by powers of the transition matrix of one.
+    #[inline(always)]
+    pub fn free_after_whole(&self, windows: Lanes<S, N>, (mut y, mut u): Pair<S, N>) -> Pair<S, N> {
+        let (zero, one, half) = (y.like(0.0), y.like(1.0), y.like(0.5));
+        let (mut xx, mut xv, mut vx, mut vv) = (self.xx, self.xv, self.vx, self.vv);
+        let mut left = windows;
+        while zero.below(left).any() {
+            let halved = (left * half).floor();
+            let odd = one.equals(left - (halved + halved));
+            let (next_y, next_u) = (xx.mul_add(y, xv * u), vx.mul_add(y, vv * u));
+            (y, u) = (odd.choose(next_y, y), odd.choose(next_u, u));
+            let (trace, cross) = (xx + vv, xv * vx);
+            (xx, vv) = (xx.mul_add(xx, cross), vv.mul_add(vv, cross));
+            (xv, vx) = (xv * trace, vx * trace);
+            left = halved;
+        }
+        (y, u)
+    }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 use super::law::Constants;
-use super::outline::{MOST_PHASES, Outline};
+use super::phase_graph::{MOST_PHASES, PhaseGraph};
 use softstop::internals::{Beyond, Exit, Phase, PhaseId, Phases, Surface};
 use softstop::{Clock, Excitation, Scene, SceneError};
 
@@ -15,7 +15,7 @@ pub struct Machine {
     phases: OnceLock<Arc<Phases>>,
     pub(super) clock: Clock,
     pub(super) laws: Option<Vec<Constants>>,
-    pub(super) outline: Option<Outline>,
+    pub(super) outline: Option<PhaseGraph>,
     /// The drive: frequency in rad/s, cos and sin of its angle at time 0.
     pub(super) frequency: f64,
     pub(super) angle: (f64, f64),
@@ -35,15 +35,15 @@ impl Machine {
             phases: &phases,
             drive,
         };
-        let for_lanes = count <= MOST_PHASES && trains.is_short();
-        let laws = if for_lanes { trains.laws() } else { None };
+        let for_lanes = count <= MOST_PHASES && trains.ends_before_rest();
+        let laws = if for_lanes { trains.lane_laws() } else { None };
         let kept = OnceLock::new();
         if laws.is_none() {
             let _ = kept.set(Arc::new(phases));
         }
         let (sin, cos) = drive.phase.sin_cos();
         Ok(Self {
-            outline: laws.as_deref().map(Outline::of),
+            outline: laws.as_deref().map(PhaseGraph::from_laws),
             laws,
             clock: scene.clock(),
             scene: scene.clone(),
@@ -59,13 +59,13 @@ impl Machine {
         self.laws.is_some()
     }
 
-    /// True if those that settle are leapt over there: of power laws that is not proven.
-    pub fn leaps(&self) -> bool {
+    /// True if drive periods of settled motions are skipped: with power laws that is not proven.
+    pub fn skips_periods(&self) -> bool {
         let laws = self.laws.as_ref();
-        laws.is_some_and(|laws| !laws.iter().any(Constants::presses))
+        laws.is_some_and(|laws| !laws.iter().any(Constants::has_power_law))
     }
 
-    /// Its phases, shared; lowered anew when they are first asked for, as few motions in lanes do.
+    /// The phases of the machine, shared; lowered anew when they are first asked for, as few motions in lanes do.
     pub fn shared_phases(&self) -> Arc<Phases> {
         let lowered = || Arc::new(self.scene.phases());
         self.phases.get_or_init(lowered).clone()
@@ -80,14 +80,14 @@ impl Machine {
     }
 
     /// A drive period in s.
-    pub(super) fn period(&self) -> f64 {
+    pub(super) fn drive_period(&self) -> f64 {
         TAU / self.frequency
     }
 }
 
-/// Restitution above which bounces go on beyond counting.
+/// Restitution above which a row of bounces may grow beyond counting.
 const ELASTIC: f64 = 1.0 - 1.0 / 65_536.0;
-/// Shortest bounce that lanes follow at a face with trains of bounces, in drive periods.
+/// Shortest bounce that lanes follow at a face where bounces may come in rows, in drive periods.
 const SHORTEST: f64 = 1e-2;
 /// Most that damping may take of a motion in a drive period, as an exponent, where faces bring trains of bounces: bounces that are longer
 /// do not become a row without end before the drive lifts the mass.
@@ -103,36 +103,37 @@ struct BounceTrains<'a> {
 
 impl BounceTrains<'_> {
     /// The laws of all phases, if lanes can follow them.
-    fn laws(&self) -> Option<Vec<Constants>> {
+    fn lane_laws(&self) -> Option<Vec<Constants>> {
         let mut laws = vec![Constants::default(); self.phases.phases.len()];
         for (law, phase) in laws.iter_mut().zip(&self.phases.phases) {
-            law.set_to(self.phases, phase)?;
-            law.slow = law.slow.max(self.slowest(phase));
+            law.set_to_phase(self.phases, phase)?;
+            law.slow = law.slow.max(self.slowest_bounce(phase));
         }
         Some(laws)
     }
 
     /// The constant force on the mass towards the stop at a surface in a phase.
-    fn force(&self, phase: PhaseId, surface: &Surface) -> f64 {
+    fn force_towards_stop(&self, phase: PhaseId, surface: &Surface) -> f64 {
         let law = &self.phases[phase].law;
         surface.side * (law.force - law.stiffness * surface.position)
     }
 
-    /// What rounding may change of it, compared with another one there.
-    fn rounding(&self, phase: PhaseId, position: f64) -> f64 {
+    /// Rounding of the difference between that force in this phase and in another one.
+    fn force_rounding(&self, phase: PhaseId, position: f64) -> f64 {
         let law = &self.phases[phase].law;
         8.0 * f64::EPSILON * (law.force.abs() + (law.stiffness * position).abs())
     }
 
-    fn is_at(&self, surface: &Surface) -> bool {
-        let before = self.force(surface.before, surface);
+    /// True if a surface throws the mass back with hardly any loss while the drive can press it onto it.
+    fn bounces_at(&self, surface: &Surface) -> bool {
+        let before = self.force_towards_stop(surface.before, surface);
         let mut beyond = [Some(surface.beyond), surface.beyond_unfed]
             .into_iter()
             .flatten();
         let elastic = beyond.any(|above| match above {
             Beyond::Phase(above) => {
-                let after = self.force(above, surface);
-                let least = after + self.rounding(above, surface.position);
+                let after = self.force_towards_stop(above, surface);
+                let least = after + self.force_rounding(above, surface.position);
                 least < before && after < self.drive.amplitude
             }
             Beyond::Wall { restitution } => restitution > ELASTIC,
@@ -142,25 +143,27 @@ impl BounceTrains<'_> {
 
     /// True if no row of bounces that lanes follow comes to its end: the drive lifts the mass from all such faces,
     /// before damping has taken much.
-    fn is_short(&self) -> bool {
+    fn ends_before_rest(&self) -> bool {
         let damping = self.phases.phases.iter().map(|phase| phase.law.damping);
         let damping = damping.fold(0.0, f64::max) / self.phases.mass;
         let strong = damping * TAU / self.drive.frequency > MOST_DAMPING;
         let lifts = |surface: &Surface| {
-            self.force(surface.before, surface) < self.drive.amplitude && !strong
+            self.force_towards_stop(surface.before, surface) < self.drive.amplitude && !strong
         };
         let mut faces = self.phases.surfaces.iter();
-        faces.all(|surface| lifts(surface) || !self.is_at(surface))
+        faces.all(|surface| lifts(surface) || !self.bounces_at(surface))
     }
 
     /// Speed of the shortest bounces that lanes follow at the ends of a phase.
-    fn slowest(&self, phase: &Phase) -> f64 {
+    fn slowest_bounce(&self, phase: &Phase) -> f64 {
         let faces = phase.exits.iter().filter_map(|exit| match exit {
             Exit::Forward(surface) | Exit::Backward(surface) => Some(&self.phases[*surface]),
             Exit::Reversal { .. } | Exit::Switch(_) => None,
         });
-        let press = |surface: &Surface| self.force(surface.before, surface) + self.drive.amplitude;
-        let presses = faces.filter(|surface| self.is_at(surface)).map(press);
+        let press = |surface: &Surface| {
+            self.force_towards_stop(surface.before, surface) + self.drive.amplitude
+        };
+        let presses = faces.filter(|surface| self.bounces_at(surface)).map(press);
         let half = 0.5 * SHORTEST * TAU / self.drive.frequency;
         presses.fold(0.0, f64::max) / self.phases.mass * half
     }

@@ -1,4 +1,4 @@
-//! Who is told of impacts and of the ends of drive periods.
+//! Observers of a batch: told of impacts and of the ends of drive periods.
 
 use std::ops::ControlFlow;
 
@@ -30,24 +30,24 @@ pub trait BatchObserver {
 /// Watches nothing.
 impl BatchObserver for () {}
 
-/// A watcher of any kind, so that the engine is compiled once for all.
+/// An observer of any type, so that the engine is compiled once for all.
 pub(super) struct ObserverHandle<'a> {
     watch: &'a mut dyn DynamicObserver,
-    /// What it wants to be told.
+    /// Whether it is told of impacts and of periods.
     pub impacts: bool,
     pub periods: bool,
     /// Work in scan windows since it was asked whether the batch goes on.
     work: u64,
-    /// What it said then.
+    /// The answer of the observer then.
     answer: ControlFlow<()>,
 }
 
-/// Work after which the watcher is asked again, in scan windows: a millisecond, or a few.
+/// Work after which the observer is asked again, in scan windows: a millisecond, or a few.
 const ASKED: u64 = 1 << 15;
 
 impl<'a> ObserverHandle<'a> {
-    /// What the engine tells a watcher.
-    pub fn of<W: BatchObserver>(watch: &'a mut W) -> Self {
+    /// The handle of an observer.
+    pub fn new<W: BatchObserver>(watch: &'a mut W) -> Self {
         Self {
             watch,
             impacts: W::IMPACTS,
@@ -58,7 +58,7 @@ impl<'a> ObserverHandle<'a> {
     }
 
     /// Counts work, in scan windows; whether the batch goes on.
-    pub fn worked(&mut self, windows: u64) -> ControlFlow<()> {
+    pub fn count_work(&mut self, windows: u64) -> ControlFlow<()> {
         self.work += windows;
         if self.work >= ASKED && self.answer.is_continue() {
             (self.work, self.answer) = (0, self.watch.ask());
@@ -67,12 +67,12 @@ impl<'a> ObserverHandle<'a> {
     }
 
     /// As [`BatchObserver::impact`].
-    pub fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
+    pub fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         self.watch.tell_impact(job, cycle, offset, velocity);
     }
 
     /// As [`BatchObserver::period`].
-    pub fn period(&mut self, job: usize, cycle: u64, state: Start) {
+    pub fn tell_period(&mut self, job: usize, cycle: u64, state: Start) {
         self.watch.tell_period(job, cycle, state);
     }
 }

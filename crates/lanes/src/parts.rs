@@ -1,12 +1,12 @@
-//! A motion in its free and its steady part, and what encloses it.
+//! A motion split into its free and its steady part.
 
 use pulp::Simd;
 
-use super::lanes::{Lanes, Mask};
+use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
-use super::taylor::{HALF_WINDOW, cos_sinc};
+use super::sine_cosine::{HALF_WINDOW, cos_sinc};
 
-/// A motion as the sum of a free one (y, u) and the steady one (p, q): positions and velocities.
+/// A motion as the sum of a free part, position y and velocity u, and the steady part under the drive, p and q.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Parts<S: Simd, const N: usize> {
     pub y: Lanes<S, N>,
@@ -15,35 +15,10 @@ pub(super) struct Parts<S: Simd, const N: usize> {
     pub q: Lanes<S, N>,
 }
 
-/// The enclosure of a motion over a stretch of time.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Hull<S: Simd, const N: usize> {
-    /// Positions that it stays between.
-    pub low: Lanes<S, N>,
-    pub high: Lanes<S, N>,
-}
-
-impl<S: Simd, const N: usize> Hull<S, N> {
-    /// Of a motion with these positions and velocities at both ends, |x''''| span^4 / 384 <= error bound.
-    #[inline(always)]
-    pub fn of(
-        left: (Lanes<S, N>, Lanes<S, N>),
-        right: (Lanes<S, N>, Lanes<S, N>),
-        third: Lanes<S, N>,
-        error_bound: Lanes<S, N>,
-    ) -> Self {
-        let (b1, b2) = (third.mul_add(left.1, left.0), right.0 - third * right.1);
-        Self {
-            low: left.0.min(right.0).min(b1.min(b2)) - error_bound,
-            high: left.0.max(right.0).max(b1.max(b2)) + error_bound,
-        }
-    }
-}
-
 impl<S: Simd, const N: usize> Parts<S, N> {
     /// The parts one window later.
     #[inline(always)]
-    pub fn next(&self, law: &Law<S, N>) -> Self {
+    pub fn after_window(&self, law: &Law<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
         Self {
             y: law.xx.mul_add(y, law.xv * u),
@@ -55,7 +30,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
 
     /// The parts after `time` of at most a window, `next` being those at its end.
     #[inline(always)]
-    pub fn at(
+    pub fn within_window(
         &self,
         law: &Law<S, N>,
         frequency: Lanes<S, N>,
@@ -64,12 +39,12 @@ impl<S: Simd, const N: usize> Parts<S, N> {
     ) -> Self {
         let late = (law.window * time.like(0.5)).below(time);
         let base = Self::choose(late, next, self);
-        base.after(law, frequency, late.choose(time - law.window, time))
+        base.after_time(law, frequency, late.choose(time - law.window, time))
     }
 
     /// The parts after `time` of at most half a window either way.
     #[inline(always)]
-    pub fn after(&self, law: &Law<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
+    pub fn after_time(&self, law: &Law<S, N>, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
         let share = time * law.per_window;
         let mut position = law.response[law.response.len() - 1];
@@ -88,12 +63,16 @@ impl<S: Simd, const N: usize> Parts<S, N> {
             p,
             q,
         }
-        .turned::<HALF_WINDOW>(frequency, time)
+        .turn_drive::<HALF_WINDOW>(frequency, time)
     }
 
-    /// These parts with the drive turned on for a `time` that this many terms are enough for.
+    /// These parts with the steady one taken on by a `time` for which this many terms of cosine and sine are enough.
     #[inline(always)]
-    pub fn turned<const TERMS: usize>(&self, frequency: Lanes<S, N>, time: Lanes<S, N>) -> Self {
+    pub fn turn_drive<const TERMS: usize>(
+        &self,
+        frequency: Lanes<S, N>,
+        time: Lanes<S, N>,
+    ) -> Self {
         let angle = frequency * time;
         let (cos, sinc) = cos_sinc::<S, N, TERMS>(angle * angle);
         let by_velocity = sinc * time;
@@ -114,85 +93,72 @@ impl<S: Simd, const N: usize> Parts<S, N> {
             q: mask.choose(yes.q, no.q),
         }
     }
-}
 
-impl<S: Simd, const N: usize> Law<S, N> {
-    /// |x''''| window^4 / 384 over the next window, of a motion whose free part is (y, u). In phases that only
-    /// a position ends, over all windows of a scan.
+    /// |x''''| window^4 / 384 over the next window: what the cubic through the positions and velocities at its ends
+    /// may be off by. In phases that only a position ends, over all windows of a scan.
     #[inline(always)]
-    pub fn error_bound(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
-        let Parts { y, u, .. } = *parts;
-        let fourth = self.fourth_x.mul_add(y, self.fourth_v * u).abs();
-        let fifth = self.fifth_x.mul_add(y, self.fifth_v * u).abs();
-        self.steady + fourth + fifth
+    pub fn position_error(&self, law: &Law<S, N>) -> Lanes<S, N> {
+        let Self { y, u, .. } = *self;
+        let fourth = law.fourth_x.mul_add(y, law.fourth_v * u).abs();
+        let fifth = law.fifth_x.mul_add(y, law.fifth_v * u).abs();
+        law.steady + fourth + fifth
     }
 
-    /// Bound on the error of the interpolated velocity, by |v''''|.
+    /// |v''''| window^4 / 384 over the next window, that of the cubic through velocities and accelerations.
     #[inline(always)]
-    pub fn rate_error_bound(&self, parts: &Parts<S, N>) -> Lanes<S, N> {
-        let Parts { y, u, .. } = *parts;
-        let fifth = self.rate_fifth_x.mul_add(y, self.rate_fifth_v * u).abs();
-        let sixth = self.rate_sixth_x.mul_add(y, self.rate_sixth_v * u).abs();
-        self.rate_steady + fifth + sixth
+    pub fn velocity_error(&self, law: &Law<S, N>) -> Lanes<S, N> {
+        let Self { y, u, .. } = *self;
+        let fifth = law.rate_fifth_x.mul_add(y, law.rate_fifth_v * u).abs();
+        let sixth = law.rate_sixth_x.mul_add(y, law.rate_sixth_v * u).abs();
+        law.rate_steady + fifth + sixth
     }
 
-    /// cos and sin of the drive angle.
+    /// cos and sin of the drive angle, from the steady part.
     #[inline(always)]
-    pub fn angle(&self, parts: &Parts<S, N>) -> (Lanes<S, N>, Lanes<S, N>) {
-        let Parts { p, q, .. } = *parts;
+    pub fn drive_angle(&self, law: &Law<S, N>) -> Pair<S, N> {
+        let Self { p, q, .. } = *self;
         (
-            self.cosine_of_position
-                .mul_add(p, self.cosine_of_velocity * q),
-            self.sine_of_position.mul_add(p, self.sine_of_velocity * q),
+            law.cosine_of_position
+                .mul_add(p, law.cosine_of_velocity * q),
+            law.sine_of_position.mul_add(p, law.sine_of_velocity * q),
         )
-    }
-
-    /// The next two derivatives of a free motion.
-    #[inline(always)]
-    pub fn next_derivative(
-        &self,
-        (free, rate): (Lanes<S, N>, Lanes<S, N>),
-    ) -> (Lanes<S, N>, Lanes<S, N>) {
-        (rate, self.stiffness.mul_add(free, self.damping * rate))
     }
 
     /// x'' of the two parts together.
     #[inline(always)]
-    pub fn acceleration(&self, frequency: Lanes<S, N>, parts: &Parts<S, N>) -> Lanes<S, N> {
-        let steady = -(frequency * frequency * parts.p);
-        self.stiffness
-            .mul_add(parts.y, self.damping.mul_add(parts.u, steady))
+    pub fn acceleration(&self, law: &Law<S, N>, frequency: Lanes<S, N>) -> Lanes<S, N> {
+        let steady = -(frequency * frequency * self.p);
+        law.stiffness
+            .mul_add(self.y, law.damping.mul_add(self.u, steady))
     }
 
     /// x''' and x'''' of the two parts together.
     #[inline(always)]
-    pub fn jerk_and_snap(
-        &self,
-        frequency: Lanes<S, N>,
-        parts: &Parts<S, N>,
-    ) -> (Lanes<S, N>, Lanes<S, N>) {
+    pub fn jerk_and_snap(&self, law: &Law<S, N>, frequency: Lanes<S, N>) -> Pair<S, N> {
         let turn = -(frequency * frequency);
-        let second = self.next_derivative((parts.y, parts.u));
-        let third = self.next_derivative(second);
-        let (third, fourth) = self.next_derivative(third);
-        let steady = turn * parts.p;
-        (turn.mul_add(parts.q, third), turn.mul_add(steady, fourth))
+        let second = law.differentiate_free((self.y, self.u));
+        let third = law.differentiate_free(second);
+        let (third, fourth) = law.differentiate_free(third);
+        let steady = turn * self.p;
+        (turn.mul_add(self.q, third), turn.mul_add(steady, fourth))
     }
 
-    /// True where the further guard is the end of the velocity, under dry friction.
+    /// Position and velocity of a free motion (y, u) after a time of any length.
     #[inline(always)]
-    pub fn reverses(&self) -> Mask<S, N> {
-        let zero = self.level.like(0.0);
-        self.by_position.equals(zero) & self.level.equals(zero)
-    }
-
-    /// Value and rate of the further guard at a position, velocity and acceleration.
-    #[inline(always)]
-    pub fn further(&self, [x, v, a]: [Lanes<S, N>; 3]) -> (Lanes<S, N>, Lanes<S, N>) {
-        let by_position = self.by_position.mul_add(x, -self.level);
-        (
-            self.by_velocity.mul_add(v, by_position),
-            self.by_velocity.mul_add(a, self.by_position * v),
-        )
+    pub fn free_after(
+        law: &Law<S, N>,
+        frequency: Lanes<S, N>,
+        time: Lanes<S, N>,
+        (y, u): Pair<S, N>,
+    ) -> Pair<S, N> {
+        let windows = time.mul_add(law.per_window, y.like(0.5)).floor();
+        let parts = Self {
+            y,
+            u,
+            p: y.like(0.0),
+            q: y.like(0.0),
+        };
+        let begun = parts.after_time(law, frequency, time.minus_product(windows, law.window));
+        law.free_after_whole(windows, (begun.y, begun.u))
     }
 }

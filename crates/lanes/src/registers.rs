@@ -1,4 +1,4 @@
-//! What an instruction set comes to on this processor.
+//! The registers of an instruction set on this processor: name and number of lanes.
 
 use pulp::{Simd, WithSimd};
 
@@ -6,7 +6,7 @@ use super::dispatch::{ABREAST, dispatch};
 use super::job::Instructions;
 use super::lanes::Lanes;
 
-/// What the lanes are made of.
+/// The vector registers that hold the lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Registers {
     /// The instruction set's name.
@@ -16,9 +16,9 @@ pub struct Registers {
 }
 
 impl Instructions {
-    /// What this processor has of it.
+    /// The registers that this processor has for this instruction set.
     pub fn registers(self) -> Registers {
-        let registers = dispatch(Measure, self);
+        let registers = dispatch(MeasureRegisters, self);
         match self {
             Self::OneByOne => Registers {
                 lanes: 1,
@@ -29,9 +29,9 @@ impl Instructions {
     }
 }
 
-struct Measure;
+struct MeasureRegisters;
 
-impl WithSimd for Measure {
+impl WithSimd for MeasureRegisters {
     type Output = Registers;
 
     fn with_simd<S: Simd>(self, _: S) -> Registers {

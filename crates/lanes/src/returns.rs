@@ -1,4 +1,5 @@
-//! Where a motion is going that comes back to the same impact after one to four drive periods.
+//! Decides after each return of a motion to the same impact, every one to four drive periods, whether its limit cycle
+//! is proven and how many periods can be extrapolated.
 //!
 //! Four returns of a motion (velocity, moment) tell about where its limit is (minimal polynomial extrapolation, Cabay and
 //! Jackson 1976). From there the lane follows one cycle, whose exact derivative M gives the next guess by Newton's method,
@@ -21,46 +22,46 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::contraction::{ContractionNorm, spectral_radius};
 use super::cycle::Cycle;
+use super::cycle_state::{Drive, Passage};
 use super::law::Constants;
-use super::place::{Drive, Passage};
 
 /// Returns that a first guess is made from.
 const GUESSED_FROM: usize = 4;
-/// What a return may come before or after a drive period, in periods.
+/// Largest difference between the time of a return and a whole number of drive periods, in periods.
 const SLIP: f64 = 0.25;
-/// Most drive periods from one return to the next; how much closer one has to be that recurs.
+/// Most drive periods between two returns; share of the distance of other returns at which one is a recurrence.
 const MAX_PERIODS: f64 = 4.0;
 const CLOSER: f64 = 0.3;
-/// Drive periods before a motion is looked at for the first time, and between looks.
+/// Drive periods before the returns of a motion are recorded for the first time, and before they are recorded again.
 const FIRST: f64 = 28.0;
 const PAUSE: f64 = 6.0;
 /// How much longer each pause is than the one before.
 const LONGER: f64 = 1.5;
-/// Drive periods at the end of a job that are gone through as always, and the fewest that are worth a look.
+/// Drive periods at the end of a job that are never extrapolated, and the fewest whose extrapolation is worth a trial.
 const LAST: f64 = 2.0;
 const FEWEST: f64 = 24.0;
-/// Differences of velocities are told in units of the velocity, those of times as angles of the drive: the largest one
-/// between returns that shows how long they take to come close, and the largest from which their end is guessed.
+/// Largest distance between two returns, velocities in units of the velocity and times as angles of the drive, that
+/// tells how long the returns take to come close, and the largest from which their limit is extrapolated.
 const NEAR: f64 = 0.3;
 const CLOSE: f64 = 0.02;
 /// Difference of returns below which the last one is as good a guess as any.
 const SETTLED: f64 = 1e-8;
-/// Most that Newton's last step may be, and how much less than the one before the others.
+/// Largest last step of Newton's method, and largest ratio of any other step to the one before.
 const FINAL: f64 = 1e-7;
 const SMALLER: f64 = 0.3;
-/// Least decay in one return.
+/// Least decay of a deviation in one return: the multipliers lie below 1 less this.
 const SLOWEST: f64 = 1e-3;
 /// Bounds on the error of the limit, and on that of how far from it the motion ends; the latter adds up what is left
 /// out in all returns, as if each bent the motion the same way.
 const ERROR: f64 = 4e-12;
 const MAX_SUM: f64 = 2e-10;
-/// Balls that are tried, and how much smaller each is than the one before.
+/// Most balls that are tried, and the ratio of the radius of each to that of the one before.
 const MAX_BALLS: usize = 8;
 const SHRINK: f64 = 0.25;
 /// Least norm of a map in the bound on how deviations die out.
 const LEAST_RATE: f64 = 0.25;
 
-/// A state just after an impact.
+/// The state of a motion just after an impact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Return {
     pub position: f64,
@@ -76,8 +77,8 @@ pub(super) struct Return {
 }
 
 impl Return {
-    /// The crossing that leads to it, seen from behind.
-    fn passage(&self) -> Passage {
+    /// The impact that leads to this return, as a crossing from the state after it.
+    fn as_passage(&self) -> Passage {
         Passage {
             position: self.position,
             velocity: self.velocity,
@@ -89,43 +90,43 @@ impl Return {
     }
 }
 
-/// The returns of one lane.
+/// The recorded returns of one lane and what is known of their limit.
 #[derive(Debug, Default)]
 pub(super) struct Returns {
     per_period: f64,
     stage: Stage,
-    /// How many returns there are.
+    /// Number of returns recorded.
     count: usize,
     /// Drive periods and impacts from one to the next.
     every: f64,
     each: f64,
-    /// Drive periods until they are looked at again after nothing was found.
+    /// Drive periods until returns are recorded again after no limit was found.
     pause: f64,
-    /// The motion's own; the last one of them is the last that is kept.
+    /// The last returns of the motion itself, not of a trial cycle.
     own: [Return; GUESSED_FROM],
     /// What all are measured by: a velocity, drive periods left and a moment in them.
     velocity: f64,
     left: f64,
     moment: f64,
-    /// The cycle that is tried: its first return, its crossings and its derivatives.
+    /// The trial cycle: its first return, its crossings and its derivatives.
     tried: Return,
     passages: Vec<Passage>,
     cycle: Cycle,
 }
 
-/// What is known of where a motion goes.
+/// What is known of the limit of the returns.
 #[derive(Debug, Clone, Copy, Default)]
 enum Stage {
-    /// Nothing.
+    /// Nothing yet.
     #[default]
     Open,
-    /// A cycle is tried; how far it is from the guess before.
+    /// A trial cycle is followed; its distance from the guess before.
     Trial(f64),
-    /// The limit, and what is proven of the motions about it.
+    /// The limit cycle, and what is proven of the motions about it.
     Known(Certificate),
 }
 
-/// What holds for all returns in a ball about a limit.
+/// What is proven of all returns in a ball about the limit.
 #[derive(Debug, Clone, Copy)]
 struct Certificate {
     limit: Vector2<f64>,
@@ -133,54 +134,54 @@ struct Certificate {
     norm: ContractionNorm,
     /// Radius of the ball, in the norm.
     radius: f64,
-    /// The next return deviates by the linear map's, but for at most curvature times the square of the deviation, in
-    /// the norm; the cycle that this holds about lies so far from the limit.
+    /// The next return deviates by the linear map and at most curvature times the square of the deviation, in the
+    /// norm; distance from the limit of the cycle about which this is proven.
     curvature: f64,
     aside: f64,
 }
 
 /// What a lane does after a return.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Turn {
+pub(super) struct Decision {
     /// Where it goes on, if not where it is.
     pub to: Option<Return>,
-    /// Drive periods left at which its returns are looked at again.
+    /// Drive periods left at which its returns are recorded again.
     pub again: f64,
-    /// Drive periods that it has leapt over.
+    /// Drive periods that are extrapolated.
     pub leapt: f64,
 }
 
 impl Returns {
-    /// Those of a lane begin, with so many drive periods left; how many are left when they are looked at first.
-    pub fn begin(&mut self, per_period: f64, left: f64) -> f64 {
+    /// Begins with a job of so many drive periods; how many of them are left when returns are recorded first.
+    pub fn begin_job(&mut self, per_period: f64, left: f64) -> f64 {
         self.per_period = per_period;
         (self.every, self.pause) = (1.0, PAUSE);
-        self.open(left - FIRST).again
+        self.forget_returns(left - FIRST).again
     }
 
-    /// Takes note of a crossing of the cycle that is tried.
-    pub fn pass(&mut self, passage: Passage) {
+    /// Records a crossing of the trial cycle.
+    pub fn record_crossing(&mut self, passage: Passage) {
         self.passages.push(passage);
     }
 
-    /// Takes note of a return.
-    pub fn note(&mut self, now: Return, laws: &[Constants], drive: &Drive) -> Option<Turn> {
+    /// Records a return; what the lane does next, if not just to go on.
+    pub fn record(&mut self, now: Return, laws: &[Constants], drive: &Drive) -> Option<Decision> {
         match self.stage {
-            Stage::Known(certificate) => return self.approach(now, &certificate),
+            Stage::Known(certificate) => return self.approach_limit(now, &certificate),
             Stage::Trial(most) => {
-                if !self.is_complete(&self.tried, &now)? {
-                    return self.back();
+                if !self.is_cycle_complete(&self.tried, &now)? {
+                    return self.end_trial();
                 }
-                let turn = self.refine(&now, most, laws, drive);
-                return turn.or_else(|| self.back());
+                let decision = self.refine_trial(&now, most, laws, drive);
+                return decision.or_else(|| self.end_trial());
             }
             Stage::Open => {}
         }
         if self.count > 0 {
             let before = self.own[self.count - 1];
-            if !self.is_complete(&before, &now)? {
+            if !self.is_cycle_complete(&before, &now)? {
                 self.every = self.every % MAX_PERIODS + 1.0;
-                return Some(self.pause(now.left));
+                return Some(self.pause_recording(now.left));
             }
             self.each = now.impacts - before.impacts;
         }
@@ -190,17 +191,17 @@ impl Returns {
             return None;
         }
         if now.left < FEWEST * self.every {
-            return Some(self.open(f64::NEG_INFINITY));
+            return Some(self.forget_returns(f64::NEG_INFINITY));
         }
-        let turn = self.guess();
-        Some(turn.unwrap_or_else(|| {
-            self.every = self.recurs();
-            self.pause(now.left)
+        let decision = self.guess_limit();
+        Some(decision.unwrap_or_else(|| {
+            self.every = self.recurrence_period();
+            self.pause_recording(now.left)
         }))
     }
 
     /// Whether a cycle is complete from one impact to another; none if it is still under way.
-    fn is_complete(&self, before: &Return, now: &Return) -> Option<bool> {
+    fn is_cycle_complete(&self, before: &Return, now: &Return) -> Option<bool> {
         let periods = (before.left - now.left) + (now.offset - before.offset) * self.per_period;
         if periods < self.every - SLIP {
             return None;
@@ -211,9 +212,9 @@ impl Returns {
         Some(periods <= self.every + SLIP && same && (is_first || made == self.each))
     }
 
-    /// After how many of these returns the motion comes closest to the first, if it comes much closer than others.
-    fn recurs(&self) -> f64 {
-        let [first, rest @ ..] = self.points();
+    /// Drive periods after which the motion comes much closer to its first return than after others; 1 if none does.
+    fn recurrence_period(&self) -> f64 {
+        let [first, rest @ ..] = self.own_points();
         let away = rest.map(|point| (point - first).norm());
         let recurs = match away {
             [one, two, _] if two < CLOSER * one => 2.0,
@@ -224,39 +225,39 @@ impl Returns {
         if every > MAX_PERIODS { 1.0 } else { every }
     }
 
-    /// True while a cycle is tried.
+    /// True while a trial cycle is followed.
     pub fn is_trial(&self) -> bool {
         matches!(self.stage, Stage::Trial(_))
     }
 
-    /// True if a cycle is tried that should have come back long ago.
-    pub fn is_overdue(&self, left: f64) -> bool {
+    /// True if a trial cycle should have come back to its impact long ago.
+    pub fn is_trial_overdue(&self, left: f64) -> bool {
         self.is_trial() && self.tried.left - left > self.every + 1.0
     }
 
-    /// Where a lane goes on that tries a cycle which leads nowhere.
-    pub fn back(&mut self) -> Option<Turn> {
+    /// Ends a trial that leads nowhere: the lane goes on from the last return of its own motion.
+    pub fn end_trial(&mut self) -> Option<Decision> {
         let to = self.own[GUESSED_FROM - 1];
-        self.is_trial().then(|| Turn {
+        self.is_trial().then(|| Decision {
             to: Some(to),
-            ..self.pause(to.left)
+            ..self.pause_recording(to.left)
         })
     }
 
-    /// Looks again after a longer pause than before.
-    fn pause(&mut self, left: f64) -> Turn {
+    /// Records again after a longer pause than before.
+    fn pause_recording(&mut self, left: f64) -> Decision {
         self.pause *= LONGER;
-        self.open(left - self.pause)
+        self.forget_returns(left - self.pause)
     }
 
-    /// Looks again later, as if nothing were known.
-    fn open(&mut self, again: f64) -> Turn {
+    /// Forgets what is known; returns are recorded again when so many periods are left.
+    fn forget_returns(&mut self, again: f64) -> Decision {
         (self.stage, self.count) = (Stage::Open, 0);
-        Turn::later(again)
+        Decision::wait(again)
     }
 
-    /// Drive periods to a return, and the return as a point: velocity and drive angle.
-    fn point(&self, it: &Return) -> (f64, Vector2<f64>) {
+    /// Whole drive periods up to a return, and the return as a point (velocity, drive angle).
+    fn return_point(&self, it: &Return) -> (f64, Vector2<f64>) {
         let periods = (self.left - it.left) + it.offset * self.per_period;
         let number = ((periods - self.moment) / self.every + 0.5) as i64;
         let whole = number as f64 * self.every;
@@ -264,14 +265,14 @@ impl Returns {
         (whole, point)
     }
 
-    fn points(&self) -> [Vector2<f64>; GUESSED_FROM] {
-        std::array::from_fn(|index| self.point(&self.own[index]).1)
+    fn own_points(&self) -> [Vector2<f64>; GUESSED_FROM] {
+        std::array::from_fn(|index| self.return_point(&self.own[index]).1)
     }
 
-    /// The return at a point, so many times after the last of the motion's own.
-    fn at(&self, point: Vector2<f64>, times: f64) -> Return {
+    /// The return at a point (velocity, drive angle), so many returns after the last one of the motion itself.
+    fn return_at(&self, point: Vector2<f64>, times: f64) -> Return {
         let after = &self.own[GUESSED_FROM - 1];
-        let (number, _) = self.point(after);
+        let (number, _) = self.return_point(after);
         let periods = point.y / TAU;
         let whole = periods.floor();
         Return {
@@ -285,70 +286,70 @@ impl Returns {
         }
     }
 
-    /// A first guess from the motion's own returns.
-    fn guess(&mut self) -> Option<Turn> {
+    /// Extrapolates the limit from the motion's own returns and begins a trial there, or waits until they are close.
+    fn guess_limit(&mut self) -> Option<Decision> {
         let first = &self.own[0];
         (self.velocity, self.left) = (first.velocity, first.left);
         self.moment = first.offset * self.per_period;
-        let points = self.points();
+        let points = self.own_points();
         let step = (points[3] - points[2]).norm();
         if step >= NEAR {
             return None;
         }
-        let (limit, radius) = extrapolate(&points)?;
+        let (limit, radius) = extrapolate_limit(&points)?;
         if step > CLOSE {
             let wait = (CLOSE / step).ln() / radius.ln() - (GUESSED_FROM - 1) as f64;
             let left = self.own[GUESSED_FROM - 1].left;
-            return Some(self.open(left - wait.max(0.0) * self.every));
+            return Some(self.forget_returns(left - wait.max(0.0) * self.every));
         }
-        Some(self.set_off(limit, f64::INFINITY))
+        Some(self.begin_trial(limit, f64::INFINITY))
     }
 
-    /// Tries the cycle from a guess.
-    fn set_off(&mut self, guess: Vector2<f64>, step: f64) -> Turn {
-        self.tried = self.at(guess, 0.0);
+    /// Begins to follow the trial cycle from a guess of its return.
+    fn begin_trial(&mut self, guess: Vector2<f64>, step: f64) -> Decision {
+        self.tried = self.return_at(guess, 0.0);
         self.passages.clear();
         self.stage = Stage::Trial(step);
-        Turn {
+        Decision {
             to: Some(self.tried),
-            ..Turn::later(f64::INFINITY)
+            ..Decision::wait(f64::INFINITY)
         }
     }
 
-    /// A step of Newton's method from the cycle that was tried; after the last one, what is proven about it.
-    fn refine(
+    /// A step of Newton's method from the trial cycle; after the last one, the proof about its limit.
+    fn refine_trial(
         &mut self,
         now: &Return,
         before: f64,
         laws: &[Constants],
         drive: &Drive,
-    ) -> Option<Turn> {
+    ) -> Option<Decision> {
         let velocity = self.velocity;
-        let begun = self.tried.passage();
+        let begun = self.tried.as_passage();
         self.cycle
             .linearise(laws, drive, (begun, &self.passages), velocity)?;
         let map = self.cycle.map;
         let inverse = (Matrix2::identity() - map).try_inverse()?;
-        let tried = self.point(&self.tried).1;
-        let step = inverse * (self.point(now).1 - tried);
+        let tried = self.return_point(&self.tried).1;
+        let step = inverse * (self.return_point(now).1 - tried);
         let limit = tried + step;
         let length = step.norm();
         if length > FINAL || length.is_nan() {
             let goes_on = length < SMALLER * before && limit.x > 0.0;
-            return goes_on.then(|| self.set_off(limit, length));
+            return goes_on.then(|| self.begin_trial(limit, length));
         }
         if spectral_radius(map.trace(), map.determinant()) > 1.0 - SLOWEST {
             return None;
         }
         let norm = ContractionNorm::of_map(&map)?;
-        self.cycle.divide(laws, drive)?;
-        let aside = norm.length(&step);
-        let off = self.points()[GUESSED_FROM - 1] - limit;
-        let most = norm.length(&off) + aside;
-        let (radius, curvature) = self.ball(&norm, &inverse, most.max(FINAL))?;
+        self.cycle.divide_into_windows(laws, drive)?;
+        let aside = norm.norm_of(&step);
+        let off = self.own_points()[GUESSED_FROM - 1] - limit;
+        let most = norm.norm_of(&off) + aside;
+        let (radius, curvature) = self.find_ball(&norm, &inverse, most.max(FINAL))?;
         let rate = norm.rate.max(LEAST_RATE);
-        if curvature * aside * aside / (1.0 - rate) * norm.spread() > ERROR {
-            return (length < SMALLER * before).then(|| self.set_off(limit, length));
+        if curvature * aside * aside / (1.0 - rate) * norm.largest_length() > ERROR {
+            return (length < SMALLER * before).then(|| self.begin_trial(limit, length));
         }
         let certificate = Certificate {
             limit,
@@ -358,12 +359,12 @@ impl Returns {
             curvature,
             aside,
         };
-        Some(self.leap(&certificate))
+        Some(self.extrapolate_to_end(&certificate))
     }
 
-    /// The largest ball of those tried, not larger than `most`, whose motions all make the cycle's crossings and are drawn to
-    /// the limit, and the curvature in it; none if rounding moves the limit too far.
-    fn ball(
+    /// The radius of the largest ball of those tried, not larger than `most`, whose motions all make the crossings of
+    /// the cycle and contract to the limit, and the curvature in it; none if rounding moves the limit too far.
+    fn find_ball(
         &self,
         norm: &ContractionNorm,
         inverse: &Matrix2<f64>,
@@ -380,11 +381,11 @@ impl Returns {
             if (inverse.abs() * remainder.rounding).norm() > ERROR {
                 return None;
             }
-            let curvature = norm.largest(&remainder.curvature) / (radius * radius);
+            let curvature = norm.largest_norm(&remainder.curvature) / (radius * radius);
             let drawn = 0.5 * rate * (1.0 - rate) / curvature;
             if curvature.is_nan() || radius > drawn {
                 radius = 0.9 * drawn;
-            } else if self.cycle.is_clear(&ball) {
+            } else if self.cycle.ball_is_clear(&ball) {
                 return Some((radius, curvature));
             } else {
                 radius *= SHRINK;
@@ -393,23 +394,24 @@ impl Returns {
         None
     }
 
-    /// What a return leads to of a motion whose limit is known.
-    fn approach(&mut self, now: Return, certificate: &Certificate) -> Option<Turn> {
+    /// What the lane does after a return of a motion whose limit is known.
+    fn approach_limit(&mut self, now: Return, certificate: &Certificate) -> Option<Decision> {
         let last = self.own[GUESSED_FROM - 1];
         let same = last.position == now.position && last.phase == now.phase;
-        if !same || (self.point(&now).1 - certificate.limit).norm() > NEAR {
+        if !same || (self.return_point(&now).1 - certificate.limit).norm() > NEAR {
             return None;
         }
         self.own[GUESSED_FROM - 1] = now;
-        let turn = self.leap(certificate);
-        Some(Turn {
-            to: turn.to.filter(|to| *to != now),
-            ..turn
+        let decision = self.extrapolate_to_end(certificate);
+        Some(Decision {
+            to: decision.to.filter(|to| *to != now),
+            ..decision
         })
     }
 
-    /// Goes over all periods but the last at once from the motion's own last return, or waits there until that can be done.
-    fn leap(&mut self, certificate: &Certificate) -> Turn {
+    /// Extrapolates all periods but the last at once from the motion's own last return, or waits until that is exact
+    /// enough.
+    fn extrapolate_to_end(&mut self, certificate: &Certificate) -> Decision {
         let Certificate {
             norm,
             curvature,
@@ -417,41 +419,41 @@ impl Returns {
             ..
         } = certificate;
         let own = self.own[GUESSED_FROM - 1];
-        let off = self.point(&own).1 - certificate.limit;
+        let off = self.return_point(&own).1 - certificate.limit;
         let rate = norm.rate.max(LEAST_RATE);
         let times = ((own.left - LAST) / self.every).floor();
-        let back = |turn| Turn {
+        let back = |decision| Decision {
             to: Some(own),
-            ..turn
+            ..decision
         };
         if own.left < FEWEST * self.every {
-            return back(self.open(f64::NEG_INFINITY));
+            return back(self.forget_returns(f64::NEG_INFINITY));
         }
-        let length = norm.length(&off) + aside;
+        let length = norm.norm_of(&off) + aside;
         // |d_k| <= q rate^k |d_0| with 1/q = 1 - curvature |d_0| / (rate (1 - rate)); what is not linear adds up.
         let q = 1.0 / (1.0 - curvature * length / (rate * (1.0 - rate))).max(0.5);
         let bent = curvature * length * q * (q * length / (1.0 - rate) + 2.0 * times * aside);
-        let error = bent * rate.powf(times - 1.0) * norm.spread();
+        let error = bent * rate.powf(times - 1.0) * norm.largest_length();
         let excess = ((length + aside) / certificate.radius).max(error / MAX_SUM);
         if excess > 1.0 || excess.is_nan() {
             self.stage = Stage::Known(*certificate);
             let wait = (excess.ln() / -rate.ln()).ceil();
-            return back(Turn::later(own.left - (wait * self.every - SLIP)));
+            return back(Decision::wait(own.left - (wait * self.every - SLIP)));
         }
         let power = certificate.map.pow(times as u32);
-        let to = self.at(certificate.limit + power * off, times);
-        self.open(f64::NEG_INFINITY);
-        Turn {
+        let to = self.return_at(certificate.limit + power * off, times);
+        self.forget_returns(f64::NEG_INFINITY);
+        Decision {
             to: Some(to),
             leapt: times * self.every,
-            ..Turn::later(f64::NEG_INFINITY)
+            ..Decision::wait(f64::NEG_INFINITY)
         }
     }
 }
 
-/// The limit of returns and how much closer to it the later ones are (Cabay and Jackson 1976): differences of successive
-/// returns obey d'' = trace d' - determinant d.
-fn extrapolate(points: &[Vector2<f64>; GUESSED_FROM]) -> Option<(Vector2<f64>, f64)> {
+/// The limit of a sequence of returns and the spectral radius with which they approach it, by minimal polynomial
+/// extrapolation (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d.
+fn extrapolate_limit(points: &[Vector2<f64>; GUESSED_FROM]) -> Option<(Vector2<f64>, f64)> {
     let [a, b, c] = [0, 1, 2].map(|k| points[k + 1] - points[k]);
     let last = points[GUESSED_FROM - 1];
     if c.norm() < SETTLED {
@@ -469,9 +471,9 @@ fn extrapolate(points: &[Vector2<f64>; GUESSED_FROM]) -> Option<(Vector2<f64>, f
     (radius < 1.0 - SLOWEST && is_like && limit.x > 0.0).then_some((limit, radius))
 }
 
-impl Turn {
-    /// Goes on as it is until so many drive periods are left.
-    fn later(again: f64) -> Self {
+impl Decision {
+    /// Goes on as it is; returns are recorded again when so many drive periods are left.
+    fn wait(again: f64) -> Self {
         Self {
             to: None,
             again,

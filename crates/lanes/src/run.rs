@@ -10,11 +10,11 @@ use super::machine::Machine;
 use super::observer::{BatchObserver, ObserverHandle};
 use softstop::Start;
 
-/// Jobs of a part. Lanes that go together round together, so the parts may not depend on how many threads
-/// there are; and they are long enough for all lanes to be busy nearly to the end.
+/// Jobs of a part: long enough for all lanes to be busy nearly to the end. Lanes that go together round together, so
+/// parts do not depend on the number of threads.
 const PART: usize = 128;
 
-/// Follows all jobs on this thread.
+/// Follows all jobs on this thread with the widest instruction set.
 ///
 /// # Panics
 /// If a job names a machine that is not there.
@@ -29,11 +29,11 @@ pub fn run_with(
     jobs: &[Job],
     watch: &mut impl BatchObserver,
 ) -> Vec<Outcome> {
-    dispatch::run(machines, jobs, ObserverHandle::of(watch), instructions)
+    dispatch::run_jobs(machines, jobs, ObserverHandle::new(watch), instructions)
 }
 
 /// Follows all jobs on the threads of rayon's pool, part by part, with the same result for any number of
-/// threads. Each part has a watcher of its own, which `watch` makes for the jobs in this range; they come
+/// threads. Each part has an observer of its own, which `watch` makes for the jobs in this range; they come
 /// back in order. They are told of jobs by their number in `jobs`.
 ///
 /// # Panics
@@ -61,7 +61,7 @@ pub fn run_parallel<W: BatchObserver + Send>(
     (outcomes.concat(), watches)
 }
 
-/// Tells a watcher of jobs by their number in the whole.
+/// Tells an observer of jobs by their number in the whole.
 struct Numbered<W> {
     first: usize,
     watch: W,

@@ -1,4 +1,4 @@
-//! Window by window, as long as nothing can happen.
+//! Scans window by window as long as a bound proves that the lanes meet nothing.
 
 use pulp::Simd;
 
@@ -8,31 +8,32 @@ use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::parts::Parts;
 
-/// Windows that are scanned at most before the lanes that wait are looked at: about a drive period.
+/// Most windows that are scanned before the lanes that have stopped are decided: about a drive period.
 pub(super) const MOST_WINDOWS: usize = 12;
-/// In the first window after a crossing the motion falls from zero; 16/3 times the error of the cubic there is
-/// what its second Bernstein coefficient has to lie below zero.
+/// Multiple of the error of the cubic by which its second Bernstein coefficient has to lie below zero in the first
+/// window after a crossing, where the motion leaves zero: 16/3.
 pub(super) const LEAVING: f64 = 16.0 / 3.0;
 
-/// How far the lanes have come.
+/// Where the scan has brought the lanes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reached<S: Simd, const N: usize> {
-    /// Where they stand.
+    /// The motion where they stand.
     pub parts: Parts<S, N>,
-    /// A window from there.
+    /// The motion a window later.
     pub next: Parts<S, N>,
     /// |x''''| window^4 / 384.
     pub error_bound: Lanes<S, N>,
-    /// Windows scanned.
+    /// CycleWindows scanned.
     pub count: Lanes<S, N>,
     /// Lanes that may go on.
     pub go: Mask<S, N>,
 }
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
-    /// The motion of all lanes in units of their guard: g = side (x - offset) - edge.
+    /// Free and steady part of the motion of all lanes, as signed distances side (x - offset) from their guard at
+    /// `edge`.
     #[inline(always)]
-    pub fn parts(&self, law: &Law<S, N>) -> Parts<S, N> {
+    pub fn motion_parts(&self, law: &Law<S, N>) -> Parts<S, N> {
         let (cos, sin) = self.state.angle;
         let p = law.cosine.mul_add(cos, law.sine * sin);
         let q = law.cosine_rate.mul_add(cos, law.sine_rate * sin);
@@ -45,30 +46,30 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         }
     }
 
-    /// Lets the lanes look at their next window at once.
+    /// The result of a scan that has not moved: the lanes decide their next window at once.
     #[inline(always)]
-    pub fn stand(&self, law: &Law<S, N>, active: Mask<S, N>) -> Reached<S, N> {
-        let parts = self.parts(law);
+    pub fn stand_before_window(&self, law: &Law<S, N>, active: Mask<S, N>) -> Reached<S, N> {
+        let parts = self.motion_parts(law);
         Reached {
             parts,
-            next: parts.next(law),
-            error_bound: law.error_bound(&parts),
+            next: parts.after_window(law),
+            error_bound: parts.position_error(law),
             count: parts.y.like(0.0),
             go: active.and_not(active),
         }
     }
 
-    /// Moves the lanes on for a while, on one side of one position or between two, or until each stands before a window in which
-    /// something may happen, or that is its last. `cap`: windows up to its last moment.
+    /// Moves the lanes on window by window, on one side of one position or between two, until each stands before a
+    /// window in which something may happen, or that is its last. `cap`: windows up to the end of its time.
     #[inline(always)]
-    pub fn scan<const GUARDED: bool>(
+    pub fn scan_windows<const GUARDED: bool>(
         &self,
         law: &Law<S, N>,
         active: Mask<S, N>,
         cap: Lanes<S, N>,
     ) -> Reached<S, N> {
         let one = cap.like(1.0);
-        let mut reached = self.stand(law, active);
+        let mut reached = self.stand_before_window(law, active);
         let Reached {
             mut parts,
             mut next,
@@ -108,7 +109,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
                 clear = clear & above.below(bottom.min(x.min(before)));
             } else if suspect.any() {
                 let left = (parts.y + parts.p, parts.u + parts.q);
-                let top = Cubic::new(left, (x, v), law.window).top();
+                let top = Cubic::interpolate(left, (x, v), law.window).maximum();
                 clear = clear | (suspect & top.below(limit));
             }
             if capped {
@@ -116,41 +117,29 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             }
             let stops = go.and_not(clear);
             if stops.any() {
-                reached.stop(stops, &parts, &next, count);
+                reached.stop_lanes(stops, &parts, &next, count);
                 go = go & clear;
                 if !go.any() {
                     break;
                 }
             }
             parts = next;
-            next = parts.next(law);
+            next = parts.after_window(law);
             apart = one.at_most(one);
             (top, below) = (law.third.mul_add(v, x), limit);
             (bottom, above) = (top, lowest);
         }
         if go.any() {
-            reached.stop(go, &parts, &next, one.like(MOST_WINDOWS as f64));
+            reached.stop_lanes(go, &parts, &next, one.like(MOST_WINDOWS as f64));
         }
         Reached { go, ..reached }
     }
 }
 
-impl<S: Simd, const N: usize> Law<S, N> {
-    /// Where the phase ends in units of [`Engine::parts`]: above, and below if not one position alone ends it.
-    #[inline(always)]
-    pub fn edges<const GUARDED: bool>(&self) -> (Lanes<S, N>, Lanes<S, N>) {
-        if GUARDED {
-            (self.high + self.edge, self.low + self.edge)
-        } else {
-            (self.edge, self.edge.like(f64::NEG_INFINITY))
-        }
-    }
-}
-
 impl<S: Simd, const N: usize> Reached<S, N> {
-    /// Lanes stand here from now on.
+    /// Notes that lanes stand here.
     #[inline(always)]
-    fn stop(
+    fn stop_lanes(
         &mut self,
         lanes: Mask<S, N>,
         parts: &Parts<S, N>,

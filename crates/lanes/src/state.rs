@@ -1,24 +1,25 @@
-//! Where all lanes are.
+//! The state of all lanes: positions, velocities, phases, time and counts.
 
 use pulp::Simd;
 
 use super::job::Outcome;
-use super::lanes::{Lanes, Mask};
+use super::lanes::{Lanes, Mask, Pair};
 use super::machine::Machine;
 use super::returns::Return;
-use super::taylor::cos_sin;
+use super::sine_cosine::cos_sin;
 use softstop::Start;
 
-/// Drive periods after which a lane takes the drive angle anew from the time.
+/// Drive periods after which a lane computes the drive angle from the time again.
 const RENEWAL: f64 = 32.0;
 
 /// The state of all lanes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct State<S: Simd, const N: usize> {
+    /// Position and velocity.
     pub x: Lanes<S, N>,
     pub v: Lanes<S, N>,
     /// cos and sin of the drive angle.
-    pub angle: (Lanes<S, N>, Lanes<S, N>),
+    pub angle: Pair<S, N>,
     /// Seconds since the beginning of the drive period.
     pub offset: Lanes<S, N>,
     /// Drive periods left, the present one included; none in a lane without a job.
@@ -31,14 +32,14 @@ pub(super) struct State<S: Simd, const N: usize> {
     pub impacts: Lanes<S, N>,
     /// Crossings so far.
     pub crossings: Lanes<S, N>,
-    /// Drive periods left from which on returns to an impact are noted; none in a lane whose are not.
+    /// Drive periods left from which on returns to an impact are recorded; none in a lane whose are not.
     pub noted: Lanes<S, N>,
-    /// Share of a window that is looked at next: 1, or less where a whole one could not be decided.
+    /// Share of a window that is decided next: 1, or less where a whole one could not be decided.
     pub share: Lanes<S, N>,
     pub drive: DriveLanes<S, N>,
 }
 
-/// The drive's clock.
+/// Frequency, period and phase of the drive of each lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DriveLanes<S: Simd, const N: usize> {
     pub frequency: Lanes<S, N>,
@@ -46,11 +47,11 @@ pub(super) struct DriveLanes<S: Simd, const N: usize> {
     pub period: Lanes<S, N>,
     pub per_period: Lanes<S, N>,
     /// cos and sin of the angle at the beginning of a period.
-    pub begin: (Lanes<S, N>, Lanes<S, N>),
+    pub begin: Pair<S, N>,
 }
 
 impl<S: Simd, const N: usize> State<S, N> {
-    /// No lane has a job.
+    /// The state of lanes without a job.
     #[inline(always)]
     pub fn idle(simd: S) -> Self {
         let (none, one) = (Lanes::splat(simd, 0.0), Lanes::splat(simd, 1.0));
@@ -77,18 +78,18 @@ impl<S: Simd, const N: usize> State<S, N> {
 
     /// Gives a lane the drive of a machine.
     #[inline(always)]
-    pub fn install(&mut self, lane: usize, machine: &Machine) {
+    pub fn set_drive(&mut self, lane: usize, machine: &Machine) {
         let drive = &mut self.drive;
         drive.frequency.set(lane, machine.frequency);
-        drive.period.set(lane, machine.period());
-        drive.per_period.set(lane, 1.0 / machine.period());
+        drive.period.set(lane, machine.drive_period());
+        drive.per_period.set(lane, 1.0 / machine.drive_period());
         drive.begin.0.set(lane, machine.angle.0);
         drive.begin.1.set(lane, machine.angle.1);
     }
 
-    /// Puts a lane at the beginning of a period.
+    /// Puts a lane at the beginning of a drive period, `left` ones being left.
     #[inline(always)]
-    pub fn resume(&mut self, lane: usize, state: Start, phase: usize, left: u64) {
+    pub fn begin_period(&mut self, lane: usize, state: Start, phase: usize, left: u64) {
         self.x.set(lane, state.position);
         self.v.set(lane, state.velocity);
         self.angle.0.set(lane, self.drive.begin.0.get(lane));
@@ -99,21 +100,21 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.share.set(lane, 1.0);
     }
 
-    /// Takes a lane out of the work.
+    /// Leaves a lane without a job.
     #[inline(always)]
-    pub fn stop(&mut self, lane: usize) {
+    pub fn end_job(&mut self, lane: usize) {
         self.left.set(lane, 0.0);
     }
 
     /// The lanes that have a job.
     #[inline(always)]
-    pub fn busy(&self) -> Mask<S, N> {
+    pub fn busy_lanes(&self) -> Mask<S, N> {
         self.left.like(0.0).below(self.left)
     }
 
     /// Position and velocity of a lane.
     #[inline(always)]
-    pub fn state(&self, lane: usize) -> Start {
+    pub fn position_and_velocity(&self, lane: usize) -> Start {
         Start {
             position: self.x.get(lane),
             velocity: self.v.get(lane),
@@ -121,7 +122,7 @@ impl<S: Simd, const N: usize> State<S, N> {
     }
 
     /// The state of a lane just after an impact.
-    pub fn returned(&self, lane: usize) -> Return {
+    pub fn return_of(&self, lane: usize) -> Return {
         Return {
             position: self.x.get(lane),
             velocity: self.v.get(lane),
@@ -134,8 +135,8 @@ impl<S: Simd, const N: usize> State<S, N> {
         }
     }
 
-    /// Puts a lane there.
-    pub fn put(&mut self, lane: usize, to: Return) {
+    /// Puts a lane into the state after an impact.
+    pub fn set_return(&mut self, lane: usize, to: Return) {
         self.x.set(lane, to.position);
         self.v.set(lane, to.velocity);
         self.offset.set(lane, to.offset);
@@ -162,28 +163,28 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.crossings.set(lane, 0.0);
     }
 
-    /// Takes the drive angle anew from the time in these lanes.
+    /// Computes the drive angle of these lanes from the time.
     #[inline(always)]
-    fn set_angle(&mut self, lanes: Mask<S, N>) {
+    fn renew_angle(&mut self, lanes: Mask<S, N>) {
         let (c, s) = cos_sin(self.offset * self.drive.per_period);
         let (c0, s0) = self.drive.begin;
         self.angle.0 = lanes.choose(c0 * c - s0 * s, self.angle.0);
         self.angle.1 = lanes.choose(s0 * c + c0 * s, self.angle.1);
     }
 
-    /// How often the drive angle was to be taken anew so far.
+    /// How often the drive angle was to be computed from the time so far.
     #[inline(always)]
-    fn renewals(&self) -> Lanes<S, N> {
+    fn angle_renewals(&self) -> Lanes<S, N> {
         let done = self.periods - self.left;
         (done * done.like(1.0 / RENEWAL)).floor()
     }
 
-    /// Counts the ends of periods that have passed. Every few periods of its own, whatever the others do, a lane takes
-    /// the drive angle anew.
+    /// Counts the ends of drive periods that have passed. Every few periods of its own, whatever the others do, a lane
+    /// computes its drive angle from the time.
     #[inline(always)]
-    pub fn wrap(&mut self) {
+    pub fn count_periods(&mut self) {
         let one = self.left.like(1.0);
-        let begun = self.renewals();
+        let begun = self.angle_renewals();
         loop {
             let wraps = self.drive.period.at_most(self.offset) & one.below(self.left);
             if !wraps.any() {
@@ -192,9 +193,9 @@ impl<S: Simd, const N: usize> State<S, N> {
             self.left = wraps.choose(self.left - one, self.left);
             self.offset = wraps.choose(self.offset - self.drive.period, self.offset);
         }
-        let renewed = begun.below(self.renewals());
+        let renewed = begun.below(self.angle_renewals());
         if renewed.any() {
-            self.set_angle(renewed);
+            self.renew_angle(renewed);
         }
     }
 }

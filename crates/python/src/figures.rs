@@ -93,7 +93,9 @@ type Direction = Vec<(Parameter, f64)>;
 /// All parameters are linear in each key, so a difference is the derivative; where some follow others by expressions, a small
 /// central one is, to its square.
 fn direction(machine: &Stated, key: &str) -> PyResult<Direction> {
-    let (parameter, factor) = machine.free(key).map_err(|error| of_machine(&error))?;
+    let (parameter, factor) = machine
+        .free_parameter(key)
+        .map_err(|error| of_machine(&error))?;
     let value = machine.value(parameter).unwrap_or(0.0);
     let share = if machine.ties.is_empty() { 0.5 } else { 1e-5 };
     let step = if value == 0.0 { 2.0 } else { value.abs() } * share;

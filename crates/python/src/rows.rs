@@ -38,7 +38,9 @@ impl<'a> Rows<'a> {
         let (x, v) = (start.0.as_slice()?, start.1.as_slice()?);
         let mut columns: Vec<(Parameter, f64, &[f64])> = Vec::new();
         for (key, values) in changes {
-            let (parameter, factor) = stated.free(key).map_err(|error| of_machine(&error))?;
+            let (parameter, factor) = stated
+                .free_parameter(key)
+                .map_err(|error| of_machine(&error))?;
             if columns.iter().any(|(known, ..)| *known == parameter) {
                 return Err(MachineError::new_err(format!("{key}: is set twice")));
             }

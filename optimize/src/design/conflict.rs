@@ -1,6 +1,6 @@
 //! What stands against a design, in words: bounds, and which of them are violated.
 
-use softstop::internals::plain;
+use softstop::internals::plain_number;
 use softstop::{Machine, Parameter};
 
 use super::judge::Met;
@@ -75,7 +75,7 @@ pub fn stated(machine: &Machine, parameter: Parameter, value: f64) -> String {
 
 /// A number with seven digits, and no more of them than it has.
 pub fn short(value: f64) -> String {
-    plain(format!("{value:.6e}").parse().unwrap_or(value))
+    plain_number(format!("{value:.6e}").parse().unwrap_or(value))
 }
 
 /// `at least 10 m/s`.

@@ -111,7 +111,7 @@ impl Cost {
     fn at(&self, motion: (&Orbit, &CycleMetrics)) -> Differentiated {
         let values = self.0.terms.iter();
         let values = values.map(|(term, unit)| term.value(motion) / unit);
-        self.0.expression.at(&values.collect::<Vec<f64>>())
+        self.0.expression.eval(&values.collect::<Vec<f64>>())
     }
 
     /// Its value; NaN if it has none.

@@ -197,9 +197,9 @@ impl Problem {
         let all: Vec<_> = own.into_iter().map(with_cases).collect();
         let fork = Fork::default();
         let designs = all.into_par_iter();
-        let designs = designs.map(|(own, cases)| fork.part(|| self.best_of(own, cases)));
+        let designs = designs.map(|(own, cases)| fork.run_part(|| self.best_of(own, cases)));
         let designs = designs.collect();
-        fork.join();
+        fork.charge_parts();
         designs
     }
 

@@ -10,7 +10,7 @@
 //! function of every solver of `argmin` that needs no derivatives.
 
 use rayon::prelude::*;
-use softstop::internals::plain;
+use softstop::internals::plain_number;
 use softstop_dynamics::monitor::Kept;
 use softstop_dynamics::zone::ZoneKind;
 
@@ -112,7 +112,7 @@ fn widest(problem: &Problem) -> Option<String> {
     let stated = |(axis, _): &(&Axis, f64)| {
         let Interval { low, high } = axis.range;
         let name = problem.machine.name(axis.parameter);
-        format!("{name} = [{}, {}]", plain(low), plain(high))
+        format!("{name} = [{}, {}]", plain_number(low), plain_number(high))
     };
     let stated: Vec<String> = wide.iter().map(stated).collect();
     (!stated.is_empty()).then(|| stated.join(", "))

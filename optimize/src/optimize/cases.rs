@@ -85,7 +85,7 @@ fn change(
     index: usize,
 ) -> Result<(Parameter, f64), Failure> {
     let wrong = |what: &str| wrong(index, key, format!("= {value}: {what}"));
-    let stated = machine.free(key);
+    let stated = machine.free_parameter(key);
     let (parameter, unit) =
         stated.map_err(|error| Failure::usage(format!("case.{index}.{error}")))?;
     let own = number(value).ok_or_else(|| wrong("must be a number"))? * unit;

@@ -1,7 +1,7 @@
 //! What a design costs: the formula `objective.cost`.
 
 use softstop::Machine;
-use softstop::internals::{Expression, did_you_mean, nearest};
+use softstop::internals::{Expression, did_you_mean, nearest_name};
 use softstop_console::failure::Failure;
 
 use crate::design::cost::{Cost, Term};
@@ -30,7 +30,7 @@ fn unknown(machine: &Machine, name: &str) -> String {
         Some(_) => format!("{name} is not told by one motion"),
         None => format!(
             "{name} is no parameter of this machine and no figure{}",
-            did_you_mean(nearest(name, &known))
+            did_you_mean(nearest_name(name, &known))
         ),
     };
     format!("{what}; known are {}", known.join(", "))

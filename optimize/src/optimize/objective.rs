@@ -3,7 +3,7 @@
 use std::slice;
 
 use serde::Deserialize;
-use softstop::internals::{did_you_mean, nearest};
+use softstop::internals::{did_you_mean, nearest_name};
 use softstop::{Machine, Parameter, Stop};
 use softstop_console::failure::Failure;
 
@@ -161,7 +161,7 @@ pub(super) const fn is_traded(figure: Figure) -> bool {
 pub(super) fn known(place: &str, name: &str) -> Result<Figure, Failure> {
     Figure::named(name).ok_or_else(|| {
         let names: Vec<&'static str> = Figure::ALL.iter().map(|it| it.name()).collect();
-        let meant = did_you_mean(nearest(name, &names));
+        let meant = did_you_mean(nearest_name(name, &names));
         Failure::usage(format!(
             "{place}{name}: unknown figure{meant}; known are {}",
             names.join(", ")

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use softstop::internals::plain;
+use softstop::internals::plain_number;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::arguments::refuse_without_zone;
 use softstop_console::budget::Budget;
@@ -238,8 +238,8 @@ fn deviations(
         return Err(Failure::usage(format!(
             "--samples {samples}: are too few to show that a share of {} at most violates a requirement: {} machines are needed, of \
              which none does",
-            plain(violating),
-            plain(least_machines(violating))
+            plain_number(violating),
+            plain_number(least_machines(violating))
         )));
     }
     Ok(normal_quantile(1.0 - 0.5 * violating))
@@ -347,7 +347,7 @@ fn leaves_machines(
         return Ok(());
     };
     let stated = match tolerance.width {
-        Width::Own(width) => plain(width),
+        Width::Own(width) => plain_number(width),
         Width::Share(share) => format!("{} %", short(100.0 * share)),
     };
     let wider = match factor {
@@ -356,7 +356,7 @@ fn leaves_machines(
     };
     let width = factor * tolerance.width.around(value);
     if value > 0.0 && width >= value {
-        let value = plain(value);
+        let value = plain_number(value);
         return Err(Failure::usage(format!(
             "tolerance.{name} = {stated}: {wider}is as large as the value, {value} at most, or larger"
         )));
@@ -365,7 +365,7 @@ fn leaves_machines(
     least.map(|_| ()).map_err(|error| {
         Failure::usage(format!(
             "tolerance.{name} = {stated}: {wider}is too wide about {}: {error}",
-            plain(value)
+            plain_number(value)
         ))
     })
 }

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 use softstop::Machine;
-use softstop::internals::plain;
+use softstop::internals::plain_number;
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
@@ -68,10 +68,10 @@ impl Stated {
 pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Tolerance>, Failure> {
     let mut found: Vec<Tolerance> = Vec::new();
     for (name, value) in leaves(table) {
-        let stated = machine.free(&name);
+        let stated = machine.free_parameter(&name);
         let (parameter, unit) =
             stated.map_err(|error| Failure::usage(format!("tolerance.{error}")))?;
-        let said = number(value).map_or_else(|| value.to_string(), plain);
+        let said = number(value).map_or_else(|| value.to_string(), plain_number);
         let wrong = |what: &str| Failure::usage(format!("tolerance.{name} = {said}: {what}"));
         let (stated, distribution) = match value {
             Value::Table(words) => {

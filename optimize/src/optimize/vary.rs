@@ -197,7 +197,7 @@ fn wrong(key: &str, what: &str) -> Failure {
 
 /// The parameter of a key and the key's unit in the machine's own.
 fn stated(machine: &Machine, key: &str) -> Result<(Parameter, f64), Failure> {
-    let stated = machine.free(key);
+    let stated = machine.free_parameter(key);
     stated.map_err(|error| Failure::usage(format!("vary.{error}")))
 }
 

@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use softstop::internals::narrow;
+use softstop::internals::narrow_root;
 
 /// Looks at motions on one chaos after some drive periods each.
 #[derive(Debug, Clone, Default)]
@@ -67,7 +67,7 @@ impl EscapeCounts {
         };
         let at = |rate: f64| excess(rate.exp());
         let [low, high] = [RATES.0, RATES.1].map(|rate| (rate, at(rate)));
-        let found = narrow(low, high, RATE_WIDTH, |rate| {
+        let found = narrow_root(low, high, RATE_WIDTH, |rate| {
             Ok::<f64, Infallible>(at(rate))
         });
         Some((-found.ok()?.middle()).exp())

@@ -134,9 +134,9 @@ impl BasinTest {
             self.follow_motions::<false>(from_ref(&self.machine), motions, monitor)
         };
         let (fork, chunks) = (Fork::default(), starts.par_chunks(MOTIONS_TOGETHER));
-        let chunks = chunks.map(|starts| fork.part(|| follow_motions(starts)));
+        let chunks = chunks.map(|starts| fork.run_part(|| follow_motions(starts)));
         let chunks = chunks.collect::<Result<Vec<_>, OrbitError>>();
-        fork.join();
+        fork.charge_parts();
         Ok(chunks?
             .iter()
             .flatten()

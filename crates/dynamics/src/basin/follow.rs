@@ -42,9 +42,9 @@ impl BasinSurvey<'_> {
             SMALL_TILE
         };
         let (fork, tiles) = (Fork::default(), open.par_chunks(tile));
-        let followed = tiles.map(|tile| fork.part(|| self.follow(tile)));
+        let followed = tiles.map(|tile| fork.run_part(|| self.follow(tile)));
         let followed: Result<Vec<_>, OrbitError> = followed.collect();
-        fork.join();
+        fork.charge_parts();
         for (cells, lost) in followed? {
             for (cell, state, outcome) in cells {
                 (self.states[cell], self.outcomes[cell]) = (state, outcome);

@@ -119,9 +119,9 @@ impl BasinSurvey<'_> {
             self.ensemble.note(0)?;
             let here = from..cells.min(from + BROUGHT);
             let (fork, brought) = (Fork::default(), here.clone().into_par_iter());
-            let brought = brought.map(|cell| fork.part(|| self.at_section(cell)));
+            let brought = brought.map(|cell| fork.run_part(|| self.at_section(cell)));
             let brought: Vec<_> = brought.collect();
-            fork.join();
+            fork.charge_parts();
             for (cell, result) in here.zip(brought) {
                 let (state, outcome) = match result {
                     Ok(state) => (state, Outcome::Open),
@@ -237,9 +237,9 @@ impl BasinSurvey<'_> {
             piece(self.kept, &of, || self.see_together(&[*cell], periods))
         };
         let fork = Fork::default();
-        let seen = cells.par_iter().map(|cell| fork.part(|| one(cell)));
+        let seen = cells.par_iter().map(|cell| fork.run_part(|| one(cell)));
         let seen = seen.collect::<Result<Vec<_>, OrbitError>>();
-        fork.join();
+        fork.charge_parts();
         Ok(seen?.concat())
     }
 

@@ -15,7 +15,7 @@ use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
 use crate::orbit::OrbitError;
-use softstop::internals::highest;
+use softstop::internals::highest_point;
 
 /// Share of its way across that half a round may have left where an orbit has become one of half as many
 /// periods.
@@ -270,6 +270,6 @@ fn beyond<E: Equations>(
         }
         depth
     };
-    highest(0.0, 1.0, DIP, depth);
+    highest_point(0.0, 1.0, DIP, depth);
     found.into_inner()
 }

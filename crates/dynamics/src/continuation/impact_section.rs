@@ -161,7 +161,7 @@ impl LastArc {
             return;
         }
         self.motion.arc(arc, elapsed);
-        let (position, velocity) = arc.course.at(elapsed, arc.clock.drive(self.until));
+        let (position, velocity) = arc.course.state_at(elapsed, arc.clock.drive(self.until));
         self.motion.end = Vector2::new(position, velocity);
         self.is_cut = lasts < (1.0 - ROUNDING) * elapsed;
         self.is_found = true;

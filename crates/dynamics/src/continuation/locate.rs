@@ -8,7 +8,7 @@ use super::arclength::{
     Accuracy, Equations, Node, bordered, correct_with, slopes_at, solved, tangent,
 };
 use crate::orbit::OrbitError;
-use softstop::internals::narrow;
+use softstop::internals::narrow_root;
 
 /// The first two nodes known are those that a special point lies between.
 const ENDS: usize = 2;
@@ -27,7 +27,7 @@ pub(crate) fn locate<E: Equations>(
     let mut slopes = None;
     let mut known = vec![(0.0, test(from), from.clone()), (1.0, test(to), to.clone())];
     let ends = ((0.0, known[0].1), (1.0, known[1].1));
-    narrow(ends.0, ends.1, width / way.norm(), |share| {
+    narrow_root(ends.0, ends.1, width / way.norm(), |share| {
         let straight = known.len() == ENDS && equations.is_steep(&from.here.point);
         let bent = straight.then(|| Cubic::between(equations, (from, to)));
         let guess = match bent {

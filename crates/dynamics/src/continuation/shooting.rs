@@ -79,7 +79,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
             || scene.phases().into(),
             |mut phases| {
                 if phases.frequency != scene.excitation.frequency {
-                    Shared::make_mut(&mut phases).tune(scene.excitation.frequency);
+                    Shared::make_mut(&mut phases).set_frequency(scene.excitation.frequency);
                 }
                 phases
             },
@@ -196,7 +196,7 @@ pub(crate) fn round_off(
 ) -> f64 {
     let scales = scene.scales();
     let least = (length / scales.length).min(speed / scales.speed());
-    scales.rounding(state, jacobian) / least
+    scales.map_rounding(state, jacobian) / least
 }
 
 /// Periodic orbits on which a test function vanishes besides.

@@ -2,7 +2,7 @@
 
 use super::Losses;
 use crate::period::PeriodTrajectory;
-use softstop::internals::{Phase, largest, shares};
+use softstop::internals::{Phase, largest_value, shares};
 use softstop::{Arc, PhaseKind, Scene, Start};
 
 /// What the mass does while it touches the strip, and while it touches the stop.
@@ -14,7 +14,7 @@ pub(crate) const AT_STOP: &[PhaseKind] =
 fn peak(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64), value: impl Fn(f64) -> f64) -> f64 {
     let rate = |phase: &Phase| (phase.law.stiffness.abs() / scene.mass).sqrt();
     let rate = scene.excitation.frequency + arc.phase.map_or(0.0, rate);
-    largest((0.0, elapsed), rate, value)
+    largest_value((0.0, elapsed), rate, value)
 }
 
 /// Force of the drive in N.

@@ -79,7 +79,7 @@ impl MultiSegmentShooting<'_> {
             let (course, guards) = (&passing.course, &self.face.phases[PhaseId::FREE].guards);
             let early = flight - EARLY * self.face.clock.period();
             if let NextEvent::Crossing(found) =
-                first_crossing(course, guards, course.start(), flight)
+                first_crossing(course, guards, course.start_node(), flight)
                 && found.elapsed < early
             {
                 return Err(OrbitError::OtherRegime { impacts: count + 1 });

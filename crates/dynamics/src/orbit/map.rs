@@ -92,7 +92,7 @@ impl StroboscopicMap {
     pub(super) fn doubt(&self, state: Vector2<f64>, passage: &Passage) -> f64 {
         let response = passage.monodromy.resolvent();
         let response = response.map_or(f64::INFINITY, |it| self.scales.jacobian(&it).norm());
-        ROUNDINGS * self.scales.rounding(&state, &passage.monodromy) * response
+        ROUNDINGS * self.scales.map_rounding(&state, &passage.monodromy) * response
     }
 
     /// The image of a state alone.

@@ -185,7 +185,7 @@ impl<'a> MultiSegmentShooting<'a> {
         let to = clock.instant(time + self.span());
         let flight = clock.elapsed(free_from, to);
         let gap = |(position, arriving)| self.off((position, arriving), velocity);
-        (flight > 0.0).then(|| gap(course.at(flight, clock.drive(to))).into())
+        (flight > 0.0).then(|| gap(course.state_at(flight, clock.drive(to))).into())
     }
 
     /// What a state is off by where an impact of a velocity should be: position and velocity, scaled.
@@ -251,7 +251,7 @@ impl<'a> MultiSegmentShooting<'a> {
                 return None;
             }
             let drive = clock.drive(to);
-            let (position, velocity) = passing.course.at(flight, drive);
+            let (position, velocity) = passing.course.state_at(flight, drive);
             let course = &passing.course;
             let push = course.flow.amplitude * drive.cos;
             let acceleration = course.flow.acceleration(position, velocity, push);

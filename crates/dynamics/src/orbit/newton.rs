@@ -56,15 +56,15 @@ pub(super) fn find_new_fixed_point(
         let (next, next_passage) = within_walls(map, state, step)?;
         let next_residual = next_passage.end - next;
         let shrinks = size(&next_residual) < size(&residual);
-        if !shrinks && size(&residual) <= scales.rounding(&state, &passage.monodromy) {
+        if !shrinks && size(&residual) <= scales.map_rounding(&state, &passage.monodromy) {
             return Ok(Some((state, passage)));
         }
         (state, passage, residual) = (next, next_passage, next_residual);
-        if size(&residual) <= NOTHING_LEFT * scales.rounding(&state, &passage.monodromy) {
+        if size(&residual) <= NOTHING_LEFT * scales.map_rounding(&state, &passage.monodromy) {
             return Ok(Some((state, passage)));
         }
     }
-    if size(&residual) <= scales.rounding(&state, &passage.monodromy) {
+    if size(&residual) <= scales.map_rounding(&state, &passage.monodromy) {
         return Ok(Some((state, passage)));
     }
     Err(OrbitError::Diverged {

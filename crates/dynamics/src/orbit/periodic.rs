@@ -233,7 +233,7 @@ impl Orbit {
         let passage = map.apply(self.state())?;
         let scales = map.scales();
         let gap = scales.state(&(passage.end - self.state())).norm();
-        Ok((gap, scales.rounding(&self.state(), &passage.monodromy)))
+        Ok((gap, scales.map_rounding(&self.state(), &passage.monodromy)))
     }
 
     /// Trace of the monodromy matrix.

@@ -17,7 +17,7 @@ pub struct Turn {
 /// forward.
 pub fn turns(course: &ArcSolution, duration: f64, back: bool) -> impl Iterator<Item = Turn> {
     let moves = !course.is_held() && !course.is_chattering();
-    let (mut node, mut back) = (course.start(), back);
+    let (mut node, mut back) = (course.start_node(), back);
     std::iter::from_fn(move || {
         if !moves || budget::is_spent() {
             return None;
@@ -34,7 +34,7 @@ pub fn turns(course: &ArcSolution, duration: f64, back: bool) -> impl Iterator<I
                     elapsed: found.elapsed,
                     position: found.position,
                 };
-                node = course.node(found.elapsed);
+                node = course.node_at(found.elapsed);
                 back = !back;
                 Some(turn)
             }

@@ -297,7 +297,7 @@ fn touch(
     motion.tell(&mut sensitivity);
     let columns = sensitivity.columns().ok_or_else(missing)?;
     let drift = |index: usize| {
-        let moved = by[index].place(phases, place);
+        let moved = by[index].surface_derivative(phases, place);
         columns[2 + index].xy() + moved * (columns[0].xy() - Vector2::x())
     };
     let last = parameters.len();

@@ -1,7 +1,7 @@
 //! Where the contact force peaks along an arc.
 
 use softstop::Arc;
-use softstop::internals::{Phase, PhaseId, Phases, narrow};
+use softstop::internals::{Phase, PhaseId, Phases, narrow_root};
 
 /// Pieces in which peaks are looked for: for each rad of the fastest rate, at least and at most.
 const PIECES: (f64, f64, f64) = (2.0, 4.0, 4096.0);
@@ -40,7 +40,7 @@ pub(super) fn peaks<'a>(
             return None;
         }
         let ends = ((time - piece, last), (time, here));
-        let found = narrow(ends.0, ends.1, PEAK_WIDTH * piece, |time| {
+        let found = narrow_root(ends.0, ends.1, PEAK_WIDTH * piece, |time| {
             Ok::<_, ()>(rate(time))
         });
         let time = found.ok()?.middle();

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use softstop::internals::{Lowered, ParameterSensitivity, Phase, PhaseId, Phases};
+use softstop::internals::{ParameterSensitivity, Phase, PhaseDerivatives, PhaseId, Phases};
 use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKind};
 
 use super::figure::DifferentiatedFigure;
@@ -24,7 +24,7 @@ pub(super) struct FigureRecorder<'a> {
     pub influence: ParameterSensitivity<'a>,
     pub watched: RecordedFigures,
     phases: &'a Phases,
-    by: &'a [Lowered],
+    by: &'a [PhaseDerivatives],
     clock: Clock,
     frequency: f64,
     /// The phase of the last arc.
@@ -34,7 +34,7 @@ pub(super) struct FigureRecorder<'a> {
 }
 
 impl<'a> FigureRecorder<'a> {
-    pub fn new(phases: &'a Phases, by: &'a [Lowered], clock: Clock) -> Self {
+    pub fn new(phases: &'a Phases, by: &'a [PhaseDerivatives], clock: Clock) -> Self {
         Self {
             influence: ParameterSensitivity::new(phases, by),
             watched: RecordedFigures::default(),
@@ -128,7 +128,9 @@ pub(super) fn contact_slopes(phases: &Phases, phase: &Phase, x: f64, v: f64) -> 
 impl Observer for FigureRecorder<'_> {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let along = (arc.course, arc.phase);
-        let within = |recorder: &Self, elapsed: f64| recorder.influence.within(along, elapsed);
+        let within = |recorder: &Self, elapsed: f64| {
+            Some(recorder.influence.columns_along(along, elapsed)?.0)
+        };
         let back = arc.course.departure.velocity > 0.0;
         for turn in turns(arc.course, elapsed, back) {
             self.sees_position(turn.position, |recorder| {
@@ -157,7 +159,7 @@ impl Observer for FigureRecorder<'_> {
             crossing.velocity,
             crossing.acceleration_before,
         );
-        let delays = self.influence.delays(crossing);
+        let delays = self.influence.crossing_delays(crossing);
         let columns = self.columns();
         let each = |part: &dyn Fn(&Vector3<f64>, f64) -> f64| match &columns {
             Some(columns) => columns

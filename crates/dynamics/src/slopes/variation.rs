@@ -2,7 +2,7 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use softstop::internals::{Lowered, Phases};
+use softstop::internals::{PhaseDerivatives, Phases};
 use softstop::{MotionError, Parameter, Scene};
 
 use super::figure::DifferentiatedFigure;
@@ -30,9 +30,9 @@ pub(super) fn lowered(
     scene: &Scene,
     phases: &Phases,
     parameters: &[Parameter],
-) -> Result<Vec<Lowered>, MotionError> {
+) -> Result<Vec<PhaseDerivatives>, MotionError> {
     let each = parameters.iter();
-    each.map(|parameter| Lowered::by(*parameter, scene, phases))
+    each.map(|parameter| PhaseDerivatives::new(*parameter, scene, phases))
         .collect()
 }
 

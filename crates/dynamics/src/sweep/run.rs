@@ -57,8 +57,8 @@ impl Plan {
             }
         };
         let groups = chains.par_chunks_mut(size);
-        groups.for_each(|group| fork.part(|| run(group)));
-        fork.join();
+        groups.for_each(|group| fork.run_part(|| run(group)));
+        fork.charge_parts();
         chains.iter().all(|chain| self.is_complete(chain))
     }
 

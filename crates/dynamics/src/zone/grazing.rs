@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use super::{ZoneError, refuse_below};
 use softstop::Scene;
-use softstop::internals::{highest, narrow};
+use softstop::internals::{highest_point, narrow_root};
 
 /// Amplitude F0 / |k1 - m w^2 + i b1 w| in m of the impact-less motion at a frequency in rad/s.
 pub fn free_amplitude(scene: &Scene, frequency: f64) -> f64 {
@@ -86,7 +86,7 @@ fn grazing_among_looks(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
             return None;
         }
         let (low, high) = (at(look - 1), at(look + 1));
-        let (w, value) = highest(low, high, PEAK_WIDTH * high, |w| sign * excess(w));
+        let (w, value) = highest_point(low, high, PEAK_WIDTH * high, |w| sign * excess(w));
         Some((w, sign * value))
     });
     let looks = all
@@ -99,7 +99,7 @@ fn grazing_among_looks(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
     let mut pairs = seen.windows(2);
     let root = |pair: &[(f64, f64)]| {
         let width = f64::EPSILON * pair[1].0;
-        let Ok(bracket) = narrow(pair[0], pair[1], width, |w| Ok::<_, Infallible>(excess(w)));
+        let Ok(bracket) = narrow_root(pair[0], pair[1], width, |w| Ok::<_, Infallible>(excess(w)));
         bracket.middle()
     };
     let below = pairs

@@ -74,9 +74,9 @@ pub(super) fn zones_of(
 ) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
     let chunks = scenes.par_chunks(MACHINES_TOGETHER);
-    let zones = chunks.flat_map_iter(|scenes| fork.part(|| together(scenes, upper, monitor)));
+    let zones = chunks.flat_map_iter(|scenes| fork.run_part(|| together(scenes, upper, monitor)));
     let zones = zones.collect();
-    fork.join();
+    fork.charge_parts();
     zones
 }
 

@@ -31,7 +31,7 @@ use thiserror::Error;
 
 use crate::continuation::Family;
 use crate::orbit::OrbitError;
-use softstop::internals::{Scales, plain};
+use softstop::internals::{Scales, plain_number};
 use softstop::{Dimension, Machine, MotionError, Parameter, Scene, SceneError};
 
 /// Why a machine has no hysteresis zone.
@@ -165,7 +165,7 @@ impl From<f64> for Stated {
 
 impl Display for Stated {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {}", self.key, plain(self.value))
+        write!(f, "{} = {}", self.key, plain_number(self.value))
     }
 }
 

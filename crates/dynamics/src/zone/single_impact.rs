@@ -32,9 +32,9 @@ pub fn single_impact(
 ) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
     let zones = scenes.par_iter();
-    let zones = zones.map(|scene| fork.part(|| of_scene(scene, between, monitor)));
+    let zones = zones.map(|scene| fork.run_part(|| of_scene(scene, between, monitor)));
     let zones = zones.collect();
-    fork.join();
+    fork.charge_parts();
     zones
 }
 

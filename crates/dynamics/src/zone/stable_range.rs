@@ -7,7 +7,7 @@ use super::{Frequencies, Zone};
 use crate::continuation::{ASIDE, Branch, BranchPoint, Continuation, End, Family, SpecialKind};
 use crate::orbit::OrbitError;
 use softstop::Scene;
-use softstop::internals::highest;
+use softstop::internals::highest_point;
 
 /// Share by which rounding may change a before-impact velocity or a state.
 pub(super) const SAME_BUT_ROUNDING: f64 = 1e-6;
@@ -235,7 +235,7 @@ fn hardest(
     };
     let [low, high] = [below, above].map(|at| points[at].parameter);
     let height = |frequency: f64| between(frequency).map_or(f64::NEG_INFINITY, |it| velocity(&it));
-    let (top, _) = highest(low, high, TOP_WIDTH * (high - low), height);
+    let (top, _) = highest_point(low, high, TOP_WIDTH * (high - low), height);
     let top = between(top).filter(|top| velocity(top) > velocity(&points[best]));
     Some(top.unwrap_or_else(|| points[best].clone()))
 }

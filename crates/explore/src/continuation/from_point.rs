@@ -157,7 +157,7 @@ impl EarlierPoint {
                 ))
             })?;
         let (parameter, _) = machine
-            .free(&earlier.parameter)
+            .free_parameter(&earlier.parameter)
             .map_err(|error| wrong(&error))?;
         if let Some(key) = earlier.difference(machine, parameter) {
             return Err(wrong(&format!("{key}: is not that of this machine")));

@@ -51,7 +51,7 @@ impl Axis {
             "initial.velocity" => (Target::Velocity, 1.0),
             _ => {
                 let unknown = |error| Failure::usage(format!("axis {error}"));
-                let (parameter, unit) = machine.free(key).map_err(unknown)?;
+                let (parameter, unit) = machine.free_parameter(key).map_err(unknown)?;
                 (Target::Parameter(parameter), unit)
             }
         };

@@ -27,7 +27,7 @@ impl<'a, 'b> Located<'a, 'b> {
     pub fn new(machine: &'a mut Machine, task: &'b Task, start: Step) -> Self {
         let phases = Cow::Owned(machine.phases.clone());
         let mut motion = Self {
-            walk: Walk::through(&task.scene, task.start, phases),
+            walk: Walk::on_phases(&task.scene, task.start, phases),
             machine,
             at: start,
         };
@@ -50,7 +50,7 @@ impl<'a, 'b> Located<'a, 'b> {
     /// One step to `until`, or to the first crossing before.
     fn advance(&mut self, until: f64) -> Result<(), MethodError> {
         let span = until - self.at.time;
-        let risen = match self.walk.index() {
+        let risen = match self.walk.phase_id() {
             Some(_) => {
                 let to = self.at.taken(self.machine, span)?;
                 let risen = self.first_rise(span, to)?;
@@ -73,7 +73,7 @@ impl<'a, 'b> Located<'a, 'b> {
         let mut end = (span, to);
         let mut first = None;
         for (guard, law) in self.walk.guards().iter().enumerate() {
-            let value = |state: &State| law.value(state.position, state.velocity);
+            let value = |state: &State| law.value_at(state.position, state.velocity);
             let begins_above = value(&self.at.from) >= 0.0;
             let noise = if begins_above {
                 self.noise(law, &end)
@@ -154,7 +154,7 @@ impl<'a, 'b> Located<'a, 'b> {
 
     /// Begins a phase.
     fn depart(&mut self) {
-        if let Some(phase) = self.walk.index() {
+        if let Some(phase) = self.walk.phase_id() {
             self.at.laws = Laws::One(phase);
             self.at.from = self.at.restarted(self.machine);
         }

@@ -32,7 +32,7 @@ struct Turns {
 
 impl Observer for Turns {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let back = arc.course.start().velocity >= 0.0;
+        let back = arc.course.start_node().velocity >= 0.0;
         let turns = turns(arc.course, elapsed, back);
         self.positions.extend(turns.map(|turn| turn.position));
     }

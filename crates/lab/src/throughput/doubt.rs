@@ -145,8 +145,8 @@ impl Observer for Doubt {
 
 /// Whether the mass turns back first, on its way from the start of a course.
 fn goes_on(course: &ArcSolution, duration: f64) -> bool {
-    match course.start().velocity {
-        0.0 => course.node(1e-6 * duration).velocity >= 0.0,
+    match course.start_node().velocity {
+        0.0 => course.node_at(1e-6 * duration).velocity >= 0.0,
         velocity => velocity >= 0.0,
     }
 }

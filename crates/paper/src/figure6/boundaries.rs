@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use nalgebra::Vector2;
 use rayon::prelude::*;
 use softstop::Ratios;
-use softstop::internals::highest;
+use softstop::internals::highest_point;
 use softstop_dynamics::continuation::{CurvePoint, Direction, Test};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{ZoneError, grazing_frequencies, hysteresis, loss_of_stability};
@@ -120,5 +120,5 @@ pub(super) fn optimum(machine: &Ratios, ends: &[Ends]) -> Option<(f64, f64)> {
     };
     let low = ends.get(best.wrapping_sub(1))?.clearance;
     let high = ends.get(best + 1)?.clearance;
-    Some(highest(low, high, WIDTH, velocity))
+    Some(highest_point(low, high, WIDTH, velocity))
 }

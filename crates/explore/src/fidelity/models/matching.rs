@@ -36,7 +36,7 @@ use std::convert::Infallible;
 use std::f64::consts::PI;
 
 use softstop::Release;
-use softstop::internals::narrow;
+use softstop::internals::narrow_root;
 
 /// acos(z)/sqrt(1 - z^2), continued by acosh(z)/sqrt(z^2 - 1) beyond 1, where both are 1.
 fn angle_over_sine(zeta: f64) -> f64 {
@@ -141,6 +141,6 @@ pub(super) fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
     // What is no number counts as below zero, at the end as well.
     let value = |x| Ok::<f64, Infallible>(Some(f(x)).filter(|it| !it.is_nan()).unwrap_or(-1.0));
     let ends = ((low, at_low), (high, value(high).ok()?));
-    let found = narrow(ends.0, ends.1, width, value).ok()?;
+    let found = narrow_root(ends.0, ends.1, width, value).ok()?;
     Some(found.middle())
 }

@@ -1,0 +1,193 @@
+//! Where a mass in contact under a power law leaves the face: the square root of its deflection, a series in sigma,
+//! passes zero there with a slope.
+
+use pulp::Simd;
+
+use super::contact_series::{ContactSeries, DEGREE, RECIPROCALS, Series};
+use super::lanes::{Lanes, Mask, Pair};
+
+/// How often a step that is not decided is halved before the safe engine decides.
+const MOST_HALVINGS: usize = 6;
+/// Steps of Newton's method before a lane is left to the safe engine.
+const MOST_TRIES: usize = 10;
+/// Last step of Newton's method, relative to the whole: the next one would be lost in rounding.
+const SHORT: f64 = 1e-8;
+/// Rounding of a sum, relative to its terms.
+const ROUNDING: f64 = 1e-14;
+
+/// Whether, and where, lanes leave contact within a step.
+pub(super) struct Release<S: Simd, const N: usize> {
+    /// Lanes that are decided: they stay in contact up to `sigma`, or leave it there.
+    pub decided: Mask<S, N>,
+    pub leaves: Mask<S, N>,
+    pub sigma: Lanes<S, N>,
+}
+
+/// What the sizes of its terms prove of a polynomial on [0, sigma].
+struct Bounds<S: Simd, const N: usize> {
+    /// Value at sigma.
+    end: Lanes<S, N>,
+    stays_positive: Mask<S, N>,
+    falls: Mask<S, N>,
+    is_concave: Mask<S, N>,
+}
+
+impl<S: Simd, const N: usize> ContactSeries<S, N> {
+    /// Finds whether the lanes `of` leave contact before `sigma`. Steps that cannot be decided are shortened.
+    #[inline(always)]
+    pub fn find_release(&self, sigma: Lanes<S, N>, of: Mask<S, N>) -> Release<S, N> {
+        let zero = sigma.like(0.0);
+        let touches = self.root[0].equals(zero);
+        let mut release = Release {
+            decided: of & self.stays_in_contact(sigma),
+            leaves: of.and_not(of),
+            sigma,
+        };
+        let mut open = of.and_not(release.decided);
+        if !open.any() {
+            return release;
+        }
+        // At the face s / sigma takes the place of s.
+        let mut series = self.root;
+        for (k, term) in series.iter_mut().enumerate() {
+            let next = if k < DEGREE { self.root[k + 1] } else { zero };
+            *term = touches.choose(next, *term);
+        }
+        for _ in 0..=MOST_HALVINGS {
+            let bounds = term_bounds(&series, release.sigma);
+            let single = bounds.falls | (bounds.is_concave & zero.below(series[0]));
+            let leaves = open & single & bounds.end.at_most(zero);
+            let stays = open & (bounds.stays_positive | (single & zero.below(bounds.end)));
+            release.leaves = release.leaves | leaves;
+            release.decided = release.decided | leaves | stays;
+            open = open.and_not(release.decided);
+            if !open.any() {
+                break;
+            }
+            release.sigma = open.choose(release.sigma * zero.like(0.5), release.sigma);
+        }
+        if release.leaves.any() {
+            let share = series[0] / (series[0] - value_and_rate(&series, release.sigma).0);
+            let share = touches.choose(share.square_root(), share);
+            let (sigma, found) = solve_series(&series, zero, release.sigma, share, release.leaves);
+            release.sigma = release.leaves.choose(sigma, release.sigma);
+            release.decided = release.decided.and_not(release.leaves.and_not(found));
+            release.leaves = release.leaves & found;
+        }
+        release
+    }
+
+    /// True where the square root of the deflection is positive up to `sigma`.
+    #[inline(always)]
+    fn stays_in_contact(&self, sigma: Lanes<S, N>) -> Mask<S, N> {
+        let zero = sigma.like(0.0);
+        let mut tail = zero;
+        for k in (2..=DEGREE).rev() {
+            tail = tail.mul_add(sigma, self.root[k].abs());
+        }
+        let tail = tail * sigma * sigma;
+        let first = self.root[1] * sigma;
+        let (value, rounding) = (self.root[0], zero.like(ROUNDING));
+        let margin = rounding.mul_add(value + first.abs(), tail);
+        margin.below(first) | margin.below(value + first.min(zero))
+    }
+
+    /// The sigma at which a time since the beginning of the step has passed, and the lanes in which it was found;
+    /// `sigma`: an upper end, and the time there.
+    #[inline(always)]
+    pub fn sigma_at_time(
+        &self,
+        time: Lanes<S, N>,
+        sigma: Pair<S, N>,
+        of: Mask<S, N>,
+    ) -> (Lanes<S, N>, Mask<S, N>) {
+        let (sigma, whole) = sigma;
+        let zero = time.like(0.0);
+        let mut series = [zero; DEGREE + 1];
+        for (k, term) in series.iter_mut().enumerate().skip(1) {
+            *term = self.root[k - 1] * zero.like(RECIPROCALS[k]);
+        }
+        let touches = self.root[0].equals(zero);
+        let share = time / whole;
+        let share = touches.choose(share.square_root(), share);
+        solve_series(&series, time, sigma, share, of)
+    }
+
+    /// True where the velocity stays above `level` for a step of length `sigma`.
+    #[inline(always)]
+    pub fn stays_faster(&self, level: Lanes<S, N>, sigma: Lanes<S, N>) -> Mask<S, N> {
+        let mut change = sigma.like(0.0);
+        for k in (2..=DEGREE).rev() {
+            let term = self.root[k].abs() * sigma.like((2 * k) as f64);
+            change = change.mul_add(sigma, term);
+        }
+        let velocity = self.root[1] + self.root[1];
+        level.below(velocity - change * sigma)
+    }
+}
+
+/// Solves `series` = `level` by Newton's method in the lanes `of`, within 0 to `sigma`; the lanes in which it
+/// converged.
+#[inline(always)]
+fn solve_series<S: Simd, const N: usize>(
+    series: &Series<S, N>,
+    level: Lanes<S, N>,
+    sigma: Lanes<S, N>,
+    share: Lanes<S, N>,
+    of: Mask<S, N>,
+) -> (Lanes<S, N>, Mask<S, N>) {
+    let zero = sigma.like(0.0);
+    let mut at = sigma * share;
+    let mut open = of;
+    for _ in 0..MOST_TRIES {
+        let (value, rate) = value_and_rate(series, at);
+        let step = (value - level) / rate;
+        let next = (at - step).max(zero).min(sigma);
+        at = open.choose(next, at);
+        open = open.and_not(step.abs().below(sigma * zero.like(SHORT)));
+        if !open.any() {
+            break;
+        }
+    }
+    (at, of.and_not(open))
+}
+
+/// Value and first derivative of a polynomial.
+#[inline(always)]
+fn value_and_rate<S: Simd, const N: usize>(series: &Series<S, N>, at: Lanes<S, N>) -> Pair<S, N> {
+    let mut value = series[DEGREE];
+    let mut rate = at.like(0.0);
+    for k in (0..DEGREE).rev() {
+        rate = rate.mul_add(at, value);
+        value = value.mul_add(at, series[k]);
+    }
+    (value, rate)
+}
+
+/// What the sizes of its terms prove of a polynomial on [0, sigma].
+#[inline(always)]
+fn term_bounds<S: Simd, const N: usize>(series: &Series<S, N>, sigma: Lanes<S, N>) -> Bounds<S, N> {
+    let zero = sigma.like(0.0);
+    let (mut tail, mut slopes, mut curves) = (zero, zero, zero);
+    for k in (2..=DEGREE).rev() {
+        let term = series[k].abs();
+        tail = tail.mul_add(sigma, term);
+        slopes = slopes.mul_add(sigma, term * zero.like(k as f64));
+        if k > 2 {
+            curves = curves.mul_add(sigma, term * zero.like((k * (k - 1)) as f64));
+        }
+    }
+    let (value, first) = (series[0], series[1] * sigma);
+    let rounding = zero.like(ROUNDING) * (value.abs() + first.abs());
+    let square = sigma * sigma;
+    let bend = series[2] * square;
+    let low = value + first.min(zero);
+    Bounds {
+        end: value_and_rate(series, sigma).0,
+        stays_positive: tail.mul_add(square, rounding).below(low),
+        falls: slopes.mul_add(square, first + rounding).below(zero),
+        is_concave: (curves * square)
+            .mul_add(sigma, bend + bend + rounding)
+            .below(zero),
+    }
+}

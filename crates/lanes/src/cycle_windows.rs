@@ -1,0 +1,183 @@
+//! The windows of a cycle: how far another motion may deviate in each and provably meet no other face.
+
+use std::ops::Range;
+
+use nalgebra::Vector4;
+
+use super::cycle_state::{CycleState, Derivatives};
+use super::face::Face;
+use super::law::{Constants, SPAN};
+
+/// Error of the first and second derivative of a cubic Hermite interpolant over a step h, in units of its own error M
+/// h^4 / 384: sqrt(3)/216 M h^3 and M h^2 / 12 (Birkhoff and Priver 1967).
+const FIRST: f64 = 384.0 * 0.008_018_753_738_744_818;
+const SECOND: f64 = 384.0 / 12.0;
+
+/// The windows of a cycle, one after another.
+#[derive(Debug, Default)]
+pub(super) struct CycleWindows {
+    pub all: Vec<CycleWindow>,
+    /// The margins of the faces of their phases, window by window.
+    margins: Vec<Margin>,
+}
+
+/// A window of an arc.
+#[derive(Debug)]
+pub(super) struct CycleWindow {
+    /// Derivatives of the state at its start.
+    pub at_start: Derivatives,
+    /// Length in s, and the factor by which a free motion may grow in it.
+    pub step: f64,
+    pub growth: f64,
+    margins: Range<usize>,
+}
+
+/// The margin of a face in a window: largest deviations of its value, rate and second derivative with which it is
+/// provably not met, or at the end of an arc not before that end.
+#[derive(Debug, Clone, Copy)]
+struct Margin {
+    /// Weights of position and velocity.
+    position: f64,
+    velocity: f64,
+    /// Largest deviation of the value where the whole window is far from the face.
+    clear: f64,
+    /// Largest deviation of the value where only both ends are far from it: then the rate must keep its sign, or the
+    /// value be convex, which holds up to these deviations of the rate and of the second derivative.
+    ends: f64,
+    slope: f64,
+    convex: f64,
+}
+
+impl CycleWindows {
+    pub fn clear(&mut self) {
+        self.all.clear();
+        self.margins.clear();
+    }
+
+    /// Adds the window between two states of an arc, with the faces by which the arc begins and ends in it; false if
+    /// the cycle itself is not proven to stay clear of the other faces.
+    pub fn add_window(
+        &mut self,
+        law: &Constants,
+        (from, to): (&CycleState, &CycleState),
+        step: f64,
+        (entry, exit): (Option<Face>, Option<Face>),
+        at_start: Derivatives,
+    ) -> bool {
+        let share = step * law.per_window;
+        let scale = (share * share) * (share * share);
+        // The bounds hold over a window of the scan; over a longer one, the motion that a velocity makes is larger.
+        let longer = share.max(1.0);
+        let (y, u) = (from.free.x, from.free.y);
+        let fifth = (law.fifth_x * y + law.fifth_v * u).abs() * longer;
+        let error_bound =
+            scale * (law.steady + (law.fourth_x * y + law.fourth_v * u).abs() + fifth);
+        let rate_fifth = (law.rate_fifth_x * y + law.rate_fifth_v * u).abs();
+        let rate_sixth = (law.rate_sixth_x * y + law.rate_sixth_v * u).abs() * longer;
+        let rate_error_bound = scale * (law.rate_steady + rate_fifth + rate_sixth);
+        let margin = |face: Face| {
+            let error_bound =
+                face.position.abs() * error_bound + face.velocity.abs() * rate_error_bound;
+            let ambiguity = match face.velocity {
+                0.0 => law.ambiguity,
+                _ => law.ambiguity * law.guard_scale,
+            };
+            let [is_entry, is_exit] =
+                [entry, exit].map(|it| it.is_some_and(|it| it.has_gradient_of(&face)));
+            Margin::of_face(
+                &face,
+                (from, to),
+                step,
+                (error_bound, ambiguity),
+                (is_entry, is_exit),
+            )
+        };
+        let faces = law.faces().into_iter();
+        let within_reach = faces.filter(|face| face.level < f64::INFINITY);
+        let first = self.margins.len();
+        self.margins.extend(within_reach.map(margin));
+        let margins = first..self.margins.len();
+        if !self.tolerates_deviation(&margins, &Vector4::zeros()) {
+            self.margins.truncate(first);
+            return false;
+        }
+        self.all.push(CycleWindow {
+            at_start,
+            step,
+            growth: if law.stiffness < 0.0 { 1.0 } else { SPAN.exp() },
+            margins,
+        });
+        true
+    }
+
+    /// True if no motion meets another face in a window whose position and its derivatives deviate by no more than this.
+    pub fn is_clear(&self, window: &CycleWindow, most: &Vector4<f64>) -> bool {
+        self.tolerates_deviation(&window.margins, most)
+    }
+
+    fn tolerates_deviation(&self, margins: &Range<usize>, most: &Vector4<f64>) -> bool {
+        let mut margins = self.margins[margins.clone()].iter();
+        margins.all(|margin| margin.tolerates_deviation(most))
+    }
+}
+
+impl Margin {
+    fn of_face(
+        face: &Face,
+        (from, to): (&CycleState, &CycleState),
+        step: f64,
+        (error_bound, ambiguity): (f64, f64),
+        (is_entry, is_exit): (bool, bool),
+    ) -> Self {
+        let Face {
+            position,
+            velocity,
+            level,
+        } = *face;
+        let mut margin = Self {
+            position,
+            velocity,
+            clear: f64::INFINITY,
+            ends: f64::INFINITY,
+            slope: f64::NEG_INFINITY,
+            convex: f64::NEG_INFINITY,
+        };
+        let value = |[x, v, ..]: [f64; 4]| position * x + velocity * v - level;
+        let rate = |[_, v, a, _]: [f64; 4]| position * v + velocity * a;
+        let (g0, g1) = (value(from.jet), value(to.jet));
+        let (r0, r1) = (rate(from.jet), rate(to.jet));
+        let is_start = is_entry && g0 >= -ambiguity;
+        let third = step / 3.0;
+        let (b1, b2) = (g0 + third * r0, g1 - third * r1);
+        margin.clear = -(g0.max(g1).max(b1.max(b2)) + error_bound) - ambiguity;
+        let start = if is_start {
+            f64::INFINITY
+        } else {
+            -g0 - ambiguity
+        };
+        let end = if is_exit {
+            f64::INFINITY
+        } else {
+            -g1 - ambiguity
+        };
+        margin.ends = start.min(end);
+        // The rate's Bernstein coefficients are three times the differences of the value's.
+        let differences = [b1 - g0, b2 - b1, g1 - b2].map(|difference| difference / third);
+        let [d0, d1, d2] = differences;
+        if is_start {
+            margin.slope = -d0.max(d1).max(d2) - FIRST * error_bound / step;
+        } else if is_exit {
+            margin.slope = d0.min(d1).min(d2) - FIRST * error_bound / step;
+        }
+        let second = (d1 - d0).min(d2 - d1) * 2.0 / step;
+        margin.convex = second - SECOND * error_bound / (step * step);
+        margin
+    }
+
+    fn tolerates_deviation(&self, most: &Vector4<f64>) -> bool {
+        let [position, velocity] = [self.position.abs(), self.velocity.abs()];
+        let of = |order: usize| position * most[order] + velocity * most[order + 1];
+        let (value, rate, second) = (of(0), of(1), of(2));
+        value < self.clear || (value < self.ends && (rate < self.slope || second < self.convex))
+    }
+}

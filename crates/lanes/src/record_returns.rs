@@ -1,0 +1,94 @@
+//! Records the returns of the lanes to their impacts and does what [`Returns`](super::returns::Returns) decides:
+//! follow a trial cycle, go back, or skip periods that repeat.
+
+use nalgebra::Complex;
+use pulp::Simd;
+
+use super::cycle_state::{Drive, Passage};
+use super::engine::Engine;
+use super::lanes::{Lanes, Mask};
+use super::returns::Decision;
+
+impl<S: Simd, const N: usize> Engine<'_, S, N> {
+    /// Begins to record the returns of a lane, unless an observer watches what lies between them.
+    pub fn begin_recording(&mut self, lane: usize) {
+        let (per_period, left) = (
+            self.state.drive.per_period.get(lane),
+            self.state.left.get(lane),
+        );
+        let noted = self.returns[lane].begin_job(per_period, left);
+        if !self.task.watch.impacts && !self.task.watch.periods {
+            self.state.noted.set(lane, noted);
+        }
+    }
+
+    /// Records the crossings of lanes that follow a trial cycle; `before`: their velocities before the crossing.
+    #[cold]
+    #[inline(never)]
+    pub fn record_trial_crossings(&mut self, crossed: Mask<S, N>, before: Lanes<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
+            if crossed.get(lane) && self.returns[lane].is_trial() {
+                self.returns[lane].record_crossing(Passage {
+                    position: self.state.x.get(lane),
+                    velocity: before.get(lane),
+                    velocity_after: self.state.v.get(lane),
+                    phase: self.state.phase.get(lane) as usize,
+                    left: self.state.left.get(lane),
+                    offset: self.state.offset.get(lane),
+                });
+            }
+        }
+    }
+
+    /// Records the returns of lanes that have just made an impact.
+    #[cold]
+    #[inline(never)]
+    pub fn record_returns(&mut self, lanes: Mask<S, N>) {
+        for lane in 0..Lanes::<S, N>::COUNT {
+            if lanes.get(lane)
+                && let Some(machine) = self.machine_of(lane)
+            {
+                let now = self.state.return_of(lane);
+                let drive = Drive {
+                    frequency: machine.frequency,
+                    period: machine.drive_period(),
+                    begin: Complex::new(machine.angle.0, machine.angle.1),
+                };
+                let laws = machine.laws.as_deref().unwrap_or_default();
+                if let Some(decision) = self.returns[lane].record(now, laws, &drive) {
+                    self.apply_decision(lane, decision);
+                }
+            }
+        }
+    }
+
+    /// Takes lanes back from trial cycles that do not come back to their impact.
+    pub fn end_overdue_trials(&mut self) {
+        for lane in 0..Lanes::<S, N>::COUNT {
+            if self.returns[lane].is_trial_overdue(self.state.left.get(lane)) {
+                self.end_trial(lane);
+            }
+        }
+    }
+
+    /// Takes a lane back from its trial cycle to where it was before; false if it follows none.
+    pub fn end_trial(&mut self, lane: usize) -> bool {
+        let back = self.returns[lane].end_trial();
+        back.map(|decision| self.apply_decision(lane, decision))
+            .is_some()
+    }
+
+    /// Does what was decided after a return: where the lane goes on, and when its returns are recorded again.
+    fn apply_decision(&mut self, lane: usize, decision: Decision) {
+        self.state.noted.set(lane, decision.again);
+        self.count_skipped(lane, decision.leapt);
+        if let Some(to) = decision.to {
+            self.state.set_return(lane, to);
+        }
+        self.trials = self
+            .returns
+            .iter()
+            .filter(|returns| returns.is_trial())
+            .count();
+    }
+}

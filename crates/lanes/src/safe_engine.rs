@@ -1,0 +1,133 @@
+//! Hands motions over to the safe engine and back: what lanes cannot decide, up to the end of a drive period.
+
+use std::ops::ControlFlow;
+
+use super::job::Outcome;
+use super::machine::Machine;
+use super::observer::ObserverHandle;
+use softstop::internals::{Mode, Motion};
+use softstop::{Clock, Crossing, Instant, MotionError, Observer, Start};
+
+/// A motion where the safe engine takes it over.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SafeStart {
+    pub job: usize,
+    /// Whole drive periods so far, and seconds into the present one.
+    pub cycle: u64,
+    pub offset: f64,
+    pub state: Start,
+    /// The phase it moves in; none where its state tells.
+    pub phase: Option<usize>,
+}
+
+/// A motion where a lane takes it up again, at the beginning of a drive period.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Resumed {
+    pub cycle: u64,
+    pub state: Start,
+    /// The phase it moves in.
+    pub phase: usize,
+}
+
+/// The phase in which a motion starts, if it moves in one that lanes can follow.
+///
+/// # Errors
+/// [`MotionError`] if it cannot start there.
+pub(super) fn start_phase(machine: &Machine, start: Start) -> Result<Option<usize>, MotionError> {
+    start.validate()?;
+    if machine.is_free_at(start.position) {
+        return Ok(Some(0));
+    }
+    let at = Clock::at_cycle(0);
+    let motion = Motion::new(machine.shared_phases(), machine.clock, at, start)?;
+    Ok(lane_phase(machine, &motion))
+}
+
+/// The phase in which a motion moves, if lanes can follow it there.
+fn lane_phase(machine: &Machine, motion: &Motion) -> Option<usize> {
+    match motion.mode() {
+        Mode::Moving(phase) if machine.is_for_lanes() => Some(phase.index()),
+        _ => None,
+    }
+}
+
+/// Follows a motion with the safe engine to the next beginning of a drive period at which it moves in a phase that
+/// lanes can follow; none if that is not before its end after `periods`.
+pub(super) fn follow_safely(
+    machine: &Machine,
+    place: SafeStart,
+    periods: u64,
+    watch: &mut ObserverHandle<'_>,
+    outcome: &mut Outcome,
+) -> Result<Option<Resumed>, MotionError> {
+    let at = Instant {
+        cycles: place.cycle as f64,
+        offset: place.offset,
+    };
+    let mut motion = Motion::new(machine.shared_phases(), machine.clock, at, place.state)?;
+    if let Some(phase) = place.phase {
+        motion.go_by_phase(phase);
+    }
+    let mut counter = Counter {
+        job: place.job,
+        watch,
+        impacts: 0,
+        crossings: 0,
+    };
+    let mut followed = Ok(None);
+    for cycle in place.cycle + 1..=periods {
+        if let Err(error) = motion.advance(Clock::at_cycle(cycle), &mut counter) {
+            followed = Err(error);
+            break;
+        }
+        if counter.progress(A_PERIOD).is_break() {
+            break;
+        }
+        outcome.handed_over += 1;
+        let state = motion.state();
+        outcome.end = state;
+        if counter.watch.periods {
+            counter.watch.tell_period(place.job, cycle, state);
+        }
+        if cycle < periods
+            && let Some(phase) = lane_phase(machine, &motion)
+        {
+            followed = Ok(Some(Resumed {
+                cycle,
+                state,
+                phase,
+            }));
+            break;
+        }
+    }
+    outcome.impacts += counter.impacts;
+    outcome.crossings += counter.crossings;
+    followed
+}
+
+/// What a drive period costs besides its crossings, in scan windows.
+const A_PERIOD: u64 = 16;
+
+struct Counter<'a, 'b> {
+    job: usize,
+    watch: &'a mut ObserverHandle<'b>,
+    impacts: u64,
+    crossings: u64,
+}
+
+impl Observer for Counter<'_, '_> {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.crossings += 1;
+        if let Some(velocity) = crossing.impact_velocity() {
+            self.impacts += 1;
+            if self.watch.impacts {
+                let Instant { cycles, offset } = crossing.instant;
+                self.watch
+                    .tell_impact(self.job, cycles as u64, offset, velocity);
+            }
+        }
+    }
+    fn progress(&mut self, windows: u64) -> ControlFlow<()> {
+        self.watch.count_work(windows)
+    }
+}

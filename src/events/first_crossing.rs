@@ -1,0 +1,270 @@
+//! The scan of an arc for its first crossing, window by window.
+
+use super::guard::{Guard, earliest_rise};
+use super::isolate::{Candidate, Point, Verdict, judge_interval};
+use super::jets::{GuardEnds, Jets};
+use super::pinpoint::pinpoint_rise;
+use super::step_crossing::crossing_on_step;
+use super::{Found, NextEvent};
+use crate::budget;
+use crate::flow::{ArcSolution, Node, Window};
+
+/// Windows between two looks at whether the guards can be reached at all.
+const WINDOWS_PER_LOOK: u32 = 8;
+
+/// Searches the first crossing on `course` from `node` on, at least up to `until` seconds after departure.
+///
+/// The windows are laid from the departure, so the answer does not depend on how a search is
+/// divided into calls. Where a [`budget`] is spent on the way, it means nothing.
+pub fn first_crossing(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) -> NextEvent {
+    let begin = node.elapsed;
+    let outlook = search_arc(course, guards, node, until);
+    let reached = match &outlook {
+        NextEvent::Crossing(found) => found.elapsed,
+        NextEvent::ClearUntil(node) | NextEvent::Unbounded(node) => node.elapsed,
+        NextEvent::Ends(_) | NextEvent::Never => begin,
+    };
+    budget::charge(match course.taylor_step() {
+        Some(_) => budget::TAYLOR_STEP,
+        None => 1 + ((reached - begin) / course.flow.window) as u64,
+    });
+    outlook
+}
+
+/// The first crossing of an arc, as far as it is searched; what that costs is not counted.
+fn search_arc(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) -> NextEvent {
+    if let Some(segment) = course.taylor_step() {
+        return crossing_on_step(segment, guards, node);
+    }
+    if let Some(chatter) = course.chatter() {
+        return NextEvent::Ends(chatter.duration);
+    }
+    let scan = Scan { course, guards };
+    let window = course.flow.window;
+    let watches_position = guards.iter().all(Guard::asks_for_position);
+    let mut node = node;
+    let mut looked = node.elapsed;
+    while node.elapsed < until {
+        if node.elapsed > looked + f64::from(WINDOWS_PER_LOOK) * window {
+            if scan.guards_are_out_of_reach(&node) {
+                return NextEvent::Never;
+            }
+            looked = node.elapsed;
+        }
+        let mut ahead = None;
+        if watches_position {
+            let doubtful =
+                course.skip_clear_windows(&mut node, until, |window| scan.stays_short(window));
+            if node.elapsed >= until {
+                break;
+            }
+            if let Some((next, bound)) = doubtful {
+                let (left, right) = (&node, &next);
+                match scan.single_rise_in_window(&Window { left, right, bound }) {
+                    Some(Some(found)) => return NextEvent::Crossing(found),
+                    Some(None) => {
+                        node = next;
+                        continue;
+                    }
+                    None => ahead = Some(next),
+                }
+            }
+        }
+        budget::charge(budget::JETS);
+        let left = Jets::new(course, node);
+        let right = Jets::new(
+            course,
+            ahead.unwrap_or_else(|| course.next_node(&left.node)),
+        );
+        if !(right.node.position.is_finite() && right.node.velocity.is_finite()) {
+            return NextEvent::Unbounded(left.node);
+        }
+        let span = right.node.elapsed - left.node.elapsed;
+        let bounds = if span < 2.0 * window {
+            course.flow.window_bounds
+        } else {
+            course.flow.modes.solution_bounds(span)
+        };
+        if (ahead.is_some() || !scan.stays_below(&left, &right, bounds))
+            && let Some(found) = scan.search_by_halving(&left, &right, bounds)
+        {
+            return NextEvent::Crossing(found);
+        }
+        node = right.node;
+    }
+    NextEvent::ClearUntil(node)
+}
+
+/// A scan of an arc for crossings of its guards.
+struct Scan<'a> {
+    course: &'a ArcSolution,
+    guards: &'a [Guard],
+}
+
+impl Scan<'_> {
+    fn guards_are_out_of_reach(&self, node: &Node) -> bool {
+        self.guards
+            .iter()
+            .all(|guard| guard.is_out_of_reach(self.course, node))
+    }
+
+    /// True if all guards, which ask for nothing but the position, stay below zero over a window.
+    #[inline(always)]
+    fn stays_short(&self, window: &Window<'_>) -> bool {
+        let span = window.right.elapsed - window.left.elapsed;
+        for guard in self.guards {
+            let ends = GuardEnds::of_window(guard, window);
+            if !ends.stay_below(span, guard.position.abs() * window.bound) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether the only guard, which asks for nothing but the position, rises in a window, and where; none if it takes
+    /// more to tell.
+    fn single_rise_in_window(&self, window: &Window<'_>) -> Option<Option<Found>> {
+        let [guard] = self.guards else {
+            return None;
+        };
+        let &Window { left, right, bound } = window;
+        let span = right.elapsed - left.elapsed;
+        let size = bound + right.position + right.velocity;
+        if span > self.course.flow.reach * 1.000001 || !size.is_finite() {
+            return None;
+        }
+        let ends = GuardEnds::of_window(guard, window).points(span);
+        let bound = guard.position.abs() * bound;
+        let rounding = guard.rounding_at(left.position, left.velocity, 0.0);
+        self.single_rise((0, guard), (left, right), ends, (bound, rounding))
+    }
+
+    /// The first rise of one guard, which does not ask for the push, by its values at the ends and a bound on its fourth
+    /// derivative.
+    #[inline]
+    fn single_rise(
+        &self,
+        (index, guard): (usize, &Guard),
+        nodes: (&Node, &Node),
+        ends: (Point, Point),
+        (bound, rounding): (f64, f64),
+    ) -> Option<Option<Found>> {
+        match judge_interval(ends.0, ends.1, bound, rounding) {
+            Verdict::NoRise => Some(None),
+            Verdict::Unknown => None,
+            _ => {
+                let (elapsed, position, velocity) = pinpoint_rise(self.course, guard, nodes, ends)?;
+                Some(Some(Found {
+                    elapsed,
+                    guard: index,
+                    position,
+                    velocity,
+                }))
+            }
+        }
+    }
+
+    /// True if all guards are below zero between two nodes, by the bound that settles most windows.
+    #[inline(always)]
+    fn stays_below(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
+        let span = right.node.elapsed - left.node.elapsed;
+        for guard in self.guards {
+            let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
+            if !GuardEnds::new(guard, left, right).stay_below(span, bound) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// True if the guard cannot rise through zero between two nodes.
+    fn cannot_rise(&self, guard: &Guard, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
+        let flow = &self.course.flow;
+        let span = right.node.elapsed - left.node.elapsed;
+        let ends = GuardEnds::new(guard, left, right);
+        ends.stay_below(span, left.bound_g4(flow, guard, span, bounds)) || {
+            let bound = left.bound_g2(flow, guard, span, bounds);
+            ends.stay_below_chord(span, bound)
+                || ends.stay_at_zero(span, bound, left.guard_rounding(guard))
+        }
+    }
+
+    /// The first crossing between two nodes, by halving down to the reach of a Taylor polynomial.
+    #[inline(never)]
+    fn search_by_halving(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+        let span = right.node.elapsed - left.node.elapsed;
+        let half = left.node.elapsed + 0.5 * span;
+        let halves = half > left.node.elapsed && half < right.node.elapsed;
+        if span <= self.course.flow.reach * 1.000001 || !halves {
+            return self.search_window(left, right, bounds);
+        }
+        let can_rise = |guard: &Guard| !self.cannot_rise(guard, left, right, bounds);
+        if !self.guards.iter().any(can_rise) {
+            return None;
+        }
+        if !budget::charge(budget::NODE) {
+            return None;
+        }
+        let middle = Jets::new(self.course, self.course.node_at(half));
+        let bounds = self.course.flow.modes.solution_bounds(0.5 * span);
+        self.search_by_halving(left, &middle, bounds)
+            .or_else(|| self.search_by_halving(&middle, right, bounds))
+    }
+
+    /// The first crossing within the reach of a Taylor polynomial. A single rise, as the nodes prove it, needs none.
+    fn search_window(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+        let can_rise = |(_, guard): &(usize, &Guard)| !self.cannot_rise(guard, left, right, bounds);
+        let alone = match self.guards {
+            [guard] => Some((0, guard)),
+            guards => {
+                let mut open = guards.iter().enumerate().filter(can_rise);
+                let first = open.next()?;
+                open.next().is_none().then_some(first)
+            }
+        };
+        if let Some((index, guard)) = alone
+            && guard.push == 0.0
+            && self.course.is_closed_form()
+        {
+            let span = right.node.elapsed - left.node.elapsed;
+            let ends = GuardEnds::new(guard, left, right).points(span);
+            let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
+            let nodes = (&left.node, &right.node);
+            let doubt = (bound, left.guard_rounding(guard));
+            if let Some(found) = self.single_rise((index, guard), nodes, ends, doubt) {
+                return found;
+            }
+        }
+        self.search_polynomial(left, right, bounds)
+    }
+
+    /// The first crossing between two nodes on the Taylor polynomial about the left one.
+    #[inline(never)]
+    fn search_polynomial(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
+        budget::charge(budget::POLYNOMIAL);
+        let span = right.node.elapsed - left.node.elapsed;
+        let node = left.node;
+        let taylor = self.course.expand(&node);
+        let rise = |guard: &Guard| {
+            if self.cannot_rise(guard, left, right, bounds) {
+                return None;
+            }
+            let candidate = Candidate {
+                coefficients: &guard.taylor_coefficients(&taylor),
+                bound: left.bound_g4(&self.course.flow, guard, span, bounds),
+                rounding: left.guard_rounding(guard),
+            };
+            let (left, right) = GuardEnds::new(guard, left, right).points(span);
+            candidate.first_rise(left, right)
+        };
+        earliest_rise(self.guards, rise).map(|(guard, after)| {
+            let (position, velocity) = taylor.state_after(after);
+            Found {
+                elapsed: node.elapsed + after,
+                guard,
+                position,
+                velocity,
+            }
+        })
+    }
+}

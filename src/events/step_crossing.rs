@@ -1,0 +1,71 @@
+//! The first crossing on one Taylor step.
+
+use super::guard::{Guard, earliest_rise};
+use super::isolate::Candidate;
+use super::{Found, NextEvent};
+use crate::flow::{DEGREE, Node, TaylorStep, value};
+
+/// The first crossing from `node` to the end of the step. Bounds on the fourth derivative follow from
+/// the coefficients of the polynomial, which is the motion to round-off.
+pub(super) fn crossing_on_step(segment: &TaylorStep, guards: &[Guard], node: Node) -> NextEvent {
+    let (from, to) = (segment.sigma_after(node.elapsed), segment.reach);
+    let (position, velocity) = segment.last_state();
+    let finite = position.is_finite() && velocity.is_finite();
+    let held = segment.is_still() && !segment.push_at(to).is_finite();
+    if !(to > 0.0 && finite) || held {
+        return NextEvent::Unbounded(node);
+    }
+    let rise = |guard: &Guard| {
+        if guard.asks_for_position() && segment.stays_short(guard.position, guard.level, to) {
+            return None;
+        }
+        let coefficients =
+            segment.guard_series(guard.position, guard.velocity, guard.push, guard.level);
+        if series_stays_below(&coefficients, to) {
+            return None;
+        }
+        let candidate = Candidate {
+            coefficients: &coefficients,
+            bound: fourth_derivative_bound(&coefficients, to),
+            rounding: series_rounding(&coefficients, to),
+        };
+        candidate.first_rise(candidate.point_at(from), candidate.point_at(to))
+    };
+    match earliest_rise(guards, rise) {
+        None => NextEvent::Ends(segment.end),
+        Some((guard, sigma)) => {
+            let (position, velocity) = segment.state_at(sigma);
+            NextEvent::Crossing(Found {
+                elapsed: segment.time_at_sigma(sigma),
+                guard,
+                position,
+                velocity,
+            })
+        }
+    }
+}
+
+/// True if g < 0 throughout [0, span], as its tangent and the sizes of all other terms show.
+fn series_stays_below(coefficients: &[f64; DEGREE + 1], span: f64) -> bool {
+    let mut others = coefficients.map(f64::abs);
+    (others[0], others[1]) = (0.0, 0.0);
+    let tangent = coefficients[0] + (coefficients[1] * span).max(0.0);
+    tangent + value(&others, span) < 0.0
+}
+
+/// Bound on |g''''| over [0, span].
+fn fourth_derivative_bound(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
+    let falling = |n: usize| (n * (n - 1) * (n - 2) * (n - 3)) as f64;
+    coefficients
+        .iter()
+        .enumerate()
+        .skip(4)
+        .rev()
+        .fold(0.0, |sum, (n, c)| sum * span + falling(n) * c.abs())
+}
+
+/// Rounding that g may carry on [0, span].
+fn series_rounding(coefficients: &[f64; DEGREE + 1], span: f64) -> f64 {
+    let majorant = coefficients.map(f64::abs);
+    f64::EPSILON * value(&majorant, span) + f64::MIN_POSITIVE
+}

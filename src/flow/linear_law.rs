@@ -1,0 +1,116 @@
+//! A linear law under the harmonic drive, with what can be computed of it once.
+
+use nalgebra::Matrix2;
+
+use super::drive::Drive;
+use super::modes::Modes;
+
+/// Largest loss of digits (as a factor) that the particular-solution form may bring.
+pub(super) const LARGEST_LOSS: f64 = 64.0;
+
+/// One linear law under the harmonic drive, per unit of mass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearLaw {
+    /// The free motion.
+    pub modes: Modes,
+    /// A = F0/m in m/s^2.
+    pub amplitude: f64,
+    /// w in rad/s.
+    pub frequency: f64,
+    /// Steady state per drive, x = .0 cos(angle) + .1 sin(angle), where it is well conditioned.
+    pub(super) steady: Option<(f64, f64)>,
+    /// The steady state wherever it exists, and the time in s after which nothing else is left.
+    pub(super) late: Option<((f64, f64), f64)>,
+    /// Time in s that one scan step spans.
+    pub(crate) window: f64,
+    /// Time in s that one scan step spans once the free motion has died out.
+    pub(crate) long_window: f64,
+    /// Bounds on the fundamental solutions over one window.
+    pub(crate) window_bounds: (f64, f64),
+    /// Time in s over which a Taylor polynomial is exact to round-off.
+    pub(crate) reach: f64,
+    pub(super) window_modes: Matrix2<f64>,
+    pub(super) window_turn: Drive,
+}
+
+impl LinearLaw {
+    /// The flow of m x'' + `damping` x' + `stiffness` x = `amplitude` cos(w t) + ..., all SI, with
+    /// `mass` > 0, `damping` >= 0, `frequency` > 0.
+    pub fn new(mass: f64, damping: f64, stiffness: f64, amplitude: f64, frequency: f64) -> Self {
+        let modes = Modes::new(0.5 * damping / mass, stiffness / mass);
+        Self::of_modes(modes, amplitude / mass, frequency)
+    }
+
+    /// This law under a drive of another frequency.
+    pub(crate) fn with_frequency(&self, frequency: f64) -> Self {
+        Self::of_modes(self.modes, self.amplitude, frequency)
+    }
+
+    /// This law under another drive, of this amplitude per mass.
+    pub(crate) fn with_drive(&self, amplitude: f64, frequency: f64) -> Self {
+        Self::of_modes(self.modes, amplitude, frequency)
+    }
+
+    /// The law with this free motion under a drive of this amplitude per mass and frequency.
+    fn of_modes(modes: Modes, amplitude: f64, frequency: f64) -> Self {
+        let window = 1.0 / frequency.max(modes.slow_rate());
+        let reach = 1.0 / frequency.max(modes.fastest_rate());
+        // b - w^2 and 2 a w.
+        let real = (-frequency).mul_add(frequency, modes.stiffness);
+        let imaginary = 2.0 * modes.decay * frequency;
+        let impedance = real.hypot(imaginary);
+        let scale = amplitude / impedance;
+        let response = (scale * (real / impedance), scale * (imaginary / impedance));
+        Self {
+            modes,
+            amplitude,
+            frequency,
+            steady: is_well_conditioned(&modes, impedance, frequency).then_some(response),
+            late: slowest_decay(&modes).map(|slow| (response, LIFETIMES / slow)),
+            window,
+            long_window: 1.0 / frequency,
+            window_bounds: modes.solution_bounds(window),
+            reach,
+            window_modes: modes.transition(window),
+            window_turn: Drive::at(frequency * window),
+        }
+    }
+
+    /// The steady state under the drive alone, x = .0 cos(angle) + .1 sin(angle), where it is well conditioned.
+    pub fn steady_state(&self) -> Option<(f64, f64)> {
+        self.steady
+    }
+
+    /// State transition d(x, v)(elapsed) / d(x, v)(0).
+    pub fn transition(&self, elapsed: f64) -> Matrix2<f64> {
+        self.modes.transition(elapsed)
+    }
+
+    /// Damping over mass, 2 a, in 1/s.
+    pub fn damping(&self) -> f64 {
+        2.0 * self.modes.decay
+    }
+
+    /// x'' in m/s^2 of a state under `push` per mass.
+    pub fn acceleration(&self, x: f64, v: f64, push: f64) -> f64 {
+        push - 2.0 * self.modes.decay * v - self.modes.stiffness * x
+    }
+}
+
+/// True if the steady state A / (b - w^2 + 2 i a w), or the static deflection, does not dwarf the motion that it has to
+/// describe.
+fn is_well_conditioned(modes: &Modes, impedance: f64, w: f64) -> bool {
+    let (a, b) = (modes.decay, modes.stiffness);
+    let resonant = impedance * LARGEST_LOSS < b.abs().max(w * w);
+    let limp = b.abs() * LARGEST_LOSS < 4.0 * a * a || b == 0.0;
+    !resonant && !limp
+}
+
+/// Rate in 1/s of the slower mode, where the free motion dies out.
+fn slowest_decay(modes: &Modes) -> Option<f64> {
+    let (slow, _) = modes.decay_rates();
+    (modes.stiffness > 0.0 && slow > 0.0).then_some(slow)
+}
+
+/// Lifetimes of a mode after which nothing of it is left beside a motion 10^10 times smaller.
+const LIFETIMES: f64 = 60.0;

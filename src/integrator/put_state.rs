@@ -1,0 +1,103 @@
+//! Puts a machine into states that are solved for elsewhere, under the law that holds.
+
+use super::checkpoint::Checkpoint;
+use super::motion::Motion;
+use super::simulation::Simulation;
+use super::start::Start;
+use crate::events::{Found, Guard, NextEvent};
+use crate::phases::{Mode, Phase};
+
+impl Motion {
+    /// The guards that end the present law, each with its value in the present state.
+    fn guard_values(&self) -> impl Iterator<Item = (Guard, f64)> {
+        let Start { position, velocity } = self.state();
+        let push = self.phases.push(self.clock.drive(self.now), &self.force());
+        let guards = self.present_guards().into_owned();
+        guards.into_iter().map(move |guard| {
+            let value = guard.value_at(position, velocity) + guard.push * push;
+            (guard, value)
+        })
+    }
+
+    /// Begins an arc in a state by the law that holds, wherever that is.
+    pub(super) fn put_in_state(&mut self, state: Start) {
+        let drive = self.clock.drive(self.now);
+        let departure = self.departure_in(state, drive, self.mode, None);
+        let is_before_face = |phase: &&Phase| {
+            let hertz = phase.hertz.as_ref();
+            hertz.is_some_and(|hertz| hertz.deflection(state.position) < 0.0)
+        };
+        // There a power law does not press.
+        let linear = self.phase().filter(is_before_face).map(|phase| phase.flow);
+        match linear {
+            Some(flow) => {
+                self.course.restart(&flow, departure);
+                self.outlook = NextEvent::ClearUntil(self.course.start_node());
+            }
+            None => self.begin_course(departure, self.mode, None, None),
+        }
+        self.is_put = true;
+    }
+
+    /// Stands before the crossing of a guard that the state has passed already.
+    fn face_passed_guard(&mut self) {
+        let Start { position, velocity } = self.state();
+        let is_passed = |&(_, (guard, value)): &(usize, (Guard, f64))| {
+            let leaves = guard.velocity != 0.0 || guard.position * velocity >= 0.0;
+            value > 0.0 && leaves
+        };
+        let passed = self.guard_values().enumerate().find(is_passed);
+        if let Some((guard, _)) = passed {
+            self.outlook = NextEvent::Crossing(Found {
+                elapsed: 0.0,
+                guard,
+                position,
+                velocity,
+            });
+        }
+    }
+}
+
+impl Simulation {
+    /// Puts the mass in another state at another time in s, whatever surface lies between, where it goes on by the law that
+    /// holds now. Energies go on from where they are.
+    pub fn put(&mut self, time: f64, state: impl Into<Start>) {
+        self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
+        let motion = &mut self.motion;
+        let at = motion.clock.instant(time - self.epoch);
+        let elapsed = motion.clock.elapsed(motion.start, at);
+        motion.force.next_arc(&motion.clock, at, elapsed);
+        (motion.start, motion.now) = (at, at);
+        motion.put_in_state(state.into());
+        (self.now, self.mark) = (time, Checkpoint::OnArc(at));
+    }
+
+    /// Goes on by the law of another machine with these phases, and stands right before the crossing that ends it where the
+    /// present state lies beyond that: [`Simulation::cross`] lets it happen.
+    pub fn keep_law(&mut self, of: &Self) {
+        self.motion.mode = of.motion.mode;
+        self.motion.put_in_state(self.motion.state());
+        self.motion.face_passed_guard();
+    }
+
+    /// How far the state is from the ends of the present law, each in parts of what a `length` in m amounts to: below zero
+    /// beyond one.
+    pub fn margins(&self, length: f64) -> impl Iterator<Item = f64> {
+        let rate = self.scene.excitation.frequency;
+        self.motion.guard_values().map(move |(guard, value)| {
+            let Guard {
+                position,
+                velocity,
+                push,
+                ..
+            } = guard;
+            let weight = position.abs() + rate * (velocity.abs() + rate * push.abs());
+            -value / (weight * length)
+        })
+    }
+
+    /// True while bounces on a rigid stop are summed up to their end.
+    pub fn is_chattering(&self) -> bool {
+        matches!(self.motion.mode, Mode::Chattering(_))
+    }
+}

@@ -1,0 +1,130 @@
+//! Restarts a motion on an arc of its own: through other phases, under another force, beside its state.
+
+use super::clock::{Clock, Instant};
+use super::force::Force;
+use super::motion::Motion;
+use super::start::Start;
+use crate::error::MotionError;
+use crate::flow::Polynomial;
+use crate::phases::{Mode, Phases};
+
+impl Motion {
+    /// This motion, taken up at its present state through other phases.
+    pub(super) fn restarted_through(
+        &self,
+        phases: Phases,
+        clock: Clock,
+        at: Instant,
+    ) -> Result<Self, MotionError> {
+        let latched = self.is_latched();
+        let motion = Self::with_force(phases, clock, at, self.state(), self.force(), latched)?;
+        Ok(Self {
+            fed: self.fed,
+            pierced: self.pierced,
+            ..motion
+        })
+    }
+
+    /// Goes on from here under another external force; true if a new arc begins. Phase, latched strip and
+    /// bounces in a row stay as they are; only a held mass may be let go at once.
+    pub(crate) fn set_force(&mut self, force: Polynomial) -> bool {
+        if self.keeps_bouncing(&force) {
+            self.force = Force::new(force.shifted(-self.elapsed()), self.start);
+            return false;
+        }
+        let state = self.state();
+        self.restart_under(force, state);
+        true
+    }
+
+    /// Goes on under another drive as well, by the same laws under that drive and its clock, which says that it is now
+    /// `at`.
+    pub(super) fn set_drive(
+        &mut self,
+        phases: Phases,
+        clock: Clock,
+        at: Instant,
+        force: Polynomial,
+    ) -> bool {
+        let (state, elapsed) = (self.state(), self.elapsed());
+        (self.phases, self.clock, self.now) = (phases.into(), clock, at);
+        self.start = clock.after(at, -elapsed);
+        if self.keeps_bouncing(&force) {
+            self.force = Force::new(force.shifted(-elapsed), self.start);
+            return false;
+        }
+        self.restart_under(force, state);
+        true
+    }
+
+    /// Begins an arc in a state under an external force.
+    fn restart_under(&mut self, force: Polynomial, state: Start) {
+        let drive = self.clock.drive(self.now);
+        self.start = self.now;
+        self.force = Force::new(force, self.now);
+        match self.mode {
+            // A step of the force lets the mass go with the acceleration that it brings.
+            Mode::Held(hold) => {
+                let push = self.push(drive);
+                self.mode = self.phases.mode_from_rest(hold, state.position, push);
+            }
+            Mode::Chattering(hold) => {
+                let phase = self.phases.at_velocity(hold.outer_phase(), state.velocity);
+                self.mode = Mode::Moving(phase);
+            }
+            // At rest on a face the force decides which way it goes, if any.
+            Mode::Moving(_) if state.velocity == 0.0 => {
+                let push = self.push(drive);
+                let latched = self.is_latched();
+                self.mode = self.phases.mode_at(state.position, 0.0, push, latched);
+            }
+            Mode::Moving(_) => {}
+        }
+        self.begin_arc(state, drive, self.mode);
+    }
+
+    /// True if the mass bounces on a rigid stop towards its rest, and another force would not keep it
+    /// from that: what is left of the bounces is too short for it to tell.
+    fn keeps_bouncing(&self, force: &Polynomial) -> bool {
+        let Mode::Chattering(hold) = self.mode else {
+            return false;
+        };
+        let push = self.phases.push(self.clock.drive(self.now), force);
+        let left = self
+            .phases
+            .mode_from_rest(hold, self.course.departure.position, push);
+        matches!(left, Mode::Held(_))
+    }
+
+    /// Restarts the motion with position and velocity changed by so much.
+    pub(super) fn displace(&mut self, position: f64, velocity: f64) -> Result<(), MotionError> {
+        let state = self.state();
+        let start = Start::new(state.position + position, state.velocity + velocity);
+        let (phases, latched) = (self.phases.clone(), self.is_latched());
+        let motion = Self::with_force(phases, self.clock, self.now, start, self.force(), latched)?;
+        *self = Self {
+            fed: self.fed,
+            pierced: self.pierced,
+            ..motion
+        };
+        Ok(())
+    }
+
+    /// This motion at a time on its present arc, with an arc of its own from there on.
+    pub(crate) fn restarted_at(&self, now: Instant) -> Self {
+        let mut motion = Self {
+            now,
+            ..self.clone()
+        };
+        let elapsed = self.clock.elapsed(self.start, now);
+        if elapsed > 0.0 && self.phase().is_some() {
+            let state = motion.state();
+            let finer = self.course.taylor_step().map(|step| step.fine_at(elapsed));
+            motion.force.next_arc(&self.clock, now, elapsed);
+            motion.start = now;
+            let departure = motion.departure_in(state, self.clock.drive(now), self.mode, None);
+            motion.begin_course(departure, self.mode, finer, None);
+        }
+        motion
+    }
+}
