@@ -99,7 +99,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     fn minimal_period(&self, node: &Node<PeriodMap>) -> u64 {
         let periods = self.shooting.periods;
         let returns = |after: &u64| {
-            let way = node.here.point.ends[*after as usize - 1] - self.shooting.state(&node.at);
+            let way = node.here.point.trajectory.after(*after) - self.shooting.state(&node.at);
             self.shooting.scaled(way, [0.0]).norm() < REPEATS
         };
         (1..periods)

@@ -224,7 +224,7 @@ impl<F: Family> Continuation<'_, F> {
             if !is_even {
                 return self.asymmetry(node);
             }
-            let half = node.here.point.ends[periods as usize / 2 - 1];
+            let half = node.here.point.trajectory.after(periods / 2);
             let way = half - self.shooting.state(&node.at);
             Some(self.shooting.scaled(way, [0.0]))
         };

@@ -106,7 +106,7 @@ impl<F: Family> Continuation<'_, F> {
 
     /// Scaled distance between the states at half a round and at its start.
     fn half_round(&self, node: &Node<PeriodMap>) -> f64 {
-        let half = node.here.point.ends[self.shooting.periods as usize / 2 - 1];
+        let half = node.here.point.trajectory.after(self.shooting.periods / 2);
         let way = half - self.shooting.state(&node.at);
         self.shooting.scaled(way, [0.0]).norm()
     }

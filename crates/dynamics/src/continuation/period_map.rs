@@ -16,9 +16,7 @@ use softstop::{Arc, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scen
 pub(crate) struct PeriodMap {
     /// Where it begins: the state, or the face of a rigid stop for a state beyond it.
     pub start: Vector2<f64>,
-    /// States after each drive period.
-    pub ends: Vec<Vector2<f64>>,
-    /// Exact Jacobian of the last one.
+    /// Exact Jacobian.
     pub monodromy: Monodromy,
     /// Its exact derivative by the drive's frequency in m s/rad and m/rad, where all laws have one in closed form.
     pub by_frequency: Option<Vector2<f64>>,
@@ -44,11 +42,8 @@ impl PeriodMap {
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
         let scene = machine.0;
-        let Followed {
-            start,
-            ends,
-            trajectory,
-        } = follow(machine, periods, state)?;
+        let start = before_wall(scene, state);
+        let trajectory = follow(machine, periods, state)?;
         let mut sensitivity = FrequencySensitivity::default();
         if by_frequency {
             trajectory.tell(&mut sensitivity);
@@ -66,7 +61,6 @@ impl PeriodMap {
         let crossings = CountedCrossings::of(scene, &trajectory);
         Ok(Self {
             start,
-            ends,
             // Whatever comes to rest at a rigid stop goes on alike.
             monodromy: match at_wall && margin == 0.0 {
                 true => Monodromy::ZERO,
@@ -79,11 +73,6 @@ impl PeriodMap {
             margin,
             trajectory: trajectory.into(),
         })
-    }
-
-    /// The state in the end.
-    pub fn end(&self) -> Vector2<f64> {
-        self.ends[self.ends.len() - 1]
     }
 }
 
@@ -109,39 +98,21 @@ pub(crate) fn image(
     state: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Sequence), MotionError> {
     let scene = machine.0;
-    let trajectory = follow(machine, periods, state)?.trajectory;
+    let trajectory = follow(machine, periods, state)?;
     let sequence = CountedCrossings::of(scene, &trajectory).sequence(scene);
     Ok((trajectory.end, sequence))
 }
 
-/// A motion from a state over the periods.
-struct Followed {
-    start: Vector2<f64>,
-    ends: Vec<Vector2<f64>>,
-    trajectory: PeriodTrajectory,
-}
-
-/// Follows a motion over the periods.
+/// Follows a motion over the periods, from a state or from the face of a rigid stop for a state beyond it.
 fn follow(
     (scene, phases): (&Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
-) -> Result<Followed, MotionError> {
-    let start = before_wall(scene, state);
-    let mut ends = Vec::with_capacity(periods as usize);
+) -> Result<PeriodTrajectory, MotionError> {
     let over = |motion: &mut Motion, kept: &mut PeriodTrajectory| {
-        for period in 1..=periods {
-            carry_on(motion, Clock::at_cycle(period), kept)?;
-            ends.push(motion.state().into());
-        }
-        Ok(())
+        carry_through(motion, Clock::at_cycle(periods), kept)
     };
-    let trajectory = PeriodTrajectory::run((phases, scene.clock()), start, over)?;
-    Ok(Followed {
-        start,
-        ends,
-        trajectory,
-    })
+    PeriodTrajectory::run((phases, scene.clock()), before_wall(scene, state), over)
 }
 
 /// The state of a valid scene, with its phases, so many drive periods after one at time 0.

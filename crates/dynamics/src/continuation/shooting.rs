@@ -121,7 +121,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         let machine = (&scene, self.phases(&scene));
         let round = PeriodMap::of(machine, self.periods, state, self.is_by_frequency())?;
         Ok(Evaluation {
-            residual: self.residual(state, round.end()),
+            residual: self.residual(state, round.trajectory.end),
             tolerance: round_off(&scene, &state, &round.monodromy, self.family.state_scales()),
             point: round,
         })

@@ -6,8 +6,8 @@ use nalgebra::Vector2;
 
 use super::Monodromy;
 use crate::period::PeriodTrajectory;
-use softstop::internals::{Motion, Phases, Scales};
-use softstop::{Clock, Instant, MotionError, Scene, Start, Touch};
+use softstop::internals::{Phases, Scales};
+use softstop::{Clock, Instant, MotionError, Scene, Touch};
 
 /// Times what rounding leaves of a residual by which it may be off.
 const ROUNDINGS: f64 = 100.0;
@@ -100,11 +100,7 @@ impl StroboscopicMap {
     /// # Errors
     /// As [`StroboscopicMap::apply`].
     pub fn image(&self, state: Vector2<f64>) -> Result<Vector2<f64>, MotionError> {
-        let start = Start::from(state);
-        start.validate()?;
-        let mut motion = Motion::new(self.phases.clone(), self.clock, Clock::at_cycle(0), start)?;
-        motion.advance(Clock::at_cycle(self.periods), &mut ())?;
-        Ok(motion.state().into())
+        Ok(self.trajectory(state)?.end)
     }
 
     /// The largest position in m on the way from a state.

@@ -125,12 +125,12 @@ impl Orbit {
         let map = StroboscopicMap::new(scene, periods)?;
         let (state, passage) = fixed_point(&map, state)?;
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
-            let shorter = StroboscopicMap::new(scene, part)?;
             let size = |state: &Vector2<f64>| map.scales().state(state).norm();
             let unit = 1.0 + size(&state);
-            if size(&(shorter.image(state)? - state)) > NEAR_PART * unit {
+            if size(&(passage.trajectory.after(part) - state)) > NEAR_PART * unit {
                 continue;
             }
+            let shorter = StroboscopicMap::new(scene, part)?;
             let Ok((own, once)) = fixed_point(&shorter, state) else {
                 continue;
             };
@@ -209,13 +209,9 @@ impl Orbit {
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
     pub fn states(&self) -> Result<Vec<Vector2<f64>>, MotionError> {
-        let map = StroboscopicMap::new(&self.scene, 1)?;
-        let mut states = vec![self.state()];
-        for _ in 1..self.periods {
-            let next = map.image(states[states.len() - 1])?;
-            states.push(next);
-        }
-        Ok(states)
+        let motion = self.trajectory()?;
+        let later = (1..self.periods).map(|periods| motion.after(periods));
+        Ok(std::iter::once(self.state()).chain(later).collect())
     }
 
     /// Its state at time 0.

@@ -13,6 +13,9 @@ use softstop::{
 };
 use turn::turns;
 
+/// Arcs for which there is room at first: as many as most drive periods have.
+const FIRST_ROOM: usize = 8;
+
 /// The arcs and crossings of a motion from time 0 on, in order of time.
 #[derive(Debug, Clone)]
 pub struct PeriodTrajectory {
@@ -32,7 +35,7 @@ impl PeriodTrajectory {
         Self {
             phases,
             clock,
-            arcs: Vec::new(),
+            arcs: Vec::with_capacity(FIRST_ROOM),
             end: Vector2::zeros(),
         }
     }
@@ -88,6 +91,18 @@ impl PeriodTrajectory {
     /// Its crossings.
     pub fn crossings(&self) -> impl Iterator<Item = &Crossing> + Clone {
         self.arcs.iter().filter_map(|arc| arc.crossing.as_ref())
+    }
+
+    /// The state when so many drive periods are complete.
+    pub fn after(&self, periods: u64) -> Vector2<f64> {
+        let at = Clock::at_cycle(periods);
+        let next = self.arcs.partition_point(|arc| arc.start <= at);
+        let state = |kept: &KeptArc| {
+            let arc = self.seen(kept);
+            arc.at(self.clock.elapsed(arc.start, at)).into()
+        };
+        let last = next.checked_sub(1).and_then(|last| self.arcs.get(last));
+        last.map_or(self.end, state)
     }
 
     /// Its exact Jacobian.
