@@ -37,7 +37,7 @@ pub struct BasinsAt {
 /// of the cells done at all values.
 ///
 /// # Errors
-/// As [`basins`].
+/// As [`basins`](super::basins).
 pub fn follow_attractors(
     scenes: &[(f64, Scene)],
     grid: &Grid,
