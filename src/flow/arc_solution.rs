@@ -25,7 +25,7 @@ pub struct ArcSolution {
 /// How states are evaluated; those of a linear law beyond the reach of one Taylor polynomial.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
-    /// ParticularSolution solution plus the free deviation from it at departure.
+    /// The particular solution plus the free deviation from it at departure.
     Particular {
         particular: ParticularSolution,
         deviation: Vector2<f64>,

@@ -25,7 +25,7 @@ const TERMS: usize = 16;
 const REACH: f64 = 0.5;
 
 impl ZeroStateResponses {
-    /// ZeroStateResponses of x'' + 2 a x' + b x after `t` seconds to forces with frequency `w`.
+    /// Responses of x'' + 2 a x' + b x after `t` seconds to forces with frequency `w`.
     pub fn after_time(modes: &Modes, w: f64, t: f64) -> Self {
         let rate = modes.fastest_rate().max(w);
         let doublings = (rate * t / REACH).log2().ceil().clamp(0.0, 1000.0) as i32;

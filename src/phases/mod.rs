@@ -302,7 +302,7 @@ impl Phase {
     }
 
     /// The position without the rounding that would put it beyond a surface that ends the phase.
-    pub(crate) fn confine_position(&self, position: f64) -> f64 {
+    pub fn confine_position(&self, position: f64) -> f64 {
         let surfaces = self.guards.iter().filter(|guard| guard.velocity == 0.0);
         surfaces.fold(position, |x, guard| {
             if guard.position > 0.0 {

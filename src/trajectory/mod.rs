@@ -228,6 +228,9 @@ impl Observer for Recorder {
 
     fn crossing(&mut self, crossing: &Crossing) {
         self.work.dissipated += crossing.lost_energy(self.mass);
+        if let Some(arc) = self.arcs.last_mut() {
+            arc.crossing = Some(*crossing);
+        }
         self.crossings.push(*crossing);
     }
 }

@@ -3,7 +3,7 @@
 use crate::ensemble::Ensemble;
 use crate::extremes::extremes;
 use crate::orbit::{Exponents, OrbitError, StroboscopicMap};
-use softstop::{Scene, Start};
+use softstop::{Crossing, Observer, Scene, Start};
 
 /// A motion that never repeats, as far as it was watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,6 +26,16 @@ pub struct Chaos {
     pub watched: u64,
 }
 
+/// Records the before-impact velocities in m/s of a motion.
+#[derive(Default)]
+struct ImpactVelocities(Vec<f64>);
+
+impl Observer for ImpactVelocities {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0.extend(crossing.impact_velocity());
+    }
+}
+
 /// Drive periods over which impacts are counted, at most.
 const COUNTED: u64 = 4096;
 
@@ -39,15 +49,17 @@ impl Chaos {
     ) -> Result<Self, OrbitError> {
         let counted = COUNTED.min(exponents.periods);
         let map = StroboscopicMap::new(scene, counted)?;
-        let impacts = map.apply(begin.into())?.impacts;
+        let mut impacts = ImpactVelocities::default();
+        map.observe(begin.into(), &mut impacts)?;
+        let ImpactVelocities(velocities) = impacts;
         ensemble.note(counted)?;
         Ok(Self {
             state,
             exponents,
             lifetime: None,
             entered: 0,
-            impacts_per_period: impacts.len() as f64 / counted as f64,
-            velocities: extremes(impacts.iter().map(|it| it.before_impact_velocity)),
+            impacts_per_period: velocities.len() as f64 / counted as f64,
+            velocities: extremes(velocities.into_iter()),
             watched: 0,
         })
     }

@@ -43,7 +43,7 @@ pub struct Certainty {
 pub struct Attractor {
     /// What it is.
     pub motion: MotionKind,
-    /// A state of it at drive angle phi; of what is lost, a start.
+    /// A state of it at drive angle phi; of what is lost, one before it could not be followed any farther.
     pub state: Start,
     /// The orbit, if it repeats: polished by Newton's method; stable.
     pub orbit: Option<Box<Orbit>>,

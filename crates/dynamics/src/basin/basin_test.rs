@@ -131,17 +131,14 @@ impl BasinTest {
         };
         let follow_motions = |starts: &[Start]| {
             let motions = starts.iter().map(motion).collect();
-            self.follow_motions::<false>(from_ref(&self.machine), motions, monitor)
+            let ended = self.follow_motions::<false>(from_ref(&self.machine), motions, monitor)?;
+            Ok(ended.iter().map(TestedMotion::reaches).collect())
         };
         let (fork, chunks) = (Fork::default(), starts.par_chunks(MOTIONS_TOGETHER));
         let chunks = chunks.map(|starts| fork.run_part(|| follow_motions(starts)));
-        let chunks = chunks.collect::<Result<Vec<_>, OrbitError>>();
+        let chunks = chunks.collect::<Result<Vec<Vec<bool>>, OrbitError>>();
         fork.charge_parts();
-        Ok(chunks?
-            .iter()
-            .flatten()
-            .map(TestedMotion::reaches)
-            .collect())
+        Ok(chunks?.concat())
     }
 
     /// Follows motions until they have reached the orbit or are given up, with or without counting their strokes. The

@@ -112,7 +112,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
 
 /// A motion whose arc after a number of crossings is taken on to the end, whether or not something comes in between.
 pub(crate) struct LastArc {
-    /// The motion so.
+    /// The motion, up to that arc.
     pub motion: PeriodTrajectory,
     /// True if something comes in between, more than rounding before the end.
     pub is_cut: bool,
@@ -154,11 +154,8 @@ impl LastArc {
     /// touches nothing: it gives no end.
     fn extend(&mut self, arc: &Arc<'_>, lasts: f64) {
         let elapsed = arc.clock.elapsed(arc.start, self.until);
-        if lasts < elapsed && arc.course.is_series() {
+        if lasts < elapsed && arc.course.is_series() || arc.course.is_held() {
             return self.motion.arc(arc, lasts);
-        }
-        if arc.course.is_held() {
-            return;
         }
         self.motion.arc(arc, elapsed);
         let (position, velocity) = arc.course.state_at(elapsed, arc.clock.drive(self.until));

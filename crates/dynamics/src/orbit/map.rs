@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use super::Monodromy;
 use crate::period::PeriodTrajectory;
 use softstop::internals::{Phases, Scales};
-use softstop::{Clock, Instant, MotionError, Scene, Touch};
+use softstop::{Clock, Instant, MotionError, Observer, Scene, Touch};
 
 /// Times what rounding leaves of a residual by which it may be off.
 const ROUNDINGS: f64 = 100.0;
@@ -100,7 +100,19 @@ impl StroboscopicMap {
     /// # Errors
     /// As [`StroboscopicMap::apply`].
     pub fn image(&self, state: Vector2<f64>) -> Result<Vector2<f64>, MotionError> {
-        Ok(self.trajectory(state)?.end)
+        self.observe(state, &mut ())
+    }
+
+    /// The image of a state; an observer is told of the way, of which nothing is kept.
+    pub(crate) fn observe(
+        &self,
+        state: Vector2<f64>,
+        observer: &mut dyn Observer,
+    ) -> Result<Vector2<f64>, MotionError> {
+        let machine = (self.phases.clone(), self.clock);
+        let end = Clock::at_cycle(self.periods);
+        let last = PeriodTrajectory::run(machine, state, |motion, _| motion.advance(end, observer));
+        Ok(last?.end)
     }
 
     /// The largest position in m on the way from a state.

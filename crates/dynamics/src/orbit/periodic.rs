@@ -209,6 +209,9 @@ impl Orbit {
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
     pub fn states(&self) -> Result<Vec<Vector2<f64>>, MotionError> {
+        if self.periods == 1 {
+            return Ok(vec![self.state()]);
+        }
         let motion = self.trajectory()?;
         let later = (1..self.periods).map(|periods| motion.after(periods));
         Ok(std::iter::once(self.state()).chain(later).collect())

@@ -2,10 +2,12 @@
 
 pub mod turn;
 
+use std::ops::ControlFlow;
 use std::sync::Arc as Shared;
 
 use nalgebra::Vector2;
 
+use crate::monitor::stop_if;
 use softstop::internals::{Motion, Phases};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Instant, KeptArc, MotionError, Observer, Start, Tangent,
@@ -15,6 +17,9 @@ use turn::turns;
 
 /// Arcs for which there is room at first: as many as most drive periods have.
 const FIRST_ROOM: usize = 8;
+
+/// Arcs that are kept of a motion at most: some 150 MB, and up to three times that of Taylor steps.
+const MAX_KEPT_ARCS: usize = 1 << 18;
 
 /// The arcs and crossings of a motion from time 0 on, in order of time.
 #[derive(Debug, Clone)]
@@ -43,7 +48,8 @@ impl PeriodTrajectory {
     /// The motion through phases from a state at time 0, as far as it is advanced.
     ///
     /// # Errors
-    /// [`MotionError`] if the state is not finite or beyond a rigid stop, and that of advancing.
+    /// [`MotionError`] if the state is not finite or beyond a rigid stop, and that of advancing;
+    /// [`MotionError::Endless`] if it has more arcs than are kept.
     pub fn run(
         (phases, clock): (Shared<Phases>, Clock),
         state: Vector2<f64>,
@@ -54,6 +60,12 @@ impl PeriodTrajectory {
         let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), start)?;
         let mut kept = Self::empty(phases, clock);
         advance(&mut motion, &mut kept)?;
+        if kept.arcs.len() > MAX_KEPT_ARCS {
+            return Err(MotionError::Endless {
+                time: clock.time(motion.now()),
+                position: motion.state().position,
+            });
+        }
         motion.tell_arc(&mut kept);
         kept.end = motion.state().into();
         Ok(kept)
@@ -69,7 +81,7 @@ impl PeriodTrajectory {
         }
     }
 
-    /// An observer of its own kind that has been told of all.
+    /// A new observer that has been told of all arcs and crossings.
     pub fn told<O: Observer + Default>(&self) -> O {
         let mut observer = O::default();
         self.tell(&mut observer);
@@ -98,8 +110,11 @@ impl PeriodTrajectory {
         let at = Clock::at_cycle(periods);
         let next = self.arcs.partition_point(|arc| arc.start <= at);
         let state = |kept: &KeptArc| {
-            let arc = self.seen(kept);
-            arc.at(self.clock.elapsed(arc.start, at)).into()
+            let elapsed = self.clock.elapsed(kept.start, at);
+            let (position, velocity) = kept.course.state_at(elapsed, self.clock.drive(at));
+            let phase = kept.phase.map(|phase| &self.phases[phase]);
+            let inside = phase.map_or(position, |phase| phase.confine_position(position));
+            Vector2::new(inside, velocity)
         };
         let last = next.checked_sub(1).and_then(|last| self.arcs.get(last));
         last.map_or(self.end, state)
@@ -163,5 +178,9 @@ impl Observer for PeriodTrajectory {
         if let Some(last) = self.arcs.last_mut() {
             last.crossing = Some(*crossing);
         }
+    }
+
+    fn progress(&mut self, _: u64) -> ControlFlow<()> {
+        stop_if(self.arcs.len() > MAX_KEPT_ARCS)
     }
 }

@@ -148,11 +148,13 @@ impl Plan {
         observed.ok()?;
         for ((index, scene), member) in moved.into_iter().zip(members) {
             let chain = &mut group[index];
-            let seen = SettledMotion::of(&scene, &member, self.tolerance, self.periods);
             let value = self.value(step, chain.direction);
             let made = match member.error {
                 Some(error) => Err(error),
-                None => Step::new(value, &scene, seen, self.heights),
+                None => {
+                    let seen = SettledMotion::of(&scene, &member, self.tolerance, self.periods);
+                    Step::new(value, &scene, seen, self.heights)
+                }
             };
             match made {
                 Ok(step) => chain.steps.push(step),
