@@ -59,7 +59,7 @@ impl Chaos {
             lifetime: None,
             entered: 0,
             impacts_per_period: velocities.len() as f64 / counted as f64,
-            velocities: extremes(velocities.into_iter()),
+            velocities: extremes(velocities),
             watched: 0,
         })
     }
