@@ -74,7 +74,7 @@ pub struct Member {
 }
 
 impl Member {
-    /// One that begins at a state of a machine.
+    /// A motion of a machine that begins at a state.
     pub fn new(machine: usize, state: Start) -> Self {
         Self {
             machine,
@@ -92,7 +92,7 @@ impl Member {
     }
 }
 
-/// What holds a motion of an ensemble, and is told of what happens in it: the motion keeps that unless it is said otherwise.
+/// Holds a motion of an ensemble and is told of its impacts and drive periods, which the motion keeps by default.
 pub trait HasMember: Send {
     /// The motion.
     fn member(&mut self) -> &mut Member;
@@ -127,7 +127,7 @@ pub struct Ensemble<'a> {
 }
 
 impl<'a> Ensemble<'a> {
-    /// That of some machines.
+    /// An ensemble of motions of some machines.
     pub fn new(machines: impl Into<Cow<'a, [Machine]>>, monitor: Monitor<'a>) -> Self {
         Self {
             machines: machines.into(),
@@ -137,7 +137,7 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// That of one scene.
+    /// An ensemble of motions of one scene.
     ///
     /// # Errors
     /// [`OrbitError::Motion`] if it is invalid.
@@ -168,8 +168,8 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Carries those that are open on for `periods` drive periods on all threads, counted, and records the states of the
-    /// last `recorded` of them.
+    /// Carries open motions on for `periods` drive periods on all threads, counts that work, and records the states of
+    /// the last `recorded` periods.
     pub(crate) fn advance<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -210,8 +210,8 @@ impl<'a> Ensemble<'a> {
         self.note(recorded * self.advance_batch::<false, true, _>(members, recorded)?)
     }
 
-    /// Carries those that are open on for some drive periods on this thread, first unobserved, and records the states
-    /// and impacts of the last `recorded` of them, the state at their beginning among them.
+    /// Carries open motions on for some drive periods on this thread and records states and impacts of the last
+    /// `recorded` periods, the state at their beginning among them.
     pub(crate) fn observe<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -230,8 +230,8 @@ impl<'a> Ensemble<'a> {
         Ok(())
     }
 
-    /// Carries those that are open on for some drive periods on this thread, told of their impacts and of the ends of
-    /// drive periods or not; how many they are.
+    /// Carries open motions on for some drive periods on this thread, and returns how many they are; they are told of
+    /// their impacts if `IMPACTS`, and of the ends of drive periods if `PERIODS`.
     ///
     /// # Errors
     /// [`OrbitError::Stopped`].

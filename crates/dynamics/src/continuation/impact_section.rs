@@ -112,7 +112,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
 
 /// A motion whose arc after a number of crossings is taken on to the end, whether or not something comes in between.
 pub(crate) struct LastArc {
-    /// The motion, up to that arc.
+    /// The motion, which ends with that arc.
     pub motion: PeriodTrajectory,
     /// True if something comes in between, more than rounding before the end.
     pub is_cut: bool,
