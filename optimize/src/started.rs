@@ -3,7 +3,7 @@
 use softstop::{Dimension, Machine};
 use softstop_console::column::Column;
 use softstop_console::columns;
-use softstop_dynamics::run_up::{Attempt, Peaks, RunUp, Way};
+use softstop_dynamics::run_up::{Attempt, RunUp, RunUpPeaks, Way};
 
 use crate::page::quantity;
 
@@ -26,7 +26,7 @@ pub(crate) fn columns<'a>() -> [Column<Tried<'a>>; 8] {
 fn peak(
     (machine, _, attempt): &Tried<'_>,
     dimension: Dimension,
-    of: impl Fn(&Peaks) -> f64,
+    of: impl Fn(&RunUpPeaks) -> f64,
 ) -> Option<f64> {
     Some(machine.to_own(dimension, of(attempt.peaks.as_ref()?)))
 }
@@ -34,7 +34,7 @@ fn peak(
 fn note((machine, _, attempt): &Tried<'_>) -> String {
     let angle = attempt.angle.filter(|_| attempt.share < 1.0);
     let own = |value: f64| {
-        let dimension = attempt.way.changes()?.about().dimension;
+        let dimension = attempt.way.changed_parameter()?.about().dimension;
         let value = machine.to_own(dimension, value);
         Some(quantity(value, machine.unit(dimension)))
     };

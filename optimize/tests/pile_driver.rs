@@ -49,7 +49,7 @@ fn velocity(clearance: f64, hertz: f64, near: &mut Option<Orbit>) -> Option<f64>
     machine.set(Parameter::Frequency, hertz);
     let by_neighbour = near
         .as_ref()
-        .map(|it| Orbit::near(&machine.scene, it.state()));
+        .map(|it| Orbit::find_near(&machine.scene, it.state()));
     let is_one = |orbit: &Orbit| orbit.is_stable() && orbit.impacts.len() == 1;
     let orbit = by_neighbour.and_then(Result::ok).filter(is_one);
     let orbit = orbit.or_else(|| find(&machine.scene).ok().filter(is_one))?;

@@ -74,7 +74,7 @@ fn what_settles_is_the_orbit() -> Outcome {
             let is_away = to != [0.0, 0.0];
             let near = Settled::near(&scene, nominal.state(), 1e-9);
             assert_eq!(near.is_none(), is_away, "no farther than told");
-            let orbit = Orbit::near(&scene, nominal.state())?;
+            let orbit = Orbit::find_near(&scene, nominal.state())?;
             let velocity = orbit.before_impact_velocity();
             assert_relative(settled.velocity, velocity, 1e-9);
             let multiplier = orbit.multipliers()[0].norm();

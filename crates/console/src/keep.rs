@@ -142,14 +142,14 @@ impl Keep {
 }
 
 impl Memory for Keep {
-    fn recall(&self, key: &[u8]) -> Option<Vec<u8>> {
+    fn recall_piece(&self, key: &[u8]) -> Option<Vec<u8>> {
         let mut state = self.state();
         let at = state.known.remove(key)?;
         state.file.as_mut()?.read(at).ok()
     }
 
     /// What ends after the request to end may have been cut short: it is not kept.
-    fn keep(&self, key: &[u8], piece: &[u8]) {
+    fn store_piece(&self, key: &[u8], piece: &[u8]) {
         let mut state = self.state();
         if !state.is_open || requested() {
             return;

@@ -114,7 +114,7 @@ impl MotionName {
     /// That of a motion.
     pub fn of(motion: &MotionKind) -> Self {
         Self {
-            kind: motion.key(),
+            kind: motion.json_key(),
             z: motion.z(),
             order: motion.order().map(ToString::to_string),
             text: motion.to_string(),
@@ -124,7 +124,7 @@ impl MotionName {
     /// That of a regime whose order is not known; without one the motion has not settled.
     pub fn of_regime(regime: Option<orbit::Regime>) -> Self {
         Self {
-            kind: regime.map_or(MotionKind::Unsettled.key(), |_| "periodic"),
+            kind: regime.map_or(MotionKind::Unsettled.json_key(), |_| "periodic"),
             z: regime.map(|regime| regime.to_string()),
             order: None,
             text: regime.map_or("unsettled".to_owned(), |regime| format!("z = {regime}")),

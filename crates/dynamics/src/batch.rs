@@ -1,4 +1,4 @@
-//! Batches of motions that end at once where a monitor wants to stop.
+//! Batches of motions in the lanes, which end at once where a monitor wants to stop.
 
 use std::ops::ControlFlow;
 
@@ -6,9 +6,9 @@ use softstop::Start;
 use softstop::internals::budget;
 use softstop_lanes::{BatchObserver, Job, Machine, Outcome};
 
-/// Follows motions on this thread, each of the machine with this number from a state for so many drive periods; none if
-/// they were stopped on the way.
-pub(crate) fn follow<W: BatchObserver>(
+/// Follows a batch of motions in the lanes on this thread, each of the machine with this number from a state for so
+/// many drive periods; none if the monitor stopped it.
+pub(crate) fn follow_batch<W: BatchObserver>(
     machines: &[Machine],
     motions: impl IntoIterator<Item = (usize, Start, u64)>,
     watch: &mut W,
@@ -20,7 +20,7 @@ pub(crate) fn follow<W: BatchObserver>(
         periods,
     };
     let jobs: Vec<Job> = motions.into_iter().map(job).collect();
-    let mut asking = Asking {
+    let mut asking = MonitoredObserver {
         watch,
         ask,
         answer: ControlFlow::Continue(()),
@@ -31,23 +31,25 @@ pub(crate) fn follow<W: BatchObserver>(
     asking.answer.is_continue().then_some(outcomes)
 }
 
-/// Work of the lanes, and of the engine that takes over from them, between two questions.
-const ASKED: u64 = 1 << 15;
-/// What a unit of the lanes' own work costs, in scan windows.
-const WORK_COST: u64 = 2;
-/// What a batch costs besides, that may end before the first.
+/// Work of the lanes, and of the engine that takes over, between two questions to a batch's monitor.
+const WORK_BETWEEN_QUESTIONS: u64 = 1 << 15;
+/// Charge for a unit of the lanes' own work in a batch, in scan windows.
+const LANE_WORK_COST: u64 = 2;
+/// Charge for a batch besides its work, in scan windows: it may end before the first question.
 const BATCH_COST: u64 = 1 << 10;
 
-/// A watch that asks whether to go on.
-struct Asking<'a, W, A> {
+/// An observer of a batch that charges its work to the budget and asks a monitor whether the batch goes on.
+struct MonitoredObserver<'a, W, A> {
     watch: &'a mut W,
     ask: A,
     answer: ControlFlow<()>,
-    /// Windows that were left when it was asked last.
+    /// Scan windows of the budget that were left when the monitor was asked last.
     left: u64,
 }
 
-impl<W: BatchObserver, A: FnMut() -> ControlFlow<()>> BatchObserver for Asking<'_, W, A> {
+impl<W: BatchObserver, A: FnMut() -> ControlFlow<()>> BatchObserver
+    for MonitoredObserver<'_, W, A>
+{
     const IMPACTS: bool = W::IMPACTS;
     const PERIODS: bool = W::PERIODS;
 
@@ -62,7 +64,8 @@ impl<W: BatchObserver, A: FnMut() -> ControlFlow<()>> BatchObserver for Asking<'
     fn goes_on(&mut self) -> ControlFlow<()> {
         // The engine that motions are handed over to has charged its part.
         let charged = self.left.saturating_sub(budget::windows_left());
-        let is_left = budget::charge(WORK_COST * ASKED.saturating_sub(charged));
+        let is_left =
+            budget::charge(LANE_WORK_COST * WORK_BETWEEN_QUESTIONS.saturating_sub(charged));
         self.left = budget::windows_left();
         self.answer = match is_left {
             true => (self.ask)(),

@@ -1,6 +1,6 @@
-//! Which way a parameter goes.
+//! The direction in which a parameter changes.
 
-/// Which way a parameter goes.
+/// The direction in which a parameter changes along a branch or a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// It rises.
@@ -10,7 +10,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// In a word.
+    /// The direction in one word: `up` or `down`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Up => "up",

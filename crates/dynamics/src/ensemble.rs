@@ -1,4 +1,4 @@
-//! Many motions, each of one of some machines, carried on together until it is known what they have come to.
+//! Ensembles: many motions, each of one of some machines, advanced together until it is known what they have come to.
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -7,31 +7,30 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::batch::follow;
+use crate::batch::follow_batch;
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::OrbitError;
 use softstop::internals::budget::{self, Fork};
 use softstop::{Instant, MotionError, Scene, Start};
 use softstop_lanes::{BatchObserver, Machine};
 
-/// Motions that one thread follows at a time: several times as many as there are lanes.
+/// Members of an ensemble that one thread advances at a time: several times as many as there are lanes.
 const MEMBERS_AT_ONCE: usize = 64;
 
-/// Drive periods for which they are followed before the monitor is asked again, where many motions cost little and
-/// where they do not: a third of a second.
-const PERIODS_AT_ONCE: (u64, u64) = (1 << 16, 256);
+/// Drive periods between two questions to the monitor, a third of a second, in lanes and elsewhere.
+const PERIODS_BETWEEN_QUESTIONS: (u64, u64) = (1 << 16, 256);
 
-/// What an impact or a period that is kept costs, in scan windows.
+/// Charge for an impact or a state that a member keeps, in scan windows.
 const RECORD_COST: u64 = 32;
 
-/// What a motion of an ensemble has come to.
+/// What a member of an ensemble, a motion, has come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Outcome {
-    /// It is on its way.
+pub enum Status {
+    /// It is still under way.
     Open,
     /// It has arrived at the attractor with this number.
     Arrived(usize),
-    /// It returns, more and more closely, to this attractor.
+    /// It returns, more and more closely, to the attractor with this number.
     Approaching(usize),
     /// It has come to rest for good.
     AtRest,
@@ -41,8 +40,8 @@ pub enum Outcome {
     Lost,
 }
 
-impl Outcome {
-    /// The attractor at which the motion has arrived, or will.
+impl Status {
+    /// The number of the attractor at which the motion has arrived, or will.
     pub(crate) fn attractor(self) -> Option<usize> {
         match self {
             Self::Arrived(attractor) | Self::Approaching(attractor) => Some(attractor),
@@ -50,74 +49,74 @@ impl Outcome {
         }
     }
 
-    /// True as long as the motion may come to something else.
+    /// True as long as the motion may still come to something else, so that it is advanced further.
     pub(crate) fn is_open(self) -> bool {
         matches!(self, Self::Open | Self::Approaching(_) | Self::Wandering)
     }
 }
 
-/// A motion of an ensemble.
+/// A member of an ensemble: a motion with its latest state, its outcome and what was recorded of it.
 #[derive(Debug, Clone)]
 pub struct Member {
-    /// The number of its machine.
+    /// The number of its machine in the ensemble.
     pub machine: usize,
     /// Its latest state at drive angle phi.
     pub state: Start,
     /// What it has come to.
-    pub outcome: Outcome,
+    pub status: Status,
     /// Why it is lost.
     pub error: Option<MotionError>,
     /// Its states at drive angle phi while it was recorded, in order of time.
     pub states: Vec<Start>,
-    /// When, since then, and before-impact velocity in m/s of each impact.
+    /// Instant since recording began, and before-impact velocity in m/s, of each impact.
     pub impacts: Vec<(Instant, f64)>,
 }
 
 impl Member {
-    /// A motion of a machine that begins at a state.
+    /// A member of an ensemble: a motion of a machine from a state at drive angle phi.
     pub fn new(machine: usize, state: Start) -> Self {
         Self {
             machine,
             state,
-            outcome: Outcome::Open,
+            status: Status::Open,
             error: None,
             states: Vec::new(),
             impacts: Vec::new(),
         }
     }
 
-    /// Ends the motion.
-    pub(crate) fn lose(&mut self, error: MotionError) {
-        (self.outcome, self.error) = (Outcome::Lost, Some(error));
+    /// Ends a member as lost, with the error that says why.
+    pub(crate) fn mark_lost(&mut self, error: MotionError) {
+        (self.status, self.error) = (Status::Lost, Some(error));
     }
 }
 
-/// Holds a motion of an ensemble and is told of its impacts and drive periods, which the motion keeps by default.
+/// A type that holds a member of an ensemble and takes its impacts and states, which the member records by default.
 pub trait HasMember: Send {
-    /// The motion.
-    fn member(&mut self) -> &mut Member;
+    /// The member that it holds.
+    fn member_mut(&mut self) -> &mut Member;
 
-    /// An impact, at an instant since the beginning of the batch, with this velocity in m/s towards the stop.
-    fn impact(&mut self, instant: Instant, velocity: f64) {
+    /// Takes an impact of the member: its instant since the batch began, and its velocity in m/s towards the stop.
+    fn record_impact(&mut self, instant: Instant, velocity: f64) {
         // What is kept costs, so that a budget is one of memory, too.
         if budget::charge(RECORD_COST) {
-            self.member().impacts.push((instant, velocity));
+            self.member_mut().impacts.push((instant, velocity));
         }
     }
 
-    /// A drive period has ended.
-    fn period(&mut self, state: Start) {
-        self.member().states.push(state);
+    /// Takes the state of the member at the end of a drive period.
+    fn record_state(&mut self, state: Start) {
+        self.member_mut().states.push(state);
     }
 }
 
 impl HasMember for Member {
-    fn member(&mut self) -> &mut Self {
+    fn member_mut(&mut self) -> &mut Self {
         self
     }
 }
 
-/// The machines of the motions, and how much work has been done.
+/// The machines of many motions that are advanced together, their monitor, and how much work has been done.
 pub struct Ensemble<'a> {
     pub(crate) machines: Cow<'a, [Machine]>,
     monitor: Monitor<'a>,
@@ -127,7 +126,7 @@ pub struct Ensemble<'a> {
 }
 
 impl<'a> Ensemble<'a> {
-    /// An ensemble of motions of some machines.
+    /// An ensemble of motions of these machines.
     pub fn new(machines: impl Into<Cow<'a, [Machine]>>, monitor: Monitor<'a>) -> Self {
         Self {
             machines: machines.into(),
@@ -141,26 +140,27 @@ impl<'a> Ensemble<'a> {
     ///
     /// # Errors
     /// [`OrbitError::Motion`] if it is invalid.
-    pub fn of(scene: &Scene, monitor: Monitor<'a>) -> Result<Self, OrbitError> {
+    pub fn of_scene(scene: &Scene, monitor: Monitor<'a>) -> Result<Self, OrbitError> {
         Ok(Self::new(vec![Machine::new(scene)?], monitor))
     }
 
-    /// True if many motions cost little.
-    pub(crate) fn is_fast(&self) -> bool {
+    /// True if the motions run in the SIMD lanes, so that many cost little.
+    pub(crate) fn runs_in_lanes(&self) -> bool {
         self.machines[0].is_for_lanes()
     }
 
-    /// True if long motions that settle cost as little as short ones.
-    pub(crate) fn leaps(&self) -> bool {
+    /// True if the lanes leap over periods of settled motions, so that long motions cost as little as short ones.
+    pub(crate) fn skips_periods(&self) -> bool {
         self.machines[0].skips_periods()
     }
 
-    pub(crate) fn done(&self) -> u64 {
+    /// The work that the ensemble has counted, in drive periods or what else its owner counts.
+    pub(crate) fn work_done(&self) -> u64 {
         self.done.load(Ordering::Relaxed)
     }
 
-    /// Counts work; an error if the monitor wants to stop, or the budget is spent.
-    pub(crate) fn note(&self, periods: u64) -> Result<(), OrbitError> {
+    /// Counts work of the ensemble and asks the monitor; an error if that wants to stop, or the budget is spent.
+    pub(crate) fn count_work(&self, periods: u64) -> Result<(), OrbitError> {
         let done = self.done.fetch_add(periods, Ordering::Relaxed) + periods;
         match (self.monitor)(done, self.planned.max(done)) {
             ControlFlow::Continue(()) if !budget::is_spent() => Ok(()),
@@ -168,8 +168,8 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Carries open motions on for `periods` drive periods on all threads, counts that work, and records the states of
-    /// the last `recorded` periods.
+    /// Advances the open members by `periods` drive periods on all threads, counts that work, and records their states
+    /// of the last `recorded` periods.
     pub(crate) fn advance<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -185,34 +185,34 @@ impl<'a> Ensemble<'a> {
         advanced
     }
 
-    /// Carries motions on in stretches, so that the monitor is asked often.
+    /// Advances some members on this thread, in stretches between which the monitor is asked.
     fn advance_together<M: HasMember>(
         &self,
         members: &mut [&mut M],
         periods: u64,
         recorded: usize,
     ) -> Result<(), OrbitError> {
-        let stretch = if self.is_fast() {
-            PERIODS_AT_ONCE.0
+        let stretch = if self.runs_in_lanes() {
+            PERIODS_BETWEEN_QUESTIONS.0
         } else {
-            PERIODS_AT_ONCE.1
+            PERIODS_BETWEEN_QUESTIONS.1
         };
         let recorded = periods.min(recorded as u64);
         let mut left = periods - recorded;
         while left > 0 {
             let now = left.min(stretch);
-            self.note(now * self.advance_batch::<false, false, _>(members, now)?)?;
+            self.count_work(now * self.advance_batch::<false, false, _>(members, now)?)?;
             left -= now;
         }
         for member in &mut *members {
-            member.member().states = Vec::with_capacity(recorded as usize);
+            member.member_mut().states = Vec::with_capacity(recorded as usize);
         }
-        self.note(recorded * self.advance_batch::<false, true, _>(members, recorded)?)
+        self.count_work(recorded * self.advance_batch::<false, true, _>(members, recorded)?)
     }
 
-    /// Carries open motions on for some drive periods on this thread and records states and impacts of the last
-    /// `recorded` periods, the state at their beginning among them.
-    pub(crate) fn observe<M: HasMember>(
+    /// Advances the open members by some drive periods on this thread and records states and impacts of the last
+    /// `recorded` periods, with the state at their beginning.
+    pub(crate) fn record_run<M: HasMember>(
         &self,
         members: &mut [&mut M],
         periods: u64,
@@ -220,7 +220,7 @@ impl<'a> Ensemble<'a> {
     ) -> Result<(), OrbitError> {
         self.advance_batch::<false, false, _>(members, periods - recorded)?;
         for member in &mut *members {
-            let member = member.member();
+            let member = member.member_mut();
             member.states = Vec::with_capacity(recorded as usize + 1);
             member.states.push(member.state);
             member.impacts.clear();
@@ -230,8 +230,8 @@ impl<'a> Ensemble<'a> {
         Ok(())
     }
 
-    /// Carries open motions on for some drive periods on this thread, and returns how many they are; they are told of
-    /// their impacts if `IMPACTS`, and of the ends of drive periods if `PERIODS`.
+    /// Advances the open members by some drive periods in one batch on this thread, and returns how many they are; they
+    /// record impacts if `IMPACTS`, and states if `PERIODS`.
     ///
     /// # Errors
     /// [`OrbitError::Stopped`].
@@ -241,43 +241,43 @@ impl<'a> Ensemble<'a> {
         periods: u64,
     ) -> Result<u64, OrbitError> {
         let members = members.iter_mut().map(|it| &mut **it);
-        let open = members.filter_map(|it| it.member().outcome.is_open().then_some(it));
-        let mut open = Open::<IMPACTS, PERIODS, M>(open.collect());
+        let open = members.filter_map(|it| it.member_mut().status.is_open().then_some(it));
+        let mut open = OpenMembers::<IMPACTS, PERIODS, M>(open.collect());
         let motions = open.0.iter_mut().map(|it| {
-            let member = it.member();
+            let member = it.member_mut();
             (member.machine, member.state, periods)
         });
         let motions: Vec<_> = motions.collect();
-        let ask = || stop_if(self.note(0).is_err());
-        let outcomes = follow(&self.machines, motions, &mut open, ask);
+        let ask = || stop_if(self.count_work(0).is_err());
+        let outcomes = follow_batch(&self.machines, motions, &mut open, ask);
         let outcomes = outcomes.ok_or(OrbitError::Stopped)?;
         let count = outcomes.len() as u64;
         for (member, outcome) in open.0.into_iter().zip(outcomes) {
-            let member = member.member();
+            let member = member.member_mut();
             member.state = outcome.end;
             if let Some(error) = outcome.error {
-                member.lose(error);
+                member.mark_lost(error);
             }
         }
         Ok(count)
     }
 }
 
-/// Motions of a batch, in order, each of which is told what happens in it.
-struct Open<'a, const IMPACTS: bool, const PERIODS: bool, M>(Vec<&'a mut M>);
+/// The open members of a batch, in order, each of which records what happens to it.
+struct OpenMembers<'a, const IMPACTS: bool, const PERIODS: bool, M>(Vec<&'a mut M>);
 
 impl<const IMPACTS: bool, const PERIODS: bool, M: HasMember> BatchObserver
-    for Open<'_, IMPACTS, PERIODS, M>
+    for OpenMembers<'_, IMPACTS, PERIODS, M>
 {
     const IMPACTS: bool = IMPACTS;
     const PERIODS: bool = PERIODS;
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64) {
         let cycles = cycle as f64;
-        self.0[job].impact(Instant { cycles, offset }, velocity);
+        self.0[job].record_impact(Instant { cycles, offset }, velocity);
     }
 
     fn period(&mut self, job: usize, _: u64, state: Start) {
-        self.0[job].period(state);
+        self.0[job].record_state(state);
     }
 }

@@ -1,15 +1,15 @@
-//! What a motion of a machine is judged by: one list of names, units, senses and meanings.
+//! Figures that a motion of a machine is judged by: one list of their names, units, senses and meanings.
 
 use crate::cycle_metrics::CycleMetrics;
 use crate::orbit::Orbit;
 use softstop::{Dimension, Scene, Stop};
 
-/// On which side of a bound a figure is good.
+/// The side of a bound on which a figure is good.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Sense {
-    /// More is better.
+    /// The bound is a least value: more is better.
     Least,
-    /// Less is better.
+    /// The bound is a largest value: less is better.
     Most,
 }
 
@@ -83,13 +83,13 @@ figures! {
 }
 
 impl Figure {
-    /// The one of this name.
+    /// The figure of this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|it| it.name() == name)
     }
 
-    /// Why its value is infinite, where it is.
-    pub const fn unbounded(self) -> &'static str {
+    /// Why the value of the figure is infinite, where it is.
+    pub const fn unbounded_reason(self) -> &'static str {
         match self {
             Self::FrequencyPd => "no flip on this branch",
             Self::ClearancePd => {
@@ -99,8 +99,8 @@ impl Figure {
         }
     }
 
-    /// Its value in SI units, NaN if the motion has none; nothing if it takes more than the motion to tell it: a zone,
-    /// trials, or the formula of a cost.
+    /// The figure's value in SI units, NaN if the motion has none; nothing if it takes more than the motion to tell it:
+    /// a zone, trials, or the formula of a cost.
     pub fn of_motion(self, orbit: &Orbit, stroke: &CycleMetrics) -> Option<f64> {
         Some(match self {
             Self::Velocity => stroke.impact_velocity,
@@ -113,9 +113,9 @@ impl Figure {
             Self::Stroke => stroke.length,
             Self::StopForce => stroke.stop_force,
             Self::StopDeflection => {
-                let above = deflection(&orbit.scene, stroke.highest);
+                let above = stop_deflection(&orbit.scene, stroke.highest);
                 let below = orbit.scene.mirrored();
-                let below = below.and_then(|below| deflection(&below, -stroke.lowest));
+                let below = below.and_then(|below| stop_deflection(&below, -stroke.lowest));
                 let both = above.into_iter().chain(below);
                 both.fold(f64::NAN, f64::max)
             }
@@ -129,12 +129,12 @@ impl Figure {
         })
     }
 
-    /// True if a motion tells it by itself, without its zone and without trials.
+    /// True if a motion tells the figure by itself, without its zone and without trials.
     pub const fn is_of_motion(self) -> bool {
         !self.is_trial() && !self.is_margin()
     }
 
-    /// True if it is a distance from where the motion is lost.
+    /// True if the figure is a distance from where the motion is lost.
     pub const fn is_margin(self) -> bool {
         matches!(
             self,
@@ -149,8 +149,8 @@ impl Figure {
     }
 }
 
-/// How far a position lies beyond the face of a machine's stop, in m; none if it has no stop that gives way.
-fn deflection(scene: &Scene, position: f64) -> Option<f64> {
+/// Deflection in m of a machine's stop at a position of the mass; none if it has no stop that gives way.
+fn stop_deflection(scene: &Scene, position: f64) -> Option<f64> {
     match scene.stop {
         Stop::None | Stop::Rigid { .. } => None,
         _ => Some((position - scene.stop_position()).max(0.0)),

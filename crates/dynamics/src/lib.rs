@@ -1,7 +1,7 @@
 //! Periodic motions of impact oscillators and what becomes of them: [`orbit`] (z = p/n, Floquet
 //! multipliers, exponents) → [`continuation`] (branches, folds, flips, grazings) → [`zone`] (where
 //! impacts and rest coexist) → [`settled`], [`attractors`], [`basin`], [`sweep`] (what is seen from many starts),
-//! told in one vocabulary ([`motion`]). What a machine does in service: [`figure`] (their names), [`cycle_metrics`] (figures of a period), [`supply`] (missing strips), [`run_up`] (from rest to work).
+//! told in one vocabulary ([`motion`]). What a machine does in service: [`figure`] (their names), [`cycle_metrics`] (figures of a period), [`missing_strips`] (strips that fail to come), [`run_up`] (from rest to work).
 //!
 //! Records and errors that will grow are `non_exhaustive`; options, which a user fills in, and the enumerations that say
 //! what a motion or an end is, are not, so that a match says what a new one asks for.
@@ -31,6 +31,7 @@ mod direction;
 mod ensemble;
 mod extremes;
 pub mod figure;
+pub mod missing_strips;
 pub mod monitor;
 pub mod motion;
 pub mod orbit;
@@ -38,11 +39,10 @@ mod period;
 pub mod points;
 pub mod run_up;
 pub mod settled;
-mod share;
 pub mod slopes;
 mod stroke_count;
-pub mod supply;
 pub mod sweep;
+mod wilson_interval;
 pub mod zone;
 
 pub use attractors::Survey;
@@ -59,9 +59,9 @@ pub use zone::Zone;
 /// What sibling crates share beyond this page, without any promise.
 #[doc(hidden)]
 pub mod internals {
-    pub use crate::attractors::starts::evenly;
+    pub use crate::attractors::region::evenly_spread_point;
     pub use crate::continuation::period_map::carry_on;
-    pub use crate::cycle_metrics::peak_force;
+    pub use crate::cycle_metrics::peak_contact_force;
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
     pub use crate::period::PeriodTrajectory;

@@ -1,4 +1,4 @@
-//! One way to watch long work, to stop it, and to take it up again.
+//! Monitors of long work, and stores of its finished pieces: one way to watch, to stop and to resume.
 
 use std::ops::ControlFlow;
 use std::time::Duration;
@@ -7,15 +7,15 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use softstop::internals::budget;
 
-/// Told how much is done, and of how much at most; asked whether to go on.
+/// A function that is told how much work is done, and of how much at most, and says whether the work goes on.
 pub type Monitor<'a> = &'a (dyn Fn(u64, u64) -> ControlFlow<()> + Sync);
 
-/// A [`Monitor`] that lets everything pass.
+/// A [`Monitor`] that never stops the work.
 pub fn unmonitored(_: u64, _: u64) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// Stops if something holds.
+/// Break if something holds, else continue.
 pub fn stop_if(holds: bool) -> ControlFlow<()> {
     match holds {
         true => ControlFlow::Break(()),
@@ -23,34 +23,34 @@ pub fn stop_if(holds: bool) -> ControlFlow<()> {
     }
 }
 
-/// Keeps finished pieces of long work for the day on which it is taken up again.
+/// A store of finished pieces of long work, from which it resumes.
 pub trait Memory: Sync {
-    /// The piece under this key, if it is known.
-    fn recall(&self, key: &[u8]) -> Option<Vec<u8>>;
-    /// Keeps a piece.
-    fn keep(&self, key: &[u8], piece: &[u8]);
+    /// The stored piece under this key, if there is one.
+    fn recall_piece(&self, key: &[u8]) -> Option<Vec<u8>>;
+    /// Stores a piece under a key.
+    fn store_piece(&self, key: &[u8], piece: &[u8]);
 }
 
-/// Where pieces are kept, if anywhere.
-pub type Kept<'a> = Option<&'a dyn Memory>;
+/// The store of finished pieces, if there is one.
+pub type OptionalMemory<'a> = Option<&'a dyn Memory>;
 
-/// How long work takes whose result is kept as a piece.
-pub(crate) const PIECE: Duration = Duration::from_millis(250);
+/// Duration of work whose result is stored as one piece.
+pub(crate) const PIECE_DURATION: Duration = Duration::from_millis(250);
 
-/// A piece of work: recalled if it is known, else done now and kept, unless the [`budget`] is spent by then. It must
-/// follow from its key. What it costs is charged in both cases.
+/// A piece of work: recalled if it is stored, else computed now and stored, unless the [`budget`] is spent by then. It
+/// must follow from its key. What it costs is charged in both cases.
 ///
 /// # Errors
 /// Those of the work, which is not kept then.
-pub fn piece<T: Serialize + DeserializeOwned, E>(
-    kept: Kept<'_>,
+pub fn recall_or_compute<T: Serialize + DeserializeOwned, E>(
+    kept: OptionalMemory<'_>,
     key: &impl Serialize,
     work: impl FnOnce() -> Result<T, E>,
 ) -> Result<T, E> {
     let Some((memory, key)) = kept.zip(rmp_serde::to_vec(key).ok()) else {
         return work();
     };
-    let known = memory.recall(&key);
+    let known = memory.recall_piece(&key);
     if let Some((cost, known)) = known.and_then(|bytes| rmp_serde::from_slice(&bytes).ok()) {
         budget::charge(cost);
         return Ok(known);
@@ -61,7 +61,7 @@ pub fn piece<T: Serialize + DeserializeOwned, E>(
     if left > 0
         && let Ok(bytes) = rmp_serde::to_vec(&(before - left, &done))
     {
-        memory.keep(&key, &bytes);
+        memory.store_piece(&key, &bytes);
     }
     Ok(done)
 }

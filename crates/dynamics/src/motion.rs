@@ -4,9 +4,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::orbit::{Count, ImpactPattern, Orbit, Regime};
+use crate::orbit::{ImpactCount, ImpactPattern, Orbit, Regime};
 
-/// What a motion settles on.
+/// The kind of motion that a start settles on.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionKind {
@@ -38,21 +38,22 @@ pub enum MotionKind {
 }
 
 impl MotionKind {
-    /// That of an orbit.
+    /// The kind of motion of a periodic orbit.
     pub fn of(orbit: &Orbit) -> Self {
-        Self::repeating(orbit.regime(), orbit.pattern())
+        Self::from_regime(orbit.regime(), orbit.pattern())
     }
 
-    /// One that repeats; of complete chatter the regime counts the impacts before the summed ones.
-    pub fn repeating(regime: Regime, order: ImpactPattern) -> Self {
+    /// The kind of a motion that repeats, by its regime and the order of its impacts; of complete chatter the regime
+    /// counts the impacts before the summed ones.
+    pub fn from_regime(regime: Regime, order: ImpactPattern) -> Self {
         let periods = regime.periods;
-        match order.counts().contains(&Count::Infinite) {
+        match order.counts_per_period().contains(&ImpactCount::Infinite) {
             true => Self::Chatter { periods, order },
             false => Self::Periodic { regime, order },
         }
     }
 
-    /// The regime z = p/n, unless its impacts are without number or it does not repeat.
+    /// The regime z = p/n of the motion, unless its impacts are without number or it does not repeat.
     pub fn regime(&self) -> Option<Regime> {
         match self {
             Self::Periodic { regime, .. } => Some(*regime),
@@ -60,7 +61,7 @@ impl MotionKind {
         }
     }
 
-    /// z = p/n as JSON and CSV have it: `2/3`, `1` for 1/1, `∞/n` for complete chatter.
+    /// The regime z = p/n as JSON and CSV have it: `2/3`, `1` for 1/1, `∞/n` for complete chatter.
     pub fn z(&self) -> Option<String> {
         match self {
             Self::Periodic { regime, .. } => Some(regime.to_string()),
@@ -70,7 +71,7 @@ impl MotionKind {
         }
     }
 
-    /// Drive periods after which it repeats, if it does.
+    /// Drive periods after which the motion repeats, if it does.
     pub fn periods(&self) -> Option<u64> {
         match self {
             Self::Periodic { regime, .. } => Some(regime.periods),
@@ -79,7 +80,7 @@ impl MotionKind {
         }
     }
 
-    /// Its impacts in each drive period, if it repeats.
+    /// The impacts of the motion in each drive period, if it repeats.
     pub fn order(&self) -> Option<&ImpactPattern> {
         match self {
             Self::Periodic { order, .. } | Self::Chatter { order, .. } => Some(order),
@@ -87,18 +88,19 @@ impl MotionKind {
         }
     }
 
-    /// The order of its impacts where the regime does not tell it.
-    pub fn told_order(&self) -> Option<&ImpactPattern> {
-        self.order().filter(|order| order.counts().len() > 1)
+    /// The impacts in each drive period where the regime alone does not tell them: of more than one period.
+    pub fn order_beyond_regime(&self) -> Option<&ImpactPattern> {
+        self.order()
+            .filter(|order| order.counts_per_period().len() > 1)
     }
 
-    /// True if it is chaotic, for ever or for long.
+    /// True if the motion is chaotic, for ever or for long.
     pub fn is_chaotic(&self) -> bool {
         matches!(self, Self::Chaos | Self::TransientChaos)
     }
 
-    /// Its kind as JSON has it.
-    pub const fn key(&self) -> &'static str {
+    /// The kind of motion as a key in JSON.
+    pub const fn json_key(&self) -> &'static str {
         match self {
             Self::Periodic { .. } => "periodic",
             Self::Chatter { .. } => "chatter",
@@ -110,7 +112,7 @@ impl MotionKind {
         }
     }
 
-    /// What tells its colour.
+    /// The class of the motion, which has one colour in charts.
     pub fn class(&self) -> MotionClass {
         let (regime, order) = match self {
             Self::Periodic { regime, order } => (regime, order),
@@ -146,7 +148,7 @@ impl fmt::Display for MotionKind {
                 write!(formatter, "complete chatter every {periods} drive periods")
             }
             Self::TransientChaos => formatter.write_str("transient chaos"),
-            other => formatter.write_str(other.key()),
+            other => formatter.write_str(other.json_key()),
         }
     }
 }
@@ -163,7 +165,7 @@ macro_rules! classes {
             /// All, in the order of legends.
             pub const ALL: &[Self] = &[$(Self::$class),*];
 
-            /// In a word or two.
+            /// The name of the class in legends, in a word or two.
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Self::$class => $name),*
@@ -218,7 +220,7 @@ mod tests {
             impacts: impacts.len() as u64,
             periods,
         };
-        MotionKind::repeating(regime, ImpactPattern::new(&impacts, &rests, periods, 1.0))
+        MotionKind::from_regime(regime, ImpactPattern::new(&impacts, &rests, periods, 1.0))
     }
 
     #[test]
@@ -246,7 +248,7 @@ mod tests {
             let json = serde_json::to_value(&motion).expect("JSON");
             let kind = json.as_str().map(str::to_owned);
             let kind = kind.or_else(|| Some(json.as_object()?.keys().next()?.clone()));
-            assert_eq!(kind.as_deref(), Some(motion.key()));
+            assert_eq!(kind.as_deref(), Some(motion.json_key()));
             assert_eq!(
                 serde_json::from_value::<MotionKind>(json).ok(),
                 Some(motion)

@@ -4,23 +4,23 @@
 //! hash, Burley 2020), which has 2^16 of them, to 24 bits, under each seed. So a million are 16 sequences that are
 //! scrambled independently: randomised quasi-Monte-Carlo, whose scatter from sequence to sequence is its error.
 //!
-//! Whoever runs many machines does so in [`blocks`] of their numbers: what comes of them does not depend on the threads.
+//! Whoever runs many machines does so in [`parallel_blocks`] of their numbers: what comes of them does not depend on the threads.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-/// Points of a sequence; those that follow are of the next one.
-pub const BLOCK: usize = 1 << 16;
-/// Most dimensions.
-pub const DIMENSIONS: u32 = 4 * sobol_burley::NUM_DIMENSION_SETS_4D;
-/// Half the distance between numbers of 24 bits in [0, 1).
-const HALF: f64 = 0.5 / (1 << 24) as f64;
-/// An odd number whose multiples are far apart: no two seeds share a sequence soon.
+/// Points of one Sobol sequence; those that follow are of the next one.
+pub const SEQUENCE_LENGTH: usize = 1 << 16;
+/// Largest dimension of a point.
+pub const MAX_DIMENSIONS: u32 = 4 * sobol_burley::NUM_DIMENSION_SETS_4D;
+/// Half the distance between numbers of 24 bits in [0, 1): it centres coordinates in their cells.
+const HALF_SPACING: f64 = 0.5 / (1 << 24) as f64;
+/// An odd multiplier of seeds whose multiples are far apart: no two seeds share a Sobol sequence soon.
 const SEED_STEP: u32 = 0x9e37_79b9;
 
-/// The points with these numbers in blocks of so many, on all threads, in order.
-pub fn blocks(
+/// The numbers of points in blocks of `size`, on all threads, in order.
+pub fn parallel_blocks(
     points: Range<u64>,
     size: u64,
 ) -> impl IndexedParallelIterator<Item = Range<u64>> + Clone {
@@ -32,27 +32,27 @@ pub fn blocks(
     })
 }
 
-/// One coordinate of point `index`, between 0 and 1, under a seed; there are at most [`DIMENSIONS`].
-pub fn share(seed: u32, index: u64, dimension: u32) -> f64 {
-    let sequence = (index / BLOCK as u64) as u32 ^ seed.wrapping_mul(SEED_STEP);
-    let within = (index % BLOCK as u64) as u32;
-    f64::from(sobol_burley::sample(within, dimension, sequence)) + HALF
+/// One coordinate, below [`MAX_DIMENSIONS`], of the scrambled Sobol point `index`, between 0 and 1.
+pub fn sobol_coordinate(seed: u32, index: u64, dimension: u32) -> f64 {
+    let sequence = (index / SEQUENCE_LENGTH as u64) as u32 ^ seed.wrapping_mul(SEED_STEP);
+    let within = (index % SEQUENCE_LENGTH as u64) as u32;
+    f64::from(sobol_burley::sample(within, dimension, sequence)) + HALF_SPACING
 }
 
-/// Point `index` in as many dimensions, at most [`DIMENSIONS`], each coordinate between -1 and 1.
-pub fn place(index: usize, dimensions: usize) -> Vec<f64> {
-    let coordinate = |dimension| 2.0 * share(0, index as u64, dimension) - 1.0;
+/// The scrambled Sobol point `index` in at most [`MAX_DIMENSIONS`], each coordinate between -1 and 1.
+pub fn sobol_point(index: usize, dimensions: usize) -> Vec<f64> {
+    let coordinate = |dimension| 2.0 * sobol_coordinate(0, index as u64, dimension) - 1.0;
     (0..dimensions as u32).map(coordinate).collect()
 }
 
-/// A random number between 0 and 1 for the same: SplitMix64 (Steele et al. 2014), each from a state of its own.
-pub fn random(seed: u32, index: u64, dimension: u32) -> f64 {
+/// One coordinate of the pseudo-random point `index`, between 0 and 1: SplitMix64 (Steele et al. 2014).
+pub fn random_coordinate(seed: u32, index: u64, dimension: u32) -> f64 {
     let stream = u64::from(seed) << 32 | u64::from(dimension);
-    (scramble(index ^ scramble(stream)) >> 11) as f64 / (1u64 << 53) as f64
+    (scramble_bits(index ^ scramble_bits(stream)) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// A number whose bits all depend on all bits of the seed.
-pub(crate) fn scramble(seed: u64) -> u64 {
+/// A number whose bits all depend on all bits of the seed: the mixing function of SplitMix64.
+pub(crate) fn scramble_bits(seed: u64) -> u64 {
     let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

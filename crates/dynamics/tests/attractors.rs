@@ -3,7 +3,9 @@
 
 use softstop::{Scene, Start, Stop};
 use softstop_dynamics::Survey;
-use softstop_dynamics::attractors::{Attractor, Chaos, SearchOptions, attractors, classify};
+use softstop_dynamics::attractors::{
+    Attractor, Chaos, SearchOptions, classify_start, find_attractors,
+};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_testing::{assert_near, is_near, loaded, unloaded};
 
@@ -21,7 +23,7 @@ fn survey(scene: &Scene) -> Survey {
 }
 
 fn survey_by(scene: &Scene, options: &SearchOptions) -> Survey {
-    let survey = attractors(scene, options, &unmonitored).expect("a survey");
+    let survey = find_attractors(scene, options, &unmonitored).expect("a survey");
     assert_eq!(survey.lost, None);
     let starts: usize = survey.attractors.iter().map(|found| found.starts).sum();
     assert_eq!(starts, survey.starts, "every start counts once");
@@ -119,7 +121,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     let [one, three] = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("a pool")
-            .install(|| attractors(&scene, &options, &unmonitored))
+            .install(|| find_attractors(&scene, &options, &unmonitored))
     });
     assert_eq!(one, three);
 }
@@ -134,7 +136,7 @@ fn what_holds_a_mass_is_one_motion_and_chatter_is_counted_without_number() {
     scene.clearance = 0.0;
     assert_eq!(names(&survey(&scene)), ["1"]);
     scene.excitation.frequency = 0.3;
-    let found = classify(&scene, Start::new(-0.5, 0.1), &OPTIONS).expect("a motion");
+    let found = classify_start(&scene, Start::new(-0.5, 0.1), &OPTIONS).expect("a motion");
     assert!(found.orbit.as_ref().expect("an orbit").chatters());
     assert_eq!(name(&found), "∞");
 }
@@ -152,7 +154,7 @@ fn single_motions_are_told_apart() {
         (1.15, Start::new(0.0, 0.0), "0"),
     ];
     for (frequency, start, expected) in classes {
-        let found = classify(&unloaded(frequency), start, &OPTIONS).expect("a motion");
+        let found = classify_start(&unloaded(frequency), start, &OPTIONS).expect("a motion");
         assert_eq!(name(&found), expected, "from {start:?} at {frequency}");
     }
 }

@@ -3,7 +3,9 @@
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
-use softstop_dynamics::basin::{BasinOptions, BasinsAt, basins, establishing, follow_attractors};
+use softstop_dynamics::basin::{
+    BasinOptions, BasinsAt, establishing_certainties, find_basins, follow_attractors,
+};
 use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
@@ -20,7 +22,7 @@ const ONE: Regime = Regime {
 };
 
 fn states(size: usize) -> Grid {
-    Grid::states(
+    Grid::of_states(
         Axis::position(-25.0, 20.0, size),
         Axis::velocity(-30.0, 30.0, size),
         0.0,
@@ -28,11 +30,11 @@ fn states(size: usize) -> Grid {
 }
 
 fn on(scene: &Scene, grid: &Grid) -> Basins {
-    let found =
-        basins(scene, grid, &BasinOptions::default(), &unmonitored, None).expect("there is one");
-    assert_eq!(found.cells.len(), grid.cells());
+    let found = find_basins(scene, grid, &BasinOptions::default(), &unmonitored, None)
+        .expect("there is one");
+    assert_eq!(found.cells.len(), grid.cell_count());
     let cells: usize = found.classes.iter().map(|class| class.starts).sum();
-    assert_eq!(cells, grid.cells());
+    assert_eq!(cells, grid.cell_count());
     found
 }
 
@@ -52,7 +54,7 @@ fn orbits(basins: &Basins) -> Vec<&Orbit> {
 
 /// The class on whose orbit the scalar engine ends.
 fn by_scalar(scene: &Scene, basins: &Basins, cell: usize) -> usize {
-    let (start, angle) = basins.grid.start(cell);
+    let (start, angle) = basins.grid.start_of_cell(cell);
     let mut turned = scene.clone();
     turned.excitation.phase = angle;
     let wait = (-angle).rem_euclid(std::f64::consts::TAU) / turned.excitation.frequency;
@@ -93,7 +95,7 @@ fn planes_with_a_drive_angle_are_where_the_scalar_engine_ends() {
         let state = Start::new(3.0, -2.0);
         let grid = Grid {
             state,
-            ..Grid::states(across, up, 0.3)
+            ..Grid::of_states(across, up, 0.3)
         };
         let found = on(&scene, &grid);
         assert_eq!(names(&found), ["z = 0", "z = 1"]);
@@ -111,14 +113,14 @@ fn planes_with_a_drive_angle_are_where_the_scalar_engine_ends() {
 fn z_1_has_all_below_grazing_and_nothing_beyond_the_fold() {
     // g0 = 1.04444, s_SN = 1.369036.
     let below = on(&unloaded(1.02), &states(24));
-    assert_eq!(below.share(ONE).0, 1.0);
+    assert_eq!(below.regime_share(ONE).0, 1.0);
     // Just below g0 some starts lead to an isolated motion, none to rest.
     let near = on(&unloaded(1.043), &states(24));
     assert_eq!(names(&near), ["z = 1", "z = 3/4"]);
-    assert!(near.share(ONE).0 > 0.95 && near.share(NONE).0 == 0.0);
+    assert!(near.regime_share(ONE).0 > 0.95 && near.regime_share(NONE).0 == 0.0);
     let beyond = on(&unloaded(1.4), &states(24));
-    assert_eq!(beyond.share(ONE).0, 0.0);
-    assert_eq!(beyond.share(NONE).0, 1.0);
+    assert_eq!(beyond.regime_share(ONE).0, 0.0);
+    assert_eq!(beyond.regime_share(NONE).0, 1.0);
 }
 
 #[test]
@@ -172,7 +174,7 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
 fn the_certainty_falls_along_the_zone() {
     let zone = zone::hysteresis(&Ratios::unloaded().scene().expect("valid")).expect("there is one");
     let places = [0.0, 0.25, 0.5, 0.75, 0.98];
-    let found = establishing(
+    let found = establishing_certainties(
         &zone,
         &places,
         &states(30),
@@ -199,7 +201,7 @@ fn the_certainty_falls_along_the_zone() {
 
 #[test]
 fn it_stops_when_told() {
-    let stopped = basins(
+    let stopped = find_basins(
         &unloaded(1.15),
         &states(80),
         &BasinOptions::default(),
@@ -217,7 +219,8 @@ fn cells_that_cannot_be_are_lost() {
     let mut ratios = Ratios::unloaded();
     ratios.rigid = Some(rigid_stop(2.0, 0.6));
     let found = on(&ratios.scene().expect("there is one"), &states(24));
-    let beyond = (0..found.grid.cells()).filter(|cell| found.grid.start(*cell).0.position > 12.0);
+    let beyond = (0..found.grid.cell_count())
+        .filter(|cell| found.grid.start_of_cell(*cell).0.position > 12.0);
     let lost = found.classes.last().expect("there is one");
     assert_eq!(lost.motion.to_string(), "lost");
     assert_eq!(lost.starts, beyond.count());
@@ -322,7 +325,7 @@ fn attractors_are_followed_before_a_wall_that_comes_nearer() {
         (clearance, clearance_changed)
     };
     let scenes: Vec<(f64, Scene)> = (0..5).map(at).collect();
-    let grid = Grid::states(
+    let grid = Grid::of_states(
         Axis::position(-5.0, 0.0, 8),
         Axis::velocity(-5.0, 5.0, 8),
         0.0,

@@ -44,7 +44,7 @@ fn orbit(scene: &Scene) -> Option<Orbit> {
     let map = StroboscopicMap::new(scene, 1).ok()?;
     let start = Vector2::new(scene.clearance - 1.0, 0.0);
     let state = (0..200).try_fold(start, |state, _| map.image(state)).ok()?;
-    (1..=4).find_map(|periods| Orbit::periodic(scene, state, periods).ok())
+    (1..=4).find_map(|periods| Orbit::find_periodic(scene, state, periods).ok())
 }
 
 /// Its branch along the frequency, over two octaves, or along the clearance.

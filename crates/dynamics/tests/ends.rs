@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use softstop::internals::budget;
 use softstop::{MotionError, Scene, Start};
-use softstop_dynamics::attractors::{SearchOptions, attractors};
+use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::settled::Settling;
@@ -50,10 +50,13 @@ fn answers(scene: &Scene, windows: u64) -> [(Option<String>, u64); 3] {
     [
         told(budget::within(windows, || format!("{:?}", find(scene)))),
         told(budget::within(windows, || {
-            format!("{:?}", attractors(scene, &options, &unmonitored))
+            format!("{:?}", find_attractors(scene, &options, &unmonitored))
         })),
         told(budget::within(windows, || {
-            format!("{:?}", settling.follow(&[(scene, start)], &unmonitored))
+            format!(
+                "{:?}",
+                settling.follow_motions(&[(scene, start)], &unmonitored)
+            )
         })),
     ]
 }

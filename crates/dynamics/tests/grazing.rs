@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use softstop::{Ratios, Scene, Stop};
-use softstop_dynamics::orbit::{OrbitError, fixed_point};
+use softstop_dynamics::orbit::{OrbitError, find_fixed_point};
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{Orbit, StroboscopicMap};
 use softstop_testing::tolerance::{GROWN, MOTION, SOLVED};
@@ -32,7 +32,7 @@ fn steady(scene: &Scene) -> Vector2<f64> {
 /// The z = 1 motion near grazing from a start 1e-3 away.
 fn near_grazing(scene: &Scene) -> Orbit {
     let start = steady(scene) + Vector2::new(1e-3, -1e-3);
-    Orbit::periodic(scene, start, 1).expect("an orbit")
+    Orbit::find_periodic(scene, start, 1).expect("an orbit")
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn newton_settles_down_to_a_distance_of_1e_9_from_grazing() {
 fn on_the_map_newton_does_not_settle_there() {
     let scene = beside(false, 1e-7);
     let map = StroboscopicMap::new(&scene, 1).expect("valid");
-    let found = fixed_point(&map, steady(&scene) + Vector2::new(1e-3, -1e-3));
+    let found = find_fixed_point(&map, steady(&scene) + Vector2::new(1e-3, -1e-3));
     assert!(
         matches!(found, Err(OrbitError::Diverged { .. })),
         "{found:?}"
@@ -84,19 +84,19 @@ fn on_the_map_newton_does_not_settle_there() {
 fn above_resonance_an_unstable_motion_ends_in_grazing() {
     // Both exist: the impact-less motion, which is what is near, and one with a weak impact.
     let scene = beside(true, 1e-9);
-    let near = Orbit::periodic(&scene, steady(&scene), 1).expect("an orbit");
+    let near = Orbit::find_periodic(&scene, steady(&scene), 1).expect("an orbit");
     assert_eq!(near.impacts.len(), 0);
     let state = steady(&scene);
     let eta = scene.excitation.frequency;
     // Its largest position lies where the drive has turned by the phase lag.
     let time = (state.y / eta).atan2(state.x) / eta;
-    let orbit = Orbit::by_impacts(&scene, 1, &[(time, 1e-3)]).expect("an orbit");
+    let orbit = Orbit::find_by_impacts(&scene, 1, &[(time, 1e-3)]).expect("an orbit");
     assert!(!orbit.is_stable());
     let velocity = orbit.before_impact_velocity();
     assert!(velocity > 0.0 && velocity < 1e-6, "{velocity:e}");
     // Twice over the same motion is found as what it is.
     let period = scene.period();
-    let twice = Orbit::by_impacts(&scene, 2, &[(time, 1e-3), (time + period, 1e-3)]);
+    let twice = Orbit::find_by_impacts(&scene, 2, &[(time, 1e-3), (time + period, 1e-3)]);
     assert_eq!(twice.expect("an orbit").periods, 1);
 }
 
@@ -111,7 +111,7 @@ fn from_impact_to_impact_strong_motions_are_the_same() {
             touch.instant.offset + 1e-2,
             touch.before_impact_velocity - 1e-2,
         );
-        let again = Orbit::by_impacts(&scene, 1, &[guess]).expect("an orbit");
+        let again = Orbit::find_by_impacts(&scene, 1, &[guess]).expect("an orbit");
         assert_near((again.state() - orbit.state()).norm(), 0.0, 10.0 * MOTION);
         assert_near(
             (again.monodromy.matrix - orbit.monodromy.matrix).norm(),

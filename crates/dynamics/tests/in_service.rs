@@ -4,11 +4,11 @@ use rayon::ThreadPoolBuilder;
 use softstop::{Machine, Scene, Simulation, Start};
 use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{
-    BasinOptions, BasinTest, ErosionProfile, Establishment, basins, zone_box,
+    BasinOptions, BasinTest, ErosionProfile, Establishment, find_basins, zone_box,
 };
+use softstop_dynamics::missing_strips::{StopWithoutStrip, survives_missing_strips};
 use softstop_dynamics::monitor::{stop_if, unmonitored};
-use softstop_dynamics::run_up::{RunUp, Settings, Way};
-use softstop_dynamics::supply::{Reading, survives_missing_strips};
+use softstop_dynamics::run_up::{RunUp, RunUpSettings, Way};
 use softstop_dynamics::{Axis, Grid, Orbit, Regime, Zone, orbit, zone};
 use softstop_testing::{loaded, unloaded};
 
@@ -26,7 +26,7 @@ fn cells(region: &Region, size: usize) -> Grid {
         Axis::position(left, right, size),
         Axis::velocity(low, high, size),
     );
-    Grid::states(axes.0, axes.1, 0.0)
+    Grid::of_states(axes.0, axes.1, 0.0)
 }
 
 /// Basins tell all motions apart, by scouts that know none: another way to the same.
@@ -39,9 +39,12 @@ fn who_comes_home_is_in_the_basin_of_z_1() {
             let orbit = zone.orbit_at(place).expect("z = 1");
             let grid = cells(&region, 40);
             let options = BasinOptions::default();
-            let found = basins(&orbit.scene, &grid, &options, &unmonitored, None).expect("basins");
-            let starts: Vec<_> = (0..grid.cells()).map(|cell| grid.start(cell).0).collect();
-            let reached = BasinTest::of(&orbit).map(|home| home.reached(&starts, &unmonitored));
+            let found =
+                find_basins(&orbit.scene, &grid, &options, &unmonitored, None).expect("basins");
+            let starts: Vec<_> = (0..grid.cell_count())
+                .map(|cell| grid.start_of_cell(cell).0)
+                .collect();
+            let reached = BasinTest::of(&orbit).map(|home| home.test_starts(&starts, &unmonitored));
             let reached = reached.expect("computed").expect("not stopped");
             for (cell, reached) in reached.into_iter().enumerate() {
                 let class = &found.classes[usize::from(found.cells[cell])];
@@ -59,7 +62,8 @@ fn the_certainty_at_a_is_that_of_the_paper_room() {
         position: [-20.0, 20.0],
         velocity: [-20.0, 20.0],
     };
-    let of = |starts| Establishment::within(&one(&unloaded(1.15)), &square, starts, &unmonitored);
+    let of =
+        |starts| Establishment::within_region(&one(&unloaded(1.15)), &square, starts, &unmonitored);
     let found = of(40_000).expect("computed");
     assert!((found.share - 0.541).abs() < 0.002, "{}", found.share);
     assert!(found.interval[0] < 0.541 && found.interval[1] > 0.541);
@@ -72,11 +76,11 @@ fn the_certainty_at_a_is_that_of_the_paper_room() {
 fn b_outlasts_missing_strips() {
     let b = one(&loaded());
     for missing in [0, 1, 2, 5, 25] {
-        for reading in [Reading::Near, Reading::Fixed] {
+        for reading in [StopWithoutStrip::Near, StopWithoutStrip::Fixed] {
             let found =
                 survives_missing_strips(&b, missing, reading, 64, &unmonitored).expect("computed");
-            assert_eq!((found.share(), found.gaps.len()), (1.0, 64));
-            assert_eq!(found.missed(), 0, "{missing} {reading:?}");
+            assert_eq!((found.return_share(), found.gaps.len()), (1.0, 64));
+            assert_eq!(found.max_missed_strokes(), 0, "{missing} {reading:?}");
         }
     }
 }
@@ -86,17 +90,17 @@ fn b_outlasts_missing_strips() {
 fn near_the_fold_missing_strips_end_the_motion() {
     let zone = zone_of(&loaded());
     let near = zone.orbit_at(0.995).expect("z = 1");
-    let found =
-        survives_missing_strips(&near, 25, Reading::Near, 32, &unmonitored).expect("computed");
-    assert!(found.share() < 0.5, "{}", found.share());
+    let found = survives_missing_strips(&near, 25, StopWithoutStrip::Near, 32, &unmonitored)
+        .expect("computed");
+    assert!(found.return_share() < 0.5, "{}", found.return_share());
     let lost = found.gaps.iter().filter(|gap| !gap.comes_back);
     assert!(lost.clone().count() > 0 && lost.clone().all(|gap| gap.missed > 3));
 }
 
-fn all_ways() -> Settings {
-    Settings {
+fn all_ways() -> RunUpSettings {
+    RunUpSettings {
         ways: Way::ALL.to_vec(),
-        ..Settings::default()
+        ..RunUpSettings::default()
     }
 }
 
@@ -104,14 +108,14 @@ fn all_ways() -> Settings {
 #[test]
 fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
     let orbit = one(&unloaded(1.15));
-    let settings = Settings {
+    let settings = RunUpSettings {
         ways: vec![Way::FrequencyRaised],
         ramp: Some(0.005),
         with_peaks: true,
-        ..Settings::default()
+        ..RunUpSettings::default()
     };
     let found = RunUp::of(&orbit, &settings, 1, &unmonitored).expect("computed");
-    let attempt = found.by(Way::FrequencyRaised).expect("tried");
+    let attempt = found.attempt_by(Way::FrequencyRaised).expect("tried");
     let steps = attempt.periods.expect("periods");
     assert_eq!(steps, 131, "from 0.5 to 1.15");
     let (mut state, mut highest, mut force) = (Start::REST, 0.0_f64, 0.0_f64);
@@ -141,7 +145,7 @@ fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
         peaks.stop_force
     );
     let bounded = |most| {
-        let settings = Settings {
+        let settings = RunUpSettings {
             most_force: Some(most),
             ..settings.clone()
         };
@@ -149,10 +153,10 @@ fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
     };
     let reaches = attempt.share == 1.0;
     assert_eq!(
-        bounded(1.01 * peaks.stop_force).works().count(),
+        bounded(1.01 * peaks.stop_force).working_ways().count(),
         usize::from(reaches)
     );
-    assert_eq!(bounded(0.99 * peaks.stop_force).works().count(), 0);
+    assert_eq!(bounded(0.99 * peaks.stop_force).working_ways().count(), 0);
 }
 
 /// The paper: impacts in the hysteresis zone are reached from impacts, not from rest.
@@ -160,7 +164,7 @@ fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
 fn a_and_b_are_run_up_from_impacts() {
     for scene in [unloaded(1.15), loaded()] {
         let run_up = RunUp::of(&one(&scene), &all_ways(), 64, &unmonitored).expect("computed");
-        let works: Vec<Way> = run_up.works().map(|attempt| attempt.way).collect();
+        let works: Vec<Way> = run_up.working_ways().map(|attempt| attempt.way).collect();
         let ways = [
             Way::FrequencyRaised,
             Way::ClearanceOpened,
@@ -168,10 +172,12 @@ fn a_and_b_are_run_up_from_impacts() {
         ];
         assert_eq!(works, ways, "{run_up}");
         assert_eq!(
-            run_up.by(Way::SwitchedOn).map(|attempt| attempt.share),
+            run_up
+                .attempt_by(Way::SwitchedOn)
+                .map(|attempt| attempt.share),
             Some(0.0)
         );
-        let lowered = run_up.by(Way::FrequencyLowered).expect("tried");
+        let lowered = run_up.attempt_by(Way::FrequencyLowered).expect("tried");
         assert_eq!((lowered.lost, lowered.from), (None, Some(2.3)));
         assert!(
             run_up
@@ -196,7 +202,7 @@ fn a_way_says_where_it_loses_the_motion() {
 #[test]
 fn integrity_falls_to_nothing_at_the_fold() {
     let zone = zone_of(&unloaded(1.15));
-    let places = ErosionProfile::evenly(5);
+    let places = ErosionProfile::evenly_spaced_places(5);
     let (region, _) = zone_box(&zone.scene, &zone, &unmonitored).expect("a box");
     let profile = ErosionProfile::of(&zone, &region, (&places, 1024), &unmonitored);
     let profile = profile.expect("computed");
@@ -209,7 +215,7 @@ fn integrity_falls_to_nothing_at_the_fold() {
         assert_eq!(place.velocity, orbit.before_impact_velocity());
         // No cell of a survey lies in the ball but not in the basin, and one just outside of it is lost.
         let options = BasinOptions::default();
-        let found = basins(&orbit.scene, &grid, &options, &unmonitored, None).expect("basins");
+        let found = find_basins(&orbit.scene, &grid, &options, &unmonitored, None).expect("basins");
         let largest = found.largest_ball_of(Regime::ONE).expect("a basin").radius;
         assert!(
             place.radius > 0.05 && place.radius < largest + 0.04,
@@ -217,8 +223,8 @@ fn integrity_falls_to_nothing_at_the_fold() {
             place.radius
         );
         let half = [grid.across, grid.up].map(|axis| 0.5 * (axis.range[1] - axis.range[0]));
-        for cell in 0..grid.cells() {
-            let start = grid.start(cell).0;
+        for cell in 0..grid.cell_count() {
+            let start = grid.start_of_cell(cell).0;
             let gap = [
                 start.position - orbit.position,
                 start.velocity - orbit.velocity,
@@ -261,8 +267,9 @@ fn threads_and_watchers() {
         let region = starting_box(&a.scene, &unmonitored).expect("a box");
         (
             Establishment::of(&a, 2000, &unmonitored).expect("computed"),
-            survives_missing_strips(&b, 3, Reading::Near, 300, &unmonitored).expect("computed"),
-            RunUp::of(&a, &Settings::default(), 32, &unmonitored).expect("computed"),
+            survives_missing_strips(&b, 3, StopWithoutStrip::Near, 300, &unmonitored)
+                .expect("computed"),
+            RunUp::of(&a, &RunUpSettings::default(), 32, &unmonitored).expect("computed"),
             ErosionProfile::of(&zone, &region, (&[0.2, 0.8], 700), &unmonitored).expect("computed"),
         )
     };
@@ -274,8 +281,8 @@ fn threads_and_watchers() {
     let a = one(&unloaded(1.15));
     let stop = |_, _| stop_if(true);
     assert!(Establishment::of(&a, 10, &stop).is_err());
-    assert!(RunUp::of(&a, &Settings::default(), 4, &stop).is_err());
-    assert!(survives_missing_strips(&a, 1, Reading::Fixed, 4, &stop).is_err());
+    assert!(RunUp::of(&a, &RunUpSettings::default(), 4, &stop).is_err());
+    assert!(survives_missing_strips(&a, 1, StopWithoutStrip::Fixed, 4, &stop).is_err());
 }
 
 #[test]
@@ -287,5 +294,5 @@ fn a_box_is_told_in_the_machine_s_own_units() {
     let machine = Machine::from(unloaded(1.15));
     let told =
         "-20.000000 <= x <= 20.000000 m and -23.000000 <= x' <= 23.000000 m/s at drive angle phi";
-    assert_eq!(square.told(&machine), told);
+    assert_eq!(square.describe(&machine), told);
 }

@@ -20,7 +20,7 @@ fn settled(scene: &Scene, start: Start) -> Option<Orbit> {
     motion.advance(Clock::at_cycle(SETTLED), &mut ()).ok()?;
     let state: Vector2<f64> = motion.state().into();
     (1..4).find_map(|periods| {
-        let orbit = Orbit::periodic(scene, state, periods).ok()?;
+        let orbit = Orbit::find_periodic(scene, state, periods).ok()?;
         let near = (orbit.state() - state).norm() < 1e-3 * (1.0 + state.norm());
         (near && orbit.is_stable() && !orbit.impacts.is_empty()).then_some(orbit)
     })
@@ -53,7 +53,7 @@ fn beside(
     let value = parameter.get(&scene)? + shift;
     parameter.set(&mut scene, value);
     scene.validate().ok()?;
-    let other = Orbit::periodic(&scene, orbit.state() + shift * along, orbit.periods).ok()?;
+    let other = Orbit::find_periodic(&scene, orbit.state() + shift * along, orbit.periods).ok()?;
     let meets = Meets::until(
         &scene,
         Start::from(other.state()),
@@ -62,7 +62,7 @@ fn beside(
     if other.periods != orbit.periods || meets.crossings != kinds.crossings {
         return None;
     }
-    let slopes = slopes::of(&other, &[]).ok()?;
+    let slopes = slopes::differentiate_orbit(&other, &[]).ok()?;
     let invariants = [other.trace(), other.determinant()];
     let figures = figures(&slopes).map(|figure| figure.value);
     Some(figures.chain(invariants).collect())
@@ -83,7 +83,7 @@ proptest! {
         let meets = Meets::until(&scene, Start::from(orbit.state()), Clock::at_cycle(orbit.periods));
         let parameters: Vec<Parameter> = Parameter::ALL.into_iter().filter(|parameter| parameter.get(&scene).is_some()).collect();
         for parameter in parameters {
-            let Ok(slopes) = slopes::of(&orbit, &[parameter]) else { continue };
+            let Ok(slopes) = slopes::differentiate_orbit(&orbit, &[parameter]) else { continue };
             prop_assert!((slopes.max_position.value - orbit.max_position).abs() < SOLVED * (1.0 + orbit.max_position.abs()));
             let along = Vector2::new(slopes.position.by[0], slopes.velocity.by[0]);
             let width = WIDTH * parameter.get(&scene).expect("it has").abs().max(0.05);
@@ -119,12 +119,12 @@ proptest! {
 fn where_there_is_no_derivative_none_is_told() {
     let scene = Ratios::unloaded().scene().expect("valid");
     let orbit = softstop_dynamics::orbit::find(&scene).expect("an orbit");
-    let lacks = slopes::of(&orbit, &[Parameter::Exponent]).expect_err("has none");
+    let lacks = slopes::differentiate_orbit(&orbit, &[Parameter::Exponent]).expect_err("has none");
     assert!(lacks.to_string().contains("stop.exponent"), "{lacks}");
     // At a fold the motion turns back.
     let zone = zone::hysteresis(&scene).expect("a zone");
     let fold = zone.orbit(&zone.high.point).expect("is there");
-    let turned = slopes::of(&fold, &[Parameter::Clearance]);
+    let turned = slopes::differentiate_orbit(&fold, &[Parameter::Clearance]);
     assert_eq!(turned, Err(OrbitError::NotIsolated));
     // A power law of exponent 1 is a spring, and becomes another law beside.
     let spring = hertz(7.0, 1.0, 0.0);
@@ -133,8 +133,9 @@ fn where_there_is_no_derivative_none_is_told() {
         ..scene.clone()
     };
     let orbit = softstop_dynamics::orbit::find(&spring).expect("an orbit");
-    assert!(slopes::of(&orbit, &[Parameter::StopStiffness]).is_ok());
-    let other = slopes::of(&orbit, &[Parameter::Exponent]).expect_err("another law");
+    assert!(slopes::differentiate_orbit(&orbit, &[Parameter::StopStiffness]).is_ok());
+    let other =
+        slopes::differentiate_orbit(&orbit, &[Parameter::Exponent]).expect_err("another law");
     assert!(other.to_string().contains("no derivative"), "{other}");
 }
 
@@ -156,14 +157,18 @@ fn after_chatter_derivatives_go_on() {
         Parameter::Frequency,
         Parameter::Restitution,
     ] {
-        let slopes = slopes::of(&orbit, &[parameter]).expect("known");
+        let slopes = slopes::differentiate_orbit(&orbit, &[parameter]).expect("known");
         let along = Vector2::new(slopes.position.by[0], slopes.velocity.by[0]);
         let value = parameter.get(&scene).expect("it has");
         let supplied = |shift: f64| {
             let mut scene = scene.clone();
             parameter.set(&mut scene, value + shift);
-            let orbit = Orbit::periodic(&scene, orbit.state() + shift * along, 1).expect("near");
-            slopes::of(&orbit, &[]).expect("known").supplied.value
+            let orbit =
+                Orbit::find_periodic(&scene, orbit.state() + shift * along, 1).expect("near");
+            slopes::differentiate_orbit(&orbit, &[])
+                .expect("known")
+                .supplied
+                .value
         };
         let central = |width: f64| (supplied(width) - supplied(-width)) / (2.0 * width);
         let found = (4.0 * central(1e-4) - central(2e-4)) / 3.0;

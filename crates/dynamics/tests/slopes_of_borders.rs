@@ -25,9 +25,9 @@ fn normals_are_those_of_zones_computed_anew() {
             .collect();
         let of = |scene: &Scene| zone::hysteresis(scene).expect("a zone");
         let zone = of(&scene);
-        let fold = Border::critical(&scene, 1, (Test::Fold, &zone.high.point), &parameters)
+        let fold = Border::at_critical(&scene, 1, (Test::Fold, &zone.high.point), &parameters)
             .expect("smooth");
-        let free = Border::free(&scene, true, &parameters).expect("grazes");
+        let free = Border::at_g0(&scene, true, &parameters).expect("grazes");
         for (index, parameter) in parameters.into_iter().enumerate() {
             if matches!(parameter, Parameter::Frequency | Parameter::Phase) {
                 continue;
@@ -77,7 +77,7 @@ fn borders(scene: &Scene) -> Vec<Border> {
         .expect("a branch");
     let specials = branch.specials.iter();
     specials
-        .map(|special| Border::at(scene, 1, special, &parameters).expect("smooth"))
+        .map(|special| Border::at_special(scene, 1, special, &parameters).expect("smooth"))
         .collect()
 }
 
@@ -103,7 +103,7 @@ fn normals_are_those_of_borders_found_again() {
             let frequency = |shift: f64| {
                 let mut scene = border.scene.clone();
                 parameter.set(&mut scene, value + shift * width);
-                border.again(&scene).expect("is there").frequency()
+                border.find_again(&scene).expect("is there").frequency()
             };
             let central = |by: f64| (frequency(by) - frequency(-by)) / (2.0 * by * width);
             let found = (4.0 * central(1.0) - central(2.0)) / 3.0;

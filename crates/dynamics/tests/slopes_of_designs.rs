@@ -46,7 +46,7 @@ fn designs() -> impl Strategy<Value = (Scene, f64)> {
 
 /// What a design is judged by: strength and time of its impact, X_m, lowest position, force, energy.
 fn figures(orbit: &Orbit, parameters: &[Parameter]) -> Option<Vec<slopes::DifferentiatedFigure>> {
-    let found = slopes::of(orbit, parameters).ok()?;
+    let found = slopes::differentiate_orbit(orbit, parameters).ok()?;
     let strike = found.impacts.into_iter().next()?;
     let figures = [
         strike.velocity,
@@ -120,14 +120,14 @@ fn judged(scene: &Scene, share: f64) -> Option<Tally> {
     let orbit = zone.orbit_at(share).ok()?;
     let own = |parameter: &Parameter| parameter.get(scene).is_some_and(|value| value != 0.0);
     let parameters: Vec<Parameter> = Parameter::ALL.into_iter().filter(own).collect();
-    let slopes = slopes::of(&orbit, &parameters).expect("has derivatives");
+    let slopes = slopes::differentiate_orbit(&orbit, &parameters).expect("has derivatives");
     let figures_here = figures(&orbit, &parameters).expect("has derivatives");
     let sizes: Vec<f64> = figures_here
         .iter()
         .map(|figure| figure.value.abs())
         .collect();
     let fold =
-        Border::critical(scene, 1, (Test::Fold, &zone.high.point), &parameters).expect("smooth");
+        Border::at_critical(scene, 1, (Test::Fold, &zone.high.point), &parameters).expect("smooth");
     let mut tally = (0, 0, 0.0);
     for (index, parameter) in parameters.iter().enumerate() {
         let value = parameter.get(&orbit.scene)?;
@@ -135,7 +135,7 @@ fn judged(scene: &Scene, share: f64) -> Option<Tally> {
         let beside = |shift: f64| {
             let mut scene = orbit.scene.clone();
             parameter.set(&mut scene, value + shift);
-            let other = Orbit::near(&scene, orbit.state() + shift * along).ok()?;
+            let other = Orbit::find_near(&scene, orbit.state() + shift * along).ok()?;
             let found = figures(&other, &[])?;
             Some(found.iter().map(|figure| figure.value).collect())
         };
@@ -151,7 +151,7 @@ fn judged(scene: &Scene, share: f64) -> Option<Tally> {
         let moved = |shift: f64| {
             let mut scene = fold.scene.clone();
             parameter.set(&mut scene, value + shift);
-            Some(vec![fold.again(&scene).ok()?.frequency()])
+            Some(vec![fold.find_again(&scene).ok()?.frequency()])
         };
         let size = [fold.frequency()];
         let exact = [-fold.normal[index] * value / size[0]];

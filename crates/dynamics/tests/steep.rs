@@ -39,7 +39,7 @@ fn stability_is_told_by_a_determinant_without_cancellation() -> Outcome {
             let scene = machine(&stop, phase)?;
             // To rounding, all impacts so weak fit.
             let impacts = [1e-9, 3e-9, 1e-8].map(|velocity| (touch(&scene), velocity));
-            let orbits = impacts.map(|impact| Orbit::by_impacts(&scene, 1, &[impact]));
+            let orbits = impacts.map(|impact| Orbit::find_by_impacts(&scene, 1, &[impact]));
             for orbit in orbits.into_iter().flatten() {
                 let matrix = orbit.monodromy.matrix;
                 if matrix.norm() < 1e8 {

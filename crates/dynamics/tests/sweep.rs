@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use rayon::ThreadPoolBuilder;
 use softstop::{Parameter, Ratios, Start, Stop};
 use softstop_dynamics::monitor::{Memory, unmonitored};
-use softstop_dynamics::sweep::{PlanError, hysteresis};
+use softstop_dynamics::sweep::{PlanError, find_coexistences};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Regime, Step, orbit};
 use softstop_testing::tolerance::{GROWN, MOTION};
 use softstop_testing::{assert_near, is_near, unloaded};
@@ -33,7 +33,7 @@ fn both(ratios: Ratios) -> Vec<Chain> {
 
 /// Runs a plan to its end.
 fn run(plan: &Plan, mut chains: Vec<Chain>) -> Vec<Chain> {
-    assert!(plan.run(&mut chains, &unmonitored));
+    assert!(plan.run_chains(&mut chains, &unmonitored));
     assert!(chains.iter().all(|chain| chain.error.is_none()));
     assert!(chains.iter().all(|chain| chain.steps.len() == plan.steps));
     chains
@@ -67,7 +67,7 @@ fn between_grazing_and_fold_the_way_matters() {
     // do not settle.
     plan.tolerance = 1e-3;
     let chains = run(&plan, both(Ratios::unloaded()));
-    let zones = hysteresis(&chains[0], &chains[1]);
+    let zones = find_coexistences(&chains[0], &chains[1]);
     let zone = zones
         .iter()
         .find(|zone| zone.from > 1.03)
@@ -78,7 +78,7 @@ fn between_grazing_and_fold_the_way_matters() {
     );
     assert!(zone.from >= G0 && zone.from < G0 + 5e-3, "{zone:?}");
     assert!(is_near(zone.to, FOLD, 2e-3), "{zone:?}");
-    let up = chains[0].jumps();
+    let up = chains[0].find_jumps();
     let jump = up.last().expect("there is one");
     assert!(jump.before.regime() == Some(Regime::ONE) && jump.after.regime() == Some(NONE));
     assert!(jump.velocities.0 > 16.0 && jump.velocities.1 == 0.0);
@@ -91,7 +91,7 @@ fn a_sweep_loses_the_motion_after_its_end() {
     // Which motion it is on is told by its impacts alone: nothing settles within 5 periods.
     let fine = frequencies((1.3, 1.4), 1001, 5);
     for plan in [slow, fine] {
-        assert_near(plan.rate(), 2e-5, MOTION);
+        assert_near(plan.sweep_rate(), 2e-5, MOTION);
         // From the motion with impacts, as a sweep from below comes.
         let orbit = orbit::find(&unloaded(1.3));
         let plan = Plan {
@@ -137,7 +137,7 @@ fn steps_have_the_motions_of_newtons_method() {
         let scene = unloaded(step.value);
         let orbit = orbit::find(&scene).expect("there is one");
         assert_eq!(step.motion.regime(), Some(Regime::ONE));
-        assert_near(step.hardest(), orbit.before_impact_velocity(), GROWN);
+        assert_near(step.hardest_impact(), orbit.before_impact_velocity(), GROWN);
         assert_near(step.max_position, orbit.max_position, GROWN);
     }
 }
@@ -203,7 +203,7 @@ fn threads_and_interruptions_change_nothing() {
     let mut parts = fleet();
     let mut rounds = 0;
     // Stopped after each step of each group.
-    while !plan.run(&mut parts, &|_, _| ControlFlow::Break(())) {
+    while !plan.run_chains(&mut parts, &|_, _| ControlFlow::Break(())) {
         rounds += 1;
     }
     assert!(rounds >= plan.steps / 2);
@@ -215,11 +215,11 @@ fn threads_and_interruptions_change_nothing() {
 struct Pieces(Mutex<HashMap<Vec<u8>, Vec<u8>>>);
 
 impl Memory for Pieces {
-    fn recall(&self, key: &[u8]) -> Option<Vec<u8>> {
+    fn recall_piece(&self, key: &[u8]) -> Option<Vec<u8>> {
         self.0.lock().expect("no panic").get(key).cloned()
     }
 
-    fn keep(&self, key: &[u8], piece: &[u8]) {
+    fn store_piece(&self, key: &[u8], piece: &[u8]) {
         let known = self
             .0
             .lock()
@@ -239,7 +239,7 @@ fn a_failed_chain_is_recalled_as_such() {
             chain(Ratios::unloaded(), Direction::Down),
             chain(Ratios::loaded(), Direction::Up),
         ];
-        assert!(plan.run_kept(&mut chains, &unmonitored, Some(&pieces)));
+        assert!(plan.run_chains_with_memory(&mut chains, &unmonitored, Some(&pieces)));
         chains
     };
     let done = run();
@@ -266,7 +266,7 @@ fn plans_and_parameters_that_cannot_be_are_refused() {
     assert!(matches!(plan((1.0, 2.0), 3, 0), Err(PlanError::Periods(0))));
     let plan = plan((-1.0, 1.0), 3, 3).expect("there is one");
     let mut chains = both(Ratios::unloaded());
-    assert!(plan.run(&mut chains, &unmonitored));
+    assert!(plan.run_chains(&mut chains, &unmonitored));
     // A frequency below zero: one chain cannot begin, the other cannot end.
     assert!(chains[0].steps.is_empty() && chains[0].error.is_some());
     assert_eq!(chains[1].steps.len(), 1);
@@ -281,7 +281,7 @@ fn steps_tell_the_order_of_impacts() {
         let start = Start::new(position, velocity);
         let plan = Plan { start, ..plan };
         let mut chain = [chain(Ratios::unloaded(), Direction::Up)];
-        assert!(plan.run(&mut chain, &unmonitored));
+        assert!(plan.run_chains(&mut chain, &unmonitored));
         let orders = chain[0].steps.iter().map(|step| step.motion.order());
         orders
             .map(|order| order.map_or_else(String::new, ToString::to_string))
@@ -304,5 +304,5 @@ fn chatter_is_called_chatter() {
         let name = step.motion.to_string();
         assert_eq!(name, "complete chatter every drive period");
     }
-    assert_eq!(chains[0].jumps(), []);
+    assert_eq!(chains[0].find_jumps(), []);
 }

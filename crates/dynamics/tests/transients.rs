@@ -45,7 +45,7 @@ fn starts() -> impl Iterator<Item = Start> {
 fn follow(scene: &Scene, settling: Settling) -> Vec<SettledMotion> {
     let motions: Vec<_> = starts().map(|start| (scene, start)).collect();
     let seen = settling
-        .follow(&motions, &unmonitored)
+        .follow_motions(&motions, &unmonitored)
         .expect("not stopped");
     seen.into_iter()
         .map(|seen| seen.expect("a motion"))
@@ -63,7 +63,7 @@ fn before_a_flip_the_period_is_not_doubled() -> Outcome {
         count += 1;
         assert_eq!(seen.periods, Some(8), "{seen:?}");
         for periods in [8, 16, 32] {
-            let orbit = Orbit::periodic(&scene, seen.end.into(), periods)?;
+            let orbit = Orbit::find_periodic(&scene, seen.end.into(), periods)?;
             assert_eq!(orbit.regime().to_string(), "8/8");
             let [first, second] = orbit.multipliers();
             assert_near(first.re, -0.962352, printed(6));
@@ -84,7 +84,7 @@ fn long_transients_are_followed_to_their_ends() -> Outcome {
     assert!(late.count() >= 2);
     // Each is told the same alone, though rounding may make its transient another.
     for (start, seen) in starts().zip(&seen) {
-        let alone = STUDY.follow(&[(&scene, start)], &unmonitored);
+        let alone = STUDY.follow_motions(&[(&scene, start)], &unmonitored);
         let alone = alone.and_then(|mut alone| alone.pop()).ok_or("stopped")??;
         assert_eq!(alone.regime(), seen.regime());
     }

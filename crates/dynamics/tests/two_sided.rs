@@ -124,7 +124,7 @@ fn symmetric_orbits_and_their_multipliers_have_a_closed_form() {
         let exact = Symmetric::of(&scene, true);
         let (scene, state) = exact.begin(&scene);
         let beside = state + 1e-4 * Vector2::new(1.0, -1.0);
-        let orbit = Orbit::periodic(&scene, beside, 1).expect("an orbit");
+        let orbit = Orbit::find_periodic(&scene, beside, 1).expect("an orbit");
         assert_eq!((orbit.periods, orbit.impacts.len()), (1, 2), "{scene:?}");
         assert_near(orbit.position, state.x, 1e-11);
         assert_near(orbit.velocity, state.y, 1e-11);
@@ -286,17 +286,17 @@ fn asymmetric_branches_do_not_depend_on_the_drive_angle() {
 #[test]
 fn orbits_change_with_the_stop_below_as_differences_say() {
     let (scene, state) = Symmetric::of(&machines()[2], true).begin(&machines()[2]);
-    let orbit = Orbit::periodic(&scene, state, 1).expect("an orbit");
+    let orbit = Orbit::find_periodic(&scene, state, 1).expect("an orbit");
     for parameter in [
         Parameter::BelowClearance,
         Parameter::BelowRestitution,
         Parameter::Clearance,
     ] {
-        let slopes = slopes::of(&orbit, &[parameter]).expect("slopes");
+        let slopes = slopes::differentiate_orbit(&orbit, &[parameter]).expect("slopes");
         let moved = |by: f64| {
             let mut moved = scene.clone();
             parameter.set(&mut moved, parameter.get(&scene).expect("it has it") + by);
-            let orbit = Orbit::periodic(&moved, orbit.state(), 1).expect("an orbit");
+            let orbit = Orbit::find_periodic(&moved, orbit.state(), 1).expect("an orbit");
             let first = orbit.before_impact_velocities().next();
             first.expect("an impact")
         };
@@ -329,7 +329,7 @@ fn of_two_stops_the_one_pressed_farther_tells_the_deflection() {
             .trajectory(Start::new(0.0, 1.0), 300)
             .expect("a motion")
             .end;
-        let orbit = Orbit::periodic(&scene, settled.into(), 1).expect("an orbit");
+        let orbit = Orbit::find_periodic(&scene, settled.into(), 1).expect("an orbit");
         let metrics = CycleMetrics::of(&orbit).expect("metrics");
         let figure = Figure::StopDeflection.of_motion(&orbit, &metrics);
         let pressed = [metrics.highest - 0.5, -metrics.lowest - 0.5];

@@ -165,7 +165,7 @@ fn settled(scene: &Scene, starts: &[(f64, f64)]) -> (Vec<BranchPoint>, usize) {
         if apart(before, last) > NEAR || found.iter().any(known) {
             continue;
         }
-        let orbit = match Orbit::near(scene, last.into()) {
+        let orbit = match Orbit::find_near(scene, last.into()) {
             Ok(orbit) => orbit,
             Err(OrbitError::OtherRegime { .. }) => continue,
             Err(_) => {

@@ -81,10 +81,10 @@ fn what_has_not_settled_is_no_chaos_in_any_units() {
     for units in [units(1.0, 1.0), units(1e-6, 1e6)] {
         let scene = plain.in_units(units).expect("valid");
         let start = Start::new(0.5 * units.length(), 0.0);
-        let seen = settling.follow(&[(&scene, start)], &unmonitored);
+        let seen = settling.follow_motions(&[(&scene, start)], &unmonitored);
         let seen = seen.expect("followed").remove(0).expect("a motion");
-        let map = seen.map(&scene).expect("valid");
-        let (motion, growth) = seen.motion(&scene, &map).expect("a motion");
+        let map = seen.watched_map(&scene).expect("valid");
+        let (motion, growth) = seen.motion_kind(&scene, &map).expect("a motion");
         assert_eq!(motion, MotionKind::Unsettled, "{growth:?}");
     }
 }

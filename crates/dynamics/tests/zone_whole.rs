@@ -97,7 +97,7 @@ fn its_ends_have_normals() {
     assert!(zone.high.is(Test::Flip));
     let ends: [fn(&Zone) -> f64; 2] = [|zone| zone.low.frequency, |zone| zone.high.frequency];
     for (end, frequency) in [&zone.low, &zone.high].into_iter().zip(ends) {
-        let border = Border::end(&scene, end, &parameters).expect("a normal");
+        let border = Border::at_end(&scene, end, &parameters).expect("a normal");
         for (parameter, normal) in parameters.iter().zip(&border.normal) {
             let value = parameter.get(&scene).expect("it has");
             let width = 1e-3 * value;

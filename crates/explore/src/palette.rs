@@ -49,7 +49,7 @@ pub fn distinct_colors(classes: impl IntoIterator<Item = MotionClass>) -> Vec<&'
 /// The class of a regime whose order of impacts is not known.
 pub fn regime_class(regime: Regime) -> MotionClass {
     let order = ImpactPattern::new(&[], &[], regime.periods, 1.0);
-    MotionKind::repeating(regime, order).class()
+    MotionKind::from_regime(regime, order).class()
 }
 
 /// Entries of a legend for the classes that occur.

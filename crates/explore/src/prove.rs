@@ -136,7 +136,7 @@ fn prove(arguments: &ProveArguments, scene: &Scene) -> Result<Certificate, Failu
 /// The orbit nearest to a state; an error if a regime is wanted and it is another one.
 fn near(state: Vector2<f64>, scene: &Scene, wanted: Option<Regime>) -> Result<Orbit, Failure> {
     let periods = wanted.unwrap_or(Regime::ONE).periods;
-    let orbit = Orbit::periodic(scene, state, periods)
+    let orbit = Orbit::find_periodic(scene, state, periods)
         .map_err(|error| anyhow!(error).context("no orbit to prove"))?;
     let found = orbit.regime();
     match wanted {

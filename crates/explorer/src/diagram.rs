@@ -46,13 +46,21 @@ impl Patience {
             longest: self.longest,
             ..Settling::default()
         };
-        settling.follow(motions, &unmonitored).unwrap_or_default()
+        settling
+            .follow_motions(motions, &unmonitored)
+            .unwrap_or_default()
     }
 }
 
 /// What a motion is.
 pub(crate) fn motion_of(scene: &Scene, seen: &Result<SettledMotion, MotionError>) -> MotionKind {
-    let motion = |seen: &SettledMotion| Some(seen.motion(scene, &seen.map(scene).ok()?).ok()?.0);
+    let motion = |seen: &SettledMotion| {
+        Some(
+            seen.motion_kind(scene, &seen.watched_map(scene).ok()?)
+                .ok()?
+                .0,
+        )
+    };
     seen.as_ref()
         .ok()
         .and_then(motion)

@@ -62,7 +62,7 @@ impl Shown {
             name: motion.to_string(),
             kind: kind(&motion),
             from: pair(settled.from),
-            hardest: settled.hardest(),
+            hardest: settled.hardest_impact(),
             counts: [samples.len(), impacts.len(), states.len()],
             motion,
         };

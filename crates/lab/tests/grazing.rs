@@ -26,7 +26,7 @@ fn near_grazing_the_jacobian_is_that_of_differences_in_many_digits() {
     scene.excitation.frequency = lower.expect("below resonance") * (1.0 + 1e-5);
     // The impact-less motion at drive angle 0, had it no stop, and 1e-3 beside it.
     let start = Vector2::new(9.1895 + 1e-3, 3.5428);
-    let orbit = Orbit::periodic(&scene, start, 1).expect("an orbit");
+    let orbit = Orbit::find_periodic(&scene, start, 1).expect("an orbit");
     let velocity = orbit.before_impact_velocity();
     assert!((3.4e-4..3.6e-4).contains(&velocity), "{velocity}");
     let differences = Matrix2::from_row_slice(&JACOBIAN);

@@ -6,7 +6,7 @@ use anyhow::{Error, Result};
 use serde::Deserialize;
 use softstop::{Machine, Ratios, Scene};
 use softstop_dynamics::attractors::Attractor;
-use softstop_dynamics::basin::{BasinOptions, Clearing, basins};
+use softstop_dynamics::basin::{BasinBall, BasinOptions, find_basins};
 use softstop_dynamics::{Axis, Basins, Grid, MotionKind, StroboscopicMap};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
@@ -47,7 +47,7 @@ impl Plane {
             Some([low, high]) => (position, Axis::velocity(low, high, cells)),
             None => (Axis::angle(0.0, TAU, cells), position),
         };
-        Grid::states(across, up, 0.0)
+        Grid::of_states(across, up, 0.0)
     }
 }
 
@@ -59,7 +59,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         let machine = Machine::of_ratios(&Ratios::unloaded().at_frequency(plane.eta))?;
         let (scene, watcher) = (&machine.scene, progress.watcher());
         let grid = plane.grid(cells);
-        let basins = basins(
+        let basins = find_basins(
             scene,
             &grid,
             &BasinOptions::default(),
@@ -103,7 +103,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 struct Basin<'a> {
     plane: &'a Plane,
     class: &'a Attractor,
-    ball: Option<Clearing>,
+    ball: Option<BasinBall>,
 }
 
 /// A row for each basin of each plane; numbers that are findings are shown.
@@ -133,7 +133,7 @@ fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
     let Some(cell) = cell else {
         return Ok(Vec::new());
     };
-    let (start, _) = basins.grid.start(cell);
+    let (start, _) = basins.grid.start_of_cell(cell);
     let map = StroboscopicMap::new(scene, 1)?;
     let mut states = Section::of(&map, start, STATES.0 + STATES.1, usize::MAX)?.states;
     Ok(states.split_off(STATES.1 as usize))
@@ -144,7 +144,7 @@ fn findings(all: &[Basin<'_>]) -> Findings {
     let mut findings = Findings::default();
     for basin in all {
         let motion = &basin.class.motion;
-        let order = motion.told_order();
+        let order = motion.order_beyond_regime();
         let order = order.map_or_else(String::new, |order| format!(" ({order})"));
         let name = format!("{}, {motion}{order}: ", basin.plane.name);
         findings.add_numbers(&name, &columns(), basin);

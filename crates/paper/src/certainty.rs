@@ -14,7 +14,7 @@ use softstop_console::export::csv;
 use softstop_console::machine::Regime;
 use softstop_console::progress::Progress;
 use softstop_draw::{Axis, Chart, Corner, Layer, Legend, Mark, Panel, Stroke, style};
-use softstop_dynamics::basin::{BasinOptions, Establishing, establishing};
+use softstop_dynamics::basin::{BasinOptions, CertaintyAtPlace, establishing_certainties};
 use softstop_dynamics::{self as dynamics, Grid, zone};
 use softstop_explore::basin::certainty::{SHARES, layers};
 
@@ -61,7 +61,7 @@ impl Starts {
                 (position(far), dynamics::Axis::velocity(-far, far, cells))
             }
         };
-        Grid::states(across, up, 0.0)
+        Grid::of_states(across, up, 0.0)
     }
 }
 
@@ -70,7 +70,7 @@ struct Curve {
     machine: Regime,
     clearance: f64,
     starts: Starts,
-    places: Vec<Establishing>,
+    places: Vec<CertaintyAtPlace>,
 }
 
 /// Places from near g0 to near s_SN, closer at the ends.
@@ -103,7 +103,14 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
             machine,
             clearance,
             starts,
-            places: establishing(&zone, &places, &grid, &options, &watcher, studio.kept)?,
+            places: establishing_certainties(
+                &zone,
+                &places,
+                &grid,
+                &options,
+                &watcher,
+                studio.kept,
+            )?,
         })
     });
     let curves = curves.collect::<Result<Vec<Curve>>>()?;
@@ -117,8 +124,8 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
 }
 
 /// A row for each place of each curve.
-fn columns<'a>() -> [Column<(&'a Curve, &'a Establishing)>; 10] {
-    columns! { (&'a Curve, &'a Establishing), it;
+fn columns<'a>() -> [Column<(&'a Curve, &'a CertaintyAtPlace)>; 10] {
+    columns! { (&'a Curve, &'a CertaintyAtPlace), it;
         "machine" [None], "unloaded or loaded" => it.0.machine.name();
         "rho" [None], "its clearance" => it.0.clearance;
         "starts" [None], "which states are asked" => it.0.starts.label();
@@ -133,12 +140,12 @@ fn columns<'a>() -> [Column<(&'a Curve, &'a Establishing)>; 10] {
 }
 
 /// Integrity factor: radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.
-fn integrity(at: &Establishing) -> f64 {
+fn integrity(at: &CertaintyAtPlace) -> f64 {
     let ball = at.basins.largest_ball_of(dynamics::Regime::ONE);
     ball.map_or(0.0, |ball| ball.radius)
 }
 
-fn motions(at: &Establishing) -> String {
+fn motions(at: &CertaintyAtPlace) -> String {
     let classes = at.basins.classes.iter();
     let motions = classes.map(|class| format!("{}: {:.6}", class.motion, class.share));
     motions.collect::<Vec<_>>().join(", ")
@@ -160,7 +167,7 @@ fn findings(curves: &[Curve]) -> Findings {
             findings.add(name, value);
         };
         let near = |place: f64| {
-            let gap = |at: &&Establishing| (at.place - place).abs();
+            let gap = |at: &&CertaintyAtPlace| (at.place - place).abs();
             places.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)))
         };
         for (place, end) in [(0.0, "near g0"), (1.0, "near s_SN")] {
@@ -181,8 +188,8 @@ fn findings(curves: &[Curve]) -> Findings {
 
 /// How much larger the certainty is somewhere than at a place nearer to g0, beyond both 95 % intervals: 0 if it
 /// falls all the way, as the paper has it.
-fn rise(places: &[Establishing]) -> f64 {
-    let later = |(index, place): (usize, &Establishing)| {
+fn rise(places: &[CertaintyAtPlace]) -> f64 {
+    let later = |(index, place): (usize, &CertaintyAtPlace)| {
         let rest = places[index + 1..].iter();
         let rises = rest.filter(|other| other.interval[0] > place.interval[1]);
         let rises = rises.map(|other| other.certainty - place.certainty);

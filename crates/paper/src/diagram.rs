@@ -4,7 +4,7 @@ use anyhow::{Error, Result};
 use rayon::prelude::*;
 use serde::Deserialize;
 use softstop::{Parameter, Scene};
-use softstop_dynamics::monitor::Kept;
+use softstop_dynamics::monitor::OptionalMemory;
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Regime, Step};
 
 use crate::figure::Detail;
@@ -50,12 +50,16 @@ pub(super) fn ways(scene: &Scene) -> [Chain; 2] {
 }
 
 /// Carries all chains of all plans to their ends; what is known of them is recalled.
-pub(super) fn sweep(mut jobs: Vec<Job>, what: &str, kept: Kept<'_>) -> Result<Vec<Chain>> {
+pub(super) fn sweep(
+    mut jobs: Vec<Job>,
+    what: &str,
+    kept: OptionalMemory<'_>,
+) -> Result<Vec<Chain>> {
     let steps = jobs.iter().map(|(plan, chains)| plan.steps * chains.len());
     let progress = Progress::new(steps.sum::<usize>() as u64, what);
     let finished = jobs
         .par_iter_mut()
-        .map(|(plan, chains)| plan.run_kept(chains, &progress.watcher(), kept));
+        .map(|(plan, chains)| plan.run_chains_with_memory(chains, &progress.watcher(), kept));
     if !finished.collect::<Vec<bool>>().into_iter().all(|it| it) {
         return Err(Failure::Interrupted.into());
     }
@@ -66,7 +70,7 @@ pub(super) fn sweep(mut jobs: Vec<Job>, what: &str, kept: Kept<'_>) -> Result<Ve
 
 /// One way over a part of a sweep's range, going on from where that is when it comes there.
 pub(super) fn part_of(sweep: &Chain, plan: &Plan) -> Job {
-    let rising = sweep.rising();
+    let rising = sweep.rising_steps();
     let before = match sweep.direction {
         Direction::Up => rising.iter().rfind(|step| step.value <= plan.range.0),
         Direction::Down => rising.iter().find(|step| step.value >= plan.range.1),
@@ -83,7 +87,7 @@ pub(super) fn steps(chains: &[Chain]) -> impl Iterator<Item = &Step> + Clone {
 
 /// True if both steps show the same motion, or both one that does not repeat.
 pub(super) fn same(a: &Step, b: &Step) -> bool {
-    let (regime, one, other) = (a.motion.regime(), a.hardest(), b.hardest());
+    let (regime, one, other) = (a.motion.regime(), a.hardest_impact(), b.hardest_impact());
     regime == b.motion.regime()
         && (regime.is_none() || (one - other).abs() <= APART * one.max(other))
 }
@@ -94,7 +98,7 @@ pub(super) fn motion(scene: &Scene, step: &Step) -> MotionKind {
     match step.motion.regime() {
         Some(regime) if regime.periods >= 4 && 2 * regime.impacts == regime.periods => {
             let scene = scene.at_frequency(step.value);
-            let orbit = Orbit::periodic(&scene, step.end.into(), regime.periods).ok();
+            let orbit = Orbit::find_periodic(&scene, step.end.into(), regime.periods).ok();
             let orbit = orbit.filter(|orbit| orbit.regime() == regime);
             orbit.map_or_else(seen, |orbit| MotionKind::of(&orbit))
         }

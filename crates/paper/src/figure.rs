@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use softstop_console::column::Column;
 use softstop_console::record::Record;
 use softstop_dynamics::attractors::SearchOptions;
-use softstop_dynamics::monitor::{Kept, piece};
+use softstop_dynamics::monitor::{OptionalMemory, recall_or_compute};
 
 use crate::table1::{self, paper};
 
@@ -98,7 +98,7 @@ impl Findings {
 pub(crate) struct Studio<'a> {
     pub(crate) detail: Detail,
     /// Where finished work is kept.
-    pub(crate) kept: Kept<'a>,
+    pub(crate) kept: OptionalMemory<'a>,
     /// All transitions along rho = 10, once they are asked for.
     transitions: OnceLock<Vec<Transition>>,
 }
@@ -113,7 +113,7 @@ pub(crate) enum Detail {
 }
 
 impl<'a> Studio<'a> {
-    pub(crate) fn new(detail: Detail, kept: Kept<'a>) -> Self {
+    pub(crate) fn new(detail: Detail, kept: OptionalMemory<'a>) -> Self {
         Self {
             detail,
             kept,
@@ -134,7 +134,7 @@ impl<'a> Studio<'a> {
     {
         let kept = self.kept;
         let items = items.par_iter();
-        let done = items.map(|item| piece(kept, &(what, item), || work(item)));
+        let done = items.map(|item| recall_or_compute(kept, &(what, item), || work(item)));
         done.collect()
     }
 

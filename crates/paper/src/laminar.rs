@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use softstop::{Instant, Ratios, Start};
 use softstop_dynamics::StroboscopicMap;
 use softstop_dynamics::internals::{Ensemble, HasMember, Member};
-use softstop_dynamics::monitor::piece;
+use softstop_dynamics::monitor::recall_or_compute;
 use softstop_lanes::Machine;
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
@@ -55,7 +55,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let powers = (low * each..=high * each).map(|index| f64::from(index) / f64::from(each));
     let cases = found.flat_map(|case| powers.clone().map(move |power| (case, 10f64.powf(power))));
     let cases: Vec<((usize, &Transition), f64)> = cases.collect();
-    let beside = piece(studio.kept, &"laminar", || all(&cases))?;
+    let beside = recall_or_compute(studio.kept, &"laminar", || all(&cases))?;
     let mut findings = Findings::default();
     for row in ROWS {
         let own = beside.iter().filter(|it| it.row == row);
@@ -197,15 +197,15 @@ impl Motion {
 }
 
 impl HasMember for Motion {
-    fn member(&mut self) -> &mut Member {
+    fn member_mut(&mut self) -> &mut Member {
         &mut self.member
     }
 
-    fn impact(&mut self, _: Instant, _: f64) {
+    fn record_impact(&mut self, _: Instant, _: f64) {
         self.impacts += 1;
     }
 
-    fn period(&mut self, _: Start) {
+    fn record_state(&mut self, _: Start) {
         let impacts = std::mem::take(&mut self.impacts);
         if self.is_known() {
             return;

@@ -36,7 +36,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::{self, Folder, Format};
-use softstop_dynamics::monitor::piece;
+use softstop_dynamics::monitor::recall_or_compute;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -157,7 +157,7 @@ fn make(
         return Err(Failure::Interrupted);
     }
     let begin = Instant::now();
-    let (drawn, seconds): (Drawn, f64) = piece(studio.kept, &figure.name, || {
+    let (drawn, seconds): (Drawn, f64) = recall_or_compute(studio.kept, &figure.name, || {
         let drawn = draw(studio, figure)?;
         Ok::<_, anyhow::Error>((drawn, begin.elapsed().as_secs_f64()))
     })?;

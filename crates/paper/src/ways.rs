@@ -57,11 +57,11 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
                 let stays = chain.steps.last().is_some_and(shows);
                 met += u32::from(first.is_some());
                 there += u32::from(stays);
-                rows.push((plan.rate(), *eta, name, first, stays));
+                rows.push((plan.sweep_rate(), *eta, name, first, stays));
             }
             let told = format!(
                 "{name}, {:.0e} per period: ways of {}",
-                plan.rate(),
+                plan.sweep_rate(),
                 etas.len()
             );
             findings.add(format!("{told} that meet it"), f64::from(met));

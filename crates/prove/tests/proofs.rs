@@ -108,7 +108,7 @@ fn random_machines_are_proven() {
     let case = |scene: &Scene, start: Start| {
         let settled = scene.trajectory(start, 400).ok()?.end;
         let state = Vector2::new(settled.position, settled.velocity);
-        let orbit = Orbit::periodic(scene, state, 4).ok()?;
+        let orbit = Orbit::find_periodic(scene, state, 4).ok()?;
         let is_settled =
             orbit.multipliers()[0].norm() < 0.99 && (orbit.state() - state).norm() < 1e-6;
         if !orbit.rests.is_empty() || !is_settled {
@@ -162,7 +162,7 @@ fn what_is_not_treated_is_named() {
 fn a_shorter_period_is_refused() {
     let scene = Ratios::unloaded().scene().expect("a scene");
     let scene = scene.at_frequency(1.05);
-    let orbit = Orbit::periodic(&scene, Vector2::new(-8.35, 3.59), 1).expect("an orbit");
+    let orbit = Orbit::find_periodic(&scene, Vector2::new(-8.35, 3.59), 1).expect("an orbit");
     let proof = |periods| Certificate::new(&scene, orbit.state(), periods, Claim::Orbit);
     let proven = proof(1).expect("a proof");
     assert_eq!((proven.impacts, proven.stability), (0, "stable"));

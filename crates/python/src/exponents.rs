@@ -46,7 +46,7 @@ pub fn exponents<'py>(
                 true => Err(Failure::Interrupted),
                 false => Ok(()),
             };
-            let found = Exponents::along_with_monitor(&scene, state, batch, ask);
+            let found = Exponents::along_motion_with_monitor(&scene, state, batch, ask);
             progress.more(1);
             Ok(found?.0)
         };

@@ -124,7 +124,7 @@ fn derivatives(
     let mut parameters: Vec<Parameter> = directions.iter().flatten().map(|(it, _)| *it).collect();
     parameters.sort();
     parameters.dedup();
-    let slopes = slopes::of(orbit, &parameters);
+    let slopes = slopes::differentiate_orbit(orbit, &parameters);
     let slopes = slopes.map_err(|error| SoftstopError::new_err(error.to_string()))?;
     let row = |figure: &Figure| {
         let none =

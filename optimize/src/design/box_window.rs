@@ -134,13 +134,17 @@ impl Corners<'_> {
             let (mut corner, mut fold) = (corner.clone(), fold.clone());
             if set > 0 {
                 let scene = self.spread.scene(&corner);
-                let border = Border::critical(&scene, 1, (Test::Fold, &fold), &[]).ok()?;
+                let border = Border::at_critical(&scene, 1, (Test::Fold, &fold), &[]).ok()?;
                 for (bit, index) in doubtful.iter().enumerate() {
                     if set >> bit & 1 == 1 {
                         corner[*index] *= -1.0;
                     }
                 }
-                fold = border.again(&self.spread.scene(&corner)).ok()?.point?.0;
+                fold = border
+                    .find_again(&self.spread.scene(&corner))
+                    .ok()?
+                    .point?
+                    .0;
             }
             Some(Edge {
                 frequency: self.without_width(fold.parameter, 1.0),

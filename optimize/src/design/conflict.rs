@@ -41,7 +41,7 @@ fn words(machine: &Machine, met: &Met) -> String {
         return format!("{} has no value: must be {bound}", figure.name());
     }
     if value.is_infinite() {
-        let why = figure.unbounded();
+        let why = figure.unbounded_reason();
         return format!("{} has no bound ({why}): must be {bound}", figure.name());
     }
     format!(

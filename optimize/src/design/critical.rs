@@ -241,7 +241,7 @@ fn slope_at(
         let rows = Rows::at(about, at)?;
         let mut parameters = rows.parameters().to_vec();
         parameters.push(Parameter::Frequency);
-        let slopes = slopes::of(&orbit, &parameters).ok()?;
+        let slopes = slopes::differentiate_orbit(&orbit, &parameters).ok()?;
         let by = spread.rates(figure, &slopes, &orbit)?;
         Some(rows.chain(&parameters, &by))
     };

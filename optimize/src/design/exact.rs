@@ -59,7 +59,7 @@ impl<'a> Linearization<'a> {
         parameters.retain(is_moved);
         let mut rows = directions(problem, at, (&parameters, point.drive_frequency()));
         let moved = |end: fn(&Zone) -> &ZoneEnd| {
-            let border = Border::end(&point.zone.scene, end(&point.zone), &parameters);
+            let border = Border::at_end(&point.zone.scene, end(&point.zone), &parameters);
             let by_normal = |border: Border| {
                 let rows = directions(problem, at, (&parameters, border.frequency()));
                 let moved = rows.iter().map(|row| -dot(&border.normal, row));
@@ -102,7 +102,7 @@ impl<'a> Linearization<'a> {
             problem,
             at,
             point,
-            slopes: slopes::of(&point.orbit, &parameters).ok()?,
+            slopes: slopes::differentiate_orbit(&point.orbit, &parameters).ok()?,
             directions: rows,
             along,
             frequency,
@@ -127,7 +127,7 @@ impl<'a> Linearization<'a> {
         };
         match figure {
             Figure::FrequencyG0 => {
-                let border = Border::free(&motion.orbit.scene, true, parameters);
+                let border = Border::at_g0(&motion.orbit.scene, true, parameters);
                 Some(above(&border.ok()?))
             }
             Figure::FrequencySn if motion.zone.high.is(Test::Fold) => {
@@ -137,7 +137,7 @@ impl<'a> Linearization<'a> {
             Figure::FrequencyPd => {
                 let flip = loss_of_stability(motion.orbit, Direction::Down, Test::Flip).ok()??;
                 let scene = &motion.orbit.scene;
-                let border = Border::critical(scene, 1, (Test::Flip, &flip), parameters);
+                let border = Border::at_critical(scene, 1, (Test::Flip, &flip), parameters);
                 Some(above(&border.ok()?))
             }
             Figure::Share if motion.place < 0.5 => Some(self.place.clone()),

@@ -246,7 +246,7 @@ impl Met {
     /// What else is to be known of the value: why it is none, or from which starts it was counted; may be empty.
     pub fn note(&self, machine: &Machine) -> String {
         if self.value.is_infinite() {
-            return self.requirement.figure.unbounded().to_owned();
+            return self.requirement.figure.unbounded_reason().to_owned();
         }
         if let Some([low, high]) = self.interval {
             return format!("share that violates it: 95 % interval {low:.3e} to {high:.3e}");
@@ -262,7 +262,7 @@ impl Met {
         format!(
             "{interval}{} starts in {}",
             of.starts,
-            of.region.told(machine)
+            of.region.describe(machine)
         )
     }
 }

@@ -50,7 +50,7 @@ pub struct Problem {
     /// The box of starts of which certainty and integrity are told, in SI units; that of all commands if none is stated.
     pub starts: Option<Region>,
     /// How the machine may be run up.
-    pub run_up: run_up::Settings,
+    pub run_up: run_up::RunUpSettings,
     /// Further operating points, in which all that is required must hold too.
     pub cases: Vec<Case>,
     /// What a case changes of the machine, if this is the problem of one.
@@ -228,7 +228,7 @@ impl Problem {
             requirements: Vec::new(),
             cost: None,
             starts: None,
-            run_up: run_up::Settings::default(),
+            run_up: run_up::RunUpSettings::default(),
             cases: Vec::new(),
             changes: Vec::new(),
             drawing: None,

@@ -33,10 +33,10 @@ pub(super) fn inside(about: &Linearization<'_>, edge: &Edge) -> Option<Slope> {
         .spread(&about.point.machine)?
         .scene(&edge.corner);
     let (border, sign) = match &edge.fold {
-        None => (Border::free(&scene, true, rows.parameters()).ok()?, 1.0),
+        None => (Border::at_g0(&scene, true, rows.parameters()).ok()?, 1.0),
         Some(fold) => {
             let fold = (Test::Fold, fold);
-            let border = Border::critical(&scene, 1, fold, rows.parameters()).ok()?;
+            let border = Border::at_critical(&scene, 1, fold, rows.parameters()).ok()?;
             (border, -1.0)
         }
     };
@@ -103,7 +103,7 @@ fn by_normal(
 ) -> Option<Vec<f64>> {
     let rows = Rows::at(about, end)?;
     point.parameter = scene.excitation.frequency;
-    let border = Border::critical(scene, 1, (test, &point), rows.parameters()).ok()?;
+    let border = Border::at_critical(scene, 1, (test, &point), rows.parameters()).ok()?;
     let (by, outwards) = rows.across(&border);
     Some(by.iter().map(|by| -share * by / outwards).collect())
 }

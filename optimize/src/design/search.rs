@@ -11,7 +11,7 @@
 
 use rayon::prelude::*;
 use softstop::internals::plain_number;
-use softstop_dynamics::monitor::Kept;
+use softstop_dynamics::monitor::OptionalMemory;
 use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};
@@ -126,7 +126,7 @@ pub fn search(
     problem: &Problem,
     settings: Settings,
     watch: &dyn Watch,
-    kept: Kept<'_>,
+    kept: OptionalMemory<'_>,
 ) -> Result<Found, SearchError> {
     search_from(problem, settings, &[], (watch, kept))
 }
@@ -139,7 +139,7 @@ pub fn search_from(
     problem: &Problem,
     settings: Settings,
     starts: &[(Vec<f64>, f64)],
-    (watch, kept): (&dyn Watch, Kept<'_>),
+    (watch, kept): (&dyn Watch, OptionalMemory<'_>),
 ) -> Result<Found, SearchError> {
     let incumbent = Incumbent::new(problem);
     let survey = Survey::new(problem, watch, &incumbent, kept);

@@ -6,8 +6,8 @@
 //! to the normal quantile of the share, as the width is where one linear bound is violated, within a bracket.
 
 use softstop_console::interrupt;
-use softstop_dynamics::basin::wilson;
-use softstop_dynamics::monitor::Kept;
+use softstop_dynamics::basin::wilson_interval;
+use softstop_dynamics::monitor::OptionalMemory;
 
 use super::Design;
 use super::conflict::short;
@@ -77,7 +77,7 @@ impl Verdict {
 
     /// The 95 % interval of the share of the machines that lose the motion or violate a requirement.
     pub fn share_rejected(&self) -> [f64; 2] {
-        wilson(self.rejected, self.machines)
+        wilson_interval(self.rejected, self.machines)
     }
 }
 
@@ -98,7 +98,7 @@ pub(super) struct Shared {
 pub(super) fn search_with_share(
     problem: &Problem,
     (settings, machines): (Settings, usize),
-    (watch, kept): (&dyn Watch, Kept<'_>),
+    (watch, kept): (&dyn Watch, OptionalMemory<'_>),
 ) -> Result<Shared, SearchError> {
     let mut outcome = search(problem, settings, watch, kept);
     let mut deviations = problem.deviations;

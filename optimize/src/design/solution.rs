@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 use softstop_console::interrupt;
-use softstop_dynamics::monitor::Kept;
+use softstop_dynamics::monitor::OptionalMemory;
 
 use super::coordinates::{Candidate, best_by};
 use super::figure::Figure;
@@ -77,7 +77,7 @@ impl Solution {
         problem: &Problem,
         settings: Settings,
         beside: Beside,
-        (watch, kept): (&dyn Watch, Kept<'_>),
+        (watch, kept): (&dyn Watch, OptionalMemory<'_>),
     ) -> Result<Self, SearchError> {
         let Shared {
             mut found,

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use argmin::core::{CostFunction, Error};
 use rayon::prelude::*;
 use softstop::internals::budget;
-use softstop_dynamics::monitor::{Kept, piece};
-use softstop_dynamics::points::place;
+use softstop_dynamics::monitor::{OptionalMemory, recall_or_compute};
+use softstop_dynamics::points::sobol_point;
 
 use super::coordinates::Candidate;
 use super::incumbent::{Incumbent, Rank};
@@ -94,7 +94,7 @@ pub(super) struct Survey<'a> {
     pub problem: &'a Problem,
     pub watch: &'a dyn Watch,
     pub incumbent: &'a Incumbent<'a>,
-    kept: Kept<'a>,
+    kept: OptionalMemory<'a>,
     /// Scan windows of the budget that are left.
     left: AtomicU64,
 }
@@ -104,7 +104,7 @@ impl<'a> Survey<'a> {
         problem: &'a Problem,
         watch: &'a dyn Watch,
         incumbent: &'a Incumbent<'a>,
-        kept: Kept<'a>,
+        kept: OptionalMemory<'a>,
     ) -> Self {
         Self {
             problem,
@@ -146,7 +146,7 @@ impl<'a> Survey<'a> {
             return None;
         }
         let Ok(found) = self.charged(|| {
-            piece(self.kept, &index, || {
+            recall_or_compute(self.kept, &index, || {
                 Ok::<_, Infallible>(self.compute(units))
             })
         });
@@ -201,7 +201,7 @@ fn units(dimension: usize, evaluations: usize) -> Vec<Vec<f64>> {
         .map(|index| (index as u128 * whole as u128 / count as u128) as usize)
         .map(|index| lattice_point(index, edge, dimension));
     let inside = (0..inside).map(|index| {
-        let place = place(index, dimension).into_iter();
+        let place = sobol_point(index, dimension).into_iter();
         place.map(|at| 0.5 * (1.0 + at)).collect()
     });
     lattice.chain(inside).collect()

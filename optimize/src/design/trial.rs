@@ -6,9 +6,9 @@ use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::Establishment;
+use softstop_dynamics::missing_strips::{StopWithoutStrip, survives_missing_strips};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::run_up::RunUp;
-use softstop_dynamics::supply::{Reading, survives_missing_strips};
 
 use super::conflict::{conflict, violated_within};
 use super::critical::CriticalMachines;
@@ -196,12 +196,13 @@ impl Problem {
             }
             Figure::Integrity => {
                 let region = self.region(orbit)?;
-                let (starts, radius) = Establishment::with_ball(orbit, &region, starts, watcher)?;
+                let (starts, radius) =
+                    Establishment::with_ball_radius(orbit, &region, starts, watcher)?;
                 (met.value, met.starts) = (radius, Some(starts));
             }
             Figure::RunUp => {
                 let runs = RunUp::of(orbit, &self.run_up, angles, watcher)?;
-                met.value = runs.works().count() as f64;
+                met.value = runs.working_ways().count() as f64;
             }
             Figure::MissingStrips => {
                 met.value = f64::from(survived(requirement, orbit, angles)?);
@@ -230,13 +231,13 @@ impl Problem {
         starts: usize,
     ) -> Result<Establishment, OrbitError> {
         let region = self.region(orbit)?;
-        Establishment::within(orbit, &region, starts, &interrupt::watch)
+        Establishment::within_region(orbit, &region, starts, &interrupt::watch)
     }
 
     /// The box of starts: what the task states of it, before a rigid stop, or that of all commands.
     fn region(&self, orbit: &Orbit) -> Result<Region, OrbitError> {
         match &self.starts {
-            Some(region) => Ok(region.before(&orbit.scene)),
+            Some(region) => Ok(region.clipped_at_stops(&orbit.scene)),
             None => starting_box(&orbit.scene, &interrupt::watch),
         }
     }
@@ -291,9 +292,14 @@ impl OperatingPoint<'_> {
 fn survived(requirement: &Requirement, orbit: &Orbit, angles: usize) -> Result<u32, OrbitError> {
     let most = requirement.least.unwrap_or(0.0) as u32;
     for missing in 1..=most {
-        let gaps =
-            survives_missing_strips(orbit, missing, Reading::Fixed, angles, &interrupt::watch)?;
-        if gaps.share() < 1.0 {
+        let gaps = survives_missing_strips(
+            orbit,
+            missing,
+            StopWithoutStrip::Fixed,
+            angles,
+            &interrupt::watch,
+        )?;
+        if gaps.return_share() < 1.0 {
             return Ok(missing - 1);
         }
     }

@@ -84,7 +84,7 @@ mod tests {
     use crate::design::problem::{Tolerance, Width};
     use crate::robust::Distribution;
     use softstop::{Machine, Parameter};
-    use softstop_dynamics::basin::wilson;
+    use softstop_dynamics::basin::wilson_interval;
 
     #[test]
     fn enough_machines_show_a_small_share() {
@@ -100,7 +100,7 @@ mod tests {
             problem.violating = violating;
             let machines = machines_of_each(&problem, (1 << 20, 16));
             let half = (0.5 * violating * machines as f64) as usize;
-            assert!(wilson(half, machines)[1] < violating, "{machines}");
+            assert!(wilson_interval(half, machines)[1] < violating, "{machines}");
         }
         problem.violating = 1e-5;
         assert_eq!(machines_of_each(&problem, (1 << 20, 16)), 1 << 20);

@@ -43,7 +43,7 @@ pub(super) struct Required {
     /// How many times as wide as the tolerances the box is that must hold.
     pub reserve: f64,
     /// How the machine may be run up.
-    pub run_up: run_up::Settings,
+    pub run_up: run_up::RunUpSettings,
     /// Share of the machines with normal tolerances that may violate a requirement.
     pub violating: f64,
     /// The box of starts of which certainty and integrity are told.

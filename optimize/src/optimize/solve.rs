@@ -5,7 +5,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::Keep;
 use softstop_dynamics::basin::{ErosionProfile, zone_box};
-use softstop_dynamics::run_up::{RunUp, Settings};
+use softstop_dynamics::run_up::{RunUp, RunUpSettings};
 
 use super::met::met;
 use super::outcome::{Interrupted, Outcome, PLACES};
@@ -75,7 +75,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let (erosion, run_up) = match interrupted.is_none() {
         false => (None, None),
         true => {
-            let ways = Settings {
+            let ways = RunUpSettings {
                 with_peaks: true,
                 ..job.problem.run_up.clone()
             };
@@ -101,7 +101,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
 fn erosion(design: &Design) -> Option<ErosionProfile> {
     let watcher = &interrupt::watch;
     let (region, widened) = zone_box(&design.orbit.scene, &design.zone, watcher).ok()?;
-    let mut places = ErosionProfile::evenly(PLACES);
+    let mut places = ErosionProfile::evenly_spaced_places(PLACES);
     places.push(design.place);
     places.sort_by(f64::total_cmp);
     let mut profile = ErosionProfile::of(&design.zone, &region, (&places, STARTS), watcher).ok()?;

@@ -4,7 +4,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 use softstop_dynamics::Orbit;
-use softstop_dynamics::basin::wilson;
+use softstop_dynamics::basin::wilson_interval;
 use softstop_dynamics::orbit::OrbitError;
 
 use super::outcome::Outcome;
@@ -83,7 +83,7 @@ impl Study {
             let mut counts = self.required.iter().zip(violating);
             if let Some((_, count)) = counts.find(|(it, _)| **it == met.requirement) {
                 met.violating = Some(*count as f64 / machines as f64);
-                met.interval = self.statistics.map(|_| wilson(*count, machines));
+                met.interval = self.statistics.map(|_| wilson_interval(*count, machines));
             }
         }
     }

@@ -14,7 +14,7 @@ use softstop_console::machine::Regime;
 use softstop_console::output::Format;
 use softstop_console::range::require;
 use softstop_console::scene_file;
-use softstop_dynamics::basin::wilson;
+use softstop_dynamics::basin::wilson_interval;
 use softstop_dynamics::zone::ZoneKind;
 use toml::Table;
 
@@ -234,7 +234,7 @@ fn deviations(
             "require.{SHARE}: plays no part without a normal tolerance; within boxes all machines are as required"
         )));
     }
-    if is_normal && wilson(0, samples)[1] > violating {
+    if is_normal && wilson_interval(0, samples)[1] > violating {
         return Err(Failure::usage(format!(
             "--samples {samples}: are too few to show that a share of {} at most violates a requirement: {} machines are needed, of \
              which none does",
@@ -248,7 +248,7 @@ fn deviations(
 /// The fewest machines of which none violates a requirement that show a share.
 fn least_machines(share: f64) -> f64 {
     // The upper end of the interval of none of one is z^2 / (1 + z^2), of none of n z^2 / (n + z^2).
-    let [_, one] = wilson(0, 1);
+    let [_, one] = wilson_interval(0, 1);
     (one / (1.0 - one) * (1.0 - share) / share).ceil()
 }
 

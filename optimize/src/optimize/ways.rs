@@ -19,8 +19,11 @@ struct Ways {
 pub(super) const WAYS: [&str; 3] = ["ways", "ramp_rate", "force"];
 
 /// How a machine may be run up: a ramp's rate is a change of the frequency each drive period.
-pub(super) fn ways(machine: &Machine, value: Option<&Value>) -> Result<run_up::Settings, Failure> {
-    let usual = run_up::Settings::default();
+pub(super) fn ways(
+    machine: &Machine,
+    value: Option<&Value>,
+) -> Result<run_up::RunUpSettings, Failure> {
+    let usual = run_up::RunUpSettings::default();
     let Some(Value::Table(words)) = value else {
         return Ok(usual);
     };
@@ -48,7 +51,7 @@ pub(super) fn ways(machine: &Machine, value: Option<&Value>) -> Result<run_up::S
     }
     // A way changes one parameter of a motion's machine, of which only what follows the frequency is known there.
     for way in &ways {
-        let Some(parameter) = way.changes() else {
+        let Some(parameter) = way.changed_parameter() else {
             continue;
         };
         let (key, way) = (machine.name(parameter), way.name());
@@ -65,7 +68,7 @@ pub(super) fn ways(machine: &Machine, value: Option<&Value>) -> Result<run_up::S
         positive("ramp_rate", words.ramp_rate, Dimension::Frequency)?,
         positive("force", words.force, Dimension::Force)?,
     );
-    Ok(run_up::Settings {
+    Ok(run_up::RunUpSettings {
         ways,
         ramp,
         most_force,

@@ -1,6 +1,6 @@
 //! Corners of the box of tolerances.
 
-use softstop_dynamics::points::place;
+use softstop_dynamics::points::sobol_point;
 
 /// Corners of the box: all of them if they are not more than so many, otherwise those nearest to that many of the points.
 pub(crate) fn corners(dimensions: usize, most: usize) -> Vec<Vec<f64>> {
@@ -16,7 +16,7 @@ pub(crate) fn corners(dimensions: usize, most: usize) -> Vec<Vec<f64>> {
             .collect(),
         None => (0..most)
             .map(|index| {
-                place(index, dimensions)
+                sobol_point(index, dimensions)
                     .iter()
                     .map(|at| at.signum())
                     .collect()

@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 use softstop_dynamics::monitor::Monitor;
-use softstop_dynamics::points::{BLOCK, blocks, place};
+use softstop_dynamics::points::{SEQUENCE_LENGTH, parallel_blocks, sobol_point};
 
 /// An estimate and its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,13 +69,13 @@ pub fn indices<const N: usize>(
     watcher: Monitor<'_>,
 ) -> Option<[Vec<Index>; N]> {
     let Effort { points, sequences } = effort;
-    let points = points.clamp(2, BLOCK);
+    let points = points.clamp(2, SEQUENCE_LENGTH);
     let sequences = sequences.max(2);
     let mut estimates: [Vec<Vec<[f64; 2]>>; N] = std::array::from_fn(|_| Vec::new());
     for sequence in 0..sequences {
-        let first = (sequence * BLOCK) as u64;
-        let rows = blocks(first..first + points as u64, ROW).map(|indices| {
-            let point = |index| place(index as usize, 2 * dimensions);
+        let first = (sequence * SEQUENCE_LENGTH) as u64;
+        let rows = parallel_blocks(first..first + points as u64, ROW).map(|indices| {
+            let point = |index| sobol_point(index as usize, 2 * dimensions);
             let row = |index| Row::new(&point(index), &outputs);
             indices.map(row).collect::<Option<Vec<_>>>()
         });

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use softstop::MotionError;
 use softstop_dynamics::continuation::{Direction, Test};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::place;
+use softstop_dynamics::points::sobol_point;
 use softstop_dynamics::zone::{Loss, grazing_frequencies, loss_of_stability};
 use softstop_dynamics::{BranchPoint, Orbit};
 
@@ -71,7 +71,7 @@ impl Search<'_> {
             let own = |other| if other == index / 2 { sign } else { 0.0 };
             (0..dimensions).map(own).collect()
         };
-        let around = (0..AROUND).map(|index| self.farthest_along(&place(index, dimensions)));
+        let around = (0..AROUND).map(|index| self.farthest_along(&sobol_point(index, dimensions)));
         let centre = vec![0.0; dimensions];
         let border = |(heading, test, outwards): (Direction, Test, f64)| {
             let point = loss_of_stability(self.nominal, heading, test).ok()??;

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::place;
+use softstop_dynamics::points::sobol_point;
 use softstop_dynamics::zone::Loss;
 
 use super::corners::corners;
@@ -85,7 +85,7 @@ const AROUND: usize = 16;
 pub(crate) fn first_losses(spread: &dyn ToleranceBox, nominal: &Orbit) -> Vec<(Vec<f64>, Loss)> {
     let dimensions = spread.dimensions();
     let mut ends = corners(dimensions, CORNERS);
-    ends.extend((0..AROUND).map(|index| place(index, dimensions)));
+    ends.extend((0..AROUND).map(|index| sobol_point(index, dimensions)));
     let lost = |end: &Vec<f64>| {
         let reached = along(spread, nominal, end, 1.0).ok()?;
         let loss = reached.loss.filter(is_loss)?;

@@ -24,7 +24,7 @@ pub(crate) struct Neighbours<'a> {
 impl<'a> Neighbours<'a> {
     pub fn new(spread: &'a Tolerances, nominal: &'a Orbit) -> Self {
         let centre = vec![0.0; spread.dimensions()];
-        let slopes = slopes::of(nominal, &varied(spread, &centre)).ok();
+        let slopes = slopes::differentiate_orbit(nominal, &varied(spread, &centre)).ok();
         let state = slopes.map(|slopes| {
             [&slopes.position, &slopes.velocity]
                 .map(|it| in_coordinates(spread, &centre, &slopes.parameters, &it.by))
@@ -41,10 +41,10 @@ impl<'a> Neighbours<'a> {
     pub fn motion(&self, at: &[f64]) -> Option<Orbit> {
         let scene = self.spread.scene(at);
         if let Some(settled) = self.settled(at) {
-            return Orbit::near(&scene, settled.state).ok();
+            return Orbit::find_near(&scene, settled.state).ok();
         }
         let reached = along(self.spread, self.nominal, at, 1.0).ok()?;
-        let orbit = Orbit::near(&scene, reached.point.state());
+        let orbit = Orbit::find_near(&scene, reached.point.state());
         orbit.ok().filter(|_| reached.loss.is_none())
     }
 

@@ -6,7 +6,7 @@ use crate::spread::{
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::{BLOCK, place};
+use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
 use softstop_dynamics::zone::{ZoneError, ZoneKind, find_zones};
 use softstop_dynamics::{Orbit, Zone};
 
@@ -80,9 +80,9 @@ pub fn scatter(
 ) -> Result<Option<Scatter>, OrbitError> {
     let dimensions = spread.dimensions();
     // Of a sequence that the points do not use.
-    let first = effort.sequences.max(2) * BLOCK;
+    let first = effort.sequences.max(2) * SEQUENCE_LENGTH;
     let known = first..first + PolynomialModel::wanted(dimensions);
-    let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
+    let known: Vec<Vec<f64>> = known.map(|index| sobol_point(index, dimensions)).collect();
     let guide = Surrogate::new(spread, nominal, &known)?;
     let scenes: Vec<_> = known.iter().map(|at| spread.scene(at)).collect();
     let zones = find_zones(kind, &scenes, watcher).into_iter();

@@ -63,7 +63,7 @@ impl<'a> Screen<'a> {
         let MotionOutcome::Kept(settled) = fate else {
             return None;
         };
-        let orbit = Orbit::near(&self.spread.scene(at), settled.state).ok()?;
+        let orbit = Orbit::find_near(&self.spread.scene(at), settled.state).ok()?;
         let stroke = CycleMetrics::of(&orbit).ok()?;
         let spread = self.spread;
         let value = |it: &Requirement| spread.value_of_stroke(it.figure, &orbit, &stroke);

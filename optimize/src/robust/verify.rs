@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::{BLOCK, blocks, place};
+use softstop_dynamics::points::{SEQUENCE_LENGTH, parallel_blocks, sobol_point};
 use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;
@@ -37,7 +37,7 @@ impl Default for Settings {
     /// 16 sequences of 65,536 points, and no more than a thousand lost.
     fn default() -> Self {
         Self {
-            machines: 16 * BLOCK,
+            machines: 16 * SEQUENCE_LENGTH,
             enough: 1000,
             first: 0,
         }
@@ -209,9 +209,9 @@ pub fn verify_in_cases(
     let spread = &points[0].0;
     let dimensions = spread.dimensions();
     // A sequence of their own: the first that the machines do not use.
-    let first = settings.first + settings.machines.next_multiple_of(BLOCK);
+    let first = settings.first + settings.machines.next_multiple_of(SEQUENCE_LENGTH);
     let known = first..first + PolynomialModel::wanted(dimensions);
-    let known: Vec<Vec<f64>> = known.map(|index| place(index, dimensions)).collect();
+    let known: Vec<Vec<f64>> = known.map(|index| sobol_point(index, dimensions)).collect();
     let screen = |(spread, nominal)| Screen::new((spread, nominal), (&known, required));
     let screens = points
         .iter()
@@ -237,7 +237,7 @@ pub fn verify_in_cases(
     let done = AtomicU64::new(0);
     while verdict.machines < settings.machines && verdict.all_lost() < settings.enough {
         let machines = verdict.machines..(verdict.machines + GROUP).min(settings.machines);
-        let rows = blocks(machines.start as u64..machines.end as u64, ROW);
+        let rows = parallel_blocks(machines.start as u64..machines.end as u64, ROW);
         let fates = rows.map(|row| {
             let fate = |index| {
                 let at = drawn(spread, settings.first + index as usize);
@@ -277,7 +277,7 @@ pub fn verify_in_cases(
 
 /// The coordinates of a machine that is drawn.
 fn drawn(spread: &dyn ToleranceBox, index: usize) -> Vec<f64> {
-    spread.draw(&place(index, spread.dimensions()))
+    spread.draw(&sobol_point(index, spread.dimensions()))
 }
 
 impl Verdict {
@@ -287,7 +287,7 @@ impl Verdict {
     }
 
     fn take(&mut self, index: usize, spread: &dyn ToleranceBox, fate: MotionOutcome) {
-        if index.is_multiple_of(BLOCK) {
+        if index.is_multiple_of(SEQUENCE_LENGTH) {
             self.sequences.push(Vec::new());
         }
         self.machines += 1;

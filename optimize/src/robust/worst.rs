@@ -70,7 +70,7 @@ pub fn worst(
 
 /// The derivatives of a figure of a motion by the coordinates; none if it has no exact ones.
 fn slopes_of(figure: Figure, spread: &Tolerances, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
-    let slopes = slopes::of(orbit, &varied(spread, at)).ok()?;
+    let slopes = slopes::differentiate_orbit(orbit, &varied(spread, at)).ok()?;
     let by = spread.rates(figure, &slopes, orbit)?;
     Some(in_coordinates(spread, at, &slopes.parameters, &by))
 }

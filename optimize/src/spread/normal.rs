@@ -14,10 +14,10 @@ const CHANGE: f64 = 0.125;
 /// The normal of g0 at some coordinates: d(w - g0)/d(coordinate) in rad/s.
 ///
 /// # Errors
-/// [`ZoneError`] as of [`Border::free`].
+/// [`ZoneError`] as of [`Border::at_g0`].
 pub fn free_normal(spread: &dyn ToleranceBox, at: &[f64]) -> Result<Vec<f64>, ZoneError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
-    let border = Border::free(&scene, true, &parameters)?;
+    let border = Border::at_g0(&scene, true, &parameters)?;
     Ok(in_coordinates(
         spread,
         at,
@@ -30,14 +30,14 @@ pub fn free_normal(spread: &dyn ToleranceBox, at: &[f64]) -> Result<Vec<f64>, Zo
 /// the branch over the frequency of the machine at some coordinates.
 ///
 /// # Errors
-/// [`OrbitError`] as of [`Border::critical`].
+/// [`OrbitError`] as of [`Border::at_critical`].
 pub fn critical_normal(
     spread: &dyn ToleranceBox,
     at: &[f64],
     (test, point): (Test, &BranchPoint),
 ) -> Result<Vec<f64>, OrbitError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
-    let border = Border::critical(&scene, 1, (test, point), &parameters)?;
+    let border = Border::at_critical(&scene, 1, (test, point), &parameters)?;
     Ok(in_coordinates(
         spread,
         at,

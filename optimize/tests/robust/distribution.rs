@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 use softstop::Parameter;
-use softstop_dynamics::basin::wilson;
+use softstop_dynamics::basin::wilson_interval;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::monitor::unmonitored;
-use softstop_dynamics::points::random;
+use softstop_dynamics::points::random_coordinate;
 use softstop_dynamics::{CycleMetrics, Orbit};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::problem::{Tolerance, Width};
@@ -46,7 +46,7 @@ const BESIDE: Beside = Beside {
 /// A machine by chance: each value from a number of its own.
 fn machine(spread: &Tolerances, index: u64) -> Vec<f64> {
     let dimensions = 0..spread.dimensions() as u32;
-    let even = dimensions.map(|dimension| 2.0 * random(7, index, dimension) - 1.0);
+    let even = dimensions.map(|dimension| 2.0 * random_coordinate(7, index, dimension) - 1.0);
     spread.draw(&even.collect::<Vec<f64>>())
 }
 
@@ -74,7 +74,7 @@ fn the_share_that_is_reported_is_that_of_machines_by_chance() -> Outcome {
     assert!(solution.deviations < 2.5, "{}", solution.deviations);
     let is_rejected = |index: u64| {
         let scene = spread.scene(&machine(&spread, index));
-        let orbit = Orbit::near(&scene, design.orbit.state()).ok();
+        let orbit = Orbit::find_near(&scene, design.orbit.state()).ok();
         let orbit = orbit.filter(|it| it.is_stable() && it.impacts.len() == 1);
         let stroke = orbit.as_ref().and_then(|it| CycleMetrics::of(it).ok());
         !stroke.is_some_and(|it| required[0].is_met(it.stop_force))
@@ -84,7 +84,7 @@ fn the_share_that_is_reported_is_that_of_machines_by_chance() -> Outcome {
         .into_par_iter()
         .filter(|it| is_rejected(*it))
         .count();
-    let [least, most] = wilson(rejected, trials as usize);
+    let [least, most] = wilson_interval(rejected, trials as usize);
     assert!(
         least <= high && low <= most,
         "{low} to {high}, by chance {least} to {most}"
@@ -117,7 +117,7 @@ fn the_share_beyond_one_bound_is_that_of_the_normal_distribution() -> Outcome {
     }
     // A bound of the velocity at the velocity of the machine 1.5 standard deviations below.
     let nominal = softstop_dynamics::orbit::find(&machine.scene)?;
-    let slow = Orbit::near(&spread.scene(&[-0.75]), nominal.state())?;
+    let slow = Orbit::find_near(&spread.scene(&[-0.75]), nominal.state())?;
     let bound = Requirement::at_least(Figure::Velocity, slow.before_impact_velocity());
     let settings = robust::Settings::of_machines(1 << 16);
     let verdict = verify(

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use approx::assert_relative_eq;
 use softstop::{Machine, Parameter, SceneError, Units};
 use softstop_dynamics::monitor::unmonitored;
-use softstop_dynamics::points::{BLOCK, place};
+use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
 use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
 use softstop_optimize::robust::{Distribution, Settings, Tolerance, Tolerances, verify};
@@ -23,10 +23,10 @@ const FEW: Settings = Settings {
 fn points_fill_every_layer_of_every_coordinate_once() {
     for block in [0, 5] {
         for dimension in 0..8 {
-            let mut layers = vec![0; BLOCK];
-            for index in 0..BLOCK {
-                let at = place(block * BLOCK + index, 8)[dimension];
-                layers[(0.5 * (at + 1.0) * BLOCK as f64) as usize] += 1;
+            let mut layers = vec![0; SEQUENCE_LENGTH];
+            for index in 0..SEQUENCE_LENGTH {
+                let at = sobol_point(block * SEQUENCE_LENGTH + index, 8)[dimension];
+                layers[(0.5 * (at + 1.0) * SEQUENCE_LENGTH as f64) as usize] += 1;
             }
             assert!(layers.iter().all(|points| *points == 1));
         }
@@ -44,7 +44,12 @@ fn a_machine_is_lost_if_its_drive_is_faster_than_the_fold() -> Outcome {
             ..FEW
         };
         let verdict = verify(&tolerances, &nominal, (some, &[]), &unmonitored)?;
-        let frequency = |index| tolerances.scene(&place(index, 1)).excitation.frequency;
+        let frequency = |index| {
+            tolerances
+                .scene(&sobol_point(index, 1))
+                .excitation
+                .frequency
+        };
         let beyond = (0..some.machines)
             .filter(|index| frequency(*index) > fold)
             .count();
@@ -67,14 +72,14 @@ fn every_velocity_is_that_of_the_orbit() -> Outcome {
         assert_eq!(verdict.lost, 0);
         let mut slowest = f64::INFINITY;
         for index in (0..FEW.machines).step_by(16) {
-            let scene = tolerances.scene(&place(index, tolerances.dimensions()));
-            let orbit = Orbit::near(&scene, nominal.state())?;
+            let scene = tolerances.scene(&sobol_point(index, tolerances.dimensions()));
+            let orbit = Orbit::find_near(&scene, nominal.state())?;
             assert!(orbit.is_stable());
             slowest = slowest.min(orbit.before_impact_velocity());
         }
         let (at, settled) = verdict.slowest.as_ref().ok_or("a machine")?;
         assert!(settled.velocity <= slowest);
-        let orbit = Orbit::near(&tolerances.scene(at), settled.state)?;
+        let orbit = Orbit::find_near(&tolerances.scene(at), settled.state)?;
         assert_relative_eq!(
             settled.velocity,
             orbit.before_impact_velocity(),
@@ -140,12 +145,12 @@ fn enough_lost_machines_or_a_watcher_end_it() -> Outcome {
     let machine = press()?;
     let (tolerances, nominal) = spread(&machine, &shop(&machine), 9.0)?;
     let settings = Settings {
-        machines: 4 * BLOCK,
+        machines: 4 * SEQUENCE_LENGTH,
         enough: 10,
         first: 0,
     };
     let verdict = verify(&tolerances, &nominal, (settings, &[]), &unmonitored)?;
-    assert!(verdict.lost >= 10 && verdict.machines < BLOCK);
+    assert!(verdict.lost >= 10 && verdict.machines < SEQUENCE_LENGTH);
     let stopped = verify(&tolerances, &nominal, (settings, &[]), &|_, _| {
         ControlFlow::Break(())
     })?;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use softstop::Parameter;
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::place;
+use softstop_dynamics::points::sobol_point;
 use softstop_dynamics::{CycleMetrics, Orbit, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
 use softstop_optimize::robust::{
@@ -36,8 +36,8 @@ fn no_machine_is_beyond_the_worst() -> Outcome {
         let (tolerances, nominal) = spread(&machine, &shop(&machine), 1.0)?;
         let all = worst(&tolerances, &nominal, &figures, &unmonitored)?;
         for index in 0..512 {
-            let scene = tolerances.scene(&place(index, tolerances.dimensions()));
-            let orbit = Orbit::near(&scene, nominal.state())?;
+            let scene = tolerances.scene(&sobol_point(index, tolerances.dimensions()));
+            let orbit = Orbit::find_near(&scene, nominal.state())?;
             let stroke = CycleMetrics::of(&orbit)?;
             for ((figure, sense), worst) in figures.iter().zip(&all) {
                 let value = figure.of_motion(&orbit, &stroke).ok_or("a figure")?;
@@ -106,7 +106,7 @@ fn sensitivities_are_those_of_machines_beside() -> Outcome {
                 let mut at = vec![0.0; tolerances.dimensions()];
                 at[index] = change;
                 let scene = tolerances.scene(&at);
-                let orbit = Orbit::near(&scene, nominal.state())?;
+                let orbit = Orbit::find_near(&scene, nominal.state())?;
                 let zone = zone::hysteresis(&scene)?;
                 let frequency = scene.excitation.frequency;
                 Ok([

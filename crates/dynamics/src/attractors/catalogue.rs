@@ -1,24 +1,24 @@
-//! The stable orbits that are known, and how motions are told to have arrived at them.
+//! The catalogue of known stable orbits of a scene, and how motions are told to have arrived at them.
 
 use nalgebra::{Matrix2, Vector2};
 
 use super::Certainty;
-use crate::ensemble::Outcome;
-use crate::orbit::recurrence::{distance, returns, size};
+use crate::ensemble::Status;
+use crate::orbit::recurrence::{find_return, motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use softstop::{Scene, Start};
 
 /// Distance from an orbit at which a motion has arrived, in units of the orbit's size.
-pub(crate) const ARRIVED: f64 = 1e-6;
+pub(crate) const ARRIVAL_DISTANCE: f64 = 1e-6;
 /// Two orbits of the same period are one if two of their states are as near as the first of these, and the
 /// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows.
 const SAME_ORBIT: (f64, f64) = (1e-7, 1e-3);
 /// Distance from 1 of the multiplier of a mass that creeps to rest.
-const CREEP: f64 = 1e-6;
-/// Distance at which a motion that returns is believed to return to an orbit at once.
-const NEAR_ORBIT: f64 = 1e-3;
+const CREEP_TOLERANCE: f64 = 1e-6;
+/// Distance, in units of the orbit's size, at which a motion that returns is believed to return to an orbit at once.
+const NEAR_ORBIT_DISTANCE: f64 = 1e-3;
 
-/// A stable orbit.
+/// A stable orbit in the catalogue.
 #[derive(Debug, Clone)]
 pub(crate) struct KnownOrbit {
     pub orbit: Orbit,
@@ -28,19 +28,20 @@ pub(crate) struct KnownOrbit {
 }
 
 impl KnownOrbit {
-    /// Its states after each drive period, from drive angle phi.
-    pub(crate) fn states(&self) -> &[Start] {
+    /// States of the known orbit at drive angle phi, after each drive period.
+    pub(crate) fn section_states(&self) -> &[Start] {
         &self.states
     }
 }
 
-/// All of them.
+/// The stable orbits of a scene that are known.
 pub(crate) struct AttractorCatalogue<'a> {
     scene: &'a Scene,
     pub orbits: Vec<KnownOrbit>,
 }
 
 impl<'a> AttractorCatalogue<'a> {
+    /// An empty catalogue of a scene's stable orbits.
     pub(crate) fn new(scene: &'a Scene) -> Self {
         Self {
             scene,
@@ -48,55 +49,55 @@ impl<'a> AttractorCatalogue<'a> {
         }
     }
 
-    fn frequency(&self) -> f64 {
+    /// The frequency of the scene's drive in rad/s.
+    fn drive_frequency(&self) -> f64 {
         self.scene.excitation.frequency
     }
 
-    /// The orbit at which one of the last states of a log lies; the motion has been through all of its
-    /// period since.
-    fn reached(&self, log: &[Start]) -> Option<usize> {
+    /// The known orbit at which one of the last states of a log lies; the motion has been through its period since.
+    fn find_reached(&self, log: &[Start]) -> Option<usize> {
         self.orbits.iter().position(|known| {
             let recent = log.iter().rev().take(known.states.len());
-            let mut gaps = recent.map(|state| self.gap(known, state));
-            gaps.any(|gap| gap <= ARRIVED * known.size)
+            let mut gaps = recent.map(|state| self.orbit_distance(known, state));
+            gaps.any(|gap| gap <= ARRIVAL_DISTANCE * known.size)
         })
     }
 
-    /// Distance of a state from an orbit.
-    fn gap(&self, known: &KnownOrbit, state: &Start) -> f64 {
+    /// Distance in m/s of a state from a known orbit.
+    fn orbit_distance(&self, known: &KnownOrbit, state: &Start) -> f64 {
         let others = known.states.iter();
-        let gaps = others.map(|other| distance(self.frequency(), state, other));
+        let gaps = others.map(|other| state_distance(self.drive_frequency(), state, other));
         gaps.fold(f64::INFINITY, f64::min)
     }
 
-    /// What a motion has come to whose last states are these; what it turns up is entered.
-    pub(crate) fn judge(&mut self, log: &[Start]) -> Result<Outcome, OrbitError> {
+    /// What a motion whose last states are this log has come to; a new stable orbit is entered in the catalogue.
+    pub(crate) fn classify_log(&mut self, log: &[Start]) -> Result<Status, OrbitError> {
         let Some(last) = log.last() else {
-            return Ok(Outcome::Wandering);
+            return Ok(Status::Wandering);
         };
-        if let Some(orbit) = self.reached(log) {
-            return Ok(Outcome::Arrived(orbit));
+        if let Some(orbit) = self.find_reached(log) {
+            return Ok(Status::Arrived(orbit));
         }
-        let Some(found) = returns(self.frequency(), log) else {
-            return Ok(Outcome::Wandering);
+        let Some(found) = find_return(self.drive_frequency(), log) else {
+            return Ok(Status::Wandering);
         };
         if self.is_at_rest(last)? {
-            return Ok(Outcome::AtRest);
+            return Ok(Status::AtRest);
         }
-        let orbit = match Orbit::periodic(self.scene, (*last).into(), found.periods as u64) {
+        let orbit = match Orbit::find_periodic(self.scene, (*last).into(), found.periods as u64) {
             Ok(orbit) if orbit.is_stable() => orbit,
-            _ => return Ok(Outcome::Wandering),
+            _ => return Ok(Status::Wandering),
         };
         if self.is_at_rest(&orbit.state().into())? {
-            return Ok(Outcome::AtRest);
+            return Ok(Status::AtRest);
         }
-        let orbit = self.enter(orbit, found.distance)?;
+        let orbit = self.enter_orbit(orbit, found.distance)?;
         let known = &self.orbits[orbit];
-        let gap = self.gap(known, last);
-        let is_near = found.distance <= ARRIVED && gap <= NEAR_ORBIT * known.size;
-        Ok(match is_near || self.reached(log).is_some() {
-            true => Outcome::Arrived(orbit),
-            false => Outcome::Approaching(orbit),
+        let gap = self.orbit_distance(known, last);
+        let is_near = found.distance <= ARRIVAL_DISTANCE && gap <= NEAR_ORBIT_DISTANCE * known.size;
+        Ok(match is_near || self.find_reached(log).is_some() {
+            true => Status::Arrived(orbit),
+            false => Status::Approaching(orbit),
         })
     }
 
@@ -107,16 +108,18 @@ impl<'a> AttractorCatalogue<'a> {
         let passage = map.apply((*state).into())?;
         let held = Matrix2::new(1.0, 0.0, 0.0, 0.0);
         let gap = Start::new(state.position - passage.end.x, state.velocity);
-        let creep = distance(self.frequency(), &gap, &Start::from(Vector2::zeros()));
-        let size = size(self.frequency(), [state]);
-        Ok((passage.monodromy.matrix - held).norm() <= CREEP && creep <= ARRIVED * size)
+        let creep = state_distance(self.drive_frequency(), &gap, &Start::from(Vector2::zeros()));
+        let size = motion_size(self.drive_frequency(), [state]);
+        Ok((passage.monodromy.matrix - held).norm() <= CREEP_TOLERANCE
+            && creep <= ARRIVAL_DISTANCE * size)
     }
 
-    /// The known orbit that another one is.
-    fn twin(&self, periods: u64, states: &[Start]) -> Option<usize> {
+    /// The known orbit that has these states, if there is one.
+    fn find_known(&self, periods: u64, states: &[Start]) -> Option<usize> {
         let apart = |known: &KnownOrbit, shift: usize| {
             let pairs = states.iter().zip(known.states.iter().cycle().skip(shift));
-            let gaps = pairs.map(|(a, b)| distance(self.frequency(), a, b) / known.size);
+            let gaps =
+                pairs.map(|(a, b)| state_distance(self.drive_frequency(), a, b) / known.size);
             gaps.fold((f64::INFINITY, 0.0f64), |(least, largest), gap| {
                 (least.min(gap), largest.max(gap))
             })
@@ -131,15 +134,15 @@ impl<'a> AttractorCatalogue<'a> {
         })
     }
 
-    /// Enters a stable orbit, unless it is known.
-    fn enter(&mut self, orbit: Orbit, returned: f64) -> Result<usize, OrbitError> {
+    /// Enters a stable orbit in the catalogue, unless it is known, and returns its number.
+    fn enter_orbit(&mut self, orbit: Orbit, returned: f64) -> Result<usize, OrbitError> {
         let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
-        if let Some(index) = self.twin(orbit.periods, &states) {
+        if let Some(index) = self.find_known(orbit.periods, &states) {
             return Ok(index);
         }
         let (residual, rounding) = orbit.residual()?;
         self.orbits.push(KnownOrbit {
-            size: size(self.frequency(), &states),
+            size: motion_size(self.drive_frequency(), &states),
             states,
             orbit,
             certainty: Certainty {

@@ -1,19 +1,19 @@
-//! What a chaotic motion is like.
+//! A chaotic attractor: its exponents, impacts and lifetime.
 
 use crate::ensemble::Ensemble;
 use crate::extremes::extremes;
 use crate::orbit::{Exponents, OrbitError, StroboscopicMap};
 use softstop::{Crossing, Observer, Scene, Start};
 
-/// A motion that never repeats, as far as it was watched.
+/// A chaotic motion, one that never repeats as far as it was watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Chaos {
     /// A state of it at drive angle phi.
     pub state: Start,
-    /// Its exponents.
+    /// Its Lyapunov exponents.
     pub exponents: Exponents,
-    /// Mean number of drive periods before it ends, if it does.
+    /// Mean number of drive periods before it ends, if it is transient.
     pub lifetime: Option<f64>,
     /// Starts of the region that came to it; those that it has let go count where they ended.
     pub entered: usize,
@@ -36,23 +36,23 @@ impl Observer for ImpactVelocities {
     }
 }
 
-/// Drive periods over which impacts are counted, at most.
-const COUNTED: u64 = 4096;
+/// Most drive periods over which the impacts of chaos are counted.
+const MAX_COUNTED_PERIODS: u64 = 4096;
 
 impl Chaos {
-    /// The motion from a state, that still wanders at the end of its exponents.
-    pub(super) fn of(
+    /// The chaos that a motion from a state is, which still wanders at the end of its exponents.
+    pub(super) fn of_motion(
         scene: &Scene,
         ensemble: &Ensemble<'_>,
         (begin, state): (Start, Start),
         exponents: Exponents,
     ) -> Result<Self, OrbitError> {
-        let counted = COUNTED.min(exponents.periods);
+        let counted = MAX_COUNTED_PERIODS.min(exponents.periods);
         let map = StroboscopicMap::new(scene, counted)?;
         let mut impacts = ImpactVelocities::default();
-        map.observe(begin.into(), &mut impacts)?;
+        map.image_with_observer(begin.into(), &mut impacts)?;
         let ImpactVelocities(velocities) = impacts;
-        ensemble.note(counted)?;
+        ensemble.count_work(counted)?;
         Ok(Self {
             state,
             exponents,

@@ -1,14 +1,14 @@
-//! How long chaos lasts that ends.
+//! The mean lifetime of transient chaos.
 
 use std::convert::Infallible;
 
 use softstop::internals::narrow_root;
 
-/// Looks at motions on one chaos after some drive periods each.
+/// How many motions on one chaos stayed and how many escaped, by the drive periods for which they were watched.
 #[derive(Debug, Clone, Default)]
 pub(super) struct EscapeCounts(Vec<EscapeCount>);
 
-/// Motions that were watched for one length of time.
+/// Motions on chaos that were watched for one length of time: those that stayed and those that escaped.
 #[derive(Debug, Clone, Copy)]
 struct EscapeCount {
     periods: u64,
@@ -16,14 +16,14 @@ struct EscapeCount {
     gone: u64,
 }
 
-/// Width to which the logarithm of the rate is known.
-const RATE_WIDTH: f64 = 1e-14;
-/// Range of the logarithm of the rate per drive period.
-const RATES: (f64, f64) = (-40.0, 5.0);
+/// Width to which the logarithm of the escape rate is known.
+const LN_RATE_WIDTH: f64 = 1e-14;
+/// Range of the logarithm of the escape rate per drive period.
+const LN_RATE_RANGE: (f64, f64) = (-40.0, 5.0);
 
 impl EscapeCounts {
-    /// A motion has been watched for so many drive periods, and is still there or has gone meanwhile.
-    pub fn note(&mut self, periods: u64, is_gone: bool) {
+    /// Counts a motion on chaos that was watched for so many drive periods and has then escaped or not.
+    pub fn record_watch(&mut self, periods: u64, is_gone: bool) {
         let (stayed, gone) = (u64::from(!is_gone), u64::from(is_gone));
         match self.0.iter_mut().find(|look| look.periods == periods) {
             Some(look) => {
@@ -38,18 +38,18 @@ impl EscapeCounts {
         }
     }
 
-    /// Drive periods watched, all together.
-    pub fn watched(&self) -> u64 {
+    /// Drive periods for which motions on chaos were watched, all together.
+    pub fn watched_periods(&self) -> u64 {
         let watched = |look: &EscapeCount| look.periods * (look.stayed + look.gone);
         self.0.iter().map(watched).sum()
     }
 
-    /// The mean lifetime in drive periods; none if no motion has gone.
+    /// The mean lifetime of chaos in drive periods; none if no motion has escaped.
     ///
     /// Lifetimes on chaos that ends are exponential (Grebogi, Ott and Yorke 1983). Of a motion that has gone it is
     /// known only that it went between two looks. The rate r of greatest likelihood solves
     /// sum gone P / (e^(r P) - 1) = sum stayed P.
-    pub fn lifetime(&self) -> Option<f64> {
+    pub fn mean_lifetime(&self) -> Option<f64> {
         if self.0.iter().all(|look| look.gone == 0) {
             return None;
         }
@@ -66,8 +66,8 @@ impl EscapeCounts {
             self.0.iter().map(share).sum::<f64>() - stayed
         };
         let at = |rate: f64| excess(rate.exp());
-        let [low, high] = [RATES.0, RATES.1].map(|rate| (rate, at(rate)));
-        let found = narrow_root(low, high, RATE_WIDTH, |rate| {
+        let [low, high] = [LN_RATE_RANGE.0, LN_RATE_RANGE.1].map(|rate| (rate, at(rate)));
+        let found = narrow_root(low, high, LN_RATE_WIDTH, |rate| {
             Ok::<f64, Infallible>(at(rate))
         });
         Some((-found.ok()?.middle()).exp())
@@ -91,26 +91,26 @@ mod tests {
             let (mut begin, mut periods) = (0.0, 500);
             loop {
                 let end = begin + periods as f64;
-                escapes.note(periods, life <= end);
+                escapes.record_watch(periods, life <= end);
                 if life <= end {
                     break;
                 }
                 (begin, periods) = (end, 2 * periods);
             }
         }
-        let found = escapes.lifetime().expect("all have gone");
+        let found = escapes.mean_lifetime().expect("all have gone");
         assert_abs_diff_eq!(found / mean, 1.0, epsilon = 0.02);
     }
 
     #[test]
     fn what_nothing_leaves_has_no_lifetime() {
         let mut escapes = EscapeCounts::default();
-        escapes.note(1000, false);
-        assert_eq!(escapes.lifetime(), None);
-        assert_eq!(escapes.watched(), 1000);
-        escapes.note(1000, true);
+        escapes.record_watch(1000, false);
+        assert_eq!(escapes.mean_lifetime(), None);
+        assert_eq!(escapes.watched_periods(), 1000);
+        escapes.record_watch(1000, true);
         assert_abs_diff_eq!(
-            escapes.lifetime().expect("one has gone"),
+            escapes.mean_lifetime().expect("one has gone"),
             1000.0 / 2_f64.ln(),
             epsilon = DIFFERENCED
         );

@@ -1,35 +1,33 @@
 //! All motions on which one scene settles, found from starts spread over the plane of states.
 //!
-//! Nothing is told of where they are. Starts first from far and wide (a pilot) show where motions stay;
-//! then quasi-random starts fill that region. What returns is polished by Newton's method on the exact map:
-//! a stable orbit found so exists, however it was met, and two are the same if their states are. What
-//! does not return and has a positive exponent is chaos; motions on the same cells of the plane belong
-//! to one. They are watched on for millions of drive periods: if some settle elsewhere, the chaos is
-//! transient, and its mean lifetime is told.
+//! Nothing is told of where they are. Starts first from far and wide (a pilot) show where motions stay; then
+//! quasi-random starts fill that region. What returns is polished by Newton's method on the exact map: a stable orbit
+//! found so exists, however it was met, and two are the same if their states are. What does not return and has a
+//! positive exponent is chaos; motions on the same cells of the plane belong to one. They are watched on for millions
+//! of drive periods: if some settle elsewhere, the chaos is transient, and its mean lifetime is told.
 
 pub(crate) mod catalogue;
 mod chaos;
-mod group;
+mod group_logs;
 mod lifetime;
+pub(crate) mod region;
 mod search;
-pub(crate) mod starts;
 
 pub use chaos::Chaos;
-pub(crate) use search::stays;
-pub use search::{attractors, classify, settle, starting_box};
-pub use starts::Region;
+pub use region::Region;
+pub(crate) use search::end_states;
+pub use search::{classify_start, find_attractors, settle_starts, starting_box};
 
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};
-use crate::share::wilson;
+use crate::wilson_interval::wilson_interval;
 use softstop::{MotionError, Start};
 
-/// How certain a periodic motion is.
+/// How certain a periodic motion is: residuals of its simulation and of its polished orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Certainty {
-    /// Largest distance between states of the simulated motion one of its periods apart, in units of its
-    /// size, when it was first met.
+    /// Largest distance of simulated states a period apart, in units of the motion's size, when it was first met.
     pub returned: f64,
     /// |P(s) - s| of the polished orbit in the scene's scales.
     pub residual: f64,
@@ -37,34 +35,34 @@ pub struct Certainty {
     pub rounding: f64,
 }
 
-/// What some of many starts come to.
+/// An attractor: what some of many starts come to.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Attractor {
-    /// What it is.
+    /// The kind of motion.
     pub motion: MotionKind,
     /// A state of it at drive angle phi; of what is lost, one before it could not be followed any farther.
     pub state: Start,
     /// The orbit, if it repeats: polished by Newton's method; stable.
     pub orbit: Option<Box<Orbit>>,
-    /// How certain that is.
+    /// How certain the orbit is.
     pub certainty: Option<Certainty>,
     /// Least and largest position in m at which motions were seen to end, if it rests.
     pub positions: Option<[f64; 2]>,
-    /// What it is like, if it is chaotic and was watched.
+    /// What chaos is like, if the motion is chaotic and was watched.
     pub chaos: Option<Chaos>,
     /// Its exponents, if they were computed: those of an orbit follow from its multipliers.
     pub exponents: Option<Exponents>,
-    /// How many starts were on it in the end.
+    /// Number of starts that were on it in the end.
     pub starts: usize,
-    /// Their share of all: a measure of its basin.
+    /// Share of all starts that were on it: a measure of its basin.
     pub share: f64,
     /// Wilson's 95 % interval of the share, as if the starts were drawn at random.
     pub interval: [f64; 2],
 }
 
 impl Attractor {
-    /// A motion with a state of it, the starts on it and all.
+    /// An attractor of a kind of motion with a state of it, by the starts on it and all starts.
     pub(crate) fn new(motion: MotionKind, state: Start, (starts, all): (usize, usize)) -> Self {
         Self {
             motion,
@@ -76,12 +74,12 @@ impl Attractor {
             exponents: None,
             starts,
             share: starts as f64 / all.max(1) as f64,
-            interval: wilson(starts, all),
+            interval: wilson_interval(starts, all),
         }
     }
 
-    /// A stable orbit.
-    pub(crate) fn repeating(orbit: &Orbit, starts: (usize, usize)) -> Self {
+    /// An attractor that is a stable orbit, by the starts on it and all starts.
+    pub(crate) fn from_orbit(orbit: &Orbit, starts: (usize, usize)) -> Self {
         Self {
             orbit: Some(Box::new(orbit.clone())),
             ..Self::new(MotionKind::of(orbit), orbit.state().into(), starts)
@@ -89,36 +87,36 @@ impl Attractor {
     }
 }
 
-/// All motions found.
+/// All attractors of a scene that were found.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Survey {
-    /// The motions, that with the largest share first.
+    /// The attractors, that with the largest share first.
     pub attractors: Vec<Attractor>,
-    /// Where the starts lay that the shares count.
+    /// The region of the starts that the shares count.
     pub region: Region,
-    /// How many there were.
+    /// Number of starts in the region.
     pub starts: usize,
     /// Starts whose motion could not be carried on, and why the first of them could not.
     pub lost: Option<(usize, MotionError)>,
-    /// Drive periods computed.
+    /// Drive periods that were computed.
     pub periods: u64,
 }
 
-/// How to look for motions.
+/// How to search the attractors of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SearchOptions {
-    /// Starts in the region.
+    /// Number of starts in the region.
     pub starts: usize,
-    /// Shifts the starts.
+    /// Seed that shifts the starts.
     pub seed: u64,
-    /// Drive periods before a motion is looked at.
+    /// Drive periods before a motion is classified.
     pub transient: u64,
     /// Longest period looked for, in drive periods.
     pub longest: usize,
     /// Drive periods for which the motions that do not settle are watched, all together.
     pub patience: u64,
-    /// Where the starts lie; where motions stay if not given.
+    /// Region of the starts; where motions stay if not given.
     pub region: Option<Region>,
 }
 
@@ -135,11 +133,11 @@ impl Default for SearchOptions {
     }
 }
 
-/// Where a motion is after the transient.
+/// What the motion from a start has arrived at after the transient.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Arrival {
-    /// Its state at drive angle phi.
+    /// State of the motion at drive angle phi.
     pub state: Start,
     /// The stable orbit to which it returns; none if it wanders (or rests).
     pub orbit: Option<Orbit>,

@@ -1,16 +1,16 @@
-//! What the cells have come to, basin by basin.
+//! The classes of a survey's cells: basin by basin, what they have come to.
 
 use super::Basins;
 use super::survey::BasinSurvey;
 use crate::attractors::Attractor;
 use crate::attractors::catalogue::KnownOrbit;
-use crate::ensemble::Outcome;
+use crate::ensemble::Status;
 use crate::motion::MotionKind;
 use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
 
 impl BasinSurvey<'_> {
-    /// All basins: periodic motions by period, impacts and hardest impact, then the others.
-    pub(super) fn report(self) -> Result<Basins, OrbitError> {
+    /// The basins of a survey, class by class: periodic motions by period, impacts and hardest impact, then the others.
+    pub(super) fn into_basins(self) -> Result<Basins, OrbitError> {
         let mut basins = Basins {
             grid: *self.grid,
             classes: Vec::new(),
@@ -27,36 +27,36 @@ impl BasinSurvey<'_> {
         for (index, known) in known {
             let class = |starts| Attractor {
                 certainty: Some(known.certainty),
-                ..Attractor::repeating(&known.orbit, starts)
+                ..Attractor::from_orbit(&known.orbit, starts)
             };
-            self.enter(&mut basins, |it| it.attractor() == Some(index), class);
+            self.enter_class(&mut basins, |it| it.attractor() == Some(index), class);
         }
-        let (wandering, exponents) = self.wandering()?;
+        let (wandering, exponents) = self.classify_wandering_cells()?;
         for (outcome, motion) in [
-            (Outcome::AtRest, MotionKind::Rest),
-            (Outcome::Wandering, wandering),
-            (Outcome::Lost, MotionKind::Lost),
+            (Status::AtRest, MotionKind::Rest),
+            (Status::Wandering, wandering),
+            (Status::Lost, MotionKind::Lost),
         ] {
             let first = self.outcomes.iter().position(|it| *it == outcome);
             let Some(first) = first else { continue };
             let class = |starts| Attractor {
-                exponents: exponents.filter(|_| outcome == Outcome::Wandering),
+                exponents: exponents.filter(|_| outcome == Status::Wandering),
                 ..Attractor::new(motion, self.states[first], starts)
             };
-            self.enter(&mut basins, |it| it == outcome, class);
+            self.enter_class(&mut basins, |it| it == outcome, class);
         }
         Ok(basins)
     }
 
-    /// What the cells are that have not returned, and the exponents of the first of them, if there are any.
-    fn wandering(&self) -> Result<(MotionKind, Option<Exponents>), OrbitError> {
+    /// The kind of motion of the cells that have not returned, and the exponents of the first one.
+    fn classify_wandering_cells(&self) -> Result<(MotionKind, Option<Exponents>), OrbitError> {
         let mut outcomes = self.outcomes.iter();
-        let Some(cell) = outcomes.position(|outcome| *outcome == Outcome::Wandering) else {
+        let Some(cell) = outcomes.position(|outcome| *outcome == Status::Wandering) else {
             return Ok((MotionKind::Unsettled, None));
         };
-        let (state, ask) = (self.states[cell].into(), || self.ensemble.note(0));
+        let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
         let (exponents, _) =
-            Exponents::along_with_monitor(self.scene, state, BATCH_PERIODS.0, ask)?;
+            Exponents::along_motion_with_monitor(self.scene, state, BATCH_PERIODS.0, ask)?;
         let motion = match exponents.is_positive() {
             true => MotionKind::Chaos,
             false => MotionKind::Unsettled,
@@ -64,11 +64,11 @@ impl BasinSurvey<'_> {
         Ok((motion, Some(exponents)))
     }
 
-    /// Enters the basin of all cells with some outcome, if there are any.
-    fn enter(
+    /// Enters the class of all cells with some outcome, if there are any.
+    fn enter_class(
         &self,
         basins: &mut Basins,
-        has_come: impl Fn(Outcome) -> bool,
+        has_come: impl Fn(Status) -> bool,
         class: impl FnOnce((usize, usize)) -> Attractor,
     ) {
         let number = basins.classes.len() as u16;

@@ -1,10 +1,10 @@
-//! How uncertain it is which basin a start lies in (Daza, Wagemakers, Georgeot, Guery-Odelin, Sanjuan, Scientific Reports 6
-//! (2016) 31416).
+//! Basin entropy: how uncertain it is which basin a start lies in (Daza, Wagemakers, Georgeot, Guery-Odelin, Sanjuan,
+//! Scientific Reports 6 (2016) 31416).
 
 use super::Basins;
 
-/// Cells on a side of the boxes in which basins are counted, as in the source.
-const BOX: usize = 5;
+/// Cells on a side of the boxes in which the entropy of basins is counted, as in the source.
+const BOX_CELLS: usize = 5;
 
 /// The basin entropy of a grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,18 +17,20 @@ pub struct BasinEntropy {
 }
 
 impl Basins {
-    /// The basin entropy; boxes at the right and upper edge of the grid may have fewer cells.
-    pub fn entropy(&self) -> BasinEntropy {
+    /// The basin entropy of a grid; boxes at its right and upper edge may have fewer cells.
+    pub fn basin_entropy(&self) -> BasinEntropy {
         let (columns, rows) = (self.grid.across.cells, self.grid.up.cells);
         let mut sum = 0.0;
         let (mut boxes, mut mixed) = (0, 0);
-        for (row, column) in places(rows).flat_map(|row| places(columns).map(move |it| (row, it))) {
+        for (row, column) in
+            box_starts(rows).flat_map(|row| box_starts(columns).map(move |it| (row, it)))
+        {
             let mut counts = vec![0; self.classes.len()];
-            for row in row..rows.min(row + BOX) {
-                let cells = &self.cells[row * columns..][column..columns.min(column + BOX)];
+            for row in row..rows.min(row + BOX_CELLS) {
+                let cells = &self.cells[row * columns..][column..columns.min(column + BOX_CELLS)];
                 cells.iter().for_each(|it| counts[usize::from(*it)] += 1);
             }
-            let entropy = entropy(&counts);
+            let entropy = entropy_of_counts(&counts);
             sum += entropy;
             boxes += 1;
             mixed += usize::from(entropy > 0.0);
@@ -40,13 +42,13 @@ impl Basins {
     }
 }
 
-/// Where boxes begin along an axis.
-fn places(cells: usize) -> impl Iterator<Item = usize> + Clone {
-    (0..cells).step_by(BOX)
+/// The cells along an axis at which boxes of the basin entropy begin.
+fn box_starts(cells: usize) -> impl Iterator<Item = usize> + Clone {
+    (0..cells).step_by(BOX_CELLS)
 }
 
-/// The sum of -p ln p over the shares of counts.
-fn entropy(counts: &[usize]) -> f64 {
+/// The sum of -p ln p over the shares p of the basins counted in a box.
+fn entropy_of_counts(counts: &[usize]) -> f64 {
     let all = counts.iter().sum::<usize>() as f64;
     let shares = counts
         .iter()
@@ -69,14 +71,14 @@ mod tests {
         let up = Axis::velocity(0.0, 1.0, rows);
         let all = (0..columns * rows).map(|cell| class(cell / columns, cell % columns));
         let basins = Basins {
-            grid: Grid::states(across, up, 0.0),
+            grid: Grid::of_states(across, up, 0.0),
             classes: [MotionKind::Chaos, MotionKind::Rest]
                 .map(|it| Attractor::new(it, Start::REST, (0, 1)))
                 .into(),
             lost: None,
             cells: all.collect(),
         };
-        basins.entropy()
+        basins.basin_entropy()
     }
 
     #[test]

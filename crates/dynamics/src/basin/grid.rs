@@ -1,10 +1,10 @@
-//! Where initial states lie.
+//! The grid of initial states whose basins are found.
 
 use serde::{Deserialize, Serialize};
 
 use softstop::Start;
 
-/// What changes along an axis.
+/// The quantity along an axis of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AxisQuantity {
@@ -16,10 +16,10 @@ pub enum AxisQuantity {
     Angle,
 }
 
-/// An axis, cut into cells of equal length.
+/// An axis of the grid, cut into cells of equal length.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
-    /// What changes.
+    /// The quantity along the axis.
     pub quantity: AxisQuantity,
     /// Where the first cell begins and the last one ends.
     pub range: [f64; 2],
@@ -28,7 +28,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Positions in m.
+    /// An axis of positions in m.
     pub const fn position(from: f64, to: f64, cells: usize) -> Self {
         Self {
             quantity: AxisQuantity::Position,
@@ -37,7 +37,7 @@ impl Axis {
         }
     }
 
-    /// Velocities in m/s.
+    /// An axis of velocities in m/s.
     pub const fn velocity(from: f64, to: f64, cells: usize) -> Self {
         Self {
             quantity: AxisQuantity::Velocity,
@@ -46,7 +46,7 @@ impl Axis {
         }
     }
 
-    /// Drive angles in rad.
+    /// An axis of drive angles in rad.
     pub const fn angle(from: f64, to: f64, cells: usize) -> Self {
         Self {
             quantity: AxisQuantity::Angle,
@@ -55,19 +55,19 @@ impl Axis {
         }
     }
 
-    /// The middle of a cell.
-    pub fn value(&self, cell: usize) -> f64 {
+    /// The value at the middle of a cell of the axis.
+    pub fn value_at(&self, cell: usize) -> f64 {
         let [from, to] = self.range;
         from + (cell as f64 + 0.5) / self.cells as f64 * (to - from)
     }
 
     /// Length of a cell in units of half the axis.
-    pub(super) fn spacing(&self) -> f64 {
+    pub(super) fn cell_length(&self) -> f64 {
         2.0 / self.cells as f64
     }
 }
 
-/// Cells in a plane of initial states; cell `row * across.cells + column`.
+/// A grid of cells in a plane of initial states; cell `row * across.cells + column`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// The axis of the columns.
@@ -81,8 +81,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// A plane of states at a drive angle in rad.
-    pub const fn states(across: Axis, up: Axis, angle: f64) -> Self {
+    /// A grid of positions and velocities at a drive angle in rad.
+    pub const fn of_states(across: Axis, up: Axis, angle: f64) -> Self {
         let state = Start::REST;
         Self {
             across,
@@ -92,20 +92,20 @@ impl Grid {
         }
     }
 
-    /// Number of cells.
-    pub fn cells(&self) -> usize {
+    /// Number of cells of the grid.
+    pub fn cell_count(&self) -> usize {
         self.across.cells * self.up.cells
     }
 
-    /// The initial state of a cell and its drive angle in rad.
-    pub fn start(&self, cell: usize) -> (Start, f64) {
+    /// The initial state of a cell of the grid, and its drive angle in rad.
+    pub fn start_of_cell(&self, cell: usize) -> (Start, f64) {
         let (mut state, mut angle) = (self.state, self.angle);
         let places = [
             (&self.across, cell % self.across.cells),
             (&self.up, cell / self.across.cells),
         ];
         for (axis, place) in places {
-            let value = axis.value(place);
+            let value = axis.value_at(place);
             match axis.quantity {
                 AxisQuantity::Position => state.position = value,
                 AxisQuantity::Velocity => state.velocity = value,

@@ -1,53 +1,52 @@
 //! Basins of attraction: on which motion each of many initial states settles.
 //!
-//! The cells of a [`Grid`] lie on a plane of position, velocity and drive angle, any two of them. Each cell's
-//! motion is first brought to drive angle phi, then followed in the lanes of the batch engine, a few drive
-//! periods at a time. It has arrived once its state lies in a ball about a point of a known stable orbit in
-//! which the map contracts: in a norm in which the orbit's own Jacobian does, the Jacobian at all of many points
-//! of the ball stays below 1, with the orbit's number of impacts. What is not caught by any ball is looked at
-//! one by one: a state that returns is polished by Newton's method and is a new motion; what never returns
-//! belongs to one set, chaos.
+//! The cells of a [`Grid`] lie on a plane of position, velocity and drive angle, any two of them. Each cell's motion is
+//! first brought to drive angle phi, then followed in the lanes of the batch engine, a few drive periods at a time. It
+//! has arrived once its state lies in a ball about a point of a known stable orbit in which the map contracts: in a
+//! norm in which the orbit's own Jacobian does, the Jacobian at all of many points of the ball stays below 1, with the
+//! orbit's number of impacts. What is not caught by any ball is looked at one by one: a state that returns is polished
+//! by Newton's method and is a new motion; what never returns belongs to one set, chaos.
 //!
 //! The result depends on scene, grid and options alone, not on the number of threads.
 //!
 //! ```
 //! use softstop::Ratios;
-//! use softstop_dynamics::basin::{Axis, Grid, BasinOptions, basins};
+//! use softstop_dynamics::basin::{Axis, Grid, BasinOptions, find_basins};
 //! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let scene = Ratios::unloaded().scene()?;
 //! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
-//! let basins = basins(&scene, &grid, &BasinOptions::default(), &unmonitored, None)?;
+//! let basins = find_basins(&scene, &grid, &BasinOptions::default(), &unmonitored, None)?;
 //! // Point A: without impacts, and z = 1.
 //! let names: Vec<String> = basins.classes.iter().map(|class| class.motion.to_string()).collect();
 //! assert_eq!(names, ["z = 0", "z = 1"]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod ball;
 mod basin_test;
 mod certainty;
 mod classes;
+mod contraction_ball;
 mod entropy;
-mod erosion;
-mod follow;
-mod global;
+mod establishment_and_erosion;
+mod follow_cells;
+mod global_continuation;
 mod grid;
-mod integrity;
+mod largest_ball;
 mod section;
 mod survey;
 
-pub use crate::share::wilson;
+pub use crate::wilson_interval::wilson_interval;
 pub use basin_test::BasinTest;
 pub(crate) use basin_test::TestedMotion;
-pub use certainty::{Establishing, establishing};
+pub use certainty::{CertaintyAtPlace, establishing_certainties};
 pub use entropy::BasinEntropy;
-pub use erosion::{ErosionProfile, Establishment, Integrity, zone_box};
-pub use global::{BasinsAt, follow_attractors};
+pub use establishment_and_erosion::{ErosionProfile, Establishment, Integrity, zone_box};
+pub use global_continuation::{BasinsAt, follow_attractors};
 pub use grid::{Axis, AxisQuantity, Grid};
-pub use integrity::{Clearing, clearing};
-pub(crate) use section::at_section;
-pub use survey::basins;
+pub use largest_ball::{BasinBall, find_largest_ball};
+pub(crate) use section::bring_to_section;
+pub use survey::find_basins;
 
 use serde::Serialize;
 
@@ -60,8 +59,8 @@ use crate::orbit::Regime;
 pub struct Basins {
     /// Where the cells lie.
     pub grid: Grid,
-    /// On what their motions settle: periodic motions by period, impacts and hardest impact; then rest, chaos (nothing
-    /// that returns, with a positive exponent), what is unsettled, and what is lost.
+    /// The attractors on which the cells' motions settle: periodic motions by period, impacts and hardest impact; then
+    /// rest, chaos (nothing that returns, with a positive exponent), what is unsettled, and what is lost.
     pub classes: Vec<Attractor>,
     /// The basin of each cell, row by row.
     pub cells: Vec<u16>,
@@ -70,33 +69,33 @@ pub struct Basins {
 }
 
 impl Basins {
-    /// Share of the cells whose motions settle in a regime, and its 95 % interval.
-    pub fn share(&self, regime: Regime) -> (f64, [f64; 2]) {
+    /// Share of the grid's cells whose motions settle in a regime, and its 95 % interval.
+    pub fn regime_share(&self, regime: Regime) -> (f64, [f64; 2]) {
         let classes = self.classes.iter();
         let own = classes.filter(|class| class.motion.regime() == Some(regime));
         let cells = own.map(|class| class.starts).sum();
         let all = self.cells.len();
-        (cells as f64 / all as f64, wilson(cells, all))
+        (cells as f64 / all as f64, wilson_interval(cells, all))
     }
 
     /// The largest ball that lies inside a basin and inside the grid; none if the basin is not there.
-    pub fn largest_ball(&self, class: usize) -> Option<Clearing> {
-        clearing(&self.grid, |cell| usize::from(self.cells[cell]) == class)
+    pub fn largest_ball(&self, class: usize) -> Option<BasinBall> {
+        find_largest_ball(&self.grid, |cell| usize::from(self.cells[cell]) == class)
     }
 
-    /// The largest ball all of whose motions settle in a regime, be it on one motion or on several of it.
-    pub fn largest_ball_of(&self, regime: Regime) -> Option<Clearing> {
-        clearing(&self.grid, |cell| {
+    /// The largest ball of cells all of whose motions settle in a regime, be it on one motion or on several of it.
+    pub fn largest_ball_of(&self, regime: Regime) -> Option<BasinBall> {
+        find_largest_ball(&self.grid, |cell| {
             let class = &self.classes[usize::from(self.cells[cell])];
             class.motion.regime() == Some(regime)
         })
     }
 }
 
-/// How to follow the cells' motions.
+/// How to follow the motions of a grid's cells.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BasinOptions {
-    /// Drive periods after which a motion that no ball has caught is looked at.
+    /// Drive periods after which a motion that no ball holds is classified by its log.
     pub transient: u64,
     /// Longest period looked for, in drive periods.
     pub longest: usize,

@@ -1,4 +1,4 @@
-//! States at any drive angle, brought to the drive angle at which motions are looked at.
+//! Bringing states at any drive angle to the section at drive angle phi.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use softstop::internals::{Motion, Phases};
 use softstop::{Clock, Excitation, MotionError, Start};
 
 /// The state of a motion from a start at a drive angle in rad when that angle next is the drive's phi.
-pub(crate) fn at_section(
+pub(crate) fn bring_to_section(
     phases: &Arc<Phases>,
     drive: Excitation,
     start: Start,

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::orbit::{NOTHING_LEFT, OrbitError};
+use crate::orbit::{OrbitError, ROUNDING_SHARE};
 
 /// A system in scaled unknowns. To add one, implement its evaluation; what is known exactly besides spares differences.
 pub(crate) trait Equations {
@@ -144,7 +144,7 @@ pub(super) fn correct_with<E: Equations>(
         let here = equations.evaluate(&at)?;
         let size = here.residual.norm();
         let (fits, late) = (size <= here.tolerance, round >= CORRECTIONS);
-        let is_least = size >= 0.1 * last || size <= NOTHING_LEFT * here.tolerance;
+        let is_least = size >= 0.1 * last || size <= ROUNDING_SHARE * here.tolerance;
         if fits && (late || is_least) {
             return Ok(Node { at, here });
         }

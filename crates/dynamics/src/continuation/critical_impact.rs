@@ -136,7 +136,7 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
             .chain(told)
             .collect();
         let entered = (entry.unwrap_or_else(Matrix2::identity), 1.0);
-        let monodromy = Monodromy::product(&[entered, (tangent.matrix, tangent.determinant)]);
+        let monodromy = Monodromy::from_factors(&[entered, (tangent.matrix, tangent.determinant)]);
         let value = self.test.weighted(&monodromy, at[1]);
         let sizes = self.section.family.state_scales();
         let tolerance = round_off(&scene, &begin, &Monodromy::from(&tangent), sizes);

@@ -194,7 +194,12 @@ impl<'a, F: Family> Continuation<'a, F> {
         let scene = self.shooting.family.scene([point.parameter])?;
         let map = StroboscopicMap::new(&scene, self.shooting.periods)?;
         let passage = map.apply(point.state())?;
-        Ok(Orbit::on(&scene, map.periods(), point.state(), passage))
+        Ok(Orbit::from_map(
+            &scene,
+            map.periods(),
+            point.state(),
+            passage,
+        ))
     }
 
     /// A node as it is seen at drive angle phi.

@@ -73,7 +73,7 @@ mod tests {
     use nalgebra::{Matrix2, Rotation2};
 
     fn of(matrix: Matrix2<f64>) -> Monodromy {
-        Monodromy::product(&[(matrix, matrix.determinant())])
+        Monodromy::from_factors(&[(matrix, matrix.determinant())])
     }
 
     #[test]

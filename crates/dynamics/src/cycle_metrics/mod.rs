@@ -1,13 +1,13 @@
 //! What one period of a periodic motion does: how far it goes, how hard it hits, what it presses, what it costs.
 
-mod figures;
+mod forces_and_energies;
 
 use serde::{Deserialize, Serialize};
 
 use crate::orbit::Orbit;
-pub use figures::peak_force;
-pub(crate) use figures::{AT_STOP, largest_force};
-use figures::{AT_STRIP, energies, peak_power};
+pub use forces_and_energies::peak_contact_force;
+pub(crate) use forces_and_energies::{STOP_PHASES, largest_force};
+use forces_and_energies::{STRIP_PHASES, peak_drive_power, supplied_and_lost_energy};
 use softstop::{CrossingKind, MotionError, PhaseKind, Stop};
 
 /// Figures of one period of a periodic motion, in SI units; of z = 1 it is one drive period, one stroke.
@@ -52,7 +52,7 @@ pub struct CycleMetrics {
     pub impulse: f64,
     /// Work of the drive, in J.
     pub supplied: f64,
-    /// Where it goes.
+    /// The energies in J by which the work of the drive is dissipated.
     pub losses: Losses,
     /// Mean power of the drive, in W.
     pub mean_power: f64,
@@ -77,21 +77,21 @@ pub struct Losses {
 }
 
 impl Losses {
-    /// All together, in J.
-    pub fn total(&self) -> f64 {
+    /// All energy in J that a period dissipates.
+    pub fn total_loss(&self) -> f64 {
         self.free_damping + self.contact_damping + self.impacts + self.strip + self.stop
     }
 }
 
 impl CycleMetrics {
-    /// The figures of an orbit.
+    /// The figures of one period of an orbit.
     ///
     /// # Errors
     /// [`MotionError`] if its motion cannot be computed.
     pub fn of(orbit: &Orbit) -> Result<Self, MotionError> {
         let scene = &orbit.scene;
         let motion = orbit.trajectory()?;
-        let (supplied, losses) = energies(scene, &motion);
+        let (supplied, losses) = supplied_and_lost_energy(scene, &motion);
         let duration = scene.period() * orbit.periods as f64;
         let energy = |velocity: f64| 0.5 * scene.mass * velocity * velocity;
         let hardest = orbit.before_impact_velocity();
@@ -105,7 +105,7 @@ impl CycleMetrics {
             .filter(|_| !matches!(scene.stop, Stop::Rigid { .. }));
         let lowest = motion.min_position();
         let force = |kinds: &[PhaseKind]| largest_force(scene, &motion, kinds);
-        let (stop_force, strip_force) = (force(AT_STOP), force(AT_STRIP));
+        let (stop_force, strip_force) = (force(STOP_PHASES), force(STRIP_PHASES));
         let blows = motion.crossings();
         let blows = blows.filter(|it| matches!(it.kind, CrossingKind::Rebound { .. }));
         let impulses = blows.map(|it| scene.mass * (it.velocity - it.velocity_after));
@@ -130,7 +130,7 @@ impl CycleMetrics {
             supplied,
             losses,
             mean_power: supplied / duration,
-            peak_power: peak_power(scene, &motion),
+            peak_power: peak_drive_power(scene, &motion),
         })
     }
 }

@@ -3,7 +3,7 @@
 use softstop::Scene;
 
 use super::multi_segment_shooting::MultiSegmentShooting;
-use super::periodic::SAME_AFTER_PART;
+use super::periodic::SAME_STATE;
 use super::{Orbit, OrbitError};
 
 impl Orbit {
@@ -13,7 +13,7 @@ impl Orbit {
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle, or on impacts between which there are others.
-    pub fn by_impacts(
+    pub fn find_by_impacts(
         scene: &Scene,
         periods: u64,
         impacts: &[(f64, f64)],
@@ -24,27 +24,27 @@ impl Orbit {
             return Err(none);
         }
         let shooting = MultiSegmentShooting::new(scene, periods.max(1)).ok_or(none)?;
-        let orbit = shooting.settle(impacts)?;
+        let orbit = shooting.solve(impacts)?;
         let all = orbit.timed_impacts();
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let share = all.len() as u64 * part;
-            if share.is_multiple_of(periods) && orbit.repeats(&all, part) {
+            if share.is_multiple_of(periods) && orbit.repeats_after(&all, part) {
                 let first = &all[..(share / periods) as usize];
-                return Self::by_impacts(scene, part, first);
+                return Self::find_by_impacts(scene, part, first);
             }
         }
         Ok(orbit)
     }
 
-    /// True if the impacts are the same after `part` drive periods.
-    fn repeats(&self, impacts: &[(f64, f64)], part: u64) -> bool {
+    /// True if the impacts of an orbit are the same after `part` of its drive periods.
+    fn repeats_after(&self, impacts: &[(f64, f64)], part: u64) -> bool {
         let period = self.scene.clock().period();
         let shift = impacts.len() * part as usize / self.periods as usize;
         let span = period * part as f64;
         let speed = self.scene.scales().speed();
         let pairs = impacts.iter().zip(&impacts[shift..]);
         let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, (b.1 - a.1) / speed));
-        let most = SAME_AFTER_PART * (1.0 + self.velocity.abs() / speed);
+        let most = SAME_STATE * (1.0 + self.velocity.abs() / speed);
         pairs.all(|(time, velocity)| time.hypot(velocity) <= most)
     }
 }

@@ -1,21 +1,21 @@
-//! Lyapunov exponents of a motion, by the exact tangent.
+//! Lyapunov exponents of a motion, from its exact tangent.
 
 use nalgebra::{Matrix2, Vector2};
 
 use super::{Orbit, StroboscopicMap};
 use softstop::{MotionError, Scene};
 
-/// Batches whose means tell how uncertain the exponents are.
+/// Batches of drive periods whose means tell how uncertain Lyapunov exponents are.
 const BATCHES: usize = 32;
-/// Drive periods in each of them at first and at most.
+/// Drive periods in each of these batches at first and at most.
 pub(crate) const BATCH_PERIODS: (u64, u64) = (100, 1600);
-/// The exponent of a growth, or decay, that is for good: rounding to the size of the motion is 36.
+/// Exponent of a growth, or decay, of differences that is for good: rounding to the size of the motion is 36.
 const LASTING_GROWTH: f64 = 100.0;
 /// Student's t of 31 degrees of freedom for a two-sided 95 % interval.
-const STUDENT: f64 = 2.039_5;
-/// Errors by which an exponent has to lie above zero to count as positive: beyond 3 half-widths of the
-/// 95 % interval chance is out of question.
-const SURE_ERRORS: f64 = 3.0;
+const STUDENT_T: f64 = 2.039_5;
+/// Errors by which a Lyapunov exponent has to lie above zero to count as positive: beyond 3 half-widths of the 95 %
+/// interval chance is out of question.
+const POSITIVE_ERRORS: f64 = 3.0;
 
 /// Both Lyapunov exponents of a motion of the state (x, x'): mean rates at which small differences grow.
 ///
@@ -25,10 +25,9 @@ const SURE_ERRORS: f64 = 3.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Exponents {
-    /// Of the map, per drive period, the larger first. Minus infinity where sticking wipes out all
-    /// differences.
+    /// Exponents of the map, per drive period, the larger first; minus infinity where sticking wipes out differences.
     pub per_period: [f64; 2],
-    /// Half-width of the 95 % interval of the larger one, by batch means; 0 on a periodic motion.
+    /// Half-width of the 95 % interval of the larger exponent, by batch means; 0 on a periodic motion.
     pub error: f64,
     /// Drive periods that they are the mean over.
     pub periods: u64,
@@ -37,50 +36,49 @@ pub struct Exponents {
 }
 
 impl Exponents {
-    /// The exponents of the motion from a state over 32 batches of `batch` drive periods, and the state at
-    /// its end.
+    /// The Lyapunov exponents of the motion from a state over 32 batches of `batch` drive periods, and its end.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
-    pub fn along(
+    pub fn along_motion(
         scene: &Scene,
         state: Vector2<f64>,
         batch: u64,
     ) -> Result<(Self, Vector2<f64>), MotionError> {
-        Self::along_with_monitor(scene, state, batch, || Ok(()))
+        Self::along_motion_with_monitor(scene, state, batch, || Ok(()))
     }
 
-    /// As [`Exponents::along`], unless `ask`, which is asked before each drive period, fails.
+    /// The Lyapunov exponents as by [`Exponents::along_motion`], unless `ask`, asked each period, fails.
     ///
     /// # Errors
     /// That of `ask`, or [`MotionError`] if the motion cannot be computed.
-    pub fn along_with_monitor<E: From<MotionError>>(
+    pub fn along_motion_with_monitor<E: From<MotionError>>(
         scene: &Scene,
         state: Vector2<f64>,
         batch: u64,
         ask: impl Fn() -> Result<(), E>,
     ) -> Result<(Self, Vector2<f64>), E> {
-        let mut walk = Walk::new(scene, state)?;
+        let mut walk = TangentMotion::new(scene, state)?;
         let batch = batch.max(1);
         let mut sums = Vec::with_capacity(BATCHES);
-        walk.add(&mut sums, batch, ask)?;
-        Ok((walk.exponents(&sums, batch), walk.state))
+        walk.add_batches(&mut sums, batch, ask)?;
+        Ok((walk.exponents_of_batches(&sums, batch), walk.state))
     }
 
-    /// True if small differences grow for good along the motion from a state: the exponent is positive beyond doubt over
-    /// some time, in which differences grow by far more than from rounding to the size of the motion; false if they die
-    /// out as clearly, or neither is clear after 51,200 drive periods.
+    /// True if small differences grow for good along the motion from a state: the Lyapunov exponent is positive beyond
+    /// doubt over some time, in which differences grow by far more than from rounding to the size of the motion; false
+    /// if they die out as clearly, or neither is clear after 51,200 drive periods.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
-    pub fn grow(scene: &Scene, state: Vector2<f64>) -> Result<bool, MotionError> {
-        let mut walk = Walk::new(scene, state)?;
+    pub fn differences_grow(scene: &Scene, state: Vector2<f64>) -> Result<bool, MotionError> {
+        let mut walk = TangentMotion::new(scene, state)?;
         let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), BATCH_PERIODS.0);
         loop {
-            walk.add(&mut sums, batch, || Ok::<(), MotionError>(()))?;
-            let found = walk.exponents(&sums, batch);
+            walk.add_batches(&mut sums, batch, || Ok::<(), MotionError>(()))?;
+            let found = walk.exponents_of_batches(&sums, batch);
             let largest = found.per_period[0];
-            let is_clear = largest.abs() > SURE_ERRORS * found.error;
+            let is_clear = largest.abs() > POSITIVE_ERRORS * found.error;
             let is_much = largest.abs() * found.periods as f64 > LASTING_GROWTH;
             if (is_clear && is_much) || batch >= BATCH_PERIODS.1 {
                 return Ok(found.is_positive());
@@ -93,7 +91,7 @@ impl Exponents {
         }
     }
 
-    /// The exponents of a periodic motion: ln |mu| / n of its multipliers.
+    /// The Lyapunov exponents of a periodic orbit: ln |mu| / n of its multipliers.
     pub fn of(orbit: &Orbit) -> Self {
         let rate = |multiplier: nalgebra::Complex<f64>| {
             multiplier.re.hypot(multiplier.im).ln() / orbit.periods as f64
@@ -106,14 +104,14 @@ impl Exponents {
         }
     }
 
-    /// Of the flow, in 1/s: those of the map over the drive period.
+    /// The Lyapunov exponents of the flow, in 1/s: those of the map over the drive period.
     pub fn per_second(&self) -> [f64; 2] {
         self.per_period.map(|exponent| exponent / self.period)
     }
 
     /// The Kaplan-Yorke dimension of the states at one drive angle, 1 + lambda1/|lambda2| between 0 and 2 (Kaplan and Yorke
     /// 1979); that of the motion in phase space and time is greater by one.
-    pub fn dimension(&self) -> f64 {
+    pub fn kaplan_yorke_dimension(&self) -> f64 {
         let [first, second] = self.per_period;
         match (first > 0.0, first + second < 0.0) {
             (false, _) => 0.0,
@@ -122,20 +120,21 @@ impl Exponents {
         }
     }
 
-    /// True if the larger one is positive beyond doubt.
+    /// True if the larger Lyapunov exponent is positive beyond doubt.
     pub fn is_positive(&self) -> bool {
-        self.per_period[0] > SURE_ERRORS * self.error
+        self.per_period[0] > POSITIVE_ERRORS * self.error
     }
 }
 
-/// A motion along which differences are followed.
-struct Walk {
+/// A motion along which an orthonormal frame of small differences is carried, for its Lyapunov exponents.
+struct TangentMotion {
     map: StroboscopicMap,
     state: Vector2<f64>,
     frame: Matrix2<f64>,
 }
 
-impl Walk {
+impl TangentMotion {
+    /// A motion of a scene from a state, with a fresh frame of differences.
     fn new(scene: &Scene, state: Vector2<f64>) -> Result<Self, MotionError> {
         Ok(Self {
             map: StroboscopicMap::new(scene, 1)?,
@@ -144,9 +143,8 @@ impl Walk {
         })
     }
 
-    /// Adds batches of so many drive periods until there are enough; an error where `ask`, asked before each period,
-    /// gives one.
-    fn add<E: From<MotionError>>(
+    /// Adds sums of growth over batches of drive periods until there are enough; an error where `ask` gives one.
+    fn add_batches<E: From<MotionError>>(
         &mut self,
         batches: &mut Vec<[f64; 2]>,
         periods: u64,
@@ -167,8 +165,8 @@ impl Walk {
         Ok(())
     }
 
-    /// The exponents from all batches of so many drive periods.
-    fn exponents(&self, batches: &[[f64; 2]], periods: u64) -> Exponents {
+    /// The Lyapunov exponents from all batches of so many drive periods.
+    fn exponents_of_batches(&self, batches: &[[f64; 2]], periods: u64) -> Exponents {
         let count = BATCHES as f64;
         let means = batches.iter();
         let means: Vec<[f64; 2]> = means
@@ -183,7 +181,7 @@ impl Walk {
             .iter()
             .map(|batch| (batch[larger] - exponents[0]).powi(2));
         let variance = squares.sum::<f64>() / (count - 1.0);
-        let error = STUDENT * (variance / count).sqrt();
+        let error = STUDENT_T * (variance / count).sqrt();
         Exponents {
             per_period: exponents,
             error: if error.is_nan() { 0.0 } else { error },
@@ -193,7 +191,7 @@ impl Walk {
     }
 }
 
-/// Carries an orthonormal frame through a Jacobian: M Q = Q' R. Gives ln |R| on the diagonal.
+/// Carries an orthonormal frame through a Jacobian: M Q = Q' R. Returns ln |R| on the diagonal.
 fn carry_frame(frame: &mut Matrix2<f64>, jacobian: &Matrix2<f64>) -> [f64; 2] {
     let image = jacobian * *frame;
     let first = image.column(0).into_owned();

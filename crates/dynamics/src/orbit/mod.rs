@@ -1,14 +1,14 @@
 //! Periodic motions: shooting on the exact map, multipliers, stability.
 
-mod beside;
 mod by_impacts;
-mod closed;
-mod contact;
+mod close_orbit;
+mod contact_passage;
 mod deflation;
 mod exponents;
-mod guess;
-mod hardest;
-mod map;
+mod free_frequency;
+mod guess_impacts;
+mod hardest_single;
+mod impact_lattice;
 mod monodromy;
 mod multi_segment_shooting;
 mod newton;
@@ -16,25 +16,25 @@ mod pattern;
 mod periodic;
 pub(crate) mod recurrence;
 pub(crate) mod regime;
-mod scan;
 mod search;
-mod smallest;
+mod smallest_period;
+mod stroboscopic_map;
 mod trials;
 
 pub(crate) use exponents::BATCH_PERIODS;
 pub use exponents::Exponents;
-pub(crate) use hardest::hardest_single;
-pub use map::{Passage, StroboscopicMap};
+pub(crate) use hardest_single::hardest_single;
+pub(crate) use impact_lattice::{singles_about, singles_near};
 pub use monodromy::Monodromy;
-pub(crate) use newton::NOTHING_LEFT;
-pub use newton::fixed_point;
-pub use pattern::{Count, ImpactPattern};
+pub(crate) use newton::ROUNDING_SHARE;
+pub use newton::find_fixed_point;
+pub use pattern::{ImpactCount, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
-pub(crate) use scan::{all_about, singles_near};
 pub(crate) use search::find_batch;
 pub use search::{find, find_with_monitor};
-pub(crate) use smallest::smallest_period;
+pub(crate) use smallest_period::smallest_period;
+pub use stroboscopic_map::{Passage, StroboscopicMap};
 
 use std::ops::ControlFlow;
 
@@ -86,7 +86,7 @@ impl OrbitError {
     pub(crate) const LOST: Self = Self::Diverged { residual: f64::NAN };
 
     /// [`OrbitError::Stopped`] if a monitor wants to stop.
-    pub(crate) fn ask(monitor: Monitor<'_>) -> Result<(), Self> {
+    pub(crate) fn ask_monitor(monitor: Monitor<'_>) -> Result<(), Self> {
         match monitor(0, 0) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(Self::Stopped),
@@ -102,11 +102,11 @@ impl From<SceneError> for OrbitError {
 
 /// Eigenvalues of a 2x2 matrix, the one of larger modulus first.
 pub fn multipliers(matrix: &Matrix2<f64>) -> [Complex<f64>; 2] {
-    roots(matrix.trace(), matrix.determinant())
+    quadratic_roots(matrix.trace(), matrix.determinant())
 }
 
 /// The roots of mu^2 - trace mu + determinant, the one of larger modulus first.
-fn roots(trace: f64, determinant: f64) -> [Complex<f64>; 2] {
+fn quadratic_roots(trace: f64, determinant: f64) -> [Complex<f64>; 2] {
     let half = 0.5 * trace;
     let discriminant = half * half - determinant;
     if discriminant < 0.0 {

@@ -5,11 +5,11 @@ use std::ops::Deref;
 use nalgebra::{Complex, Matrix2};
 use serde::{Deserialize, Serialize};
 
-use super::roots;
+use super::quadratic_roots;
 use softstop::Tangent;
 
-/// What rounding may leave of 1 in a determinant.
-const NEUTRAL: f64 = 1e-12;
+/// Distance of a determinant from 1 that rounding alone may leave.
+const NEUTRAL_TOLERANCE: f64 = 1e-12;
 
 /// The Jacobian of the stroboscopic map over a period, with its determinant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -22,14 +22,14 @@ pub struct Monodromy {
 }
 
 impl Monodromy {
-    /// That of a state on which the motion over the period does not depend.
+    /// The monodromy matrix of a motion that does not depend on its state: zero.
     pub(crate) const ZERO: Self = Self {
         matrix: Matrix2::new(0.0, 0.0, 0.0, 0.0),
         determinant: 0.0,
     };
 
-    /// The product of factors, the first one first, of which each has its determinant beside it.
-    pub(crate) fn product(factors: &[(Matrix2<f64>, f64)]) -> Self {
+    /// The monodromy matrix as the product of factors, the first one first, each with its determinant beside it.
+    pub(crate) fn from_factors(factors: &[(Matrix2<f64>, f64)]) -> Self {
         let matrices = factors.iter().map(|factor| factor.0);
         Self {
             matrix: matrices.fold(Matrix2::identity(), |product, factor| factor * product),
@@ -37,8 +37,8 @@ impl Monodromy {
         }
     }
 
-    /// Determinant: the product of those of arcs and resets, free of the cancellation between entries that a weak
-    /// impact makes large.
+    /// Determinant of the monodromy matrix: the product of those of arcs and resets, free of the cancellation between
+    /// entries that a weak impact makes large.
     pub fn determinant(&self) -> f64 {
         self.determinant
     }
@@ -61,20 +61,20 @@ impl Monodromy {
 
     /// Floquet multipliers, the roots of mu^2 - trace mu + determinant, the one of larger modulus first.
     pub fn multipliers(&self) -> [Complex<f64>; 2] {
-        roots(self.trace(), self.determinant)
+        quadratic_roots(self.trace(), self.determinant)
     }
 
-    /// Jury's conditions: 1 - tr + det > 0 (no fold), 1 + tr + det > 0 (no flip), det < 1; or det = 1 to rounding, as
-    /// without any damping: neutral.
+    /// True if an orbit with this monodromy matrix is stable, by Jury's conditions: 1 - tr + det > 0 (no fold), 1 + tr
+    /// + det > 0 (no flip), det < 1; or det = 1 to rounding, as without any damping: neutral.
     pub fn is_stable(&self) -> bool {
         let (trace, determinant) = (self.trace(), self.determinant);
-        let spirals_in = determinant < 1.0 + NEUTRAL;
+        let spirals_in = determinant < 1.0 + NEUTRAL_TOLERANCE;
         self.fold_test() > 0.0 && 1.0 + trace + determinant > 0.0 && spirals_in
     }
 
     /// True if both multipliers lie on the unit circle, as a stable motion's do without any damping.
     pub fn is_neutral(&self) -> bool {
-        self.is_stable() && (self.determinant - 1.0).abs() < NEUTRAL
+        self.is_stable() && (self.determinant - 1.0).abs() < NEUTRAL_TOLERANCE
     }
 }
 

@@ -14,26 +14,27 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use super::contact::{ContactFace, ContactPassage};
-use super::deflation::factor;
-use super::{NOTHING_LEFT, Orbit, OrbitError};
+use super::contact_passage::{ContactFace, ContactPassage};
+use super::deflation::deflation_factor;
+use super::{Orbit, OrbitError, ROUNDING_SHARE};
 use softstop::internals::Scales;
 use softstop::{Clock, Scene};
 
-/// Newton steps before giving up; and how many in a row may fail to halve the least residual so far.
-const MAX_STEPS: usize = 60;
+/// Newton steps of the shooting before giving up.
+const MAX_SHOOTING_STEPS: usize = 60;
+/// Newton steps in a row that may fail to halve the least residual so far.
 const MAX_IDLE_STEPS: usize = 16;
-/// Halvings of a step that leads nowhere.
+/// Halvings of a Newton step that leads to no motion.
 const MAX_HALVINGS: u32 = 8;
-/// Share of a before-impact velocity that a step may take away.
-const LARGEST_FALL: f64 = 0.9;
-/// Share of the drive period by which a step may move an impact.
-const LARGEST_SHIFT: f64 = 0.1;
+/// Share of a before-impact velocity that a Newton step may take away.
+const MAX_VELOCITY_FALL: f64 = 0.9;
+/// Share of the drive period by which a Newton step may move an impact.
+const MAX_TIME_SHIFT: f64 = 0.1;
 
-/// Impacts: times in s from drive period 0 on and before-impact velocities in m/s, by turns.
+/// Unknowns of the shooting: times in s from drive period 0 on and before-impact velocities in m/s, by turns.
 pub(super) type Unknowns = DVector<f64>;
 
-/// The impacts of a periodic motion to be.
+/// Shooting from impact to impact for a periodic orbit of a scene over a number of drive periods.
 pub(super) struct MultiSegmentShooting<'a> {
     pub(super) scene: &'a Scene,
     scales: Scales,
@@ -41,48 +42,49 @@ pub(super) struct MultiSegmentShooting<'a> {
     pub(super) periods: u64,
 }
 
-/// The segments that belong to impacts, with what does not fit yet and how it changes with them.
+/// The segments from impact to impact at some unknowns, with residual and Jacobian.
 pub(super) struct ShootingEvaluation {
     pub passages: Vec<ContactPassage>,
     residual: DVector<f64>,
     jacobian: DMatrix<f64>,
 }
 
-/// Why Newton's method settled on no orbit, and where it came nearest to one.
-pub(super) struct Failed {
+/// Why the shooting settled on no orbit, and where it came nearest to one.
+pub(super) struct ShootingFailure {
     error: OrbitError,
-    pub nearest: Nearest,
+    pub nearest: NearestMiss,
 }
 
-/// The first impact where the residual was least.
+/// The first impact of the unknowns at which the residual was least.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Nearest {
+pub(super) struct NearestMiss {
     pub impact: (f64, f64),
     pub residual: f64,
 }
 
-impl Nearest {
+impl NearestMiss {
+    /// No miss yet.
     const NONE: Self = Self {
         impact: (0.0, 0.0),
         residual: f64::INFINITY,
     };
 }
 
-impl From<OrbitError> for Failed {
+impl From<OrbitError> for ShootingFailure {
     fn from(error: OrbitError) -> Self {
-        let nearest = Nearest::NONE;
+        let nearest = NearestMiss::NONE;
         Self { error, nearest }
     }
 }
 
-impl From<Failed> for OrbitError {
-    fn from(failed: Failed) -> Self {
+impl From<ShootingFailure> for OrbitError {
+    fn from(failed: ShootingFailure) -> Self {
         failed.error
     }
 }
 
 impl<'a> MultiSegmentShooting<'a> {
-    /// None if the scene has no stop.
+    /// The shooting for orbits of a scene; none if the scene has no stop.
     pub(super) fn new(scene: &'a Scene, periods: u64) -> Option<Self> {
         let face = ContactFace::new(Shared::new(scene.phases()), scene.clock())?;
         Some(Self {
@@ -93,54 +95,57 @@ impl<'a> MultiSegmentShooting<'a> {
         })
     }
 
+    /// The drive periods of the orbit, in s.
     pub(super) fn span(&self) -> f64 {
         self.face.clock.time(Clock::at_cycle(self.periods))
     }
 
-    /// The orbit with as many impacts as the guess has, by Newton's method from there.
+    /// The orbit with as many impacts as the guess has, to which the shooting leads from there.
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle, or settles on impacts between which there are others.
-    pub(super) fn settle(&self, guess: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
-        let found = self.newton(guess, |_| false, &[])?;
+    pub(super) fn solve(&self, guess: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
+        let found = self.run_newton(guess, |_| false, &[])?;
         found.ok_or(OrbitError::LOST)
     }
 
-    /// The orbit with one impact, another than those that are known.
-    pub(super) fn settle_apart(
+    /// The orbit with one impact to which the shooting leads when deflated from those that are known.
+    pub(super) fn solve_deflated(
         &self,
         guess: (f64, f64),
         known: &[(f64, f64)],
     ) -> Result<Orbit, OrbitError> {
-        let found = self.newton(&[guess], |_| false, known)?;
+        let found = self.run_newton(&[guess], |_| false, known)?;
         found.ok_or(OrbitError::LOST)
     }
 
-    /// The orbit that Newton's method settles on; none as soon as a whole step leads to impacts that are known.
-    pub(super) fn settle_new(
+    /// The orbit that the shooting settles on; none as soon as a whole step leads to impacts that are known.
+    pub(super) fn solve_unless_known(
         &self,
         guess: &[(f64, f64)],
         known: impl Fn(&[f64]) -> bool,
-    ) -> Result<Option<Orbit>, Failed> {
-        self.newton(guess, known, &[])
+    ) -> Result<Option<Orbit>, ShootingFailure> {
+        self.run_newton(guess, known, &[])
     }
 
-    fn newton(
+    /// Newton's method for the impacts of an orbit from a guess, away from the `deflated` ones; none as soon as a whole
+    /// step leads to impacts that are known.
+    fn run_newton(
         &self,
         guess: &[(f64, f64)],
         known: impl Fn(&[f64]) -> bool,
         deflated: &[(f64, f64)],
-    ) -> Result<Option<Orbit>, Failed> {
+    ) -> Result<Option<Orbit>, ShootingFailure> {
         let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
         let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
-        let mut evaluation = self.evaluate(&at).ok_or(OrbitError::LOST)?;
+        let mut evaluation = self.evaluate_segments(&at).ok_or(OrbitError::LOST)?;
         let (mut least, mut idle) = (f64::INFINITY, 0);
-        let mut nearest = Nearest::NONE;
-        for _ in 0..MAX_STEPS {
+        let mut nearest = NearestMiss::NONE;
+        for _ in 0..MAX_SHOOTING_STEPS {
             let residual = evaluation.residual.norm();
             if residual < nearest.residual {
                 let impact = (at[0], at[1]);
-                nearest = Nearest { impact, residual };
+                nearest = NearestMiss { impact, residual };
             }
             (least, idle) = match residual < 0.5 * least {
                 true => (residual, 0),
@@ -154,52 +159,55 @@ impl<'a> MultiSegmentShooting<'a> {
                 break;
             };
             let period = self.face.clock.period();
-            let step = &step * factor((at[0], at[1]), (step[0], step[1]), deflated, period);
-            let Some((share, next, tried)) = self.step(&at, &step) else {
+            let step =
+                &step * deflation_factor((at[0], at[1]), (step[0], step[1]), deflated, period);
+            let Some((share, next, tried)) = self.take_step(&at, &step) else {
                 break;
             };
             let whole = share == 1.0;
             let shrinks = tried.residual.norm() < evaluation.residual.norm();
-            if whole && !shrinks && self.fits(&at, &evaluation, 1.0) {
-                return Ok(Some(self.orbit(&at, &evaluation)?));
+            if whole && !shrinks && self.is_solved(&at, &evaluation, 1.0) {
+                return Ok(Some(self.close_orbit(&at, &evaluation)?));
             }
             (at, evaluation) = (next, tried);
             if whole && known(at.as_slice()) {
                 return Ok(None);
             }
-            if self.fits(&at, &evaluation, NOTHING_LEFT) {
-                return Ok(Some(self.orbit(&at, &evaluation)?));
+            if self.is_solved(&at, &evaluation, ROUNDING_SHARE) {
+                return Ok(Some(self.close_orbit(&at, &evaluation)?));
             }
         }
         let residual = evaluation.residual.norm();
         let error = OrbitError::Diverged { residual };
-        Err(Failed { error, nearest })
+        Err(ShootingFailure { error, nearest })
     }
 
-    /// What a motion with this impact alone is off by at the next one: position and velocity, scaled; none where there
-    /// is no such motion.
-    pub(super) fn gap(&self, time: f64, velocity: f64) -> Option<[f64; 2]> {
+    /// What a motion with this impact alone is off by at the next one: position and velocity, scaled.
+    pub(super) fn return_gap(&self, time: f64, velocity: f64) -> Option<[f64; 2]> {
         let clock = &self.face.clock;
         let from = clock.instant(time);
-        let (free_from, course) = self.face.leave(from, velocity, self.span()).ok()??;
+        let (free_from, course) = self
+            .face
+            .leave_contact(from, velocity, self.span())
+            .ok()??;
         let to = clock.instant(time + self.span());
         let flight = clock.elapsed(free_from, to);
-        let gap = |(position, arriving)| self.off((position, arriving), velocity);
+        let gap = |(position, arriving)| self.scaled_gap((position, arriving), velocity);
         (flight > 0.0).then(|| gap(course.state_at(flight, clock.drive(to))).into())
     }
 
-    /// What a state is off by where an impact of a velocity should be: position and velocity, scaled.
-    fn off(&self, (position, velocity): (f64, f64), expected: f64) -> Vector2<f64> {
-        let gap = Vector2::new(position - self.face.position(), velocity - expected);
+    /// What a state at the face is off by where an impact of a velocity should be: position and velocity, scaled.
+    fn scaled_gap(&self, (position, velocity): (f64, f64), expected: f64) -> Vector2<f64> {
+        let gap = Vector2::new(position - self.face.face_position(), velocity - expected);
         self.scales.state(&gap)
     }
 
     /// True if the residual is no more than a share of what rounding alone may leave.
-    fn fits(&self, at: &Unknowns, evaluation: &ShootingEvaluation, share: f64) -> bool {
+    fn is_solved(&self, at: &Unknowns, evaluation: &ShootingEvaluation, share: f64) -> bool {
         let velocities = at.iter().skip(1).step_by(2);
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
         let scales = &self.scales;
-        let state = self.face.position().abs() / scales.length + fastest / scales.speed();
+        let state = self.face.face_position().abs() / scales.length + fastest / scales.speed();
         let mut jacobian = evaluation.jacobian.clone();
         let units = [1.0 / scales.rate, scales.speed()].into_iter().cycle();
         for (mut column, unit) in jacobian.column_iter_mut().zip(units) {
@@ -209,14 +217,18 @@ impl<'a> MultiSegmentShooting<'a> {
         evaluation.residual.norm() <= share * rounding
     }
 
-    /// The unknowns after as much of a step as can be taken.
-    fn step(&self, at: &Unknowns, step: &Unknowns) -> Option<(f64, Unknowns, ShootingEvaluation)> {
+    /// The unknowns after as much of a Newton step as can be taken, with that share and their evaluation.
+    fn take_step(
+        &self,
+        at: &Unknowns,
+        step: &Unknowns,
+    ) -> Option<(f64, Unknowns, ShootingEvaluation)> {
         let mut share = 1.0f64;
         for (index, (value, change)) in at.iter().zip(step).enumerate() {
             let (most, taken) = if index % 2 == 0 {
-                (LARGEST_SHIFT * self.face.clock.period(), change.abs())
+                (MAX_TIME_SHIFT * self.face.clock.period(), change.abs())
             } else {
-                (LARGEST_FALL * value, -change)
+                (MAX_VELOCITY_FALL * value, -change)
             };
             if taken > most {
                 share = share.min(most / taken);
@@ -225,13 +237,13 @@ impl<'a> MultiSegmentShooting<'a> {
         (0..MAX_HALVINGS).find_map(|halvings| {
             let share = share / f64::from(1 << halvings);
             let next = at + share * step;
-            let evaluation = self.evaluate(&next)?;
+            let evaluation = self.evaluate_segments(&next)?;
             Some((share, next, evaluation))
         })
     }
 
-    /// All segments; none where there is no such motion.
-    fn evaluate(&self, at: &Unknowns) -> Option<ShootingEvaluation> {
+    /// Evaluates all segments from impact to impact, with residual and Jacobian; none where there is no such motion.
+    fn evaluate_segments(&self, at: &Unknowns) -> Option<ShootingEvaluation> {
         let count = at.len() / 2;
         let mut evaluation = ShootingEvaluation {
             passages: Vec::with_capacity(count),
@@ -244,7 +256,10 @@ impl<'a> MultiSegmentShooting<'a> {
             let clock = &self.face.clock;
             let (from, to) = (clock.instant(at[2 * segment]), at[2 * next] + around);
             let longest = to - at[2 * segment];
-            let passing = self.face.pass(from, at[2 * segment + 1], longest).ok()??;
+            let passing = self
+                .face
+                .pass_contact(from, at[2 * segment + 1], longest)
+                .ok()??;
             let to = clock.instant(to);
             let flight = clock.elapsed(passing.free_from, to);
             if flight <= 0.0 {
@@ -258,7 +273,7 @@ impl<'a> MultiSegmentShooting<'a> {
             let through = course.flow.transition(flight) * passing.tangent.matrix;
             let (rows, column, ahead) = (2 * segment, 2 * segment, 2 * next);
             let mut fit = evaluation.residual.fixed_rows_mut::<2>(rows);
-            fit.copy_from(&self.off((position, velocity), at[ahead + 1]));
+            fit.copy_from(&self.scaled_gap((position, velocity), at[ahead + 1]));
             let mut add = |column: usize, by: Vector2<f64>| {
                 let by = self.scales.state(&by);
                 evaluation.jacobian[(rows, column)] += by.x;

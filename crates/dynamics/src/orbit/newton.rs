@@ -1,24 +1,23 @@
-//! Newton's method on the exact map.
+//! Newton's method for fixed points of the stroboscopic map.
 
 use nalgebra::{Matrix2, Vector2};
 
 use super::{OrbitError, Passage, StroboscopicMap};
 use softstop::MotionError;
 
-/// Newton steps before giving up.
-const NEWTON_STEPS: usize = 30;
-/// Steps in a row that may fail to halve the least residual so far; those that lead to an orbit take fewer.
+/// Newton steps for a fixed point before giving up.
+const MAX_NEWTON_STEPS: usize = 30;
+/// Newton steps in a row that may fail to halve the least residual so far; those that lead to an orbit take fewer.
 const MAX_IDLE_STEPS: usize = 12;
-/// Share of the residual that rounding may leave below which no step makes it smaller.
-pub(crate) const NOTHING_LEFT: f64 = 0.01;
+/// Share of the residual that rounding may leave below which no Newton step makes it smaller.
+pub(crate) const ROUNDING_SHARE: f64 = 0.01;
 
-/// Newton's method for P(s) = s with the exact Jacobian. It ends when a step no longer makes the
-/// residual smaller, or none could, and the residual is at round-off.
+/// The fixed point P(s) = s of a stroboscopic map, by Newton's method with the exact Jacobian. It ends when a step no
+/// longer makes the residual smaller, or none could, and the residual is at round-off.
 ///
 /// # Errors
-/// [`OrbitError::Diverged`] if it does not settle, [`OrbitError::Motion`] if a motion on the way
-/// cannot be computed.
-pub fn fixed_point(
+/// [`OrbitError::Diverged`] if it does not settle, [`OrbitError::Motion`] if a motion on the way cannot be computed.
+pub fn find_fixed_point(
     map: &StroboscopicMap,
     start: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Passage), OrbitError> {
@@ -38,7 +37,7 @@ pub(super) fn find_new_fixed_point(
     let size = |residual: &Vector2<f64>| scales.state(residual).norm();
     let mut residual = passage.end - state;
     let (mut least, mut idle) = (f64::INFINITY, 0);
-    for _ in 0..NEWTON_STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         (least, idle) = match size(&residual) < 0.5 * least {
             true => (size(&residual), 0),
             false => (least, idle + 1),
@@ -53,14 +52,14 @@ pub(super) fn find_new_fixed_point(
         if known(state + step) {
             return Ok(None);
         }
-        let (next, next_passage) = within_walls(map, state, step)?;
+        let (next, next_passage) = step_within_walls(map, state, step)?;
         let next_residual = next_passage.end - next;
         let shrinks = size(&next_residual) < size(&residual);
         if !shrinks && size(&residual) <= scales.map_rounding(&state, &passage.monodromy) {
             return Ok(Some((state, passage)));
         }
         (state, passage, residual) = (next, next_passage, next_residual);
-        if size(&residual) <= NOTHING_LEFT * scales.map_rounding(&state, &passage.monodromy) {
+        if size(&residual) <= ROUNDING_SHARE * scales.map_rounding(&state, &passage.monodromy) {
             return Ok(Some((state, passage)));
         }
     }
@@ -72,11 +71,11 @@ pub(super) fn find_new_fixed_point(
     })
 }
 
-/// Halvings of a step that leads beyond a rigid stop.
+/// Halvings of a Newton step that leads beyond a rigid stop.
 const MAX_HALVINGS: i32 = 40;
 
-/// The state after a step and its image; the step is shortened where it leads beyond a rigid stop.
-fn within_walls(
+/// The state after a Newton step and its image; the step is shortened where it leads beyond a rigid stop.
+fn step_within_walls(
     map: &StroboscopicMap,
     state: Vector2<f64>,
     step: Vector2<f64>,

@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use softstop::Instant;
 
-/// Impacts in one drive period.
+/// Number of impacts in one drive period of an impact pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Count {
-    /// So many.
+pub enum ImpactCount {
+    /// So many impacts.
     Finite(u64),
-    /// Complete chatter: ever weaker ones that end in rest.
+    /// Complete chatter: ever weaker impacts that end in rest.
     Infinite,
 }
 
@@ -23,45 +23,45 @@ pub enum Count {
 /// list the largest one stands for all: 1-0-1-0 for the paper's (2/4)A, 1-1-0-0 for its (2/4)B.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct ImpactPattern(Vec<Count>);
+pub struct ImpactPattern(Vec<ImpactCount>);
 
 impl ImpactPattern {
     /// The pattern of impacts, and of complete chatter that ends at `rests`, within `periods` drive periods
     /// of `period` seconds each.
     pub fn new(impacts: &[Instant], rests: &[Instant], periods: u64, period: f64) -> Self {
         let all: Vec<Instant> = [impacts, rests].concat();
-        let cut = cut(&all, period);
+        let cut = cut_offset(&all, period);
         let cycle = |instant: &Instant| {
             let early = u64::from(instant.offset < cut);
             ((instant.cycles as u64 + periods - early) % periods) as usize
         };
-        let mut counts = vec![Count::Finite(0); periods as usize];
+        let mut counts = vec![ImpactCount::Finite(0); periods as usize];
         for instant in impacts {
-            if let Count::Finite(count) = &mut counts[cycle(instant)] {
+            if let ImpactCount::Finite(count) = &mut counts[cycle(instant)] {
                 *count += 1;
             }
         }
         for instant in rests {
-            counts[cycle(instant)] = Count::Infinite;
+            counts[cycle(instant)] = ImpactCount::Infinite;
         }
         Self(largest_rotation(&counts))
     }
 
-    /// Impacts per drive period.
-    pub fn counts(&self) -> &[Count] {
+    /// The number of impacts in each drive period of the pattern.
+    pub fn counts_per_period(&self) -> &[ImpactCount] {
         &self.0
     }
 
     /// True if two neighbouring drive periods have one impact each, as in the paper's (2/4)B.
     pub fn has_pair(&self) -> bool {
         let next = self.0.iter().cycle().skip(1);
-        let is_one = |count: &Count| *count == Count::Finite(1);
+        let is_one = |count: &ImpactCount| *count == ImpactCount::Finite(1);
         self.0.iter().zip(next).any(|(a, b)| is_one(a) && is_one(b))
     }
 }
 
-/// Seconds into the drive period in the middle of the longest time without an impact in any of them.
-fn cut(instants: &[Instant], period: f64) -> f64 {
+/// Seconds into the drive period at which a pattern is cut: in the middle of the longest time without impacts.
+fn cut_offset(instants: &[Instant], period: f64) -> f64 {
     let mut offsets: Vec<f64> = instants.iter().map(|instant| instant.offset).collect();
     offsets.sort_by(f64::total_cmp);
     let (Some(first), Some(last)) = (offsets.first(), offsets.last()) else {
@@ -74,7 +74,8 @@ fn cut(instants: &[Instant], period: f64) -> f64 {
     if cut < period { cut } else { cut - period }
 }
 
-fn largest_rotation(counts: &[Count]) -> Vec<Count> {
+/// The largest of all rotations of a list of counts.
+fn largest_rotation(counts: &[ImpactCount]) -> Vec<ImpactCount> {
     let rotations = (0..counts.len()).map(|by| [&counts[by..], &counts[..by]].concat());
     rotations.max().unwrap_or_default()
 }
@@ -84,8 +85,8 @@ impl fmt::Display for ImpactPattern {
         for (index, count) in self.0.iter().enumerate() {
             let dash = if index > 0 { "-" } else { "" };
             match count {
-                Count::Finite(count) => write!(formatter, "{dash}{count}")?,
-                Count::Infinite => write!(formatter, "{dash}∞")?,
+                ImpactCount::Finite(count) => write!(formatter, "{dash}{count}")?,
+                ImpactCount::Infinite => write!(formatter, "{dash}∞")?,
             }
         }
         Ok(())

@@ -3,18 +3,18 @@
 use nalgebra::{Complex, Vector2};
 use serde::{Deserialize, Serialize};
 
-use super::guess::guesses;
-use super::newton::fixed_point;
+use super::guess_impacts::guess_impacts;
+use super::newton::find_fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
 use crate::period::PeriodTrajectory;
 use softstop::{Instant, MotionError, Scene, Touch};
 
-/// Distance in units of 1 + |state| within which a state that has returned after n periods has also
-/// returned after a divisor of n. Newton's method leaves about 1e-13.
-pub(super) const SAME_AFTER_PART: f64 = 1e-9;
+/// Distance in units of 1 + |state| within which a state that has returned after n periods has also returned after a
+/// divisor of n. Newton's method leaves about 1e-13.
+pub(super) const SAME_STATE: f64 = 1e-9;
 
 /// Distance in units of 1 + |state| within which Newton's method looks for an orbit of a part of the period.
-const NEAR_PART: f64 = 1e-3;
+const NEAR_STATE: f64 = 1e-3;
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,19 +42,19 @@ pub struct Orbit {
     pub damping_integral: f64,
 }
 
-/// Impacts up to which orbits are sought from impact to impact: a mass that bounces more often chatters, and the
-/// work grows with the cube.
-const MOST_IMPACTS: usize = 128;
-/// Norm of a Jacobian beyond which impacts are looked at one by one.
-pub(super) const STEEP: f64 = 1e3;
+/// Impacts up to which orbits are sought from impact to impact: a mass that bounces more often chatters, and the work
+/// grows with the cube.
+const MAX_SHOOTING_IMPACTS: usize = 128;
+/// Norm of the map's Jacobian, in its scales, beyond which an orbit is sought from impact to impact.
+pub(super) const STEEP_MAP_NORM: f64 = 1e3;
 
 impl Orbit {
     /// The z = 1 orbit, stable or not, that Newton's method reaches from a state near it.
     ///
     /// # Errors
     /// [`OrbitError`] if Newton's method does not settle or settles on another regime.
-    pub fn near(scene: &Scene, state: Vector2<f64>) -> Result<Self, OrbitError> {
-        let orbit = Self::of_impacts(scene, state, 1, 1)?;
+    pub fn find_near(scene: &Scene, state: Vector2<f64>) -> Result<Self, OrbitError> {
+        let orbit = Self::find_with_impacts(scene, state, 1, 1)?;
         match orbit.impacts[..] {
             [_] => Ok(orbit),
             _ => Err(OrbitError::OtherRegime {
@@ -67,84 +67,95 @@ impl Orbit {
     /// near it. Its own period may be a part of `periods`.
     ///
     /// Newton's method on the map comes first. Where that fails, as it does near grazing, or an impact is weak,
-    /// it goes from impact to impact ([`Orbit::by_impacts`]).
+    /// it goes from impact to impact ([`Orbit::find_by_impacts`]).
     ///
     /// # Errors
     /// [`OrbitError`] if Newton's method does not settle or a motion cannot be computed.
-    pub fn periodic(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
-        Self::of_impacts(scene, state, periods.max(1), MOST_IMPACTS)
+    pub fn find_periodic(
+        scene: &Scene,
+        state: Vector2<f64>,
+        periods: u64,
+    ) -> Result<Self, OrbitError> {
+        Self::find_with_impacts(scene, state, periods.max(1), MAX_SHOOTING_IMPACTS)
     }
 
     /// The periodic orbit near a state; from impact to impact it is sought with no more than `most` impacts.
-    fn of_impacts(
+    fn find_with_impacts(
         scene: &Scene,
         state: Vector2<f64>,
         periods: u64,
         most: usize,
     ) -> Result<Self, OrbitError> {
-        match Self::on_map(scene, state, periods) {
-            Ok(orbit) if orbit.is_weak() && orbit.impacts.len() <= MOST_IMPACTS => {
+        match Self::find_on_map(scene, state, periods) {
+            Ok(orbit) if orbit.has_weak_impact() && orbit.impacts.len() <= MAX_SHOOTING_IMPACTS => {
                 let impacts: Vec<(f64, f64)> = orbit.timed_impacts();
-                Ok(Self::by_impacts(scene, orbit.periods, &impacts).unwrap_or(orbit))
+                Ok(Self::find_by_impacts(scene, orbit.periods, &impacts).unwrap_or(orbit))
             }
             Ok(orbit) => Ok(orbit),
-            Err(error) => Self::by_guesses(scene, state, periods, most).ok_or(error),
+            Err(error) => Self::find_by_guesses(scene, state, periods, most).ok_or(error),
         }
     }
 
-    /// From impact to impact, from guesses near a state.
-    pub(super) fn by_guesses(
+    /// The periodic orbit near a state, from impact to impact, from guesses of its impacts.
+    pub(super) fn find_by_guesses(
         scene: &Scene,
         state: Vector2<f64>,
         periods: u64,
         most: usize,
     ) -> Option<Self> {
-        guesses(scene, state, periods)
+        guess_impacts(scene, state, periods)
             .ok()?
             .iter()
             .filter(|impacts| impacts.len() <= most)
-            .find_map(|impacts| Self::by_impacts(scene, periods, impacts).ok())
+            .find_map(|impacts| Self::find_by_impacts(scene, periods, impacts).ok())
     }
 
-    /// Times in s and before-impact velocities in m/s of its impacts.
+    /// Times in s and before-impact velocities in m/s of the orbit's impacts.
     pub(crate) fn timed_impacts(&self) -> Vec<(f64, f64)> {
         let clock = self.scene.clock();
         let timed = |touch: &Touch| (clock.time(touch.instant), touch.before_impact_velocity);
         self.impacts.iter().map(timed).collect()
     }
 
-    /// True if the map is steep by a weak impact, so that rounding of the state tells in that impact.
-    fn is_weak(&self) -> bool {
+    /// True if a weak impact makes the orbit's map so steep that rounding of the state tells in that impact.
+    fn has_weak_impact(&self) -> bool {
         let steepness = self.scene.scales().jacobian(&self.monodromy).norm();
-        !self.impacts.is_empty() && self.rests.is_empty() && steepness > STEEP
+        !self.impacts.is_empty() && self.rests.is_empty() && steepness > STEEP_MAP_NORM
     }
 
-    /// The orbit that Newton's method on the map leads to. Of two orbits that rounding does not tell apart, the stable one: near a
-    /// flip the fixed point of twice the period is known far less well than that of the period.
-    fn on_map(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
+    /// The orbit that Newton's method on the map leads to. Of two orbits that rounding does not tell apart, the stable
+    /// one: near a flip the fixed point of twice the period is known far less well than that of the period.
+    fn find_on_map(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
         let map = StroboscopicMap::new(scene, periods)?;
-        let (state, passage) = fixed_point(&map, state)?;
+        let (state, passage) = find_fixed_point(&map, state)?;
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let size = |state: &Vector2<f64>| map.scales().state(state).norm();
             let unit = 1.0 + size(&state);
-            if size(&(passage.trajectory.after(part) - state)) > NEAR_PART * unit {
+            if size(&(passage.trajectory.after(part) - state)) > NEAR_STATE * unit {
                 continue;
             }
             let shorter = StroboscopicMap::new(scene, part)?;
-            let Ok((own, once)) = fixed_point(&shorter, state) else {
+            let Ok((own, once)) = find_fixed_point(&shorter, state) else {
                 continue;
             };
             let apart = size(&(own - state));
             let stays = once.monodromy.is_stable() || !passage.monodromy.is_stable();
-            if apart <= SAME_AFTER_PART * unit || apart <= map.doubt(state, &passage) && stays {
-                return Ok(Self::on(scene, part, own, once));
+            if apart <= SAME_STATE * unit
+                || apart <= map.fixed_point_error(state, &passage) && stays
+            {
+                return Ok(Self::from_map(scene, part, own, once));
             }
         }
-        Ok(Self::on(scene, periods, state, passage))
+        Ok(Self::from_map(scene, periods, state, passage))
     }
 
     /// The orbit through a fixed point of the map over its own period that is already known.
-    pub(crate) fn on(scene: &Scene, periods: u64, state: Vector2<f64>, passage: Passage) -> Self {
+    pub(crate) fn from_map(
+        scene: &Scene,
+        periods: u64,
+        state: Vector2<f64>,
+        passage: Passage,
+    ) -> Self {
         Self {
             scene: scene.clone(),
             periods,
@@ -158,7 +169,7 @@ impl Orbit {
         }
     }
 
-    /// Its motion over the period.
+    /// The arcs and crossings of the orbit over its period.
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
@@ -166,7 +177,7 @@ impl Orbit {
         StroboscopicMap::new(&self.scene, self.periods)?.trajectory(self.state())
     }
 
-    /// z = p/n. Of complete chatter only the impacts before the summed ones count.
+    /// The regime z = p/n of the orbit. Of complete chatter only the impacts before the summed ones count.
     pub fn regime(&self) -> Regime {
         Regime {
             impacts: self.impacts.len() as u64,
@@ -174,37 +185,37 @@ impl Orbit {
         }
     }
 
-    /// The order of its impacts.
+    /// The order of the orbit's impacts over its drive periods.
     pub fn pattern(&self) -> ImpactPattern {
         let instants: Vec<Instant> = self.impacts.iter().map(|touch| touch.instant).collect();
         let period = self.scene.clock().period();
         ImpactPattern::new(&instants, &self.rests, self.periods, period)
     }
 
-    /// True if there are infinitely many impacts in its period, ever weaker ones that end in rest.
+    /// True if the orbit has infinitely many impacts in its period, ever weaker ones that end in rest.
     pub fn chatters(&self) -> bool {
         !self.rests.is_empty()
     }
 
-    /// Before-impact velocity in m/s of its hardest impact; 0 if it has none.
+    /// Before-impact velocity in m/s of the orbit's hardest impact; 0 if it has none.
     pub fn before_impact_velocity(&self) -> f64 {
         self.before_impact_velocities().fold(0.0, f64::max)
     }
 
-    /// Before-impact velocities in m/s, in order of time.
+    /// Before-impact velocities in m/s of the orbit's impacts, in order of time.
     pub fn before_impact_velocities(&self) -> impl Iterator<Item = f64> + '_ {
         let impacts = self.impacts.iter();
         impacts.map(|touch| touch.before_impact_velocity)
     }
 
-    /// Drive angles of its impacts in rad, w t + phi with t within the drive period of each.
+    /// Drive angles of the orbit's impacts in rad, w t + phi with t within the drive period of each.
     pub fn impact_angles(&self) -> impl Iterator<Item = f64> + '_ {
         let drive = self.scene.excitation;
         let angle = move |touch: &Touch| drive.frequency * touch.instant.offset + drive.phase;
         self.impacts.iter().map(angle)
     }
 
-    /// Its states at drive angle phi, one for each drive period.
+    /// The orbit's states at drive angle phi, one for each drive period.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
@@ -217,13 +228,12 @@ impl Orbit {
         Ok(std::iter::once(self.state()).chain(later).collect())
     }
 
-    /// Its state at time 0.
+    /// The orbit's state at time 0.
     pub fn state(&self) -> Vector2<f64> {
         Vector2::new(self.position, self.velocity)
     }
 
-    /// How far its state is from where it began after the period, and what rounding alone may leave,
-    /// both in the scene's scales.
+    /// How far the orbit's state is off after the period, and what rounding alone may leave, in the scene's scales.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
@@ -235,17 +245,17 @@ impl Orbit {
         Ok((gap, scales.map_rounding(&self.state(), &passage.monodromy)))
     }
 
-    /// Trace of the monodromy matrix.
+    /// Trace of the orbit's monodromy matrix.
     pub fn trace(&self) -> f64 {
         self.monodromy.trace()
     }
 
-    /// Determinant of the monodromy matrix.
+    /// Determinant of the orbit's monodromy matrix.
     pub fn determinant(&self) -> f64 {
         self.monodromy.determinant()
     }
 
-    /// Floquet multipliers, the roots of mu^2 - trace mu + determinant.
+    /// Floquet multipliers of the orbit, the roots of mu^2 - trace mu + determinant.
     pub fn multipliers(&self) -> [Complex<f64>; 2] {
         self.monodromy.multipliers()
     }
@@ -256,7 +266,7 @@ impl Orbit {
         self.monodromy.is_neutral()
     }
 
-    /// True if both multipliers lie inside the unit circle, or on it where it is neutral.
+    /// True if the orbit is stable: both multipliers lie inside the unit circle, or on it where it is neutral.
     pub fn is_stable(&self) -> bool {
         self.monodromy.is_stable()
     }

@@ -1,26 +1,26 @@
-//! Whether a row of stroboscopic states repeats.
+//! Recurrence: whether a row of stroboscopic states returns, and after which period.
 
 use softstop::Start;
 
 /// Distance within which a state has returned unless it is said otherwise, in units of the motion's size.
-pub(crate) const RETURN: f64 = 1e-4;
+pub(crate) const RETURN_DISTANCE: f64 = 1e-4;
 
-/// A motion that returns.
+/// The return of a row of stroboscopic states: after how many drive periods, and how closely.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Return {
-    /// Drive periods after which it does.
+    /// Drive periods after which the states return.
     pub periods: usize,
     /// The largest distance between states so many periods apart, in units of the motion's size.
     pub distance: f64,
 }
 
 /// Distance in m/s of two states, positions counted times the drive's frequency in rad/s.
-pub(crate) fn distance(frequency: f64, a: &Start, b: &Start) -> f64 {
+pub(crate) fn state_distance(frequency: f64, a: &Start, b: &Start) -> f64 {
     (frequency * (a.position - b.position)).hypot(a.velocity - b.velocity)
 }
 
-/// Squared distance of two states, as in [`distance`].
-fn square(frequency: f64, a: &Start, b: &Start) -> f64 {
+/// Squared distance of two states in m^2/s^2, as in [`state_distance`].
+fn squared_gap(frequency: f64, a: &Start, b: &Start) -> f64 {
     let (x, v) = (
         frequency * (a.position - b.position),
         a.velocity - b.velocity,
@@ -28,28 +28,28 @@ fn square(frequency: f64, a: &Start, b: &Start) -> f64 {
     x * x + v * v
 }
 
-/// The size of a motion in m/s: its largest state.
-pub(crate) fn size<'a>(frequency: f64, states: impl IntoIterator<Item = &'a Start>) -> f64 {
+/// The size of a motion in m/s: the distance of its farthest state from rest at the origin.
+pub(crate) fn motion_size<'a>(frequency: f64, states: impl IntoIterator<Item = &'a Start>) -> f64 {
     let states = states.into_iter();
-    let squares = states.map(|state| square(frequency, state, &Start::REST));
+    let squares = states.map(|state| squared_gap(frequency, state, &Start::REST));
     squares.fold(0.0, f64::max).sqrt()
 }
 
-/// The least number of drive periods, up to half of the row's length, after which each state of the first
-/// half of the row returns.
-pub(crate) fn returns(frequency: f64, states: &[Start]) -> Option<Return> {
-    returns_within(frequency, states, RETURN)
+/// The return of a row of states: the least number of drive periods, up to half of the row's length, after which each
+/// state of the first half of the row returns.
+pub(crate) fn find_return(frequency: f64, states: &[Start]) -> Option<Return> {
+    find_return_within(frequency, states, RETURN_DISTANCE)
 }
 
-/// As [`returns`], with another distance, in units of the motion's size.
-pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Option<Return> {
+/// The return of a row of states as by [`find_return`], with another distance, in units of the motion's size.
+pub(crate) fn find_return_within(frequency: f64, states: &[Start], share: f64) -> Option<Return> {
     let longest = states.len().checked_sub(1)? / 2;
-    let size = size(frequency, states);
+    let size = motion_size(frequency, states);
     let most = (share * size).powi(2);
     (1..=longest).find_map(|periods| {
         let mut largest = 0.0f64;
         for j in 0..=longest {
-            largest = largest.max(square(frequency, &states[j], &states[j + periods]));
+            largest = largest.max(squared_gap(frequency, &states[j], &states[j + periods]));
             if largest > most {
                 return None;
             }
@@ -63,11 +63,11 @@ pub(crate) fn returns_within(frequency: f64, states: &[Start], share: f64) -> Op
     })
 }
 
-/// Share of its first size to which a difference must fall within a row to count as one that dies out: of a motion
-/// that has returned, and of one that has not yet.
-const DYING: (f64, f64) = (0.8, 0.1);
-/// How large it may be by then, in units of the distance within which states have returned.
-const LEFT: f64 = 10.0;
+/// Share of its first size to which a difference must fall within a row to count as one that dies out: of a motion that
+/// has returned, and of one that has not yet.
+const DECAY_SHARES: (f64, f64) = (0.8, 0.1);
+/// How large such a difference may be by then, in units of the distance within which states have returned.
+const MAX_LATE_GAP: f64 = 10.0;
 
 /// The period of what a row of states settles on; none if it does not.
 ///
@@ -75,36 +75,36 @@ const LEFT: f64 = 10.0;
 /// least divisor of it: a motion that spirals onto its orbit may come back after several turns before it does
 /// after one. If no state has returned yet, the least period after which they come nearer fast. `share`: the distance
 /// within which states have returned, in units of the motion's size.
-pub(crate) fn settles_on(frequency: f64, states: &[Start], share: f64) -> Option<usize> {
-    let most = LEFT * share * size(frequency, states);
+pub(crate) fn find_settled_period(frequency: f64, states: &[Start], share: f64) -> Option<usize> {
+    let most = MAX_LATE_GAP * share * motion_size(frequency, states);
     let dies = |apart: usize, ratio: f64| {
-        let [first, second] = gaps(frequency, states, apart);
+        let [first, second] = squared_gaps_by_half(frequency, states, apart);
         second < (most * most).min(ratio * ratio * first)
     };
-    match returns_within(frequency, states, share) {
+    match find_return_within(frequency, states, share) {
         Some(found) => {
             let divisors = (1..found.periods).filter(|part| found.periods.is_multiple_of(*part));
-            let mut dying = divisors.filter(|part| dies(*part, DYING.0));
+            let mut dying = divisors.filter(|part| dies(*part, DECAY_SHARES.0));
             Some(dying.next().unwrap_or(found.periods))
         }
-        None => (1..=(states.len() - 1) / 4).find(|apart| dies(*apart, DYING.1)),
+        None => (1..=(states.len() - 1) / 4).find(|apart| dies(*apart, DECAY_SHARES.1)),
     }
 }
 
-/// Largest squared distances of states so many periods apart, in both halves of a row.
-fn gaps(frequency: f64, states: &[Start], apart: usize) -> [f64; 2] {
+/// Largest squared distances of states so many periods apart, in each half of a row.
+fn squared_gaps_by_half(frequency: f64, states: &[Start], apart: usize) -> [f64; 2] {
     let (ahead, behind) = (&states[apart..], &states[..states.len() - apart]);
     let half = ahead.len() / 2;
     [0..half, half..ahead.len()].map(|half| {
         let pairs = ahead[half.clone()].iter().zip(&behind[half]);
-        let squares = pairs.map(|(a, b)| square(frequency, a, b));
+        let squares = pairs.map(|(a, b)| squared_gap(frequency, a, b));
         squares.fold(0.0, f64::max)
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{returns_within, settles_on};
+    use super::{find_return_within, find_settled_period};
     use softstop::Start;
 
     /// A spiral onto the origin, a third of a turn and a little more at each step.
@@ -120,13 +120,13 @@ mod tests {
     #[test]
     fn a_spiral_settles_on_its_centre() {
         let states = spiral(0.9);
-        let found = returns_within(1.0, &states, 3e-5).expect("returns");
+        let found = find_return_within(1.0, &states, 3e-5).expect("returns");
         assert!(found.periods > 1, "{found:?}");
-        assert_eq!(settles_on(1.0, &states, 3e-5), Some(1));
+        assert_eq!(find_settled_period(1.0, &states, 3e-5), Some(1));
         // So it does where it has not come back yet, if it is fast and near.
         let fast = spiral(0.7);
-        assert!(returns_within(1.0, &fast, 1e-5).is_none());
-        assert_eq!(settles_on(1.0, &fast, 1e-5), Some(1));
+        assert!(find_return_within(1.0, &fast, 1e-5).is_none());
+        assert_eq!(find_settled_period(1.0, &fast, 1e-5), Some(1));
     }
 
     #[test]
@@ -135,6 +135,6 @@ mod tests {
         let states: Vec<Start> = (0..=24)
             .map(|k| Start::new(angle(k).cos(), angle(k).sin()))
             .collect();
-        assert_eq!(settles_on(1.0, &states, 1e-4), Some(3));
+        assert_eq!(find_settled_period(1.0, &states, 1e-4), Some(3));
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::recurrence::returns;
+use super::recurrence::find_return;
 use softstop::{Clock, Crossing, MotionError, Observer, Scene, Start};
 
 /// The regime z = p/n: p impacts in n drive periods, after which the state returns.
@@ -16,11 +16,11 @@ pub struct Regime {
     pub periods: u64,
 }
 
-/// Most periods after which a state is looked for again.
+/// Most drive periods after which a state is looked for again to tell a regime.
 const LONGEST_PERIOD: u64 = 64;
 
 impl Regime {
-    /// z = 1.
+    /// The regime z = 1: one impact in each drive period.
     pub const ONE: Self = Self {
         impacts: 1,
         periods: 1,
@@ -34,7 +34,7 @@ impl Regime {
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
-    pub fn after(
+    pub fn after_transient(
         scene: &Scene,
         start: Start,
         transient: u64,
@@ -49,7 +49,7 @@ impl Regime {
             states.push(motion.state());
             counts.push(counter.0);
         }
-        let found = returns(scene.excitation.frequency, &states);
+        let found = find_return(scene.excitation.frequency, &states);
         let regime = found.map(|found| Self {
             impacts: counts[found.periods],
             periods: found.periods as u64,
@@ -67,7 +67,7 @@ impl fmt::Display for Regime {
     }
 }
 
-/// Counts impacts.
+/// An observer that counts the impacts of a motion.
 #[derive(Default)]
 pub struct ImpactCounter(pub u64);
 

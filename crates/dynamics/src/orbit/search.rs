@@ -1,50 +1,51 @@
-//! The z = 1 motion found from scratch.
+//! The stable z = 1 motion of a scene, searched from scratch: from many starts, and from a lattice of impacts.
 
 use std::cmp::Ordering;
 use std::slice::from_ref;
 
 use nalgebra::{Matrix2, Vector2};
 
+use super::impact_lattice::{GRAZING_SPEED_SHARE, all_single};
 use super::newton::find_new_fixed_point;
-use super::periodic::STEEP;
-use super::scan::{FAINTEST, all_single};
-use super::trials::{Candidate, RETURNS, Trial, Trials, distance, least, settled};
+use super::periodic::STEEP_MAP_NORM;
+use super::trials::{
+    Candidate, NEAR_RETURN, Trial, Trials, least_moved, scaled_distance, settled_candidates,
+};
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::monitor::{Monitor, unmonitored};
 use softstop::internals::Scales;
 use softstop::{MotionError, Scene};
 use softstop_lanes::Machine;
 
-/// Drive periods after which Newton's method takes over from where motions have moved least, and those after which it
-/// then takes over from all, unless what is looked for is found: few, which finds motions with small basins, and more; and
-/// far more if neither finds any.
-const STAGES: [(u64, &[u64]); 3] = [(4, &[]), (12, &[2, 12]), (60, &[60])];
-/// Distance, in scales of the motion, within which a state stands for a stable motion, and for an unstable one, which a
-/// stable one may be near to.
-const SAME_STABLE: f64 = 0.02;
-const SAME_UNSTABLE: f64 = 1e-3;
+/// Stages of the search: drive periods after which Newton's method takes over from where motions have moved least, and
+/// those after which it then takes over from all, unless what is looked for is found: few, which finds motions with
+/// small basins, and more; and far more if neither finds any.
+const SEARCH_STAGES: [(u64, &[u64]); 3] = [(4, &[]), (12, &[2, 12]), (60, &[60])];
+/// Distance, in scales of the motion, within which a state stands for a stable fixed point.
+const STABLE_REACH: f64 = 0.02;
+/// Distance, in scales of the motion, within which a state stands for an unstable fixed point.
+const UNSTABLE_REACH: f64 = 1e-3;
 /// Share of what a state moves within a period up to which it stands for another one in the search for an orbit.
-const STANDS_FOR: f64 = 0.5;
+const STAND_IN_SHARE: f64 = 0.5;
 /// Share of a before-impact velocity by which rounding may change it.
-const SAME_SPEED: f64 = 1e-9;
+const SPEED_ROUNDING: f64 = 1e-9;
 
 /// The stable z = 1 motion of a scene with the highest before-impact velocity: of those that starts spread over the
 /// plane of states lead to, and of those that a lattice of impacts shows. Motions of narrow stretches of frequency may
 /// show in neither: [`zone::find`](crate::zone::find) looks at all frequencies, too.
 ///
 /// # Errors
-/// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is
-/// invalid.
+/// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is invalid.
 pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
     find_with_monitor(scene, &unmonitored)
 }
 
-/// The motion that [`find`] finds, as long as a monitor, which is not told how much is done, lets the search go on.
+/// The stable z = 1 motion that [`find`] finds, as long as a monitor, which sees no progress, goes on.
 ///
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
 pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, OrbitError> {
-    let settled = search(from_ref(scene), usize::MAX, monitor).remove(0);
+    let settled = search_all(from_ref(scene), usize::MAX, monitor).remove(0);
     let mut all = all_single(scene, monitor)?;
     all.retain(Orbit::is_stable);
     match (settled, all.pop()) {
@@ -61,24 +62,29 @@ impl Orbit {
         own.total_cmp(&other)
     }
 
-    /// True if its impact is harder than that of another one, beyond rounding.
+    /// True if the impact of this orbit is harder than that of another one, beyond rounding.
     pub(crate) fn is_harder(&self, other: &Self) -> bool {
-        self.before_impact_velocity() > (1.0 + SAME_SPEED) * other.before_impact_velocity()
+        self.before_impact_velocity() > (1.0 + SPEED_ROUNDING) * other.before_impact_velocity()
     }
 }
 
-/// The motion that [`find`] finds of each of many scenes at once, from those motions that come back near to where they were, and only if they lead to
-/// none, from all.
+/// The stable z = 1 motion that [`find`] finds of each of many scenes at once, from those motions that come back near
+/// to where they were, and only if they lead to none, from all.
 ///
 /// # Errors
 /// Each as of [`find`].
 pub(crate) fn find_batch(scenes: &[Scene], monitor: Monitor<'_>) -> Vec<Result<Orbit, OrbitError>> {
-    search(scenes, 1, monitor)
+    search_all(scenes, 1, monitor)
 }
 
-/// The best of all motions that the first groups of states lead to; further groups are tried only as long as there is
-/// none. The motions of all scenes are followed together, and those no farther that lead to a stable one that was met.
-fn search(scenes: &[Scene], groups: usize, monitor: Monitor<'_>) -> Vec<Result<Orbit, OrbitError>> {
+/// Searches the hardest stable z = 1 motion of each of some scenes among all that the first groups of states lead to;
+/// further groups are tried only as long as there is none. The motions of all scenes are followed together, and those
+/// no farther that lead to a stable one that was met.
+fn search_all(
+    scenes: &[Scene],
+    groups: usize,
+    monitor: Monitor<'_>,
+) -> Vec<Result<Orbit, OrbitError>> {
     let none = |scene: &Scene| OrbitError::NotFound {
         frequency: scene.excitation.frequency,
         clearance: scene.clearance,
@@ -96,36 +102,36 @@ fn search(scenes: &[Scene], groups: usize, monitor: Monitor<'_>) -> Vec<Result<O
         }
     }
     let scenes = searches.iter().map(|(_, fixed_points)| fixed_points.scene);
-    let kept = STAGES.iter().flat_map(|(_, after)| *after).copied();
+    let kept = SEARCH_STAGES.iter().flat_map(|(_, after)| *after).copied();
     let mut trials = Trials::new(scenes, kept.collect());
-    for (until, after) in STAGES {
-        trials.follow(&machines, until, monitor);
+    for (until, after) in SEARCH_STAGES {
+        trials.follow_trials(&machines, until, monitor);
         for (machine, (index, fixed_points)) in searches.iter_mut().enumerate() {
-            let trials = trials.of(machine);
+            let trials = trials.of_machine(machine);
             if !trials.iter().any(|trial| trial.is_open) {
                 if let (Err(OrbitError::NotFound { .. }), Some(hardest)) =
-                    (&found[*index], fixed_points.hardest())
+                    (&found[*index], fixed_points.hardest_single())
                 {
                     found[*index] = Ok(hardest);
                 }
                 continue;
             }
             let hardest = fixed_points
-                .search(trials, after, groups, monitor)
+                .search_trials(trials, after, groups, monitor)
                 .transpose();
             let is_over = hardest.is_some();
             if let Some(hardest) = hardest {
                 found[*index] = hardest;
             }
             for trial in trials {
-                trial.is_open &= !is_over && !fixed_points.attracts(&trial.last);
+                trial.is_open &= !is_over && !fixed_points.predicts_stable(&trial.last);
             }
         }
     }
     found
 }
 
-/// The fixed points of the map over one drive period that the search has met.
+/// The fixed points of a scene's map over one drive period that the search has met.
 struct FixedPoints<'a> {
     scene: &'a Scene,
     map: StroboscopicMap,
@@ -137,7 +143,7 @@ struct FixedPoints<'a> {
     tried: Vec<Vector2<f64>>,
 }
 
-/// A fixed point of the map.
+/// A fixed point of the map, with what tells which states lead to it.
 struct FixedPoint {
     state: Vector2<f64>,
     /// What leads to it from a state, times what that moves: Newton's method with the Jacobian of the fixed point.
@@ -148,15 +154,16 @@ struct FixedPoint {
 }
 
 impl FixedPoint {
+    /// A fixed point at a state, with its monodromy matrix.
     fn new(state: Vector2<f64>, monodromy: Monodromy) -> Self {
         let is_stable = monodromy.is_stable();
         Self {
             state,
             lead: monodromy.resolvent(),
             reach: if is_stable {
-                SAME_STABLE
+                STABLE_REACH
             } else {
-                SAME_UNSTABLE
+                UNSTABLE_REACH
             },
             is_stable,
         }
@@ -164,6 +171,7 @@ impl FixedPoint {
 }
 
 impl<'a> FixedPoints<'a> {
+    /// A search of a scene's fixed points that has met none.
     fn new(scene: &'a Scene) -> Result<Self, MotionError> {
         Ok(Self {
             scene,
@@ -175,102 +183,108 @@ impl<'a> FixedPoints<'a> {
         })
     }
 
-    /// Looks at where motions have moved least, and then at where they are after some numbers of periods; the hardest
-    /// stable z = 1 motion met so far if there is one and all is looked at.
-    fn search(
+    /// Searches fixed points from where trial motions have moved least, and then from where they are after some numbers
+    /// of periods; the hardest stable z = 1 motion met so far if there is one and all is looked at.
+    fn search_trials(
         &mut self,
         trials: &[Trial],
         after: &[u64],
         groups: usize,
         monitor: Monitor<'_>,
     ) -> Result<Option<Orbit>, OrbitError> {
-        OrbitError::ask(monitor)?;
-        self.look_at(least(trials), monitor)?;
+        OrbitError::ask_monitor(monitor)?;
+        self.search_candidates(least_moved(trials), monitor)?;
         if after.is_empty() {
             return Ok(None);
         }
-        if groups > 1 || self.singles().next().is_none() {
-            self.look_at(settled(trials, after), monitor)?;
+        if groups > 1 || self.stable_singles().next().is_none() {
+            self.search_candidates(settled_candidates(trials, after), monitor)?;
         }
         self.tried.clear();
-        Ok(self.hardest())
+        Ok(self.hardest_single())
     }
 
-    /// The hardest of the stable motions with one impact.
-    fn hardest(&self) -> Option<Orbit> {
-        let hardest = self.singles().max_by(|a, b| a.compare_velocity(b));
+    /// The stable z = 1 motion with the hardest impact met so far.
+    fn hardest_single(&self) -> Option<Orbit> {
+        let hardest = self.stable_singles().max_by(|a, b| a.compare_velocity(b));
         hardest.cloned()
     }
 
-    /// The stable motions with one impact.
-    fn singles(&self) -> impl Iterator<Item = &Orbit> {
-        let faintest = FAINTEST * self.scales.speed();
+    /// The stable motions with one impact per drive period met so far.
+    fn stable_singles(&self) -> impl Iterator<Item = &Orbit> {
+        let faintest = GRAZING_SPEED_SHARE * self.scales.speed();
         let is_single = move |orbit: &&Orbit| {
             orbit.impacts.len() == 1 && orbit.before_impact_velocity() > faintest
         };
         self.stable.iter().filter(is_single)
     }
 
-    /// Follows Newton's method from each candidate that no other one stands for.
-    fn look_at(
+    /// Searches a fixed point by Newton's method from each candidate that no other one stands for.
+    fn search_candidates(
         &mut self,
         candidates: Vec<Candidate>,
         monitor: Monitor<'_>,
     ) -> Result<(), OrbitError> {
         for candidate in candidates {
-            OrbitError::ask(monitor)?;
+            OrbitError::ask_monitor(monitor)?;
             let Candidate { moves, state, .. } = candidate;
-            let stands = |other: &Vector2<f64>| self.apart(*other, state) < STANDS_FOR * moves;
-            if !self.is_near(state)
+            let stands =
+                |other: &Vector2<f64>| self.scaled_gap(*other, state) < STAND_IN_SHARE * moves;
+            if !self.is_known(state)
                 && !self.tried.iter().any(stands)
-                && !self.all.iter().any(|fixed| self.leads(fixed, &candidate))
+                && !self
+                    .all
+                    .iter()
+                    .any(|fixed| self.leads_to(fixed, &candidate))
             {
                 self.tried.push(state);
-                self.look(state);
+                self.search_from_state(state);
             }
         }
         Ok(())
     }
 
-    /// How far apart two states are, in scales of the motion.
-    fn apart(&self, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
-        distance(&self.scales, a, b)
+    /// Distance of two states, in scales of the motion.
+    fn scaled_gap(&self, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+        scaled_distance(&self.scales, a, b)
     }
 
-    fn is_near(&self, state: Vector2<f64>) -> bool {
+    /// True if a state stands for a fixed point that was met.
+    fn is_known(&self, state: Vector2<f64>) -> bool {
         let mut all = self.all.iter();
-        all.any(|other| self.apart(other.state, state) < other.reach)
+        all.any(|other| self.scaled_gap(other.state, state) < other.reach)
     }
 
     /// True if a candidate has moved as the Jacobian of a fixed point has it near that one.
-    fn leads(&self, to: &FixedPoint, candidate: &Candidate) -> bool {
+    fn leads_to(&self, to: &FixedPoint, candidate: &Candidate) -> bool {
         let moved = candidate.state - candidate.before;
-        let off = |lead| self.apart(candidate.before + lead * moved, to.state);
+        let off = |lead| self.scaled_gap(candidate.before + lead * moved, to.state);
         to.lead.is_some_and(|lead| off(lead) < to.reach)
     }
 
-    /// True if a motion that moves little settles on a stable one that was met, as its Jacobian has it.
-    fn attracts(&self, last: &Candidate) -> bool {
+    /// True if a motion that moves little settles on a stable fixed point that was met, as its Jacobian has it.
+    fn predicts_stable(&self, last: &Candidate) -> bool {
         let mut stable = self.all.iter().filter(|fixed| fixed.is_stable);
-        last.moves < RETURNS && stable.any(|fixed| self.leads(fixed, last))
+        last.moves < NEAR_RETURN && stable.any(|fixed| self.leads_to(fixed, last))
     }
 
-    /// Newton's method from a state, unless it comes near a motion that was met.
-    fn look(&mut self, state: Vector2<f64>) {
-        let found = find_new_fixed_point(&self.map, state, |state| self.is_near(state));
+    /// Searches a fixed point by Newton's method from a state, unless it comes near one that was met.
+    fn search_from_state(&mut self, state: Vector2<f64>) {
+        let found = find_new_fixed_point(&self.map, state, |state| self.is_known(state));
         let steepness = |passage: &Passage| self.map.scales().jacobian(&passage.monodromy).norm();
         let orbit = match found {
             Ok(None) => return,
-            Ok(Some((state, passage))) if steepness(&passage) <= STEEP => {
+            Ok(Some((state, passage))) if steepness(&passage) <= STEEP_MAP_NORM => {
                 self.all.push(FixedPoint::new(state, passage.monodromy));
                 if !passage.monodromy.is_stable() {
                     return;
                 }
-                self.stable.push(Orbit::on(self.scene, 1, state, passage));
+                self.stable
+                    .push(Orbit::from_map(self.scene, 1, state, passage));
                 return;
             }
-            Ok(_) => Orbit::near(self.scene, state).ok(),
-            Err(_) => Orbit::by_guesses(self.scene, state, 1, 1),
+            Ok(_) => Orbit::find_near(self.scene, state).ok(),
+            Err(_) => Orbit::find_by_guesses(self.scene, state, 1, 1),
         };
         if let Some(orbit) = orbit.filter(|orbit| orbit.periods == 1) {
             self.all

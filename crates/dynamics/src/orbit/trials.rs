@@ -1,26 +1,27 @@
-//! Motions from starts all around the plane of states, followed together: they show where periodic motions may be.
+//! Trial motions from starts all around the plane of states, followed together: they show where periodic motions may
+//! be.
 
 use std::f64::consts::TAU;
 
 use nalgebra::Vector2;
 
-use crate::batch::follow;
+use crate::batch::follow_batch;
 use crate::monitor::Monitor;
 use softstop::internals::Scales;
 use softstop::{Scene, Start};
 use softstop_lanes::{BatchObserver, Machine};
 
-/// Speeds of the starts, in units of w times the length of the motion.
-const SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
-/// Directions of the starts in the plane (w x, x').
-const DIRECTIONS: usize = 16;
+/// Distances of the starts of trial motions from the origin of (w x, x'), in units of w times the length of the motion.
+const START_SPEEDS: [f64; 9] = [0.3, 0.6, 0.9, 1.0, 1.1, 1.25, 1.6, 2.0, 3.0];
+/// Directions of the starts of trial motions in the plane (w x, x').
+const START_DIRECTIONS: usize = 16;
 /// Distance, in scales of the motion, that a state may move within a period and yet lie near an orbit.
-pub(super) const RETURNS: f64 = 0.2;
+pub(super) const NEAR_RETURN: f64 = 0.2;
 
-/// A state that may lie near an orbit.
+/// A state of a trial motion that may lie near an orbit.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
-    /// How far it has moved within the last period, or none where that says nothing.
+    /// Distance that the state has moved within the last period, 0 where that says nothing.
     pub moves: f64,
     pub state: Vector2<f64>,
     /// The state a period before.
@@ -28,45 +29,46 @@ pub(super) struct Candidate {
 }
 
 /// Distance of two states in these scales.
-pub(super) fn distance(scales: &Scales, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+pub(super) fn scaled_distance(scales: &Scales, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
     scales.state(&(a - b)).norm()
 }
 
-/// A motion from one start.
+/// A trial motion from one start.
 #[derive(Debug, Clone)]
 pub(super) struct Trial {
     machine: usize,
     /// The last period.
     pub last: Candidate,
-    /// Impacts in the present period.
+    /// Impacts in the present drive period.
     impacts: u64,
     /// The state that moved least within a period with one impact, where it moved little.
     least: Option<Candidate>,
-    /// After each of the numbers of periods that are kept.
+    /// Its states after each of the numbers of periods that are kept.
     settled: Vec<(u64, Candidate)>,
-    /// True as long as it is followed on.
+    /// True as long as the trial is followed further.
     pub is_open: bool,
 }
 
-/// Motions of some machines from starts all around, followed together: trials of a search.
+/// Trial motions of some machines from starts all around, followed together for a search.
 pub(super) struct Trials {
     all: Vec<Trial>,
-    /// Those of the motions of each machine.
+    /// Scales of the motions of each machine.
     scales: Vec<Scales>,
-    /// Numbers of drive periods after which it is kept where motions are.
+    /// Numbers of drive periods after which the states of trials are kept.
     kept: Vec<u64>,
-    /// Drive periods that they were followed.
+    /// Drive periods that the trials have been followed.
     cycle: u64,
 }
 
 impl Trials {
+    /// Trial motions of some scenes, of which the states after the `kept` numbers of drive periods are kept.
     pub(super) fn new<'a>(scenes: impl Iterator<Item = &'a Scene>, kept: Vec<u64>) -> Self {
         let (mut all, mut scales) = (Vec::new(), Vec::new());
         for (machine, scene) in scenes.enumerate() {
             scales.push(scene.motion_scales());
-            all.extend(starts(scene).map(|start| Trial {
+            all.extend(starts_on_circles(scene).map(|start| Trial {
                 machine,
-                last: Candidate::unmoved(start.into()),
+                last: Candidate::unmoved_state(start.into()),
                 impacts: 0,
                 least: None,
                 settled: Vec::new(),
@@ -81,14 +83,14 @@ impl Trials {
         }
     }
 
-    /// Those of a machine.
-    pub(super) fn of(&mut self, machine: usize) -> &mut [Trial] {
+    /// The trial motions of one machine.
+    pub(super) fn of_machine(&mut self, machine: usize) -> &mut [Trial] {
         let each = self.all.len() / self.scales.len();
         &mut self.all[machine * each..(machine + 1) * each]
     }
 
-    /// Follows those that are open up to a number of drive periods in all.
-    pub(super) fn follow(&mut self, machines: &[Machine], until: u64, monitor: Monitor<'_>) {
+    /// Follows the open trial motions up to a number of drive periods in all.
+    pub(super) fn follow_trials(&mut self, machines: &[Machine], until: u64, monitor: Monitor<'_>) {
         let mut open: Vec<&mut Trial> = self.all.iter_mut().filter(|it| it.is_open).collect();
         let lasting = until - self.cycle;
         let motions = open.iter();
@@ -101,14 +103,14 @@ impl Trials {
             since: self.cycle,
         };
         // The caller asks the monitor itself.
-        let _ = follow(machines, motions, &mut recorder, || monitor(0, 0));
+        let _ = follow_batch(machines, motions, &mut recorder, || monitor(0, 0));
         self.cycle = until;
     }
 }
 
 impl Candidate {
-    /// A state of which no period is known.
-    fn unmoved(state: Vector2<f64>) -> Self {
+    /// A candidate at a state of which no period is known.
+    fn unmoved_state(state: Vector2<f64>) -> Self {
         Self {
             moves: 0.0,
             state,
@@ -117,15 +119,15 @@ impl Candidate {
     }
 }
 
-/// Of some motions the states that move least within a period with one impact, where they move little, the least first.
-pub(super) fn least(trials: &[Trial]) -> Vec<Candidate> {
+/// Of some trials the states that move least within a period with one impact, where they move little, the least first.
+pub(super) fn least_moved(trials: &[Trial]) -> Vec<Candidate> {
     let mut least: Vec<Candidate> = trials.iter().filter_map(|it| it.least).collect();
     least.sort_by(|a, b| a.moves.total_cmp(&b.moves));
     least
 }
 
-/// Where some motions were after each of these numbers of periods, as if they did not move.
-pub(super) fn settled(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
+/// Where some trials were after each of these numbers of periods, as candidates that do not move.
+pub(super) fn settled_candidates(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
     let of = |after: u64| {
         trials
             .iter()
@@ -138,7 +140,7 @@ pub(super) fn settled(trials: &[Trial], after: &[u64]) -> Vec<Candidate> {
         .collect()
 }
 
-/// Keeps of each trial what becomes a candidate.
+/// An observer of a batch that keeps of each trial what becomes a candidate.
 struct TrialRecorder<'a, 'b> {
     trials: &'a mut [&'b mut Trial],
     scales: &'a [Scales],
@@ -158,7 +160,7 @@ impl BatchObserver for TrialRecorder<'_, '_> {
     fn period(&mut self, job: usize, cycle: u64, state: Start) {
         let trial = &mut *self.trials[job];
         let (state, before) = (state.into(), trial.last.state);
-        let moves = distance(&self.scales[trial.machine], state, before);
+        let moves = scaled_distance(&self.scales[trial.machine], state, before);
         trial.last = Candidate {
             moves,
             state,
@@ -173,18 +175,18 @@ impl BatchObserver for TrialRecorder<'_, '_> {
             trial.settled.push((cycle, settled));
         }
         let impacts = std::mem::take(&mut trial.impacts);
-        if impacts == 1 && moves < trial.least.map_or(RETURNS, |least| least.moves) {
+        if impacts == 1 && moves < trial.least.map_or(NEAR_RETURN, |least| least.moves) {
             trial.least = Some(trial.last);
         }
     }
 }
 
-/// Starts on circles in (w x, x') about the origin.
-fn starts(scene: &Scene) -> impl Iterator<Item = Start> + use<> {
+/// Starts of trial motions on circles in (w x, x') about the origin.
+fn starts_on_circles(scene: &Scene) -> impl Iterator<Item = Start> + use<> {
     let Scales { length, rate } = scene.motion_scales();
-    SPEEDS.into_iter().flat_map(move |speed| {
-        (0..DIRECTIONS).map(move |k| {
-            let angle = TAU * k as f64 / DIRECTIONS as f64;
+    START_SPEEDS.into_iter().flat_map(move |speed| {
+        (0..START_DIRECTIONS).map(move |k| {
+            let angle = TAU * k as f64 / START_DIRECTIONS as f64;
             Start::new(
                 speed * length * angle.cos(),
                 speed * length * (rate * angle.sin()),

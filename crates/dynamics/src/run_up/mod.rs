@@ -1,5 +1,5 @@
-//! Ways to bring a machine into its motion with impacts, each tried: in the hysteresis zone the machine may as well
-//! stay without impacts, and which of the two it does depends on how it came there.
+//! Running up: ways to bring a machine into its motion with impacts, each tried: in the hysteresis zone the machine may
+//! as well stay without impacts, and which of the two it does depends on how it came there.
 
 mod way;
 
@@ -9,8 +9,8 @@ use std::fmt::{self, Display, Formatter};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::basin::{BasinTest, at_section};
-use crate::cycle_metrics::{AT_STOP, largest_force};
+use crate::basin::{BasinTest, bring_to_section};
+use crate::cycle_metrics::{STOP_PHASES, largest_force};
 use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap};
@@ -19,16 +19,17 @@ use softstop::{Machine, MotionError, Parameter, Scene, Start};
 
 pub use way::Way;
 
-/// Steps of a slow way, drive periods of each, and the distance within which a state has returned in them, in units of
-/// the motion's size.
-const SLOW_STEPS: usize = 256;
+/// Steps of a slow way to run up.
+const RUN_UP_STEPS: usize = 256;
+/// Drive periods of each step of a slow way to run up.
 const STEP_PERIODS: u64 = 64;
+/// Distance within which a state has returned in such a step, in units of the motion's size.
 const SLOW_RETURN: f64 = 1e-2;
 
-/// Which ways are tried, and what is asked of them.
+/// Settings of running up: which ways are tried, and what is asked of them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
-    /// Those that are tried.
+pub struct RunUpSettings {
+    /// The ways that are tried.
     pub ways: Vec<Way>,
     /// Change of the drive's frequency in rad/s from each drive period to the next; none for a slow one, which is what a
     /// still slower rate is taken for.
@@ -39,7 +40,7 @@ pub struct Settings {
     pub with_peaks: bool,
 }
 
-impl Default for Settings {
+impl Default for RunUpSettings {
     /// Slow ways by the drive's own amplitude, with any force.
     fn default() -> Self {
         Self {
@@ -51,17 +52,18 @@ impl Default for Settings {
     }
 }
 
-impl Settings {
-    fn has_peaks(&self) -> bool {
+impl RunUpSettings {
+    /// True if forces and positions on the ways are computed.
+    fn computes_peaks(&self) -> bool {
         self.with_peaks || self.most_force.is_some()
     }
 
-    /// Values of a parameter on the way, and drive periods of each.
-    fn steps(&self, parameter: Parameter, (low, high): (f64, f64)) -> (usize, u64) {
-        let slow = (SLOW_STEPS, STEP_PERIODS);
+    /// Steps of the sweep of a parameter on a way to run up, and drive periods of each.
+    fn sweep_steps(&self, parameter: Parameter, (low, high): (f64, f64)) -> (usize, u64) {
+        let slow = (RUN_UP_STEPS, STEP_PERIODS);
         let periods = self.ramp.map(|rate| ((high - low) / rate).ceil() + 1.0);
         match periods.filter(|_| parameter == Parameter::Frequency) {
-            Some(periods) if periods < (SLOW_STEPS as u64 * STEP_PERIODS) as f64 => {
+            Some(periods) if periods < (RUN_UP_STEPS as u64 * STEP_PERIODS) as f64 => {
                 (periods as usize, 1)
             }
             _ => slow,
@@ -69,14 +71,13 @@ impl Settings {
     }
 }
 
-/// What came of a way.
+/// An attempt to run up by one way, and what came of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Attempt {
-    /// Which way.
+    /// The way that was tried.
     pub way: Way,
-    /// Share of the runs that end on the motion: of the drive angles at which the drive is switched on; of a slow way 0
-    /// or 1.
+    /// Share of the runs that end on the motion, of angles at which the drive is switched on; of a slow way 0 or 1.
     pub share: f64,
     /// Drive angle in rad in the middle of the widest range of those at which the drive may be switched on.
     pub angle: Option<f64>,
@@ -89,56 +90,61 @@ pub struct Attempt {
     /// Drive periods that the way takes; none where the drive is switched on at once.
     pub periods: Option<u64>,
     /// The largest values of all runs on the way and in 64 drive periods after it, if they were computed.
-    pub peaks: Option<Peaks>,
+    pub peaks: Option<RunUpPeaks>,
 }
 
-/// The largest values on a way.
+/// The largest values on a way to run up.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Peaks {
-    /// Force of contact in N while the stop is touched.
+pub struct RunUpPeaks {
+    /// Largest contact force in N while the stop is touched.
     pub stop_force: f64,
-    /// Position in m.
+    /// Largest position in m.
     pub highest: f64,
 }
 
-impl Peaks {
-    /// Goes on with some periods; the state after them.
-    fn take(&mut self, scene: &Scene, start: Start, periods: u64) -> Result<Start, MotionError> {
+impl RunUpPeaks {
+    /// Advances a motion on a way to run up by some drive periods and takes its peaks; the state after them.
+    fn take_peaks(
+        &mut self,
+        scene: &Scene,
+        start: Start,
+        periods: u64,
+    ) -> Result<Start, MotionError> {
         let motion = StroboscopicMap::new(scene, periods)?.trajectory(start.into())?;
-        let force = largest_force(scene, &motion, AT_STOP);
+        let force = largest_force(scene, &motion, STOP_PHASES);
         self.stop_force = self.stop_force.max(force);
         self.highest = self.highest.max(motion.max_position());
         Ok(motion.end.into())
     }
 }
 
-/// All ways that were tried.
+/// The attempts to run up by all ways that were tried.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunUp {
-    /// They, in the order in which they were asked for; those that a machine does not have are left out.
+    /// The attempts, in the order in which they were asked for; ways that a machine does not have are left out.
     pub ways: Vec<Attempt>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,
 }
 
 impl RunUp {
-    /// Tries ways into a stable motion; the drive is switched on at so many drive angles.
+    /// Tries ways to run up into a stable motion; the drive is switched on at so many drive angles.
     ///
     /// # Errors
     /// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::Stopped`].
     pub fn of(
         orbit: &Orbit,
-        settings: &Settings,
+        settings: &RunUpSettings,
         angles: usize,
         monitor: Monitor<'_>,
     ) -> Result<Self, OrbitError> {
         let basin_test = BasinTest::of(orbit)?;
         let tried = settings.ways.par_iter().map(|way| match way {
             Way::SwitchedOn => {
-                switched_on(orbit, &basin_test, (settings, angles), monitor).map(Some)
+                try_switching_on(orbit, &basin_test, (settings, angles), monitor).map(Some)
             }
-            _ => changed(orbit, &basin_test, (settings, *way), monitor),
+            _ => try_slow_change(orbit, &basin_test, (settings, *way), monitor),
         });
         let tried = tried.collect::<Result<Vec<Option<Attempt>>, OrbitError>>()?;
         Ok(Self {
@@ -147,27 +153,27 @@ impl RunUp {
         })
     }
 
-    /// The ways that lead to the motion for sure, with no more force than is allowed.
-    pub fn works(&self) -> impl Iterator<Item = &Attempt> {
+    /// The attempts by ways that lead to the motion for sure, with no more force than is allowed.
+    pub fn working_ways(&self) -> impl Iterator<Item = &Attempt> {
         let all = self.ways.iter().filter(|attempt| attempt.share == 1.0);
         all.filter(|attempt| self.is_gentle(attempt))
     }
 
-    /// True if the stop is pressed no harder on a way than is allowed.
+    /// True if the stop is pressed no harder in an attempt to run up than is allowed.
     pub fn is_gentle(&self, attempt: &Attempt) -> bool {
         let within = |most: f64| attempt.peaks.is_some_and(|it| it.stop_force <= most);
         self.most_force.is_none_or(within)
     }
 
-    /// What came of one way.
-    pub fn by(&self, way: Way) -> Option<&Attempt> {
+    /// The attempt to run up by one way.
+    pub fn attempt_by(&self, way: Way) -> Option<&Attempt> {
         self.ways.iter().find(|attempt| attempt.way == way)
     }
 }
 
 impl Display for RunUp {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let mut works = self.works().map(|attempt| attempt.way.name());
+        let mut works = self.working_ways().map(|attempt| attempt.way.name());
         match works.next() {
             Some(first) => {
                 write!(f, "the motion is reached by {first}")?;
@@ -190,32 +196,33 @@ impl Display for RunUp {
     }
 }
 
-/// Where the mass is before the drive runs: at the suspension's rest, or at the face of a stop that stands before it.
-fn at_rest(scene: &Scene) -> Start {
+/// The state before the drive runs: at the suspension's rest, or at the face of a stop that stands before it.
+fn rest_state(scene: &Scene) -> Start {
     let below = scene.below.as_ref();
     let lowest = below.map_or(f64::NEG_INFINITY, |below| -below.clearance);
     Start::new(scene.clearance.min(0.0).max(lowest), 0.0)
 }
 
-fn switched_on(
+/// Tries to run up by switching the drive on at evenly spread drive angles.
+fn try_switching_on(
     orbit: &Orbit,
     basin_test: &BasinTest,
-    (settings, angles): (&Settings, usize),
+    (settings, angles): (&RunUpSettings, usize),
     monitor: Monitor<'_>,
 ) -> Result<Attempt, OrbitError> {
-    let (scene, rest) = (&orbit.scene, at_rest(&orbit.scene));
+    let (scene, rest) = (&orbit.scene, rest_state(&orbit.scene));
     let (phases, angles) = (scene.phases().into(), angles.max(1));
     let angles: Vec<f64> = (0..angles)
         .map(|index| TAU * index as f64 / angles as f64)
         .collect();
     let states = angles.iter();
-    let states = states.map(|angle| at_section(&phases, scene.excitation, rest, *angle));
+    let states = states.map(|angle| bring_to_section(&phases, scene.excitation, rest, *angle));
     let states = states.collect::<Result<Vec<Start>, _>>()?;
-    let reached = basin_test.reached(&states, monitor)?;
+    let reached = basin_test.test_starts(&states, monitor)?;
     let peaks = || {
-        let mut peaks = Peaks::default();
+        let mut peaks = RunUpPeaks::default();
         for state in states {
-            peaks.take(scene, state, STEP_PERIODS)?;
+            peaks.take_peaks(scene, state, STEP_PERIODS)?;
         }
         Ok::<_, MotionError>(peaks)
     };
@@ -223,17 +230,18 @@ fn switched_on(
     Ok(Attempt {
         way: Way::SwitchedOn,
         share: all as f64 / angles.len() as f64,
-        angle: middle(&reached).map(|place| (TAU * place / angles.len() as f64).rem_euclid(TAU)),
+        angle: middle_of_longest_row(&reached)
+            .map(|place| (TAU * place / angles.len() as f64).rem_euclid(TAU)),
         from: None,
         ends: None,
         lost: None,
         periods: None,
-        peaks: settings.has_peaks().then(peaks).transpose()?,
+        peaks: settings.computes_peaks().then(peaks).transpose()?,
     })
 }
 
-/// The middle of the longest row of those that are true on a circle, the first one of equals.
-fn middle(circle: &[bool]) -> Option<f64> {
+/// The middle of the longest row of true values on a circle, the first one of equals.
+fn middle_of_longest_row(circle: &[bool]) -> Option<f64> {
     let count = circle.len();
     let row = |first: usize| {
         let row = (0..count).take_while(|further| circle[(first + further) % count]);
@@ -246,14 +254,15 @@ fn middle(circle: &[bool]) -> Option<f64> {
     (length > 0).then_some(first as f64 + 0.5 * (length as f64 - 1.0))
 }
 
-fn changed(
+/// Tries to run up by a slow change of one parameter; none if the machine has no such way.
+fn try_slow_change(
     orbit: &Orbit,
     basin_test: &BasinTest,
-    (settings, way): (&Settings, Way),
+    (settings, way): (&RunUpSettings, Way),
     monitor: Monitor<'_>,
 ) -> Result<Option<Attempt>, OrbitError> {
     let scene = &orbit.scene;
-    let Some((parameter, from, direction)) = way.change(scene) else {
+    let Some((parameter, from, direction)) = way.slow_change(scene) else {
         return Ok(None);
     };
     let Some(at_work) = parameter.get(scene) else {
@@ -264,35 +273,35 @@ fn changed(
         return Ok(None);
     }
     let range = (from.min(at_work), from.max(at_work));
-    let (steps, periods) = settings.steps(parameter, range);
+    let (steps, periods) = settings.sweep_steps(parameter, range);
     let Ok(plan) = Plan::new(parameter, range, steps, periods) else {
         return Ok(None);
     };
     let plan = Plan {
         tolerance: SLOW_RETURN,
         heights: false,
-        start: at_rest(scene),
+        start: rest_state(scene),
         ..plan
     };
     let mut chains = [Chain::new(scene.clone(), direction)];
-    if !plan.run(&mut chains, &|_, _| stop_if(monitor(0, 0).is_break())) {
+    if !plan.run_chains(&mut chains, &|_, _| stop_if(monitor(0, 0).is_break())) {
         return Err(OrbitError::Stopped);
     }
     let [chain] = chains;
     let last = chain.steps.last().filter(|_| chain.error.is_none());
     let reached = match last {
-        Some(last) => basin_test.reached(&[last.end], monitor)?[0],
+        Some(last) => basin_test.test_starts(&[last.end], monitor)?[0],
         None => false,
     };
     let peaks = || {
-        let (mut peaks, mut state) = (Peaks::default(), plan.start);
+        let (mut peaks, mut state) = (RunUpPeaks::default(), plan.start);
         for step in 0..steps {
             let mut machine = Machine::from(scene.clone());
-            machine.set(parameter, plan.value(step, direction));
-            state = peaks.take(&machine.scene, state, periods)?;
-            OrbitError::ask(monitor)?;
+            machine.set(parameter, plan.value_at(step, direction));
+            state = peaks.take_peaks(&machine.scene, state, periods)?;
+            OrbitError::ask_monitor(monitor)?;
         }
-        peaks.take(scene, state, STEP_PERIODS)?;
+        peaks.take_peaks(scene, state, STEP_PERIODS)?;
         Ok::<_, OrbitError>(peaks)
     };
     let is_one = |motion: &MotionKind| motion.regime() == Some(Regime::ONE);
@@ -306,6 +315,6 @@ fn changed(
         lost: ones.next().map(|step| step.value).filter(|_| !reached),
         periods: Some(steps as u64 * periods),
         // A way that cannot be computed to its end has none.
-        peaks: settings.has_peaks().then(peaks).and_then(Result::ok),
+        peaks: settings.computes_peaks().then(peaks).and_then(Result::ok),
     }))
 }

@@ -1,4 +1,4 @@
-//! The ways to bring a machine into a motion, and where each begins.
+//! The ways to run a machine up into a motion, and where each begins.
 
 use serde::{Deserialize, Serialize};
 use softstop::{Parameter, Scene};
@@ -6,7 +6,7 @@ use softstop::{Parameter, Scene};
 use crate::sweep::Direction;
 use crate::zone::free_amplitude;
 
-/// A way to bring a machine into a motion.
+/// A way to run a machine up into a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Way {
@@ -25,7 +25,7 @@ pub enum Way {
 }
 
 impl Way {
-    /// All of them.
+    /// All ways to run up.
     pub const ALL: [Self; 6] = [
         Self::SwitchedOn,
         Self::FrequencyRaised,
@@ -35,7 +35,7 @@ impl Way {
         Self::AmplitudeLowered,
     ];
 
-    /// Those that need no more than the drive's own amplitude.
+    /// The ways to run up that need no more than the drive's own amplitude.
     pub const BY_OWN_DRIVE: [Self; 5] = [
         Self::SwitchedOn,
         Self::FrequencyRaised,
@@ -44,7 +44,7 @@ impl Way {
         Self::AmplitudeRaised,
     ];
 
-    /// In words.
+    /// The way to run up, in words.
     pub const fn name(self) -> &'static str {
         match self {
             Self::SwitchedOn => "switching the drive on at its working frequency",
@@ -56,8 +56,8 @@ impl Way {
         }
     }
 
-    /// The parameter that changes on the way, if one does.
-    pub const fn changes(self) -> Option<Parameter> {
+    /// The parameter that changes on the way to run up, if one does.
+    pub const fn changed_parameter(self) -> Option<Parameter> {
         match self {
             Self::SwitchedOn => None,
             Self::FrequencyRaised | Self::FrequencyLowered => Some(Parameter::Frequency),
@@ -66,9 +66,9 @@ impl Way {
         }
     }
 
-    /// What changes on the way, from which value in SI units, and whether up or down; none where nothing does, or where
-    /// there is no such way.
-    pub(super) fn change(self, scene: &Scene) -> Option<(Parameter, f64, Direction)> {
+    /// The slow change on a way to run up: which parameter, from which value in SI units, and whether up or down; none
+    /// where nothing changes, or where there is no such way.
+    pub(super) fn slow_change(self, scene: &Scene) -> Option<(Parameter, f64, Direction)> {
         let w = scene.excitation.frequency;
         let (amplitude, clearance) = (scene.excitation.amplitude, scene.clearance);
         let reached = scene.least_clearance();
@@ -77,24 +77,26 @@ impl Way {
             Self::SwitchedOn => None,
             Self::FrequencyRaised => {
                 let slow = if own > 0.0 { own.min(w) } else { w };
-                Some((Parameter::Frequency, BELOW * slow, Direction::Up))
+                Some((Parameter::Frequency, LOW_FREQUENCY * slow, Direction::Up))
             }
-            Self::FrequencyLowered => {
-                Some((Parameter::Frequency, ABOVE * own.max(w), Direction::Down))
-            }
+            Self::FrequencyLowered => Some((
+                Parameter::Frequency,
+                HIGH_FACTOR * own.max(w),
+                Direction::Down,
+            )),
             Self::ClearanceOpened => (clearance > 0.0).then_some((
                 Parameter::Clearance,
-                SMALL * clearance,
+                START_CLEARANCE * clearance,
                 Direction::Up,
             )),
             Self::AmplitudeRaised => (amplitude > 0.0).then_some((
                 Parameter::Amplitude,
-                FAINT * amplitude,
+                START_AMPLITUDE * amplitude,
                 Direction::Up,
             )),
             Self::AmplitudeLowered => {
                 let free = free_amplitude(scene, w);
-                let enough = amplitude * (STRONG * reached / free).max(ABOVE);
+                let enough = amplitude * (GRAZING_FACTOR * reached / free).max(HIGH_FACTOR);
                 (amplitude > 0.0 && enough.is_finite()).then_some((
                     Parameter::Amplitude,
                     enough,
@@ -105,10 +107,13 @@ impl Way {
     }
 }
 
-/// Where ways begin: a frequency below and above, in units of the lower and the higher one of the drive's and the mass's
-/// own; a clearance and an amplitude, in units of those at work; an amplitude, in units of that of grazing.
-const BELOW: f64 = 0.5;
-const ABOVE: f64 = 2.0;
-const SMALL: f64 = 0.05;
-const FAINT: f64 = 0.01;
-const STRONG: f64 = 1.5;
+/// Frequency at which a rising one begins, in units of the lower one of the drive's and the mass's own.
+const LOW_FREQUENCY: f64 = 0.5;
+/// Frequency at which a falling one begins, in units of the higher one; least such factor of an amplitude.
+const HIGH_FACTOR: f64 = 2.0;
+/// Clearance at which an opening one begins, in units of that at work.
+const START_CLEARANCE: f64 = 0.05;
+/// Amplitude at which a rising one begins, in units of that at work.
+const START_AMPLITUDE: f64 = 0.01;
+/// Amplitude at which a falling one begins, in units of that of grazing.
+const GRAZING_FACTOR: f64 = 1.5;

@@ -1,5 +1,5 @@
-//! What motions have come to, each of a machine of its own: many are followed together in the lanes, first unwatched,
-//! then watched, and looked at after that.
+//! Settled motions: what motions have come to, each of a machine of its own. Many are followed together in the lanes,
+//! first unwatched, then watched, and classified after that.
 //!
 //! ```
 //! use softstop::{Ratios, Start};
@@ -8,7 +8,7 @@
 //!
 //! let scene = Ratios::unloaded().scene()?;
 //! let starts = [Start::REST, Start::new(0.0, 14.0)];
-//! let seen = Settling::default().follow(&starts.map(|start| (&scene, start)), &unmonitored);
+//! let seen = Settling::default().follow_motions(&starts.map(|start| (&scene, start)), &unmonitored);
 //! let seen = seen.unwrap_or_default();
 //! let regimes = seen.iter().map(|seen| Some(seen.as_ref().ok()?.regime()?.to_string()));
 //! assert_eq!(regimes.collect::<Vec<_>>(), [Some("0".to_owned()), Some("1".to_owned())]);
@@ -17,26 +17,26 @@
 
 mod settled_motion;
 
-pub use settled_motion::{SettledMotion, wanders};
+pub use settled_motion::{SettledMotion, classify_wandering};
 
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::Region;
-use crate::ensemble::{Ensemble, HasMember, Member, Outcome};
+use crate::ensemble::{Ensemble, HasMember, Member, Status};
 use crate::monitor::Monitor;
 use crate::orbit::Regime;
-use crate::orbit::recurrence::RETURN;
+use crate::orbit::recurrence::RETURN_DISTANCE;
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
-/// How motions are followed, and looked at.
+/// How long motions are followed until they have settled, and how they are watched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Settling {
-    /// Drive periods, all together.
+    /// Drive periods for which motions are followed, all together.
     pub periods: u64,
-    /// The last of them, in which they are looked at: a period of up to half as many is told.
+    /// The last of these drive periods, in which motions are watched: a period of up to half as many is told.
     pub watched: u64,
-    /// Drive periods at most: what has not returned is followed on to twice as many, again and again, up to these.
+    /// Most drive periods: what has not returned is followed on to twice as many, again and again, up to these.
     pub longest: u64,
     /// Distance within which a state has returned, in units of the motion's size.
     pub tolerance: f64,
@@ -48,12 +48,12 @@ impl Default for Settling {
             periods: 500,
             watched: 64,
             longest: 8000,
-            tolerance: RETURN,
+            tolerance: RETURN_DISTANCE,
         }
     }
 }
 
-/// A motion that is followed, and what it was seen to have come to last.
+/// A motion that is followed until it settles, and what it was seen to have come to last.
 struct FollowedMotion<'a> {
     scene: &'a Scene,
     member: Member,
@@ -61,12 +61,13 @@ struct FollowedMotion<'a> {
 }
 
 impl HasMember for FollowedMotion<'_> {
-    fn member(&mut self) -> &mut Member {
+    fn member_mut(&mut self) -> &mut Member {
         &mut self.member
     }
 }
 
 impl<'a> FollowedMotion<'a> {
+    /// A motion of a scene, which is the machine with this number, from a start.
     fn new(scene: &'a Scene, machine: usize, start: Start) -> Self {
         Self {
             scene,
@@ -77,9 +78,9 @@ impl<'a> FollowedMotion<'a> {
 }
 
 impl Settling {
-    /// Follows a motion of each scene from its start; an error where the scene or the start cannot be, or the motion
-    /// cannot be computed. Nothing if the monitor, which is not told how much is done, wants to stop.
-    pub fn follow(
+    /// Follows a motion of each scene from its start until it settles; an error where the scene or the start cannot be,
+    /// or the motion cannot be computed. Nothing if the monitor, which is not told how much is done, wants to stop.
+    pub fn follow_motions(
         &self,
         motions: &[(&Scene, Start)],
         monitor: Monitor<'_>,
@@ -90,16 +91,16 @@ impl Settling {
             let lowered = start.validate().and_then(|()| Ok(Machine::new(scene)?));
             match lowered {
                 Ok(machine) => machines.push(machine),
-                Err(error) => motion.member.lose(error),
+                Err(error) => motion.member.mark_lost(error),
             }
             motion
         });
         let motions = motions.collect();
-        self.settle(machines, motions, monitor)
+        self.settle_members(machines, motions, monitor)
     }
 
-    /// What motions of these machines come to.
-    fn settle(
+    /// Follows motions of these machines until they settle, and returns what each has come to.
+    fn settle_members(
         &self,
         machines: Vec<Machine>,
         mut motions: Vec<FollowedMotion<'_>>,
@@ -110,11 +111,11 @@ impl Settling {
         let (mut followed, mut next) = (0, self.periods);
         while next >= self.watched {
             let open = motions.iter_mut();
-            let mut open: Vec<_> = open.filter(|it| it.member.outcome.is_open()).collect();
+            let mut open: Vec<_> = open.filter(|it| it.member.status.is_open()).collect();
             if open.is_empty() {
                 break;
             }
-            ensemble.observe(&mut open, next, self.watched).ok()?;
+            ensemble.record_run(&mut open, next, self.watched).ok()?;
             followed += next;
             for FollowedMotion {
                 scene,
@@ -127,7 +128,7 @@ impl Settling {
                 }
                 let now = SettledMotion::of(scene, member, self.tolerance, followed);
                 if now.periods.is_some() {
-                    member.outcome = Outcome::Arrived(0);
+                    member.status = Status::Arrived(0);
                 }
                 *seen = Some(now);
             }
@@ -140,10 +141,10 @@ impl Settling {
         settled.collect()
     }
 
-    /// The share of so many starts, spread evenly over a region, that lead to z = 1; what cannot be computed does not.
-    /// Without a region it is the box of the scene's own size that commands take starts from. Nothing if the scene is
-    /// invalid, or the monitor wants to stop.
-    pub fn certainty(
+    /// The certainty of z = 1: share of so many starts, spread evenly over a region, that settle on it; what cannot be
+    /// computed does not. Without a region it is the box of the scene's own size that commands take starts from.
+    /// Nothing if the scene is invalid, or the monitor wants to stop.
+    pub fn single_impact_certainty(
         &self,
         scene: &Scene,
         starts: usize,
@@ -151,10 +152,10 @@ impl Settling {
         monitor: Monitor<'_>,
     ) -> Option<f64> {
         let machine = vec![Machine::new(scene).ok()?];
-        let region = region.unwrap_or_else(|| Region::box_with(scene, []));
+        let region = region.unwrap_or_else(|| Region::start_box(scene, []));
         let starts = region.starts(starts, 0).into_iter();
         let motions = starts.map(|start| FollowedMotion::new(scene, 0, start));
-        let seen = self.settle(machine, motions.collect(), monitor)?;
+        let seen = self.settle_members(machine, motions.collect(), monitor)?;
         let regimes = seen.iter().flatten().map(SettledMotion::regime);
         let come = regimes.filter(|regime| *regime == Some(Regime::ONE));
         Some(come.count() as f64 / seen.len() as f64)

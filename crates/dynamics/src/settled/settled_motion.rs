@@ -1,22 +1,21 @@
-//! What a motion is seen to have come to.
+//! A settled motion: what a motion is seen to have come to.
 
 use crate::ensemble::Member;
 use crate::motion::MotionKind;
-use crate::orbit::recurrence::settles_on;
+use crate::orbit::recurrence::find_settled_period;
 use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};
 use softstop::{Instant, MotionError, Scene, Start};
 
-/// ln of a hundredfold growth.
-const HUNDREDFOLD: f64 = 4.605_170_185_988_092;
+/// ln of a hundredfold growth of small differences, beyond which a motion that does not return is chaos.
+const CHAOS_GROWTH: f64 = 4.605_170_185_988_092;
 
-/// What a motion has come to.
+/// What a motion that was followed has settled on.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct SettledMotion {
     /// Drive periods after which it returns, if it does.
     pub periods: Option<u64>,
-    /// Before-impact velocities in m/s, ascending: of one period of what returns, else of all watched drive
-    /// periods.
+    /// Before-impact velocities in m/s, ascending: of one period of what returns, else of all watched drive periods.
     pub velocities: Vec<f64>,
     /// State at drive angle phi, a period of what returns before the end, else where it was first watched.
     pub from: Start,
@@ -24,7 +23,7 @@ pub struct SettledMotion {
     pub end: Start,
     /// States at drive angle phi between these two, the end among them, one for each drive period.
     pub states: Vec<Start>,
-    /// When the impacts of these velocities were, counted from there.
+    /// Instants of the impacts of these velocities, counted from there.
     instants: Vec<Instant>,
     /// Drive periods from there to the end.
     length: u64,
@@ -33,13 +32,13 @@ pub struct SettledMotion {
 }
 
 impl SettledMotion {
-    /// What the record of a motion shows that was followed for so many drive periods in all.
+    /// What the record of a member, followed for so many drive periods in all, shows its motion to have settled on.
     pub(crate) fn of(scene: &Scene, member: &Member, tolerance: f64, followed: u64) -> Self {
         let Member {
             states, impacts, ..
         } = member;
         let watched = states.len() - 1;
-        let found = settles_on(scene.excitation.frequency, states, tolerance)
+        let found = find_settled_period(scene.excitation.frequency, states, tolerance)
             .map(|periods| smallest_period(scene, states, periods));
         let length = found.unwrap_or(watched);
         let first = (watched - length) as f64;
@@ -64,7 +63,7 @@ impl SettledMotion {
         }
     }
 
-    /// The regime z = p/n of what returns; of complete chatter the impacts before the summed ones count.
+    /// The regime z = p/n of a settled motion that returns; of chatter the impacts before the summed ones count.
     pub fn regime(&self) -> Option<Regime> {
         Some(Regime {
             impacts: self.instants.len() as u64,
@@ -72,29 +71,29 @@ impl SettledMotion {
         })
     }
 
-    /// Mean number of impacts per drive period: p/n of what returns, else over the watched periods.
+    /// Mean number of impacts per drive period of a settled motion: p/n of what returns, else over the watched periods.
     pub fn impacts_per_period(&self) -> f64 {
         self.instants.len() as f64 / self.length as f64
     }
 
-    /// Largest before-impact velocity in m/s; 0 without impacts.
-    pub fn hardest(&self) -> f64 {
+    /// Largest before-impact velocity in m/s of a settled motion; 0 without impacts.
+    pub fn hardest_impact(&self) -> f64 {
         self.velocities.last().copied().unwrap_or(0.0)
     }
 
-    /// The map over the drive periods that it was looked at, for what takes more than a look.
+    /// The stroboscopic map over the drive periods in which the settled motion was watched.
     ///
     /// # Errors
     /// [`MotionError::Scene`] if the scene is invalid.
-    pub fn map(&self, scene: &Scene) -> Result<StroboscopicMap, MotionError> {
+    pub fn watched_map(&self, scene: &Scene) -> Result<StroboscopicMap, MotionError> {
         StroboscopicMap::new(scene, self.length)
     }
 
-    /// The motion that returns, with the order of its impacts; none if it does not.
+    /// The kind of a settled motion that returns, with the order of its impacts; none if it does not.
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
-    pub fn returning(
+    pub fn returning_kind(
         &self,
         scene: &Scene,
         map: &StroboscopicMap,
@@ -109,27 +108,27 @@ impl SettledMotion {
             false => Vec::new(),
         };
         let order = ImpactPattern::new(&self.instants, &rests, self.length, scene.period());
-        Ok(Some(MotionKind::repeating(regime, order)))
+        Ok(Some(MotionKind::from_regime(regime, order)))
     }
 
-    /// What it is: chaos if it does not return and small differences have grown more than a hundredfold; and their
-    /// growth then, ln of the tangent's norm per drive period.
+    /// The kind of a settled motion: chaos if it does not return and small differences have grown more than a
+    /// hundredfold; and their growth then, ln of the tangent's norm per drive period.
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
-    pub fn motion(
+    pub fn motion_kind(
         &self,
         scene: &Scene,
         map: &StroboscopicMap,
     ) -> Result<(MotionKind, Option<f64>), MotionError> {
-        if let Some(motion) = self.returning(scene, map)? {
+        if let Some(motion) = self.returning_kind(scene, map)? {
             return Ok((motion, None));
         }
-        let (motion, growth) = wanders(map, self.from)?;
+        let (motion, growth) = classify_wandering(map, self.from)?;
         Ok((motion, Some(growth / self.length as f64)))
     }
 
-    /// Largest position in m meanwhile.
+    /// Largest position in m of a settled motion while it was watched.
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
@@ -138,15 +137,18 @@ impl SettledMotion {
     }
 }
 
-/// What a motion is that does not return, chaos or unsettled, by the growth of small differences along a map from a
-/// state on: ln of the norm of the tangent without units, which is told, too.
+/// The kind of a motion that does not return, chaos or unsettled, by the growth of small differences along a map from a
+/// state on: ln of the norm of the tangent without units, which is returned, too.
 ///
 /// # Errors
 /// [`MotionError`] if it cannot be computed.
-pub fn wanders(map: &StroboscopicMap, from: Start) -> Result<(MotionKind, f64), MotionError> {
+pub fn classify_wandering(
+    map: &StroboscopicMap,
+    from: Start,
+) -> Result<(MotionKind, f64), MotionError> {
     let tangent = map.apply(from.into())?.monodromy;
     let growth = map.scales().jacobian(&tangent).norm().ln();
-    let motion = match growth > HUNDREDFOLD {
+    let motion = match growth > CHAOS_GROWTH {
         true => MotionKind::Chaos,
         false => MotionKind::Unsettled,
     };

@@ -10,14 +10,14 @@ use nalgebra::{Matrix2, Vector2};
 use softstop::internals::ParameterSensitivity;
 use softstop::{Parameter, Scene, SceneError};
 
-use super::variation::{Variation, lowered, none};
+use super::variation::{Variation, no_derivative, phase_derivatives};
 use crate::continuation::{
     BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, Test, grazing,
 };
 use crate::orbit::OrbitError;
 use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
 
-/// What a border is.
+/// What a border of a motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum BorderKind {
@@ -30,17 +30,17 @@ pub enum BorderKind {
     Motion(SpecialKind),
 }
 
-/// A border of a motion at one machine.
+/// A border of a motion in the space of a machine's parameters, at one machine, with its normal.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Border {
-    /// What it is.
+    /// What the border is.
     pub kind: BorderKind,
     /// The machine, at the border: its drive has the border's frequency.
     pub scene: Scene,
     /// The motion there, and its drive periods; none for g0.
     pub point: Option<(BranchPoint, u64)>,
-    /// What the normal is by.
+    /// The parameters that the normal is by.
     pub parameters: Vec<Parameter>,
     /// d(w - w_b)/d(parameter) in SI units, w_b the border's frequency in rad/s: 1 for the frequency itself. Where it is
     /// positive, a larger parameter brings the border to lower frequencies.
@@ -53,20 +53,20 @@ impl Border {
         self.scene.excitation.frequency
     }
 
-    /// The normal along one of its parameters instead of the frequency: d(q - q_b)/d(parameter), q_b the value of q at
-    /// which the border stands while the others are as they are; none if it is not among the parameters.
-    pub fn along(&self, parameter: Parameter) -> Option<Vec<f64>> {
+    /// The normal of the border along one of its parameters instead of the frequency: d(q - q_b)/d(parameter), q_b the
+    /// value of q at which the border stands while the others are as they are; none if it is not among the parameters.
+    pub fn normal_along(&self, parameter: Parameter) -> Option<Vec<f64>> {
         let index = self.parameters.iter().position(|own| *own == parameter)?;
         let own = self.normal[index];
         Some(self.normal.iter().map(|part| part / own).collect())
     }
 
-    /// g0, or its counterpart below resonance.
+    /// The border g0, where the motion without impacts grazes the stop above resonance, or its counterpart below.
     ///
     /// # Errors
     /// [`ZoneError`] if the motion without impacts does not graze there; [`ZoneError::Orbit`] for a parameter that the scene
     /// does not have.
-    pub fn free(scene: &Scene, above: bool, parameters: &[Parameter]) -> Result<Self, ZoneError> {
+    pub fn at_g0(scene: &Scene, above: bool, parameters: &[Parameter]) -> Result<Self, ZoneError> {
         let (below, upper) = grazing_frequencies(scene)?;
         let frequency = if above { Some(upper) } else { below };
         let w = frequency.ok_or(ZoneError::NoGrazing {
@@ -112,11 +112,15 @@ impl Border {
     ///
     /// # Errors
     /// [`ZoneError`] if the end is none that has a normal.
-    pub fn end(scene: &Scene, end: &ZoneEnd, parameters: &[Parameter]) -> Result<Self, ZoneError> {
+    pub fn at_end(
+        scene: &Scene,
+        end: &ZoneEnd,
+        parameters: &[Parameter],
+    ) -> Result<Self, ZoneError> {
         match (&end.loss, end.special) {
-            (Loss::Free, _) => Self::free(scene, true, parameters),
-            (_, Some(kind)) => Ok(Self::of(scene, 1, (kind, &end.point), parameters)?),
-            (_, None) => Err(none(parameters).into()),
+            (Loss::Free, _) => Self::at_g0(scene, true, parameters),
+            (_, Some(kind)) => Ok(Self::at_point(scene, 1, (kind, &end.point), parameters)?),
+            (_, None) => Err(no_derivative(parameters).into()),
         }
     }
 
@@ -125,27 +129,27 @@ impl Border {
     ///
     /// # Errors
     /// [`OrbitError`] where the motion has no derivatives.
-    pub fn at(
+    pub fn at_special(
         scene: &Scene,
         periods: u64,
         special: &Special,
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
-        Self::of(scene, periods, (special.kind, &special.point), parameters)
+        Self::at_point(scene, periods, (special.kind, &special.point), parameters)
     }
 
     /// The border where a test of the monodromy matrix vanishes, at an orbit there: a fold, as that of a
     /// [`Zone`](crate::Zone), or a flip.
     ///
     /// # Errors
-    /// As [`Border::at`].
-    pub fn critical(
+    /// As [`Border::at_special`].
+    pub fn at_critical(
         scene: &Scene,
         periods: u64,
         (test, point): (Test, &BranchPoint),
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
-        Self::of(
+        Self::at_point(
             scene,
             periods,
             (SpecialKind::Critical(test), point),
@@ -153,20 +157,22 @@ impl Border {
         )
     }
 
-    /// This border of a machine close by, by Newton's method from this one and along its normal.
+    /// The same border of a machine close by, by Newton's method from this one and along its normal.
     ///
     /// # Errors
     /// [`ZoneError`] if it is not reached, or has no normal there.
-    pub fn again(&self, scene: &Scene) -> Result<Self, ZoneError> {
+    pub fn find_again(&self, scene: &Scene) -> Result<Self, ZoneError> {
         let parameters = &self.parameters;
         let (motion, (near, periods)) = match (self.kind, &self.point) {
             (BorderKind::Motion(kind), Some(point)) => (kind, point),
-            (BorderKind::Free { above: false }, _) => return Self::free(scene, false, parameters),
-            _ => return Self::free(scene, true, parameters),
+            (BorderKind::Free { above: false }, _) => {
+                return Self::at_g0(scene, false, parameters);
+            }
+            _ => return Self::at_g0(scene, true, parameters),
         };
         let family = Frequencies(scene);
         let guess = BranchPoint {
-            parameter: self.frequency_near(scene),
+            parameter: self.predicted_frequency(scene),
             ..near.clone()
         };
         let special = match motion {
@@ -180,11 +186,11 @@ impl Border {
                 grazing((&family, *periods), &graze, phase, guess.parameter)?
             }
         };
-        Ok(Self::at(scene, *periods, &special, parameters)?)
+        Ok(Self::at_special(scene, *periods, &special, parameters)?)
     }
 
-    /// Where its tangent has the border of a machine close by: a frequency in rad/s.
-    pub fn frequency_near(&self, scene: &Scene) -> f64 {
+    /// The border's frequency in rad/s of a machine close by, as its tangent predicts it.
+    pub fn predicted_frequency(&self, scene: &Scene) -> f64 {
         let others = self.parameters.iter().zip(&self.normal);
         let others = others.filter(|(parameter, _)| **parameter != Parameter::Frequency);
         let there = scene.at_frequency(self.frequency());
@@ -196,7 +202,8 @@ impl Border {
         self.frequency() - change.sum::<f64>()
     }
 
-    fn of(
+    /// The border at a special point of a branch, by the kind of the point, with its normal.
+    fn at_point(
         scene: &Scene,
         periods: u64,
         (kind, point): (SpecialKind, &BranchPoint),
@@ -209,18 +216,18 @@ impl Border {
         let moved: Vec<Parameter> = along.iter().map(|(parameter, _)| *parameter).collect();
         let all = [parameters, &moved].concat();
         let rates = match kind {
-            SpecialKind::Critical(Test::Fold) => fold(&scene, periods, point, &all)?,
+            SpecialKind::Critical(Test::Fold) => fold_rates(&scene, periods, point, &all)?,
             SpecialKind::Critical(test) => test_rates(&scene, periods, (test, point), &all)?,
             SpecialKind::Pitchfork => return Err(OrbitError::NotIsolated),
-            SpecialKind::Grazing(graze) => touch(&scene, periods, &graze, (&all, &along))?,
+            SpecialKind::Grazing(graze) => grazing_rates(&scene, periods, &graze, (&all, &along))?,
         };
-        let own = total(&along, &rates[parameters.len()..]);
+        let own = total_rate(&along, &rates[parameters.len()..]);
         let normal: Vec<f64> = rates[..parameters.len()]
             .iter()
             .map(|rate| rate / own)
             .collect();
         if !normal.iter().all(|part| part.is_finite()) {
-            return Err(none(parameters));
+            return Err(no_derivative(parameters));
         }
         Ok(Self {
             kind: BorderKind::Motion(kind),
@@ -233,19 +240,19 @@ impl Border {
 }
 
 /// The derivative by the frequency, from the rates of what moves along it.
-fn total(along: &[(Parameter, f64)], rates: &[f64]) -> f64 {
+fn total_rate(along: &[(Parameter, f64)], rates: &[f64]) -> f64 {
     let pairs = along.iter().zip(rates);
     pairs.map(|((_, rate), by)| rate * by).sum()
 }
 
-/// w . dP/dp with w the left null vector of M - 1.
-fn fold(
+/// The normal of a border at a fold, up to a factor: w . dP/dp with w the left null vector of M - 1.
+fn fold_rates(
     scene: &Scene,
     periods: u64,
     point: &BranchPoint,
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
-    let variation = Variation::of(scene, point.state(), periods, parameters)?;
+    let variation = Variation::of_motion(scene, point.state(), periods, parameters)?;
     let a = variation.monodromy.matrix - Matrix2::identity();
     let candidates = [Vector2::new(a.m21, -a.m11), Vector2::new(a.m22, -a.m12)];
     let speed = scene.scales().rate;
@@ -260,14 +267,14 @@ fn fold(
     Ok(forced.map(|column| null.dot(&column.xy())).collect())
 }
 
-/// Derivatives of 1 + tr + det or of det along the orbit.
+/// The normal of a border at a flip, up to a factor: derivatives of 1 + tr + det or of det along the orbit.
 fn test_rates(
     scene: &Scene,
     periods: u64,
     (test, point): (Test, &BranchPoint),
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
-    let variation = Variation::of(scene, point.state(), periods, parameters)?;
+    let variation = Variation::of_motion(scene, point.state(), periods, parameters)?;
     let rates = variation.stability_rates(scene, periods)?.into_iter();
     let rate = |[trace, determinant]: [f64; 2]| match test {
         Test::NeimarkSacker => determinant,
@@ -276,15 +283,15 @@ fn test_rates(
     Ok(rates.map(rate).collect())
 }
 
-/// -dw/dp of a grazing orbit, from rest at the surface to rest there: angle of the touch and frequency are unknown. What
-/// moves along the frequency stands last among the parameters.
-fn touch(
+/// The normal of a border at a grazing orbit, up to a factor: -dw/dp from rest at the surface to rest there; angle of
+/// the touch and frequency are unknown. What moves along the frequency stands last among the parameters.
+fn grazing_rates(
     scene: &Scene,
     periods: u64,
     graze: &Graze,
     (parameters, along): (&[Parameter], &[(Parameter, f64)]),
 ) -> Result<Vec<f64>, OrbitError> {
-    let missing = || none(parameters);
+    let missing = || no_derivative(parameters);
     let mut scene = scene.clone();
     scene.excitation.phase = graze.angle;
     let place = graze.face.position(&scene).ok_or_else(missing)?;
@@ -292,7 +299,7 @@ fn touch(
     let motion = LastArc::taken_on(&scene, start, (graze.crossings, periods))?.motion;
     let phases = &motion.phases;
     let all = [parameters, &[Parameter::Phase]].concat();
-    let by = lowered(&scene, phases, &all)?;
+    let by = phase_derivatives(&scene, phases, &all)?;
     let mut sensitivity = ParameterSensitivity::new(phases, &by);
     motion.tell(&mut sensitivity);
     let columns = sensitivity.columns().ok_or_else(missing)?;

@@ -1,5 +1,5 @@
-//! Exact derivatives by the parameters of a machine: of a periodic motion's figures ([`of`]), of its multipliers
-//! ([`stability`]), and of where it ends ([`Border`]).
+//! Exact derivatives by the parameters of a machine: of a periodic motion's figures ([`differentiate_orbit`]), of its
+//! multipliers ([`stability()`]), and of where it ends ([`Border`]).
 //!
 //! The motion x(0) = P(x(0), p) is followed by the implicit function theorem, (1 - M) dx/dp = dP/dp; M and dP/dp come from
 //! the variational equation along the motion, with the saltation of each crossing. The drive angle at time 0 is held.
@@ -9,7 +9,7 @@
 //! use softstop_dynamics::{orbit, slopes};
 //!
 //! let orbit = orbit::find(&Ratios::unloaded().scene()?)?;
-//! let slopes = slopes::of(&orbit, &[Parameter::Clearance, Parameter::Frequency])?;
+//! let slopes = slopes::differentiate_orbit(&orbit, &[Parameter::Clearance, Parameter::Frequency])?;
 //! let velocity = &slopes.impacts[0].velocity;
 //! assert!((velocity.value - 6.494_627_429_363).abs() < 1e-9);
 //! assert!(velocity.by[1] > 0.0, "a faster drive strikes harder");
@@ -17,14 +17,14 @@
 //! ```
 
 mod border;
-mod figure;
-mod peak;
-mod recorder;
+mod differentiated_figure;
+mod figure_recorder;
+mod force_peaks;
 mod stability;
 mod variation;
 
 pub use border::{Border, BorderKind};
-pub use figure::{DifferentiatedFigure, DifferentiatedImpact};
+pub use differentiated_figure::{DifferentiatedFigure, DifferentiatedImpact};
 pub use stability::{Stability, stability};
 
 use softstop::Parameter;
@@ -36,7 +36,7 @@ use variation::Variation;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Slopes {
-    /// What they are derivatives by.
+    /// The parameters that the derivatives are by.
     pub parameters: Vec<Parameter>,
     /// Position in m at time 0.
     pub position: DifferentiatedFigure,
@@ -54,21 +54,21 @@ pub struct Slopes {
     pub supplied: DifferentiatedFigure,
 }
 
-/// The derivatives of a periodic motion, stable or not, by parameters of its machine.
+/// The derivatives of a periodic orbit's figures, stable or not, by parameters of its machine.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] with [`MotionError::NoDerivative`](softstop::MotionError) or [`SceneError::Lacks`](softstop::SceneError)
 /// where there is no derivative, or no parameter; [`OrbitError::NotIsolated`] at a fold.
-pub fn of(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError> {
-    let variation = Variation::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
-    let starts = variation.starts()?;
+pub fn differentiate_orbit(orbit: &Orbit, parameters: &[Parameter]) -> Result<Slopes, OrbitError> {
+    let variation = Variation::of_motion(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
+    let starts = variation.start_rates()?;
     let figure = |found: &DifferentiatedFigure| DifferentiatedFigure {
         value: found.value,
-        by: variation.along(found, &starts),
+        by: variation.total_rates(found, &starts),
     };
-    let missing = || variation.none();
+    let missing = || variation.no_derivative();
     let watched = &variation.watched;
-    let (position, velocity) = variation.state(&starts);
+    let (position, velocity) = variation.start_state(&starts);
     Ok(Slopes {
         parameters: parameters.to_vec(),
         position,

@@ -1,18 +1,19 @@
-//! How the multipliers of a periodic motion change: they are first derivatives themselves, so their own are differences.
+//! Derivatives of the stability of a periodic motion: multipliers are first derivatives themselves, so their own are
+//! differences.
 
 use nalgebra::Vector2;
 
 use softstop::{Parameter, Scene};
 
-use super::figure::DifferentiatedFigure;
-use super::variation::{Variation, none};
+use super::differentiated_figure::DifferentiatedFigure;
+use super::variation::{Variation, no_derivative};
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
-/// Shares of a parameter over which the monodromy matrix is differenced: the next where the orbit beside crosses something
-/// else, or the map bends too much.
-const WIDTHS: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
+/// Shares of a parameter over which the monodromy matrix is differenced: the next where the orbit beside crosses
+/// something else, or the map bends too much.
+const DIFFERENCE_SHARES: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
 /// Share by which differences over one width and over twice that width may lie apart.
-const SETTLED_SHARE: f64 = 0.01;
+const DIFFERENCE_AGREEMENT: f64 = 0.01;
 
 /// Trace and determinant of the monodromy matrix, with their derivatives.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,8 +26,8 @@ pub struct Stability {
 }
 
 impl Stability {
-    /// The larger modulus of the two multipliers; at a double one, where it has none, its derivatives are infinite.
-    pub fn largest(&self) -> DifferentiatedFigure {
+    /// The modulus of the larger multiplier with its derivatives, which are infinite at a double one.
+    pub fn largest_multiplier(&self) -> DifferentiatedFigure {
         let (trace, determinant) = (self.trace.value, self.determinant.value);
         let half = 0.5 * trace;
         let square = half * half - determinant;
@@ -52,10 +53,10 @@ impl Stability {
 /// own exact derivative, at the cost of four maps for each parameter.
 ///
 /// # Errors
-/// As [`of`](super::of); [`NoDerivative`](softstop::MotionError::NoDerivative) also where motions beside cross something
+/// As [`differentiate_orbit`](super::differentiate_orbit); [`NoDerivative`](softstop::MotionError::NoDerivative) also where motions beside cross something
 /// else, however near.
 pub fn stability(orbit: &Orbit, parameters: &[Parameter]) -> Result<Stability, OrbitError> {
-    let variation = Variation::of(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
+    let variation = Variation::of_motion(&orbit.scene, orbit.state(), orbit.periods, parameters)?;
     let rates = variation.stability_rates(&orbit.scene, orbit.periods)?;
     let figure = |value: f64, which: usize| DifferentiatedFigure {
         value,
@@ -68,13 +69,13 @@ pub fn stability(orbit: &Orbit, parameters: &[Parameter]) -> Result<Stability, O
 }
 
 impl Variation {
-    /// Derivatives of trace and determinant along the orbit, by each parameter.
+    /// Derivatives of trace and determinant of the monodromy matrix along the orbit, by each parameter.
     pub(super) fn stability_rates(
         &self,
         scene: &Scene,
         periods: u64,
     ) -> Result<Vec<[f64; 2]>, OrbitError> {
-        let (positions, velocities) = self.state(&self.starts()?);
+        let (positions, velocities) = self.start_state(&self.start_rates()?);
         let impacts = self.watched.impacts.len();
         let ways = positions.by.iter().zip(&velocities.by);
         let each = self.parameters.iter().zip(ways);
@@ -82,7 +83,7 @@ impl Variation {
             let along = Vector2::new(*position, *velocity);
             let value = parameter.get(scene)?;
             let size = if value == 0.0 { 1.0 } else { value.abs() };
-            WIDTHS.iter().find_map(|share| {
+            DIFFERENCE_SHARES.iter().find_map(|share| {
                 let width = share * size;
                 let beside = |width: f64| {
                     let mut scene = scene.clone();
@@ -90,24 +91,25 @@ impl Variation {
                     let map = StroboscopicMap::new(&scene, periods).ok()?;
                     let passage = map.apply(self.start + width * along).ok()?;
                     let same = passage.impacts.len() == impacts;
-                    same.then(|| invariants(&passage.monodromy))
+                    same.then(|| trace_and_determinant(&passage.monodromy))
                 };
                 let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
                 let (wide, narrow) = (central(2.0 * width)?, central(width)?);
                 let found = (4.0 * narrow - wide) / 3.0;
-                let settled =
-                    (wide - narrow).norm() <= SETTLED_SHARE * found.norm() + VANISHING / size;
+                let settled = (wide - narrow).norm()
+                    <= DIFFERENCE_AGREEMENT * found.norm() + VANISHING_DERIVATIVE / size;
                 settled.then_some([found.x, found.y])
             })
         });
         let rates: Option<Vec<_>> = rates.collect();
-        rates.ok_or_else(|| none(&self.parameters))
+        rates.ok_or_else(|| no_derivative(&self.parameters))
     }
 }
 
 /// What rounding may leave of a derivative that vanishes, times the parameter.
-const VANISHING: f64 = 1e-7;
+const VANISHING_DERIVATIVE: f64 = 1e-7;
 
-fn invariants(monodromy: &Monodromy) -> Vector2<f64> {
+/// Trace and determinant of a monodromy matrix.
+fn trace_and_determinant(monodromy: &Monodromy) -> Vector2<f64> {
     Vector2::new(monodromy.trace(), monodromy.determinant())
 }

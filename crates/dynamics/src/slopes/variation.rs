@@ -1,32 +1,33 @@
-//! One round of a motion with all its derivatives.
+//! The variation of a motion with its start and with parameters: one pass with all derivatives.
 
 use nalgebra::{Vector2, Vector3};
 
 use softstop::internals::{PhaseDerivatives, Phases};
 use softstop::{MotionError, Parameter, Scene};
 
-use super::figure::DifferentiatedFigure;
-use super::recorder::{FigureRecorder, RecordedFigures};
+use super::differentiated_figure::DifferentiatedFigure;
+use super::figure_recorder::{FigureRecorder, RecordedFigures};
 use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
 
 /// 1 - tr + det in units of the size of the monodromy matrix up to which a motion is at a fold to rounding.
-const SINGULAR: f64 = 1e-11;
+const SINGULAR_FOLD_TEST: f64 = 1e-11;
 
-/// A motion from time 0 over some drive periods.
+/// A motion from time 0 over some drive periods, with its derivatives by start and parameters.
 pub(super) struct Variation {
     pub parameters: Vec<Parameter>,
     pub start: Vector2<f64>,
     frequency: f64,
     /// The Jacobian of the map.
     pub monodromy: Monodromy,
-    /// As [`ParameterSensitivity`](softstop::internals::ParameterSensitivity) has them in the end.
+    /// Columns of the sensitivity matrix at the end, as of
+    /// [`ParameterSensitivity`](softstop::internals::ParameterSensitivity).
     pub columns: Vec<Vector3<f64>>,
     pub watched: RecordedFigures,
     pub supplied: DifferentiatedFigure,
 }
 
-/// The changes of a scene's phases with each parameter.
-pub(super) fn lowered(
+/// The derivatives of a scene's phases by each parameter.
+pub(super) fn phase_derivatives(
     scene: &Scene,
     phases: &Phases,
     parameters: &[Parameter],
@@ -36,27 +37,28 @@ pub(super) fn lowered(
         .collect()
 }
 
-/// Where there are no derivatives.
-pub(super) fn none(parameters: &[Parameter]) -> OrbitError {
+/// The error where a motion has no derivatives by these parameters.
+pub(super) fn no_derivative(parameters: &[Parameter]) -> OrbitError {
     let name = parameters.first().map_or("state", |first| first.name());
     MotionError::NoDerivative { name }.into()
 }
 
 impl Variation {
-    pub fn of(
+    /// The variation of the motion of a scene from a state over some drive periods, by parameters.
+    pub fn of_motion(
         scene: &Scene,
         start: Vector2<f64>,
         periods: u64,
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
         let motion = StroboscopicMap::new(scene, periods)?.trajectory(start)?;
-        let by = lowered(scene, &motion.phases, parameters)?;
+        let by = phase_derivatives(scene, &motion.phases, parameters)?;
         let mut recorder = FigureRecorder::new(&motion.phases, &by, motion.clock);
         motion.tell(&mut recorder);
         let columns = recorder
             .influence
             .columns()
-            .ok_or_else(|| none(parameters))?;
+            .ok_or_else(|| no_derivative(parameters))?;
         let supplied = DifferentiatedFigure {
             value: recorder.influence.supplied,
             by: columns.iter().map(|column| column.z).collect(),
@@ -72,15 +74,16 @@ impl Variation {
         })
     }
 
-    pub fn none(&self) -> OrbitError {
-        none(&self.parameters)
+    /// The error where this motion has no derivatives.
+    pub fn no_derivative(&self) -> OrbitError {
+        no_derivative(&self.parameters)
     }
 
-    /// Changes of the state at time 0 with each parameter, velocities with the drive's frequency held.
-    pub fn starts(&self) -> Result<Vec<Vector2<f64>>, OrbitError> {
+    /// Derivatives of the orbit's state at time 0 by each parameter, velocities with the drive's frequency held.
+    pub fn start_rates(&self) -> Result<Vec<Vector2<f64>>, OrbitError> {
         let monodromy = &self.monodromy;
         let size = 1.0 + monodromy.trace().abs() + monodromy.determinant().abs();
-        let inverse = (monodromy.fold_test().abs() > SINGULAR * size)
+        let inverse = (monodromy.fold_test().abs() > SINGULAR_FOLD_TEST * size)
             .then(|| monodromy.resolvent())
             .flatten()
             .ok_or(OrbitError::NotIsolated)?;
@@ -88,15 +91,18 @@ impl Variation {
         Ok(forced.map(|column| inverse * column.xy()).collect())
     }
 
-    /// A figure's derivatives along the motion.
-    pub fn along(&self, row: &DifferentiatedFigure, starts: &[Vector2<f64>]) -> Vec<f64> {
+    /// The total derivatives of a figure by the parameters, with the orbit's start moving along.
+    pub fn total_rates(&self, row: &DifferentiatedFigure, starts: &[Vector2<f64>]) -> Vec<f64> {
         let own = row.by[2..].iter().zip(starts);
         own.map(|(own, start)| own + row.by[0] * start.x + row.by[1] * start.y)
             .collect()
     }
 
-    /// The state at time 0.
-    pub fn state(&self, starts: &[Vector2<f64>]) -> (DifferentiatedFigure, DifferentiatedFigure) {
+    /// The orbit's state at time 0, position and velocity, with derivatives.
+    pub fn start_state(
+        &self,
+        starts: &[Vector2<f64>],
+    ) -> (DifferentiatedFigure, DifferentiatedFigure) {
         let faster = |parameter: &Parameter| match parameter {
             Parameter::Frequency => self.start.y / self.frequency,
             _ => 0.0,

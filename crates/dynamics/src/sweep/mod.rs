@@ -3,7 +3,7 @@
 //! The rule: each value of the parameter holds for a whole number of drive periods. The state at the end of a
 //! step, at drive angle phi, is the start of the next one. So position, velocity and drive angle are continuous;
 //! the parameter alone jumps, each time at drive angle phi. A sweep loses a motion later than the motion itself
-//! ends, by so much the more as it goes faster: where it does is told with the rate ([`Plan::rate`]).
+//! ends, by so much the more as it goes faster: where it does is told with the rate ([`Plan::sweep_rate`]).
 //!
 //! Many sweeps, of several machines and both directions, go side by side in the lanes of the batch engine.
 //! What comes out depends on plan and chains alone, not on the number of threads, nor on whether the sweep was
@@ -11,14 +11,14 @@
 //!
 //! ```
 //! use softstop::{Parameter, Ratios};
-//! use softstop_dynamics::sweep::{Chain, Direction, Plan, hysteresis};
+//! use softstop_dynamics::sweep::{Chain, Direction, Plan, find_coexistences};
 //! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let machine = Ratios::unloaded().scene()?;
 //! let plan = Plan::new(Parameter::Frequency, (1.01, 1.4), 40, 200)?;
 //! let mut chains = [Direction::Up, Direction::Down].map(|way| Chain::new(machine.clone(), way));
-//! plan.run(&mut chains, &unmonitored);
-//! let zones = hysteresis(&chains[0], &chains[1]);
+//! plan.run_chains(&mut chains, &unmonitored);
+//! let zones = find_coexistences(&chains[0], &chains[1]);
 //! // Between g0 = 1.04444 and s_SN = 1.369036 the way matters.
 //! assert_eq!(zones.len(), 1);
 //! assert!((zones[0].from - 1.05).abs() < 1e-9 && (zones[0].to - 1.36).abs() < 1e-9);
@@ -27,27 +27,27 @@
 
 mod compare;
 mod run;
-mod settle;
+mod step;
 
-pub use compare::{Coexistence, Jump, hysteresis};
-pub use settle::Step;
+pub use compare::{Coexistence, Jump, find_coexistences};
+pub use step::Step;
 
 use thiserror::Error;
 
 pub use crate::direction::Direction;
-use crate::orbit::recurrence::RETURN;
+use crate::orbit::recurrence::RETURN_DISTANCE;
 use softstop::{Machine, Parameter, Start};
 
-/// How a parameter is swept.
+/// The plan of a sweep: which parameter, which values, for how long each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plan {
-    /// What changes.
+    /// The parameter that is swept.
     pub parameter: Parameter,
     /// Its least and largest value.
     pub range: (f64, f64),
     /// Number of values, evenly spaced, both ends included; at least 2.
     pub steps: usize,
-    /// Drive periods for each; at least 1.
+    /// Drive periods for each value; at least 1.
     pub periods: u64,
     /// Distance within which a state has returned, in units of the motion's size. Where each step is too
     /// short to settle, it has to be larger than what a step changes.
@@ -58,7 +58,7 @@ pub struct Plan {
     pub start: Start,
 }
 
-/// A plan that cannot be.
+/// Why a plan of a sweep is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
@@ -79,11 +79,11 @@ pub enum PlanError {
 }
 
 impl Plan {
-    /// Most chains that go together, as many as there are lanes at most. Lanes that go together round together, so the
+    /// Most sweeps that go together, as many as there are lanes at most. Lanes that go together round together, so the
     /// groups may not depend on how many threads there are.
-    pub const TOGETHER: usize = 16;
+    pub const MAX_CHAINS_TOGETHER: usize = 16;
 
-    /// A plan that starts from rest at the origin.
+    /// A plan of a sweep that starts from rest at the origin.
     ///
     /// # Errors
     /// [`PlanError`] if it cannot be.
@@ -108,14 +108,14 @@ impl Plan {
             range,
             steps,
             periods,
-            tolerance: RETURN,
+            tolerance: RETURN_DISTANCE,
             heights: true,
             start: Start::REST,
         })
     }
 
-    /// The parameter's value at a step, counted from 0 in the direction of the sweep.
-    pub fn value(&self, step: usize, direction: Direction) -> f64 {
+    /// The parameter's value at a step of the sweep, counted from 0 in its direction.
+    pub fn value_at(&self, step: usize, direction: Direction) -> f64 {
         let last = self.steps - 1;
         let place = match direction {
             Direction::Up => step,
@@ -125,34 +125,34 @@ impl Plan {
         self.range.0 + share * (self.range.1 - self.range.0)
     }
 
-    /// Mean change of the parameter per drive period.
-    pub fn rate(&self) -> f64 {
+    /// Mean change of the parameter per drive period of the sweep.
+    pub fn sweep_rate(&self) -> f64 {
         (self.range.1 - self.range.0) / (self.steps - 1) as f64 / self.periods as f64
     }
 
-    /// The last drive periods of a step, in which it is looked at: half of them, but no more than 128, and
-    /// no fewer than 16 unless there are none.
-    pub fn watched(&self) -> u64 {
+    /// The last drive periods of a step, in which its motion is watched: half of them, but no more than 128, and no
+    /// fewer than 16 unless there are none.
+    pub fn watched_periods(&self) -> u64 {
         (self.periods / 2).clamp(16.min(self.periods), 128)
     }
 }
 
-/// One machine on its way through the values of the parameter.
+/// A sweep of one machine in one direction, with the steps that it has made.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Chain {
     /// The machine; its own value of the parameter plays no part.
     pub machine: Machine,
-    /// Which way.
+    /// The direction in which the parameter changes.
     pub direction: Direction,
     /// The steps that are complete, in the order in which they were made.
     pub steps: Vec<Step>,
-    /// Why it cannot go on, in words.
+    /// Why the sweep cannot go on, in words.
     pub error: Option<String>,
 }
 
 impl Chain {
-    /// A chain that has not begun.
+    /// A sweep of a machine that has not begun.
     pub fn new(machine: impl Into<Machine>, direction: Direction) -> Self {
         Self {
             machine: machine.into(),
@@ -162,8 +162,8 @@ impl Chain {
         }
     }
 
-    /// The steps in rising order of the parameter.
-    pub fn rising(&self) -> Vec<&Step> {
+    /// The steps of the sweep in rising order of the parameter.
+    pub fn rising_steps(&self) -> Vec<&Step> {
         let mut steps: Vec<&Step> = self.steps.iter().collect();
         if self.direction == Direction::Down {
             steps.reverse();

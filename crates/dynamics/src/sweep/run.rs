@@ -1,4 +1,4 @@
-//! Sweeps side by side in the lanes.
+//! Running sweeps side by side in the lanes.
 
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -7,34 +7,34 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settle::Step;
+use super::step::Step;
 use super::{Chain, Plan};
 use crate::ensemble::{Ensemble, Member};
-use crate::monitor::{Kept, Monitor, PIECE, piece};
+use crate::monitor::{Monitor, OptionalMemory, PIECE_DURATION, recall_or_compute};
 use crate::settled::SettledMotion;
 use softstop::internals::budget::{self, Fork};
 use softstop::{MotionError, Parameter, Scene};
 use softstop_lanes::Machine;
 
-/// What a chain comes to in a piece of work.
+/// The steps that a sweep makes in one stored piece of work.
 #[derive(Serialize, Deserialize)]
-struct Made {
+struct ChainProgress {
     steps: Vec<Step>,
     error: Option<String>,
 }
 
 impl Plan {
-    /// Carries all chains on to their ends, from wherever they are, unless the monitor says stop: it is told of the
-    /// steps that are done of all. True if all came to their ends.
-    pub fn run(&self, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
-        self.run_for(Duration::MAX, chains, monitor)
+    /// Runs all sweeps to their ends, from wherever they are, unless the monitor says stop: it is told of the steps
+    /// that are done of all. True if all came to their ends.
+    pub fn run_chains(&self, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
+        self.run_chains_for(Duration::MAX, chains, monitor)
     }
 
-    /// Carries all chains on for about so long, to the ends of the steps that are under way then.
-    fn run_for(&self, time: Duration, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
+    /// Runs all sweeps for about so long, to the ends of the steps that are under way then.
+    fn run_chains_for(&self, time: Duration, chains: &mut [Chain], monitor: Monitor<'_>) -> bool {
         let begin = Instant::now();
         let all = (self.steps * chains.len()) as u64;
-        let groups = chains.len().div_ceil(Self::TOGETHER).max(1);
+        let groups = chains.len().div_ceil(Self::MAX_CHAINS_TOGETHER).max(1);
         let size = chains.len().div_ceil(groups).max(1);
         let stopped = AtomicBool::new(false);
         let done = chains.iter().map(|chain| chain.steps.len() as u64);
@@ -43,7 +43,7 @@ impl Plan {
         let run = |group: &mut [Chain]| {
             while !stopped.load(Ordering::Relaxed) {
                 let ask = |_, _| monitor(done.load(Ordering::Relaxed), all);
-                let Some(steps) = self.step(group, &ask) else {
+                let Some(steps) = self.step_chains(group, &ask) else {
                     stopped.store(true, Ordering::Relaxed);
                     break;
                 };
@@ -62,8 +62,8 @@ impl Plan {
         chains.iter().all(|chain| self.is_complete(chain))
     }
 
-    /// What its chains come to follows from this.
-    pub fn identity(&self, chains: &[Chain]) -> impl Serialize + use<> {
+    /// The key of some sweeps under this plan: what they come to follows from it.
+    pub fn plan_identity(&self, chains: &[Chain]) -> impl Serialize + use<> {
         let chains = chains.iter();
         let chains = chains.map(
             |Chain {
@@ -82,23 +82,28 @@ impl Plan {
         (self.parameter.name(), plan, self.start, chains)
     }
 
-    /// [`Plan::run`], piece by piece: what is known of them is recalled, and what they come to is kept.
-    pub fn run_kept(&self, chains: &mut [Chain], monitor: Monitor<'_>, kept: Kept<'_>) -> bool {
+    /// Runs all sweeps piece by piece, as [`Plan::run_chains`] does, with pieces recalled and stored.
+    pub fn run_chains_with_memory(
+        &self,
+        chains: &mut [Chain],
+        monitor: Monitor<'_>,
+        kept: OptionalMemory<'_>,
+    ) -> bool {
         if kept.is_none() {
-            return self.run(chains, monitor);
+            return self.run_chains(chains, monitor);
         }
         let all = (self.steps * chains.len()) as u64;
-        let of = self.identity(chains);
+        let of = self.plan_identity(chains);
         loop {
             let before: Vec<usize> = chains.iter().map(|chain| chain.steps.len()).collect();
-            let Ok(made) = piece(kept, &("sweep", &of, &before), || {
-                self.run_for(PIECE, chains, monitor);
+            let Ok(made) = recall_or_compute(kept, &("sweep", &of, &before), || {
+                self.run_chains_for(PIECE_DURATION, chains, monitor);
                 let made = chains.iter().zip(&before);
-                let made = made.map(|(chain, before)| Made {
+                let made = made.map(|(chain, before)| ChainProgress {
                     steps: chain.steps[*before..].to_vec(),
                     error: chain.error.clone(),
                 });
-                Ok::<Vec<Made>, Infallible>(made.collect())
+                Ok::<Vec<ChainProgress>, Infallible>(made.collect())
             });
             for ((chain, before), made) in chains.iter_mut().zip(before).zip(made) {
                 chain.steps.truncate(before);
@@ -115,13 +120,13 @@ impl Plan {
         }
     }
 
+    /// True if a sweep has made all steps, or cannot go on.
     fn is_complete(&self, chain: &Chain) -> bool {
         chain.steps.len() >= self.steps || chain.error.is_some()
     }
 
-    /// Makes the next step of those chains of a group that are the farthest behind; how many there are. None is made
-    /// where it is stopped.
-    fn step(&self, group: &mut [Chain], monitor: Monitor<'_>) -> Option<u64> {
+    /// Makes the next step of those sweeps of a group that are the farthest behind; how many, none if stopped.
+    fn step_chains(&self, group: &mut [Chain], monitor: Monitor<'_>) -> Option<u64> {
         let afloat = group.iter().filter(|chain| !self.is_complete(chain));
         let Some(step) = afloat.map(|chain| chain.steps.len()).min() else {
             return Some(0);
@@ -131,7 +136,7 @@ impl Plan {
             if self.is_complete(chain) || chain.steps.len() != step {
                 continue;
             }
-            match self.lowered(chain) {
+            match self.lower_next_step(chain) {
                 Ok((scene, machine)) => {
                     let state = chain.steps.last().map_or(self.start, |step| step.end);
                     members.push(Member::new(machines.len(), state));
@@ -144,11 +149,11 @@ impl Plan {
         let count = moved.len() as u64;
         let ensemble = Ensemble::new(machines, monitor);
         let mut open: Vec<&mut Member> = members.iter_mut().collect();
-        let observed = ensemble.observe(&mut open, self.periods, self.watched());
+        let observed = ensemble.record_run(&mut open, self.periods, self.watched_periods());
         observed.ok()?;
         for ((index, scene), member) in moved.into_iter().zip(members) {
             let chain = &mut group[index];
-            let value = self.value(step, chain.direction);
+            let value = self.value_at(step, chain.direction);
             let made = match member.error {
                 Some(error) => Err(error),
                 None => {
@@ -165,10 +170,10 @@ impl Plan {
         Some(count.max(1))
     }
 
-    /// The machine at the next step of a chain.
-    fn lowered(&self, chain: &Chain) -> Result<(Scene, Machine), MotionError> {
+    /// The scene and the lowered machine at the next step of a sweep.
+    fn lower_next_step(&self, chain: &Chain) -> Result<(Scene, Machine), MotionError> {
         let mut machine = chain.machine.clone();
-        let value = self.value(chain.steps.len(), chain.direction);
+        let value = self.value_at(chain.steps.len(), chain.direction);
         machine.set(self.parameter, value);
         machine.validate()?;
         let lowered = Machine::new(&machine.scene)?;

@@ -26,7 +26,7 @@ impl Bounds {
     /// [`OrbitError`] if the branch cannot be begun.
     pub fn of(scene: &Scene, near: Option<Start>) -> Result<Self, OrbitError> {
         let grazing = grazing_frequencies(scene).ok().map(|(_, above)| above);
-        let orbit = near.map(|start| Orbit::near(scene, start.into()));
+        let orbit = near.map(|start| Orbit::find_near(scene, start.into()));
         let orbit = orbit.transpose()?;
         let bound = |heading, test| match &orbit {
             Some(orbit) => loss_of_stability(orbit, heading, test),

@@ -107,7 +107,7 @@ fn from_start(
     (start, upper): (Option<Orbit>, UpperEnd),
     monitor: Monitor<'_>,
 ) -> Result<Zone, ZoneError> {
-    OrbitError::ask(monitor)?;
+    OrbitError::ask_monitor(monitor)?;
     let family = Frequencies(scene);
     let start = start.ok_or(ZoneError::NoOrbit {
         frequency: frequency_g0.into(),
@@ -154,7 +154,7 @@ pub(super) fn upward(
             let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
             stop_if(flipped || outside || ends_in_grazing || monitor(0, 0).is_break())
         })?;
-    OrbitError::ask(monitor)?;
+    OrbitError::ask_monitor(monitor)?;
     insert_folds(continuation, &mut branch);
     Ok(branch)
 }

@@ -52,7 +52,7 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
         if let Some(start) = hardest_single(&scene.at_frequency(frequency), least, monitor)? {
             zones.extend(about(scene, &start, between, monitor).ok().flatten());
         }
-        OrbitError::ask(monitor)?;
+        OrbitError::ask_monitor(monitor)?;
     }
     let hardest = zones.into_iter().filter_map(|zone| {
         let velocity = hardest_between(&zone, between)?;
@@ -119,7 +119,7 @@ fn about(
             let ends = !point.is_stable() || point.parameter < range.0;
             stop_if(ends || monitor(0, 0).is_break())
         })?;
-    OrbitError::ask(monitor)?;
+    OrbitError::ask_monitor(monitor)?;
     let low = ended(&continuation, &mut branch, Direction::Down, range)?;
     branch.reverse();
     branch.extend(above.into_iter().skip(1));

@@ -6,7 +6,7 @@ use super::stable_range::{StableRange, is_same, lies_between, sizes, stable};
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
 use crate::monitor::{Monitor, unmonitored};
-use crate::orbit::{Orbit, OrbitError, all_about, singles_near};
+use crate::orbit::{Orbit, OrbitError, singles_about, singles_near};
 use softstop::Scene;
 
 /// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row: closely
@@ -66,7 +66,11 @@ pub(super) fn find_stable_ranges(
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MAX_BRANCHES) {
         next += 1;
-        let mut met = VecDeque::from(all_about(&scene.at_frequency(frequency), BETWEEN, monitor)?);
+        let mut met = VecDeque::from(singles_about(
+            &scene.at_frequency(frequency),
+            BETWEEN,
+            monitor,
+        )?);
         while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MAX_BRANCHES) {
             let frequency = orbit.scene.excitation.frequency;
             let point = BranchPoint {
@@ -88,7 +92,7 @@ pub(super) fn find_stable_ranges(
             }
             let go_on = |_: &BranchPoint| monitor(0, 0);
             if let Ok(branch) = continuation.branch(frequency, orbit.state(), &limits, go_on) {
-                OrbitError::ask(monitor)?;
+                OrbitError::ask_monitor(monitor)?;
                 for border in borders(&branch) {
                     frequencies.extend(beside(border.parameter));
                     let border = continuation.orbit(border);

@@ -3,7 +3,7 @@
 use super::curves::{followed, plane};
 use super::*;
 use softstop::{Machine, Release, Stop};
-use softstop_dynamics::attractors::{SearchOptions, attractors};
+use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 use softstop_dynamics::continuation::{CodimensionTwo, switch_curves};
 
 /// A machine with m = k = F0 = 1 before a stop, at 0.95 of the clearance that the motion without impacts reaches.
@@ -26,7 +26,7 @@ const STOPS: [&str; 2] = [
 
 /// The special points of z = 1 over the clearance, from its stable motion.
 fn over_the_clearance(scene: &Scene) -> Branch {
-    let found = attractors(scene, &SearchOptions::default(), &|_, _| {
+    let found = find_attractors(scene, &SearchOptions::default(), &|_, _| {
         ControlFlow::Continue(())
     });
     let found = found.expect("attractors").attractors;

@@ -88,7 +88,7 @@ fn rigid_orbits_are_those_of_the_closed_form() {
         // the stop.
         for (dx, dv) in [(-1e-2, -1e-2), (-1e-2, 1e-2), (-3e-2, 0.0)] {
             let state = Vector2::new(orbit.position + dx, orbit.velocity + dv);
-            let again = Orbit::near(&scene, state).expect("Newton's method settles");
+            let again = Orbit::find_near(&scene, state).expect("Newton's method settles");
             assert_near(
                 again.before_impact_velocity(),
                 orbit.before_impact_velocity(),

@@ -2,15 +2,15 @@
 
 use softstop::{Dimension, Machine, Parameter};
 use softstop_draw::{Axis, Chart, Layer, Panel, Stroke, style};
-use softstop_dynamics::basin::Establishing;
+use softstop_dynamics::basin::CertaintyAtPlace;
 
 /// Values upwards: a share, with room for the line at one.
 pub const SHARES: (f64, f64) = (0.0, 1.02);
 
 /// The band of the intervals, and the line of the certainty, over a place of the zone.
 pub fn layers(
-    places: &[Establishing],
-    across: impl Fn(&Establishing) -> f64,
+    places: &[CertaintyAtPlace],
+    across: impl Fn(&CertaintyAtPlace) -> f64,
     stroke: Stroke,
 ) -> [Layer; 2] {
     let sure = places.iter().map(|place| (across(place), place.interval));
@@ -22,8 +22,8 @@ pub fn layers(
 }
 
 /// The certainty of z = 1 along the hysteresis zone of one machine, as an SVG document.
-pub fn chart(machine: &Machine, places: &[Establishing], title: &str) -> String {
-    let across = |place: &Establishing| machine.to_own(Dimension::Frequency, place.frequency);
+pub fn chart(machine: &Machine, places: &[CertaintyAtPlace], title: &str) -> String {
+    let across = |place: &CertaintyAtPlace| machine.to_own(Dimension::Frequency, place.frequency);
     let stroke = Stroke::solid(style::DESIGN, 2.2);
     let frequency = machine.label_of(Parameter::Frequency);
     let panel = Panel {

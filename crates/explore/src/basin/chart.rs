@@ -86,7 +86,7 @@ fn name(machine: &Machine, axis: &BasinAxis) -> String {
 /// What a basin is called.
 fn label(class: &Attractor) -> String {
     let motion = &class.motion;
-    match (motion.told_order(), motion.regime()) {
+    match (motion.order_beyond_regime(), motion.regime()) {
         (Some(order), Some(regime)) if motion.class() == MotionClass::Paired => {
             format!("z = ({regime})B: {order}")
         }

@@ -12,8 +12,8 @@ use anyhow::{Context, Error, anyhow};
 use clap::Args;
 use softstop::Machine;
 use softstop_dynamics::attractors::starting_box;
-use softstop_dynamics::basin::{BasinOptions, basins, establishing, zone_box};
-use softstop_dynamics::monitor::Kept;
+use softstop_dynamics::basin::{BasinOptions, establishing_certainties, find_basins, zone_box};
+use softstop_dynamics::monitor::OptionalMemory;
 use softstop_dynamics::zone;
 
 use plane::{Plane, Size};
@@ -183,10 +183,10 @@ fn picture(
     let grid = limit.limit(|| plane::grid(arguments, scene, region))?;
     let of = (scene, grid, options);
     let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
-    let progress = Progress::new(grid.cells() as u64, "cells");
-    let kept: Kept<'_> = Some(&keep);
-    let basins = limit.limit_many(grid.cells(), || {
-        let basins = basins(scene, &grid, options, &progress.watcher(), kept);
+    let progress = Progress::new(grid.cell_count() as u64, "cells");
+    let kept: OptionalMemory<'_> = Some(&keep);
+    let basins = limit.limit_many(grid.cell_count(), || {
+        let basins = find_basins(scene, &grid, options, &progress.watcher(), kept);
         Ok(basins.map_err(Error::from)?)
     })?;
     drop(progress);
@@ -196,7 +196,7 @@ fn picture(
     export.file("png", &png)?;
     hand_over("labels", || Array::Indices(basins.cells.clone()));
     for (name, axis) in [("across", &grid.across), ("up", &grid.up)] {
-        let middles = || (0..axis.cells).map(|cell| axis.value(cell)).collect();
+        let middles = || (0..axis.cells).map(|cell| axis.value_at(cell)).collect();
         hand_over(name, || Array::Numbers(middles()));
     }
     let (report, text) = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
@@ -233,10 +233,11 @@ fn along_zone(
         .collect();
     let of = (&zone.scene, &shares, grid, options);
     let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
-    let progress = Progress::new((grid.cells() * places) as u64, "cells");
-    let kept: Kept<'_> = Some(&keep);
-    let found = limit.limit_many(grid.cells() * places, || {
-        let found = establishing(&zone, &shares, &grid, options, &progress.watcher(), kept);
+    let progress = Progress::new((grid.cell_count() * places) as u64, "cells");
+    let kept: OptionalMemory<'_> = Some(&keep);
+    let found = limit.limit_many(grid.cell_count() * places, || {
+        let found =
+            establishing_certainties(&zone, &shares, &grid, options, &progress.watcher(), kept);
         Ok(found.map_err(Error::from)?)
     })?;
     drop(progress);

@@ -127,7 +127,7 @@ pub(super) fn grid(
         across: columns,
         up: rows,
     } = arguments.size;
-    let mut grid = Grid::states(
+    let mut grid = Grid::of_states(
         axis(across, columns),
         axis(up, rows),
         scene.excitation.phase,

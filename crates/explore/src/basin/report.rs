@@ -8,7 +8,7 @@ use softstop_console::columns;
 use softstop_console::record::{Record, below};
 use softstop_console::report::{MotionName, stated_machine};
 use softstop_dynamics::attractors::Attractor;
-use softstop_dynamics::basin::{AxisQuantity, Clearing, Establishing};
+use softstop_dynamics::basin::{AxisQuantity, BasinBall, CertaintyAtPlace};
 use softstop_dynamics::{Axis, Basins, Grid, Regime};
 
 /// The basins of one machine.
@@ -36,7 +36,7 @@ pub(super) struct CertaintyReport {
 }
 
 /// A row of `basin.csv`.
-pub(super) type Basin<'a> = (&'a Attractor, Option<Clearing>);
+pub(super) type Basin<'a> = (&'a Attractor, Option<BasinBall>);
 
 /// Columns of `basin.csv` that say what the motion is.
 const NAMING: usize = 3;
@@ -44,7 +44,7 @@ const NAMING: usize = 3;
 /// The columns of `basin.csv`.
 pub(super) fn columns<'a>() -> [Column<Basin<'a>>; 10] {
     columns! { Basin<'a>, it;
-        "kind" [None] Plain, "of what the basin's motions settle on" => it.0.motion.key();
+        "kind" [None] Plain, "of what the basin's motions settle on" => it.0.motion.json_key();
         "z" [None] Plain, "regime z = p/n, if the motion repeats" => it.0.motion.z();
         "order" [None] Plain, "impacts in each of its drive periods" => it.0.motion.order().map(ToString::to_string);
         "before_impact_velocity" [Velocity] Fixed(4), "of its hardest impact" => it.0.orbit.as_ref().map(|it| it.before_impact_velocity());
@@ -72,7 +72,7 @@ pub(super) fn rows(basins: &Basins) -> Vec<Basin<'_>> {
 }
 
 /// A row of `certainty.csv`.
-pub(super) type Place<'a> = (&'a Machine, &'a Establishing);
+pub(super) type Place<'a> = (&'a Machine, &'a CertaintyAtPlace);
 
 /// The columns of `certainty.csv`.
 pub(super) fn places<'a>() -> [Column<Place<'a>>; 7] {
@@ -87,7 +87,7 @@ pub(super) fn places<'a>() -> [Column<Place<'a>>; 7] {
     }
 }
 
-fn motions(place: &Establishing) -> String {
+fn motions(place: &CertaintyAtPlace) -> String {
     let motions = place.basins.classes.iter().map(|class| {
         let name = MotionName::of(&class.motion);
         format!("{}: {:.6}", name.word(), class.share)
@@ -151,7 +151,7 @@ impl CertaintyReport {
     pub(super) fn new(
         machine: &Machine,
         (grid, widened): (&Grid, bool),
-        found: &[Establishing],
+        found: &[CertaintyAtPlace],
     ) -> (Self, String) {
         let columns = places();
         let figures = |place| Record::of(&columns[..columns.len() - 1], &(machine, place));

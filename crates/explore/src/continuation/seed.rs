@@ -3,7 +3,7 @@
 use anyhow::{Error, anyhow};
 use nalgebra::Vector2;
 use softstop::Scene;
-use softstop_dynamics::attractors::{SearchOptions, attractors};
+use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 use softstop_dynamics::zone::find_with_monitor;
 use softstop_dynamics::{Orbit, Regime};
 
@@ -60,7 +60,7 @@ pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
         ..SearchOptions::default()
     };
     let bar = Progress::new(1, "drive periods at most, in search of the orbit");
-    let survey = attractors(scene, &options, &|done, planned| {
+    let survey = find_attractors(scene, &options, &|done, planned| {
         bar.at_of(done, planned);
         interrupt::go_on()
     });

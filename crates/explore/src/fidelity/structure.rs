@@ -164,7 +164,7 @@ fn regime(scene: &Scene, frequency: f64, flung: f64) -> Result<Option<Regime>, F
     let length = scene.clearance.abs().max(static_deflection);
     // With interference the mass would stand beyond a rigid stop.
     let start = Start::new(scene.clearance.min(0.0), flung * length * unit);
-    let (regime, _) = Regime::after(&scene, start, TRANSIENT)
+    let (regime, _) = Regime::after_transient(&scene, start, TRANSIENT)
         .with_context(|| format!("cannot run the sweep at {frequency} rad/s"))?;
     Ok(regime)
 }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use anyhow::Error;
 use clap::Args;
-use softstop_dynamics::attractors::{SearchOptions, attractors, starting_box};
+use softstop_dynamics::attractors::{SearchOptions, find_attractors, starting_box};
 
 use report::report;
 use softstop_console::arguments::CommandArguments;
@@ -88,7 +88,7 @@ pub fn run(arguments: &MotionsArguments) -> Result<(), Failure> {
     let survey = arguments.common.limit.budget.limit(|| {
         let region = starting_box(&machine.scene, &|_, _| interrupt::go_on());
         options.region = Some(region.map_err(Error::from)?);
-        Ok(attractors(&machine.scene, &options, &watcher).map_err(Error::from)?)
+        Ok(find_attractors(&machine.scene, &options, &watcher).map_err(Error::from)?)
     })?;
     drop(progress);
     let (result, text) = report(&machine, &options, &survey);

@@ -122,7 +122,7 @@ fn velocities(orbit: &Orbit) -> Vec<f64> {
 fn chaotic() -> [Column<Chaos>; 8] {
     columns! { Chaos, it;
         "exponents" [None] Plain, "Lyapunov exponent" => larger(&it.exponents);
-        "dimension" [None] Fixed(3), "Kaplan-Yorke dimension of its states at drive angle phi" => it.exponents.dimension();
+        "dimension" [None] Fixed(3), "Kaplan-Yorke dimension of its states at drive angle phi" => it.exponents.kaplan_yorke_dimension();
         "impacts_per_period" [None] Fixed(3), "impacts per drive period" => it.impacts_per_period;
         "least_before_impact_velocity" [Velocity] Fixed(4), "before impact, least" => it.velocities.map(|it| it[0]);
         "before_impact_velocity" [Velocity] Fixed(4), "and largest" => it.velocities.map(|it| it[1]);

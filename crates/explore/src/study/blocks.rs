@@ -221,7 +221,7 @@ impl<'a> Run<'a> {
         let progress = Progress::new(own().map(size).sum(), "points");
         let known = |block: &u64| self.blocks().places[*block as usize].is_some();
         progress.begin_at(own().filter(known).map(size).sum());
-        points::blocks(0..self.study.points, BLOCK).try_for_each(|points| {
+        points::parallel_blocks(0..self.study.points, BLOCK).try_for_each(|points| {
             let block = points.start / BLOCK;
             if !self.shard.holds(block) || known(&block) {
                 return Ok(());

@@ -95,7 +95,7 @@ impl Study {
         let motions: Vec<_> = machines.iter().map(|it| (&it.scene, it.start)).collect();
         let seen = match wanted(Output::is_of_motion) {
             true => {
-                let seen = self.settling.follow(&motions, &interrupt::watch);
+                let seen = self.settling.follow_motions(&motions, &interrupt::watch);
                 seen.ok_or(Failure::Interrupted)?
             }
             false => Vec::new(),
@@ -186,7 +186,7 @@ impl Look<'_> {
     fn figure(&self, figure: Figure) -> Option<f64> {
         let frequency = self.scene().excitation.frequency;
         match figure {
-            Figure::Velocity => Some(self.seen.as_ref()?.hardest()),
+            Figure::Velocity => Some(self.seen.as_ref()?.hardest_impact()),
             Figure::MaxPosition => self.seen.as_ref()?.max_position(self.map()?).ok(),
             Figure::Share => {
                 let place = self.place()?;
@@ -202,7 +202,12 @@ impl Look<'_> {
             Figure::Certainty => {
                 let of = self.study.certainty;
                 let settling = self.study.settling;
-                settling.certainty(self.scene(), of.starts, of.region(), &interrupt::watch)
+                settling.single_impact_certainty(
+                    self.scene(),
+                    of.starts,
+                    of.region(),
+                    &interrupt::watch,
+                )
             }
             figure => {
                 let (orbit, stroke) = self.periodic()?;
@@ -216,12 +221,17 @@ impl Look<'_> {
     }
 
     fn map(&self) -> Option<&StroboscopicMap> {
-        let map = || self.seen.as_ref()?.map(self.scene()).ok();
+        let map = || self.seen.as_ref()?.watched_map(self.scene()).ok();
         self.map.get_or_init(map).as_ref()
     }
 
     fn motion(&self) -> Option<&(MotionKind, Option<f64>)> {
-        let motion = || self.seen.as_ref()?.motion(self.scene(), self.map()?).ok();
+        let motion = || {
+            self.seen
+                .as_ref()?
+                .motion_kind(self.scene(), self.map()?)
+                .ok()
+        };
         self.motion.get_or_init(motion).as_ref()
     }
 
@@ -242,7 +252,7 @@ impl Look<'_> {
     fn periodic(&self) -> Option<&(Orbit, CycleMetrics)> {
         let find = || {
             let seen = self.seen.as_ref()?;
-            let orbit = Orbit::periodic(self.scene(), seen.end.into(), seen.periods?).ok()?;
+            let orbit = Orbit::find_periodic(self.scene(), seen.end.into(), seen.periods?).ok()?;
             let is_same = Some(orbit.regime()) == seen.regime();
             let stroke = CycleMetrics::of(&orbit).ok()?;
             is_same.then_some((orbit, stroke))

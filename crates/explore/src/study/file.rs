@@ -12,7 +12,7 @@ use softstop_console::machine::Regime;
 use softstop_console::range::{require, within};
 use softstop_console::{record_log, scene_file};
 use softstop_dynamics::attractors::Region;
-use softstop_dynamics::points::DIMENSIONS;
+use softstop_dynamics::points::MAX_DIMENSIONS;
 use softstop_dynamics::settled::Settling;
 
 use super::axis::{Axis, Stated};
@@ -131,10 +131,10 @@ impl Study {
 
     fn new(file: File, folder: &Path, budget: Budget) -> Result<Self, Failure> {
         let machine = machine(&file, folder)?;
-        if file.axis.is_empty() || file.axis.len() > DIMENSIONS as usize {
+        if file.axis.is_empty() || file.axis.len() > MAX_DIMENSIONS as usize {
             let many = file.axis.len();
             return Err(Failure::usage(format!(
-                "axis: there are {many}, must be 1 to {DIMENSIONS}"
+                "axis: there are {many}, must be 1 to {MAX_DIMENSIONS}"
             )));
         }
         let axes = file.axis.iter().map(|stated| Axis::new(&machine, stated));

@@ -202,7 +202,7 @@ impl Output {
 
 /// The number of a kind.
 pub(super) fn kind(motion: &MotionKind) -> f64 {
-    let place = KINDS.iter().position(|kind| *kind == motion.key());
+    let place = KINDS.iter().position(|kind| *kind == motion.json_key());
     place.map_or(f64::NAN, |place| place as f64)
 }
 

@@ -108,7 +108,7 @@ pub(super) fn between(from: f64, to: f64, share: f64, scale: Scale) -> f64 {
 /// The share between 0 and 1 that a sample takes of an axis of random numbers or of Sobol points.
 pub(super) fn share(draw: Draw, seed: u32, sample: u64, dimension: u32) -> f64 {
     match draw {
-        Draw::Sobol => points::share(seed, sample, dimension),
-        Draw::Random => points::random(seed, sample, dimension),
+        Draw::Sobol => points::sobol_coordinate(seed, sample, dimension),
+        Draw::Random => points::random_coordinate(seed, sample, dimension),
     }
 }

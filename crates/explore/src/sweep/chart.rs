@@ -161,7 +161,7 @@ impl<'a> SweepChart<'a> {
                 Direction::Up => WAYS[1].1,
                 Direction::Down => WAYS[2].1,
             };
-            let jumps = chain.jumps().into_iter();
+            let jumps = chain.find_jumps().into_iter();
             jumps.filter_map(move |jump| {
                 let (before, after) = jump.velocities;
                 let arrow = Layer::arrow(

@@ -156,7 +156,7 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let plan = plan(arguments, parameter, ends)?;
     let mut chains = chains(arguments, &machine, parameter, ends)?;
     let export = Export::open(&arguments.output, &FILES)?;
-    let of = plan.identity(&chains);
+    let of = plan.plan_identity(&chains);
     let keep = Keep::open(&arguments.output, "sweep", &of, arguments.keep)?;
     let progress = Progress::new((plan.steps * chains.len()) as u64, "steps");
     let watcher = |done, _| {
@@ -164,7 +164,7 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         interrupt::go_on()
     };
     let steps = plan.steps * chains.len();
-    let run = || match plan.run_kept(&mut chains, &watcher, Some(&keep)) {
+    let run = || match plan.run_chains_with_memory(&mut chains, &watcher, Some(&keep)) {
         true => Ok(()),
         false => Err(Failure::Interrupted),
     };

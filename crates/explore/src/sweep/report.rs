@@ -7,7 +7,7 @@ use softstop_console::record::{Record, below};
 use softstop_console::report::{MotionName, stated_machine};
 use softstop_console::table::sections;
 use softstop_console::units;
-use softstop_dynamics::sweep::{Coexistence, Jump, hysteresis};
+use softstop_dynamics::sweep::{Coexistence, Jump, find_coexistences};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan};
 
 use super::steps::clearance;
@@ -19,7 +19,7 @@ fn plans<'a>() -> [Column<(&'a Machine, &'a Plan)>; 6] {
         "range" [Of("own")], "least and largest value" => [it.1.range.0, it.1.range.1];
         "steps" [None], "values" => it.1.steps;
         "periods" [None], "drive periods at each" => it.1.periods;
-        "rate_per_period" [Of("own")], "mean change per drive period" => it.1.rate();
+        "rate_per_period" [Of("own")], "mean change per drive period" => it.1.sweep_rate();
     }
 }
 
@@ -64,7 +64,7 @@ fn zones(digits: usize) -> [Column<Zone>; 5] {
 /// A motion; people read the order of its impacts, too, where there are several of them.
 fn name(motion: &MotionKind) -> MotionName {
     let mut name = MotionName::of(motion);
-    if let Some(order) = motion.told_order()
+    if let Some(order) = motion.order_beyond_regime()
         && motion.regime().is_none_or(|it| it.impacts > 1)
     {
         name.text += &format!(" ({order})");
@@ -89,7 +89,7 @@ pub(super) fn report(machine: &Machine, plan: &Plan, all: &[Chain]) -> (Record, 
     let of_machine = |pair: &[Chain]| match pair {
         [up, down] if goes_both => {
             let clearance = clearance(plan, up);
-            let zones = hysteresis(up, down).into_iter();
+            let zones = find_coexistences(up, down).into_iter();
             zones.map(|zone| (clearance, zone)).collect()
         }
         _ => Vec::new(),
@@ -109,11 +109,11 @@ pub(super) fn report(machine: &Machine, plan: &Plan, all: &[Chain]) -> (Record, 
         plan.range.1,
         plan.steps,
         plan.periods,
-        plan.rate(),
+        plan.sweep_rate(),
         below(&figures, &units),
     );
     let sweep = |(chain, figures): (&Chain, Record)| {
-        let jumps = Record::all(&jumps(digits), &chain.jumps());
+        let jumps = Record::all(&jumps(digits), &chain.find_jumps());
         if !jumps.is_empty() {
             let clearance = clearance(plan, chain).map(|it| format!("clearance {it}, "));
             let name = clearance.unwrap_or_default() + chain.direction.name();

@@ -18,9 +18,9 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 14] {
         "clearance" [Length], "of the machine, unless it is swept" => row.clearance;
         "direction" [None], "up or down" => row.direction.name();
         "value" [Of("own")], "of the parameter, in its own unit" => row.step.value;
-        "kind" [None], "of the motion" => row.step.motion.key();
+        "kind" [None], "of the motion" => row.step.motion.json_key();
         "z" [None], "regime z = p/n, if the motion repeats" => row.step.motion.z();
-        "order" [None], "impacts in each drive period of n" => row.step.motion.told_order().map(ToString::to_string);
+        "order" [None], "impacts in each drive period of n" => row.step.motion.order_beyond_regime().map(ToString::to_string);
         "impacts_per_period" [None], "mean per drive period" => row.step.impacts_per_period;
         "growth_per_period" [None], "ln of that of small differences, unless p/n" => row.step.growth;
         "least_before_impact_velocity" [Velocity], "of all watched" => row.step.velocities.first().copied();

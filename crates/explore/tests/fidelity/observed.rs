@@ -74,7 +74,7 @@ fn regime_at(frequency: f64, start: Start) -> Result<Option<Regime>, Box<dyn std
         ..Ratios::unloaded()
     }
     .scene()?;
-    Ok(Regime::after(&scene, start, 400)?.0)
+    Ok(Regime::after_transient(&scene, start, 400)?.0)
 }
 
 #[test]

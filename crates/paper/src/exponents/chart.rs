@@ -56,7 +56,9 @@ pub(super) fn chart(
 /// The diagram or the exponents of a part.
 fn panel(part: &Found, column: usize, row: usize) -> Panel {
     let points = part.ways.iter().flatten();
-    let top = points.map(|point| point.step.hardest()).fold(1.0, f64::max);
+    let top = points
+        .map(|point| point.step.hardest_impact())
+        .fold(1.0, f64::max);
     let (name, range) = match row {
         0 => ("before-impact velocity X′₋", (-0.04 * top, 1.08 * top)),
         _ => ("λ per unit of τ", part.asked.exponents),

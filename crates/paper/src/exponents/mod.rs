@@ -77,7 +77,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let stable = branch.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
     let (hardest, stable) = (*hardest.context(none)?, *stable.context(none)?);
     let points = parts.iter().flat_map(|part| &part.ways).flatten();
-    let places = points.map(|at| [at.step.value, at.step.hardest(), at.exponent.0]);
+    let places = points.map(|at| [at.step.value, at.step.hardest_impact(), at.exponent.0]);
     let chaotic = places.filter(|it| it[2] > 0.0);
     let chaotic = chaotic.max_by(|a, b| a[2].total_cmp(&b[2]));
     let named = |name: &str, at: Place| {
@@ -121,7 +121,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 
 /// The steps of a sweep with their exponents, in rising order.
 fn points(chain: &Chain, batch: u64, progress: &Progress) -> Result<Vec<Point>> {
-    let points = chain.rising().into_par_iter().map(|step| {
+    let points = chain.rising_steps().into_par_iter().map(|step| {
         progress.step()?;
         let exponent = exponent(&chain.machine.scene, step, batch)?;
         let step = step.clone();
@@ -133,12 +133,12 @@ fn points(chain: &Chain, batch: u64, progress: &Progress) -> Result<Vec<Point>> 
 fn exponent(scene: &Scene, step: &Step, batch: u64) -> Result<(f64, f64), MotionError> {
     let scene = scene.at_frequency(step.value);
     if let Some(periods) = step.motion.periods()
-        && let Ok(orbit) = Orbit::periodic(&scene, step.end.into(), periods)
+        && let Ok(orbit) = Orbit::find_periodic(&scene, step.end.into(), periods)
         && orbit.is_stable()
     {
         return Ok((of(&orbit)[2], 0.0));
     }
-    let (found, _) = Exponents::along(&scene, step.end.into(), batch)?;
+    let (found, _) = Exponents::along_motion(&scene, step.end.into(), batch)?;
     Ok((found.per_second()[0], found.error / found.period))
 }
 
@@ -168,6 +168,6 @@ fn columns<'a>() -> [Column<(&'a str, &'a Point)>; 7] {
         "periods" [None], "n of it" => it.1.step.motion.regime().map(|z| z.periods);
         "lambda" [None], "largest exponent per unit of tau" => it.1.exponent.0;
         "lambda_half_width" [None], "of its 95 % interval" => it.1.exponent.1;
-        "largest_before_impact_velocity" [None], "of the motion" => it.1.step.hardest();
+        "largest_before_impact_velocity" [None], "of the motion" => it.1.step.hardest_impact();
     }
 }

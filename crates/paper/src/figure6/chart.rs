@@ -104,7 +104,7 @@ fn rows(chains: &[Chain]) -> impl Iterator<Item = (&[Chain], &'static str)> {
 fn diagram(ways: &[Chain], color: &'static str, which: Which) -> Vec<Layer> {
     let show = |step: &Step| -> Vec<(f64, f64)> {
         let heights = match which {
-            1 if step.hardest() == 0.0 => &[],
+            1 if step.hardest_impact() == 0.0 => &[],
             1 => std::slice::from_ref(&step.max_position),
             _ => &step.velocities[..],
         };
@@ -114,7 +114,7 @@ fn diagram(ways: &[Chain], color: &'static str, which: Which) -> Vec<Layer> {
     let settled = steps(ways).filter(|step| step.is_settled());
     let mut layers = vec![Layer::dots(settled.flat_map(show), DOT, color)];
     for chain in ways {
-        let rising = chain.rising();
+        let rising = chain.rising_steps();
         let runs = rising.chunk_by(|a, b| is_one(a) && is_one(b));
         layers.extend(runs.filter(|run| is_one(run[0])).map(|run| {
             let line = run.iter().flat_map(|step| show(step));
@@ -145,7 +145,7 @@ fn jumps(chain: &Chain, which: Which, seen: f64) -> Vec<Layer> {
         (is_shown && (from - to).abs() > seen)
             .then(|| Layer::arrow((jump.from, from), (jump.to, to), stroke))
     };
-    chain.jumps().iter().filter_map(arrow).collect()
+    chain.find_jumps().iter().filter_map(arrow).collect()
 }
 
 /// The clearance of a diagram, beside the end of its z = 1 or above its hardest impact.
@@ -159,8 +159,8 @@ fn label(ways: &[Chain], color: &'static str, which: Which) -> Option<Layer> {
             text.moved(12.0, -4.0).colored(color).plated()
         }
         _ => {
-            let step = ones.max_by(|a, b| a.hardest().total_cmp(&b.hardest()))?;
-            let text = Layer::text((step.value, step.hardest()), Align::Right, name);
+            let step = ones.max_by(|a, b| a.hardest_impact().total_cmp(&b.hardest_impact()))?;
+            let text = Layer::text((step.value, step.hardest_impact()), Align::Right, name);
             text.moved(-7.0, -6.0).colored(color)
         }
     })
@@ -189,7 +189,7 @@ pub(super) fn ranges(chain: &Chain) -> Vec<(f64, f64)> {
     let scene = &chain.machine.scene;
     let strip = scene.piercing.map_or(f64::INFINITY, |it| it.thickness);
     let through = scene.clearance + strip;
-    let rising = chain.rising();
+    let rising = chain.rising_steps();
     let runs = rising.chunk_by(|a, b| (a.max_position > through) == (b.max_position > through));
     let pierced = runs.filter(|run| run[0].max_position > through && run.len() > 1);
     let ends = pierced.map(|run| (run[0].value, run[run.len() - 1].value));

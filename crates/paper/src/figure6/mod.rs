@@ -91,7 +91,7 @@ fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Fin
     for (end, ways) in ends.iter().zip(chains.chunks_exact(2)) {
         let rho = end.clearance;
         let ones = || diagram::steps(ways).filter(|step| diagram::is_one(step));
-        let hardest = ones().max_by(|a, b| a.hardest().total_cmp(&b.hardest()));
+        let hardest = ones().max_by(|a, b| a.hardest_impact().total_cmp(&b.hardest_impact()));
         let highest = ones().max_by(|a, b| a.max_position.total_cmp(&b.max_position));
         let farthest = diagram::steps(ways).map(|step| step.max_position);
         let values = [
@@ -100,7 +100,7 @@ fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Fin
             ("eta_PD", end.flip.map(|it| it[0])),
             ("X_m at the fold", end.fold.map(|it| it[1])),
             ("velocity at the fold", end.fold.map(|it| it[2])),
-            ("hardest impact of z = 1", hardest.map(Step::hardest)),
+            ("hardest impact of z = 1", hardest.map(Step::hardest_impact)),
             ("eta of the hardest impact", hardest.map(|it| it.value)),
             ("largest X_m of any motion", farthest.max_by(f64::total_cmp)),
             ("largest X_m of z = 1", highest.map(|it| it.max_position)),

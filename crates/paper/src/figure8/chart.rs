@@ -95,12 +95,12 @@ impl Diagram<'_> {
     /// A panel as high as the velocities, with the names of motions beside them.
     fn panel(&self, isolated: &[&Step]) -> Panel {
         let all = steps(&self.ways).chain(isolated.iter().copied());
-        let top = all.map(Step::hardest).fold(0.0, f64::max);
+        let top = all.map(Step::hardest_impact).fold(0.0, f64::max);
         let top = if top > 0.0 { top } else { 1.0 };
-        let fleeting = steps(&self.fleeting).filter(|step| step.hardest() > 0.0);
+        let fleeting = steps(&self.fleeting).filter(|step| step.hardest_impact() > 0.0);
         let fleeting = Layer::dots(fleeting.flat_map(dots), 0.8 * DOT, style::OPTIMUM);
         let [up, down] = [0, 1].map(|way: usize| {
-            let steps = self.ways[way].rising();
+            let steps = self.ways[way].rising_steps();
             let passing = (0..steps.len()).map(|index| is_passing(&steps, index));
             let passing: Vec<bool> = passing.collect();
             steps.into_iter().zip(passing).collect::<Vec<_>>()
@@ -140,7 +140,7 @@ impl Diagram<'_> {
     fn names(&self, isolated: &[&Step]) -> Vec<((f64, f64), String)> {
         let (low, high) = self.part.range;
         let mut names: Vec<(f64, (f64, f64), String)> = Vec::new();
-        let ways = self.ways.iter().map(Chain::rising);
+        let ways = self.ways.iter().map(Chain::rising_steps);
         for steps in ways.chain([isolated.to_vec()]) {
             // Neighbouring steps of one regime.
             for run in steps.chunk_by(|a, b| a.motion.regime() == b.motion.regime()) {
@@ -149,7 +149,7 @@ impl Diagram<'_> {
                 let Some(name) = name(step).filter(|_| span >= LEAST * (high - low)) else {
                     continue;
                 };
-                let entry = (span, (step.value, step.hardest()), name);
+                let entry = (span, (step.value, step.hardest_impact()), name);
                 match names.iter_mut().find(|known| known.2 == entry.2) {
                     Some(known) if known.0 < span => *known = entry,
                     Some(_) => {}

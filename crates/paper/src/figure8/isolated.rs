@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use softstop::{Parameter, Ratios, Start};
-use softstop_dynamics::attractors::{SearchOptions, attractors};
-use softstop_dynamics::monitor::piece;
+use softstop_dynamics::attractors::{SearchOptions, find_attractors};
+use softstop_dynamics::monitor::recall_or_compute;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{Chain, Direction, MotionKind, Orbit, Plan, Step};
 
@@ -59,8 +59,8 @@ fn seeds(known: &[Diagram], studio: &Studio) -> Result<Vec<(f64, Orbit)>> {
     let mut seeds: Vec<(f64, Orbit)> = Vec::new();
     for eta in some {
         let scene = Ratios::unloaded().at_frequency(eta).scene()?;
-        let orbits: Vec<Orbit> = piece(studio.kept, &("isolated", &scene), || {
-            let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;
+        let orbits: Vec<Orbit> = recall_or_compute(studio.kept, &("isolated", &scene), || {
+            let survey = find_attractors(&scene, &options, &|_, _| interrupt::go_on())?;
             let orbits = survey.attractors.into_iter().filter_map(|it| it.orbit);
             Ok::<_, OrbitError>(orbits.map(|orbit| *orbit).collect())
         })?;
@@ -92,7 +92,7 @@ fn job(eta: f64, orbit: &Orbit, way: Direction, detail: Detail) -> Result<Job> {
 
 /// True if a step shows an orbit.
 fn shows(step: &Step, orbit: &Orbit) -> bool {
-    let (own, hardest) = (step.hardest(), orbit.before_impact_velocity());
+    let (own, hardest) = (step.hardest_impact(), orbit.before_impact_velocity());
     step.motion.regime() == Some(orbit.regime())
         && (own - hardest).abs() <= diagram::APART * hardest.max(own)
 }

@@ -8,7 +8,7 @@ use anyhow::{Result, anyhow};
 use serde::Deserialize;
 use softstop::Ratios;
 use softstop_dynamics::Survey;
-use softstop_dynamics::attractors::{SearchOptions, attractors};
+use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 
 use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
 use found::Found;
@@ -120,5 +120,5 @@ fn survey(frequency: f64, detail: Detail, progress: &Progress) -> Result<Survey>
         progress.beat();
         interrupt::go_on()
     };
-    Ok(attractors(&scene, &options, &watcher)?)
+    Ok(find_attractors(&scene, &options, &watcher)?)
 }

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use softstop_dynamics::Orbit;
-use softstop_dynamics::attractors::{SearchOptions, attractors};
+use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 
 use super::stops::{Law, grazing};
 use crate::figure::Studio;
@@ -58,7 +58,7 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
         ..SearchOptions::default()
     };
     let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
-    let survey = attractors(&scene, &options, &|_, _| interrupt::go_on())?;
+    let survey = find_attractors(&scene, &options, &|_, _| interrupt::go_on())?;
     let motions = survey.attractors.iter();
     let orbits = motions.filter_map(|it| it.orbit.as_deref());
     let sub = orbits.filter(|orbit| orbit.periods > 1 && !orbit.impacts.is_empty());

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use softstop::Parameter;
-use softstop_dynamics::monitor::Kept;
+use softstop_dynamics::monitor::OptionalMemory;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Chain, MotionKind, Plan, Step};
 
@@ -23,13 +23,13 @@ pub(super) struct Swept {
 pub(super) fn sweep(
     laws: &[Law],
     (steps, periods): (usize, u64),
-    kept: Kept<'_>,
+    kept: OptionalMemory<'_>,
 ) -> Result<Vec<Swept>> {
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let ways = |law: &Law| diagram::ways(&law.scene(RANGE.0, CLEARANCE));
     let jobs = vec![(plan, laws.iter().flat_map(ways).collect())];
     let chains = diagram::sweep(jobs, "steps of the stops' sweeps", kept)?;
-    let rising = |chain: &Chain| chain.rising().into_iter().cloned().collect();
+    let rising = |chain: &Chain| chain.rising_steps().into_iter().cloned().collect();
     let swept = laws.iter().zip(chains.chunks_exact(2));
     let swept = swept.map(|(law, pair)| Swept {
         law: *law,

@@ -1,6 +1,6 @@
 //! What moves where: motions in the cells of a map.
 
-use softstop_dynamics::basin::clearing;
+use softstop_dynamics::basin::find_largest_ball;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Axis, Grid, MotionKind};
 
@@ -30,12 +30,12 @@ impl RegimeMap<'_> {
     pub(super) fn widest(&self, class: MotionClass) -> Option<(f64, f64)> {
         let rows = self.cells.len() / self.columns;
         let [eta, rho] = self.asked.window;
-        let grid = Grid::states(
+        let grid = Grid::of_states(
             Axis::position(eta.0, eta.1, self.columns),
             Axis::velocity(rho.0, rho.1, rows),
             0.0,
         );
-        let ball = clearing(&grid, |cell| self.cells[cell].class() == class)?;
+        let ball = find_largest_ball(&grid, |cell| self.cells[cell].class() == class)?;
         (ball.radius > WIDE).then_some((ball.centre[0], ball.centre[1]))
     }
 }

@@ -5,12 +5,12 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::{Scene, Start};
-use softstop_dynamics::attractors::{Arrival, SearchOptions, settle};
-use softstop_dynamics::internals::evenly;
-use softstop_dynamics::monitor::{Kept, piece};
+use softstop_dynamics::attractors::{Arrival, SearchOptions, settle_starts};
+use softstop_dynamics::internals::evenly_spread_point;
+use softstop_dynamics::monitor::{OptionalMemory, recall_or_compute};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::blocks;
-use softstop_dynamics::settled::wanders;
+use softstop_dynamics::points::parallel_blocks;
+use softstop_dynamics::settled::classify_wandering;
 use softstop_dynamics::{MotionKind, Orbit, StroboscopicMap};
 
 use super::{Map, STARTS};
@@ -29,12 +29,12 @@ pub(super) fn cells(
     map: &Map,
     size: (usize, usize),
     progress: &Progress,
-    kept: Kept<'_>,
+    kept: OptionalMemory<'_>,
 ) -> Result<Vec<MotionKind>> {
     let (columns, rows) = size;
-    let cells = blocks(0..(columns * rows) as u64, columns as u64).map(|row| {
+    let cells = parallel_blocks(0..(columns * rows) as u64, columns as u64).map(|row| {
         let row = row.start as usize / columns;
-        piece(kept, &("hardest", map.window, size, row), || {
+        recall_or_compute(kept, &("hardest", map.window, size, row), || {
             let cells = (0..columns).map(|column| {
                 let found = hardest(&map.scene((column, row), size)?)?;
                 progress.steps(STARTS as u64)?;
@@ -52,7 +52,7 @@ fn hardest(scene: &Scene) -> Result<MotionKind> {
         longest: OPTIONS.1,
         ..SearchOptions::default()
     };
-    let arrivals = settle(scene, &starts(scene.clearance), &options, &|_, _| {
+    let arrivals = settle_starts(scene, &starts(scene.clearance), &options, &|_, _| {
         interrupt::go_on()
     });
     let arrivals = match arrivals {
@@ -77,7 +77,7 @@ fn hardest(scene: &Scene) -> Result<MotionKind> {
 fn starts(clearance: f64) -> Vec<Start> {
     let within = |half: f64, share: f64| clearance * half * (2.0 * share - 1.0);
     let start = |index| {
-        let [across, up] = evenly([0.0; 2], index);
+        let [across, up] = evenly_spread_point([0.0; 2], index);
         Start::new(within(REGION.0, across), within(REGION.1, up))
     };
     (0..STARTS).map(start).collect()
@@ -88,7 +88,7 @@ fn wandering(scene: &Scene, arrivals: &[Arrival]) -> Option<MotionKind> {
     let mut restless = arrivals.iter().filter(|arrival| arrival.orbit.is_none());
     let map = StroboscopicMap::new(scene, WATCHED).ok()?;
     let grows = |arrival: &Arrival| {
-        let motion = wanders(&map, arrival.state);
+        let motion = classify_wandering(&map, arrival.state);
         motion.is_ok_and(|(motion, _)| motion == MotionKind::Chaos)
     };
     restless.any(grows).then_some(MotionKind::Chaos)

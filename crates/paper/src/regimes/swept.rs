@@ -3,8 +3,8 @@
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop::Parameter;
-use softstop_dynamics::monitor::{Kept, piece};
-use softstop_dynamics::points::blocks;
+use softstop_dynamics::monitor::{OptionalMemory, recall_or_compute};
+use softstop_dynamics::points::parallel_blocks;
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan};
 
 use super::{Map, PERIODS, middle};
@@ -20,7 +20,7 @@ pub(super) fn cells(
     way: Direction,
     size: (usize, usize),
     progress: &Progress,
-    kept: Kept<'_>,
+    kept: OptionalMemory<'_>,
 ) -> Result<Vec<MotionKind>> {
     let (columns, rows) = size;
     let [first, last] = [0, columns - 1].map(|column| middle(map.window[0], column, columns));
@@ -35,11 +35,11 @@ pub(super) fn cells(
     };
     let of = (map.machine, map.window, way.name(), size);
     // Chains that go together are forgotten together but for their regimes.
-    let found = blocks(0..rows as u64, Plan::TOGETHER as u64).map(|rows| {
-        piece(kept, &("regimes", of, rows.start), || {
+    let found = parallel_blocks(0..rows as u64, Plan::MAX_CHAINS_TOGETHER as u64).map(|rows| {
+        recall_or_compute(kept, &("regimes", of, rows.start), || {
             let chain = |row| Ok(Chain::new(map.scene((0, row as usize), size)?, way));
             let mut chains: Vec<Chain> = rows.map(chain).collect::<Result<_>>()?;
-            plan.run(&mut chains, &progress.watcher());
+            plan.run_chains(&mut chains, &progress.watcher());
             progress.steps(0)?;
             Ok(chains.iter().flat_map(|chain| row(&plan, chain)).collect())
         })

@@ -1,7 +1,7 @@
 //! How many z = 1 motions outlast an interrupted supply, and how many miss no stroke.
 
 use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Sign, Stroke, style};
-use softstop_dynamics::basin::wilson;
+use softstop_dynamics::basin::wilson_interval;
 
 use super::{Outcome, READINGS, RUNS, of_run};
 
@@ -52,7 +52,7 @@ pub(super) fn chart(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f6
 fn curves(outcomes: Vec<&Outcome>, color: &'static str, mean: f64) -> Vec<Layer> {
     let share =
         |it: &Outcome, lost: usize| (it.eta, (it.motions - lost) as f64 / it.motions as f64);
-    let interval = |it: &&Outcome| (it.eta, wilson(it.motions - it.ended, it.motions));
+    let interval = |it: &&Outcome| (it.eta, wilson_interval(it.motions - it.ended, it.motions));
     let open = outcomes.split(|it| it.ended == 0 || it.ended == it.motions);
     let bands = open.map(|it| Layer::band(it.iter().map(interval), color, 0.2));
     let stay = outcomes.iter().map(|it| share(it, it.ended));

@@ -14,8 +14,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
 use softstop::{Ratios, Start};
+use softstop_dynamics::missing_strips::{StopWithoutStrip, StrokeCount};
 use softstop_dynamics::orbit::find;
-use softstop_dynamics::supply::{Reading, StrokeCount};
 use softstop_dynamics::zone::hysteresis;
 use softstop_lanes::{BatchObserver, Job, Machine};
 
@@ -30,15 +30,15 @@ const CLOSE: (u64, u64) = (250, 64);
 /// Shares of the range from g0 to the loaded machine's fold, that fold being 1; the unloaded one's lies beyond.
 const SHARES: (f64, f64) = (0.02, 1.1);
 
-const READINGS: [(Reading, &str); 2] = [
-    (Reading::Near, "stop at rho without a strip"),
-    (Reading::Fixed, "stop fixed at rho + 0.9"),
+const READINGS: [(StopWithoutStrip, &str); 2] = [
+    (StopWithoutStrip::Near, "stop at rho without a strip"),
+    (StopWithoutStrip::Fixed, "stop fixed at rho + 0.9"),
 ];
 
 /// What became of many motions at one frequency.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Outcome {
-    stop_without_strip: Reading,
+    stop_without_strip: StopWithoutStrip,
     eta: f64,
     mean_run: f64,
     motions: usize,
@@ -74,7 +74,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let runs = READINGS.map(|(reading, _)| RUNS.map(|mean| (reading, mean)));
     let cases = runs.iter().flatten();
     let cases = cases.flat_map(|(reading, mean)| etas.iter().map(move |eta| (reading, eta, mean)));
-    let cases: Vec<(&Reading, &f64, &f64)> = cases.collect();
+    let cases: Vec<(&StopWithoutStrip, &f64, &f64)> = cases.collect();
     let progress = Progress::new(cases.len() as u64, "frequencies");
     let (motions, periods) = detail.pick((64, 400), (16, 200));
     let outcomes = studio.each("supply", &cases, |&(reading, &eta, &mean)| {
@@ -137,10 +137,10 @@ fn etas([grazing, loaded, unloaded]: [f64; 3], count: usize) -> Vec<f64> {
 }
 
 impl Press {
-    fn new(reading: Reading, frequency: f64, is_supplied: bool) -> Result<Self> {
+    fn new(reading: StopWithoutStrip, frequency: f64, is_supplied: bool) -> Result<Self> {
         let machine = Ratios::loaded().at_frequency(frequency);
         let scene = machine.scene()?;
-        let scenes = [reading.without(&scene), scene];
+        let scenes = [reading.scene_without_strip(&scene), scene];
         let orbit = find(&scenes[usize::from(is_supplied)])?;
         Ok(Self {
             clearance: machine.clearance,
@@ -158,7 +158,7 @@ impl Press {
             state: self.start,
             is_supplied: self.is_supplied,
             tries: tries(seed as u64, mean, periods),
-            strokes: StrokeCount::after(self.impact - 1.0),
+            strokes: StrokeCount::after_impact(self.impact - 1.0),
             impacts: 0,
         };
         let mut motions: Vec<Motion> = (0..seeds).map(motion).collect();
@@ -180,7 +180,7 @@ impl Press {
         }
         let ends = motions
             .iter()
-            .map(|motion| motion.strokes.missed(periods as f64) > 0);
+            .map(|motion| motion.strokes.missed_strokes(periods as f64) > 0);
         let missed: Vec<bool> = ends.collect();
         for length in [CLOSE.0, CLOSE.1] {
             for motion in &mut motions {
@@ -257,7 +257,11 @@ impl BatchObserver for Counter<'_> {
     }
 }
 
-fn of_run(outcomes: &[Outcome], reading: Reading, mean: f64) -> impl Iterator<Item = &Outcome> {
+fn of_run(
+    outcomes: &[Outcome],
+    reading: StopWithoutStrip,
+    mean: f64,
+) -> impl Iterator<Item = &Outcome> {
     let own = outcomes.iter();
     own.filter(move |it| it.stop_without_strip == reading && it.mean_run == mean)
 }

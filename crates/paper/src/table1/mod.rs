@@ -14,7 +14,7 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::ParameterFamily;
-use softstop_dynamics::monitor::{Kept, Memory};
+use softstop_dynamics::monitor::{Memory, OptionalMemory};
 
 pub use markdown::markdown;
 use report::TableReport;
@@ -122,7 +122,7 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
 ///
 /// # Errors
 /// As [`transitions`].
-pub fn table(rules: &Rules, kept: Kept<'_>) -> Result<TableReport> {
+pub fn table(rules: &Rules, kept: OptionalMemory<'_>) -> Result<TableReport> {
     let transitions = transitions(rules, RANGE, &values(&paper::INTERVALS), kept)?;
     Ok(TableReport::new(&paper::ROWS, &transitions, rules))
 }
@@ -155,7 +155,7 @@ pub fn transitions(
     rules: &Rules,
     range: (f64, f64),
     values: &[f64],
-    kept: Kept<'_>,
+    kept: OptionalMemory<'_>,
 ) -> Result<Vec<Transition>> {
     let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
     let bar = Progress::open("drive periods of the present look at motions");

@@ -64,7 +64,7 @@ fn sweep(transition: &Transition, step: f64, tolerance: f64) -> Option<Vec<Step>
         ..plan
     };
     let mut chain = [Chain::new(Ratios::unloaded().scene().ok()?, way)];
-    let is_done = plan.run(&mut chain, &unmonitored);
+    let is_done = plan.run_chains(&mut chain, &unmonitored);
     let [chain] = chain;
     is_done.then_some(chain.steps)
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use softstop::Start;
 use softstop_dynamics::attractors::Arrival;
 use softstop_dynamics::continuation::Family;
-use softstop_dynamics::monitor::piece;
+use softstop_dynamics::monitor::recall_or_compute;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 
@@ -41,7 +41,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     /// What motions on chaos do at a value in the time given: some of them go first.
     pub(super) fn lasting(&self, value: f64, states: &[Start]) -> Result<Lasting, OrbitError> {
         let of = ("lasting", self.family.scene([value])?, states);
-        piece(self.kept, &of, || {
+        recall_or_compute(self.kept, &of, || {
             let (mut states, mut still, mut all) = (states.to_vec(), 0, 0);
             loop {
                 let mut going = self.fill(&states);

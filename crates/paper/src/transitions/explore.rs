@@ -9,9 +9,9 @@ use super::departure_path::is_doubled;
 use super::explorer::Explorer;
 use super::window::Window;
 use softstop::Start;
-use softstop_dynamics::attractors::attractors;
+use softstop_dynamics::attractors::find_attractors;
 use softstop_dynamics::continuation::Family;
-use softstop_dynamics::monitor::piece;
+use softstop_dynamics::monitor::recall_or_compute;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 
@@ -76,17 +76,18 @@ impl<F: Family + Sync> Explorer<'_, F> {
         seeds: &mut Vec<Seed>,
     ) -> Result<(), OrbitError> {
         let scene = self.family.scene([value])?;
-        let found: (Vec<Met>, Vec<Seed>) = piece(self.kept, &("survey", &scene), || {
-            let survey = attractors(&scene, &self.rules.survey, self.monitor)?;
-            let (mut met, mut seeds) = (Vec::new(), Vec::new());
-            for attractor in survey.attractors {
-                if attractor.motion.is_chaotic() {
-                    seeds.push((value, vec![attractor.state]));
+        let found: (Vec<Met>, Vec<Seed>) =
+            recall_or_compute(self.kept, &("survey", &scene), || {
+                let survey = find_attractors(&scene, &self.rules.survey, self.monitor)?;
+                let (mut met, mut seeds) = (Vec::new(), Vec::new());
+                for attractor in survey.attractors {
+                    if attractor.motion.is_chaotic() {
+                        seeds.push((value, vec![attractor.state]));
+                    }
+                    met.extend(attractor.orbit.map(|orbit| (value, *orbit)));
                 }
-                met.extend(attractor.orbit.map(|orbit| (value, *orbit)));
-            }
-            Ok::<_, OrbitError>((met, seeds))
-        })?;
+                Ok::<_, OrbitError>((met, seeds))
+            })?;
         met.extend(found.0);
         seeds.extend(found.1);
         Ok(())

@@ -3,9 +3,9 @@
 use super::Rules;
 use serde::{Deserialize, Serialize};
 use softstop::Start;
-use softstop_dynamics::attractors::{Arrival, SearchOptions, settle};
+use softstop_dynamics::attractors::{Arrival, SearchOptions, settle_starts};
 use softstop_dynamics::continuation::Family;
-use softstop_dynamics::monitor::{Kept, Monitor, piece};
+use softstop_dynamics::monitor::{Monitor, OptionalMemory, recall_or_compute};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Exponents, Orbit, OrbitError};
 
@@ -21,7 +21,7 @@ pub struct Explorer<'a, F> {
     pub(super) range: (f64, f64),
     pub(super) rules: Rules,
     pub(super) monitor: Monitor<'a>,
-    pub(super) kept: Kept<'a>,
+    pub(super) kept: OptionalMemory<'a>,
 }
 
 /// Where most of several motions are.
@@ -55,7 +55,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
         range: (f64, f64),
         rules: Rules,
         monitor: Monitor<'a>,
-        kept: Kept<'a>,
+        kept: OptionalMemory<'a>,
     ) -> Self {
         Self {
             family,
@@ -78,13 +78,13 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             ..self.rules.survey
         };
         let scene = self.family.scene([value])?;
-        settle(&scene, starts, &options, self.monitor)
+        settle_starts(&scene, starts, &options, self.monitor)
     }
 
     /// What most of them do then.
     pub(super) fn gather(&self, value: f64, starts: &[Start]) -> Result<Gathering, OrbitError> {
         let of = ("gathering", self.family.scene([value])?, starts);
-        piece(self.kept, &of, || self.gather_anew(value, starts))
+        recall_or_compute(self.kept, &of, || self.gather_anew(value, starts))
     }
 
     fn gather_anew(&self, value: f64, starts: &[Start]) -> Result<Gathering, OrbitError> {
@@ -111,7 +111,7 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             .collect();
         let is_chaos = match gone.first() {
             Some(state) if 2 * gone.len() >= wandering.len() => {
-                Exponents::grow(&self.family.scene([value])?, (*state).into())?
+                Exponents::differences_grow(&self.family.scene([value])?, (*state).into())?
             }
             _ => false,
         };

@@ -31,12 +31,12 @@ impl<F: Family + Sync> Explorer<'_, F> {
             return Ok(false);
         };
         let scene = self.family.scene([value])?;
-        let leaves_in_time = Orbit::periodic(&scene, (*start).into(), periods)
+        let leaves_in_time = Orbit::find_periodic(&scene, (*start).into(), periods)
             .is_ok_and(|orbit| BURSTS as f64 * leaving(&orbit) < ENDURANCE as f64);
         if !leaves_in_time {
             return Ok(false);
         }
-        let ensemble = Ensemble::of(&scene, self.monitor)?;
+        let ensemble = Ensemble::of_scene(&scene, self.monitor)?;
         let mut calm = BurstCounter::new(*start, periods as usize);
         for _ in 0..ENDURANCE / PERIODS_BETWEEN_LOOKS {
             ensemble.advance_batch::<true, true, _>(&mut [&mut calm], PERIODS_BETWEEN_LOOKS)?;
@@ -86,15 +86,15 @@ struct BurstCounter {
 }
 
 impl HasMember for BurstCounter {
-    fn member(&mut self) -> &mut Member {
+    fn member_mut(&mut self) -> &mut Member {
         &mut self.member
     }
 
-    fn impact(&mut self, _: Instant, _: f64) {
+    fn record_impact(&mut self, _: Instant, _: f64) {
         self.impacts += 1;
     }
 
-    fn period(&mut self, _: Start) {
+    fn record_state(&mut self, _: Start) {
         let impacts = std::mem::take(&mut self.impacts);
         if self.verdict().is_none() {
             self.enter(impacts);

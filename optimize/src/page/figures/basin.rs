@@ -6,7 +6,7 @@ use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Mark, Panel, Sign, style};
 use softstop_dynamics::attractors::{Attractor, starting_box};
-use softstop_dynamics::basin::{BasinOptions, basins};
+use softstop_dynamics::basin::{BasinOptions, find_basins};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::{self as dynamics, Grid, Orbit};
 use softstop_explore::palette::distinct_colors;
@@ -30,12 +30,12 @@ pub(super) fn basin(design: &Design) -> Result<Figure, OrbitError> {
     let scene = &machine.scene;
     let region = starting_box(scene, &interrupt::watch)?;
     let ends: [(f64, f64); 2] = [region.position.into(), region.velocity.into()];
-    let grid = Grid::states(
+    let grid = Grid::of_states(
         dynamics::Axis::position(ends[0].0, ends[0].1, CELLS),
         dynamics::Axis::velocity(ends[1].0, ends[1].1, CELLS),
         scene.excitation.phase,
     );
-    let found = basins(
+    let found = find_basins(
         scene,
         &grid,
         &BasinOptions::default(),

@@ -27,7 +27,7 @@ pub(super) struct Period {
 /// The design's motion, and then that of the machine to which no strip is fed, if it has a strip and such a motion.
 pub(super) fn motions(design: &Design) -> Vec<Period> {
     let bare = unfed(&design.machine.scene).and_then(|scene| {
-        let near = Orbit::near(&scene, design.orbit.state());
+        let near = Orbit::find_near(&scene, design.orbit.state());
         near.or_else(|_| zone::find(&scene)).ok()
     });
     let bare = bare.as_ref().map(Period::of);

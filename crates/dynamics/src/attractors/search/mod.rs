@@ -1,7 +1,7 @@
-//! The search: from starts to motions.
+//! The search of attractors: from starts to motions.
 
 mod report;
-mod wander;
+mod wandering;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -10,42 +10,43 @@ use super::catalogue::AttractorCatalogue;
 use super::chaos::Chaos;
 use super::lifetime::EscapeCounts;
 use super::{Arrival, Attractor, Region, SearchOptions, Survey};
-use crate::ensemble::{Ensemble, Member, Outcome};
+use crate::ensemble::{Ensemble, Member, Status};
 use crate::monitor::{Monitor, stop_if, unmonitored};
-use crate::orbit::recurrence::returns;
+use crate::orbit::recurrence::find_return;
 use crate::orbit::{self, Exponents, OrbitError};
 use softstop::{Scene, Start};
 
-/// Starts of the pilot.
-const PILOT: usize = 64;
-/// How much less a motion is watched that costs more.
-const DEAR: u64 = 20;
-/// How many times longer motions are watched from one look to the next.
+/// Starts of the pilot, which shows where motions stay.
+const PILOT_STARTS: usize = 64;
+/// Divisor of the drive periods of watching for motions that do not run in lanes and cost more.
+const SLOW_WATCH_DIVISOR: u64 = 20;
+/// How many times longer wandering motions are watched from one look to the next.
 const BATCH_GROWTH: u64 = 2;
-/// Share of the transient after which motions that cost more, or take long, are looked at for the first time: those
-/// that have arrived by then need not be carried on.
-const FIRST_LOOK: u64 = 4;
+/// Share of the transient, as a divisor, after which motions that cost more, or take long, are classified for the first
+/// time: those that have arrived by then need not be advanced.
+const FIRST_LOOK_DIVISOR: u64 = 4;
 
-/// A motion of the search.
+/// A motion of the search of attractors.
 struct SearchMember {
     member: Member,
-    /// Its group, if it wanders.
+    /// The number of its group, if it wanders.
     group: Option<usize>,
-    /// It started in the region.
+    /// True if it started in the region whose shares are counted.
     counts: bool,
 }
 
-/// Motions that wander over the same places.
+/// A group of wandering motions that visit the same places.
 #[derive(Default)]
 struct Group {
     exponents: Option<Exponents>,
     chaos: Option<Chaos>,
-    /// How long its motions were watched, and which had settled elsewhere then.
+    /// Counts of the drive periods for which its motions were watched, and which had settled elsewhere then.
     escapes: EscapeCounts,
-    /// Starts of the region that came here.
+    /// Starts of the region that came to the group.
     entered: usize,
 }
 
+/// A search of the attractors of a scene.
 struct Search<'a> {
     scene: &'a Scene,
     options: SearchOptions,
@@ -55,16 +56,16 @@ struct Search<'a> {
     groups: BTreeMap<usize, Group>,
 }
 
-/// All motions on which a scene settles. The result depends on scene and options alone, not on the number of
+/// Finds all motions on which a scene settles. The result depends on scene and options alone, not on the number of
 /// threads. The monitor is told of the drive periods.
 ///
 /// ```
 /// use softstop::Ratios;
-/// use softstop_dynamics::attractors::{SearchOptions, attractors};
+/// use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 /// use softstop_dynamics::monitor::unmonitored;
 ///
 /// let options = SearchOptions { starts: 64, ..SearchOptions::default() };
-/// let survey = attractors(&Ratios::unloaded().scene()?, &options, &unmonitored)?;
+/// let survey = find_attractors(&Ratios::unloaded().scene()?, &options, &unmonitored)?;
 /// // Point A: with impacts and without, by turns of the start.
 /// assert_eq!(survey.attractors.len(), 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -72,22 +73,25 @@ struct Search<'a> {
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is invalid; [`OrbitError::Stopped`].
-pub fn attractors(
+pub fn find_attractors(
     scene: &Scene,
     options: &SearchOptions,
     monitor: Monitor<'_>,
 ) -> Result<Survey, OrbitError> {
     let mut search = Search::new(scene, options, monitor)?;
-    let run = options.transient + search.logged() as u64;
-    search.ensemble.planned = run * (options.starts + PILOT) as u64 + search.patience();
-    search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
+    let run = options.transient + search.log_length() as u64;
+    search.ensemble.planned = run * (options.starts + PILOT_STARTS) as u64 + search.watch_periods();
+    search.launch_starts(
+        Region::pilot(scene).starts(PILOT_STARTS, options.seed),
+        false,
+    )?;
     let region = options
         .region
-        .or_else(|| Region::about(scene, search.stays()));
-    let region = region.unwrap_or_else(|| Region::far(scene));
-    search.launch(region.starts(options.starts, options.seed), true)?;
-    search.watch()?;
-    search.report(region)
+        .or_else(|| Region::about_states(scene, search.end_states()));
+    let region = region.unwrap_or_else(|| Region::pilot(scene));
+    search.launch_starts(region.starts(options.starts, options.seed), true)?;
+    search.watch_wandering()?;
+    search.into_survey(region)
 }
 
 /// The box of initial states that commands take starts from unless they are told another: twice the clearance (or the
@@ -95,58 +99,61 @@ pub fn attractors(
 /// again as any motion needs that [`orbit::find`] or 64 starts from far and wide come to. It depends on the scene alone.
 ///
 /// # Errors
-/// As [`attractors`].
+/// As [`find_attractors`].
 pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, OrbitError> {
-    Ok(Region::box_with(scene, stays(scene, monitor)?))
+    Ok(Region::start_box(scene, end_states(scene, monitor)?))
 }
 
 /// States of the motions that [`orbit::find`] or 64 starts from far and wide come to.
-pub(crate) fn stays(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, OrbitError> {
+pub(crate) fn end_states(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, OrbitError> {
     let options = SearchOptions::default();
     let mut search = Search::new(scene, &options, monitor)?;
-    search.ensemble.planned = (options.transient + search.logged() as u64) * PILOT as u64;
-    search.launch(Region::far(scene).starts(PILOT, options.seed), false)?;
-    let go_on = |_, _| stop_if(search.ensemble.note(0).is_err());
+    search.ensemble.planned =
+        (options.transient + search.log_length() as u64) * PILOT_STARTS as u64;
+    search.launch_starts(
+        Region::pilot(scene).starts(PILOT_STARTS, options.seed),
+        false,
+    )?;
+    let go_on = |_, _| stop_if(search.ensemble.count_work(0).is_err());
     let own = orbit::find_with_monitor(scene, &go_on).ok();
-    search.ensemble.note(0)?;
+    search.ensemble.count_work(0)?;
     let own = own.map(|orbit| Start::new(orbit.position, orbit.velocity));
-    Ok(search.stays().copied().chain(own).collect())
+    Ok(search.end_states().copied().chain(own).collect())
 }
 
-/// What the motion from one start settles on.
+/// The attractor that the motion from one start settles on.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is invalid or the motion cannot be computed.
-pub fn classify(
+pub fn classify_start(
     scene: &Scene,
     start: Start,
     options: &SearchOptions,
 ) -> Result<Attractor, OrbitError> {
     let mut search = Search::new(scene, options, &unmonitored)?;
     start.validate()?;
-    search.launch(vec![start], true)?;
+    search.launch_starts(vec![start], true)?;
     if let Some(error) = &search.members[0].member.error {
         return Err(error.clone().into());
     }
-    search.watch()?;
-    let found = search.report(Region::far(scene))?.attractors;
+    search.watch_wandering()?;
+    let found = search.into_survey(Region::pilot(scene))?.attractors;
     found.into_iter().next().ok_or(OrbitError::Stopped)
 }
 
-/// Where motions from several starts are after the transient, in their order: cheaper than
-/// [`classify`], as a motion that has not settled then is not looked at any farther.
+/// Where motions from several starts have arrived after the transient, in their order: cheaper than [`classify_start`],
+/// as a motion that has not settled then is not looked at any farther.
 ///
 /// # Errors
-/// [`OrbitError::Motion`] if the scene is invalid or a motion cannot be computed;
-/// [`OrbitError::Stopped`].
-pub fn settle(
+/// [`OrbitError::Motion`] if the scene is invalid or a motion cannot be computed; [`OrbitError::Stopped`].
+pub fn settle_starts(
     scene: &Scene,
     starts: &[Start],
     options: &SearchOptions,
     monitor: Monitor<'_>,
 ) -> Result<Vec<Arrival>, OrbitError> {
     let mut search = Search::new(scene, options, monitor)?;
-    search.launch(starts.to_vec(), true)?;
+    search.launch_starts(starts.to_vec(), true)?;
     let Search {
         members, catalogue, ..
     } = search;
@@ -156,14 +163,15 @@ pub fn settle(
         Some(error) => Err(error.into()),
         None => Ok(Arrival {
             state: member.state,
-            returns: returns(frequency, &member.states).is_some(),
-            orbit: member.outcome.attractor().map(orbit),
+            returns: find_return(frequency, &member.states).is_some(),
+            orbit: member.status.attractor().map(orbit),
         }),
     };
     members.into_iter().map(arrival).collect()
 }
 
 impl<'a> Search<'a> {
+    /// A search of the attractors of a scene that has no motions yet.
     fn new(
         scene: &'a Scene,
         options: &SearchOptions,
@@ -172,37 +180,37 @@ impl<'a> Search<'a> {
         Ok(Self {
             scene,
             options: *options,
-            ensemble: Ensemble::of(scene, monitor)?,
+            ensemble: Ensemble::of_scene(scene, monitor)?,
             catalogue: AttractorCatalogue::new(scene),
             members: Vec::new(),
             groups: BTreeMap::new(),
         })
     }
 
-    /// States in a log.
-    fn logged(&self) -> usize {
+    /// Number of states in a log.
+    fn log_length(&self) -> usize {
         2 * self.options.longest + 1
     }
 
-    /// Drive periods for which motions may be watched.
-    fn patience(&self) -> u64 {
-        match self.ensemble.is_fast() {
+    /// Drive periods for which wandering motions may be watched, all together.
+    fn watch_periods(&self) -> u64 {
+        match self.ensemble.runs_in_lanes() {
             true => self.options.patience,
-            false => self.options.patience / DEAR,
+            false => self.options.patience / SLOW_WATCH_DIVISOR,
         }
     }
 
-    /// Where motions stay: at the orbits at which they have arrived, or where they were last.
-    fn stays(&self) -> impl Iterator<Item = &Start> + Clone {
+    /// Where motions of the search stay: the states of the orbits at which they have arrived, or their last states.
+    fn end_states(&self) -> impl Iterator<Item = &Start> + Clone {
         let members = self.members.iter().map(|it| &it.member);
-        members.flat_map(|member| match member.outcome {
-            Outcome::Arrived(orbit) => self.catalogue.orbits[orbit].states(),
+        members.flat_map(|member| match member.status {
+            Status::Arrived(orbit) => self.catalogue.orbits[orbit].section_states(),
             _ => &member.states,
         })
     }
 
-    /// Lets motions settle from starts and looks at them.
-    fn launch(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), OrbitError> {
+    /// Launches motions from starts, lets them settle and classifies them.
+    fn launch_starts(&mut self, starts: Vec<Start>, counts: bool) -> Result<(), OrbitError> {
         let first = self.members.len();
         let members = starts.into_iter().map(|start| SearchMember {
             member: Member::new(0, start),
@@ -211,61 +219,62 @@ impl<'a> Search<'a> {
         });
         self.members.extend(members);
         let all = first..self.members.len();
-        let (transient, logged) = (self.options.transient, self.logged() as u64);
-        let early = transient / FIRST_LOOK;
-        if self.ensemble.leaps() && early < FIRST_LOOK * logged {
-            return self.carry_on(all, transient + logged, self.logged());
+        let (transient, logged) = (self.options.transient, self.log_length() as u64);
+        let early = transient / FIRST_LOOK_DIVISOR;
+        if self.ensemble.skips_periods() && early < FIRST_LOOK_DIVISOR * logged {
+            return self.carry_on_open(all, transient + logged, self.log_length());
         }
-        self.carry_on(all.clone(), early + logged, self.logged())?;
-        self.carry_on(all, (transient - early).max(logged), self.logged())
+        self.carry_on_open(all.clone(), early + logged, self.log_length())?;
+        self.carry_on_open(all, (transient - early).max(logged), self.log_length())
     }
 
-    /// Carries on the motions that have not arrived and looks at so many of their last states.
-    fn carry_on(
+    /// Advances the motions that have not arrived and classifies them by so many of their last states.
+    fn carry_on_open(
         &mut self,
         which: Range<usize>,
         periods: u64,
         logged: usize,
     ) -> Result<(), OrbitError> {
         let members = self.members[which].iter_mut().map(|it| &mut it.member);
-        let mut open: Vec<&mut Member> = members.filter(|it| it.outcome.is_open()).collect();
+        let mut open: Vec<&mut Member> = members.filter(|it| it.status.is_open()).collect();
         self.ensemble.advance(&mut open, periods, logged)?;
         for member in open {
-            self.ensemble.note(0)?;
+            self.ensemble.count_work(0)?;
             if member.error.is_none() {
-                member.outcome = self.catalogue.judge(&member.states)?;
+                member.status = self.catalogue.classify_log(&member.states)?;
             }
         }
         Ok(())
     }
 
-    /// Watches the motions that have not arrived until patience ends.
-    fn watch(&mut self) -> Result<(), OrbitError> {
-        self.gather()?;
-        let mut left = self.patience();
-        let mut periods = self.options.transient.max(self.logged() as u64);
+    /// Watches the motions that have not arrived until the drive periods for that are used up.
+    fn watch_wandering(&mut self) -> Result<(), OrbitError> {
+        self.group_wandering()?;
+        let mut left = self.watch_periods();
+        let mut periods = self.options.transient.max(self.log_length() as u64);
         loop {
-            let before: Vec<usize> = self.open().collect();
+            let before: Vec<usize> = self.open_members().collect();
             let most = left / before.len().max(1) as u64;
             periods = periods.min(most);
-            if before.is_empty() || periods < self.logged() as u64 {
+            if before.is_empty() || periods < self.log_length() as u64 {
                 break;
             }
-            self.carry_on(0..self.members.len(), periods, self.logged())?;
+            self.carry_on_open(0..self.members.len(), periods, self.log_length())?;
             left -= periods * before.len() as u64;
             for index in before {
                 let member = &self.members[index];
-                let gone = !member.member.outcome.is_open();
+                let gone = !member.member.status.is_open();
                 if let Some(group) = member.group.and_then(|group| self.groups.get_mut(&group)) {
-                    group.escapes.note(periods, gone);
+                    group.escapes.record_watch(periods, gone);
                 }
             }
             periods *= BATCH_GROWTH;
         }
-        self.look_far()
+        self.search_long_periods()
     }
 
-    fn open(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.members.len()).filter(|index| self.members[*index].member.outcome.is_open())
+    /// Numbers of the motions of the search that have not arrived.
+    fn open_members(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.members.len()).filter(|index| self.members[*index].member.status.is_open())
     }
 }

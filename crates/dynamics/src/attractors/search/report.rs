@@ -1,21 +1,22 @@
-//! What a search has found.
+//! The survey that a search of attractors reports.
 
 use super::super::catalogue::KnownOrbit;
 use super::super::chaos::Chaos;
 use super::super::{Attractor, Region, Survey};
 use super::{Group, Search, SearchMember};
-use crate::ensemble::Outcome;
+use crate::ensemble::Status;
 use crate::extremes::extremes;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, OrbitError};
 use softstop::MotionError;
 
 impl Search<'_> {
-    pub(super) fn report(mut self, region: Region) -> Result<Survey, OrbitError> {
+    /// The survey of all attractors that the search has found, with starts in a region.
+    pub(super) fn into_survey(mut self, region: Region) -> Result<Survey, OrbitError> {
         let counted = self.members.iter().filter(|member| member.counts).count();
-        let mut attractors = self.periodic(counted);
-        attractors.extend(self.resting(counted));
-        attractors.extend(self.wandering(counted));
+        let mut attractors = self.periodic_attractors(counted);
+        attractors.extend(self.rest_attractor(counted));
+        attractors.extend(self.wandering_attractors(counted));
         attractors.sort_by_key(|attractor| std::cmp::Reverse(attractor.starts));
         let members = self.members.iter_mut();
         let errors = members.filter_map(|member| member.member.error.take());
@@ -25,34 +26,35 @@ impl Search<'_> {
             region,
             starts: counted,
             lost: errors.first().map(|first| (errors.len(), first.clone())),
-            periods: self.ensemble.done(),
+            periods: self.ensemble.work_done(),
         })
     }
 
-    fn periodic(&self, counted: usize) -> Vec<Attractor> {
+    /// The periodic attractors that the search has found, by the starts that are counted.
+    fn periodic_attractors(&self, counted: usize) -> Vec<Attractor> {
         let known = self.catalogue.orbits.iter().enumerate();
         let attractor = |(index, known): (usize, &KnownOrbit)| {
             let here =
-                |it: &&SearchMember| it.counts && it.member.outcome.attractor() == Some(index);
+                |it: &&SearchMember| it.counts && it.member.status.attractor() == Some(index);
             let starts = self.members.iter().filter(here).count();
             Attractor {
                 certainty: Some(known.certainty),
                 exponents: Some(Exponents::of(&known.orbit)),
-                ..Attractor::repeating(&known.orbit, (starts, counted))
+                ..Attractor::from_orbit(&known.orbit, (starts, counted))
             }
         };
         known.map(attractor).collect()
     }
 
-    /// Chaos, chaos that ends, and what has not settled.
-    fn wandering(&self, counted: usize) -> Vec<Attractor> {
+    /// The attractors that wander: chaos, transient chaos, and what has not settled.
+    fn wandering_attractors(&self, counted: usize) -> Vec<Attractor> {
         let attractor = |(number, group): (&usize, &Group)| {
             let wanders = |it: &&SearchMember| {
-                it.group == Some(*number) && it.member.outcome == Outcome::Wandering
+                it.group == Some(*number) && it.member.status == Status::Wandering
             };
             let left: Vec<&SearchMember> = self.members.iter().filter(wanders).collect();
             let starts = left.iter().filter(|member| member.counts).count();
-            let chaos = group.chaos();
+            let chaos = group.chaos_with_escapes();
             let (motion, state, exponents) = match chaos {
                 Some(chaos) => {
                     let motion = match chaos.lifetime {
@@ -75,9 +77,9 @@ impl Search<'_> {
         self.groups.iter().filter_map(attractor).collect()
     }
 
-    /// Rest, if some motions end there.
-    fn resting(&self, counted: usize) -> Option<Attractor> {
-        let rests = |it: &&SearchMember| it.member.outcome == Outcome::AtRest;
+    /// The attractor of motions that end at rest, if some do.
+    fn rest_attractor(&self, counted: usize) -> Option<Attractor> {
+        let rests = |it: &&SearchMember| it.member.status == Status::AtRest;
         let members: Vec<&SearchMember> = self.members.iter().filter(rests).collect();
         let positions = extremes(members.iter().map(|it| it.member.state.position))?;
         let starts = members.iter().filter(|member| member.counts).count();
@@ -89,11 +91,11 @@ impl Search<'_> {
 }
 
 impl Group {
-    /// Its chaos with what was seen of it, if it is any.
-    fn chaos(&self) -> Option<Chaos> {
+    /// The chaos of a group with the lifetime by its escapes, if it is any.
+    fn chaos_with_escapes(&self) -> Option<Chaos> {
         Some(Chaos {
-            watched: self.escapes.watched(),
-            lifetime: self.escapes.lifetime(),
+            watched: self.escapes.watched_periods(),
+            lifetime: self.escapes.mean_lifetime(),
             entered: self.entered,
             ..self.chaos?
         })

@@ -4,7 +4,7 @@ use std::f64::consts::LN_2;
 
 use softstop_draw::style::{self, motion};
 use softstop_draw::{Axis, Chart, Layer, Panel, Stroke};
-use softstop_dynamics::basin::{BasinsAt, wilson};
+use softstop_dynamics::basin::{BasinsAt, wilson_interval};
 
 use super::Found;
 use super::report::{AttractorReport, Row, attractors};
@@ -40,7 +40,7 @@ pub(super) fn svg(found: &Found<'_>, rows: &[Row<'_>]) -> String {
         shares.push(Layer::band(ends, color, 1.0).named(name));
         let top = cells
             .iter()
-            .map(|(value, [_, high], all)| (*value, wilson(*high, *all)));
+            .map(|(value, [_, high], all)| (*value, wilson_interval(*high, *all)));
         intervals.push(Layer::band(top, style::PAPER, INTERVAL));
         let own = rows.iter().filter(|row| row.attractor == attractor);
         let own = own.map(|row| (row.at.value, row.ball.map_or(0.0, |it| it.radius)));

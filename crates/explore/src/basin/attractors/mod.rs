@@ -7,7 +7,7 @@ use anyhow::Error;
 use softstop::{Machine, Parameter, Scene};
 use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{BasinOptions, BasinsAt, follow_attractors};
-use softstop_dynamics::monitor::Kept;
+use softstop_dynamics::monitor::OptionalMemory;
 use softstop_dynamics::orbit::OrbitError;
 
 use super::{BasinArguments, plane};
@@ -64,9 +64,9 @@ pub(super) fn run(
     let grid = limit.limit(|| plane::grid(arguments, &scenes[0].1, region))?;
     let of = (&scenes, grid, options);
     let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
-    let cells = grid.cells() * scenes.len();
+    let cells = grid.cell_count() * scenes.len();
     let progress = Progress::new(cells as u64, "cells");
-    let kept: Kept<'_> = Some(&keep);
+    let kept: OptionalMemory<'_> = Some(&keep);
     let places = limit.limit_many(cells, || {
         let places = follow_attractors(&scenes, &grid, options, &progress.watcher(), kept);
         Ok(places.map_err(Error::from)?)
@@ -122,7 +122,7 @@ fn region(scenes: &[(f64, Scene)]) -> Result<Region, OrbitError> {
     let mut all: Option<Region> = None;
     for (_, scene) in scenes {
         let own = starting_box(scene, &interrupt::watch)?;
-        all = Some(all.map_or(own, |all| all.with(&own)));
+        all = Some(all.map_or(own, |all| all.smallest_union(&own)));
     }
     all.ok_or(OrbitError::Stopped)
 }

@@ -9,7 +9,7 @@ use softstop_console::table::heading;
 use softstop_console::units;
 use softstop_dynamics::Grid;
 use softstop_dynamics::attractors::Attractor;
-use softstop_dynamics::basin::{BasinsAt, Clearing};
+use softstop_dynamics::basin::{BasinBall, BasinsAt};
 
 use super::Found;
 
@@ -18,7 +18,7 @@ pub(super) struct Row<'a> {
     pub(super) at: &'a BasinsAt,
     pub(super) attractor: usize,
     pub(super) class: &'a Attractor,
-    pub(super) ball: Option<Clearing>,
+    pub(super) ball: Option<BasinBall>,
 }
 
 /// The rows, value by value, the attractors of each in the order of their numbers.
@@ -43,7 +43,7 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 13] {
     columns! { Row<'a>, it;
         "value" [Of("own")], "of the parameter, in its own unit" => it.at.value;
         "attractor" [None], "its number, from 1, the same at all values" => it.attractor;
-        "kind" [None], "of its motion" => it.class.motion.key();
+        "kind" [None], "of its motion" => it.class.motion.json_key();
         "z" [None], "regime z = p/n, if the motion repeats" => it.class.motion.z();
         "order" [None], "impacts in each of its drive periods" => it.class.motion.order().map(ToString::to_string);
         "before_impact_velocity" [Velocity], "of its hardest impact" => it.class.orbit.as_ref().map(|it| it.before_impact_velocity());

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use softstop::internals::work;
 use softstop::{Clock, Crossing, CrossingKind, MotionError, PhaseKind, Scene, Start, Touch};
-use softstop_dynamics::internals::peak_force;
+use softstop_dynamics::internals::peak_contact_force;
 use softstop_dynamics::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
 
 /// What the settled motion of a machine gives.
@@ -56,7 +56,7 @@ impl Observation {
     /// [`MotionError`] if no motion can be computed.
     pub fn settled(scene: &Scene, hint: Option<Start>, start: Start) -> Result<Self, MotionError> {
         let near = |hint: Start| {
-            let orbit = Orbit::near(scene, hint.into()).ok()?;
+            let orbit = Orbit::find_near(scene, hint.into()).ok()?;
             orbit.is_stable().then_some(orbit)
         };
         let orbit = match hint.and_then(near) {
@@ -67,7 +67,7 @@ impl Observation {
             Ok(orbit) => Self::over(scene, orbit.state().into(), Some(Regime::ONE)),
             Err(OrbitError::Motion(error)) => Err(error),
             Err(_) => {
-                let (regime, settled) = Regime::after(scene, start, TRANSIENT)?;
+                let (regime, settled) = Regime::after_transient(scene, start, TRANSIENT)?;
                 Self::over(scene, settled, regime)
             }
         }
@@ -86,7 +86,7 @@ impl Observation {
             if kept.kind != PhaseKind::Free {
                 contact_time += kept.duration;
                 lost += work.dissipated;
-                let force = kept.phase.map(|_| peak_force(scene, along));
+                let force = kept.phase.map(|_| peak_contact_force(scene, along));
                 peak = peak.into_iter().chain(force).reduce(f64::max);
             }
             let crossing = kept.crossing.as_ref();

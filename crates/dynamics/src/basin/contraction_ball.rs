@@ -1,4 +1,4 @@
-//! Balls about the points of a stable orbit in which its map contracts.
+//! Contraction balls: balls about the points of a stable orbit in which its map contracts.
 
 use std::f64::consts::TAU;
 
@@ -7,81 +7,85 @@ use nalgebra::{Matrix2, Vector2};
 use crate::orbit::{Orbit, StroboscopicMap, multipliers};
 use softstop::{MotionError, Start};
 
-/// Balls about the points of some orbits, by their numbers.
+/// Contraction balls about the points of some orbits, by the numbers of these.
 #[derive(Debug, Default)]
 pub(super) struct ContractionBalls(Vec<(usize, ContractionBall)>);
 
 impl ContractionBalls {
-    /// Adds those of an orbit; points about which none was found have none.
-    pub fn add(&mut self, index: usize, orbit: &Orbit) -> Result<(), MotionError> {
-        let balls = ContractionBall::all(orbit)?.into_iter();
+    /// Adds the contraction balls about an orbit; points about which none was found have none.
+    pub fn add_orbit(&mut self, index: usize, orbit: &Orbit) -> Result<(), MotionError> {
+        let balls = ContractionBall::about_orbit(orbit)?.into_iter();
         self.0.extend(balls.map(|ball| (index, ball)));
         Ok(())
     }
 
-    /// The orbit in one of whose balls a state lies, the first of several.
-    pub fn caught(&self, state: Start) -> Option<usize> {
-        let ball = self.0.iter().find(|(_, ball)| ball.holds(state));
+    /// The number of the orbit in one of whose contraction balls a state lies, the first of several.
+    pub fn orbit_holding(&self, state: Start) -> Option<usize> {
+        let ball = self.0.iter().find(|(_, ball)| ball.contains(state));
         ball.map(|(orbit, _)| *orbit)
     }
 }
 
-/// Where a motion has arrived: |L (s - c)| <= r.
+/// A ball |L (s - c)| <= r in which the map contracts: a motion in it has arrived.
 #[derive(Debug, Clone, Copy)]
 struct ContractionBall {
     centre: Vector2<f64>,
     shape: Matrix2<f64>,
-    /// r^2.
+    /// Square of the radius, r^2.
     square: f64,
 }
 
-/// Shares of the radius on which the Jacobian is looked at, and points on each of these rings.
-const RINGS: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
+/// Radii of the rings on which the Jacobian is tested, in shares of that of the ball.
+const RING_RADII: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
+/// Points on each ring at which the Jacobian is tested.
 const RING_POINTS: usize = 24;
-/// What a radius that is too large is multiplied by.
-const SHRINK: f64 = 0.7;
-/// Least radius, in units of the orbit's size.
-const LEAST_RADIUS: f64 = 1e-5;
-/// Most terms of the series of the norm.
-const TERMS: usize = 20_000;
+/// Factor by which a radius of a contraction ball that is too large shrinks.
+const RADIUS_SHRINK: f64 = 0.7;
+/// Least radius of a contraction ball, in units of the orbit's size.
+const MIN_RADIUS: f64 = 1e-5;
+/// Most terms of the series of the contracting norm.
+const MAX_NORM_TERMS: usize = 20_000;
 
 impl ContractionBall {
-    fn holds(&self, state: Start) -> bool {
+    /// True if a state lies in the contraction ball.
+    fn contains(&self, state: Start) -> bool {
         let gap = Vector2::new(state.position, state.velocity) - self.centre;
         (self.shape * gap).norm_squared() <= self.square
     }
 
-    /// The balls about all points of an orbit.
-    fn all(orbit: &Orbit) -> Result<Vec<Self>, MotionError> {
+    /// The contraction balls about all points of an orbit.
+    fn about_orbit(orbit: &Orbit) -> Result<Vec<Self>, MotionError> {
         let map = StroboscopicMap::new(&orbit.scene, orbit.periods)?;
         let states = orbit.states()?;
         let w = orbit.scene.excitation.frequency;
         let lengths = states.iter().map(|state| (w * state.x).hypot(state.y));
         let size = lengths.fold(0.0, f64::max);
-        let ball = |centre| Self::about(&map, centre, orbit.impacts.len(), w, size).transpose();
+        let ball =
+            |centre| Self::about_point(&map, centre, orbit.impacts.len(), w, size).transpose();
         states.into_iter().filter_map(ball).collect()
     }
 
-    /// The ball about one point, the largest tried in which the map contracts.
-    fn about(
+    /// The contraction ball about one point of an orbit, the largest tried in which the map contracts.
+    fn about_point(
         map: &StroboscopicMap,
         centre: Vector2<f64>,
         impacts: usize,
         w: f64,
         size: f64,
     ) -> Result<Option<Self>, MotionError> {
-        let Some((shape, rate)) = contracting(&map.apply(centre)?.monodromy, w) else {
+        let Some((shape, rate)) = contracting_norm(&map.apply(centre)?.monodromy, w) else {
             return Ok(None);
         };
         let Some(back) = shape.try_inverse() else {
             return Ok(None);
         };
         let mut radius = size;
-        while radius > LEAST_RADIUS * size {
+        while radius > MIN_RADIUS * size {
             let contracts = |point: Vector2<f64>| {
                 map.apply(centre + back * point).is_ok_and(|passage| {
                     let tangent = shape * passage.monodromy.matrix * back;
-                    passage.impacts.len() == impacts && largest(&tangent) <= 0.5 * (1.0 + rate)
+                    passage.impacts.len() == impacts
+                        && largest_singular_value(&tangent) <= 0.5 * (1.0 + rate)
                 })
             };
             if ring_points(radius).all(contracts) {
@@ -91,14 +95,15 @@ impl ContractionBall {
                     square: radius * radius,
                 }));
             }
-            radius *= SHRINK;
+            radius *= RADIUS_SHRINK;
         }
         Ok(None)
     }
 }
 
+/// The points on rings in a ball of a radius at which the Jacobian is tested.
 fn ring_points(radius: f64) -> impl Iterator<Item = Vector2<f64>> {
-    RINGS.into_iter().flat_map(move |share| {
+    RING_RADII.into_iter().flat_map(move |share| {
         (0..RING_POINTS).map(move |k| {
             let (sin, cos) = (TAU * k as f64 / RING_POINTS as f64).sin_cos();
             share * radius * Vector2::new(cos, sin)
@@ -106,17 +111,17 @@ fn ring_points(radius: f64) -> impl Iterator<Item = Vector2<f64>> {
     })
 }
 
-/// The largest singular value.
-fn largest(matrix: &Matrix2<f64>) -> f64 {
+/// The largest singular value of a matrix, its norm.
+fn largest_singular_value(matrix: &Matrix2<f64>) -> f64 {
     multipliers(&(matrix.transpose() * matrix))[0]
         .re
         .max(0.0)
         .sqrt()
 }
 
-/// A matrix L such that |L M s| <= g |L s| with g half-way between M's largest multiplier and 1:
-/// L^T L = P, the sum of (M/g)^jT diag(w^2, 1) (M/g)^j. None unless M contracts in the end.
-fn contracting(matrix: &Matrix2<f64>, w: f64) -> Option<(Matrix2<f64>, f64)> {
+/// A norm in which a matrix contracts: L such that |L M s| <= g |L s| with g half-way between M's largest multiplier
+/// and 1: L^T L = P, the sum of (M/g)^jT diag(w^2, 1) (M/g)^j. None unless M contracts in the end.
+fn contracting_norm(matrix: &Matrix2<f64>, w: f64) -> Option<(Matrix2<f64>, f64)> {
     let spectral = multipliers(matrix)[0].norm();
     let rate = 0.5 * (1.0 + spectral);
     if spectral.is_nan() || spectral >= 1.0 {
@@ -125,7 +130,7 @@ fn contracting(matrix: &Matrix2<f64>, w: f64) -> Option<(Matrix2<f64>, f64)> {
     let slower = matrix / rate;
     let first = Matrix2::new(w * w, 0.0, 0.0, 1.0);
     let (mut sum, mut term) = (first, first);
-    for _ in 0..TERMS {
+    for _ in 0..MAX_NORM_TERMS {
         term = slower.transpose() * term * slower;
         sum += term;
         if term.norm() <= f64::EPSILON * sum.norm() {
@@ -144,10 +149,10 @@ mod tests {
     fn in_its_norm_a_matrix_contracts() {
         // Far from normal: its plain norm is 50.
         let matrix = Matrix2::new(0.9, 50.0, 0.0, -0.8);
-        let (shape, rate) = contracting(&matrix, 1.3).expect("stable");
+        let (shape, rate) = contracting_norm(&matrix, 1.3).expect("stable");
         let back = shape.try_inverse().expect("regular");
-        let norm = largest(&(shape * matrix * back));
+        let norm = largest_singular_value(&(shape * matrix * back));
         assert!(norm < rate && rate < 1.0, "{norm} {rate}");
-        assert!(contracting(&Matrix2::new(1.01, 0.0, 0.0, 0.1), 1.0).is_none());
+        assert!(contracting_norm(&Matrix2::new(1.01, 0.0, 0.0, 0.1), 1.0).is_none());
     }
 }

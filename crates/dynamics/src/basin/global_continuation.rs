@@ -5,57 +5,57 @@
 //! say. The motion from its state is followed at the next value, so that an attractor is found also if no cell leads to it.
 //! One orbit continues one attractor; what continues none is new.
 
-use super::survey::basins_of_all;
+use super::survey::find_basins_of_scenes;
 use super::{BasinEntropy, BasinOptions, Basins, Grid};
-use crate::attractors::{Attractor, SearchOptions, settle};
-use crate::monitor::{Kept, Monitor};
-use crate::orbit::recurrence::{distance, size};
+use crate::attractors::{Attractor, SearchOptions, settle_starts};
+use crate::monitor::{Monitor, OptionalMemory};
+use crate::orbit::recurrence::{motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError};
 use softstop::{Scene, Start};
 
-/// Distance of two orbits of different regimes, in units of the larger one's size, within which one continues the other: a
-/// soft flip and a soft grazing lead to such, a jump does not.
-const NEAR: f64 = 0.1;
+/// Distance of two orbits of different regimes, in units of the larger one's size, within which one continues the
+/// other: a soft flip and a soft grazing lead to such, a jump does not.
+const CONTINUES_DISTANCE: f64 = 0.1;
 /// Distance of two orbits found at one value that are the same, in the same units.
-const SAME: f64 = 1e-5;
+const SAME_ORBIT_DISTANCE: f64 = 1e-5;
 
 /// The basins at one value of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct BasinsAt {
-    /// The value.
+    /// The parameter's value.
     pub value: f64,
     /// The basins; an attractor to which no cell leads has a basin without cells.
     pub basins: Basins,
     /// The number of the attractor of each basin, from 1, the same at all values.
     pub attractors: Vec<usize>,
-    /// Their entropy.
+    /// The basin entropy.
     pub entropy: BasinEntropy,
 }
 
-/// The basins of scenes, one for each value of a parameter, in order; the grid is the same for all. The monitor is told
-/// of the cells done at all values.
+/// Follows attractors along a parameter: the basins of scenes, one for each value, in order; the grid is the same for
+/// all. The monitor is told of the cells done at all values.
 ///
 /// # Errors
-/// As [`basins`](super::basins).
+/// As [`find_basins`](super::find_basins).
 pub fn follow_attractors(
     scenes: &[(f64, Scene)],
     grid: &Grid,
     options: &BasinOptions,
     monitor: Monitor<'_>,
-    kept: Kept<'_>,
+    kept: OptionalMemory<'_>,
 ) -> Result<Vec<BasinsAt>, OrbitError> {
-    let cells = (grid.cells() * scenes.len()) as u64;
+    let cells = (grid.cell_count() * scenes.len()) as u64;
     let all = scenes.iter().map(|(_, scene)| scene);
-    let all = basins_of_all(all, grid, options, monitor, kept)?;
+    let all = find_basins_of_scenes(all, grid, options, monitor, kept)?;
     let pause = |_, _| monitor(cells, cells);
     let mut found: Vec<BasinsAt> = Vec::with_capacity(scenes.len());
     let mut known = 0;
     for ((value, scene), mut basins) in scenes.iter().zip(all) {
         let mut surest = Vec::new();
         if let Some(last) = found.last() {
-            carry_over(last, scene, &mut basins, options, &pause)?;
-            surest = claims(last, &basins)?;
+            carry_over_orbits(last, scene, &mut basins, options, &pause)?;
+            surest = find_claims(last, &basins)?;
         }
         let mut attractors = vec![None; basins.classes.len()];
         for claim in surest {
@@ -72,14 +72,14 @@ pub fn follow_attractors(
         found.push(BasinsAt {
             value: *value,
             attractors: attractors.into_iter().map(number).collect(),
-            entropy: basins.entropy(),
+            entropy: basins.basin_entropy(),
             basins,
         });
     }
     Ok(found)
 }
 
-/// An attractor that may go on as the motion of a class.
+/// A claim that an attractor of the last value goes on as the motion of a class at this one.
 struct Claim {
     attractor: usize,
     class: usize,
@@ -87,19 +87,19 @@ struct Claim {
     gap: f64,
 }
 
-/// Which attractors of the last value go on, the surest first.
-fn claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, OrbitError> {
+/// The claims of the attractors of the last value to classes at this one, the surest first.
+fn find_claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, OrbitError> {
     let mut claims = Vec::new();
     for (old, attractor) in last.basins.classes.iter().zip(&last.attractors) {
         for (class, new) in basins.classes.iter().enumerate() {
             let is_same_kind = old.motion == new.motion;
             let gap = match (&old.orbit, &new.orbit) {
-                (Some(old), Some(new)) => gap(old, new)?,
+                (Some(old), Some(new)) => orbit_gap(old, new)?,
                 // What does not repeat has one class of its kind.
                 (None, None) if is_same_kind => 0.0,
                 _ => continue,
             };
-            if is_same_kind || gap < NEAR {
+            if is_same_kind || gap < CONTINUES_DISTANCE {
                 claims.push(Claim {
                     attractor: *attractor,
                     class,
@@ -116,8 +116,8 @@ fn claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, OrbitError> {
     Ok(claims)
 }
 
-/// Enters the orbits to which states of the attractors of the last value lead.
-fn carry_over(
+/// Enters in the basins the orbits to which states of the attractors of the last value lead.
+fn carry_over_orbits(
     last: &BasinsAt,
     scene: &Scene,
     basins: &mut Basins,
@@ -136,44 +136,44 @@ fn carry_over(
         .filter_map(|class| class.orbit.as_deref());
     let seeds: Vec<Start> = orbits.map(|orbit| orbit.state().into()).collect();
     for seed in seeds {
-        let arrival = match settle(scene, &[seed], &search, monitor) {
+        let arrival = match settle_starts(scene, &[seed], &search, monitor) {
             Ok(arrivals) => arrivals.into_iter().next(),
             // A rigid stop may have come to stand before it, say.
             Err(OrbitError::Motion(_)) => None,
             Err(stopped) => return Err(stopped),
         };
         if let Some(orbit) = arrival.and_then(|it| it.orbit) {
-            enter(basins, orbit)?;
+            enter_orbit(basins, orbit)?;
         }
     }
     Ok(())
 }
 
-/// Enters a stable orbit without cells, unless it is known.
-fn enter(basins: &mut Basins, orbit: Orbit) -> Result<(), OrbitError> {
+/// Enters in the basins a stable orbit without cells, unless it is known.
+fn enter_orbit(basins: &mut Basins, orbit: Orbit) -> Result<(), OrbitError> {
     for class in &basins.classes {
         if let Some(known) = class.orbit.as_deref()
             && known.periods == orbit.periods
-            && gap(known, &orbit)? < SAME
+            && orbit_gap(known, &orbit)? < SAME_ORBIT_DISTANCE
         {
             return Ok(());
         }
     }
     let starts = (0, basins.cells.len());
-    basins.classes.push(Attractor::repeating(&orbit, starts));
+    basins.classes.push(Attractor::from_orbit(&orbit, starts));
     Ok(())
 }
 
-/// How far apart two orbits are: the largest distance of a state of one at drive angle phi from the nearest one of the
-/// other, in units of the larger one's size.
-fn gap(one: &Orbit, other: &Orbit) -> Result<f64, OrbitError> {
+/// Distance of two orbits: the largest distance of a state of one at drive angle phi from the nearest one of the other,
+/// in units of the larger one's size.
+fn orbit_gap(one: &Orbit, other: &Orbit) -> Result<f64, OrbitError> {
     let states = |orbit: &Orbit| -> Result<Vec<Start>, OrbitError> {
         Ok(orbit.states()?.into_iter().map(Start::from).collect())
     };
     let (a, b) = (states(one)?, states(other)?);
     let frequency = other.scene.excitation.frequency;
     let nearest = |state: &Start, states: &[Start]| {
-        let gaps = states.iter().map(|it| distance(frequency, state, it));
+        let gaps = states.iter().map(|it| state_distance(frequency, state, it));
         gaps.fold(f64::INFINITY, f64::min)
     };
     let apart = a
@@ -181,6 +181,6 @@ fn gap(one: &Orbit, other: &Orbit) -> Result<f64, OrbitError> {
         .map(|it| nearest(it, &b))
         .chain(b.iter().map(|it| nearest(it, &a)));
     let apart = apart.fold(0.0, f64::max);
-    let size = size(frequency, a.iter().chain(&b));
+    let size = motion_size(frequency, a.iter().chain(&b));
     Ok(if size > 0.0 { apart / size } else { 0.0 })
 }

@@ -1,4 +1,4 @@
-//! One contact on its own: from the clearance to the clearance, with its tangent.
+//! The passage of a mass through contact on its own, from the clearance to the clearance, with its tangent.
 
 use std::ops::ControlFlow;
 use std::sync::Arc as Shared;
@@ -10,11 +10,11 @@ use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Start, Tangent,
 };
 
-/// Work that a contact may cost, in scan windows, 4096 crossings: a mass that bounces longer within it does not come
-/// back.
+/// Work that a passage through contact may cost, in scan windows, 4096 crossings: a mass that bounces longer within it
+/// does not come back.
 const MAX_CONTACT_WORK: u64 = 1 << 18;
 
-/// The phases of a scene, as seen by a mass that comes to the clearance.
+/// The face at the clearance, with the phases of its scene: where a passage through contact begins and ends.
 #[derive(Debug, Clone)]
 pub(super) struct ContactFace {
     pub phases: Shared<Phases>,
@@ -22,29 +22,29 @@ pub(super) struct ContactFace {
     surface: Surface,
 }
 
-/// A contact from its impact on.
+/// A passage through contact, from its impact until the mass is free again, with its derivatives.
 #[derive(Debug, Clone)]
 pub(super) struct ContactPassage {
     /// Change of the state right after the impact with its time, seen at a fixed time.
     pub by_time: Vector2<f64>,
     /// Change of the state right after the impact with its velocity.
     pub by_velocity: Vector2<f64>,
-    /// The saltation of the impact.
+    /// The saltation matrix of the impact.
     pub entry: Matrix2<f64>,
-    /// From right after the impact to the free motion.
+    /// Tangent from right after the impact to the free motion.
     pub tangent: Tangent,
     /// Velocity in m/s right after the impact.
     pub velocity_after: f64,
     /// Time in s from the impact until the mass is free again.
     pub lasting: f64,
-    /// When it is.
+    /// Instant at which the mass is free again.
     pub free_from: Instant,
     /// The free motion from there on, as if there were no stop.
     pub course: ArcSolution,
 }
 
 impl ContactFace {
-    /// None if there is no surface at the clearance, or one below that the free motion may meet.
+    /// The face of a scene's phases; none without a surface at the clearance, or with one below that the mass may meet.
     pub(super) fn new(phases: Shared<Phases>, clock: Clock) -> Option<Self> {
         let surfaces = phases.surfaces.iter();
         let mut clearances = surfaces.filter(|surface| surface.is_clearance);
@@ -59,51 +59,51 @@ impl ContactFace {
         })
     }
 
-    /// Where it is, in m.
-    pub(super) fn position(&self) -> f64 {
+    /// Position of the face in m.
+    pub(super) fn face_position(&self) -> f64 {
         self.surface.position
     }
 
-    /// Acceleration of the free motion at a state on the face.
-    fn free_acceleration(&self, at: Instant, velocity: f64) -> f64 {
-        self.acceleration(PhaseId::FREE, at, velocity)
+    /// Acceleration in m/s^2 of the free mass at the face, at an instant with a velocity in m/s.
+    fn free_acceleration_at_face(&self, at: Instant, velocity: f64) -> f64 {
+        self.acceleration_at_face(PhaseId::FREE, at, velocity)
     }
 
-    fn acceleration(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
+    /// Acceleration in m/s^2 of the mass in a phase at the face, at an instant with a velocity in m/s.
+    fn acceleration_at_face(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
         let push = self.phases.amplitude * self.clock.drive(at).cos;
         self.phases
-            .acceleration(phase, self.position(), velocity, push)
+            .acceleration(phase, self.face_position(), velocity, push)
     }
 
-    /// A motion from the face.
-    pub(super) fn motion(&self, at: Instant, velocity: f64) -> Result<Motion, MotionError> {
-        let start = Start::new(self.position(), velocity);
+    /// A motion that begins at the face, at an instant with a velocity in m/s.
+    pub(super) fn release(&self, at: Instant, velocity: f64) -> Result<Motion, MotionError> {
+        let start = Start::new(self.face_position(), velocity);
         Motion::new(self.phases.clone(), self.clock, at, start)
     }
 
-    /// The contact that begins with an impact; none if the mass comes to rest in it or does not come
-    /// back within `longest` s.
-    pub(super) fn pass(
+    /// The passage through contact from an impact; none if the mass rests in it or stays longer than `longest` s.
+    pub(super) fn pass_contact(
         &self,
         at: Instant,
         velocity: f64,
         longest: f64,
     ) -> Result<Option<ContactPassage>, MotionError> {
-        let before = self.free_acceleration(at, velocity);
-        let Some(entry) = self.enter(at, velocity)? else {
+        let before = self.free_acceleration_at_face(at, velocity);
+        let Some(entry) = self.enter_contact(at, velocity)? else {
             return Ok(None);
         };
         let (velocity_after, after) = (entry.velocity_after, entry.acceleration);
         let saltation = saltation(&Crossing {
             instant: at,
             kind: entry.kind,
-            position: self.position(),
+            position: self.face_position(),
             velocity,
             velocity_after,
             acceleration_before: before,
             acceleration_after: after,
         });
-        let Some(exit) = self.exit::<Tangent>(at, entry, longest)? else {
+        let Some(exit) = self.exit_contact::<Tangent>(at, entry, longest)? else {
             return Ok(None);
         };
         let by_time = -Vector2::new(velocity_after, after);
@@ -119,22 +119,26 @@ impl ContactFace {
         }))
     }
 
-    /// The contact without its tangent: when the mass is free again, and its free motion from there on.
-    pub(super) fn leave(
+    /// The end of the contact from an impact, without its tangent: when the mass is free, and its free motion.
+    pub(super) fn leave_contact(
         &self,
         at: Instant,
         velocity: f64,
         longest: f64,
     ) -> Result<Option<(Instant, ArcSolution)>, MotionError> {
-        let Some(entry) = self.enter(at, velocity)? else {
+        let Some(entry) = self.enter_contact(at, velocity)? else {
             return Ok(None);
         };
-        let exit = self.exit::<()>(at, entry, longest)?;
+        let exit = self.exit_contact::<()>(at, entry, longest)?;
         Ok(exit.map(|exit| (exit.instant, exit.course)))
     }
 
     /// The impact that a contact begins with; none if the mass rests from there on.
-    fn enter(&self, at: Instant, velocity: f64) -> Result<Option<ContactEntry>, MotionError> {
+    fn enter_contact(
+        &self,
+        at: Instant,
+        velocity: f64,
+    ) -> Result<Option<ContactEntry>, MotionError> {
         let entry = match self.surface.beyond {
             Beyond::Wall { restitution } => {
                 let velocity_after = -restitution * velocity;
@@ -144,12 +148,12 @@ impl ContactFace {
                         pierces: false,
                     },
                     velocity_after,
-                    acceleration: self.free_acceleration(at, velocity_after),
+                    acceleration: self.free_acceleration_at_face(at, velocity_after),
                     contact: None,
                 }
             }
             Beyond::Phase(_) => {
-                let motion = self.motion(at, velocity)?;
+                let motion = self.release(at, velocity)?;
                 let Mode::Moving(phase) = motion.mode() else {
                     return Ok(None);
                 };
@@ -160,7 +164,7 @@ impl ContactFace {
                         pierces: false,
                     },
                     velocity_after: velocity,
-                    acceleration: self.acceleration(phase, at, velocity),
+                    acceleration: self.acceleration_at_face(phase, at, velocity),
                     contact: Some(motion),
                 }
             }
@@ -168,8 +172,8 @@ impl ContactFace {
         Ok((entry.velocity_after != 0.0).then_some(entry))
     }
 
-    /// Follows a contact to its end.
-    fn exit<T: Observer + Default>(
+    /// Follows a contact to its end: when the mass is free, its free motion, and what an observer gathered.
+    fn exit_contact<T: Observer + Default>(
         &self,
         at: Instant,
         entry: ContactEntry,
@@ -177,7 +181,7 @@ impl ContactFace {
     ) -> Result<Option<ContactExit<T>>, MotionError> {
         let (gathered, found) = match entry.contact {
             None => (T::default(), Some((at, entry.velocity_after))),
-            Some(motion) => self.follow(motion, longest)?,
+            Some(motion) => self.follow_contact(motion, longest)?,
         };
         let Some((instant, velocity)) = found.filter(|(_, velocity)| *velocity < 0.0) else {
             return Ok(None);
@@ -185,19 +189,19 @@ impl ContactFace {
         Ok(Some(ContactExit {
             gathered,
             instant,
-            course: self.motion(instant, velocity)?.arc().course.clone(),
+            course: self.release(instant, velocity)?.arc().course.clone(),
         }))
     }
 
-    /// Follows a mass in contact until it is free: what is gathered up to there, when it is, and how fast.
-    fn follow<T: Observer + Default>(
+    /// Follows a mass in contact until it is free: what an observer gathers, when that is, and its velocity in m/s.
+    fn follow_contact<T: Observer + Default>(
         &self,
         mut motion: Motion,
         longest: f64,
     ) -> Result<(T, Option<(Instant, f64)>), MotionError> {
         let at = motion.now();
         let mut contact = ContactRecorder {
-            position: self.position(),
+            position: self.face_position(),
             gathered: T::default(),
             found: None,
             effort: Effort::windows(MAX_CONTACT_WORK),
@@ -207,7 +211,7 @@ impl ContactFace {
     }
 }
 
-/// An impact, and the motion in contact after it, unless the face is rigid.
+/// The impact that begins a contact, and the motion in contact after it, unless the face is rigid.
 struct ContactEntry {
     kind: CrossingKind,
     /// Velocity in m/s right after it.
@@ -224,7 +228,7 @@ struct ContactExit<T> {
     course: ArcSolution,
 }
 
-/// Gathers until the mass is free again.
+/// An observer of a contact that gathers until the mass is free again.
 struct ContactRecorder<T> {
     position: f64,
     gathered: T,

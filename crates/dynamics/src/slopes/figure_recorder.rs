@@ -1,25 +1,25 @@
-//! What a motion shows on its way, with its derivatives.
+//! An observer that records the figures of a motion with their derivatives.
 
 use nalgebra::Vector3;
 
 use softstop::internals::{ParameterSensitivity, Phase, PhaseDerivatives, PhaseId, Phases};
 use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKind};
 
-use super::figure::DifferentiatedFigure;
-use super::peak::peaks;
+use super::differentiated_figure::DifferentiatedFigure;
+use super::force_peaks::force_peaks;
 use crate::period::turn::turns;
 
-/// What was seen, with derivatives by position and velocity at time 0, then by the parameters.
+/// The figures that were recorded, with derivatives by position and velocity at time 0, then by the parameters.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RecordedFigures {
-    /// Times and before-impact velocities.
+    /// Times and before-impact velocities of the impacts.
     pub impacts: Vec<[DifferentiatedFigure; 2]>,
     pub highest: Option<DifferentiatedFigure>,
     pub lowest: Option<DifferentiatedFigure>,
     pub force: Option<DifferentiatedFigure>,
 }
 
-/// Watches a motion.
+/// An observer that records impacts, extremes of position and peak force of a motion with their derivatives.
 pub(super) struct FigureRecorder<'a> {
     pub influence: ParameterSensitivity<'a>,
     pub watched: RecordedFigures,
@@ -29,11 +29,12 @@ pub(super) struct FigureRecorder<'a> {
     frequency: f64,
     /// The phase of the last arc.
     phase: Option<PhaseId>,
-    /// By how much the last crossing is later, and the acceleration in m/s^2 after it.
+    /// Delays of the last crossing by each unknown, and the acceleration in m/s^2 after it.
     edge: Option<(Vec<f64>, f64)>,
 }
 
 impl<'a> FigureRecorder<'a> {
+    /// A recorder of the motions through some phases, by parameters with these derivatives of the phases.
     pub fn new(phases: &'a Phases, by: &'a [PhaseDerivatives], clock: Clock) -> Self {
         Self {
             influence: ParameterSensitivity::new(phases, by),
@@ -47,8 +48,8 @@ impl<'a> FigureRecorder<'a> {
         }
     }
 
-    /// A row, with what it changes by with the drive's frequency where the drive angle is held, too.
-    fn row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> DifferentiatedFigure {
+    /// A figure with its derivatives, and how the drive's frequency changes it where the drive angle is held.
+    fn figure_row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> DifferentiatedFigure {
         for (part, by) in by.iter_mut().skip(2).zip(self.by) {
             if by.parameter == Parameter::Frequency {
                 *part += with_time / self.frequency;
@@ -57,7 +58,8 @@ impl<'a> FigureRecorder<'a> {
         DifferentiatedFigure { value, by }
     }
 
-    fn sees_position(&mut self, value: f64, by: impl FnOnce(&Self) -> Option<Vec<f64>>) {
+    /// Records a position if it is the highest or the lowest so far, with its derivatives.
+    fn record_position(&mut self, value: f64, by: impl FnOnce(&Self) -> Option<Vec<f64>>) {
         let beats = |known: &Option<DifferentiatedFigure>, sign: f64| {
             known
                 .as_ref()
@@ -80,8 +82,8 @@ impl<'a> FigureRecorder<'a> {
         }
     }
 
-    /// The contact force in a phase at a state (position, velocity, acceleration), which comes by `delays` later.
-    fn sees_force(
+    /// Records the contact force in a phase at (position, velocity, acceleration), if it is the largest so far.
+    fn record_force(
         &mut self,
         phase: PhaseId,
         [x, v, a]: [f64; 3],
@@ -113,7 +115,8 @@ impl<'a> FigureRecorder<'a> {
         self.watched.force = Some(row);
     }
 
-    fn columns(&self) -> Option<Vec<Vector3<f64>>> {
+    /// The columns of the sensitivity matrix at present, if they are known.
+    fn sensitivity_columns(&self) -> Option<Vec<Vector3<f64>>> {
         self.influence.columns().map(<[_]>::to_vec)
     }
 }
@@ -133,7 +136,7 @@ impl Observer for FigureRecorder<'_> {
         };
         let back = arc.course.departure.velocity > 0.0;
         for turn in turns(arc.course, elapsed, back) {
-            self.sees_position(turn.position, |recorder| {
+            self.record_position(turn.position, |recorder| {
                 let columns = within(recorder, turn.elapsed)?;
                 Some(columns.iter().map(|column| column.x).collect())
             });
@@ -144,10 +147,10 @@ impl Observer for FigureRecorder<'_> {
             if let Some((delays, a)) = &edge {
                 let from = &arc.course.departure;
                 let state = [from.position, from.velocity, *a];
-                self.sees_force(phase.id, state, Self::columns, Some(delays));
+                self.record_force(phase.id, state, Self::sensitivity_columns, Some(delays));
             }
-            for (time, state) in peaks(self.phases, phase, arc, elapsed) {
-                self.sees_force(phase.id, state, |recorder| within(recorder, time), None);
+            for (time, state) in force_peaks(self.phases, phase, arc, elapsed) {
+                self.record_force(phase.id, state, |recorder| within(recorder, time), None);
             }
         }
         self.influence.arc(arc, elapsed);
@@ -160,7 +163,7 @@ impl Observer for FigureRecorder<'_> {
             crossing.acceleration_before,
         );
         let delays = self.influence.crossing_delays(crossing);
-        let columns = self.columns();
+        let columns = self.sensitivity_columns();
         let each = |part: &dyn Fn(&Vector3<f64>, f64) -> f64| match &columns {
             Some(columns) => columns
                 .iter()
@@ -171,10 +174,10 @@ impl Observer for FigureRecorder<'_> {
         };
         if crossing.kind.is_impact() {
             let time = self.clock.time(crossing.instant);
-            let times = self.row(time, delays.clone(), -time);
+            let times = self.figure_row(time, delays.clone(), -time);
             let side = 1f64.copysign(v);
             let change = |column: &Vector3<f64>, delay| side * (column.y + a * delay);
-            let velocities = self.row(v.abs(), each(&change), v.abs());
+            let velocities = self.figure_row(v.abs(), each(&change), v.abs());
             self.watched.impacts.push([times, velocities]);
         }
         let turns = match crossing.kind {
@@ -184,11 +187,11 @@ impl Observer for FigureRecorder<'_> {
         };
         if turns {
             let by = each(&|column, delay| column.x + v * delay);
-            self.sees_position(x, |_| Some(by));
+            self.record_position(x, |_| Some(by));
         }
         if let Some(phase) = self.phase.take().filter(|phase| *phase != PhaseId::FREE) {
             let known = columns.clone();
-            self.sees_force(phase, [x, v, a], |_| known, Some(&delays));
+            self.record_force(phase, [x, v, a], |_| known, Some(&delays));
         }
         self.influence.crossing(crossing);
         self.edge = Some((delays, crossing.acceleration_after));

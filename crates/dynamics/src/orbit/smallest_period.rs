@@ -1,11 +1,11 @@
-//! The smallest period of what a row of stroboscopic states has come to.
+//! The smallest period of the orbit that a row of stroboscopic states has come to.
 
 use super::Orbit;
-use super::recurrence::{distance, size};
+use super::recurrence::{motion_size, state_distance};
 use softstop::{Scene, Start};
 
-/// Distance between states, in units of the motion's size, up to which it is left to Newton's method whether they are
-/// one, and up to which what it leads to is what the row comes to.
+/// Distance between states, in units of the motion's size, up to which Newton's method decides whether they are one,
+/// and up to which the orbit that it leads to is what the row comes to.
 const NEAR_STATES: f64 = 0.1;
 
 /// The period in drive periods of what a row of states comes to that returns after some. Near a flip a motion comes
@@ -13,14 +13,14 @@ const NEAR_STATES: f64 = 0.1;
 /// are near to each other, the orbit that Newton's method reaches from the last one decides.
 pub(crate) fn smallest_period(scene: &Scene, states: &[Start], periods: usize) -> usize {
     let frequency = scene.excitation.frequency;
-    let near = NEAR_STATES * size(frequency, states);
+    let near = NEAR_STATES * motion_size(frequency, states);
     let last = states.len() - 1;
-    let is_near = |state: &Start| distance(frequency, &states[last], state) <= near;
+    let is_near = |state: &Start| state_distance(frequency, &states[last], state) <= near;
     let mut parts = (1..periods).filter(|part| periods.is_multiple_of(*part));
     if !parts.any(|part| is_near(&states[last - part])) {
         return periods;
     }
-    match Orbit::periodic(scene, states[last].into(), periods as u64) {
+    match Orbit::find_periodic(scene, states[last].into(), periods as u64) {
         Ok(orbit) if orbit.is_stable() && is_near(&orbit.state().into()) => orbit.periods as usize,
         _ => periods,
     }

@@ -1,18 +1,18 @@
-//! How sure a share is.
+//! Wilson's interval: how certain a share of trials is.
 
-/// The 97.5 % point of the standard normal distribution.
-const NORMAL: f64 = 1.959_963_984_540_054;
+/// The 97.5 % quantile of the standard normal distribution.
+const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// Wilson's 95 % interval of a probability of which `hits` of `trials` independent trials came true
 /// (Wilson 1927): unlike the plain one it is right near 0 and 1.
-pub fn wilson(hits: usize, trials: usize) -> [f64; 2] {
+pub fn wilson_interval(hits: usize, trials: usize) -> [f64; 2] {
     if trials == 0 {
         return [0.0, 1.0];
     }
-    let (n, z2) = (trials as f64, NORMAL * NORMAL);
+    let (n, z2) = (trials as f64, NORMAL_QUANTILE * NORMAL_QUANTILE);
     let p = hits as f64 / n;
     let middle = p + 0.5 * z2 / n;
-    let half = NORMAL * (p * (1.0 - p) / n + 0.25 * z2 / (n * n)).sqrt();
+    let half = NORMAL_QUANTILE * (p * (1.0 - p) / n + 0.25 * z2 / (n * n)).sqrt();
     // Without rounding at the ends.
     let low = if hits == 0 { 0.0 } else { middle - half };
     let high = if hits == trials {
@@ -36,10 +36,10 @@ mod tests {
                 "{low} {high}"
             );
         };
-        near(wilson(81, 263), 0.2553, 0.3662);
-        near(wilson(0, 20), 0.0, 0.1611);
-        near(wilson(1, 29), 0.0061, 0.1718);
-        near(wilson(20, 20), 1.0 - 0.1611, 1.0);
-        assert_eq!(wilson(0, 0), [0.0, 1.0]);
+        near(wilson_interval(81, 263), 0.2553, 0.3662);
+        near(wilson_interval(0, 20), 0.0, 0.1611);
+        near(wilson_interval(1, 29), 0.0061, 0.1718);
+        near(wilson_interval(20, 20), 1.0 - 0.1611, 1.0);
+        assert_eq!(wilson_interval(0, 0), [0.0, 1.0]);
     }
 }

@@ -1,13 +1,13 @@
-//! Where starts lie.
+//! The region of the plane of states from which motions start, and quasi-random starts in it.
 
 use serde::{Deserialize, Serialize};
 
 use crate::extremes::extremes;
-use crate::points::scramble;
+use crate::points::scramble_bits;
 use softstop::internals::Scales;
 use softstop::{Dimension, Machine, Scene, Start};
 
-/// A rectangle of states at drive angle phi.
+/// A region of starts: a rectangle of states at drive angle phi.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Region {
     /// Least and largest position in m.
@@ -16,34 +16,33 @@ pub struct Region {
     pub velocity: [f64; 2],
 }
 
-/// Half-size of the pilot's region, in units of the motion's length (and of w times it).
-const FAR: f64 = 3.0;
-/// What is added on each side of the region in which motions stay, as a share of it.
-const MARGIN: f64 = 0.5;
-/// Least half-size of a region, in units of the motion's length.
+/// Half-size of the region of the pilot's starts, in units of the motion's length (and of w times it).
+const PILOT_HALF_SIZE: f64 = 3.0;
+/// Margin on each side of the region in which motions stay, as a share of it.
+const REGION_MARGIN: f64 = 0.5;
+/// Least half-size of a region of starts, in units of the motion's length.
 const LEAST_HALF_SIZE: f64 = 0.1;
-/// Half-size of the box of all starts, at least, in units of the motion's length (and of w times it).
-const WIDE: f64 = 2.0;
-/// How much wider it is than the motions in it.
-const ROOM: f64 = 1.5;
-/// 1/g and 1/g^2 with g^3 = g + 1: of all pairs the one whose multiples fill a square most evenly
-/// (Roberts 2018).
+/// Least half-size of the box of all starts, in units of the motion's length (and of w times it).
+const BOX_HALF_SIZE: f64 = 2.0;
+/// Size of the box of all starts in units of the motions in it.
+const BOX_ROOM: f64 = 1.5;
+/// 1/g and 1/g^2 with g^3 = g + 1: of all pairs the one whose multiples fill a square most evenly (Roberts 2018).
 const SEQUENCE_STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
 impl Region {
-    /// Far and wide about the origin.
-    pub(super) fn far(scene: &Scene) -> Self {
+    /// The region of the pilot's starts: far and wide about the origin.
+    pub(super) fn pilot(scene: &Scene) -> Self {
         let Scales { length, rate } = scene.motion_scales();
-        let (x, v) = (FAR * length, FAR * rate * length);
+        let (x, v) = (PILOT_HALF_SIZE * length, PILOT_HALF_SIZE * rate * length);
         Self {
             position: [-x, x],
             velocity: [-v, v],
         }
-        .before(scene)
+        .clipped_at_stops(scene)
     }
 
-    /// About all these states; none if there is none.
-    pub(super) fn about<'a>(
+    /// The region about all these states, with a margin; none if there is none.
+    pub(super) fn about_states<'a>(
         scene: &Scene,
         states: impl Iterator<Item = &'a Start> + Clone,
     ) -> Option<Self> {
@@ -51,27 +50,28 @@ impl Region {
         let velocity = extremes(states.map(|state| state.velocity))?;
         let Scales { length, rate } = scene.motion_scales();
         let widen = |[low, high]: [f64; 2], least: f64| {
-            let margin = (MARGIN * (high - low)).max(least);
+            let margin = (REGION_MARGIN * (high - low)).max(least);
             [low - margin, high + margin]
         };
         let region = Self {
             position: widen(position, LEAST_HALF_SIZE * length),
             velocity: widen(velocity, LEAST_HALF_SIZE * rate * length),
         };
-        position[0].is_finite().then(|| region.before(scene))
+        position[0]
+            .is_finite()
+            .then(|| region.clipped_at_stops(scene))
     }
 
-    /// The box that commands take starts from: twice the motion's length both ways, and more where these states need
-    /// more.
-    pub(crate) fn box_with(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
+    /// The box that commands take starts from: twice the motion's length both ways, or wider where states need it.
+    pub(crate) fn start_box(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
         let Scales { length, rate } = scene.motion_scales();
-        let length = WIDE * length;
+        let length = BOX_HALF_SIZE * length;
         let half = states
             .into_iter()
             .fold((length, length * rate), |(x, v), state| {
                 let (far, fast) = (state.position.abs(), state.velocity.abs());
                 match (far + fast).is_finite() {
-                    true => (x.max(ROOM * far), v.max(ROOM * fast)),
+                    true => (x.max(BOX_ROOM * far), v.max(BOX_ROOM * fast)),
                     false => (x, v),
                 }
             });
@@ -79,25 +79,25 @@ impl Region {
             position: [-half.0, half.0],
             velocity: [-half.1, half.1],
         }
-        .before(scene)
+        .clipped_at_stops(scene)
     }
 
-    /// The box, and if states lie outside it a wider one that holds them with the same room.
-    pub(crate) fn holding(&self, scene: &Scene, states: &[Start]) -> Self {
-        match states.iter().all(|state| self.holds(state)) {
+    /// The region, and if states lie outside it a wider one that holds them with the same room.
+    pub(crate) fn widened_to_hold(&self, scene: &Scene, states: &[Start]) -> Self {
+        match states.iter().all(|state| self.contains(state)) {
             true => *self,
-            false => self.with(&Self::box_with(scene, states.iter().copied())),
+            false => self.smallest_union(&Self::start_box(scene, states.iter().copied())),
         }
     }
 
-    /// Whether a state lies in it.
-    fn holds(&self, state: &Start) -> bool {
+    /// True if a state lies in the region.
+    fn contains(&self, state: &Start) -> bool {
         let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
         within(self.position, state.position) && within(self.velocity, state.velocity)
     }
 
-    /// The smallest that holds both.
-    pub fn with(&self, other: &Self) -> Self {
+    /// The smallest region that holds both regions.
+    pub fn smallest_union(&self, other: &Self) -> Self {
         let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
         Self {
             position: both(self.position, other.position),
@@ -105,8 +105,8 @@ impl Region {
         }
     }
 
-    /// In words, in a machine's own units.
-    pub fn told(&self, machine: &Machine) -> String {
+    /// The region in words, in a machine's own units.
+    pub fn describe(&self, machine: &Machine) -> String {
         let range = |[low, high]: [f64; 2], dimension, name: &str| {
             let own = |value| machine.to_own(dimension, value);
             let text = format!("{:.6} <= {name} <= {:.6}", own(low), own(high));
@@ -120,8 +120,8 @@ impl Region {
         format!("{position} and {velocity} at drive angle phi")
     }
 
-    /// The part before rigid stops; the region moved there if no part of it is.
-    pub fn before(mut self, scene: &Scene) -> Self {
+    /// The part of the region before rigid stops; the region moved there if no part of it is.
+    pub fn clipped_at_stops(mut self, scene: &Scene) -> Self {
         let (lowest, highest) = scene.reach();
         let width = self.position[1] - self.position[0];
         self.position[1] = self.position[1].min(highest);
@@ -135,24 +135,24 @@ impl Region {
         self
     }
 
-    /// Quasi-random starts.
+    /// So many quasi-random starts, spread evenly over the region.
     pub(crate) fn starts(&self, count: usize, seed: u64) -> Vec<Start> {
-        let shifts = [share(seed), share(!seed)];
+        let shifts = [seeded_share(seed), seeded_share(!seed)];
         let within = |[low, high]: [f64; 2], share: f64| low + share * (high - low);
         let start = |index| {
-            let [across, up] = evenly(shifts, index);
+            let [across, up] = evenly_spread_point(shifts, index);
             Start::new(within(self.position, across), within(self.velocity, up))
         };
         (0..count).map(start).collect()
     }
 }
 
-/// Places in the unit square, counted from 0: however many there are, they fill it evenly.
-pub fn evenly(shifts: [f64; 2], index: usize) -> [f64; 2] {
+/// The point of a quasi-random sequence with this index from 0 on, which fills the unit square evenly.
+pub fn evenly_spread_point(shifts: [f64; 2], index: usize) -> [f64; 2] {
     std::array::from_fn(|axis| (shifts[axis] + SEQUENCE_STEPS[axis] * (index + 1) as f64).fract())
 }
 
-/// A number in 0..1 from a seed.
-fn share(seed: u64) -> f64 {
-    (scramble(seed) >> 11) as f64 / (1u64 << 53) as f64
+/// A number between 0 and 1 from a seed.
+fn seeded_share(seed: u64) -> f64 {
+    (scramble_bits(seed) >> 11) as f64 / (1u64 << 53) as f64
 }

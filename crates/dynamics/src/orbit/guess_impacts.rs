@@ -1,4 +1,4 @@
-//! Which impacts a periodic motion near a state may have.
+//! Guesses of the impacts that a periodic motion near a state may have.
 
 use nalgebra::Vector2;
 
@@ -8,26 +8,26 @@ use crate::period::turn::turns;
 use softstop::{MotionError, PhaseKind, Scene};
 
 /// Distance from the face, in units of the largest position, within which a mass nearly hits it.
-const NEAR_MISS: f64 = 0.01;
+const NEAR_MISS_SHARE: f64 = 0.01;
 
 /// Time in s and before-impact velocity in m/s of each impact.
-pub(super) type Impacts = Vec<(f64, f64)>;
+pub(super) type TimedImpacts = Vec<(f64, f64)>;
 
-/// The impacts of the motion from a state over some drive periods; then with the nearest miss as one more, and
-/// without the weakest one.
-pub(super) fn guesses(
+/// Guesses of the impacts of an orbit near a state over some drive periods: those of the motion from the state; then
+/// with its nearest miss as one more, and without its weakest one.
+pub(super) fn guess_impacts(
     scene: &Scene,
     state: Vector2<f64>,
     periods: u64,
-) -> Result<Vec<Impacts>, MotionError> {
+) -> Result<Vec<TimedImpacts>, MotionError> {
     let motion = StroboscopicMap::new(scene, periods)?.trajectory(state)?;
-    let impacts: Impacts = motion.timed_impacts().collect();
+    let impacts: TimedImpacts = motion.timed_impacts().collect();
     let mut guesses = Vec::new();
     if !impacts.is_empty() {
         guesses.push(impacts.clone());
     }
     if let Some((depth, miss)) = nearest_miss(&motion, scene.clearance)
-        && depth <= NEAR_MISS * (scene.clearance.abs() + depth)
+        && depth <= NEAR_MISS_SHARE * (scene.clearance.abs() + depth)
     {
         let at = impacts.partition_point(|impact| impact.0 < miss.0);
         let mut more = impacts.clone();
@@ -43,8 +43,8 @@ pub(super) fn guesses(
     Ok(guesses)
 }
 
-/// How near in m the free mass comes to the face without an impact, when, and how fast an impact there would be if the face
-/// stood as much nearer.
+/// How near in m the free mass comes to the face without an impact, when, and how fast an impact there would be if the
+/// face stood as much nearer.
 fn nearest_miss(motion: &PeriodTrajectory, face: f64) -> Option<(f64, (f64, f64))> {
     let free = motion.arcs().filter(|(arc, _)| arc.kind == PhaseKind::Free);
     let misses = free.flat_map(|(arc, elapsed)| {

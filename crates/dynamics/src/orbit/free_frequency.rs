@@ -1,4 +1,5 @@
-//! Motions at frequencies beside the one that is looked at: narrow isolas lie between two frequencies of any row.
+//! z = 1 orbits with their frequency free, beside the one that is looked at: narrow isolas lie between two frequencies
+//! of any row.
 
 use nalgebra::{Matrix2x3, Vector2, Vector3};
 
@@ -6,77 +7,82 @@ use super::multi_segment_shooting::MultiSegmentShooting;
 use super::{Orbit, OrbitError};
 use softstop::Scene;
 
-/// Steps before giving up.
+/// Newton steps for an orbit with free frequency before giving up.
 const MAX_STEPS: usize = 20;
-/// Largest step in each unknown.
-const LARGEST: [f64; 3] = [0.1, 0.3, 0.02];
-/// Half-width of the differences.
+/// Largest Newton step in time (drive periods), ln velocity and ln frequency.
+const MAX_STEP: [f64; 3] = [0.1, 0.3, 0.02];
+/// Half-width of the central differences by these unknowns.
 const DIFFERENCE_WIDTH: f64 = 1e-6;
 
 /// The z = 1 orbit nearest to an impact of which little is missing, with its frequency free: steps of least norm
 /// (Gauss and Newton) in the time of the impact in drive periods and the logarithms of its velocity and of the frequency.
 /// Where they settle, in a fold as well, the system is regular. None beyond a share of the scene's frequency.
-pub(super) fn beside_frequency(
+pub(super) fn find_beside_frequency(
     scene: &Scene,
     (time, velocity): (f64, f64),
     share: f64,
 ) -> Option<Orbit> {
-    let beside = Beside(scene);
+    let beside = FreeFrequency(scene);
     let mut at = Vector3::new(time / scene.clock().period(), velocity.ln(), 0.0);
-    let mut residual = beside.residual(at)?;
+    let mut residual = beside.impact_residual(at)?;
     for _ in 0..MAX_STEPS {
-        let jacobian = beside.jacobian(at)?;
+        let jacobian = beside.impact_jacobian(at)?;
         let square = jacobian * jacobian.transpose();
         let step = -(jacobian.transpose() * square.lu().solve(&residual)?);
         let excess = step
             .iter()
-            .zip(LARGEST)
+            .zip(MAX_STEP)
             .map(|(part, most)| part.abs() / most);
         let next = at + step / excess.fold(1.0, f64::max);
-        let left = beside.residual(next)?;
+        let left = beside.impact_residual(next)?;
         if next.z.abs() > share {
             return None;
         }
         let settles = left.norm() >= 0.1 * residual.norm() && residual.norm() < DIFFERENCE_WIDTH;
         (at, residual) = (next, left);
         if settles {
-            return beside.orbit(at).ok();
+            return beside.orbit_at(at).ok();
         }
     }
     None
 }
 
-/// A scene at any frequency.
-struct Beside<'a>(&'a Scene);
+/// A scene with the frequency of its drive free, in unknowns: time of the impact in drive periods, logarithms of its
+/// velocity and of the frequency ratio.
+struct FreeFrequency<'a>(&'a Scene);
 
-impl Beside<'_> {
-    fn scene(&self, at: Vector3<f64>) -> Scene {
+impl FreeFrequency<'_> {
+    /// The scene at the frequency of these unknowns.
+    fn scene_at(&self, at: Vector3<f64>) -> Scene {
         self.0
             .at_frequency(self.0.excitation.frequency * at.z.exp())
     }
 
-    fn residual(&self, at: Vector3<f64>) -> Option<Vector2<f64>> {
-        let scene = self.scene(at);
+    /// What the next impact is off by for these unknowns: position and velocity, scaled.
+    fn impact_residual(&self, at: Vector3<f64>) -> Option<Vector2<f64>> {
+        let scene = self.scene_at(at);
         let shooting = MultiSegmentShooting::new(&scene, 1)?;
         shooting
-            .gap(at.x * shooting.span(), at.y.exp())
+            .return_gap(at.x * shooting.span(), at.y.exp())
             .map(Vector2::from)
     }
 
-    fn jacobian(&self, at: Vector3<f64>) -> Option<Matrix2x3<f64>> {
+    /// The derivatives of that residual by the unknowns, by central differences.
+    fn impact_jacobian(&self, at: Vector3<f64>) -> Option<Matrix2x3<f64>> {
         let mut columns = [Vector2::zeros(); 3];
         for (index, column) in columns.iter_mut().enumerate() {
             let shift = Vector3::ith(index, DIFFERENCE_WIDTH);
-            let [ahead, behind] = [at + shift, at - shift].map(|at| self.residual(at));
+            let [ahead, behind] = [at + shift, at - shift].map(|at| self.impact_residual(at));
             *column = (ahead? - behind?) / (2.0 * DIFFERENCE_WIDTH);
         }
         Some(Matrix2x3::from_columns(&columns))
     }
 
-    fn orbit(&self, at: Vector3<f64>) -> Result<Orbit, OrbitError> {
-        let scene = self.scene(at);
+    /// The z = 1 orbit at the frequency and from the impact of these unknowns.
+    fn orbit_at(&self, at: Vector3<f64>) -> Result<Orbit, OrbitError> {
+        let scene = self.scene_at(at);
         let period = scene.clock().period();
-        Orbit::by_impacts(
+        Orbit::find_by_impacts(
             &scene,
             1,
             &[((at.x * period).rem_euclid(period), at.y.exp())],

@@ -2,62 +2,64 @@
 
 use std::cell::Cell;
 
-use super::scan::{NEAR_IMPACT, RATIO, Singles, TIMES, apart, between, guesses, speeds};
+use super::impact_lattice::{
+    LATTICE_SPEED_RATIO, LATTICE_TIMES, NEAR_IMPACT, SingleImpactSearch, guess_from_lattice,
+    impact_distance, lattice_speeds, time_distance,
+};
 use super::{Orbit, OrbitError};
 use crate::monitor::Monitor;
 use softstop::Scene;
 
-/// Difference of times, in units of the period, and ratio of velocities, up to which Newton's method is followed from a cell to
-/// the hardest motion: some cells, each of which is looked at from its own middle.
-const REACH: (f64, f64) = (4.0 / TIMES as f64, 4.0);
+/// Difference of times, in units of the period, and ratio of velocities, up to which Newton's method is followed from a
+/// cell to the hardest motion: some cells, each of which is searched from its own middle.
+const NEWTON_REACH: (f64, f64) = (4.0 / LATTICE_TIMES as f64, 4.0);
 
-/// The stable z = 1 motion with the hardest impact of those that are harder than this, in m/s; none if there is none. Impacts
-/// are looked at from the hardest ones down, and Newton's method is followed no farther than some cells.
+/// The stable z = 1 orbit with the hardest impact of those that are harder than this, in m/s; none if there is none.
+/// Impacts are tried from the hardest ones down, and Newton's method is followed no farther than some cells.
 ///
 /// # Errors
-/// As [`all_single`](super::scan::all_single).
+/// As [`all_single`](super::impact_lattice::all_single).
 pub(crate) fn hardest_single(
     scene: &Scene,
     least: f64,
     monitor: Monitor<'_>,
 ) -> Result<Option<Orbit>, OrbitError> {
     scene.validate()?;
-    let Some(mut singles) = Singles::new(scene) else {
+    let Some(mut singles) = SingleImpactSearch::new(scene) else {
         return Ok(None);
     };
-    let mut speeds = speeds(scene);
-    speeds.retain(|speed| RATIO * speed > least);
-    let mut guesses = guesses(&singles.shooting, (singles.period, &speeds), monitor)?;
+    let mut speeds = lattice_speeds(scene);
+    speeds.retain(|speed| LATTICE_SPEED_RATIO * speed > least);
+    let mut guesses = guess_from_lattice(&singles.shooting, (singles.period, &speeds), monitor)?;
     guesses.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut hardest: Option<Orbit> = None;
     for guess in guesses {
         let known = hardest
             .as_ref()
             .map_or(least, Orbit::before_impact_velocity);
-        if RATIO.sqrt() * guess.1 < known {
+        if LATTICE_SPEED_RATIO.sqrt() * guess.1 < known {
             break;
         }
-        singles.look_within(guess, monitor)?;
+        singles.search_near(guess, monitor)?;
         let stable = singles.found.iter().filter(|orbit| orbit.is_stable());
         hardest = stable.max_by(|a, b| a.compare_velocity(b)).cloned();
     }
     Ok(hardest.filter(|orbit| orbit.before_impact_velocity() > least))
 }
 
-impl Singles<'_> {
-    /// Follows Newton's method from a guess as long as it stays near, and from there to another motion that may lie beside the
-    /// one that it leads to.
-    fn look_within(&mut self, guess: (f64, f64), monitor: Monitor<'_>) -> Result<(), OrbitError> {
-        OrbitError::ask(monitor)?;
-        let (period, impacts) = (self.period, self.impacts());
+impl SingleImpactSearch<'_> {
+    /// Searches an orbit by Newton's method as long as it stays near a guess, and another one beside what it finds.
+    fn search_near(&mut self, guess: (f64, f64), monitor: Monitor<'_>) -> Result<(), OrbitError> {
+        OrbitError::ask_monitor(monitor)?;
+        let (period, impacts) = (self.period, self.found_impacts());
         let is_near = |at: (f64, f64)| {
             impacts
                 .iter()
-                .any(|it| apart(*it, at, period) < NEAR_IMPACT)
+                .any(|it| impact_distance(*it, at, period) < NEAR_IMPACT)
         };
         let leaves = |at: (f64, f64)| {
             let ratio = (at.1 / guess.1).max(guess.1 / at.1);
-            ratio > REACH.1 || between(at.0, guess.0, period) > REACH.0
+            ratio > NEWTON_REACH.1 || time_distance(at.0, guess.0, period) > NEWTON_REACH.0
         };
         let has_left = Cell::new(false);
         let ends = |at: &[f64]| {
@@ -65,14 +67,14 @@ impl Singles<'_> {
             has_left.set(leaves(at));
             has_left.get() || is_near(at)
         };
-        let settled = self.shooting.settle_new(&[guess], ends);
+        let settled = self.shooting.solve_unless_known(&[guess], ends);
         let is_new = match settled {
             Err(_) => return Ok(()),
             Ok(None) => !has_left.get(),
-            Ok(Some(orbit)) => self.keep(orbit),
+            Ok(Some(orbit)) => self.keep_new(orbit),
         };
-        if is_new && let Ok(orbit) = self.shooting.settle_apart(guess, &self.impacts()) {
-            self.keep(orbit);
+        if is_new && let Ok(orbit) = self.shooting.solve_deflated(guess, &self.found_impacts()) {
+            self.keep_new(orbit);
         }
         Ok(())
     }
@@ -82,7 +84,7 @@ impl Singles<'_> {
 mod tests {
     use super::{Orbit, hardest_single};
     use crate::monitor::unmonitored;
-    use crate::orbit::scan::all_single;
+    use crate::orbit::impact_lattice::all_single;
     use softstop::{Machine, Parameter};
 
     #[test]

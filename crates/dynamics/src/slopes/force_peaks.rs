@@ -3,13 +3,13 @@
 use softstop::Arc;
 use softstop::internals::{Phase, PhaseId, Phases, narrow_root};
 
-/// Pieces in which peaks are looked for: for each rad of the fastest rate, at least and at most.
-const PIECES: (f64, f64, f64) = (2.0, 4.0, 4096.0);
-/// Share of a piece to which a peak is located; its height is known to the square of that.
+/// Pieces of an arc in which force peaks are looked for: for each rad of the fastest rate, at least and at most.
+const PEAK_PIECES: (f64, f64, f64) = (2.0, 4.0, 4096.0);
+/// Share of a piece to which a force peak is located; its height is known to the square of that.
 const PEAK_WIDTH: f64 = 1e-9;
 
-/// Times in s since the start of an arc at which the contact force is highest, with position, velocity and acceleration.
-pub(super) fn peaks<'a>(
+/// The peaks of the contact force on an arc: times in s since its start, with position, velocity and acceleration.
+pub(super) fn force_peaks<'a>(
     phases: &'a Phases,
     phase: &'a Phase,
     arc: &'a Arc<'_>,
@@ -27,7 +27,7 @@ pub(super) fn peaks<'a>(
         let (stiffness, damping) = phase.slopes(x, v);
         phase.side * ((stiffness - free.stiffness) * v + (damping - free.damping) * a)
     };
-    let (each, least, most) = PIECES;
+    let (each, least, most) = PEAK_PIECES;
     let fastest = phase.flow.modes.fastest_rate().max(phases.frequency);
     let pieces = (each * fastest * elapsed).ceil().clamp(least, most);
     let piece = elapsed / pieces;

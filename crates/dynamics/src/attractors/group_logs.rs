@@ -1,4 +1,4 @@
-//! Which wandering motions are one and the same: those that visit the same places.
+//! Groups of wandering motions that are one and the same, because their logs visit the same places.
 //!
 //! States of two logs of one motion mix: the nearest other state belongs to either log equally often, however thin
 //! or wide the set is that they fill (the nearest-neighbour test for two samples, Schilling 1986). States of
@@ -10,36 +10,38 @@ use crate::extremes::extremes;
 use softstop::Start;
 use softstop::internals::budget;
 
-/// Share of the states of two logs whose nearest neighbours lie in the other log, from which on the logs belong
-/// to one motion. It is 0.5 on average for one motion; with logs of 129 states its standard deviation is 0.05,
-/// more where states follow each other closely. It is 0 for motions apart.
-const MIXED: f64 = 0.1;
+/// Share of the states of two logs whose nearest neighbours lie in the other log, from which on the logs belong to one
+/// motion. It is 0.5 on average for one motion; with logs of 129 states its standard deviation is 0.05, more where
+/// states follow each other closely. It is 0 for motions apart.
+const MIXED_SHARE: f64 = 0.1;
 
-/// Cells across the plane.
-const CELLS: f64 = 100.0;
+/// Cells across the plane in which the places of logs are counted.
+const CELLS_ACROSS: f64 = 100.0;
 /// Share of the larger set of cells that two logs of one motion have in common at least.
-const COMMON: f64 = 0.1;
+const COMMON_CELL_SHARE: f64 = 0.1;
 
 /// Pairs of states that are compared in the time of a scan window.
-const PAIRS: usize = 8;
+const PAIRS_PER_WINDOW: usize = 8;
 
 /// A state in units of the plane's size.
 type Place = [f64; 2];
 
-/// Groups logs of states by the places that they visit: the number of its group for each.
+/// Groups logs of states by the places that they visit: the number of its group for each log.
 ///
 /// # Errors
 /// Those of `ask`, which is asked for each log.
-pub(super) fn groups<E>(
+pub(super) fn group_logs<E>(
     logs: &[&[Start]],
     ask: impl Fn() -> Result<(), E>,
 ) -> Result<Vec<usize>, E> {
-    let units = units(logs);
+    let units = plane_units(logs);
     let place = |state: &Start| [state.position / units[0], state.velocity / units[1]];
     let places = logs.iter().map(|log| log.iter().map(place).collect());
     let places: Vec<Vec<Place>> = places.collect();
-    let cells: Vec<Vec<(i64, i64)>> = places.iter().map(|log| cells(log)).collect();
-    let own = places.iter().map(|log| ask().map(|()| gaps_within(log)));
+    let cells: Vec<Vec<(i64, i64)>> = places.iter().map(|log| visited_cells(log)).collect();
+    let own = places
+        .iter()
+        .map(|log| ask().map(|()| nearest_gaps_within(log)));
     let own = own.collect::<Result<Vec<Vec<f64>>, E>>()?;
     let mut group: Vec<usize> = (0..logs.len()).collect();
     for index in 0..logs.len() {
@@ -48,9 +50,9 @@ pub(super) fn groups<E>(
             if group[index] == group[other] {
                 continue;
             }
-            budget::charge((logs[index].len() * logs[other].len() / PAIRS) as u64);
+            budget::charge((logs[index].len() * logs[other].len() / PAIRS_PER_WINDOW) as u64);
             let pair = [index, other].map(|at| (places[at].as_slice(), own[at].as_slice()));
-            if share_cells(&cells[index], &cells[other]) || are_mixed(pair) {
+            if have_common_cells(&cells[index], &cells[other]) || are_mixed(pair) {
                 let (kept, gone) = (group[other], group[index]);
                 for member in &mut group {
                     if *member == gone {
@@ -63,8 +65,8 @@ pub(super) fn groups<E>(
     Ok(group)
 }
 
-/// Size of the plane that all states need.
-fn units(logs: &[&[Start]]) -> [f64; 2] {
+/// Width and height of the plane that the states of all logs fill.
+fn plane_units(logs: &[&[Start]]) -> [f64; 2] {
     let range = |value: fn(&Start) -> f64| match extremes(logs.iter().copied().flatten().map(value))
     {
         Some([low, high]) if high > low => high - low,
@@ -73,25 +75,26 @@ fn units(logs: &[&[Start]]) -> [f64; 2] {
     [range(|state| state.position), range(|state| state.velocity)]
 }
 
-fn square(a: &Place, b: &Place) -> f64 {
+/// Squared distance of two places, in units of the plane.
+fn squared_distance(a: &Place, b: &Place) -> f64 {
     let (x, v) = (a[0] - b[0], a[1] - b[1]);
     x * x + v * v
 }
 
 /// The squared distance of each place of a log from the nearest other one in it.
-fn gaps_within(log: &[Place]) -> Vec<f64> {
+fn nearest_gaps_within(log: &[Place]) -> Vec<f64> {
     let gap = |index: usize| {
         let others = log.iter().enumerate().filter(|(other, _)| *other != index);
-        let squares = others.map(|(_, other)| square(&log[index], other));
+        let squares = others.map(|(_, other)| squared_distance(&log[index], other));
         squares.fold(f64::INFINITY, f64::min)
     };
     (0..log.len()).map(gap).collect()
 }
 
-/// The cells of a log, in order.
-fn cells(log: &[Place]) -> Vec<(i64, i64)> {
+/// The cells of the plane that a log visits, in order.
+fn visited_cells(log: &[Place]) -> Vec<(i64, i64)> {
     let cell = |place: &Place| {
-        let [x, v] = place.map(|part| (CELLS * part).floor() as i64);
+        let [x, v] = place.map(|part| (CELLS_ACROSS * part).floor() as i64);
         (x, v)
     };
     let mut cells: Vec<(i64, i64)> = log.iter().map(cell).collect();
@@ -100,9 +103,10 @@ fn cells(log: &[Place]) -> Vec<(i64, i64)> {
     cells
 }
 
-fn share_cells(a: &[(i64, i64)], b: &[(i64, i64)]) -> bool {
+/// True if two logs have enough of their cells in common.
+fn have_common_cells(a: &[(i64, i64)], b: &[(i64, i64)]) -> bool {
     let common = a.iter().filter(|cell| b.binary_search(cell).is_ok());
-    common.count() as f64 >= COMMON * a.len().max(b.len()) as f64
+    common.count() as f64 >= COMMON_CELL_SHARE * a.len().max(b.len()) as f64
 }
 
 /// True if enough places of two logs have their nearest neighbour in the other one.
@@ -114,12 +118,13 @@ fn are_mixed([one, other]: [(&[Place], &[f64]); 2]) -> bool {
         // The nearest place of the box that holds them all is no farther than any of them.
         let is_nearer = |(place, gap): &(&Place, &f64)| {
             let nearest = [within(place[0], across), within(place[1], up)];
-            square(place, &nearest) < **gap && to.iter().any(|at| square(place, at) < **gap)
+            squared_distance(place, &nearest) < **gap
+                && to.iter().any(|at| squared_distance(place, at) < **gap)
         };
         from.iter().zip(own).filter(is_nearer).count()
     };
     let mixed = abroad(one, other.0) + abroad(other, one.0);
-    mixed as f64 >= MIXED * (one.0.len() + other.0.len()) as f64
+    mixed as f64 >= MIXED_SHARE * (one.0.len() + other.0.len()) as f64
 }
 
 #[cfg(test)]
@@ -128,7 +133,7 @@ mod tests {
     use std::convert::Infallible;
 
     fn all(logs: &[&[Start]]) -> Vec<usize> {
-        let groups: Result<Vec<usize>, Infallible> = groups(logs, || Ok(()));
+        let groups: Result<Vec<usize>, Infallible> = group_logs(logs, || Ok(()));
         groups.expect("nothing fails")
     }
 

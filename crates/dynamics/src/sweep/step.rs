@@ -1,4 +1,4 @@
-//! What a motion has come to at the end of a step.
+//! One step of a sweep: what the motion has come to at one value of the parameter.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,20 +6,19 @@ use crate::motion::MotionKind;
 use crate::settled::SettledMotion;
 use softstop::{MotionError, Scene, Start};
 
-/// One step of a sweep.
+/// One step of a sweep: the motion at one value of the parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Step {
     /// The parameter's value.
     pub value: f64,
-    /// What the motion has come to: chaos if small differences have grown more than a hundredfold.
+    /// The motion that the step has come to: chaos if small differences have grown more than a hundredfold.
     pub motion: MotionKind,
     /// Mean growth of small differences, unless it returns: ln of the tangent's norm per drive period.
     pub growth: Option<f64>,
     /// Mean number of impacts per drive period: p/n of what returns, else over the watched periods.
     pub impacts_per_period: f64,
-    /// Before-impact velocities in m/s, ascending: of one period of what returns, else of all watched drive
-    /// periods.
+    /// Before-impact velocities in m/s, ascending: of one period of what returns, else of all watched drive periods.
     pub velocities: Vec<f64>,
     /// Largest position in m meanwhile; not a number where the plan does not ask for it.
     pub max_position: f64,
@@ -28,14 +27,15 @@ pub struct Step {
 }
 
 impl Step {
+    /// The step of a sweep at a value, from what its motion was seen to settle on.
     pub(super) fn new(
         value: f64,
         scene: &Scene,
         seen: SettledMotion,
         heights: bool,
     ) -> Result<Self, MotionError> {
-        let map = seen.map(scene)?;
-        let (motion, growth) = seen.motion(scene, &map)?;
+        let map = seen.watched_map(scene)?;
+        let (motion, growth) = seen.motion_kind(scene, &map)?;
         Ok(Self {
             value,
             motion,
@@ -50,12 +50,12 @@ impl Step {
         })
     }
 
-    /// Largest before-impact velocity in m/s; 0 without impacts.
-    pub fn hardest(&self) -> f64 {
+    /// Largest before-impact velocity in m/s of a step; 0 without impacts.
+    pub fn hardest_impact(&self) -> f64 {
         self.velocities.last().copied().unwrap_or(0.0)
     }
 
-    /// True if it returns, or is chaotic.
+    /// True if the motion of a step returns, or is chaotic.
     pub fn is_settled(&self) -> bool {
         self.motion != MotionKind::Unsettled
     }

@@ -9,10 +9,10 @@ use crate::period::PeriodTrajectory;
 use softstop::internals::{Phases, Scales};
 use softstop::{Clock, Instant, MotionError, Observer, Scene, Touch};
 
-/// Times what rounding leaves of a residual by which it may be off.
-const ROUNDINGS: f64 = 100.0;
+/// Error of a fixed point in units of what rounding leaves of its residual.
+const ROUNDING_FACTOR: f64 = 100.0;
 
-/// The map of one scene over a number of drive periods, from time 0.
+/// The stroboscopic map of a scene: from a state at time 0 to the state some drive periods later.
 #[derive(Debug, Clone)]
 pub struct StroboscopicMap {
     phases: Shared<Phases>,
@@ -29,14 +29,14 @@ pub struct Passage {
     pub end: Vector2<f64>,
     /// Exact Jacobian of the map.
     pub monodromy: Monodromy,
-    /// Integral of damping over mass along the way.
+    /// Integral of damping over mass along the way, which the determinant follows from.
     pub damping_integral: f64,
-    /// Its impacts, in order of time.
+    /// Impacts on the way, in order of time.
     pub impacts: Vec<Touch>,
     /// Ends of complete chatter: infinitely many ever weaker impacts that end in rest, of which `impacts`
     /// holds only those before the summed ones.
     pub rests: Vec<Instant>,
-    /// All of it.
+    /// All arcs and crossings of the way.
     pub(crate) trajectory: PeriodTrajectory,
 }
 
@@ -55,22 +55,22 @@ impl StroboscopicMap {
         })
     }
 
-    /// The drive periods of one application.
+    /// Drive periods of one application of the map.
     pub fn periods(&self) -> u64 {
         self.periods
     }
 
-    /// The measure of its states.
+    /// The scales in which states of the map are measured.
     pub(crate) fn scales(&self) -> &Scales {
         &self.scales
     }
 
-    /// The clock of the drive.
+    /// The clock of the drive, which instants refer to.
     pub fn clock(&self) -> &Clock {
         &self.clock
     }
 
-    /// The image of a state, with the Jacobian.
+    /// The image of a state under the map, with the Jacobian and the impacts on the way.
     ///
     /// # Errors
     /// [`MotionError`] if the state is not finite or the motion unbounded.
@@ -87,24 +87,23 @@ impl StroboscopicMap {
         })
     }
 
-    /// How far a fixed point, as Newton's method finds it with this passage, may lie off by rounding, in the map's
-    /// scales.
-    pub(super) fn doubt(&self, state: Vector2<f64>, passage: &Passage) -> f64 {
+    /// Error of a fixed point of the map, as Newton's method finds it, by rounding, in the map's scales.
+    pub(super) fn fixed_point_error(&self, state: Vector2<f64>, passage: &Passage) -> f64 {
         let response = passage.monodromy.resolvent();
         let response = response.map_or(f64::INFINITY, |it| self.scales.jacobian(&it).norm());
-        ROUNDINGS * self.scales.map_rounding(&state, &passage.monodromy) * response
+        ROUNDING_FACTOR * self.scales.map_rounding(&state, &passage.monodromy) * response
     }
 
-    /// The image of a state alone.
+    /// The image of a state under the map, without the Jacobian.
     ///
     /// # Errors
     /// As [`StroboscopicMap::apply`].
     pub fn image(&self, state: Vector2<f64>) -> Result<Vector2<f64>, MotionError> {
-        self.observe(state, &mut ())
+        self.image_with_observer(state, &mut ())
     }
 
-    /// The image of a state; an observer is told of the way, of which nothing is kept.
-    pub(crate) fn observe(
+    /// The image of a state under the map; an observer is told of the way, of which nothing is kept.
+    pub(crate) fn image_with_observer(
         &self,
         state: Vector2<f64>,
         observer: &mut dyn Observer,
@@ -115,7 +114,7 @@ impl StroboscopicMap {
         Ok(last?.end)
     }
 
-    /// The largest position in m on the way from a state.
+    /// The largest position in m on the way of the map from a state.
     ///
     /// # Errors
     /// As [`StroboscopicMap::apply`].
@@ -123,7 +122,7 @@ impl StroboscopicMap {
         Ok(self.trajectory(state)?.max_position())
     }
 
-    /// The motion from a state.
+    /// The arcs and crossings of the motion that the map follows from a state.
     ///
     /// # Errors
     /// As [`StroboscopicMap::apply`].

@@ -16,9 +16,9 @@ use softstop::internals::{Motion, Phases};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Piercing, Scene};
 use softstop_lanes::Machine;
 
-/// Where the stop stands while there is no strip.
+/// Position of the stop while there is no strip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Reading {
+pub enum StopWithoutStrip {
     /// At the clearance, as in the paper's unloaded machine.
     #[serde(rename = "rho")]
     Near,
@@ -27,9 +27,9 @@ pub enum Reading {
     Fixed,
 }
 
-impl Reading {
-    /// The machine without a strip.
-    pub fn without(self, scene: &Scene) -> Scene {
+impl StopWithoutStrip {
+    /// The scene of the machine while its strip is missing.
+    pub fn scene_without_strip(self, scene: &Scene) -> Scene {
         let mut without = scene.clone();
         without.piercing = match self {
             Self::Near => None,
@@ -43,39 +43,39 @@ impl Reading {
     }
 }
 
-/// A run of missing strips that began at one drive angle.
+/// A run of strips missing in a row, which began at one drive angle, and what the motion did.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub struct Gap {
+pub struct StripGap {
     /// Drive angle in rad at which the strip is missing first and is there again some drive periods later; where a
     /// strip or stop is touched just then, it is so from the next stroke on.
     pub angle: f64,
-    /// Whether the motion came back.
+    /// Whether the motion came back after the gap.
     pub comes_back: bool,
     /// Strokes missed until the motion has come back or is given up: an impact that comes after n drive periods and not
     /// after one has missed n - 1.
     pub missed: u64,
 }
 
-/// What became of a motion after runs of missing strips.
+/// What became of a motion after gaps of missing strips, one for each drive angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StripSurvival {
     /// Strips missing in a row, one for each drive period.
     pub missing: u32,
-    /// The runs, by the drive angle at which they begin.
-    pub gaps: Vec<Gap>,
+    /// The gaps, by the drive angle at which they begin.
+    pub gaps: Vec<StripGap>,
 }
 
 impl StripSurvival {
-    /// Share of the drive angles after which the motion comes back.
-    pub fn share(&self) -> f64 {
+    /// Share of the drive angles at which strips may go missing and the motion comes back.
+    pub fn return_share(&self) -> f64 {
         let back = self.gaps.iter().filter(|gap| gap.comes_back).count();
         back as f64 / self.gaps.len() as f64
     }
 
-    /// Most strokes missed in those runs after which the motion comes back.
-    pub fn missed(&self) -> u64 {
+    /// Most strokes missed in a gap of missing strips after which the motion comes back.
+    pub fn max_missed_strokes(&self) -> u64 {
         let back = self.gaps.iter().filter(|gap| gap.comes_back);
         back.map(|gap| gap.missed).max().unwrap_or(0)
     }
@@ -83,7 +83,7 @@ impl StripSurvival {
 
 /// Drive periods for which the mass may stay beyond the clearance before strips change all the same.
 const MAX_PERIODS_BEYOND: u64 = 16;
-/// Runs that are followed together; it may not depend on how many threads there are.
+/// Gaps of missing strips whose motions are followed together; it may not depend on how many threads there are.
 const RUNS_TOGETHER: usize = 256;
 
 /// A stable motion of a loaded machine from which `missing` strips are taken in a row: it runs as it does until one of
@@ -95,12 +95,12 @@ const RUNS_TOGETHER: usize = 256;
 pub fn survives_missing_strips(
     orbit: &Orbit,
     missing: u32,
-    reading: Reading,
+    reading: StopWithoutStrip,
     angles: usize,
     monitor: Monitor<'_>,
 ) -> Result<StripSurvival, OrbitError> {
     let basin_test = BasinTest::of(orbit)?;
-    let line = Line::new(&orbit.scene, reading)?;
+    let line = StripPhases::new(&orbit.scene, reading)?;
     let (turn, angles) = (TAU * orbit.periods as f64, angles.max(1));
     let angles: Vec<f64> = (0..angles)
         .map(|index| turn * index as f64 / angles as f64)
@@ -110,7 +110,7 @@ pub fn survives_missing_strips(
         .map(|angles| -> Result<_, OrbitError> {
             let (mut machines, mut motions) = (Vec::new(), Vec::new());
             for (machine, turned) in angles.iter().enumerate() {
-                let run = line.run(orbit, *turned, missing)?;
+                let run = line.run_through_gap(orbit, *turned, missing)?;
                 let mut turned_by = orbit.scene.clone();
                 turned_by.excitation.phase =
                     (orbit.scene.excitation.phase + turned).rem_euclid(TAU);
@@ -125,31 +125,32 @@ pub fn survives_missing_strips(
                 });
             }
             let tested = basin_test.follow_motions::<true>(&machines, motions, monitor)?;
-            let gap = |tested: &TestedMotion| Gap {
+            let gap = |tested: &TestedMotion| StripGap {
                 angle: tested.angle,
-                comes_back: tested.reaches(),
-                missed: tested.strokes.missed(tested.time),
+                comes_back: tested.reaches_orbit(),
+                missed: tested.strokes.missed_strokes(tested.time),
             };
             Ok(tested.iter().map(gap).collect::<Vec<_>>())
         });
     Ok(StripSurvival {
         missing,
         gaps: gaps
-            .collect::<Result<Vec<Vec<Gap>>, OrbitError>>()?
+            .collect::<Result<Vec<Vec<StripGap>>, OrbitError>>()?
             .concat(),
     })
 }
 
-/// A machine with and without strips.
-struct Line<'a> {
+/// The phases of a machine with and without its strip.
+struct StripPhases<'a> {
     scene: &'a Scene,
     with: Shared<Phases>,
     without: Shared<Phases>,
 }
 
-impl<'a> Line<'a> {
-    fn new(scene: &'a Scene, reading: Reading) -> Result<Self, MotionError> {
-        let without = reading.without(scene);
+impl<'a> StripPhases<'a> {
+    /// The phases of a scene with its strip and without it.
+    fn new(scene: &'a Scene, reading: StopWithoutStrip) -> Result<Self, MotionError> {
+        let without = reading.scene_without_strip(scene);
         without.validate()?;
         Ok(Self {
             scene,
@@ -158,9 +159,14 @@ impl<'a> Line<'a> {
         })
     }
 
-    /// The run that begins when the drive has turned by `turned` rad since the orbit's time 0, to the end of the drive
-    /// period in which strips are there again.
-    fn run(&self, orbit: &Orbit, turned: f64, missing: u32) -> Result<Run, MotionError> {
+    /// The motion through a gap of missing strips that begins when the drive has turned by `turned` rad since the
+    /// orbit's time 0, to the end of the drive period in which strips are there again.
+    fn run_through_gap(
+        &self,
+        orbit: &Orbit,
+        turned: f64,
+        missing: u32,
+    ) -> Result<InterruptedMotion, MotionError> {
         let clock = self.scene.clock();
         let start = orbit.state().into();
         let motion = Motion::new(self.with.clone(), clock, Clock::at_cycle(0), start)?;
@@ -168,41 +174,41 @@ impl<'a> Line<'a> {
             .timed_impacts()
             .last()
             .map_or(0.0, |last| last.0 / clock.period());
-        let mut run = Run {
+        let mut run = InterruptedMotion {
             motion,
             clearance: self.scene.clearance,
             begin: clock.instant(turned / self.scene.excitation.frequency),
             periods: 0,
-            strokes: StrokeCount::after(before - orbit.periods as f64),
+            strokes: StrokeCount::after_impact(before - orbit.periods as f64),
         };
-        run.go_to(run.begin, false)?;
-        run.change(&self.without)?;
+        run.count_strokes(run.begin, false)?;
+        run.switch_strips(&self.without)?;
         while run.periods < u64::from(missing) {
-            run.go_on(false)?;
+            run.advance_period(false)?;
         }
-        run.change(&self.with)?;
-        run.go_on(false)?;
+        run.switch_strips(&self.with)?;
+        run.advance_period(false)?;
         Ok(run)
     }
 }
 
-/// A motion under way, in drive periods from where its run began.
-struct Run {
+/// A motion through a gap of missing strips, with time in drive periods from where the gap began.
+struct InterruptedMotion {
     motion: Motion,
     clearance: f64,
     begin: Instant,
-    /// Whole ones so far.
+    /// Drive periods that are complete since then.
     periods: u64,
     /// Its strokes, by times since the orbit's time 0.
     strokes: StrokeCount,
 }
 
-impl Run {
-    /// Goes on with or without strips from where the mass is clear of them.
-    fn change(&mut self, to: &Shared<Phases>) -> Result<(), MotionError> {
+impl InterruptedMotion {
+    /// Goes on with the phases with or without strips, from where the mass is clear of them.
+    fn switch_strips(&mut self, to: &Shared<Phases>) -> Result<(), MotionError> {
         let last = self.periods + MAX_PERIODS_BEYOND;
         while self.motion.state().position >= self.clearance && self.periods < last {
-            if self.go_on(true)? {
+            if self.advance_period(true)? {
                 break;
             }
         }
@@ -211,11 +217,10 @@ impl Run {
         Ok(())
     }
 
-    /// Goes on to the end of the drive period, or, if that `stops` it, to where the mass leaves what it touches; true
-    /// if it has left.
-    fn go_on(&mut self, stops: bool) -> Result<bool, MotionError> {
+    /// Advances by a drive period, or, if that `stops` it, to where the mass leaves strip or stop: true then.
+    fn advance_period(&mut self, stops: bool) -> Result<bool, MotionError> {
         let cycles = self.begin.cycles + (self.periods + 1) as f64;
-        let left = self.go_to(
+        let left = self.count_strokes(
             Instant {
                 cycles,
                 ..self.begin
@@ -226,8 +231,9 @@ impl Run {
         Ok(left)
     }
 
-    fn go_to(&mut self, until: Instant, stops: bool) -> Result<bool, MotionError> {
-        let mut watch = StrokeCounter {
+    /// Advances the motion with missing strips and counts its strokes; true if it stopped as strip or stop was left.
+    fn count_strokes(&mut self, until: Instant, stops: bool) -> Result<bool, MotionError> {
+        let mut watch = StrokeObserver {
             clearance: self.clearance,
             period: self.motion.clock().period(),
             strokes: &mut self.strokes,
@@ -238,8 +244,8 @@ impl Run {
     }
 }
 
-/// Counts strokes, and stops a motion where it leaves what it touches.
-struct StrokeCounter<'a> {
+/// Counts the strokes of a motion, and stops it where the mass leaves strip or stop.
+struct StrokeObserver<'a> {
     clearance: f64,
     period: f64,
     strokes: &'a mut StrokeCount,
@@ -247,7 +253,7 @@ struct StrokeCounter<'a> {
     left: bool,
 }
 
-impl Observer for StrokeCounter<'_> {
+impl Observer for StrokeObserver<'_> {
     fn crossing(&mut self, crossing: &Crossing) {
         self.left |= crossing.position == self.clearance && crossing.velocity_after < 0.0;
         if crossing.kind.is_impact() {

@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::basin_test::BasinTest;
-use crate::attractors::starts::evenly;
-use crate::attractors::{Region, starting_box, stays};
+use crate::attractors::region::evenly_spread_point;
+use crate::attractors::{Region, end_states, starting_box};
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
-use crate::share::wilson;
+use crate::wilson_interval::wilson_interval;
 use crate::zone::{Zone, ZoneError};
 use softstop::{Scene, Start};
 
@@ -31,64 +31,66 @@ pub struct Establishment {
 }
 
 impl Establishment {
-    /// That of a stable motion, in the box that all commands take starts from ([`starting_box`]).
+    /// The establishment of a stable motion, in the box that all commands take starts from ([`starting_box`]).
     ///
     /// # Errors
     /// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::Stopped`].
     pub fn of(orbit: &Orbit, starts: usize, monitor: Monitor<'_>) -> Result<Self, OrbitError> {
         let region = starting_box(&orbit.scene, monitor)?;
-        Self::within(orbit, &region, starts, monitor)
+        Self::within_region(orbit, &region, starts, monitor)
     }
 
-    /// That of a stable motion, in another box.
+    /// The establishment of a stable motion, from starts in a region.
     ///
     /// # Errors
     /// As [`Establishment::of`].
-    pub fn within(
+    pub fn within_region(
         orbit: &Orbit,
         region: &Region,
         starts: usize,
         monitor: Monitor<'_>,
     ) -> Result<Self, OrbitError> {
         let states = region.starts(starts, SEED);
-        let reached = BasinTest::of(orbit)?.reached(&states, monitor)?;
-        Ok(Self::counted(&reached, region))
+        let reached = BasinTest::of(orbit)?.test_starts(&states, monitor)?;
+        Ok(Self::from_reached(&reached, region))
     }
 
-    /// [`Establishment::within`] a box, and the radius of the largest ball about the motion that leads to it alone
-    /// ([`Integrity::radius`]).
+    /// The establishment of a stable motion in a region as by [`Establishment::within_region`], and the radius of the
+    /// largest ball of starts about the motion that leads to it alone ([`Integrity::radius`]).
     ///
     /// # Errors
     /// As [`Establishment::of`].
-    pub fn with_ball(
+    pub fn with_ball_radius(
         orbit: &Orbit,
         region: &Region,
         starts: usize,
         monitor: Monitor<'_>,
     ) -> Result<(Self, f64), OrbitError> {
-        integrity(orbit, region, &region.starts(starts, SEED), monitor)
+        certainty_and_ball_radius(orbit, region, &region.starts(starts, SEED), monitor)
     }
 
-    fn counted(reached: &[bool], region: &Region) -> Self {
+    /// The establishment of a motion from which of the starts in a region have reached it.
+    fn from_reached(reached: &[bool], region: &Region) -> Self {
         let own = reached.iter().filter(|reached| **reached).count();
         Self {
             share: own as f64 / reached.len().max(1) as f64,
-            interval: wilson(own, reached.len()),
+            interval: wilson_interval(own, reached.len()),
             starts: reached.len(),
             region: *region,
         }
     }
 }
 
-/// Shifts the starts.
+/// Seed of the quasi-random starts, which shifts them.
 const SEED: u64 = 0;
 /// Places of a zone that its box of starts is made for.
-const BOXED: [f64; 3] = [0.0, 0.5, 0.99];
-/// Part of the starts with which a ball is filled anew, and least number of them.
-const PART: usize = 8;
-const FEWEST: usize = 64;
-/// Radius below which a ball counts as none.
-const LEAST_BALL: f64 = 1e-4;
+const BOX_PLACES: [f64; 3] = [0.0, 0.5, 0.99];
+/// Divisor of the number of starts for those with which a ball is filled anew.
+const FILL_DIVISOR: usize = 8;
+/// Least number of starts with which a ball is filled.
+const MIN_FILL_STARTS: usize = 64;
+/// Radius, in halves of the box, below which a ball counts as none.
+const MIN_BALL_RADIUS: f64 = 1e-4;
 
 /// One box of starts for a whole hysteresis zone: that of the machine at its own frequency ([`starting_box`]), and whether
 /// it is wider, as motions that are found at the ends of the zone or in the middle lie outside that.
@@ -102,10 +104,10 @@ pub fn zone_box(
 ) -> Result<(Region, bool), OrbitError> {
     let own = starting_box(scene, monitor)?;
     let mut all = Vec::new();
-    for place in BOXED {
-        all.extend(stays(&zone.scene_at(place), monitor)?);
+    for place in BOX_PLACES {
+        all.extend(end_states(&zone.scene_at(place), monitor)?);
     }
-    let region = own.holding(scene, &all);
+    let region = own.widened_to_hold(scene, &all);
     Ok((region, region != own))
 }
 
@@ -155,12 +157,12 @@ impl ErosionProfile {
         let orbits = places.iter().map(|place| zone.orbit_at(*place));
         let orbits: Vec<Orbit> = orbits.collect::<Result<_, _>>()?;
         let all = orbits.iter().map(|orbit| Start::from(orbit.state()));
-        let held = region.holding(&zone.scene, &all.collect::<Vec<_>>());
+        let held = region.widened_to_hold(&zone.scene, &all.collect::<Vec<_>>());
         let widened = held != *region;
         let region = held;
         let states = region.starts(starts, SEED);
         let place = |(place, orbit): (&f64, &Orbit)| -> Result<Integrity, ZoneError> {
-            let (certainty, radius) = integrity(orbit, &region, &states, monitor)?;
+            let (certainty, radius) = certainty_and_ball_radius(orbit, &region, &states, monitor)?;
             Ok(Integrity {
                 place: *place,
                 frequency: orbit.scene.excitation.frequency,
@@ -177,29 +179,30 @@ impl ErosionProfile {
         })
     }
 
-    /// So many places from g0 to s_SN, both of them included.
-    pub fn evenly(count: usize) -> Vec<f64> {
+    /// So many places of a zone, evenly spaced from g0 to s_SN, both of them included.
+    pub fn evenly_spaced_places(count: usize) -> Vec<f64> {
         let last = count.saturating_sub(1).max(1) as f64;
         (0..count).map(|place| place as f64 / last).collect()
     }
 }
 
-/// The certainty of a motion, and the radius of the largest ball about it.
-fn integrity(
+/// The establishment of a motion in a region, and the radius of the largest ball of starts about it.
+fn certainty_and_ball_radius(
     orbit: &Orbit,
     region: &Region,
     states: &[Start],
     monitor: Monitor<'_>,
 ) -> Result<(Establishment, f64), OrbitError> {
     let basin_test = BasinTest::of(orbit)?;
-    let reached = basin_test.reached(states, monitor)?;
-    let certainty = Establishment::counted(&reached, region);
+    let reached = basin_test.test_starts(states, monitor)?;
+    let certainty = Establishment::from_reached(&reached, region);
     let ball = StateBall::new(orbit, region);
-    let mut radius = ball.nearest_lost(states, &reached, ball.edge(region));
-    while radius > LEAST_BALL {
-        let filling = ball.filling(radius, (states.len() / PART).max(FEWEST));
-        let reached = basin_test.reached(&filling, monitor)?;
-        let smaller = ball.nearest_lost(&filling, &reached, radius);
+    let mut radius = ball.nearest_lost_distance(states, &reached, ball.edge_distance(region));
+    while radius > MIN_BALL_RADIUS {
+        let filling =
+            ball.starts_in_ball(radius, (states.len() / FILL_DIVISOR).max(MIN_FILL_STARTS));
+        let reached = basin_test.test_starts(&filling, monitor)?;
+        let smaller = ball.nearest_lost_distance(&filling, &reached, radius);
         if smaller == radius {
             return Ok((certainty, radius));
         }
@@ -208,13 +211,14 @@ fn integrity(
     Ok((certainty, 0.0))
 }
 
-/// Balls about a state, in units of half of each axis of a box.
+/// Balls of starts about the state of an orbit, in units of half of each axis of a box.
 struct StateBall {
     centre: Vector2<f64>,
     half: Vector2<f64>,
 }
 
 impl StateBall {
+    /// Balls about an orbit's state, measured by a box of starts.
     fn new(orbit: &Orbit, region: &Region) -> Self {
         let half = [region.position, region.velocity].map(|[low, high]| 0.5 * (high - low));
         Self {
@@ -223,8 +227,8 @@ impl StateBall {
         }
     }
 
-    /// From the centre to the nearest edge of the box; 0 if it is not in it.
-    fn edge(&self, region: &Region) -> f64 {
+    /// Distance from the centre of the balls to the nearest edge of the box; 0 if it is not in it.
+    fn edge_distance(&self, region: &Region) -> f64 {
         let sides = [region.position, region.velocity].into_iter().enumerate();
         let sides = sides.flat_map(|(axis, [low, high])| {
             [self.centre[axis] - low, high - self.centre[axis]].map(|way| way / self.half[axis])
@@ -232,8 +236,8 @@ impl StateBall {
         sides.fold(f64::INFINITY, f64::min).max(0.0)
     }
 
-    /// From the centre to the nearest start that does not lead to the motion, if that is nearer than `radius`.
-    fn nearest_lost(&self, starts: &[Start], reached: &[bool], radius: f64) -> f64 {
+    /// Distance from the centre to the nearest start that does not lead to the motion, if that is nearer than `radius`.
+    fn nearest_lost_distance(&self, starts: &[Start], reached: &[bool], radius: f64) -> f64 {
         let lost = starts.iter().zip(reached).filter(|(_, reached)| !**reached);
         let ways = lost.map(|(start, _)| {
             let way = Vector2::new(start.position, start.velocity) - self.centre;
@@ -242,10 +246,10 @@ impl StateBall {
         ways.fold(radius, f64::min)
     }
 
-    /// Starts that fill a ball evenly.
-    fn filling(&self, radius: f64, count: usize) -> Vec<Start> {
+    /// So many starts that fill a ball of a radius evenly.
+    fn starts_in_ball(&self, radius: f64, count: usize) -> Vec<Start> {
         let start = |index| {
-            let [area, turn] = evenly([0.5; 2], index);
+            let [area, turn] = evenly_spread_point([0.5; 2], index);
             let (sin, cos) = (TAU * turn).sin_cos();
             let way = radius * area.sqrt() * Vector2::new(cos, sin);
             Start::from(self.centre + way.component_mul(&self.half))

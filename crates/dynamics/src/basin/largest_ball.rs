@@ -1,12 +1,12 @@
-//! The integrity of a basin: the largest ball inside it.
+//! The largest ball inside a basin, which measures its integrity.
 
 use super::grid::{Axis, Grid};
 
-/// A ball inside a basin.
+/// The largest ball of cells inside a basin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct Clearing {
-    /// Its centre on both axes.
+pub struct BasinBall {
+    /// Its centre on both axes of the grid.
     pub centre: [f64; 2],
     /// Distance from there to the nearest cell of another basin or to the edge of the grid, in units of half
     /// of each axis: 1 would fill the grid. On the axes it is an ellipse.
@@ -14,7 +14,7 @@ pub struct Clearing {
 }
 
 /// The largest ball on a grid all of whose cells are `inside`, about the middle of a cell.
-pub fn clearing(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<Clearing> {
+pub fn find_largest_ball(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<BasinBall> {
     // One row and column of outside all around.
     let (columns, rows) = (grid.across.cells + 2, grid.up.cells + 2);
     let outside = |row: usize, column: usize| {
@@ -29,19 +29,23 @@ pub fn clearing(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<Clearing>
                 false => f64::INFINITY,
             };
             let along: Vec<f64> = (0..columns).map(start).collect();
-            transform(&along, grid.across.spacing())
+            distance_transform(&along, grid.across.cell_length())
         })
         .collect();
     for column in 0..columns {
         let along: Vec<f64> = squares.iter().map(|row| row[column]).collect();
-        for (row, square) in squares.iter_mut().zip(transform(&along, grid.up.spacing())) {
+        for (row, square) in squares
+            .iter_mut()
+            .zip(distance_transform(&along, grid.up.cell_length()))
+        {
             row[column] = square;
         }
     }
     let places = (1..rows - 1).flat_map(|row| (1..columns - 1).map(move |column| (row, column)));
     // The first of equals.
-    let to_edge =
-        |axis: &Axis, cell: usize| (cell.min(axis.cells - 1 - cell) as f64 + 0.5) * axis.spacing();
+    let to_edge = |axis: &Axis, cell: usize| {
+        (cell.min(axis.cells - 1 - cell) as f64 + 0.5) * axis.cell_length()
+    };
     let squares = places.map(|(row, column)| {
         let (across, up) = (
             to_edge(&grid.across, column - 1),
@@ -55,15 +59,15 @@ pub fn clearing(grid: &Grid, inside: impl Fn(usize) -> bool) -> Option<Clearing>
         false => best,
     };
     let (square, row, column) = squares.fold((0.0, 0, 0), larger);
-    (square > 0.0).then(|| Clearing {
-        centre: [grid.across.value(column - 1), grid.up.value(row - 1)],
+    (square > 0.0).then(|| BasinBall {
+        centre: [grid.across.value_at(column - 1), grid.up.value_at(row - 1)],
         radius: square.sqrt(),
     })
 }
 
-/// min over q of f(q) + (h (p - q))^2 for all p: the lower envelope of parabolas (Felzenszwalb and
-/// Huttenlocher 2012).
-fn transform(f: &[f64], h: f64) -> Vec<f64> {
+/// The distance transform of a row of squared distances: min over q of f(q) + (h (p - q))^2 for all p, the lower
+/// envelope of parabolas (Felzenszwalb and Huttenlocher 2012).
+fn distance_transform(f: &[f64], h: f64) -> Vec<f64> {
     let square = |q: usize| (h * q as f64) * (h * q as f64);
     // Parabolas of the envelope, and from where on each is the lowest, in units of h.
     let mut envelope: Vec<(usize, f64)> = Vec::new();
@@ -103,7 +107,7 @@ mod tests {
     use softstop_testing::tolerance::MOTION;
 
     fn grid(columns: usize, rows: usize) -> Grid {
-        Grid::states(
+        Grid::of_states(
             Axis::position(-1.0, 1.0, columns),
             Axis::velocity(-1.0, 1.0, rows),
             0.0,
@@ -114,10 +118,10 @@ mod tests {
     fn the_largest_ball_of_a_disc_is_the_disc() {
         let grid = grid(101, 201);
         let inside = |cell| {
-            let start = grid.start(cell).0;
+            let start = grid.start_of_cell(cell).0;
             (start.position - 0.2).hypot(start.velocity + 0.1) < 0.5
         };
-        let found = clearing(&grid, inside).expect("there is a disc");
+        let found = find_largest_ball(&grid, inside).expect("there is a disc");
         assert!((found.centre[0] - 0.2).abs() < 0.02 && (found.centre[1] + 0.1).abs() < 0.02);
         assert_abs_diff_eq!(found.radius, 0.5, epsilon = 0.02);
     }
@@ -143,14 +147,14 @@ mod tests {
             }
             best = best.max(nearest);
         }
-        let found = clearing(&grid, inside).expect("some cells are inside");
+        let found = find_largest_ball(&grid, inside).expect("some cells are inside");
         assert_abs_diff_eq!(found.radius, best, epsilon = MOTION);
     }
 
     #[test]
     fn nothing_is_inside_of_nothing() {
-        assert_eq!(clearing(&grid(5, 5), |_| false), None);
-        let all = clearing(&grid(5, 5), |_| true).expect("the whole grid");
+        assert_eq!(find_largest_ball(&grid(5, 5), |_| false), None);
+        let all = find_largest_ball(&grid(5, 5), |_| true).expect("the whole grid");
         assert_abs_diff_eq!(all.radius, 1.0, epsilon = MOTION);
     }
 }

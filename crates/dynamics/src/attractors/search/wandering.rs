@@ -1,60 +1,59 @@
-//! Motions that do not settle: which belong together, their exponents, and whether they return after all.
+//! Wandering motions of a search: which belong together, their exponents, and whether they return after all.
 
 use std::collections::BTreeMap;
 
 use super::super::chaos::Chaos;
-use super::super::group::groups;
+use super::super::group_logs::group_logs;
 use super::{BATCH_GROWTH, Group, Search};
-use crate::ensemble::{Member, Outcome};
+use crate::ensemble::{Member, Status};
 use crate::orbit::{BATCH_PERIODS, Exponents, OrbitError};
 use softstop::Start;
 
-/// Relative error of an exponent that is small enough.
-const SHARP: f64 = 0.05;
-/// Motions of a group whose exponent is tried before it is given up.
-const TRIES: usize = 6;
+/// Relative error up to which a Lyapunov exponent is accurate enough.
+const EXPONENT_ACCURACY: f64 = 0.05;
+/// Motions of a group whose exponent is tried before the group is given up.
+const MAX_EXPONENT_TRIES: usize = 6;
 /// Longest period looked for at last, in units of the usual one.
-const LAST_LOOK: usize = 8;
+const LAST_LOOK_FACTOR: usize = 8;
 
 impl Search<'_> {
-    /// Groups the wandering motions and asks for their exponents.
-    pub(super) fn gather(&mut self) -> Result<(), OrbitError> {
+    /// Groups the wandering motions of the search and measures the exponents of each group.
+    pub(super) fn group_wandering(&mut self) -> Result<(), OrbitError> {
         let wandering: Vec<usize> = self
-            .open()
-            .filter(|index| self.members[*index].member.outcome == Outcome::Wandering)
+            .open_members()
+            .filter(|index| self.members[*index].member.status == Status::Wandering)
             .collect();
         let log = |index: &usize| self.members[*index].member.states.as_slice();
         let logs: Vec<&[Start]> = wandering.iter().map(log).collect();
-        let numbers = groups(&logs, || self.ensemble.note(0))?;
+        let numbers = group_logs(&logs, || self.ensemble.count_work(0))?;
         let mut of_group: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, number) in wandering.into_iter().zip(numbers) {
             self.members[index].group = Some(number);
             of_group.entry(number).or_default().push(index);
         }
         for (number, indices) in of_group {
-            let group = self.measure(&indices)?;
+            let group = self.measure_group(&indices)?;
             self.groups.insert(number, group);
         }
         Ok(())
     }
 
-    /// The exponents of a group: of the first of its motions with a positive one that does not settle
-    /// meanwhile.
-    fn measure(&mut self, indices: &[usize]) -> Result<Group, OrbitError> {
+    /// Measures the exponents of a group: of its first motion with a positive one that does not settle meanwhile.
+    fn measure_group(&mut self, indices: &[usize]) -> Result<Group, OrbitError> {
         let counts = |index: &&usize| self.members[**index].counts;
         let mut group = Group {
             entered: indices.iter().filter(counts).count(),
             ..Group::default()
         };
-        for &index in indices.iter().take(TRIES) {
+        for &index in indices.iter().take(MAX_EXPONENT_TRIES) {
             let state = self.members[index].member.state;
-            let (exponents, end, wanders) = self.exponents(state)?;
+            let (exponents, end, wanders) = self.measure_exponents(state)?;
             let larger = |best: &Exponents| exponents.per_period[0] > best.per_period[0];
             if group.exponents.as_ref().is_none_or(larger) {
                 group.exponents = Some(exponents);
             }
             if wanders && exponents.is_positive() {
-                let chaos = Chaos::of(self.scene, &self.ensemble, (state, end), exponents)?;
+                let chaos = Chaos::of_motion(self.scene, &self.ensemble, (state, end), exponents)?;
                 // Without impacts the motion is linear and damped: it settles, if slowly.
                 if chaos.velocities.is_some() {
                     group.chaos = Some(chaos);
@@ -65,27 +64,27 @@ impl Search<'_> {
         Ok(group)
     }
 
-    /// The exponents along the motion from a state, over ever longer times until they are sharp, or the
+    /// Measures the exponents along the motion from a state, over ever longer times until they are accurate, or the
     /// motion settles; the state then, and whether the motion still wandered.
-    fn exponents(&mut self, state: Start) -> Result<(Exponents, Start, bool), OrbitError> {
+    fn measure_exponents(&mut self, state: Start) -> Result<(Exponents, Start, bool), OrbitError> {
         let mut batch = BATCH_PERIODS.0;
         let mut best = None;
         loop {
-            let ask = || self.ensemble.note(0);
-            let along = Exponents::along_with_monitor(self.scene, state.into(), batch, ask);
+            let ask = || self.ensemble.count_work(0);
+            let along = Exponents::along_motion_with_monitor(self.scene, state.into(), batch, ask);
             let (exponents, end) = along?;
-            self.ensemble.note(exponents.periods)?;
+            self.ensemble.count_work(exponents.periods)?;
             let mut after = Member::new(0, end.into());
-            let logged = self.logged();
+            let logged = self.log_length();
             self.ensemble
                 .advance(&mut [&mut after], logged as u64, logged)?;
-            let wanders = self.catalogue.judge(&after.states)? == Outcome::Wandering;
+            let wanders = self.catalogue.classify_log(&after.states)? == Status::Wandering;
             let found = (exponents, after.state, wanders);
             if !wanders {
                 return Ok(best.unwrap_or(found));
             }
             let largest = exponents.per_period[0];
-            let sharp = exponents.error < SHARP * largest;
+            let sharp = exponents.error < EXPONENT_ACCURACY * largest;
             let hopeless = largest <= exponents.error;
             batch *= BATCH_GROWTH;
             if sharp || hopeless || batch > BATCH_PERIODS.1 {
@@ -95,19 +94,20 @@ impl Search<'_> {
         }
     }
 
-    /// A last look at motions without a positive exponent: do they return after very many periods?
-    pub(super) fn look_far(&mut self) -> Result<(), OrbitError> {
-        let logged = LAST_LOOK * self.logged();
+    /// Looks at last whether wandering motions without a positive exponent return after very many periods.
+    pub(super) fn search_long_periods(&mut self) -> Result<(), OrbitError> {
+        let logged = LAST_LOOK_FACTOR * self.log_length();
         let unsettled: Vec<usize> = self
-            .open()
+            .open_members()
             .filter(|index| !self.is_chaotic(*index))
             .collect();
         for index in unsettled {
-            self.carry_on(index..index + 1, logged as u64, logged)?;
+            self.carry_on_open(index..index + 1, logged as u64, logged)?;
         }
         Ok(())
     }
 
+    /// True if the group of a motion of the search is chaos.
     fn is_chaotic(&self, index: usize) -> bool {
         let group = self.members[index]
             .group

@@ -9,7 +9,7 @@ pub struct DifferentiatedFigure {
     pub by: Vec<f64>,
 }
 
-/// An impact.
+/// An impact of a motion, time and velocity with their derivatives.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct DifferentiatedImpact {

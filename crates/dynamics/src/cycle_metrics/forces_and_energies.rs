@@ -5,55 +5,57 @@ use crate::period::PeriodTrajectory;
 use softstop::internals::{Phase, largest_value, shares};
 use softstop::{Arc, PhaseKind, Scene, Start};
 
-/// What the mass does while it touches the strip, and while it touches the stop.
-pub(super) const AT_STRIP: &[PhaseKind] = &[PhaseKind::Pierce, PhaseKind::Cut, PhaseKind::Stuck];
-pub(crate) const AT_STOP: &[PhaseKind] =
+/// Phases in which the mass touches the strip.
+pub(super) const STRIP_PHASES: &[PhaseKind] =
+    &[PhaseKind::Pierce, PhaseKind::Cut, PhaseKind::Stuck];
+/// Phases in which the mass touches the stop.
+pub(crate) const STOP_PHASES: &[PhaseKind] =
     &[PhaseKind::Stop, PhaseKind::Released, PhaseKind::Resting];
 
-/// The largest value of a quantity on an arc, by the time in s since its start.
-fn peak(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64), value: impl Fn(f64) -> f64) -> f64 {
+/// The peak on an arc of a quantity, given by the time in s since the arc's start.
+fn peak_on_arc(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64), value: impl Fn(f64) -> f64) -> f64 {
     let rate = |phase: &Phase| (phase.law.stiffness.abs() / scene.mass).sqrt();
     let rate = scene.excitation.frequency + arc.phase.map_or(0.0, rate);
     largest_value((0.0, elapsed), rate, value)
 }
 
-/// Force of the drive in N.
-fn drive(scene: &Scene, arc: &Arc<'_>, elapsed: f64) -> f64 {
+/// Force of the drive in N, so many seconds after the start of an arc.
+fn drive_force(scene: &Scene, arc: &Arc<'_>, elapsed: f64) -> f64 {
     scene.excitation.amplitude * arc.drive(elapsed).cos
 }
 
-/// Largest force of contact in N on an arc; a mass that is held is pressed by what would move it.
-pub fn peak_force(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64)) -> f64 {
-    peak(scene, (arc, elapsed), |elapsed| {
+/// Peak contact force in N on an arc; a mass that is held is pressed by what would move it.
+pub fn peak_contact_force(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64)) -> f64 {
+    peak_on_arc(scene, (arc, elapsed), |elapsed| {
         let Start { position, velocity } = arc.at(elapsed);
         let force = match arc.phase {
             Some(phase) => phase.contact_force(position, velocity),
-            None => drive(scene, arc, elapsed) - scene.stiffness * position,
+            None => drive_force(scene, arc, elapsed) - scene.stiffness * position,
         };
         arc.side * force
     })
 }
 
-/// Largest force of contact in N of a motion while it does one of these; 0 if that presses nowhere.
+/// Largest contact force in N of a motion in phases of these kinds; 0 if it is pressed in none.
 pub(crate) fn largest_force(scene: &Scene, motion: &PeriodTrajectory, kinds: &[PhaseKind]) -> f64 {
     let arcs = motion.arcs();
     let arcs = arcs.filter(|(arc, _)| kinds.contains(&arc.kind));
-    let peaks = arcs.map(|(arc, elapsed)| peak_force(scene, (&arc, elapsed)));
+    let peaks = arcs.map(|(arc, elapsed)| peak_contact_force(scene, (&arc, elapsed)));
     peaks.fold(0.0, f64::max)
 }
 
-/// Largest power of the drive in W of a motion.
-pub(super) fn peak_power(scene: &Scene, motion: &PeriodTrajectory) -> f64 {
+/// Peak power of the drive in W over a motion.
+pub(super) fn peak_drive_power(scene: &Scene, motion: &PeriodTrajectory) -> f64 {
     let peaks = motion.arcs().map(|(arc, elapsed)| {
-        peak(scene, (&arc, elapsed), |elapsed| {
-            drive(scene, &arc, elapsed) * arc.at(elapsed).velocity
+        peak_on_arc(scene, (&arc, elapsed), |elapsed| {
+            drive_force(scene, &arc, elapsed) * arc.at(elapsed).velocity
         })
     });
     peaks.fold(0.0, f64::max)
 }
 
-/// Work of the drive in J over a motion, and where it goes.
-pub(super) fn energies(scene: &Scene, motion: &PeriodTrajectory) -> (f64, Losses) {
+/// Work of the drive in J over a motion, and where that energy is lost.
+pub(super) fn supplied_and_lost_energy(scene: &Scene, motion: &PeriodTrajectory) -> (f64, Losses) {
     let (mut supplied, mut losses) = (0.0, Losses::default());
     let is_undamped = |phase: &Phase| phase.law.damping == scene.damping;
     for kept in &motion.arcs {
