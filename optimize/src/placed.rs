@@ -61,7 +61,7 @@ pub(crate) fn grazing(zone: &Zone) -> Option<f64> {
 /// The fold in rad/s, if the zone ends there.
 pub(crate) fn fold(zone: &Zone) -> Option<f64> {
     let high = &zone.high;
-    high.is(Test::Fold).then_some(high.frequency)
+    high.is_critical(Test::Fold).then_some(high.frequency)
 }
 
 fn searched(design: &Design) -> &'static str {

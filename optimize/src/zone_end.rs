@@ -7,8 +7,8 @@ use softstop_explore::zone::lost_by;
 /// What ends a zone, in words.
 pub(crate) fn end_name(end: &ZoneEnd) -> String {
     match &end.loss {
-        _ if end.is(Test::Fold) => "s_SN".to_owned(),
-        _ if end.is(Test::Flip) => "s_PD".to_owned(),
+        _ if end.is_critical(Test::Fold) => "s_SN".to_owned(),
+        _ if end.is_critical(Test::Flip) => "s_PD".to_owned(),
         loss => lost_by(loss),
     }
 }

@@ -59,7 +59,7 @@ fn is_front(problem: &Problem, front: &Pareto) -> Outcome {
         let zone = zone::hysteresis(&machine.scene)?;
         let width = zone.high.frequency - zone.low.frequency;
         let place = (machine.scene.excitation.frequency - zone.low.frequency) / width;
-        let orbit = zone.orbit(&zone.point_at(place)?)?;
+        let orbit = zone.orbit_of(&zone.point_at(place)?)?;
         let motion = Judged::new(machine, &zone, place, &orbit)?;
         assert!(place > problem.margin - 1e-7 && place < 1.0 - problem.margin + 1e-7);
         for met in problem.met(&motion) {
@@ -104,7 +104,7 @@ fn grid(problem: &Problem, sizes: [usize; 2]) -> Vec<Vec<f64>> {
         let mut all = Vec::new();
         for place in zone.iter().flat_map(|_| (0..=sizes[1]).map(places)) {
             let Some(zone) = &zone else { continue };
-            let Ok(orbit) = zone.point_at(place).and_then(|it| zone.orbit(&it)) else {
+            let Ok(orbit) = zone.point_at(place).and_then(|it| zone.orbit_of(&it)) else {
                 continue;
             };
             Parameter::Frequency.set(&mut machine.scene, zone.frequency_at(place));
@@ -219,7 +219,7 @@ fn a_cost_is_the_value_of_its_formula() -> Outcome {
     let terms: Option<Vec<_>> = terms.collect();
     let cost = Cost::new(formula, expression, terms.ok_or("names")?);
     let zone = zone::hysteresis(&machine.scene)?;
-    let orbit = zone.orbit(&zone.point_at(0.5)?)?;
+    let orbit = zone.orbit_of(&zone.point_at(0.5)?)?;
     let motion = Judged::new(&machine, &zone, 0.5, &orbit)?;
     let hertz = orbit.scene.excitation.frequency / std::f64::consts::TAU;
     let expected = 120.0 + 1.8 + hertz * 0.002;

@@ -65,9 +65,9 @@ pub mod internals {
     pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
     pub use crate::period::PeriodTrajectory;
-    pub use crate::period::turn::turns;
+    pub use crate::period::turn::turning_points;
     pub use crate::zone::Frequencies;
-    pub use crate::zone::followed_end::{LONGEST_BRANCH, ended};
+    pub use crate::zone::followed_end::{LONGEST_BRANCH, find_end};
 }
 
 pub use nalgebra;

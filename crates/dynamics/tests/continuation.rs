@@ -11,8 +11,8 @@ use std::ops::ControlFlow;
 use nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{
-    Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Family, Special, SpecialKind, Test, curve,
-    normal_form_coefficient,
+    Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Family, Special, SpecialKind, Test,
+    follow_special, normal_form_coefficient,
 };
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{
@@ -53,7 +53,7 @@ fn double(family: &Frequencies, n: u64, flip: &BranchPoint) -> Branch {
 fn double_within(family: &Frequencies, n: u64, flip: &BranchPoint, range: (f64, f64)) -> Branch {
     let limits = Limits { range, points: 500 };
     let go_on = |_: &_| ControlFlow::Continue(());
-    let doubled = Continuation::new(family, n).doubled(flip, &limits, go_on);
+    let doubled = Continuation::new(family, n).double_period(flip, &limits, go_on);
     doubled.expect("a branch of twice the period")
 }
 
@@ -278,7 +278,7 @@ fn two_orbits_before_a_fold_and_none_beyond() {
     let beside = |eta: f64, sign: f64, size: f64| {
         let m = fold.monodromy;
         let along = Vector2::new(m.m12, 1.0 - m.m11).normalize();
-        continuation.point(eta, fold.state() + sign * size * along)
+        continuation.find_point(eta, fold.state() + sign * size * along)
     };
     let eta = fold.parameter - 1e-6;
     let stable = [1.0, -1.0].map(|sign| beside(eta, sign, 0.02).expect("an orbit").is_stable());

@@ -123,7 +123,7 @@ fn where_there_is_no_derivative_none_is_told() {
     assert!(lacks.to_string().contains("stop.exponent"), "{lacks}");
     // At a fold the motion turns back.
     let zone = zone::hysteresis(&scene).expect("a zone");
-    let fold = zone.orbit(&zone.high.point).expect("is there");
+    let fold = zone.orbit_of(&zone.high.point).expect("is there");
     let turned = slopes::differentiate_orbit(&fold, &[Parameter::Clearance]);
     assert_eq!(turned, Err(OrbitError::NotIsolated));
     // A power law of exponent 1 is a spring, and becomes another law beside.

@@ -228,7 +228,7 @@ fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
             assert_near(point.impacts[1], symmetric.velocity, 1e-9);
         }
         let asymmetric = continuation
-            .asymmetric(&found.point, &limits, go_on)
+            .branch_asymmetric(&found.point, &limits, go_on)
             .expect("a branch");
         assert!(matches!(asymmetric.ends.0, End::Symmetric));
         let first = &asymmetric.points[0];
@@ -274,7 +274,7 @@ fn asymmetric_branches_do_not_depend_on_the_drive_angle() {
         let specials = branch.expect("a branch").specials.into_iter();
         let mut pitchforks = specials.filter(|it| it.kind == SpecialKind::Pitchfork);
         let found = pitchforks.next().expect("a pitchfork").point;
-        let asymmetric = continuation.asymmetric(&found, &limits, go_on);
+        let asymmetric = continuation.branch_asymmetric(&found, &limits, go_on);
         let asymmetric = asymmetric.expect("asymmetric orbits");
         asymmetric.points.last().expect("points").parameter
     });

@@ -48,7 +48,7 @@ fn is_told(machine: &toml::Table, [position, velocity]: [f64; 2]) -> bool {
         impacts: orbit.before_impact_velocities().collect(),
         monodromy: orbit.monodromy,
     };
-    let on = |one: &StableRange| one.contains(&scene, &point).expect("followed");
+    let on = |one: &StableRange| one.contains_point(&scene, &point).expect("followed");
     stable_ranges(&scene).expect("stable_ranges").iter().any(on)
 }
 

@@ -205,7 +205,7 @@ fn judge((scene, shares, starts): &Case) -> Tally {
         tally.motions += points.len();
         tally.undecided += undecided;
         let denied = points.iter().filter(|point| {
-            let on = |one: &StableRange| one.contains(&scene, point).unwrap_or(false);
+            let on = |one: &StableRange| one.contains_point(&scene, point).unwrap_or(false);
             !all.iter().any(on)
         });
         let told = denied.map(|point| format!("{point:?} lies on no stable_range of {scene:?}"));

@@ -97,7 +97,7 @@ fn a_zone_that_is_not_there_is_told_in_the_units_of_the_machine() {
         to: std::f64::consts::PI.into(),
         end: BranchEnd::Regime,
     };
-    let said = |machine: &Machine| error.clone().stated(machine).to_string();
+    let said = |machine: &Machine| error.clone().in_units_of(machine).to_string();
     assert!(said(&machine).contains("up to excitation.frequency = 3.14159"));
     machine.unit_system = UnitSystem::Hertz;
     assert_eq!(

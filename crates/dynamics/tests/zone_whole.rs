@@ -49,7 +49,7 @@ fn it_holds_the_hysteresis_zone() {
         let orbit = part.orbit_at(0.5).expect("an orbit");
         let flip = loss_of_stability(&orbit, Direction::Down, Test::Flip).expect("followed");
         let flip = flip.expect("a flip").parameter;
-        assert!(whole.low.is(Test::Flip) && flip < part.frequency_g0);
+        assert!(whole.low.is_critical(Test::Flip) && flip < part.frequency_g0);
         assert_near(whole.low.frequency, flip, 1e-9);
         for share in [0.1, 0.5, 0.9, 1.0] {
             let place = whole.place_of(part.frequency_at(share)).min(1.0);
@@ -94,7 +94,7 @@ fn its_ends_have_normals() {
         Parameter::Damping,
     ];
     assert_eq!(zone.low.loss, Loss::AnotherImpact);
-    assert!(zone.high.is(Test::Flip));
+    assert!(zone.high.is_critical(Test::Flip));
     let ends: [fn(&Zone) -> f64; 2] = [|zone| zone.low.frequency, |zone| zone.high.frequency];
     for (end, frequency) in [&zone.low, &zone.high].into_iter().zip(ends) {
         let border = Border::at_end(&scene, end, &parameters).expect("a normal");

@@ -198,7 +198,7 @@ fn claim(scene: &Scene, special: &Special) -> Option<Claim> {
         SpecialKind::Critical(Test::NeimarkSacker) | SpecialKind::Pitchfork => None,
         SpecialKind::Grazing(graze) => Some(Claim::Grazing(Touch {
             angle: graze.angle,
-            position: graze.face.position(scene)?,
+            position: graze.face.face_position(scene)?,
         })),
     }
 }

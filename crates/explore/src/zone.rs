@@ -60,7 +60,7 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
         let all = stable_ranges_with_monitor(&machine.scene, &interrupt::watch);
         Ok((zone, all.map_err(|error| anyhow!(error))?))
     })?;
-    let zone = zone.map_err(|error| error.stated(&machine));
+    let zone = zone.map_err(|error| error.in_units_of(&machine));
     match zone {
         Err(error @ ZoneError::NoGrazing { .. }) if all.is_empty() => {
             Err(Failure::usage(error.to_string()))

@@ -122,7 +122,9 @@ impl Branches {
             .ok()
             .filter(|_| by_frequency);
         let s_sn = zone.map(|zone| own(zone.high.frequency));
-        let flips = single.iter().flat_map(|branch| branch.critical(Test::Flip));
+        let flips = single
+            .iter()
+            .flat_map(|branch| branch.critical_points(Test::Flip));
         let flips = flips
             .map(|flip| flip.parameter)
             .filter(|flip| s_sn.is_some_and(|fold| *flip < fold));

@@ -3,7 +3,9 @@
 
 use anyhow::{Context, Result};
 use softstop::{Parameter, Ratios};
-use softstop_dynamics::continuation::{Curve, CurveLimits, CurvePoint, SpecialKind, Test, curve};
+use softstop_dynamics::continuation::{
+    Curve, CurveLimits, CurvePoint, SpecialKind, Test, follow_special,
+};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::free_amplitude;
 use softstop_dynamics::{Continuation, Limits, ParameterFamily};
@@ -55,11 +57,12 @@ impl Boundaries {
         };
         let of = |test| {
             let special = SpecialKind::Critical(test);
-            let found = branch.critical(test).map(|point| {
+            let found = branch.critical_points(test).map(|point| {
                 let at = [point.parameter, machine.clearance];
-                let found = curve(&plane, 1, (special, point.state()), at, &region, |_| {
-                    interrupt::go_on()
-                });
+                let found =
+                    follow_special(&plane, 1, (special, point.state()), at, &region, |_| {
+                        interrupt::go_on()
+                    });
                 found.with_context(|| format!("no curve of the {}", special.name()))
             });
             found.collect::<Result<Vec<Curve>>>()

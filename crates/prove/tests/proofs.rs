@@ -71,7 +71,7 @@ fn bifurcations_are_where_continuation_finds_them() {
                 SpecialKind::Critical(Test::Flip) => Claim::Flip,
                 SpecialKind::Grazing(graze) => Claim::Grazing(Touch {
                     angle: graze.angle,
-                    position: graze.face.position(&scene).expect("a face"),
+                    position: graze.face.face_position(&scene).expect("a face"),
                 }),
                 SpecialKind::Critical(Test::NeimarkSacker) | SpecialKind::Pitchfork => continue,
             };

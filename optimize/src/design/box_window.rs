@@ -76,7 +76,7 @@ impl BoxWindow {
 
 /// The fold at which a zone ends, if that is what ends it.
 fn fold_of(zone: &Zone) -> Option<BranchPoint> {
-    let is_fold = zone.high.is(Test::Fold);
+    let is_fold = zone.high.is_critical(Test::Fold);
     is_fold.then(|| zone.high.point.clone())
 }
 

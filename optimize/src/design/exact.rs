@@ -72,7 +72,7 @@ impl<'a> Linearization<'a> {
         let low = moved(|zone| &zone.low)?;
         let mut high = moved(|zone| &zone.high)?;
         high.truncate(rows.len());
-        let width = point.zone.width();
+        let width = point.zone.frequency_width();
         let share = point.place;
         let ends = low.iter().zip(&high);
         // How the frequency of this place changes.
@@ -130,7 +130,7 @@ impl<'a> Linearization<'a> {
                 let border = Border::at_g0(&motion.orbit.scene, true, parameters);
                 Some(above(&border.ok()?))
             }
-            Figure::FrequencySn if motion.zone.high.is(Test::Fold) => {
+            Figure::FrequencySn if motion.zone.high.is_critical(Test::Fold) => {
                 minus(&self.high, &self.frequency)
             }
             Figure::FrequencyPd if motion.is_flip_above() => minus(&self.high, &self.frequency),

@@ -7,7 +7,7 @@ use softstop_console::interrupt;
 use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::continuation::{Direction, Test};
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::zone::{end_along, find_zones, free_amplitude, loss_of_stability};
+use softstop_dynamics::zone::{find_end_along, find_zones, free_amplitude, loss_of_stability};
 use softstop_dynamics::{CycleMetrics, Orbit, ParameterFamily, Zone};
 
 use super::cost::value_of_motion;
@@ -59,7 +59,9 @@ impl<'a> Judged<'a> {
         match figure {
             Figure::Share => self.place.min(1.0 - self.place),
             Figure::FrequencyG0 => frequency - self.zone.frequency_g0,
-            Figure::FrequencySn | Figure::ClearanceSn if !self.zone.high.is(Test::Fold) => {
+            Figure::FrequencySn | Figure::ClearanceSn
+                if !self.zone.high.is_critical(Test::Fold) =>
+            {
                 f64::INFINITY
             }
             Figure::FrequencySn => self.zone.high.frequency - frequency,
@@ -67,7 +69,7 @@ impl<'a> Judged<'a> {
             Figure::FrequencyPd | Figure::ClearancePd if self.is_at_fold() => f64::NAN,
             Figure::FrequencyPd => {
                 let below = self.above_flip(frequency);
-                match self.zone.high.is(Test::Flip) {
+                match self.zone.high.is_critical(Test::Flip) {
                     true => below.min(self.zone.high.frequency - frequency),
                     false => below,
                 }
@@ -94,12 +96,12 @@ impl<'a> Judged<'a> {
     /// True if the nearer flip is the upper end of the zone.
     pub(super) fn is_flip_above(&self) -> bool {
         let frequency = self.orbit.scene.excitation.frequency;
-        self.zone.high.is(Test::Flip)
+        self.zone.high.is_critical(Test::Flip)
             && self.zone.high.frequency - frequency < self.above_flip(frequency)
     }
 
     fn is_at_fold(&self) -> bool {
-        let is_at_end = self.zone.high.is(Test::Fold) && self.place > 1.0 - AT_FOLD;
+        let is_at_end = self.zone.high.is_critical(Test::Fold) && self.place > 1.0 - AT_FOLD;
         is_at_end || !self.orbit.is_stable()
     }
 
@@ -159,7 +161,8 @@ impl<'a> Judged<'a> {
             return f64::NAN;
         };
         let family = ParameterFamily::new(scene.clone(), [parameter]).map_err(OrbitError::from);
-        let end = family.and_then(|family| end_along(&family, from, self.orbit, direction, test));
+        let end =
+            family.and_then(|family| find_end_along(&family, from, self.orbit, direction, test));
         match end {
             Ok(Some(lost)) => (lost - from).abs(),
             Ok(None) => f64::INFINITY,

@@ -124,7 +124,7 @@ impl Line<'_> {
             zone,
             cases,
         } = self.zoned;
-        let orbit = zone.orbit(point).map_err(Infeasible::unknown)?;
+        let orbit = zone.orbit_of(point).map_err(Infeasible::unknown)?;
         let frequency = zone.frequency_at(place);
         let mut machine = machine.clone();
         machine.set_frequency(frequency);

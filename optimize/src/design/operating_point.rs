@@ -55,7 +55,7 @@ impl Design {
     /// The stable motion at a place of a machine's zone, without cases and without the value of what is sought.
     pub(super) fn on_zone(mut machine: Machine, zone: &Zone, place: f64) -> Option<Self> {
         let point = zone.point_at(place).ok()?;
-        let orbit = zone.orbit(&point).ok()?;
+        let orbit = zone.orbit_of(&point).ok()?;
         if !(orbit.is_stable() || place >= 1.0) {
             return None;
         }

@@ -29,7 +29,7 @@ impl Motions {
             true => below(zone).unwrap_or_default(),
             false => {
                 let mut ends = [&zone.low, &zone.high].into_iter();
-                let flip = ends.find(|end| end.is(Test::Flip));
+                let flip = ends.find(|end| end.is_critical(Test::Flip));
                 (Vec::new(), flip.map(|end| end.frequency))
             }
         };
@@ -118,27 +118,27 @@ fn is_shown(point: &BranchPoint) -> bool {
     let end = point
         .fold_test()
         .abs()
-        .min(Test::Flip.value(&point.monodromy).abs());
+        .min(Test::Flip.scaled_value(&point.monodromy).abs());
     point.is_stable() || end < 1e-6
 }
 
 /// The stable motions from g0 down, and where their period doubles.
 fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
-    let start: Orbit = zone.orbit(zone.branch.first()?).ok()?;
+    let start: Orbit = zone.orbit_of(zone.branch.first()?).ok()?;
     let family = ParameterFamily::new(start.scene.clone(), [Parameter::Frequency]).ok()?;
     let follower = Continuation::new(&family, 1);
     let from = start.scene.excitation.frequency;
     let mut points = follower
-        .follow(&start, from, Direction::Down, LONGEST, |point| {
+        .follow_points(&start, from, Direction::Down, LONGEST, |point| {
             let ends = !point.is_stable() || point.parameter < from / FARTHEST;
             stop_if(ends || interrupt::watch(0, 0).is_break())
         })
         .ok()?;
-    let flips = |point: &BranchPoint| Test::Flip.value(&point.monodromy) <= 0.0;
+    let flips = |point: &BranchPoint| Test::Flip.scaled_value(&point.monodromy) <= 0.0;
     let last = points.pop_if(|point| !point.is_stable());
     let flip = last
         .filter(flips)
-        .and_then(|last| follower.critical(&last, Test::Flip).ok());
+        .and_then(|last| follower.locate(&last, Test::Flip).ok());
     let at = flip.as_ref().map(|flip| flip.parameter);
     points.extend(flip);
     Some((points, at))
@@ -157,7 +157,7 @@ fn refined(scene: &Scene, points: &[BranchPoint]) -> Vec<BranchPoint> {
         let new = shares.filter_map(|share| {
             let frequency = from.parameter + share * (to.parameter - from.parameter);
             let state = from.state() + share * (to.state() - from.state());
-            let point = follower.point(frequency, state).ok()?;
+            let point = follower.find_point(frequency, state).ok()?;
             let inside = |value: f64, a: f64, b: f64| value >= a.min(b) && value <= a.max(b);
             inside(point.position, from.position, to.position).then_some(point)
         });

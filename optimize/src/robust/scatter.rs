@@ -42,7 +42,7 @@ pub fn sensitivities(
     zone: &Zone,
 ) -> Result<Sensitivities, ZoneError> {
     let centre = vec![0.0; spread.dimensions()];
-    let fold = match zone.high.is(Test::Fold) {
+    let fold = match zone.high.is_critical(Test::Fold) {
         true => Some(critical_normal(
             spread,
             &centre,

@@ -2,7 +2,7 @@
 
 use softstop::{MotionError, Scene};
 use softstop_dynamics::continuation::{BranchPoint, Continuation, Direction, Family};
-use softstop_dynamics::internals::{Frequencies, LONGEST_BRANCH, ended};
+use softstop_dynamics::internals::{Frequencies, LONGEST_BRANCH, find_end};
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 use softstop_dynamics::zone::Loss;
@@ -40,11 +40,12 @@ pub fn along(
         state_scales: Frequencies(&nominal.scene).state_scales(),
     };
     let continuation = Continuation::new(&family, 1);
-    let mut points = continuation.follow(nominal, 0.0, Direction::Up, LONGEST_BRANCH, |point| {
-        let inside = (0.0..farthest).contains(&point.parameter);
-        stop_if(!inside || !point.is_stable())
-    })?;
-    let end = ended(&continuation, &mut points, Direction::Up, (0.0, farthest))?;
+    let mut points =
+        continuation.follow_points(nominal, 0.0, Direction::Up, LONGEST_BRANCH, |point| {
+            let inside = (0.0..farthest).contains(&point.parameter);
+            stop_if(!inside || !point.is_stable())
+        })?;
+    let end = find_end(&continuation, &mut points, Direction::Up, (0.0, farthest))?;
     Ok(Reached {
         share: end.frequency,
         loss: Some(end.loss).filter(|loss| *loss != Loss::Range),

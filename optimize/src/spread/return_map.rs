@@ -112,7 +112,7 @@ impl Settled {
             }
             let far = scales.state(&step).norm();
             let monodromy = Monodromy::from(&once.tangent);
-            let clear = |test: Test| test.value(&monodromy) > CLEAR * far;
+            let clear = |test: Test| test.scaled_value(&monodromy) > CLEAR * far;
             let sure = far <= SHORT && clear(Test::Fold) && clear(Test::Flip);
             if sure && monodromy.is_stable() {
                 return Some(Self {

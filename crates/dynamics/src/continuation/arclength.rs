@@ -29,9 +29,9 @@ pub(crate) trait Equations {
     }
 
     /// Scaled half-width of the differences by the other unknowns.
-    fn width(&self, here: &Evaluation<Self::Point>) -> f64 {
+    fn difference_width(&self, here: &Evaluation<Self::Point>) -> f64 {
         let _ = here;
-        DIFFERENCE
+        DIFFERENCE_WIDTH
     }
 
     /// True if Newton's method settles from guesses very near alone.
@@ -41,7 +41,7 @@ pub(crate) trait Equations {
     }
 
     /// The residual alone at a place beside another one, and whether nothing that breaks a derivative lies between them.
-    fn beside(
+    fn residual_beside(
         &self,
         here: &Self::Point,
         at: &DVector<f64>,
@@ -61,14 +61,14 @@ pub(crate) struct Evaluation<P> {
 }
 
 /// What rounding leaves of a test function on orbits that stretch little.
-const TEST_TOLERANCE: f64 = 1e-12;
+const TEST_ROUNDING: f64 = 1e-12;
 
 impl<P> Evaluation<P> {
     /// This evaluation with one equation more: a test function vanishes.
     pub fn with_test(self, value: f64) -> Self {
         Self {
             residual: self.residual.push(value),
-            tolerance: self.tolerance.max(TEST_TOLERANCE),
+            tolerance: self.tolerance.max(TEST_ROUNDING),
             ..self
         }
     }
@@ -83,16 +83,16 @@ pub(crate) struct Node<P> {
 
 /// Newton steps of one correction, and the most where each goes on to halve the residual: differences across a
 /// corner of the motion make it fall by a share only.
-const CORRECTIONS: usize = 12;
-const MOST_CORRECTIONS: usize = 48;
+const USUAL_CORRECTIONS: usize = 12;
+const MAX_CORRECTIONS: usize = 48;
 /// Residual in units of what rounding may leave up to which it is worth a look whether it leaves more, and changes of the
 /// unknowns in units of their rounding with which that is looked at.
-const WORTH_A_LOOK: f64 = 1000.0;
-const LAST_DIGITS: [f64; 4] = [-8.0, -4.0, 4.0, 8.0];
+const MAX_NOISE_RATIO: f64 = 1000.0;
+const NOISE_PROBES: [f64; 4] = [-8.0, -4.0, 4.0, 8.0];
 /// A step with kept slopes that leaves more than this share of the residual is the last with them.
-const STALE: f64 = 0.02;
+const STALE_SHARE: f64 = 0.02;
 /// Scaled half-width of the central differences.
-pub(crate) const DIFFERENCE: f64 = 1e-6;
+pub(crate) const DIFFERENCE_WIDTH: f64 = 1e-6;
 
 /// Newton's method from `guess`: in the plane across `normal` for a curve, with no normal for a system
 /// with as many equations as unknowns. It ends when a step no longer makes a residual smaller that is
@@ -102,18 +102,18 @@ pub(crate) fn correct<E: Equations>(
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
 ) -> Result<Node<E::Point>, OrbitError> {
-    correct_with(equations, guess, normal, &mut None, Accuracy::Full)
+    correct_with_slopes(equations, guess, normal, &mut None, Accuracy::Full)
 }
 
 /// Newton's method where the last unknown is given: its slopes play no part.
-pub(crate) fn correct_at<E: Equations>(
+pub(crate) fn correct_given<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
 ) -> Result<Node<E::Point>, OrbitError> {
     let unknowns = guess.len();
     let normal = DVector::from_fn(unknowns, |row, _| f64::from(u8::from(row + 1 == unknowns)));
     let mut none = Some(DMatrix::zeros(unknowns - 1, unknowns - E::EXACT));
-    correct_with(equations, guess, Some(&normal), &mut none, Accuracy::Given)
+    correct_with_slopes(equations, guess, Some(&normal), &mut none, Accuracy::Given)
 }
 
 /// How accurately solutions are computed.
@@ -128,10 +128,10 @@ pub(super) enum Accuracy {
 }
 
 /// Residual that a quick solution may leave.
-const QUICK: f64 = 1e-9;
+const QUICK_RESIDUAL: f64 = 1e-9;
 
 /// Newton's method with the slopes of a place nearby, if there are any, as long as they serve; it leaves the last ones.
-pub(super) fn correct_with<E: Equations>(
+pub(super) fn correct_with_slopes<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
     normal: Option<&DVector<f64>>,
@@ -140,23 +140,23 @@ pub(super) fn correct_with<E: Equations>(
 ) -> Result<Node<E::Point>, OrbitError> {
     let mut at = guess.clone();
     let mut last = f64::INFINITY;
-    for round in 0..=MOST_CORRECTIONS {
+    for round in 0..=MAX_CORRECTIONS {
         let here = equations.evaluate(&at)?;
         let size = here.residual.norm();
-        let (fits, late) = (size <= here.tolerance, round >= CORRECTIONS);
+        let (fits, late) = (size <= here.tolerance, round >= USUAL_CORRECTIONS);
         let is_least = size >= 0.1 * last || size <= ROUNDING_SHARE * here.tolerance;
         if fits && (late || is_least) {
             return Ok(Node { at, here });
         }
         if late && size > 0.5 * last {
-            if size < WORTH_A_LOOK * here.tolerance && size <= noise(equations, &at, &here) {
+            if size < MAX_NOISE_RATIO * here.tolerance && size <= noise(equations, &at, &here) {
                 return Ok(Node { at, here });
             }
             return Err(OrbitError::Diverged { residual: size });
         }
         let kept = slopes
             .take()
-            .filter(|_| accuracy == Accuracy::Given || size <= STALE * last);
+            .filter(|_| accuracy == Accuracy::Given || size <= STALE_SHARE * last);
         let shrinks = size / std::mem::replace(&mut last, size);
         let exact = equations.exact_slopes(&here);
         // Newton's method squares the residual, with slopes that are none it shrinks at the same rate.
@@ -174,14 +174,14 @@ pub(super) fn correct_with<E: Equations>(
         let mut matrix = -equations.jacobian(&here, slopes.insert(known));
         if let Some(normal) = normal {
             right = right.push(normal.dot(&(guess - &at)));
-            matrix = bordered(&matrix, normal);
+            matrix = border_matrix(&matrix, normal);
         }
-        match solved(matrix, &right) {
+        match solve_linear(matrix, &right) {
             Some(step) if step.iter().all(|part| part.is_finite()) => at += step,
             _ if fits => return Err(OrbitError::NotIsolated),
             _ => return Err(OrbitError::Diverged { residual: size }),
         }
-        if accuracy == Accuracy::Quick && round > 0 && next <= QUICK {
+        if accuracy == Accuracy::Quick && round > 0 && next <= QUICK_RESIDUAL {
             return Ok(Node { at, here });
         }
     }
@@ -192,13 +192,13 @@ pub(super) fn correct_with<E: Equations>(
 /// orbit may magnify, and forget again, more than its monodromy matrix tells.
 fn noise<E: Equations>(equations: &E, at: &DVector<f64>, here: &Evaluation<E::Point>) -> f64 {
     let change = |digits: &f64| {
-        let there = equations.beside(&here.point, &(at * (1.0 + digits * f64::EPSILON)));
+        let there = equations.residual_beside(&here.point, &(at * (1.0 + digits * f64::EPSILON)));
         there.map_or(0.0, |(there, _)| (there - &here.residual).norm())
     };
-    LAST_DIGITS.iter().map(change).fold(0.0, f64::max)
+    NOISE_PROBES.iter().map(change).fold(0.0, f64::max)
 }
 
-pub(super) fn bordered(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
+pub(super) fn border_matrix(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
     let rows = matrix.nrows();
     DMatrix::from_fn(rows + 1, rows + 1, |row, column| {
         if row < rows {
@@ -210,7 +210,7 @@ pub(super) fn bordered(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<
 }
 
 /// The solution of a linear system; most have three unknowns.
-pub(super) fn solved(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+pub(super) fn solve_linear(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
     if right.len() != 3 {
         return matrix.lu().solve(right);
     }
@@ -220,25 +220,25 @@ pub(super) fn solved(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVect
 }
 
 /// Unit direction of a curve at a node, on the side of `along`, and the slopes there.
-pub(crate) fn tangent<E: Equations>(
+pub(crate) fn curve_tangent<E: Equations>(
     equations: &E,
     node: &Node<E::Point>,
     along: &DVector<f64>,
 ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-    tangent_with(equations, node, along, Accuracy::Full)
+    curve_tangent_with(equations, node, along, Accuracy::Full)
 }
 
-pub(super) fn tangent_with<E: Equations>(
+pub(super) fn curve_tangent_with<E: Equations>(
     equations: &E,
     node: &Node<E::Point>,
     along: &DVector<f64>,
     accuracy: Accuracy,
 ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
     let slopes = slopes_at(equations, &node.at, &node.here, accuracy)?;
-    let matrix = bordered(&equations.jacobian(&node.here, &slopes), along);
+    let matrix = border_matrix(&equations.jacobian(&node.here, &slopes), along);
     let mut right = DVector::zeros(node.at.len());
     right[node.at.len() - 1] = 1.0;
-    match solved(matrix, &right).map(|found| found.normalize()) {
+    match solve_linear(matrix, &right).map(|found| found.normalize()) {
         Some(direction) if direction.iter().all(|part| part.is_finite()) => Ok((direction, slopes)),
         _ => Err(OrbitError::NotIsolated),
     }
@@ -255,13 +255,13 @@ pub(super) fn slopes_at<E: Equations>(
     if let Some(exact) = equations.exact_slopes(here) {
         return Ok(exact);
     }
-    let width = equations.width(here);
+    let width = equations.difference_width(here);
     let mut columns = Vec::new();
     for unknown in E::EXACT..at.len() {
         let beside = |shift: f64| {
             let mut at = at.clone();
             at[unknown] += shift;
-            equations.beside(&here.point, &at)
+            equations.residual_beside(&here.point, &at)
         };
         let one_sided = |there: DVector<f64>, shift: f64| (there - &here.residual) / shift;
         let ahead = beside(width);

@@ -6,7 +6,7 @@ use super::Family;
 use super::arclength::Node;
 use super::follow::{Continuation, LOCATED_WIDTH};
 use super::half_branch::Limits;
-use super::locate::{along_chord, locate, zero};
+use super::locate::{along_chord, locate_zero, solve_zero};
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
 use super::test::Test;
@@ -14,11 +14,11 @@ use crate::orbit::OrbitError;
 
 /// Distance of a point from the chord between its neighbours, as a share of the chord, within which it is taken for
 /// a point between them.
-pub(crate) const ASIDE: f64 = 0.2;
+pub(crate) const OFF_CHORD: f64 = 0.2;
 /// Relative difference of a parameter within which it is the one asked for.
-const SAME_PARAMETER: f64 = 1e-9;
+const PARAMETER_ROUNDING: f64 = 1e-9;
 /// Most points that a branch is followed through between two neighbours.
-const WALK: usize = 200;
+const MAX_WALK_POINTS: usize = 200;
 
 impl<F: Family> Continuation<'_, F> {
     /// The point between two neighbours at which a test of the monodromy matrix vanishes.
@@ -31,13 +31,13 @@ impl<F: Family> Continuation<'_, F> {
         to: &BranchPoint,
         test: Test,
     ) -> Result<BranchPoint, OrbitError> {
-        self.clearly(from, to, |continuation, ends| {
-            continuation.zero_between(ends, test)
+        self.find_clear(from, to, |continuation, ends| {
+            continuation.critical_of_nodes(ends, test)
         })
     }
 
     /// What is found between two neighbours, seen at a drive angle with no crossing near.
-    fn clearly(
+    fn find_clear(
         &self,
         from: &BranchPoint,
         to: &BranchPoint,
@@ -50,26 +50,26 @@ impl<F: Family> Continuation<'_, F> {
         }
     }
 
-    fn zero_between(
+    fn critical_of_nodes(
         &self,
         ends: (&Node<PeriodMap>, &Node<PeriodMap>),
         test: Test,
     ) -> Result<BranchPoint, OrbitError> {
-        let value = |round: &PeriodMap| test.value(&round.monodromy);
-        let node = zero(&self.shooting, ends, LOCATED_WIDTH, value).or_else(|_| {
+        let value = |round: &PeriodMap| test.scaled_value(&round.monodromy);
+        let node = solve_zero(&self.shooting, ends, LOCATED_WIDTH, value).or_else(|_| {
             let value = |node: &Node<PeriodMap>| value(&node.here.point);
-            locate(&self.shooting, ends, LOCATED_WIDTH, value).map(|(node, _)| node)
+            locate_zero(&self.shooting, ends, LOCATED_WIDTH, value).map(|(node, _)| node)
         })?;
         self.point_at(&node)
     }
 
-    fn value_between(
+    fn parameter_of_nodes(
         &self,
         ends: (&Node<PeriodMap>, &Node<PeriodMap>),
         parameter: f64,
     ) -> Result<BranchPoint, OrbitError> {
         let value = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - parameter;
-        let (node, _) = locate(&self.shooting, ends, LOCATED_WIDTH, value)?;
+        let (node, _) = locate_zero(&self.shooting, ends, LOCATED_WIDTH, value)?;
         self.point_at(&node)
     }
 
@@ -77,7 +77,7 @@ impl<F: Family> Continuation<'_, F> {
     ///
     /// # Errors
     /// [`OrbitError`] if a correction fails.
-    pub fn between(
+    pub fn point_between(
         &self,
         from: &BranchPoint,
         to: &BranchPoint,
@@ -85,34 +85,34 @@ impl<F: Family> Continuation<'_, F> {
     ) -> Result<BranchPoint, OrbitError> {
         let share = (parameter - from.parameter) / (to.parameter - from.parameter);
         let state = from.state().lerp(&to.state(), share);
-        if let Ok(node) = self.start(parameter, state) {
+        if let Ok(node) = self.correct_start(parameter, state) {
             let point = self.point_at(&node)?;
             if self.is_between((from, to), &point) {
                 return Ok(point);
             }
         }
-        let located = self.clearly(from, to, |continuation, ends| {
-            continuation.value_between(ends, parameter)
+        let located = self.find_clear(from, to, |continuation, ends| {
+            continuation.parameter_of_nodes(ends, parameter)
         });
         match located {
             Ok(point)
-                if (point.parameter - parameter).abs() <= SAME_PARAMETER * parameter.abs() =>
+                if (point.parameter - parameter).abs() <= PARAMETER_ROUNDING * parameter.abs() =>
             {
                 Ok(point)
             }
             other => {
                 let lost = other.err().unwrap_or(OrbitError::LOST);
-                self.walked(from, to, parameter).ok_or(lost)
+                self.walk_to(from, to, parameter).ok_or(lost)
             }
         }
     }
 
     /// The point between two neighbours, followed from one of them as the branch was, where no guess between them leads to it.
-    fn walked(&self, from: &BranchPoint, to: &BranchPoint, parameter: f64) -> Option<BranchPoint> {
+    fn walk_to(&self, from: &BranchPoint, to: &BranchPoint, parameter: f64) -> Option<BranchPoint> {
         [from, to].into_iter().find_map(|end| {
             let limits = Limits {
                 range: (parameter.min(end.parameter), parameter.max(end.parameter)),
-                points: WALK,
+                points: MAX_WALK_POINTS,
             };
             let go_on = |_: &BranchPoint| ControlFlow::Continue(());
             let branch = self
@@ -131,6 +131,6 @@ impl<F: Family> Continuation<'_, F> {
         let (begin, way) = (place(from), place(to) - place(from));
         let (along, off) = along_chord((&begin, &way), &place(point));
         let same_side = from.fold_test().signum() * point.fold_test().signum() > 0.0;
-        same_side && (0.0..=1.0).contains(&along) && off < ASIDE * way.norm()
+        same_side && (0.0..=1.0).contains(&along) && off < OFF_CHORD * way.norm()
     }
 }

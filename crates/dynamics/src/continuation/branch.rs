@@ -6,14 +6,14 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::Node;
-use super::curve::SHORTEST_LOOP;
+use super::curve::MIN_LOOP_POINTS;
 use super::follow::{Continuation, LOCATED_WIDTH, SectionChange};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{End, HalfBranch, Limits};
-use super::locate::locate;
+use super::locate::locate_zero;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
-use super::step_control::SHORT;
+use super::step_control::SHORT_STEP;
 use super::stepper::Stepper;
 use super::test::Test;
 use crate::direction::Direction;
@@ -34,11 +34,11 @@ pub struct Branch {
 }
 
 /// Steps shorter than that in a row after which an orbit is too unstable to be followed.
-const LONGEST_CRAWL: usize = 60;
+const MAX_CRAWL_STEPS: usize = 60;
 /// Scaled distance within which an orbit repeats.
-const REPEATS: f64 = 1e-7;
+const REPEAT_DISTANCE: f64 = 1e-7;
 /// First step after a corner: others, and folds, may lie as near.
-const AFTER_CORNER: f64 = 1e-5;
+const STEP_AFTER_CORNER: f64 = 1e-5;
 
 impl Branch {
     /// What is special at a point of it, if anything is.
@@ -47,7 +47,7 @@ impl Branch {
     }
 
     /// The orbits on it at which a test vanishes, in their order.
-    pub fn critical(&self, test: Test) -> impl Iterator<Item = &BranchPoint> {
+    pub fn critical_points(&self, test: Test) -> impl Iterator<Item = &BranchPoint> {
         let own = move |special: &&Special| special.kind == SpecialKind::Critical(test);
         let own = self.specials.iter().filter(own);
         own.map(|special| &special.point)
@@ -68,39 +68,40 @@ impl<'a, F: Family> Continuation<'a, F> {
         limits: &Limits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
-        let start = self.start(parameter, state)?;
+        let start = self.correct_start(parameter, state)?;
         let minimal = self.minimal_period(&start);
         if minimal < self.shooting.periods {
-            let shorter = self.over(minimal);
-            return shorter.branch(parameter, self.shooting.state(&start.at), limits, watch);
+            let shorter = self.over_periods(minimal);
+            return shorter.branch(parameter, self.shooting.state_at(&start.at), limits, watch);
         }
-        let up = self.way(
+        let up = self.follow_half(
             start.clone(),
-            &Self::direction(Direction::Up),
+            &Self::direction_vector(Direction::Up),
             limits,
             &mut watch,
         )?;
         let down = match up.end {
             End::Closed => HalfBranch {
                 end: End::Closed,
-                ..HalfBranch::none()
+                ..HalfBranch::empty()
             },
-            _ => self.way(
+            _ => self.follow_half(
                 start.clone(),
-                &Self::direction(Direction::Down),
+                &Self::direction_vector(Direction::Down),
                 limits,
                 &mut watch,
             )?,
         };
-        self.joined(&start, down, up)
+        self.join_halves(&start, down, up)
     }
 
     /// The drive periods after which an orbit really repeats.
     fn minimal_period(&self, node: &Node<PeriodMap>) -> u64 {
         let periods = self.shooting.periods;
         let returns = |after: &u64| {
-            let way = node.here.point.trajectory.after(*after) - self.shooting.state(&node.at);
-            self.shooting.scaled(way, [0.0]).norm() < REPEATS
+            let way =
+                node.here.point.trajectory.at_cycle(*after) - self.shooting.state_at(&node.at);
+            self.shooting.scaled(way, [0.0]).norm() < REPEAT_DISTANCE
         };
         (1..periods)
             .filter(|after| periods.is_multiple_of(*after))
@@ -117,11 +118,11 @@ impl<'a, F: Family> Continuation<'a, F> {
         limits: &Limits,
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
-        let way = self.way(start.clone(), along, limits, watch)?;
-        self.joined(&start, HalfBranch::none(), way)
+        let way = self.follow_half(start.clone(), along, limits, watch)?;
+        self.join_halves(&start, HalfBranch::empty(), way)
     }
 
-    fn joined(
+    fn join_halves(
         &self,
         start: &Node<PeriodMap>,
         mut down: HalfBranch,
@@ -140,29 +141,29 @@ impl<'a, F: Family> Continuation<'a, F> {
         })
     }
 
-    fn way(
+    fn follow_half(
         &self,
         start: Node<PeriodMap>,
         along: &DVector<f64>,
         limits: &Limits,
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<HalfBranch, OrbitError> {
-        let mut way = HalfBranch::none();
+        let mut way = HalfBranch::empty();
         let origin = self.point_at(&start)?;
-        let mut next = Some(self.set_out(start, along.clone()));
+        let mut next = Some(self.begin_branch(start, along.clone()));
         while let Some(SectionChange {
             continuation,
             node,
             along,
         }) = next
         {
-            next = continuation.go_on(&mut way, (node, &along), &origin, limits, watch)?;
+            next = continuation.follow_section(&mut way, (node, &along), &origin, limits, watch)?;
         }
         Ok(way)
     }
 
     /// Goes on along a branch as long as this section serves; then how it goes on, if it does.
-    fn go_on(
+    fn follow_section(
         &self,
         way: &mut HalfBranch,
         (start, along): (Node<PeriodMap>, &DVector<f64>),
@@ -170,32 +171,36 @@ impl<'a, F: Family> Continuation<'a, F> {
         limits: &Limits,
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
-        let origin = self.place(origin)?;
-        let mut grazing_test = GrazingTest::of(&self.shooting, &start)?;
+        let origin = self.place_of(origin)?;
+        let mut grazing_test = GrazingTest::of_node(&self.shooting, &start)?;
         let mut stepper = Stepper::new(&self.shooting, start, along, self.largest)?;
         let mut crawled = 0;
         // Since the last corner, if one was passed.
         let mut goes_on = true;
         while way.points.len() < limits.points {
-            if crawled > LONGEST_CRAWL {
-                self.give_up(way, &stepper, &grazing_test, limits, OrbitError::LOST);
+            if crawled > MAX_CRAWL_STEPS {
+                self.end_branch(way, &stepper, &grazing_test, limits, OrbitError::LOST);
                 return Ok(None);
             }
-            let step = stepper.attempt().and_then(|step| {
-                let ahead = GrazingTest::of(&self.shooting, &step.node)?;
-                if !self.may_take(&stepper, &step, (&grazing_test, &ahead)) {
+            let step = stepper.attempt_step().and_then(|step| {
+                let ahead = GrazingTest::of_node(&self.shooting, &step.node)?;
+                if !self.may_take_step(&stepper, &step, (&grazing_test, &ahead)) {
                     return Err(OrbitError::LOST);
                 }
                 let specials = self.specials_between(&stepper.node, &step.node)?;
                 let ends = (&stepper.node, &step.node);
-                let end = self.record(way, ends, specials, &origin, limits)?;
+                let end = self.record_step(way, ends, specials, &origin, limits)?;
                 Ok((step, ahead, end))
             });
             match step {
                 Ok((step, ahead, end)) => {
-                    crawled = if stepper.step < SHORT { crawled + 1 } else { 0 };
-                    grazing_test = ahead.reached(&grazing_test, stepper.step);
-                    stepper.take(step);
+                    crawled = if stepper.step < SHORT_STEP {
+                        crawled + 1
+                    } else {
+                        0
+                    };
+                    grazing_test = ahead.after_step(&grazing_test, stepper.step);
+                    stepper.step_to(step);
                     goes_on = true;
                     let stopped = way
                         .points
@@ -212,37 +217,37 @@ impl<'a, F: Family> Continuation<'a, F> {
                         return Ok(None);
                     }
                     if way.turned_at != Some(way.points.len())
-                        && let Some(turned) = self.turned(&stepper.node, &stepper.direction)
+                        && let Some(turned) = self.turn_section(&stepper.node, &stepper.direction)
                     {
                         way.turned_at = Some(way.points.len());
                         return Ok(Some(turned));
                     }
-                    if way.grazes(self.graze_ahead(&stepper, &grazing_test)) {
+                    if way.end_in_grazing(self.graze_ahead(&stepper, &grazing_test)) {
                         return Ok(None);
                     }
-                    if stepper.shorten() {
+                    if stepper.shorten_step() {
                         continue;
                     }
                     let Some((node, along)) = self.beyond_corner(&stepper).filter(|_| goes_on)
                     else {
-                        self.give_up(way, &stepper, &grazing_test, limits, error);
+                        self.end_branch(way, &stepper, &grazing_test, limits, error);
                         return Ok(None);
                     };
                     let step = (&stepper.node, &node);
                     let beyond = self
                         .specials_of_corner(step.0, step.1)
                         .and_then(|specials| {
-                            let ahead = GrazingTest::of(&self.shooting, &node)?;
-                            let end = self.record(way, step, specials, &origin, limits)?;
+                            let ahead = GrazingTest::of_node(&self.shooting, &node)?;
+                            let end = self.record_step(way, step, specials, &origin, limits)?;
                             let mut next =
                                 Stepper::new(&self.shooting, node.clone(), &along, self.largest)?;
-                            next.step = AFTER_CORNER;
+                            next.step = STEP_AFTER_CORNER;
                             Ok((end, ahead, next))
                         });
                     let (end, ahead, next) = match beyond {
                         Ok(beyond) => beyond,
                         Err(error) => {
-                            self.give_up(way, &stepper, &grazing_test, limits, error);
+                            self.end_branch(way, &stepper, &grazing_test, limits, error);
                             return Ok(None);
                         }
                     };
@@ -259,7 +264,7 @@ impl<'a, F: Family> Continuation<'a, F> {
 
     /// Adds the end of a step and the special points on it; says why the branch ends there, if it does. Nothing is added
     /// where that fails.
-    fn record(
+    fn record_step(
         &self,
         way: &mut HalfBranch,
         (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
@@ -267,16 +272,17 @@ impl<'a, F: Family> Continuation<'a, F> {
         origin: &DVector<f64>,
         limits: &Limits,
     ) -> Result<Option<End>, OrbitError> {
-        let closes = way.points.len() >= SHORTEST_LOOP && self.closes(from, to, origin);
+        let closes = way.points.len() >= MIN_LOOP_POINTS && self.closes_branch(from, to, origin);
         let bound = self.bound_passed((from, to), limits);
-        let merged = self.merging(from, to);
+        let merged = self.merging_point(from, to);
         let (to, end) = match (bound, merged) {
             (Some((_, true)), _) => return Ok(Some(End::Range)),
             (Some((bound, false)), _) => {
                 let test = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
-                let (node, _) = locate(&self.shooting, (from, to), LOCATED_WIDTH, test)?;
+                let (node, _) = locate_zero(&self.shooting, (from, to), LOCATED_WIDTH, test)?;
                 let sequence = node.here.point.sequence;
-                let is_end = |end: &&Node<PeriodMap>| end.here.point.sequence.agrees(&sequence);
+                let is_end =
+                    |end: &&Node<PeriodMap>| end.here.point.sequence.has_same_jumps(&sequence);
                 if ![from, to].iter().any(is_end) {
                     return Err(OrbitError::LOST);
                 }

@@ -78,7 +78,7 @@ impl CodimensionTwo {
 }
 
 /// Part of a direction along the parameters that is none.
-pub(super) const TURNING_BACK: f64 = 1e-6;
+pub(super) const TURNING_SHARE: f64 = 1e-6;
 
 /// The part of a direction along the two parameters.
 pub(super) fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
@@ -93,7 +93,7 @@ pub(super) trait Codimension: Equations {
     /// The machines, and the drive periods of the orbits.
     fn family_and_periods(&self) -> (&Self::Machines, u64);
     /// What vanishes on the curve; none on one of grazing.
-    fn test(&self) -> Option<Test>;
+    fn critical_test(&self) -> Option<Test>;
     /// The state at time 0.
     fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError>;
     /// The before-impact velocities of an orbit, its Jacobian, and what it crosses.
@@ -106,7 +106,7 @@ pub(super) trait Codimension: Equations {
     }
 
     /// The point of the curve at a node.
-    fn describe(&self, node: &Node<Self::Point>) -> Result<CurvePoint, OrbitError> {
+    fn curve_point(&self, node: &Node<Self::Point>) -> Result<CurvePoint, OrbitError> {
         let state = self.state_at(&node.at)?;
         let (impacts, monodromy, _) = Self::orbit_of(&node.here.point);
         Ok(CurvePoint {
@@ -121,17 +121,17 @@ pub(super) trait Codimension: Equations {
     /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a direction;
     /// before, it had another one. Not a number where it cannot be computed. At a cusp both parameters turn back, at a
     /// generalised flip the coefficient of the normal form vanishes.
-    fn degeneracy(
+    fn degeneracy_test(
         &self,
         node: &Node<Self::Point>,
         [before, here]: [&DVector<f64>; 2],
     ) -> (CodimensionTwo, f64) {
-        if self.test() != Some(Test::Flip) {
+        if self.critical_test() != Some(Test::Flip) {
             let value = along_parameters(before).dot(&along_parameters(here));
             return (CodimensionTwo::Cusp, value);
         }
         let (machines, periods) = self.family_and_periods();
-        let coefficient = self.describe(node).and_then(|point| {
+        let coefficient = self.curve_point(node).and_then(|point| {
             let scene = machines.scene(point.parameters)?;
             normal_form_coefficient(&scene, periods, Test::Flip, point.state())
         });
@@ -140,7 +140,7 @@ pub(super) trait Codimension: Equations {
     }
 
     /// The point of codimension two in which the curve ends within a step from a node, if it does.
-    fn last(
+    fn ending_point(
         &self,
         node: &Node<Self::Point>,
         step: &DVector<f64>,
@@ -153,7 +153,7 @@ pub(super) trait Codimension: Equations {
     /// none if that number is odd. It vanishes where the curve ends on one of flips.
     fn half_period_gap(&self, point: &CurvePoint) -> Option<Vector2<f64>> {
         let (machines, periods) = self.family_and_periods();
-        if self.test() != Some(Test::Fold) || !periods.is_multiple_of(2) {
+        if self.critical_test() != Some(Test::Fold) || !periods.is_multiple_of(2) {
             return None;
         }
         let scene = machines.scene(point.parameters).ok()?;
@@ -171,12 +171,12 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
         (self.shooting.family, self.shooting.periods)
     }
 
-    fn test(&self) -> Option<Test> {
+    fn critical_test(&self) -> Option<Test> {
         Some(self.test)
     }
 
     fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
-        Ok(self.shooting.state(at))
+        Ok(self.shooting.state_at(at))
     }
 
     fn orbit_of(round: &PeriodMap) -> (&[f64], Monodromy, Sequence) {
@@ -191,7 +191,7 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
         (self.section.family, self.section.periods)
     }
 
-    fn test(&self) -> Option<Test> {
+    fn critical_test(&self) -> Option<Test> {
         Some(self.test)
     }
 
@@ -200,10 +200,10 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
     }
 
     fn orbit_of(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
-        (&point.impacts, point.monodromy, point.sequence())
+        (&point.impacts, point.monodromy, point.crossing_sequence())
     }
 
-    fn last(
+    fn ending_point(
         &self,
         node: &Node<SectionPoint>,
         step: &DVector<f64>,
@@ -215,8 +215,8 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
         let (resonant, guess) = self.resonant_grazing(&(&node.at - step * (velocity / change)));
         let found = correct(&resonant, &guess, None).ok()?;
         let is_near = (&found.at - node.at.clone().remove_row(1)).norm() <= step.norm();
-        let kind = CodimensionTwo::ResonantGrazing(resonant.0.graze(&found));
-        let point = is_near.then(|| resonant.0.describe(&found).ok());
+        let kind = CodimensionTwo::ResonantGrazing(resonant.0.graze_at(&found));
+        let point = is_near.then(|| resonant.0.curve_point(&found).ok());
         Some((kind, point.flatten()?))
     }
 }
@@ -228,7 +228,7 @@ impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
         (self.section.family, self.section.periods)
     }
 
-    fn test(&self) -> Option<Test> {
+    fn critical_test(&self) -> Option<Test> {
         None
     }
 
@@ -237,18 +237,18 @@ impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
     }
 
     fn orbit_of(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
-        (&point.impacts, point.monodromy, point.sequence())
+        (&point.impacts, point.monodromy, point.crossing_sequence())
     }
 
-    fn degeneracy(
+    fn degeneracy_test(
         &self,
         node: &Node<SectionPoint>,
         _: [&DVector<f64>; 2],
     ) -> (CodimensionTwo, f64) {
-        let scene = self.section.scene(0.0, self.parameters(&node.at));
+        let scene = self.section.scene_at(0.0, self.parameters(&node.at));
         let is_hard = scene.is_ok_and(|(scene, _)| self.section.face.is_steep(&scene));
-        let value = self.recurrence(&node.here.point);
-        let kind = CodimensionTwo::ResonantGrazing(self.graze(node));
+        let value = self.touch_response(&node.here.point);
+        let kind = CodimensionTwo::ResonantGrazing(self.graze_at(node));
         (kind, if is_hard { value } else { 0.0 })
     }
 }

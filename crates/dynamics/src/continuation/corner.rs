@@ -5,7 +5,7 @@
 use nalgebra::DVector;
 
 use super::Family;
-use super::arclength::{Equations, Node, correct, tangent};
+use super::arclength::{Equations, Node, correct, curve_tangent};
 use super::follow::{Continuation, keeps_sense};
 use super::period_map::PeriodMap;
 use super::point::{Special, SpecialKind};
@@ -15,9 +15,9 @@ use super::test::Test;
 use crate::orbit::OrbitError;
 
 /// Scaled distances beyond a corner at which the branch is taken up.
-const BEYOND_CORNER: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
+const CORNER_DISTANCES: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
 /// How many times as far from this side of the corner it may lie, and the touch from both.
-const NEAR_CORNER: f64 = 10.0;
+const CORNER_REACH: f64 = 10.0;
 
 impl<F: Family> Continuation<'_, F> {
     /// A node beyond the corner just ahead, and the direction in which the branch goes on from it. Whether the force jumps
@@ -28,7 +28,7 @@ impl<F: Family> Continuation<'_, F> {
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
     ) -> Option<(Node<PeriodMap>, DVector<f64>)> {
         let node = &stepper.node;
-        BEYOND_CORNER.into_iter().find_map(|reach| {
+        CORNER_DISTANCES.into_iter().find_map(|reach| {
             let at = &node.at + reach * &stepper.direction;
             let here = self.shooting.evaluate(&at).ok()?;
             let sequence = here.point.sequence;
@@ -36,11 +36,11 @@ impl<F: Family> Continuation<'_, F> {
                 return None;
             }
             let guess = Node { at, here };
-            let (along, _) = tangent(&self.shooting, &guess, &stepper.direction).ok()?;
+            let (along, _) = curve_tangent(&self.shooting, &guess, &stepper.direction).ok()?;
             [along.clone(), -along].into_iter().find_map(|along| {
                 let ahead = &node.at + reach * &along;
                 let found = correct(&self.shooting, &ahead, Some(&along)).ok()?;
-                let near = (&found.at - &node.at).norm() < NEAR_CORNER * reach;
+                let near = (&found.at - &node.at).norm() < CORNER_REACH * reach;
                 let goes_on = keeps_sense(
                     (&stepper.direction, &node.here.point.monodromy),
                     (&along, &found.here.point.monodromy),
@@ -59,11 +59,11 @@ impl<F: Family> Continuation<'_, F> {
     ) -> Result<Vec<Special>, OrbitError> {
         let (a, b) = (&from.here.point.monodromy, &to.here.point.monodromy);
         let mut found = Vec::new();
-        for test in Test::ALL.into_iter().filter(|test| test.passes(a, b)) {
+        for test in Test::ALL.into_iter().filter(|test| test.passes_zero(a, b)) {
             let (kind, point) = (SpecialKind::Critical(test), self.point_at(from)?);
             found.push(Special { kind, point });
         }
-        let touch = self.graze_between((from, to), NEAR_CORNER)?;
+        let touch = self.graze_between((from, to), CORNER_REACH)?;
         found.extend(touch.map(|(_, special)| special));
         Ok(found)
     }

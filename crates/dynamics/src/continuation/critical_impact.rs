@@ -31,7 +31,7 @@ pub(crate) struct CriticalImpact<'a, F, const N: usize> {
 impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
     /// The system and its unknowns at an orbit; none if its slowest entry is no section, which is one into a rigid or a
     /// preloaded stop.
-    pub fn at(
+    pub fn at_orbit(
         (family, periods): (&'a F, u64),
         test: Test,
         state: Vector2<f64>,
@@ -42,7 +42,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         let machine = (scene.phases().into(), scene.clock());
         let end = Clock::at_cycle(periods);
         let over = |motion: &mut _, kept: &mut PeriodTrajectory| carry_through(motion, end, kept);
-        let motion = PeriodTrajectory::run(machine, state, over)?;
+        let motion = PeriodTrajectory::record(machine, state, over)?;
         let entries = motion.crossings().filter(|it| {
             let enters = matches!(it.kind, CrossingKind::Surface { forward: true, .. });
             enters || matches!(it.kind, CrossingKind::Rebound { .. })
@@ -51,7 +51,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         let Some(entry) = slowest.filter(|_| motion.rests().next().is_none()) else {
             return Ok(None);
         };
-        let face = Face::at(&scene, entry.position);
+        let face = Face::at_position(&scene, entry.position);
         let Some(face) = face.filter(|face| face.is_steep(&scene)) else {
             return Ok(None);
         };
@@ -65,7 +65,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         let time = motion.clock.time(entry.instant);
         let angle = scene.excitation.phase + scene.excitation.frequency * time;
         let [_, speed] = family.state_scales();
-        let guess = section.unknowns(&[angle, entry.velocity.abs() / speed], parameters);
+        let guess = section.scaled_unknowns(&[angle, entry.velocity.abs() / speed], parameters);
         Ok(Some((Self { section, test }, guess)))
     }
 
@@ -89,14 +89,14 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
     }
 
     /// Velocity in m/s of the impact at the section, towards the surface.
-    fn velocity(&self, at: &DVector<f64>) -> f64 {
+    fn impact_velocity(&self, at: &DVector<f64>) -> f64 {
         let [_, speed] = self.section.family.state_scales();
         at[1] * speed
     }
 
     /// The state at time 0 of the family's scene.
     pub fn state(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
-        let velocity = self.section.face.side() * self.velocity(at);
+        let velocity = self.section.face.side_sign() * self.impact_velocity(at);
         self.section.state(at, velocity)
     }
 
@@ -117,15 +117,15 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
     type Point = SectionPoint;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {
-        let velocity = self.velocity(at);
+        let velocity = self.impact_velocity(at);
         if velocity <= 0.0 {
             let residual = f64::INFINITY;
             return Err(OrbitError::Diverged { residual });
         }
-        let (scene, position) = self.section.scene(at[0], self.section.parameters(at))?;
-        let begin = Vector2::new(position, self.section.face.side() * velocity);
-        let (drift, around) = self.section.around(&scene, begin)?;
-        let entry = entry(&around.motion, &scene, begin);
+        let (scene, position) = self.section.scene_at(at[0], self.section.parameters(at))?;
+        let begin = Vector2::new(position, self.section.face.side_sign() * velocity);
+        let (drift, around) = self.section.carry_around(&scene, begin)?;
+        let entry = entry_jump(&around.motion, &scene, begin);
         let tangent = around.motion.tangent();
         let is_impact = entry.is_some() && self.section.face.is_clearance();
         let told = around.motion.impacts();
@@ -137,7 +137,7 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
             .collect();
         let entered = (entry.unwrap_or_else(Matrix2::identity), 1.0);
         let monodromy = Monodromy::from_factors(&[entered, (tangent.matrix, tangent.determinant)]);
-        let value = self.test.weighted(&monodromy, at[1]);
+        let value = self.test.weighted_value(&monodromy, at[1]);
         let sizes = self.section.family.state_scales();
         let tolerance = round_off(&scene, &begin, &Monodromy::from(&tangent), sizes);
         let orbit = Evaluation {
@@ -156,7 +156,11 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
 /// The saltation matrix of the entry from the last law of a motion that is taken on to where it began into the first, which
 /// the motion does not tell; none at a rigid stop, whose rebound it tells. Both have the drive's force, so that plays no part
 /// in the jump.
-fn entry(motion: &PeriodTrajectory, scene: &Scene, begin: Vector2<f64>) -> Option<Matrix2<f64>> {
+fn entry_jump(
+    motion: &PeriodTrajectory,
+    scene: &Scene,
+    begin: Vector2<f64>,
+) -> Option<Matrix2<f64>> {
     let (lowest, highest) = scene.reach();
     if begin.x == lowest || begin.x == highest {
         return None;
@@ -178,7 +182,7 @@ impl<F: Family<N>, const N: usize> Equations for ResonantGrazing<'_, F, N> {
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {
         let orbit = self.0.evaluate(at)?;
-        let value = self.0.recurrence(&orbit.point);
+        let value = self.0.touch_response(&orbit.point);
         Ok(orbit.with_test(value))
     }
 }

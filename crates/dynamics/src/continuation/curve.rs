@@ -4,12 +4,12 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::arclength::{Node, correct, tangent};
+use super::arclength::{Node, correct, curve_tangent};
 use super::codimension_two::{
-    Codimension, CodimensionTwo, CurvePoint, TURNING_BACK, along_parameters,
+    Codimension, CodimensionTwo, CurvePoint, TURNING_SHARE, along_parameters,
 };
 use super::follow::LOCATED_WIDTH;
-use super::locate::{along_chord, locate};
+use super::locate::{along_chord, locate_zero};
 use super::point::SpecialKind;
 use super::stepper::Stepper;
 use crate::orbit::OrbitError;
@@ -62,7 +62,7 @@ pub struct Curve {
 }
 
 /// The curve through the solution near a guess, in both directions.
-pub(super) fn follow<E: Codimension>(
+pub(super) fn follow_curve<E: Codimension>(
     equations: &E,
     kind: SpecialKind,
     guess: &DVector<f64>,
@@ -76,15 +76,15 @@ pub(super) fn follow<E: Codimension>(
     first[unknowns - 2] = 1.0;
     let start = correct(equations, guess, Some(&second))
         .or_else(|_| correct(equations, guess, Some(&first)))?;
-    let up = way(equations, start.clone(), &second, region, watch)?;
+    let up = follow_half_curve(equations, start.clone(), &second, region, watch)?;
     let down = match up.2 {
         CurveEnd::Closed => (Vec::new(), Vec::new(), CurveEnd::Closed),
-        _ => way(equations, start.clone(), &-second, region, watch)?,
+        _ => follow_half_curve(equations, start.clone(), &-second, region, watch)?,
     };
     let (mut points, mut specials, first) = down;
     points.reverse();
     specials.reverse();
-    points.push(equations.describe(&start)?);
+    points.push(equations.curve_point(&start)?);
     points.extend(up.0);
     specials.extend(up.1);
     Ok(Curve {
@@ -97,24 +97,24 @@ pub(super) fn follow<E: Codimension>(
 }
 
 /// Points after which a curve may be found closed, and distance from its start, in units of the step.
-pub(super) const SHORTEST_LOOP: usize = 8;
-pub(super) const CLOSED: f64 = 0.05;
+pub(super) const MIN_LOOP_POINTS: usize = 8;
+pub(super) const CLOSING_SHARE: f64 = 0.05;
 
 /// Share of the largest step up to which a curve creeps, and steps in a row for which it may: beside grazing they can stay so
 /// short for ever.
-const CREEPING: f64 = 1e-4;
-const MOST_CREEPING: usize = 40;
+const CREEP_SHARE: f64 = 1e-4;
+const MAX_CREEP_STEPS: usize = 40;
 
 /// Points of a curve one way, those of codimension two among them, and why it ends.
-type Way = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
+type HalfCurve = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
 
-fn way<E: Codimension>(
+fn follow_half_curve<E: Codimension>(
     equations: &E,
     start: Node<E::Point>,
     along: &DVector<f64>,
     region: &CurveLimits,
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
-) -> Result<Way, OrbitError> {
+) -> Result<HalfCurve, OrbitError> {
     let origin = start.at.clone();
     let sequence = E::orbit_of(&start.here.point).2;
     let mut stepper = Stepper::new(equations, start, along, region.step)?;
@@ -123,23 +123,23 @@ fn way<E: Codimension>(
     while points.len() < region.points {
         let last = stepper.node.clone();
         let ahead = stepper.step * &stepper.direction;
-        if let Some((kind, point)) = equations.last(&last, &ahead) {
+        if let Some((kind, point)) = equations.ending_point(&last, &ahead) {
             let _ = watch(&point);
             points.push(point.clone());
             specials.push((kind, point));
             return Ok((points, specials, CurveEnd::CodimensionTwo(kind)));
         }
-        let next = stepper.attempt().map_err(CurveEnd::Lost);
+        let next = stepper.attempt_step().map_err(CurveEnd::Lost);
         let next = next.and_then(|step| {
             if E::orbit_of(&step.node.here.point).2 != sequence {
                 return Err(CurveEnd::Grazing);
             }
-            let end = within(equations, (&last, &step.node), region);
+            let end = clip_to_region(equations, (&last, &step.node), region);
             Ok((step, end.map_err(CurveEnd::Lost)?))
         });
         let (step, (node, leaves)) = match next {
             Ok(next) => next,
-            Err(_) if stepper.shorten() => continue,
+            Err(_) if stepper.shorten_step() => continue,
             Err(cause) => return Ok((points, specials, cause)),
         };
         if is_merging(equations, (&last, &node)) {
@@ -148,23 +148,23 @@ fn way<E: Codimension>(
         let directions = [&stepper.direction, &step.direction];
         let special = special_between(equations, (&last, &node), directions);
         specials.extend(special.ok().flatten());
-        stepper.take(step);
+        stepper.step_to(step);
         let step = &node.at - &last.at;
-        creeping = if step.norm() < CREEPING * region.step {
+        creeping = if step.norm() < CREEP_SHARE * region.step {
             creeping + 1
         } else {
             0
         };
         let (share, off) = along_chord((&last.at, &step), &origin);
-        let passes = (0.0..=1.0).contains(&share) && off < CLOSED * step.norm();
-        let closed = points.len() >= SHORTEST_LOOP && passes;
-        let point = equations.describe(&node)?;
+        let passes = (0.0..=1.0).contains(&share) && off < CLOSING_SHARE * step.norm();
+        let closed = points.len() >= MIN_LOOP_POINTS && passes;
+        let point = equations.curve_point(&node)?;
         let stopped = watch(&point).is_break();
         points.push(point);
         if leaves {
             return Ok((points, specials, CurveEnd::Range));
         }
-        if creeping == MOST_CREEPING {
+        if creeping == MAX_CREEP_STEPS {
             return Ok((points, specials, CurveEnd::Lost(OrbitError::LOST)));
         }
         if closed {
@@ -183,39 +183,40 @@ fn special_between<E: Codimension>(
     (from, to): (&Node<E::Point>, &Node<E::Point>),
     [begins, ends]: [&DVector<f64>; 2],
 ) -> Result<Option<(CodimensionTwo, CurvePoint)>, OrbitError> {
-    let (_, before) = equations.degeneracy(from, [begins, begins]);
-    let (_, after) = equations.degeneracy(to, [begins, ends]);
+    let (_, before) = equations.degeneracy_test(from, [begins, begins]);
+    let (_, after) = equations.degeneracy_test(to, [begins, ends]);
     let changes = before * after < 0.0;
     if !changes {
         return Ok(None);
     }
-    let direction = |node: &Node<E::Point>| tangent(equations, node, begins);
+    let direction = |node: &Node<E::Point>| curve_tangent(equations, node, begins);
     let value = |node: &Node<E::Point>| {
-        let value = direction(node).map(|(here, _)| equations.degeneracy(node, [begins, &here]).1);
+        let value =
+            direction(node).map(|(here, _)| equations.degeneracy_test(node, [begins, &here]).1);
         value.unwrap_or(f64::NAN)
     };
-    let (node, _) = locate(equations, (from, to), LOCATED_WIDTH, value)?;
-    let (kind, _) = equations.degeneracy(&node, [begins, begins]);
+    let (node, _) = locate_zero(equations, (from, to), LOCATED_WIDTH, value)?;
+    let (kind, _) = equations.degeneracy_test(&node, [begins, begins]);
     // A curve that only turns sharply has its parameters change there, too.
     let is_found = match kind {
-        CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < TURNING_BACK,
+        CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < TURNING_SHARE,
         // It changes its sign as well where it grows beyond all bounds.
         CodimensionTwo::GeneralisedFlip => value(&node).abs() < before.abs().min(after.abs()),
         CodimensionTwo::ResonantGrazing(_) => true,
     };
-    let point = equations.describe(&node)?;
+    let point = equations.curve_point(&node)?;
     Ok(is_found.then_some((kind, point)))
 }
 
 /// Share of the gaps of its neighbours that is left of one that vanishes.
-const MERGED_GAP: f64 = 1e-6;
+const MERGED_GAP_SHARE: f64 = 1e-6;
 
 /// True if a fold between two nodes repeats after half its drive periods already: it is a flip.
 fn is_merging<E: Codimension>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
 ) -> bool {
-    let gap = |node: &Node<E::Point>| equations.half_period_gap(&equations.describe(node).ok()?);
+    let gap = |node: &Node<E::Point>| equations.half_period_gap(&equations.curve_point(node).ok()?);
     let (Some(before), Some(after)) = (gap(from), gap(to)) else {
         return false;
     };
@@ -223,13 +224,13 @@ fn is_merging<E: Codimension>(
         return false;
     }
     let value = |node: &Node<E::Point>| gap(node).map_or(f64::NAN, |it| it.dot(&before));
-    let between = locate(equations, (from, to), LOCATED_WIDTH, value).ok();
+    let between = locate_zero(equations, (from, to), LOCATED_WIDTH, value).ok();
     let left = between.and_then(|(node, _)| gap(&node));
-    left.is_some_and(|it| it.norm() < MERGED_GAP * before.norm().max(after.norm()))
+    left.is_some_and(|it| it.norm() < MERGED_GAP_SHARE * before.norm().max(after.norm()))
 }
 
 /// The end of a step, or the point on it where a parameter leaves its range.
-fn within<E: Codimension>(
+fn clip_to_region<E: Codimension>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
     region: &CurveLimits,
@@ -241,7 +242,7 @@ fn within<E: Codimension>(
         let bound = now.clamp(low, high);
         if bound != now && value(from) != bound {
             let test = |node: &Node<E::Point>| value(node) - bound;
-            let (node, _) = locate(equations, (from, &end.0), LOCATED_WIDTH, test)?;
+            let (node, _) = locate_zero(equations, (from, &end.0), LOCATED_WIDTH, test)?;
             end = (node, true);
         }
     }

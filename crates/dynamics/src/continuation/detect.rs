@@ -6,11 +6,11 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Equations, Node};
-use super::curve::CLOSED;
+use super::curve::CLOSING_SHARE;
 use super::follow::{Continuation, LOCATED_WIDTH};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{End, Limits};
-use super::locate::{Cubic, along_chord, locate};
+use super::locate::{CurveCubic, along_chord, locate_zero};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
@@ -19,18 +19,18 @@ use softstop::internals::highest_point;
 
 /// Share of its way across that half a round may have left where an orbit has become one of half as many
 /// periods.
-const MERGED: f64 = 1e-3;
+const MERGED_SHARE: f64 = 1e-3;
 /// Scaled distance within which an end of the range is reached where it cannot be passed.
-const AT_BOUND: f64 = 1e-4;
+const BOUND_DISTANCE: f64 = 1e-4;
 /// Distance of an orbit from the start of a branch, in units of the step, at which the branch is closed.
-const AT_START: f64 = 1e-3;
+const START_DISTANCE: f64 = 1e-3;
 /// Share of a step to which the place is found where a multiplier is farthest beyond -1.
-const DIP: f64 = 1e-6;
+const DIP_WIDTH: f64 = 1e-6;
 /// Share of a step over which a test is taken to be straight, and the value from which on no step leads to zero and back.
-const NEARBY: f64 = 0.02;
-const SHALLOW: f64 = 0.2;
+const STRAIGHT_SHARE: f64 = 0.02;
+const MAX_DIP_TEST: f64 = 0.2;
 /// Scaled length of the shortest part of a step that is halved to find a grazing on it.
-const SHORTEST: f64 = 1e-7;
+const MIN_HALVED_LENGTH: f64 = 1e-7;
 
 impl<F: Family> Continuation<'_, F> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
@@ -53,14 +53,14 @@ impl<F: Family> Continuation<'_, F> {
         limits: &Limits,
     ) -> Option<Node<PeriodMap>> {
         let (low, high) = limits.range;
-        let state = self.shooting.state(&node.at);
+        let state = self.shooting.state_at(&node.at);
         let reached = |bound: &f64| {
             let at = self.shooting.scaled(state, [*bound]);
-            (at - &node.at).norm() < AT_BOUND
+            (at - &node.at).norm() < BOUND_DISTANCE
         };
         let bound = [low, high].into_iter().find(reached)?;
-        let found = self.start(bound, state).ok()?;
-        let events = |node: &Node<PeriodMap>| node.here.point.sequence.events();
+        let found = self.correct_start(bound, state).ok()?;
+        let events = |node: &Node<PeriodMap>| node.here.point.sequence.event_counts();
         (events(&found) == events(node)).then_some(found)
     }
 
@@ -73,15 +73,15 @@ impl<F: Family> Continuation<'_, F> {
         let mut found = Vec::new();
         let (a, b) = (&from.here.point, &to.here.point);
         for test in Test::ALL {
-            if test.passes(&a.monodromy, &b.monodromy) {
+            if test.passes_zero(&a.monodromy, &b.monodromy) {
                 if test == Test::Fold
                     && let Some(pitchfork) = self.pitchfork_between(from, to)?
                 {
                     found.push(pitchfork);
                     continue;
                 }
-                let value = |node: &Node<PeriodMap>| test.value(&node.here.point.monodromy);
-                let (node, share) = locate(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
+                let value = |node: &Node<PeriodMap>| test.scaled_value(&node.here.point.monodromy);
+                let (node, share) = locate_zero(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
                 let point = self.point_at(&node)?;
                 let kind = SpecialKind::Critical(test);
                 found.push((share, Special { kind, point }));
@@ -101,20 +101,20 @@ impl<F: Family> Continuation<'_, F> {
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
-        let value = |node: &Node<PeriodMap>| Test::Flip.value(&node.here.point.monodromy);
+        let value = |node: &Node<PeriodMap>| Test::Flip.scaled_value(&node.here.point.monodromy);
         let [a, b] = [from, to].map(|node| &node.here.point.monodromy);
         let (begins, ends) = (value(from), value(to));
         if a.trace() > 0.0 || begins.min(ends) <= 0.0 {
             return Ok(Vec::new());
         }
         let turns_over = a.m12 * b.m12 < 0.0 || a.m21 * b.m21 < 0.0;
-        if !turns_over && begins.min(ends) > SHALLOW {
+        if !turns_over && begins.min(ends) > MAX_DIP_TEST {
             return Ok(Vec::new());
         }
-        let cubic = Cubic::between(&self.shooting, (from, to))?;
+        let cubic = CurveCubic::between(&self.shooting, (from, to))?;
         let dips = || -> Result<bool, OrbitError> {
-            let falls = (begins - value(&cubic.node(NEARBY)?)) / NEARBY;
-            let rises = (ends - value(&cubic.node(1.0 - NEARBY)?)) / NEARBY;
+            let falls = (begins - value(&cubic.node_at(STRAIGHT_SHARE)?)) / STRAIGHT_SHARE;
+            let rises = (ends - value(&cubic.node_at(1.0 - STRAIGHT_SHARE)?)) / STRAIGHT_SHARE;
             // begins - falls s = ends - rises (1 - s)
             let meet = (begins - ends + rises) / (falls + rises);
             Ok(falls > 0.0 && rises > 0.0 && begins < falls * meet)
@@ -122,12 +122,12 @@ impl<F: Family> Continuation<'_, F> {
         if !turns_over && !dips()? {
             return Ok(Vec::new());
         }
-        let Some((share, middle)) = beyond(&cubic, value) else {
+        let Some((share, middle)) = find_negative(&cubic, value) else {
             return Ok(Vec::new());
         };
         let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
         let flips = halves.map(|(from, to, begins, ends)| {
-            let (node, own) = locate(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
+            let (node, own) = locate_zero(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
             let kind = SpecialKind::Critical(Test::Flip);
             let point = self.point_at(&node)?;
             Ok((begins + own * (ends - begins), Special { kind, point }))
@@ -143,7 +143,7 @@ impl<F: Family> Continuation<'_, F> {
         to: &Node<PeriodMap>,
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
         let sequences = [from, to].map(|node| node.here.point.sequence);
-        let [a, b] = sequences.map(|sequence| sequence.crossings());
+        let [a, b] = sequences.map(|sequence| sequence.crossing_count());
         if a == b {
             return Ok(Vec::new());
         }
@@ -155,11 +155,11 @@ impl<F: Family> Continuation<'_, F> {
         };
         if found.as_ref().is_some_and(|(_, special)| is_whole(special))
             || before == after
-            || (&to.at - &from.at).norm() < SHORTEST
+            || (&to.at - &from.at).norm() < MIN_HALVED_LENGTH
         {
             return Ok(found.into_iter().collect());
         }
-        let middle = Cubic::between(&self.shooting, (from, to))?.node(0.5)?;
+        let middle = CurveCubic::between(&self.shooting, (from, to))?.node_at(0.5)?;
         let mut grazes = Vec::new();
         for (begins, half) in [(0.0, (from, &middle)), (0.5, (&middle, to))] {
             let found = self.grazes_between(half.0, half.1)?;
@@ -179,8 +179,10 @@ impl<F: Family> Continuation<'_, F> {
     ) -> Result<Option<(f64, Special)>, OrbitError> {
         let way = &to.at - &from.at;
         for node in [from, to] {
-            for special in GrazingTest::of(&self.shooting, node)?.grazes(&self.shooting) {
-                let at = self.place(&special.point)?;
+            for special in
+                GrazingTest::of_node(&self.shooting, node)?.grazing_orbits(&self.shooting)
+            {
+                let at = self.place_of(&special.point)?;
                 let (share, off) = along_chord((&from.at, &way), &at);
                 if !(-beyond..=1.0 + beyond).contains(&share) || off > way.norm() {
                     continue;
@@ -196,7 +198,7 @@ impl<F: Family> Continuation<'_, F> {
     }
 
     /// True if a step passes the start of the branch: near enough, and no other piece that lies beside it.
-    pub(super) fn closes(
+    pub(super) fn closes_branch(
         &self,
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
@@ -205,15 +207,15 @@ impl<F: Family> Continuation<'_, F> {
         let way = &to.at - &from.at;
         let (share, off) = along_chord((&from.at, &way), origin);
         (0.0..=1.0).contains(&share)
-            && off < CLOSED * way.norm()
-            && Cubic::between(&self.shooting, (from, to))
-                .and_then(|cubic| cubic.node(share))
-                .is_ok_and(|node| (origin - &node.at).norm() < AT_START * way.norm())
+            && off < CLOSING_SHARE * way.norm()
+            && CurveCubic::between(&self.shooting, (from, to))
+                .and_then(|cubic| cubic.node_at(share))
+                .is_ok_and(|node| (origin - &node.at).norm() < START_DISTANCE * way.norm())
     }
 
     /// The flip at which an orbit becomes one of half as many periods, or the pitchfork at which it becomes symmetric, and why the
     /// branch ends there, if it does on a step: half a round leads to the other side of it.
-    pub(super) fn merging(
+    pub(super) fn merging_point(
         &self,
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
@@ -222,14 +224,14 @@ impl<F: Family> Continuation<'_, F> {
         let is_even = periods.is_multiple_of(2);
         let gap = |node: &Node<PeriodMap>| {
             if !is_even {
-                return self.asymmetry(node);
+                return self.mirror_gap(node);
             }
-            let half = node.here.point.trajectory.after(periods / 2);
-            let way = half - self.shooting.state(&node.at);
+            let half = node.here.point.trajectory.at_cycle(periods / 2);
+            let way = half - self.shooting.state_at(&node.at);
             Some(self.shooting.scaled(way, [0.0]))
         };
         let (a, b) = (gap(from)?, gap(to)?);
-        if a.dot(&b) >= 0.0 && b.norm() > MERGED * a.norm() {
+        if a.dot(&b) >= 0.0 && b.norm() > MERGED_SHARE * a.norm() {
             return None;
         }
         let share = a.norm() / (a.norm() + b.norm());
@@ -241,12 +243,12 @@ impl<F: Family> Continuation<'_, F> {
             let node = self.pitchfork(&at).ok().filter(|it| is_near(&it.at))?;
             return Some((self.point_at(&node).ok()?, End::Symmetric));
         }
-        let continuation = self.over(periods / 2);
+        let continuation = self.over_periods(periods / 2);
         let [parameter] = self.shooting.parameters(&at);
         let near = continuation
-            .point(parameter, self.shooting.state(&at))
+            .find_point(parameter, self.shooting.state_at(&at))
             .ok()?;
-        let flip = continuation.critical(&near, Test::Flip).ok()?;
+        let flip = continuation.locate(&near, Test::Flip).ok()?;
         let place = self.shooting.scaled(flip.state(), [flip.parameter]);
         is_near(&place).then_some((flip, End::Merged))
     }
@@ -254,15 +256,15 @@ impl<F: Family> Continuation<'_, F> {
 
 /// A place on a step, as a share of its way, at which a test is negative that is positive at both ends: by golden section
 /// until one is found.
-fn beyond<E: Equations>(
-    cubic: &Cubic<'_, E>,
+fn find_negative<E: Equations>(
+    cubic: &CurveCubic<'_, E>,
     value: impl Fn(&Node<E::Point>) -> f64,
 ) -> Option<(f64, Node<E::Point>)> {
     let found = RefCell::new(None);
     let depth = |share: f64| {
         let node = match found.borrow().is_some() {
             true => None,
-            false => cubic.node(share).ok(),
+            false => cubic.node_at(share).ok(),
         };
         let depth = node.as_ref().map_or(f64::NEG_INFINITY, |node| -value(node));
         if depth > 0.0 {
@@ -270,6 +272,6 @@ fn beyond<E: Equations>(
         }
         depth
     };
-    highest_point(0.0, 1.0, DIP, depth);
+    highest_point(0.0, 1.0, DIP_WIDTH, depth);
     found.into_inner()
 }

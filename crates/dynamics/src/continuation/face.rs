@@ -28,7 +28,7 @@ impl Face {
     ];
 
     /// Its position in m, if the scene has it.
-    pub fn position(self, scene: &Scene) -> Option<f64> {
+    pub fn face_position(self, scene: &Scene) -> Option<f64> {
         match self {
             Self::Clearance => Some(scene.clearance),
             Self::Pierced => scene
@@ -41,7 +41,7 @@ impl Face {
     }
 
     /// 1 where a motion meets it upwards, -1 where downwards.
-    pub(crate) fn side(self) -> f64 {
+    pub(crate) fn side_sign(self) -> f64 {
         if self == Self::Below { -1.0 } else { 1.0 }
     }
 
@@ -89,10 +89,10 @@ impl Face {
     }
 
     /// The face at a position, to rounding.
-    pub(crate) fn at(scene: &Scene, position: f64) -> Option<Self> {
+    pub(crate) fn at_position(scene: &Scene, position: f64) -> Option<Self> {
         let near = 1e-9 * (scene.scales().length + position.abs());
         let stands = |face: &Self| {
-            face.position(scene)
+            face.face_position(scene)
                 .is_some_and(|level| (level - position).abs() < near)
         };
         Self::ALL.into_iter().find(stands)
@@ -101,7 +101,7 @@ impl Face {
 
 /// Where an orbit comes near to grazing.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Touch {
+pub(crate) struct NearTouch {
     /// Time in s.
     pub time: f64,
     /// Velocity in m/s of a crossing, or distance in m of a turning point from the surface ahead.

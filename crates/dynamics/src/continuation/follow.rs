@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use nalgebra::{DVector, Vector2};
 
 use super::Family;
-use super::arclength::{Equations, Node, correct, correct_at};
+use super::arclength::{Equations, Node, correct, correct_given};
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
 use super::shooting::{Critical, Shooting};
@@ -48,7 +48,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     }
 
     /// This continuation over another number of drive periods.
-    pub(super) fn over(&self, periods: u64) -> Self {
+    pub(super) fn over_periods(&self, periods: u64) -> Self {
         Self {
             shooting: self.shooting.seen_at(self.shooting.turn, periods),
             largest: self.largest,
@@ -67,21 +67,25 @@ impl<'a, F: Family> Continuation<'a, F> {
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle.
-    pub fn point(&self, parameter: f64, state: Vector2<f64>) -> Result<BranchPoint, OrbitError> {
-        self.point_at(&self.start(parameter, state)?)
+    pub fn find_point(
+        &self,
+        parameter: f64,
+        state: Vector2<f64>,
+    ) -> Result<BranchPoint, OrbitError> {
+        self.point_at(&self.correct_start(parameter, state)?)
     }
 
-    pub(super) fn start(
+    pub(super) fn correct_start(
         &self,
         parameter: f64,
         state: Vector2<f64>,
     ) -> Result<Node<PeriodMap>, OrbitError> {
         let guess = self.shooting.scaled(state, [parameter]);
-        correct_at(&self.shooting, &guess)
+        correct_given(&self.shooting, &guess)
     }
 
     /// The direction of rising or falling parameters.
-    pub(super) fn direction(direction: Direction) -> DVector<f64> {
+    pub(super) fn direction_vector(direction: Direction) -> DVector<f64> {
         let way = match direction {
             Direction::Up => 1.0,
             Direction::Down => -1.0,
@@ -94,7 +98,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     ///
     /// # Errors
     /// [`OrbitError`] if the start is not on a branch.
-    pub fn follow(
+    pub fn follow_points(
         &self,
         start: &Orbit,
         parameter: f64,
@@ -102,17 +106,17 @@ impl<'a, F: Family> Continuation<'a, F> {
         limit: usize,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Vec<BranchPoint>, OrbitError> {
-        let node = self.start(parameter, start.state())?;
+        let node = self.correct_start(parameter, start.state())?;
         let mut points = vec![self.point_at(&node)?];
         let mut turned_at = 0;
-        let mut next = Some(self.set_out(node, Self::direction(direction)));
+        let mut next = Some(self.begin_branch(node, Self::direction_vector(direction)));
         while let Some(SectionChange {
             continuation,
             node,
             along,
         }) = next
         {
-            next = continuation.follow_on(
+            next = continuation.follow_here(
                 (node, &along),
                 limit,
                 (&mut points, &mut turned_at),
@@ -123,7 +127,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     }
 
     /// The beginning of a branch, seen at this section.
-    pub(super) fn set_out(
+    pub(super) fn begin_branch(
         &self,
         node: Node<PeriodMap>,
         along: DVector<f64>,
@@ -136,7 +140,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     }
 
     /// Follows a branch as long as this section serves; then how it goes on, if it does.
-    fn follow_on(
+    fn follow_here(
         &self,
         (node, along): (Node<PeriodMap>, &DVector<f64>),
         limit: usize,
@@ -144,14 +148,15 @@ impl<'a, F: Family> Continuation<'a, F> {
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
         let sequence = node.here.point.sequence;
-        let mut stepper = Stepper::new(&self.shooting, node, along, self.largest)?.quick();
+        let mut stepper =
+            Stepper::new(&self.shooting, node, along, self.largest)?.with_quick_steps();
         while points.len() < limit {
-            match stepper.attempt() {
+            match stepper.attempt_step() {
                 Ok(step)
-                    if step.node.here.point.sequence.goes_on(&sequence)
+                    if step.node.here.point.sequence.continues(&sequence)
                         && is_same_piece(&stepper, &step) =>
                 {
-                    stepper.take(step);
+                    stepper.step_to(step);
                     let point = self.point_at(&stepper.node)?;
                     let ends = watch(&point).is_break();
                     points.push(point);
@@ -161,12 +166,12 @@ impl<'a, F: Family> Continuation<'a, F> {
                 }
                 _ => {
                     if *turned_at != points.len()
-                        && let Some(turned) = self.turned(&stepper.node, &stepper.direction)
+                        && let Some(turned) = self.turn_section(&stepper.node, &stepper.direction)
                     {
                         *turned_at = points.len();
                         return Ok(Some(turned));
                     }
-                    if !stepper.shorten() {
+                    if !stepper.shorten_step() {
                         break;
                     }
                 }
@@ -179,7 +184,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle.
-    pub fn critical(&self, near: &BranchPoint, test: Test) -> Result<BranchPoint, OrbitError> {
+    pub fn locate(&self, near: &BranchPoint, test: Test) -> Result<BranchPoint, OrbitError> {
         let plain = self.with_turn(0.0);
         let guess = plain.shooting.scaled(near.state(), [near.parameter]);
         let shooting = plain.shooting.seen_at(0.0, plain.shooting.periods);
@@ -190,7 +195,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     ///
     /// # Errors
     /// [`OrbitError`] if the point is not on a z = 1 orbit.
-    pub fn orbit(&self, point: &BranchPoint) -> Result<Orbit, OrbitError> {
+    pub fn orbit_at(&self, point: &BranchPoint) -> Result<Orbit, OrbitError> {
         let scene = self.shooting.family.scene([point.parameter])?;
         let map = StroboscopicMap::new(&scene, self.shooting.periods)?;
         let passage = map.apply(point.state())?;
@@ -208,13 +213,13 @@ impl<'a, F: Family> Continuation<'a, F> {
     /// [`OrbitError`] if it cannot be carried there.
     pub(super) fn point_at(&self, node: &Node<PeriodMap>) -> Result<BranchPoint, OrbitError> {
         if self.shooting.turn != 0.0 {
-            let at = self.carried(&node.at, -self.shooting.turn)?;
+            let at = self.carry_place(&node.at, -self.shooting.turn)?;
             let plain = self.with_turn(0.0);
             let here = plain.shooting.evaluate(&at)?;
             return plain.point_at(&Node { at, here });
         }
         // A quick node lies one step of Newton's method on from its round; beyond a wall a node lies by rounding alone.
-        let (own, start) = (self.shooting.state(&node.at), node.here.point.start);
+        let (own, start) = (self.shooting.state_at(&node.at), node.here.point.start);
         let is_start = (own - start).norm() <= 4.0 * f64::EPSILON * start.norm();
         let state = if is_start { start } else { own };
         let [parameter] = self.shooting.parameters(&node.at);
@@ -228,7 +233,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     }
 
     pub(super) fn node_at(&self, point: &BranchPoint) -> Result<Node<PeriodMap>, OrbitError> {
-        let at = self.place(point)?;
+        let at = self.place_of(point)?;
         let here = self.shooting.evaluate(&at)?;
         Ok(Node { at, here })
     }
@@ -245,7 +250,7 @@ fn is_same_piece<F: Family>(
 }
 
 /// Sense that rounding may leave where there is none.
-const SENSELESS: f64 = 1e-8;
+const SENSE_ROUNDING: f64 = 1e-8;
 
 /// True if directions at two places of a branch, each with the monodromy matrix there, may be one: the parameter turns
 /// back where 1 - tr + det changes its sign, and nowhere else. Its rate along the curve is that test times a factor of one
@@ -254,11 +259,11 @@ pub(super) fn keeps_sense(
     (from, before): (&DVector<f64>, &Monodromy),
     (to, after): (&DVector<f64>, &Monodromy),
 ) -> bool {
-    let sense = |direction: &DVector<f64>, matrix| Test::Fold.value(matrix) * direction[2];
+    let sense = |direction: &DVector<f64>, matrix| Test::Fold.scaled_value(matrix) * direction[2];
     is_one_sense(sense(from, before), sense(to, after))
 }
 
 /// True if two senses are one, or there is none.
 pub(super) fn is_one_sense(from: f64, to: f64) -> bool {
-    from * to >= 0.0 || from.abs().min(to.abs()) <= SENSELESS
+    from * to >= 0.0 || from.abs().min(to.abs()) <= SENSE_ROUNDING
 }

@@ -23,7 +23,7 @@ pub(crate) struct GrazingOrbit<'a, F, const N: usize> {
 
 impl<F: Family<N>, const N: usize> GrazingOrbit<'_, F, N> {
     /// The touch, as of a crossing that dies.
-    pub fn graze(&self, node: &Node<SectionPoint>) -> Graze {
+    pub fn graze_at(&self, node: &Node<SectionPoint>) -> Graze {
         Graze {
             angle: node.at[0],
             impacts: node.here.point.impacts.len(),
@@ -34,7 +34,7 @@ impl<F: Family<N>, const N: usize> GrazingOrbit<'_, F, N> {
     }
 
     /// How far the velocity at a touch moves the position at the next, without units.
-    pub fn recurrence(&self, point: &SectionPoint) -> f64 {
+    pub fn touch_response(&self, point: &SectionPoint) -> f64 {
         let [length, speed] = self.section.family.state_scales();
         point.monodromy.m12 * speed / length
     }
@@ -44,9 +44,9 @@ impl<F: Family<N>, const N: usize> Equations for GrazingOrbit<'_, F, N> {
     type Point = SectionPoint;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {
-        let (scene, position) = self.section.scene(at[0], self.section.parameters(at))?;
+        let (scene, position) = self.section.scene_at(at[0], self.section.parameters(at))?;
         let touch = Vector2::new(position, 0.0);
-        let (drift, around) = self.section.around(&scene, touch)?;
+        let (drift, around) = self.section.carry_around(&scene, touch)?;
         let monodromy = Monodromy::from(&around.motion.tangent());
         let impacts = around.motion.impacts();
         let impacts = impacts.map(|it| it.before_impact_velocity).collect();
@@ -62,14 +62,14 @@ impl<F: Family<N>, const N: usize> Equations for GrazingOrbit<'_, F, N> {
         })
     }
 
-    fn beside(
+    fn residual_beside(
         &self,
         _: &SectionPoint,
         at: &DVector<f64>,
     ) -> Result<(DVector<f64>, bool), OrbitError> {
-        let (scene, position) = self.section.scene(at[0], self.section.parameters(at))?;
+        let (scene, position) = self.section.scene_at(at[0], self.section.parameters(at))?;
         let touch = Vector2::new(position, 0.0);
-        let (drift, _) = self.section.around(&scene, touch)?;
+        let (drift, _) = self.section.carry_around(&scene, touch)?;
         Ok((DVector::from_column_slice(drift.as_slice()), true))
     }
 }

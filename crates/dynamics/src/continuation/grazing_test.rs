@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use super::Family;
 use super::arclength::{Node, correct};
-use super::face::{Face, Touch};
+use super::face::{Face, NearTouch};
 use super::grazing_orbit::GrazingOrbit;
 use super::impact_section::{ImpactSection, SectionPoint};
 use super::period_map::PeriodMap;
@@ -13,14 +13,14 @@ use super::point::{BranchPoint, Graze, Special, SpecialKind};
 use super::shooting::Shooting;
 use crate::orbit::OrbitError;
 use crate::period::PeriodTrajectory;
-use crate::period::turn::turns;
+use crate::period::turn::turning_points;
 use softstop::{Crossing, CrossingKind, MotionError, Scene};
 
 /// An orbit's slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
 pub(crate) struct GrazingTest {
-    dying: Option<Touch>,
-    rising: Option<Touch>,
+    dying: Option<NearTouch>,
+    rising: Option<NearTouch>,
     /// Crossings of the orbit, and those that a dying impact takes along.
     crossings: (usize, usize),
     /// Which faces an orbit can graze smoothly.
@@ -39,15 +39,17 @@ pub(crate) struct GrazingTest {
 
 impl GrazingTest {
     /// That of an orbit.
-    pub fn of<F: Family>(
+    pub fn of_node<F: Family>(
         shooting: &Shooting<'_, F, 1>,
         node: &Node<PeriodMap>,
     ) -> Result<Self, MotionError> {
-        let scene = shooting.scene(&node.at)?;
+        let scene = shooting.scene_at(&node.at)?;
         let round = &node.here.point;
-        let total = round.sequence.crossings();
+        let total = round.sequence.crossing_count();
         let motion = &round.trajectory;
-        let taken = round.slowest.map_or(0, |touch| taken(motion, touch.time));
+        let taken = round
+            .slowest
+            .map_or(0, |touch| crossings_with(motion, touch.time));
         Ok(Self {
             dying: round.slowest,
             gentle: Face::ALL.map(|face| face.is_gentle(&scene)),
@@ -63,8 +65,8 @@ impl GrazingTest {
     }
 
     /// This test with what its distances have lost on the step from the test before.
-    pub fn reached(self, before: &Self, step: f64) -> Self {
-        let loss = |(then, now): (Option<Touch>, Option<Touch>)| match (then, now) {
+    pub fn after_step(self, before: &Self, step: f64) -> Self {
+        let loss = |(then, now): (Option<NearTouch>, Option<NearTouch>)| match (then, now) {
             (Some(then), Some(now)) if then.face == now.face && self.is_gentle(now.face) => {
                 (then.amount - now.amount) / step
             }
@@ -77,7 +79,7 @@ impl GrazingTest {
     /// True if a distance to a smooth grazing falls so fast that it vanishes within a step, beyond which the orbit crosses as
     /// much as before it: it may graze twice on it.
     pub fn may_graze_twice(&self, ahead: &Self, step: f64) -> bool {
-        let vanishes = |(touch, loss): (Option<Touch>, f64)| {
+        let vanishes = |(touch, loss): (Option<NearTouch>, f64)| {
             touch.is_some_and(|touch| touch.amount < loss * step)
         };
         self.crossings.0 == ahead.crossings.0
@@ -89,8 +91,8 @@ impl GrazingTest {
 
     /// True if neither distance to a grazing that is not smooth has shrunk below `share` of what it was, or both are
     /// still more than `near`.
-    pub fn leaves(&self, before: &Self, share: f64, near: f64) -> bool {
-        let leaves = |now: Option<Touch>, then: Option<Touch>| match (now, then) {
+    pub fn may_step(&self, before: &Self, share: f64, near: f64) -> bool {
+        let leaves = |now: Option<NearTouch>, then: Option<NearTouch>| match (now, then) {
             (Some(now), Some(then)) if !self.is_gentle(now.face) => {
                 now.amount >= share * then.amount || now.amount < near * self.speed
             }
@@ -101,7 +103,8 @@ impl GrazingTest {
 
     /// True if a crossing with a jump of the force is slower than that (scaled): it is about to die.
     pub fn dies_within(&self, near: f64) -> bool {
-        let dies = |touch: Touch| touch.amount < near * self.speed && !self.is_gentle(touch.face);
+        let dies =
+            |touch: NearTouch| touch.amount < near * self.speed && !self.is_gentle(touch.face);
         self.dying.is_some_and(dies)
     }
 
@@ -112,11 +115,11 @@ impl GrazingTest {
     }
 
     /// The grazing orbits that Newton's method reaches from here.
-    pub fn grazes<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> &[Special] {
-        self.grazes.get_or_init(|| self.find_grazes(shooting))
+    pub fn grazing_orbits<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> &[Special] {
+        self.grazes.get_or_init(|| self.find_grazings(shooting))
     }
 
-    fn find_grazes<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
+    fn find_grazings<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
         let (total, taken) = self.crossings;
         let dying = self.dying.zip(total.checked_sub(taken));
         // Where the force jumps down, the mass goes on from rest at the surface.
@@ -128,15 +131,15 @@ impl GrazingTest {
             .into_iter()
             .filter_map(|(touch, dies)| touch.map(|(touch, crossings)| (touch, crossings, dies)))
             .filter_map(|(touch, crossings, dies)| {
-                self.graze(shooting, &touch, crossings, dies).ok()
+                self.grazing_at(shooting, &touch, crossings, dies).ok()
             })
             .collect()
     }
 
-    fn graze<F: Family>(
+    fn grazing_at<F: Family>(
         &self,
         shooting: &Shooting<'_, F, 1>,
-        touch: &Touch,
+        touch: &NearTouch,
         crossings: usize,
         dies: bool,
     ) -> Result<Special, OrbitError> {
@@ -149,21 +152,21 @@ impl GrazingTest {
             crossings,
         };
         let orbits = (shooting.family, shooting.periods);
-        grazing(orbits, &near, phase - self.turned, self.parameter)
+        find_grazing(orbits, &near, phase - self.turned, self.parameter)
     }
 }
 
 /// The grazing orbit of a family, over a number of drive periods, that Newton's method reaches from the drive angle of
 /// another one's touch and from a parameter; its own angle is counted on from `phase`.
-pub(crate) fn grazing<F: Family>(
+pub(crate) fn find_grazing<F: Family>(
     (family, periods): (&F, u64),
     near: &Graze,
     phase: f64,
     parameter: f64,
 ) -> Result<Special, OrbitError> {
-    let section = ImpactSection::at(near, (family, periods));
+    let section = ImpactSection::of_graze(near, (family, periods));
     let touching = GrazingOrbit { section };
-    let guess = touching.section.unknowns(&[near.angle], [parameter]);
+    let guess = touching.section.scaled_unknowns(&[near.angle], [parameter]);
     let node = correct(&touching, &guess, None)?;
     let [parameter] = touching.section.parameters(&node.at);
     let state = touching.section.state(&node.at, 0.0)?;
@@ -188,13 +191,13 @@ pub(crate) fn grazing<F: Family>(
 }
 
 /// The turning point of a motion that comes nearest to a surface of the scene ahead of it, if any turns before one.
-fn nearest_turn(motion: &PeriodTrajectory, scene: &Scene) -> Option<Touch> {
+fn nearest_turn(motion: &PeriodTrajectory, scene: &Scene) -> Option<NearTouch> {
     let faces = Face::ALL.into_iter();
-    let faces = faces.filter_map(|face| Some((face, face.position(scene)?)));
+    let faces = faces.filter_map(|face| Some((face, face.face_position(scene)?)));
     let faces: Vec<(Face, f64)> = faces.collect();
     let on_arcs = motion.arcs().flat_map(|(arc, elapsed)| {
         let back = arc.course.departure.velocity > 0.0;
-        let turns = turns(arc.course, elapsed, back);
+        let turns = turning_points(arc.course, elapsed, back);
         turns.map(move |turn| (turn.back, arc.begin() + turn.elapsed, turn.position, false))
     });
     let crossings = motion.crossings();
@@ -206,7 +209,7 @@ fn nearest_turn(motion: &PeriodTrajectory, scene: &Scene) -> Option<Touch> {
     let touches = on_arcs.chain(reversals);
     let touches = touches.flat_map(|(back, time, position, reverses)| {
         let side = if back { 1.0 } else { -1.0 };
-        faces.iter().map(move |&(face, level)| Touch {
+        faces.iter().map(move |&(face, level)| NearTouch {
             time,
             amount: side * (level - position),
             face,
@@ -225,7 +228,7 @@ fn nearest_turn(motion: &PeriodTrajectory, scene: &Scene) -> Option<Touch> {
 
 /// How many crossings of a motion go with one, at a time in s, if it dies: a rebound with the rest right after it, all up
 /// to the way back through a surface otherwise.
-fn taken(motion: &PeriodTrajectory, time: f64) -> usize {
+fn crossings_with(motion: &PeriodTrajectory, time: f64) -> usize {
     let all: Vec<&Crossing> = motion.crossings().collect();
     let is_it = |one: &&Crossing| motion.clock.time(one.instant) == time;
     let Some(index) = all.iter().position(is_it) else {

@@ -59,7 +59,7 @@ pub(super) struct HalfBranch {
 
 impl HalfBranch {
     /// Ends in a grazing; false if there is none.
-    pub(super) fn grazes(&mut self, special: Option<Special>) -> bool {
+    pub(super) fn end_in_grazing(&mut self, special: Option<Special>) -> bool {
         let Some(special) = special else {
             return false;
         };
@@ -69,7 +69,7 @@ impl HalfBranch {
         true
     }
 
-    pub(super) fn none() -> Self {
+    pub(super) fn empty() -> Self {
         Self {
             points: Vec::new(),
             specials: Vec::new(),

@@ -39,7 +39,7 @@ pub(crate) struct SectionPoint {
 
 impl SectionPoint {
     /// What the orbit crosses, as far as that may change along a curve.
-    pub fn sequence(&self) -> Sequence {
+    pub fn crossing_sequence(&self) -> Sequence {
         Sequence {
             impacts: self.impacts.len(),
             surfaces: usize::from(self.is_cut),
@@ -55,7 +55,7 @@ const NO_CROSSING: OrbitError = OrbitError::Diverged {
 
 impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
     /// The surface that an orbit grazes.
-    pub fn at(graze: &Graze, (family, periods): (&'a F, u64)) -> Self {
+    pub fn of_graze(graze: &Graze, (family, periods): (&'a F, u64)) -> Self {
         Self {
             family,
             periods,
@@ -65,7 +65,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
     }
 
     /// Unknowns of an orbit: its drive angle at the section and what else it has there, then the parameters, scaled.
-    pub fn unknowns(&self, places: &[f64], parameters: [f64; N]) -> DVector<f64> {
+    pub fn scaled_unknowns(&self, places: &[f64], parameters: [f64; N]) -> DVector<f64> {
         let scaled = parameters.into_iter().zip(self.family.parameter_scales());
         let scaled = scaled.map(|(value, scale)| value / scale);
         DVector::from_iterator(places.len() + N, places.iter().copied().chain(scaled))
@@ -78,21 +78,21 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
     }
 
     /// The scene with time 0 at the section, where the drive has this angle, and the position of the surface.
-    pub fn scene(&self, angle: f64, parameters: [f64; N]) -> Result<(Scene, f64), OrbitError> {
+    pub fn scene_at(&self, angle: f64, parameters: [f64; N]) -> Result<(Scene, f64), OrbitError> {
         let mut scene = self.family.scene(parameters)?;
         scene.excitation.phase = angle;
-        let position = self.face.position(&scene).ok_or(NO_CROSSING)?;
+        let position = self.face.face_position(&scene).ok_or(NO_CROSSING)?;
         Ok((scene, position))
     }
 
     /// How far a motion from a state at the section is from it after its periods, in units of the family's scales, and the
     /// motion.
-    pub fn around(
+    pub fn carry_around(
         &self,
         scene: &Scene,
         start: Vector2<f64>,
     ) -> Result<(Vector2<f64>, LastArc), OrbitError> {
-        let around = LastArc::taken_on(scene, start, (self.crossings, self.periods))?;
+        let around = LastArc::carry_past(scene, start, (self.crossings, self.periods))?;
         let drift = around.motion.end - start;
         let [length, speed] = self.family.state_scales();
         Ok((Vector2::new(drift.x / length, drift.y / speed), around))
@@ -102,7 +102,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
     pub fn state(&self, at: &DVector<f64>, velocity: f64) -> Result<Vector2<f64>, OrbitError> {
         let (angle, parameters) = (at[0], self.parameters(at));
         let phase = self.family.scene(parameters)?.excitation.phase;
-        let (scene, position) = self.scene(angle, parameters)?;
+        let (scene, position) = self.scene_at(angle, parameters)?;
         let gone = ((angle - phase) / TAU).rem_euclid(self.periods as f64);
         let machine = (&scene, scene.phases().into());
         let begin = Vector2::new(position, velocity);
@@ -122,14 +122,14 @@ pub(crate) struct LastArc {
 }
 
 /// Share of the last arc that rounding may leave of it.
-const ROUNDING: f64 = 1e-6;
+const CUT_ROUNDING: f64 = 1e-6;
 
 impl LastArc {
     /// The motion of a scene from a state at time 0 over some drive periods.
     ///
     /// # Errors
     /// [`OrbitError`] if it does not cross as often, or cannot be computed.
-    pub fn taken_on(
+    pub fn carry_past(
         scene: &Scene,
         start: Vector2<f64>,
         (crossings, periods): (usize, u64),
@@ -152,7 +152,7 @@ impl LastArc {
 
     /// Takes an arc on to the end. A series holds no farther than its law: another arc goes on from its end. A mass that is held
     /// touches nothing: it gives no end.
-    fn extend(&mut self, arc: &Arc<'_>, lasts: f64) {
+    fn extend_arc(&mut self, arc: &Arc<'_>, lasts: f64) {
         let elapsed = arc.clock.elapsed(arc.start, self.until);
         if lasts < elapsed && arc.course.is_series() || arc.course.is_held() {
             return self.motion.arc(arc, lasts);
@@ -160,7 +160,7 @@ impl LastArc {
         self.motion.arc(arc, elapsed);
         let (position, velocity) = arc.course.state_at(elapsed, arc.clock.drive(self.until));
         self.motion.end = Vector2::new(position, velocity);
-        self.is_cut = lasts < (1.0 - ROUNDING) * elapsed;
+        self.is_cut = lasts < (1.0 - CUT_ROUNDING) * elapsed;
         self.is_found = true;
     }
 }
@@ -168,7 +168,7 @@ impl LastArc {
 impl Observer for LastArc {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         match (self.left, self.is_found) {
-            (0, false) => self.extend(arc, elapsed),
+            (0, false) => self.extend_arc(arc, elapsed),
             (0, true) => {}
             _ => self.motion.arc(arc, elapsed),
         }

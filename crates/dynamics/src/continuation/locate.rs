@@ -5,18 +5,19 @@ use std::cell::RefCell;
 use nalgebra::{DMatrix, DVector};
 
 use super::arclength::{
-    Accuracy, Equations, Node, bordered, correct_with, slopes_at, solved, tangent,
+    Accuracy, Equations, Node, border_matrix, correct_with_slopes, curve_tangent, slopes_at,
+    solve_linear,
 };
 use crate::orbit::OrbitError;
 use softstop::internals::narrow_root;
 
 /// The first two nodes known are those that a special point lies between.
-const ENDS: usize = 2;
+const END_NODES: usize = 2;
 
 /// The node between two neighbours at which `test` changes its sign, and its share of the way: trials
 /// on the curve through the nearest nodes known, each corrected across the chord, until they are `width` apart on
 /// it.
-pub(crate) fn locate<E: Equations>(
+pub(crate) fn locate_zero<E: Equations>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
     width: f64,
@@ -28,13 +29,14 @@ pub(crate) fn locate<E: Equations>(
     let mut known = vec![(0.0, test(from), from.clone()), (1.0, test(to), to.clone())];
     let ends = ((0.0, known[0].1), (1.0, known[1].1));
     narrow_root(ends.0, ends.1, width / way.norm(), |share| {
-        let straight = known.len() == ENDS && equations.is_steep(&from.here.point);
-        let bent = straight.then(|| Cubic::between(equations, (from, to)));
+        let straight = known.len() == END_NODES && equations.is_steep(&from.here.point);
+        let bent = straight.then(|| CurveCubic::between(equations, (from, to)));
         let guess = match bent {
-            Some(Ok(bent)) => bent.at(share),
-            _ => interpolated(&known, share),
+            Some(Ok(bent)) => bent.guess_at(share),
+            _ => interpolate_nodes(&known, share),
         };
-        let node = correct_with(equations, &guess, Some(&chord), &mut slopes, Accuracy::Full)?;
+        let node =
+            correct_with_slopes(equations, &guess, Some(&chord), &mut slopes, Accuracy::Full)?;
         if !is_beside((&from.at, &way), &node.at) {
             return Err(OrbitError::LOST);
         }
@@ -42,7 +44,7 @@ pub(crate) fn locate<E: Equations>(
         known.push((share, value, node));
         Ok::<f64, OrbitError>(value)
     })?;
-    let tried = known.split_off(ENDS);
+    let tried = known.split_off(END_NODES);
     let candidates = if tried.is_empty() { known } else { tried };
     let best = candidates
         .into_iter()
@@ -53,12 +55,12 @@ pub(crate) fn locate<E: Equations>(
 }
 
 /// Most rounds, and nodes that the value of a test is followed back to zero through.
-const MAX_ROUNDS: usize = 12;
-const VALUES_BACK: usize = 4;
+const MAX_ZERO_ROUNDS: usize = 12;
+const SUPPORT_VALUES: usize = 4;
 
 /// The node near the curve between two neighbours at which `test` vanishes. Each round is one evaluation: a step of
 /// Newton's method to the curve, and along the chord to where the last values of the test say that it vanishes.
-pub(crate) fn zero<E: Equations>(
+pub(crate) fn solve_zero<E: Equations>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
     width: f64,
@@ -72,22 +74,22 @@ pub(crate) fn zero<E: Equations>(
         (0.0, test(&from.here.point)),
         (along(&to.at), test(&to.here.point)),
     ];
-    let cubic = Cubic::between(equations, (from, to))?;
-    let mut at = cubic.at(vanishes(&values) / along(&to.at));
-    for _ in 0..MAX_ROUNDS {
+    let cubic = CurveCubic::between(equations, (from, to))?;
+    let mut at = cubic.guess_at(interpolated_zero(&values) / along(&to.at));
+    for _ in 0..MAX_ZERO_ROUNDS {
         let here = equations.evaluate(&at)?;
         let (place, size) = (along(&at), here.residual.norm());
         values.push((place, test(&here.point)));
-        values.drain(..values.len().saturating_sub(VALUES_BACK));
-        let onward = vanishes(&values) - place;
+        values.drain(..values.len().saturating_sub(SUPPORT_VALUES));
+        let onward = interpolated_zero(&values) - place;
         if size <= here.tolerance && onward.abs() <= width {
             let is_between =
                 (0.0..=along(&to.at)).contains(&place) && is_beside((&from.at, &way), &at);
             return is_between.then_some(Node { at, here }).ok_or(lost(size));
         }
         let slopes = slopes_at(equations, &at, &here, Accuracy::Full)?;
-        let matrix = bordered(&equations.jacobian(&here, &slopes), &chord);
-        let step = solved(matrix, &(-here.residual).push(onward));
+        let matrix = border_matrix(&equations.jacobian(&here, &slopes), &chord);
+        let step = solve_linear(matrix, &(-here.residual).push(onward));
         at += step.ok_or(lost(size))?;
     }
     Err(lost(f64::NAN))
@@ -110,7 +112,7 @@ pub(super) fn along_chord(
 }
 
 /// Where a function with these values vanishes, as the polynomial through its inverse has it.
-fn vanishes(values: &[(f64, f64)]) -> f64 {
+fn interpolated_zero(values: &[(f64, f64)]) -> f64 {
     let weight = |index: usize| -> f64 {
         let others = values
             .iter()
@@ -124,7 +126,7 @@ fn vanishes(values: &[(f64, f64)]) -> f64 {
 }
 
 /// The cubic between two neighbours along the directions of their curve.
-pub(super) struct Cubic<'a, E: Equations> {
+pub(super) struct CurveCubic<'a, E: Equations> {
     equations: &'a E,
     from: &'a DVector<f64>,
     way: DVector<f64>,
@@ -134,14 +136,14 @@ pub(super) struct Cubic<'a, E: Equations> {
     slopes: RefCell<Option<DMatrix<f64>>>,
 }
 
-impl<'a, E: Equations> Cubic<'a, E> {
+impl<'a, E: Equations> CurveCubic<'a, E> {
     pub fn between(
         equations: &'a E,
         (from, to): (&'a Node<E::Point>, &Node<E::Point>),
     ) -> Result<Self, OrbitError> {
         let way = &to.at - &from.at;
-        let (begins, slopes) = tangent(equations, from, &way)?;
-        let (ends, _) = tangent(equations, to, &way)?;
+        let (begins, slopes) = curve_tangent(equations, from, &way)?;
+        let (ends, _) = curve_tangent(equations, to, &way)?;
         Ok(Self {
             equations,
             from: &from.at,
@@ -152,7 +154,7 @@ impl<'a, E: Equations> Cubic<'a, E> {
     }
 
     /// The point at this share of the way.
-    pub fn at(&self, share: f64) -> DVector<f64> {
+    pub fn guess_at(&self, share: f64) -> DVector<f64> {
         let [begins, ends] = &self.directions;
         let far = self.way.norm() * (1.0 + (ends - begins).norm_squared() / 24.0);
         let (left, smooth) = (1.0 - share, share * share * (3.0 - 2.0 * share));
@@ -161,24 +163,24 @@ impl<'a, E: Equations> Cubic<'a, E> {
     }
 
     /// The node of the curve at this share of the way.
-    pub fn node(&self, share: f64) -> Result<Node<E::Point>, OrbitError> {
-        let (guess, chord) = (self.at(share), self.way.normalize());
+    pub fn node_at(&self, share: f64) -> Result<Node<E::Point>, OrbitError> {
+        let (guess, chord) = (self.guess_at(share), self.way.normalize());
         let slopes = &mut *self.slopes.borrow_mut();
-        correct_with(self.equations, &guess, Some(&chord), slopes, Accuracy::Full)
+        correct_with_slopes(self.equations, &guess, Some(&chord), slopes, Accuracy::Full)
     }
 }
 
 /// Nodes that a guess between nodes is drawn through, and the shares of the way that they are apart at least.
-const SUPPORT: usize = 4;
-const LEAST_SPACING: f64 = 1e-6;
+const SUPPORT_NODES: usize = 4;
+const MIN_NODE_SPACING: f64 = 1e-6;
 
 /// The point at this share of the way on the polynomial (Lagrange) through the nodes nearest to it.
-fn interpolated<P>(known: &[(f64, f64, Node<P>)], share: f64) -> DVector<f64> {
+fn interpolate_nodes<P>(known: &[(f64, f64, Node<P>)], share: f64) -> DVector<f64> {
     let mut near: Vec<(f64, &DVector<f64>)> =
         known.iter().map(|(at, _, node)| (*at, &node.at)).collect();
     near.sort_by(|a, b| (a.0 - share).abs().total_cmp(&(b.0 - share).abs()));
-    near.dedup_by(|a, b| (a.0 - b.0).abs() < LEAST_SPACING);
-    near.truncate(SUPPORT);
+    near.dedup_by(|a, b| (a.0 - b.0).abs() < MIN_NODE_SPACING);
+    near.truncate(SUPPORT_NODES);
     let weight = |index: usize| -> f64 {
         let others = near.iter().enumerate().filter(|(other, _)| *other != index);
         let factors = others.map(|(_, (at, _))| (share - at) / (near[index].0 - at));

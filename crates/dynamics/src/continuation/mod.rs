@@ -57,19 +57,19 @@ mod symmetry;
 mod test;
 
 pub use crate::direction::Direction;
-pub(crate) use between::ASIDE;
+pub(crate) use between::OFF_CHORD;
 pub use branch::Branch;
 pub use codimension_two::{CodimensionTwo, CurvePoint};
 pub use curve::{Curve, CurveEnd, CurveLimits};
 pub use face::Face;
 pub use follow::Continuation;
-pub(crate) use grazing_test::grazing;
+pub(crate) use grazing_test::find_grazing;
 pub use half_branch::{BorderCollision, End, Limits};
 pub(crate) use impact_section::LastArc;
 pub use normal_form::normal_form_coefficient;
 pub use parameter_family::ParameterFamily;
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
-pub use special_curve::curve;
+pub use special_curve::follow_special;
 pub use switching::switch_curves;
 pub use test::Test;
 

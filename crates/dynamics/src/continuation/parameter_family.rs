@@ -13,7 +13,7 @@ pub struct ParameterFamily<const N: usize> {
 }
 
 /// Typical change of a parameter in units of its value.
-const TYPICAL: f64 = 0.2;
+const TYPICAL_CHANGE: f64 = 0.2;
 
 impl<const N: usize> ParameterFamily<N> {
     /// A machine, or a scene, along parameters that it has, in its own units.
@@ -27,13 +27,13 @@ impl<const N: usize> ParameterFamily<N> {
         let machine = machine.into();
         machine.validate()?;
         let scales = machine.scene.motion_scales();
-        let mut parameter_scales = [TYPICAL; N];
+        let mut parameter_scales = [TYPICAL_CHANGE; N];
         for (scale, parameter) in parameter_scales.iter_mut().zip(parameters) {
             let value = machine
                 .value(parameter)
                 .ok_or(SceneError::Lacks(parameter.name()))?;
             if value != 0.0 {
-                *scale = TYPICAL * value.abs();
+                *scale = TYPICAL_CHANGE * value.abs();
             }
         }
         Ok(Self {
@@ -45,7 +45,7 @@ impl<const N: usize> ParameterFamily<N> {
     }
 
     /// The values of the parameters of the machine itself.
-    pub fn values(&self) -> [f64; N] {
+    pub fn own_values(&self) -> [f64; N] {
         self.parameters
             .map(|parameter| self.machine.value(parameter).unwrap_or(f64::NAN))
     }

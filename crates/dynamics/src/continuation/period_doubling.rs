@@ -17,7 +17,7 @@ use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
 /// Scaled distances from a flip or a pitchfork at which the branch that comes out of it is looked for.
-const DISTANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+const BRANCHING_DISTANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 /// Smallest share of such a distance by which half a round must lead away.
 const HALF_PERIOD_GAP: f64 = 0.5;
 /// Greatest value of the test of a fold, 0 at the flip or pitchfork, where the new branch begins: farther on it may have flipped
@@ -30,18 +30,18 @@ impl<F: Family> Continuation<'_, F> {
     ///
     /// # Errors
     /// [`OrbitError::Diverged`] if there is no such branch near the point.
-    pub fn doubled(
+    pub fn double_period(
         &self,
         flip: &BranchPoint,
         limits: &Limits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
-        let doubled = self.over(2 * self.shooting.periods);
+        let doubled = self.over_periods(2 * self.shooting.periods);
         let leads_away = |node: &Node<PeriodMap>, distance: f64| {
             let twice = node.here.point.impacts.len() == 2 * flip.impacts.len();
-            twice && doubled.half_round(node) > HALF_PERIOD_GAP * distance
+            twice && doubled.half_period_gap(node) > HALF_PERIOD_GAP * distance
         };
-        let (node, along) = doubled.branching_off(flip, -1.0, leads_away)?;
+        let (node, along) = doubled.branch_off(flip, -1.0, leads_away)?;
         let mut branch = doubled.branch_along(node, &along, limits, &mut watch)?;
         branch.ends.0 = End::Merged;
         Ok(branch)
@@ -49,7 +49,7 @@ impl<F: Family> Continuation<'_, F> {
 
     /// A node of these orbits that `leads_away` from a point where a multiplier is critical, along its eigenvector, and the way
     /// there.
-    pub(super) fn branching_off(
+    pub(super) fn branch_off(
         &self,
         from: &BranchPoint,
         multiplier: f64,
@@ -58,13 +58,13 @@ impl<F: Family> Continuation<'_, F> {
         let at = self.shooting.scaled(from.state(), [from.parameter]);
         let away = null_vector(&(from.monodromy.matrix - multiplier * Matrix2::identity()));
         let away = self.shooting.scaled(away, [0.0]).normalize();
-        for distance in DISTANCES {
+        for distance in BRANCHING_DISTANCES {
             let guess = &at + distance * &away;
             let Ok(node) = correct(&self.shooting, &guess, Some(&away)) else {
                 continue;
             };
             let along: DVector<f64> = &node.at - &at;
-            let fold = Test::Fold.value(&node.here.point.monodromy);
+            let fold = Test::Fold.scaled_value(&node.here.point.monodromy);
             let near = along.norm() < 2.0 * distance && fold.abs() < MAX_FOLD_TEST;
             if near && leads_away(&node, distance) {
                 return Ok((node, along));
@@ -78,7 +78,7 @@ impl<F: Family> Continuation<'_, F> {
     ///
     /// # Errors
     /// [`OrbitError`] if a doubled branch cannot be followed.
-    pub fn cascade(
+    pub fn follow_cascade(
         &self,
         first: &BranchPoint,
         count: usize,
@@ -87,10 +87,10 @@ impl<F: Family> Continuation<'_, F> {
         let mut flips = vec![first.clone()];
         let mut periods = self.shooting.periods;
         while flips.len() < count {
-            let continuation = self.over(periods);
+            let continuation = self.over_periods(periods);
             let flip = &flips[flips.len() - 1];
             let mut last = None;
-            let branch = continuation.doubled(flip, limits, |point| {
+            let branch = continuation.double_period(flip, limits, |point| {
                 let flipped = last.is_some_and(|sign| sign != flip_sign(point));
                 last = Some(flip_sign(point));
                 stop_if(flipped)
@@ -105,15 +105,19 @@ impl<F: Family> Continuation<'_, F> {
     }
 
     /// Scaled distance between the states at half a round and at its start.
-    fn half_round(&self, node: &Node<PeriodMap>) -> f64 {
-        let half = node.here.point.trajectory.after(self.shooting.periods / 2);
-        let way = half - self.shooting.state(&node.at);
+    fn half_period_gap(&self, node: &Node<PeriodMap>) -> f64 {
+        let half = node
+            .here
+            .point
+            .trajectory
+            .at_cycle(self.shooting.periods / 2);
+        let way = half - self.shooting.state_at(&node.at);
         self.shooting.scaled(way, [0.0]).norm()
     }
 }
 
 fn flip_sign(point: &BranchPoint) -> bool {
-    Test::Flip.value(&point.monodromy) > 0.0
+    Test::Flip.scaled_value(&point.monodromy) > 0.0
 }
 
 fn is_flip(special: &Special) -> bool {

@@ -4,7 +4,7 @@ use std::sync::Arc as Shared;
 
 use nalgebra::Vector2;
 
-use super::face::Touch;
+use super::face::NearTouch;
 use super::sequence::{CountedCrossings, Sequence};
 use crate::orbit::Monodromy;
 use crate::period::PeriodTrajectory;
@@ -25,7 +25,7 @@ pub(crate) struct PeriodMap {
     /// How often it crosses what.
     pub sequence: Sequence,
     /// The slowest crossing of a surface.
-    pub slowest: Option<Touch>,
+    pub slowest: Option<NearTouch>,
     /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
     pub margin: f64,
     /// All of the motion.
@@ -35,7 +35,7 @@ pub(crate) struct PeriodMap {
 impl PeriodMap {
     /// The map of a valid scene, with its phases, from a state; with its derivative by the drive's frequency if that is
     /// wanted.
-    pub fn of(
+    pub fn from_state(
         machine: (&Scene, Shared<Phases>),
         periods: u64,
         state: Vector2<f64>,
@@ -43,12 +43,12 @@ impl PeriodMap {
     ) -> Result<Self, MotionError> {
         let scene = machine.0;
         let start = before_wall(scene, state);
-        let trajectory = follow(machine, periods, state)?;
+        let trajectory = follow_periods(machine, periods, state)?;
         let mut sensitivity = FrequencySensitivity::default();
         if by_frequency {
-            trajectory.tell(&mut sensitivity);
+            trajectory.replay(&mut sensitivity);
         } else {
-            trajectory.tell(&mut sensitivity.tangent);
+            trajectory.replay(&mut sensitivity.tangent);
         }
         let time = trajectory.clock.time(Clock::at_cycle(periods));
         let change = |(arc, elapsed): (Arc<'_>, f64)| {
@@ -57,8 +57,8 @@ impl PeriodMap {
         let by_frequency = by_frequency.then(|| change(trajectory.arcs().last()?));
         let (lowest, highest) = scene.reach();
         let at_wall = start.x == lowest || start.x == highest;
-        let margin = margin(&trajectory, periods);
-        let crossings = CountedCrossings::of(scene, &trajectory);
+        let margin = crossing_margin(&trajectory, periods);
+        let crossings = CountedCrossings::of_motion(scene, &trajectory);
         Ok(Self {
             start,
             // Whatever comes to rest at a rigid stop goes on alike.
@@ -67,9 +67,9 @@ impl PeriodMap {
                 false => Monodromy::from(&sensitivity.tangent),
             },
             by_frequency: by_frequency.flatten(),
-            impacts: crossings.impacts().collect(),
-            sequence: crossings.sequence(scene),
-            slowest: crossings.slowest(),
+            impacts: crossings.impact_velocities().collect(),
+            sequence: crossings.count_crossings(scene),
+            slowest: crossings.slowest_crossing(),
             margin,
             trajectory: trajectory.into(),
         })
@@ -77,7 +77,7 @@ impl PeriodMap {
 }
 
 /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
-fn margin(trajectory: &PeriodTrajectory, periods: u64) -> f64 {
+fn crossing_margin(trajectory: &PeriodTrajectory, periods: u64) -> f64 {
     let begins = |arc: &&KeptArc| arc.start == Clock::at_cycle(0);
     let mut first = trajectory.arcs.iter().take_while(begins);
     if first.any(|arc| arc.course.is_held()) {
@@ -92,19 +92,19 @@ fn margin(trajectory: &PeriodTrajectory, periods: u64) -> f64 {
 }
 
 /// The image alone of a state, and how often the motion crosses what, without any derivative.
-pub(crate) fn image(
+pub(crate) fn period_image(
     machine: (&Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
 ) -> Result<(Vector2<f64>, Sequence), MotionError> {
     let scene = machine.0;
-    let trajectory = follow(machine, periods, state)?;
-    let sequence = CountedCrossings::of(scene, &trajectory).sequence(scene);
+    let trajectory = follow_periods(machine, periods, state)?;
+    let sequence = CountedCrossings::of_motion(scene, &trajectory).count_crossings(scene);
     Ok((trajectory.end, sequence))
 }
 
 /// Follows a motion over the periods, from a state or from the face of a rigid stop for a state beyond it.
-fn follow(
+fn follow_periods(
     (scene, phases): (&Scene, Shared<Phases>),
     periods: u64,
     state: Vector2<f64>,
@@ -112,7 +112,7 @@ fn follow(
     let over = |motion: &mut Motion, kept: &mut PeriodTrajectory| {
         carry_through(motion, Clock::at_cycle(periods), kept)
     };
-    PeriodTrajectory::run((phases, scene.clock()), before_wall(scene, state), over)
+    PeriodTrajectory::record((phases, scene.clock()), before_wall(scene, state), over)
 }
 
 /// The state of a valid scene, with its phases, so many drive periods after one at time 0.
@@ -129,16 +129,16 @@ pub(super) fn state_after(
 }
 
 /// Distance and speed, in the scene's scales, within which a mass rests at a rigid stop.
-const AT_REST: f64 = 1e-9;
+const REST_DISTANCE: f64 = 1e-9;
 
 /// A state, or one at the face of a rigid stop for one beyond it, or at rest there to rounding: so the map goes on
 /// continuously past the face, and has no other fixed points.
 pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
     let (lowest, highest) = scene.reach();
     let scales = scene.scales();
-    let is_near = |wall: &f64| (wall - state.x).abs() < AT_REST * scales.length;
+    let is_near = |wall: &f64| (wall - state.x).abs() < REST_DISTANCE * scales.length;
     if let Some(wall) = [highest, lowest].into_iter().find(is_near)
-        && state.y.abs() < AT_REST * scales.speed()
+        && state.y.abs() < REST_DISTANCE * scales.speed()
     {
         return Vector2::new(wall, 0.0);
     }

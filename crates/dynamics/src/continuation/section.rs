@@ -8,7 +8,7 @@
 use nalgebra::DVector;
 
 use super::Family;
-use super::arclength::{Node, correct, tangent};
+use super::arclength::{Node, correct, curve_tangent};
 use super::follow::{Continuation, SectionChange, keeps_sense};
 use super::period_map::{PeriodMap, before_wall, state_after};
 use super::point::BranchPoint;
@@ -16,33 +16,33 @@ use crate::period::PeriodTrajectory;
 use softstop::MotionError;
 
 /// Drive periods between the section and a crossing within which the crossing may stand in the way.
-const NEAR_CROSSING: f64 = 0.05;
+const CROSSING_MARGIN: f64 = 0.05;
 /// How much farther from all crossings another section must be.
-const FARTHER: f64 = 2.0;
+const MARGIN_GAIN: f64 = 2.0;
 /// Scaled distance back along a branch by which its direction is carried to another section.
-const STEP_BACK: f64 = 1e-6;
+const BACKWARD_STEP: f64 = 1e-6;
 /// Scaled distance from where a motion is carried to within which it is found there: where it is wildly unstable, Newton's
 /// method may run off to another one.
-const FOUND: f64 = 1e-2;
+const MAX_CARRY_ERROR: f64 = 1e-2;
 
 impl<'a, F: Family> Continuation<'a, F> {
     /// The branch seen where no crossing stands in the way; none if this section is as good as any.
-    pub(super) fn turned(
+    pub(super) fn turn_section(
         &self,
         node: &Node<PeriodMap>,
         direction: &DVector<f64>,
     ) -> Option<SectionChange<'a, F>> {
         let continuation = self.clear_of(node)?;
         let by = continuation.shooting.turn - self.shooting.turn;
-        let carried = |at: &DVector<f64>| self.carried(at, by);
+        let carried = |at: &DVector<f64>| self.carry_place(at, by);
         let at = carried(&node.at).ok()?;
-        let back = carried(&(&node.at - STEP_BACK * direction)).ok()?;
+        let back = carried(&(&node.at - BACKWARD_STEP * direction)).ok()?;
         let along = (&at - back).normalize();
         let seen = correct(&continuation.shooting, &at, Some(&along)).ok()?;
-        if (&seen.at - &at).norm() > FOUND {
+        if (&seen.at - &at).norm() > MAX_CARRY_ERROR {
             return None;
         }
-        let (mut along, _) = tangent(&continuation.shooting, &seen, &along).ok()?;
+        let (mut along, _) = curve_tangent(&continuation.shooting, &seen, &along).ok()?;
         // Where small changes grow too much on the way, what is carried back may point backward.
         let [before, after] = [node, &seen].map(|node| &node.here.point.monodromy);
         if !keeps_sense((direction, before), (&along, after)) {
@@ -58,34 +58,34 @@ impl<'a, F: Family> Continuation<'a, F> {
     /// With the section in the middle of the orbit's longest flight; none if no crossing is near the present one.
     pub(super) fn clear_of(&self, node: &Node<PeriodMap>) -> Option<Self> {
         let margin = node.here.point.margin;
-        if margin > NEAR_CROSSING {
+        if margin > CROSSING_MARGIN {
             return None;
         }
         let (middle, gap) = longest_flight(&node.here.point.trajectory, self.shooting.periods);
-        (0.5 * gap > FARTHER * margin).then(|| self.with_turn(self.shooting.turn + middle))
+        (0.5 * gap > MARGIN_GAIN * margin).then(|| self.with_turn(self.shooting.turn + middle))
     }
 
     /// A place some drive periods later on the same motion.
-    pub(super) fn carried(
+    pub(super) fn carry_place(
         &self,
         at: &DVector<f64>,
         periods: f64,
     ) -> Result<DVector<f64>, MotionError> {
         let whole = self.shooting.periods as f64;
-        let scene = self.shooting.scene(at)?;
-        let machine = (&scene, self.shooting.phases(&scene));
-        let begin = before_wall(&scene, self.shooting.state(at));
+        let scene = self.shooting.scene_at(at)?;
+        let machine = (&scene, self.shooting.lower_phases(&scene));
+        let begin = before_wall(&scene, self.shooting.state_at(at));
         let state = state_after(machine, begin, periods.rem_euclid(whole))?;
         Ok(self.shooting.scaled(state, self.shooting.parameters(at)))
     }
 
     /// Where a point lies in this section.
-    pub(super) fn place(&self, point: &BranchPoint) -> Result<DVector<f64>, MotionError> {
+    pub(super) fn place_of(&self, point: &BranchPoint) -> Result<DVector<f64>, MotionError> {
         let plain = self.with_turn(0.0);
         let at = plain.shooting.scaled(point.state(), [point.parameter]);
         match self.shooting.turn {
             0.0 => Ok(at),
-            turn => plain.carried(&at, turn),
+            turn => plain.carry_place(&at, turn),
         }
     }
 }

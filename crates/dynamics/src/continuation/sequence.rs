@@ -1,6 +1,6 @@
 //! What an orbit crosses, and how often.
 
-use super::face::{Face, Touch};
+use super::face::{Face, NearTouch};
 use super::half_branch::BorderCollision;
 use crate::period::PeriodTrajectory;
 use softstop::{Crossing, CrossingKind, Scene};
@@ -28,18 +28,18 @@ pub(crate) struct Sequence {
 
 impl Sequence {
     /// True if no crossing with a jump of the force makes the difference.
-    pub fn agrees(&self, other: &Self) -> bool {
-        self.hard() == other.hard() && self.rests == other.rests
+    pub fn has_same_jumps(&self, other: &Self) -> bool {
+        self.jump_counts() == other.jump_counts() && self.rests == other.rests
     }
 
     /// True if the sequences agree and have as many impacts.
-    pub fn goes_on(&self, other: &Self) -> bool {
-        self.impacts == other.impacts && self.agrees(other)
+    pub fn continues(&self, other: &Self) -> bool {
+        self.impacts == other.impacts && self.has_same_jumps(other)
     }
 
     /// What comes in between two orbits.
-    pub fn border(&self, other: &Self) -> Option<BorderCollision> {
-        let ([surfaces, turns], [others, other_turns]) = (self.hard(), other.hard());
+    pub fn border_to(&self, other: &Self) -> Option<BorderCollision> {
+        let ([surfaces, turns], [others, other_turns]) = (self.jump_counts(), other.jump_counts());
         if (self.holds, self.rests) != (other.holds, other.rests) {
             Some(BorderCollision::Rest)
         } else if surfaces != others {
@@ -49,7 +49,7 @@ impl Sequence {
         }
     }
 
-    fn hard(&self) -> [usize; 2] {
+    fn jump_counts(&self) -> [usize; 2] {
         [
             self.surfaces - self.gentle[0],
             self.reversals - self.gentle[1],
@@ -57,12 +57,12 @@ impl Sequence {
     }
 
     /// What happens how often, whether the force jumps there or not: at the end of a range a jump may vanish.
-    pub fn events(&self) -> [usize; 4] {
+    pub fn event_counts(&self) -> [usize; 4] {
         [self.impacts, self.surfaces, self.reversals, self.rests]
     }
 
     /// Crossings of all kinds.
-    pub fn crossings(&self) -> usize {
+    pub fn crossing_count(&self) -> usize {
         self.surfaces + self.reversals + self.others
     }
 }
@@ -76,7 +76,7 @@ pub(crate) struct CountedCrossings<'a> {
 
 impl<'a> CountedCrossings<'a> {
     /// Those of a motion of a scene.
-    pub fn of(scene: &Scene, trajectory: &'a PeriodTrajectory) -> Self {
+    pub fn of_motion(scene: &Scene, trajectory: &'a PeriodTrajectory) -> Self {
         let mut all: Vec<(&Crossing, Option<Face>)> = Vec::new();
         // Which one is the first of the present row of bounces, and how fast the last is.
         let mut row: Option<(usize, f64)> = None;
@@ -94,24 +94,24 @@ impl<'a> CountedCrossings<'a> {
                 let first = goes_on.map_or(all.len(), |(first, _)| first);
                 row = Some((first, speed));
             }
-            let face = passes(crossing).then(|| Face::at(scene, position));
+            let face = is_passage(crossing).then(|| Face::at_position(scene, position));
             all.push((crossing, face.flatten()));
         }
         Self { trajectory, all }
     }
 
     /// Before-impact velocities in m/s, in order of time.
-    pub fn impacts(&self) -> impl Iterator<Item = f64> {
+    pub fn impact_velocities(&self) -> impl Iterator<Item = f64> {
         self.all.iter().filter_map(|(it, _)| it.impact_velocity())
     }
 
     /// The slowest crossing of a face since the mass was at rest.
-    pub fn slowest(&self) -> Option<Touch> {
+    pub fn slowest_crossing(&self) -> Option<NearTouch> {
         let is_rest = |(it, _): &(&Crossing, _)| it.kind == CrossingKind::Rest;
         let rest = self.all.iter().rposition(is_rest);
         let since = self.all[rest.map_or(0, |rest| rest + 1)..].iter();
         let touches = since.filter_map(|(crossing, face)| {
-            Some(Touch {
+            Some(NearTouch {
                 time: self.trajectory.clock.time(crossing.instant),
                 amount: crossing.velocity.abs(),
                 face: (*face)?,
@@ -122,7 +122,7 @@ impl<'a> CountedCrossings<'a> {
     }
 
     /// How often the motion crosses what.
-    pub fn sequence(&self, scene: &Scene) -> Sequence {
+    pub fn count_crossings(&self, scene: &Scene) -> Sequence {
         let held = self.trajectory.arcs.iter().map(|arc| arc.course.is_held());
         let before = std::iter::once(false).chain(held.clone());
         let mut sequence = Sequence {
@@ -138,7 +138,7 @@ impl<'a> CountedCrossings<'a> {
                     sequence.surfaces += 1;
                     sequence.faces += usize::from(face.is_some());
                     let gentle = face.is_none_or(|face| face.is_gentle(scene));
-                    touched = sequence.pass(crossing, gentle, touched);
+                    touched = sequence.count_passage(crossing, gentle, touched);
                 }
                 CrossingKind::Reversal => {
                     sequence.reversals += 1;
@@ -154,7 +154,7 @@ impl<'a> CountedCrossings<'a> {
 
 impl Sequence {
     /// Counts a surface that is passed with or without a jump of the force: what is touched from there on.
-    fn pass(
+    fn count_passage(
         &mut self,
         crossing: &Crossing,
         gentle: bool,
@@ -176,7 +176,7 @@ impl Sequence {
 }
 
 /// True if a surface is passed or a rigid stop hit.
-fn passes(crossing: &Crossing) -> bool {
+fn is_passage(crossing: &Crossing) -> bool {
     matches!(
         crossing.kind,
         CrossingKind::Surface { .. } | CrossingKind::Rebound { .. }

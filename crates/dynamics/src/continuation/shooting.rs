@@ -8,8 +8,8 @@ use std::sync::Arc as Shared;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
-use super::arclength::{DIFFERENCE, Equations, Evaluation};
-use super::period_map::{PeriodMap, image};
+use super::arclength::{DIFFERENCE_WIDTH, Equations, Evaluation};
+use super::period_map::{PeriodMap, period_image};
 use super::test::Test;
 use crate::orbit::OrbitError;
 use softstop::internals::Phases;
@@ -57,7 +57,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         DVector::from_iterator(2 + N, raw).component_div(&self.scales)
     }
 
-    pub fn state(&self, at: &DVector<f64>) -> Vector2<f64> {
+    pub fn state_at(&self, at: &DVector<f64>) -> Vector2<f64> {
         Vector2::new(at[0] * self.scales[0], at[1] * self.scales[1])
     }
 
@@ -66,14 +66,14 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
     }
 
     /// The scene with time 0 at the section.
-    pub fn scene(&self, at: &DVector<f64>) -> Result<Scene, MotionError> {
+    pub fn scene_at(&self, at: &DVector<f64>) -> Result<Scene, MotionError> {
         let mut scene = self.family.scene(self.parameters(at))?;
         scene.excitation.phase += TAU * self.turn;
         Ok(scene)
     }
 
     /// The phases of a scene of the family.
-    pub fn phases(&self, scene: &Scene) -> Shared<Phases> {
+    pub fn lower_phases(&self, scene: &Scene) -> Shared<Phases> {
         let known = self.lowered.take().filter(|_| self.is_by_frequency());
         let phases = known.map_or_else(
             || scene.phases().into(),
@@ -93,7 +93,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         self.family.by_frequency().iter().all(Option::is_some)
     }
 
-    fn residual(&self, state: Vector2<f64>, end: Vector2<f64>) -> DVector<f64> {
+    fn scaled_residual(&self, state: Vector2<f64>, end: Vector2<f64>) -> DVector<f64> {
         let gap = end - state;
         DVector::from_vec(vec![gap.x / self.scales[0], gap.y / self.scales[1]])
     }
@@ -116,26 +116,27 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     const EXACT: usize = 2;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<PeriodMap>, OrbitError> {
-        let state = self.state(at);
-        let scene = self.scene(at)?;
-        let machine = (&scene, self.phases(&scene));
-        let round = PeriodMap::of(machine, self.periods, state, self.is_by_frequency())?;
+        let state = self.state_at(at);
+        let scene = self.scene_at(at)?;
+        let machine = (&scene, self.lower_phases(&scene));
+        let round = PeriodMap::from_state(machine, self.periods, state, self.is_by_frequency())?;
         Ok(Evaluation {
-            residual: self.residual(state, round.trajectory.end),
+            residual: self.scaled_residual(state, round.trajectory.end),
             tolerance: round_off(&scene, &state, &round.monodromy, self.family.state_scales()),
             point: round,
         })
     }
 
-    fn beside(
+    fn residual_beside(
         &self,
         here: &PeriodMap,
         at: &DVector<f64>,
     ) -> Result<(DVector<f64>, bool), OrbitError> {
-        let state = self.state(at);
-        let scene = self.scene(at)?;
-        let (end, sequence) = image((&scene, self.phases(&scene)), self.periods, state)?;
-        Ok((self.residual(state, end), sequence == here.sequence))
+        let state = self.state_at(at);
+        let scene = self.scene_at(at)?;
+        let (end, sequence) =
+            period_image((&scene, self.lower_phases(&scene)), self.periods, state)?;
+        Ok((self.scaled_residual(state, end), sequence == here.sequence))
     }
 
     /// The exact Jacobian of the map, and the slopes.
@@ -150,12 +151,12 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
 
     /// Near grazing the map bends within the square of the speed of the touch, or of what its Jacobian's reciprocal
     /// measures.
-    fn width(&self, here: &Evaluation<PeriodMap>) -> f64 {
+    fn difference_width(&self, here: &Evaluation<PeriodMap>) -> f64 {
         let size = self.growth(&here.point.monodromy);
         let speed = self.velocity_scale();
         let touch = here.point.slowest.map_or(1.0, |touch| touch.amount / speed);
-        let share = (STEEP / size).min(touch / SLOW).powi(2);
-        DIFFERENCE * share.clamp(LEAST_WIDTH, 1.0)
+        let share = (GRAZING_GROWTH / size).min(touch / SLOW_TOUCH).powi(2);
+        DIFFERENCE_WIDTH * share.clamp(MIN_WIDTH_SHARE, 1.0)
     }
 
     /// Small changes of the state grow a hundredfold and more, though it grazes nothing.
@@ -163,8 +164,8 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         let speed = self.velocity_scale();
         let grazes = here
             .slowest
-            .is_some_and(|touch| touch.amount < SLOW * speed);
-        !grazes && here.monodromy.trace().abs() > UNSTABLE
+            .is_some_and(|touch| touch.amount < SLOW_TOUCH * speed);
+        !grazes && here.monodromy.trace().abs() > UNSTABLE_TRACE
     }
 
     fn exact_slopes(&self, here: &Evaluation<PeriodMap>) -> Option<DMatrix<f64>> {
@@ -179,13 +180,13 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
 }
 
 /// Size of a Jacobian from which on its orbit is taken to be near grazing.
-const STEEP: f64 = 10.0;
+const GRAZING_GROWTH: f64 = 10.0;
 /// Multiplier from which on a guess must be very near.
-const UNSTABLE: f64 = 100.0;
+const UNSTABLE_TRACE: f64 = 100.0;
 /// Scaled speed of a touch up to which it is.
-const SLOW: f64 = 0.01;
+const SLOW_TOUCH: f64 = 0.01;
 /// The smallest share of the usual width that rounding leaves good for a difference.
-const LEAST_WIDTH: f64 = 1e-5;
+const MIN_WIDTH_SHARE: f64 = 1e-5;
 
 /// What rounding alone may leave of P(s) - s in units of `sizes`.
 pub(crate) fn round_off(
@@ -211,7 +212,7 @@ impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<PeriodMap>, OrbitError> {
         let orbit = self.shooting.evaluate(at)?;
-        let value = self.test.value(&orbit.point.monodromy);
+        let value = self.test.scaled_value(&orbit.point.monodromy);
         Ok(orbit.with_test(value))
     }
 }

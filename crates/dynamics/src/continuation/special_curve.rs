@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use super::Family;
 use super::codimension_two::{CodimensionTwo, CurvePoint};
 use super::critical_impact::CriticalImpact;
-use super::curve::{Curve, CurveEnd, CurveLimits, follow};
+use super::curve::{Curve, CurveEnd, CurveLimits, follow_curve};
 use super::grazing_orbit::GrazingOrbit;
 use super::impact_section::ImpactSection;
 use super::point::SpecialKind;
@@ -20,7 +20,7 @@ use crate::orbit::OrbitError;
 ///
 /// # Errors
 /// [`OrbitError`] if the point is not a special one of this family.
-pub fn curve<F: Family<2>>(
+pub fn follow_special<F: Family<2>>(
     family: &F,
     periods: u64,
     special: (SpecialKind, Vector2<f64>),
@@ -28,12 +28,12 @@ pub fn curve<F: Family<2>>(
     region: &CurveLimits,
     mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Curve, OrbitError> {
-    let mut found = raw_curve(family, periods, special, parameters, region, &mut watch)?;
+    let mut found = follow_raw(family, periods, special, parameters, region, &mut watch)?;
     end_in_flips(family, &mut found, region);
     Ok(found)
 }
 
-fn raw_curve<F: Family<2>>(
+fn follow_raw<F: Family<2>>(
     family: &F,
     periods: u64,
     (kind, state): (SpecialKind, Vector2<f64>),
@@ -46,18 +46,18 @@ fn raw_curve<F: Family<2>>(
             let shooting = Shooting::new(family, periods);
             let guess = shooting.scaled(state, parameters);
             let critical = Critical { shooting, test };
-            match CriticalImpact::at((family, periods), test, state, parameters)? {
-                Some((at_impact, impact)) => follow(&at_impact, kind, &impact, region, watch)
-                    .or_else(|_| follow(&critical, kind, &guess, region, watch)),
-                None => follow(&critical, kind, &guess, region, watch),
+            match CriticalImpact::at_orbit((family, periods), test, state, parameters)? {
+                Some((at_impact, impact)) => follow_curve(&at_impact, kind, &impact, region, watch)
+                    .or_else(|_| follow_curve(&critical, kind, &guess, region, watch)),
+                None => follow_curve(&critical, kind, &guess, region, watch),
             }
         }
         SpecialKind::Pitchfork => Err(OrbitError::NotIsolated),
         SpecialKind::Grazing(graze) => {
-            let section = ImpactSection::at(&graze, (family, periods));
+            let section = ImpactSection::of_graze(&graze, (family, periods));
             let touching = GrazingOrbit { section };
-            let guess = touching.section.unknowns(&[graze.angle], parameters);
-            follow(&touching, kind, &guess, region, watch)
+            let guess = touching.section.scaled_unknowns(&[graze.angle], parameters);
+            follow_curve(&touching, kind, &guess, region, watch)
         }
     }
 }
@@ -107,7 +107,7 @@ fn flip_near<F: Family<2>>(
     };
     let flip = (SpecialKind::Critical(Test::Flip), point.state());
     let go_on = &mut |_: &_| ControlFlow::Continue(());
-    let flips = raw_curve(family, periods, flip, point.parameters, &region, go_on);
+    let flips = follow_raw(family, periods, flip, point.parameters, &region, go_on);
     let scales = family.parameter_scales();
     let is_near = |found: &CurvePoint| {
         let mut off = (0..2).map(|it| (found.parameters[it] - point.parameters[it]) / scales[it]);

@@ -1,7 +1,7 @@
 //! What keeps a step along a branch from missing anything, and what ends a branch that no step can follow.
 
 use super::Family;
-use super::arclength::{DIFFERENCE, Equations, Node, correct};
+use super::arclength::{DIFFERENCE_WIDTH, Equations, Node, correct};
 use super::follow::{Continuation, keeps_sense};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{BorderCollision, End, HalfBranch, Limits};
@@ -14,28 +14,28 @@ use crate::orbit::OrbitError;
 
 /// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR_GRAZING`
 /// (scaled).
-const SHARE_LEFT: f64 = 0.3;
-const NEAR_GRAZING: f64 = 1e-4;
+const MIN_SHARE_LEFT: f64 = 0.3;
+const GRAZING_DISTANCE: f64 = 1e-4;
 /// Length of the steps up to which a grazing orbit is looked for ahead: nothing but a fold or a flip is on so short a way.
-const CLOSE: f64 = 1e-3;
+const GRAZING_SEARCH_STEP: f64 = 1e-3;
 /// Shares of that way at which a fold is looked for behind.
-const RIGHT_BEFORE: [f64; 3] = [0.9, 0.99, 0.999];
+const FOLD_SEARCH_SHARES: [f64; 3] = [0.9, 0.99, 0.999];
 /// Scaled distance within which a branch that cannot be followed is taken to end in the grazing ahead: multipliers grow
 /// as the reciprocal of the distance, and no step is short enough for them.
-const AHEAD: f64 = 1e-2;
+const GRAZING_AHEAD: f64 = 1e-2;
 /// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
-const JUST_AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
+const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Scaled distances ahead, where the orbits of a branch come to lie side by side.
-const HELD_AHEAD: [f64; 3] = [1e-4, 1e-3, 1e-2];
+const REST_DISTANCES: [f64; 3] = [1e-4, 1e-3, 1e-2];
 /// Monodromy beyond which an orbit is within rounding of a grazing: on which side of it, rounding decides.
-const WILD: f64 = 1e8;
+const WILD_GROWTH: f64 = 1e8;
 /// Length of the steps from which on all changes are taken.
-pub(super) const SHORT: f64 = 1e-5;
+pub(super) const SHORT_STEP: f64 = 1e-5;
 
 impl<F: Family> Continuation<'_, F> {
     /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just
     /// ahead (of values that no machine can have beyond), at an orbit that is too unstable, or lost.
-    pub(super) fn give_up(
+    pub(super) fn end_branch(
         &self,
         way: &mut HalfBranch,
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
@@ -43,7 +43,7 @@ impl<F: Family> Continuation<'_, F> {
         limits: &Limits,
         error: OrbitError,
     ) {
-        if way.grazes(self.graze_within(AHEAD, stepper, grazing_test)) {
+        if way.end_in_grazing(self.graze_within(GRAZING_AHEAD, stepper, grazing_test)) {
             return;
         }
         if let Some(node) = self.bound_at(&stepper.node, limits) {
@@ -57,11 +57,13 @@ impl<F: Family> Continuation<'_, F> {
             return;
         }
         let dies = grazing_test
-            .dies_within(NEAR_GRAZING)
+            .dies_within(GRAZING_DISTANCE)
             .then_some(BorderCollision::Surface);
         way.end = match self.border_ahead(stepper, &error).or(dies) {
             Some(border) => End::Border(border),
-            None if self.shooting.growth(&stepper.node.here.point.monodromy) * DIFFERENCE > 1.0 => {
+            None if self.shooting.growth(&stepper.node.here.point.monodromy) * DIFFERENCE_WIDTH
+                > 1.0 =>
+            {
                 End::Unstable
             }
             None => End::Lost(error),
@@ -79,12 +81,12 @@ impl<F: Family> Continuation<'_, F> {
         let border = |reach: f64| {
             let there = &node.at + reach * &stepper.direction;
             let beyond = self.shooting.evaluate(&there).ok()?;
-            node.here.point.sequence.border(&beyond.point.sequence)
+            node.here.point.sequence.border_to(&beyond.point.sequence)
         };
-        let behind = JUST_AHEAD.map(|reach| -reach);
-        let mut near = JUST_AHEAD.into_iter().chain(behind);
+        let behind = BORDER_DISTANCES.map(|reach| -reach);
+        let mut near = BORDER_DISTANCES.into_iter().chain(behind);
         let held = || {
-            let mut far = HELD_AHEAD.into_iter().filter_map(border);
+            let mut far = REST_DISTANCES.into_iter().filter_map(border);
             far.find(|border| *border == BorderCollision::Rest)
         };
         near.find_map(border)
@@ -92,25 +94,25 @@ impl<F: Family> Continuation<'_, F> {
     }
 
     /// True if nothing can be missed on a step.
-    pub(super) fn may_take(
+    pub(super) fn may_take_step(
         &self,
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
         step: &CurveStep<PeriodMap>,
         (now, ahead): (&GrazingTest, &GrazingTest),
     ) -> bool {
         let (from, to) = (&stepper.node.here.point, &step.node.here.point);
-        let same = from.sequence.agrees(&to.sequence)
-            && self.shooting.growth(&to.monodromy) < WILD
+        let same = from.sequence.has_same_jumps(&to.sequence)
+            && self.shooting.growth(&to.monodromy) < WILD_GROWTH
             && (keeps_sense(
                 (&stepper.direction, &from.monodromy),
                 (&step.direction, &to.monodromy),
             ) || self.keeps_symmetric_sense(stepper, step));
-        if stepper.step < SHORT {
+        if stepper.step < SHORT_STEP {
             return same;
         }
         Test::change_little(&from.monodromy, &to.monodromy)
             && same
-            && ahead.leaves(now, SHARE_LEFT, NEAR_GRAZING)
+            && ahead.may_step(now, MIN_SHARE_LEFT, GRAZING_DISTANCE)
             && !now.may_graze_twice(ahead, stepper.step)
     }
 
@@ -121,7 +123,7 @@ impl<F: Family> Continuation<'_, F> {
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
         grazing_test: &GrazingTest,
     ) -> Option<Special> {
-        if stepper.step > CLOSE {
+        if stepper.step > GRAZING_SEARCH_STEP {
             return None;
         }
         let round = &stepper.node.here.point;
@@ -142,7 +144,7 @@ impl<F: Family> Continuation<'_, F> {
 
     /// True if the branch turns back between a node and a grazing: right before it multipliers grow without bounds.
     fn folds_before(&self, special: &Special, stepper: &Stepper<'_, Shooting<'_, F, 1>>) -> bool {
-        let Ok(at) = self.place(&special.point) else {
+        let Ok(at) = self.place_of(&special.point) else {
             return false;
         };
         let (from, way) = (&stepper.node.here.point, at - &stepper.node.at);
@@ -151,10 +153,10 @@ impl<F: Family> Continuation<'_, F> {
             let found = correct(&self.shooting, &guess, Some(&way.normalize()));
             found.is_ok_and(|Node { here, .. }| {
                 from.sequence == here.point.sequence
-                    && Test::Fold.passes(&from.monodromy, &here.point.monodromy)
+                    && Test::Fold.passes_zero(&from.monodromy, &here.point.monodromy)
             })
         };
-        RIGHT_BEFORE.iter().any(turns)
+        FOLD_SEARCH_SHARES.iter().any(turns)
     }
 
     /// The grazing ahead within a scaled distance, if there is one.
@@ -165,13 +167,13 @@ impl<F: Family> Continuation<'_, F> {
         grazing_test: &GrazingTest,
     ) -> Option<Special> {
         let is_ahead = |special: &&Special| {
-            let Ok(at) = self.place(&special.point) else {
+            let Ok(at) = self.place_of(&special.point) else {
                 return false;
             };
             let way = at - &stepper.node.at;
             way.norm() < reach && way.dot(&stepper.direction) > 0.5 * way.norm()
         };
-        let mut grazes = grazing_test.grazes(&self.shooting).iter();
+        let mut grazes = grazing_test.grazing_orbits(&self.shooting).iter();
         grazes.find(is_ahead).cloned()
     }
 }

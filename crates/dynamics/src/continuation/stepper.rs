@@ -2,7 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arclength::{Accuracy, Equations, Node, correct_with, tangent, tangent_with};
+use super::arclength::{
+    Accuracy, Equations, Node, correct_with_slopes, curve_tangent, curve_tangent_with,
+};
 use crate::orbit::OrbitError;
 
 /// First, smallest and largest arclength steps.
@@ -22,10 +24,10 @@ const STEP_GROWTH: f64 = 1.6;
 const QUICK_STEPS: (f64, f64) = (0.05, 1.0);
 const QUICK_TURN: f64 = 0.85;
 const MEANT_TURN: f64 = 0.93;
-const MEANT_OFF: f64 = 5e-3;
+const MEANT_ERROR: f64 = 5e-3;
 const QUICK_GROWTH: (f64, f64) = (0.5, 2.5);
 /// Quick step below which it is the node from which no step can be taken that is in doubt.
-const DOUBTFUL: f64 = 1e-3;
+const DOUBTFUL_STEP: f64 = 1e-3;
 
 /// Goes along a curve with adaptive steps.
 pub(crate) struct Stepper<'a, E: Equations> {
@@ -57,7 +59,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         along: &DVector<f64>,
         largest: f64,
     ) -> Result<Self, OrbitError> {
-        let (direction, slopes) = tangent(equations, &node, along)?;
+        let (direction, slopes) = curve_tangent(equations, &node, along)?;
         Ok(Self {
             equations,
             last: None,
@@ -72,7 +74,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
     }
 
     /// This stepper in few long steps, with guesses that bend as the curve did: for smooth curves.
-    pub fn quick(self) -> Self {
+    pub fn with_quick_steps(self) -> Self {
         let (step, largest) = QUICK_STEPS;
         Self {
             accuracy: Accuracy::Quick,
@@ -83,12 +85,13 @@ impl<'a, E: Equations> Stepper<'a, E> {
     }
 
     /// The next node at the present length of step.
-    pub fn attempt(&self) -> Result<CurveStep<E::Point>, OrbitError> {
-        let guess = self.guess();
+    pub fn attempt_step(&self) -> Result<CurveStep<E::Point>, OrbitError> {
+        let guess = self.predict();
         let mut slopes = Some(self.slopes.clone());
         let (equations, across) = (self.equations, Some(&self.direction));
-        let node = correct_with(equations, &guess, across, &mut slopes, self.accuracy)?;
-        let (direction, slopes) = tangent_with(equations, &node, &self.direction, self.accuracy)?;
+        let node = correct_with_slopes(equations, &guess, across, &mut slopes, self.accuracy)?;
+        let (direction, slopes) =
+            curve_tangent_with(equations, &node, &self.direction, self.accuracy)?;
         let turn = direction.dot(&self.direction);
         let leaps = (&node.at - &self.node.at).norm() > LONGEST_CHORD * self.step;
         let (largest, growth) = match self.accuracy {
@@ -110,7 +113,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
     /// Where the curve may be after a step: on the cubic through the last two nodes and along their directions. The plane
     /// across the direction here, in which Newton's method goes on, stands a step away, but where the curve is followed in
     /// few long steps or is steep.
-    fn guess(&self) -> DVector<f64> {
+    fn predict(&self) -> DVector<f64> {
         let straight = &self.node.at + self.step * &self.direction;
         let Some((last, before)) = &self.last else {
             return straight;
@@ -132,7 +135,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
     }
 
     /// Goes there.
-    pub fn take(&mut self, step: CurveStep<E::Point>) {
+    pub fn step_to(&mut self, step: CurveStep<E::Point>) {
         let last = std::mem::replace(&mut self.node, step.node);
         let before = std::mem::replace(&mut self.direction, step.direction);
         self.last = Some((last.at, before));
@@ -143,10 +146,10 @@ impl<'a, E: Equations> Stepper<'a, E> {
 
     /// Shortens the step; false if it is the shortest already. A quick node, whose direction is that of the place one
     /// Newton step before, perhaps beyond a corner, is looked at anew.
-    pub fn shorten(&mut self) -> bool {
-        if self.accuracy == Accuracy::Quick && self.step < DOUBTFUL && !self.is_renewed {
+    pub fn shorten_step(&mut self) -> bool {
+        if self.accuracy == Accuracy::Quick && self.step < DOUBTFUL_STEP && !self.is_renewed {
             self.is_renewed = true;
-            self.renew().unwrap_or_default();
+            self.renew_node().unwrap_or_default();
             return true;
         }
         let possible = self.step > SMALLEST_STEP;
@@ -155,16 +158,16 @@ impl<'a, E: Equations> Stepper<'a, E> {
     }
 
     /// The node and the direction there to the last digit.
-    fn renew(&mut self) -> Result<(), OrbitError> {
+    fn renew_node(&mut self) -> Result<(), OrbitError> {
         let across = Some(&self.direction);
-        let node = correct_with(
+        let node = correct_with_slopes(
             self.equations,
             &self.node.at,
             across,
             &mut None,
             Accuracy::Full,
         )?;
-        let (direction, slopes) = tangent(self.equations, &node, &self.direction)?;
+        let (direction, slopes) = curve_tangent(self.equations, &node, &self.direction)?;
         (self.node, self.direction, self.slopes, self.last) = (node, direction, slopes, None);
         Ok(())
     }
@@ -174,6 +177,6 @@ impl<'a, E: Equations> Stepper<'a, E> {
 fn quick_growth(turn: f64, off: f64) -> f64 {
     let (least, most) = QUICK_GROWTH;
     let by_turn = ((1.0 - MEANT_TURN) / (1.0 - turn)).sqrt();
-    let by_guess = (MEANT_OFF / off).powf(0.25);
+    let by_guess = (MEANT_ERROR / off).powf(0.25);
     by_turn.min(by_guess).clamp(least, most)
 }

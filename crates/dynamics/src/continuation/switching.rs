@@ -7,13 +7,13 @@ use nalgebra::Vector2;
 use super::Family;
 use super::codimension_two::{CodimensionTwo, CurvePoint};
 use super::critical_impact::CriticalImpact;
-use super::curve::{Curve, CurveLimits, follow};
+use super::curve::{Curve, CurveLimits, follow_curve};
 use super::follow::Continuation;
 use super::grazing_orbit::GrazingOrbit;
 use super::half_branch::Limits;
 use super::impact_section::ImpactSection;
 use super::point::{Graze, SpecialKind};
-use super::special_curve::{curve, end_in_flips};
+use super::special_curve::{end_in_flips, follow_special};
 use super::test::Test;
 use crate::monitor::stop_if;
 use softstop::{MotionError, Scene};
@@ -61,7 +61,7 @@ pub fn switch_curves<F: Family<2>>(
                         false => Some((point.state(), point.parameters)),
                     };
                     start.and_then(|(state, at)| {
-                        curve(family, periods, (kind, state), at, region, &mut watch).ok()
+                        follow_special(family, periods, (kind, state), at, region, &mut watch).ok()
                     })
                 }
             };
@@ -79,14 +79,14 @@ fn from_grazing<F: Family<2>>(
     region: &CurveLimits,
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Option<Curve> {
-    let section = ImpactSection::at(graze, (family, periods));
+    let section = ImpactSection::of_graze(graze, (family, periods));
     let touching = GrazingOrbit { section };
-    let touch = touching.section.unknowns(&[graze.angle], parameters);
+    let touch = touching.section.scaled_unknowns(&[graze.angle], parameters);
     let beside =
         |velocity: &f64| CriticalImpact::with_weak_impact(&touching, &touch, test, *velocity).ok();
     let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
     let kind = SpecialKind::Critical(test);
-    let mut curve = follow(&critical, kind, &node.at, region, watch).ok()?;
+    let mut curve = follow_curve(&critical, kind, &node.at, region, watch).ok()?;
     end_in_flips(family, &mut curve, region);
     Some(curve)
 }
@@ -135,14 +135,14 @@ fn fold_of_doubled<F: Family<2>>(
         range: (parameter - within, parameter + within),
         points: region.points,
     };
-    let flip = along.point(parameter, flip.state()).ok()?;
+    let flip = along.find_point(parameter, flip.state()).ok()?;
     let mut begins = None;
-    let branch = along.doubled(&flip, &limits, |point| {
+    let branch = along.double_period(&flip, &limits, |point| {
         let is_positive = point.fold_test() > 0.0;
         stop_if(*begins.get_or_insert(is_positive) != is_positive)
     });
     let branch = branch.ok()?;
-    let fold = branch.critical(Test::Fold).next()?;
+    let fold = branch.critical_points(Test::Fold).next()?;
     Some((fold.state(), [fold.parameter, second]))
 }
 

@@ -24,9 +24,9 @@ use crate::period::PeriodTrajectory;
 use softstop::{Clock, Instant, MotionError, Scene};
 
 /// Scaled distance of half a round from the mirror image of its start up to which an orbit is symmetric.
-const SYMMETRIC: f64 = 1e-7;
+const SYMMETRY_DISTANCE: f64 = 1e-7;
 /// Smallest share of the distance from a pitchfork by which half a round must lead away from the mirror image.
-const ASYMMETRY: f64 = 0.5;
+const MIN_ASYMMETRY: f64 = 0.5;
 
 /// True if a machine is its own mirror image half a drive period later: both stops are alike.
 fn is_symmetric(scene: &Scene) -> bool {
@@ -37,7 +37,7 @@ fn is_symmetric(scene: &Scene) -> bool {
 }
 
 /// Half a round.
-struct HalfRound {
+struct HalfPeriod {
     /// Scaled distance of its end from the mirror image of its start.
     asymmetry: DVector<f64>,
     /// Its Jacobian P'.
@@ -49,33 +49,33 @@ struct HalfRound {
 impl<F: Family> Shooting<'_, F, 1> {
     /// Half a round from a place; none if the machine is not its own mirror image half a drive period later, or the orbits are
     /// those of an even number of periods.
-    fn half_round(&self, at: &DVector<f64>) -> Result<Option<HalfRound>, MotionError> {
-        let scene = self.scene(at)?;
+    fn half_period(&self, at: &DVector<f64>) -> Result<Option<HalfPeriod>, MotionError> {
+        let scene = self.scene_at(at)?;
         if self.periods.is_multiple_of(2) || !is_symmetric(&scene) {
             return Ok(None);
         }
-        let state = before_wall(&scene, self.state(at));
+        let state = before_wall(&scene, self.state_at(at));
         let half = Instant {
             offset: 0.5 * scene.period(),
             ..Clock::at_cycle(self.periods / 2)
         };
-        let machine = (self.phases(&scene), scene.clock());
+        let machine = (self.lower_phases(&scene), scene.clock());
         let over_half =
             |motion: &mut _, kept: &mut PeriodTrajectory| carry_through(motion, half, kept);
-        let motion = PeriodTrajectory::run(machine, state, over_half)?;
+        let motion = PeriodTrajectory::record(machine, state, over_half)?;
         let monodromy = Monodromy::from(&motion.tangent());
         let scales = self.family.state_scales();
-        Ok(Some(HalfRound {
-            asymmetry: self.scaled(-motion.end - self.state(at), [0.0]),
+        Ok(Some(HalfPeriod {
+            asymmetry: self.scaled(-motion.end - self.state_at(at), [0.0]),
             tolerance: round_off(&scene, &state, &monodromy, scales),
             monodromy,
         }))
     }
 
     /// The Jacobian of half a round of a symmetric orbit; none of another one.
-    fn symmetric_half(&self, node: &Node<PeriodMap>) -> Option<Monodromy> {
-        let half = self.half_round(&node.at).ok()??;
-        (half.asymmetry.norm() < SYMMETRIC).then_some(half.monodromy)
+    fn symmetric_half_period(&self, node: &Node<PeriodMap>) -> Option<Monodromy> {
+        let half = self.half_period(&node.at).ok()??;
+        (half.asymmetry.norm() < SYMMETRY_DISTANCE).then_some(half.monodromy)
     }
 }
 
@@ -86,22 +86,22 @@ impl<F: Family> Equations for Pitchfork<'_, '_, F> {
     type Point = Monodromy;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Monodromy>, OrbitError> {
-        let half = self.0.half_round(at)?;
+        let half = self.0.half_period(at)?;
         let half = half.ok_or(OrbitError::LOST)?;
         let symmetric = Evaluation {
             residual: half.asymmetry.rows(0, 2).into_owned(),
             tolerance: half.tolerance,
             point: half.monodromy,
         };
-        Ok(symmetric.with_test(Test::Fold.value(&half.monodromy)))
+        Ok(symmetric.with_test(Test::Fold.scaled_value(&half.monodromy)))
     }
 }
 
 impl<F: Family> Continuation<'_, F> {
     /// Scaled distance of half a round of an orbit from the mirror image of its start; none if it cannot be symmetric.
-    pub(super) fn asymmetry(&self, node: &Node<PeriodMap>) -> Option<DVector<f64>> {
-        let half = self.shooting.half_round(&node.at).ok()??;
-        (half.asymmetry.norm() >= SYMMETRIC).then_some(half.asymmetry)
+    pub(super) fn mirror_gap(&self, node: &Node<PeriodMap>) -> Option<DVector<f64>> {
+        let half = self.shooting.half_period(&node.at).ok()??;
+        (half.asymmetry.norm() >= SYMMETRY_DISTANCE).then_some(half.asymmetry)
     }
 
     /// True if the directions at both ends of a step between symmetric orbits may be one: among them alone, a branch does not
@@ -111,14 +111,14 @@ impl<F: Family> Continuation<'_, F> {
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
         step: &CurveStep<PeriodMap>,
     ) -> bool {
-        let half = |node| self.shooting.symmetric_half(node);
+        let half = |node| self.shooting.symmetric_half_period(node);
         let (Some(from), Some(to)) = (half(&stepper.node), half(&step.node)) else {
             return false;
         };
         // 1 - tr + det of the mirrored half round.
         is_one_sense(
-            Test::Flip.value(&from) * stepper.direction[2],
-            Test::Flip.value(&to) * step.direction[2],
+            Test::Flip.scaled_value(&from) * stepper.direction[2],
+            Test::Flip.scaled_value(&to) * step.direction[2],
         )
     }
 
@@ -128,14 +128,14 @@ impl<F: Family> Continuation<'_, F> {
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
     ) -> Result<Option<(f64, Special)>, OrbitError> {
-        let half = |node| self.shooting.symmetric_half(node);
+        let half = |node| self.shooting.symmetric_half_period(node);
         let (Some(a), Some(b)) = (half(from), half(to)) else {
             return Ok(None);
         };
-        if !Test::Fold.passes(&a, &b) {
+        if !Test::Fold.passes_zero(&a, &b) {
             return Ok(None);
         }
-        let [a, b] = [a, b].map(|half| Test::Fold.value(&half));
+        let [a, b] = [a, b].map(|half| Test::Fold.scaled_value(&half));
         let way = &to.at - &from.at;
         let node = self.pitchfork(&(&from.at + a / (a - b) * &way))?;
         let (share, _) = along_chord((&from.at, &way), &node.at);
@@ -158,17 +158,17 @@ impl<F: Family> Continuation<'_, F> {
     ///
     /// # Errors
     /// [`OrbitError::Diverged`] if there is no such branch near the point.
-    pub fn asymmetric(
+    pub fn branch_asymmetric(
         &self,
         pitchfork: &BranchPoint,
         limits: &Limits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let leads_away = |node: &Node<PeriodMap>, distance: f64| {
-            let asymmetry = self.asymmetry(node);
-            asymmetry.is_some_and(|asymmetry| asymmetry.norm() > ASYMMETRY * distance)
+            let asymmetry = self.mirror_gap(node);
+            asymmetry.is_some_and(|asymmetry| asymmetry.norm() > MIN_ASYMMETRY * distance)
         };
-        let (node, along) = self.branching_off(pitchfork, 1.0, leads_away)?;
+        let (node, along) = self.branch_off(pitchfork, 1.0, leads_away)?;
         let mut branch = self.branch_along(node, &along, limits, &mut watch)?;
         branch.ends.0 = End::Symmetric;
         Ok(branch)

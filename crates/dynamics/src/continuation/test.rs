@@ -21,13 +21,13 @@ impl Test {
 
     /// The value, scaled by the size of trace and determinant: bounded also where they grow beyond all
     /// bounds, at grazing.
-    pub fn value(self, monodromy: &Monodromy) -> f64 {
-        self.weighted(monodromy, 1.0)
+    pub fn scaled_value(self, monodromy: &Monodromy) -> f64 {
+        self.weighted_value(monodromy, 1.0)
     }
 
     /// The value of a weight times the test, scaled by the size of the weight times trace and determinant: smooth down to
     /// weight 0 where trace and determinant grow as its reciprocal.
-    pub(crate) fn weighted(self, monodromy: &Monodromy, weight: f64) -> f64 {
+    pub(crate) fn weighted_value(self, monodromy: &Monodromy, weight: f64) -> f64 {
         let (trace, determinant) = (monodromy.trace(), monodromy.determinant());
         let size = 1.0f64.hypot(weight * trace).hypot(weight * determinant);
         let test = match self {
@@ -40,20 +40,20 @@ impl Test {
 
     /// True if no test changes much between two orbits, as on one short piece of a branch.
     pub(crate) fn change_little(from: &Monodromy, to: &Monodromy) -> bool {
-        let change = |test: &Self| (test.value(from) - test.value(to)).abs();
-        Self::ALL.iter().all(|test| change(test) < LARGEST_CHANGE)
+        let change = |test: &Self| (test.scaled_value(from) - test.scaled_value(to)).abs();
+        Self::ALL.iter().all(|test| change(test) < MAX_TEST_CHANGE)
     }
 
     /// True if the test passes zero between two orbits. Without damping the determinant is 1 to rounding
     /// all along: nothing passes there.
-    pub(crate) fn passes(self, from: &Monodromy, to: &Monodromy) -> bool {
-        let (a, b) = (self.value(from), self.value(to));
+    pub(crate) fn passes_zero(self, from: &Monodromy, to: &Monodromy) -> bool {
+        let (a, b) = (self.scaled_value(from), self.scaled_value(to));
         let changes = (a > 0.0) != (b > 0.0);
         match self {
             Self::Fold | Self::Flip => changes,
             Self::NeimarkSacker => {
                 let rotates = |monodromy: &Monodromy| monodromy.trace().abs() < 2.0;
-                let moves = (a - b).abs() > CONSERVATIVE;
+                let moves = (a - b).abs() > DETERMINANT_ROUNDING;
                 changes && moves && rotates(from) && rotates(to)
             }
         }
@@ -61,10 +61,10 @@ impl Test {
 }
 
 /// Largest change of a test on one short piece.
-const LARGEST_CHANGE: f64 = 0.3;
+const MAX_TEST_CHANGE: f64 = 0.3;
 
 /// Change of the determinant that rounding may bring.
-const CONSERVATIVE: f64 = 1e-9;
+const DETERMINANT_ROUNDING: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn tests_vanish_at_their_multipliers() {
-        let vanishes = |test: Test, matrix| assert!(test.value(&of(matrix)).abs() < 1e-15);
+        let vanishes = |test: Test, matrix| assert!(test.scaled_value(&of(matrix)).abs() < 1e-15);
         vanishes(Test::Fold, Matrix2::new(1.0, 5.0, 0.0, 0.3));
         vanishes(Test::Flip, Matrix2::new(-1.0, 5.0, 0.0, 0.3));
         vanishes(Test::NeimarkSacker, Rotation2::new(1.0).into_inner());
@@ -87,7 +87,7 @@ mod tests {
     #[test]
     fn neimark_sacker_needs_complex_multipliers_and_a_change() {
         let turned = |size: f64| of(Rotation2::new(1.0).into_inner() * size);
-        let passes = |from: Monodromy, to: Monodromy| Test::NeimarkSacker.passes(&from, &to);
+        let passes = |from: Monodromy, to: Monodromy| Test::NeimarkSacker.passes_zero(&from, &to);
         assert!(passes(turned(0.9), turned(1.1)));
         assert!(!passes(turned(0.9), turned(0.95)));
         assert!(!passes(turned(1.0 - 1e-14), turned(1.0 + 1e-14)));

@@ -59,7 +59,7 @@ pub(super) fn supplied_and_lost_energy(scene: &Scene, motion: &PeriodTrajectory)
     let (mut supplied, mut losses) = (0.0, Losses::default());
     let is_undamped = |phase: &Phase| phase.law.damping == scene.damping;
     for kept in &motion.arcs {
-        let arc = motion.seen(kept);
+        let arc = motion.observed_arc(kept);
         let lasting = shares(&arc, scene.mass, kept.duration);
         supplied += lasting.supplied;
         losses.impacts += lasting.bounces;

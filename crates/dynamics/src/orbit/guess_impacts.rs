@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::StroboscopicMap;
 use crate::period::PeriodTrajectory;
-use crate::period::turn::turns;
+use crate::period::turn::turning_points;
 use softstop::{MotionError, PhaseKind, Scene};
 
 /// Distance from the face, in units of the largest position, within which a mass nearly hits it.
@@ -48,7 +48,7 @@ pub(super) fn guess_impacts(
 fn nearest_miss(motion: &PeriodTrajectory, face: f64) -> Option<(f64, (f64, f64))> {
     let free = motion.arcs().filter(|(arc, _)| arc.kind == PhaseKind::Free);
     let misses = free.flat_map(|(arc, elapsed)| {
-        let back = turns(arc.course, elapsed, true).filter(|turn| turn.back);
+        let back = turning_points(arc.course, elapsed, true).filter(|turn| turn.back);
         back.map(move |turn| {
             let push = arc.course.flow.amplitude * arc.drive(turn.elapsed).cos;
             let acceleration = arc.course.flow.acceleration(turn.position, 0.0, push);

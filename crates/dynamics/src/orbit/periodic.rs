@@ -131,7 +131,7 @@ impl Orbit {
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let size = |state: &Vector2<f64>| map.scales().state(state).norm();
             let unit = 1.0 + size(&state);
-            if size(&(passage.trajectory.after(part) - state)) > NEAR_STATE * unit {
+            if size(&(passage.trajectory.at_cycle(part) - state)) > NEAR_STATE * unit {
                 continue;
             }
             let shorter = StroboscopicMap::new(scene, part)?;
@@ -224,7 +224,7 @@ impl Orbit {
             return Ok(vec![self.state()]);
         }
         let motion = self.trajectory()?;
-        let later = (1..self.periods).map(|periods| motion.after(periods));
+        let later = (1..self.periods).map(|periods| motion.at_cycle(periods));
         Ok(std::iter::once(self.state()).chain(later).collect())
     }
 

@@ -110,7 +110,8 @@ impl StroboscopicMap {
     ) -> Result<Vector2<f64>, MotionError> {
         let machine = (self.phases.clone(), self.clock);
         let end = Clock::at_cycle(self.periods);
-        let last = PeriodTrajectory::run(machine, state, |motion, _| motion.advance(end, observer));
+        let last =
+            PeriodTrajectory::record(machine, state, |motion, _| motion.advance(end, observer));
         Ok(last?.end)
     }
 
@@ -129,6 +130,6 @@ impl StroboscopicMap {
     pub fn trajectory(&self, state: Vector2<f64>) -> Result<PeriodTrajectory, MotionError> {
         let machine = (self.phases.clone(), self.clock);
         let end = Clock::at_cycle(self.periods);
-        PeriodTrajectory::run(machine, state, |motion, kept| motion.advance(end, kept))
+        PeriodTrajectory::record(machine, state, |motion, kept| motion.advance(end, kept))
     }
 }

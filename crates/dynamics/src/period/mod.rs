@@ -13,10 +13,10 @@ use softstop::{
     Arc, Clock, Crossing, CrossingKind, Instant, KeptArc, MotionError, Observer, Start, Tangent,
     Touch,
 };
-use turn::turns;
+use turn::turning_points;
 
 /// Arcs for which there is room at first: as many as most drive periods have.
-const FIRST_ROOM: usize = 8;
+const FIRST_ARC_ROOM: usize = 8;
 
 /// Arcs that are kept of a motion at most: some 150 MB, and up to three times that of Taylor steps.
 const MAX_KEPT_ARCS: usize = 1 << 18;
@@ -40,7 +40,7 @@ impl PeriodTrajectory {
         Self {
             phases,
             clock,
-            arcs: Vec::with_capacity(FIRST_ROOM),
+            arcs: Vec::with_capacity(FIRST_ARC_ROOM),
             end: Vector2::zeros(),
         }
     }
@@ -50,7 +50,7 @@ impl PeriodTrajectory {
     /// # Errors
     /// [`MotionError`] if the state is not finite or beyond a rigid stop, and that of advancing;
     /// [`MotionError::Endless`] if it has more arcs than are kept.
-    pub fn run(
+    pub fn record(
         (phases, clock): (Shared<Phases>, Clock),
         state: Vector2<f64>,
         advance: impl FnOnce(&mut Motion, &mut Self) -> Result<(), MotionError>,
@@ -72,9 +72,9 @@ impl PeriodTrajectory {
     }
 
     /// Tells an observer of all arcs and crossings.
-    pub fn tell(&self, observer: &mut dyn Observer) {
+    pub fn replay(&self, observer: &mut dyn Observer) {
         for kept in &self.arcs {
-            observer.arc(&self.seen(kept), kept.duration);
+            observer.arc(&self.observed_arc(kept), kept.duration);
             if let Some(crossing) = &kept.crossing {
                 observer.crossing(crossing);
             }
@@ -82,14 +82,14 @@ impl PeriodTrajectory {
     }
 
     /// A new observer that has been told of all arcs and crossings.
-    pub fn told<O: Observer + Default>(&self) -> O {
+    pub fn replayed<O: Observer + Default>(&self) -> O {
         let mut observer = O::default();
-        self.tell(&mut observer);
+        self.replay(&mut observer);
         observer
     }
 
     /// One of its arcs as observers see it.
-    pub fn seen<'a>(&'a self, kept: &'a KeptArc) -> Arc<'a> {
+    pub fn observed_arc<'a>(&'a self, kept: &'a KeptArc) -> Arc<'a> {
         kept.seen(&self.clock, &self.phases)
     }
 
@@ -97,7 +97,7 @@ impl PeriodTrajectory {
     pub fn arcs(&self) -> impl Iterator<Item = (Arc<'_>, f64)> {
         self.arcs
             .iter()
-            .map(|kept| (self.seen(kept), kept.duration))
+            .map(|kept| (self.observed_arc(kept), kept.duration))
     }
 
     /// Its crossings.
@@ -106,7 +106,7 @@ impl PeriodTrajectory {
     }
 
     /// The state when so many drive periods are complete.
-    pub fn after(&self, periods: u64) -> Vector2<f64> {
+    pub fn at_cycle(&self, periods: u64) -> Vector2<f64> {
         let at = Clock::at_cycle(periods);
         let next = self.arcs.partition_point(|arc| arc.start <= at);
         let state = |kept: &KeptArc| {
@@ -122,7 +122,7 @@ impl PeriodTrajectory {
 
     /// Its exact Jacobian.
     pub fn tangent(&self) -> Tangent {
-        self.told()
+        self.replayed()
     }
 
     /// Its impacts.
@@ -149,20 +149,20 @@ impl PeriodTrajectory {
 
     /// The largest position in m.
     pub fn max_position(&self) -> f64 {
-        self.farthest(true, f64::max)
+        self.farthest_position(true, f64::max)
     }
 
     /// The lowest position in m.
     pub fn min_position(&self) -> f64 {
-        self.farthest(false, f64::min)
+        self.farthest_position(false, f64::min)
     }
 
     /// The farthest position in m of turning points, crossings and ends.
-    fn farthest(&self, back: bool, farther: impl Fn(f64, f64) -> f64) -> f64 {
+    fn farthest_position(&self, back: bool, farther: impl Fn(f64, f64) -> f64) -> f64 {
         let begin = self.arcs.first();
         let begin = begin.map_or(self.end.x, |arc| arc.course.departure.position);
         let arcs = self.arcs.iter();
-        let turns = arcs.flat_map(|arc| turns(&arc.course, arc.duration, back));
+        let turns = arcs.flat_map(|arc| turning_points(&arc.course, arc.duration, back));
         let positions = turns.map(|turn| turn.position);
         let positions = positions.chain(self.crossings().map(|crossing| crossing.position));
         positions.fold(farther(begin, self.end.x), farther)

@@ -4,7 +4,7 @@ use softstop::internals::{ArcSolution, Guard, NextEvent, budget, first_crossing}
 
 /// A turning point of a course.
 #[derive(Debug, Clone, Copy)]
-pub struct Turn {
+pub struct TurningPoint {
     /// True if it turns back, away from the stop.
     pub back: bool,
     /// Time in s since the course began.
@@ -15,7 +15,11 @@ pub struct Turn {
 
 /// The turning points of a course within `duration` seconds, back and forward by turns: first the first `back` or
 /// forward.
-pub fn turns(course: &ArcSolution, duration: f64, back: bool) -> impl Iterator<Item = Turn> {
+pub fn turning_points(
+    course: &ArcSolution,
+    duration: f64,
+    back: bool,
+) -> impl Iterator<Item = TurningPoint> {
     let moves = !course.is_held() && !course.is_chattering();
     let (mut node, mut back) = (course.start_node(), back);
     std::iter::from_fn(move || {
@@ -29,7 +33,7 @@ pub fn turns(course: &ArcSolution, duration: f64, back: bool) -> impl Iterator<I
         };
         match first_crossing(course, &[guard], node, duration) {
             NextEvent::Crossing(found) if found.elapsed <= duration => {
-                let turn = Turn {
+                let turn = TurningPoint {
                     back,
                     elapsed: found.elapsed,
                     position: found.position,

@@ -12,7 +12,7 @@ use softstop::{Parameter, Scene, SceneError};
 
 use super::variation::{Variation, no_derivative, phase_derivatives};
 use crate::continuation::{
-    BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, Test, grazing,
+    BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, Test, find_grazing,
 };
 use crate::orbit::OrbitError;
 use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
@@ -178,12 +178,12 @@ impl Border {
         let special = match motion {
             SpecialKind::Critical(test) => Special {
                 kind: motion,
-                point: Continuation::new(&family, *periods).critical(&guess, test)?,
+                point: Continuation::new(&family, *periods).locate(&guess, test)?,
             },
             SpecialKind::Pitchfork => return Err(OrbitError::NotIsolated.into()),
             SpecialKind::Grazing(graze) => {
                 let phase = scene.excitation.phase;
-                grazing((&family, *periods), &graze, phase, guess.parameter)?
+                find_grazing((&family, *periods), &graze, phase, guess.parameter)?
             }
         };
         Ok(Self::at_special(scene, *periods, &special, parameters)?)
@@ -294,14 +294,14 @@ fn grazing_rates(
     let missing = || no_derivative(parameters);
     let mut scene = scene.clone();
     scene.excitation.phase = graze.angle;
-    let place = graze.face.position(&scene).ok_or_else(missing)?;
+    let place = graze.face.face_position(&scene).ok_or_else(missing)?;
     let start = Vector2::new(place, 0.0);
-    let motion = LastArc::taken_on(&scene, start, (graze.crossings, periods))?.motion;
+    let motion = LastArc::carry_past(&scene, start, (graze.crossings, periods))?.motion;
     let phases = &motion.phases;
     let all = [parameters, &[Parameter::Phase]].concat();
     let by = phase_derivatives(&scene, phases, &all)?;
     let mut sensitivity = ParameterSensitivity::new(phases, &by);
-    motion.tell(&mut sensitivity);
+    motion.replay(&mut sensitivity);
     let columns = sensitivity.columns().ok_or_else(missing)?;
     let drift = |index: usize| {
         let moved = by[index].surface_derivative(phases, place);

@@ -7,7 +7,7 @@ use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKin
 
 use super::differentiated_figure::DifferentiatedFigure;
 use super::force_peaks::force_peaks;
-use crate::period::turn::turns;
+use crate::period::turn::turning_points;
 
 /// The figures that were recorded, with derivatives by position and velocity at time 0, then by the parameters.
 #[derive(Debug, Clone, Default)]
@@ -135,7 +135,7 @@ impl Observer for FigureRecorder<'_> {
             Some(recorder.influence.columns_along(along, elapsed)?.0)
         };
         let back = arc.course.departure.velocity > 0.0;
-        for turn in turns(arc.course, elapsed, back) {
+        for turn in turning_points(arc.course, elapsed, back) {
             self.record_position(turn.position, |recorder| {
                 let columns = within(recorder, turn.elapsed)?;
                 Some(columns.iter().map(|column| column.x).collect())

@@ -54,7 +54,7 @@ impl Variation {
         let motion = StroboscopicMap::new(scene, periods)?.trajectory(start)?;
         let by = phase_derivatives(scene, &motion.phases, parameters)?;
         let mut recorder = FigureRecorder::new(&motion.phases, &by, motion.clock);
-        motion.tell(&mut recorder);
+        motion.replay(&mut recorder);
         let columns = recorder
             .influence
             .columns()

@@ -24,7 +24,7 @@ impl Bounds {
     ///
     /// # Errors
     /// [`OrbitError`] if the branch cannot be begun.
-    pub fn of(scene: &Scene, near: Option<Start>) -> Result<Self, OrbitError> {
+    pub fn of_scene(scene: &Scene, near: Option<Start>) -> Result<Self, OrbitError> {
         let grazing = grazing_frequencies(scene).ok().map(|(_, above)| above);
         let orbit = near.map(|start| Orbit::find_near(scene, start.into()));
         let orbit = orbit.transpose()?;

@@ -51,7 +51,7 @@ pub struct ZoneEnd {
 
 impl ZoneEnd {
     /// The end at a point of a branch.
-    pub(super) fn at(point: &BranchPoint, loss: Loss, special: Option<SpecialKind>) -> Self {
+    pub(super) fn at_point(point: &BranchPoint, loss: Loss, special: Option<SpecialKind>) -> Self {
         Self {
             frequency: point.parameter,
             point: point.clone(),
@@ -62,11 +62,11 @@ impl ZoneEnd {
 
     /// The end at a special point of a branch.
     pub(super) fn at_special(point: &BranchPoint, kind: SpecialKind) -> Self {
-        Self::at(point, Loss::at(&kind), Some(kind))
+        Self::at_point(point, Loss::at_special(&kind), Some(kind))
     }
 
     /// True if a test of the monodromy matrix vanishes there.
-    pub fn is(&self, test: Test) -> bool {
+    pub fn is_critical(&self, test: Test) -> bool {
         self.special == Some(SpecialKind::Critical(test))
     }
 }
@@ -84,15 +84,17 @@ pub(super) fn first_end<'a>(
         Some(special) if ends_motion(&special.kind) => {
             Some(ZoneEnd::at_special(point, special.kind))
         }
-        None if point.impacts.is_empty() => Some(ZoneEnd::at(point, Loss::Grazing, None)),
-        None if point.impacts.len() > 1 => Some(ZoneEnd::at(point, Loss::AnotherImpact, None)),
+        None if point.impacts.is_empty() => Some(ZoneEnd::at_point(point, Loss::Grazing, None)),
+        None if point.impacts.len() > 1 => {
+            Some(ZoneEnd::at_point(point, Loss::AnotherImpact, None))
+        }
         _ => None,
     })
 }
 
 impl Loss {
     /// At a special point.
-    pub(super) fn at(kind: &SpecialKind) -> Self {
+    pub(super) fn at_special(kind: &SpecialKind) -> Self {
         match kind {
             SpecialKind::Critical(test) => Self::from(*test),
             SpecialKind::Pitchfork => Self::Pitchfork,
@@ -105,7 +107,7 @@ impl Loss {
     }
 
     /// Where a branch ends otherwise; at a grazing its special point says which.
-    pub(super) fn of(end: &End) -> Self {
+    pub(super) fn of_branch_end(end: &End) -> Self {
         match end {
             End::Points => Self::Budget,
             End::Border(border) => Self::Border(*border),

@@ -73,6 +73,6 @@ fn on_stable_range(scene: &Scene, stable_range: &StableRange) -> Option<Orbit> {
         .point_at(scene, scene.excitation.frequency)
         .ok()??;
     let family = Frequencies(scene);
-    let orbit = Continuation::new(&family, 1).orbit(&point).ok()?;
+    let orbit = Continuation::new(&family, 1).orbit_at(&point).ok()?;
     (orbit.is_stable() && orbit.impacts.len() == 1).then_some(orbit)
 }

@@ -15,7 +15,7 @@ pub const LONGEST_BRANCH: usize = 2000;
 ///
 /// # Errors
 /// [`OrbitError`] if the branch cannot be followed.
-pub fn ended<F: Family>(
+pub fn find_end<F: Family>(
     continuation: &Continuation<'_, F>,
     points: &mut Vec<BranchPoint>,
     direction: Direction,
@@ -31,7 +31,7 @@ pub fn ended<F: Family>(
         points.push(end.point.clone());
         return Ok(end);
     }
-    followed_to_end(continuation, points, direction, range)
+    follow_to_end(continuation, points, direction, range)
 }
 
 /// The end of stable motions between a point before it and one beyond: where a test vanishes, or the bound of the range
@@ -43,7 +43,7 @@ fn end_between<F: Family>(
     (low, high): (f64, f64),
 ) -> Result<ZoneEnd, OrbitError> {
     if !beyond.is_stable() {
-        let fails = |test: &Test| test.value(&beyond.monodromy) <= 0.0;
+        let fails = |test: &Test| test.scaled_value(&beyond.monodromy) <= 0.0;
         let test = Test::ALL.into_iter().find(fails);
         let test = test.ok_or(OrbitError::NotIsolated)?;
         beyond = continuation.critical_between(before, &beyond, test)?;
@@ -52,13 +52,13 @@ fn end_between<F: Family>(
         }
     }
     let bound = beyond.parameter.clamp(low, high);
-    let point = continuation.between(before, &beyond, bound)?;
-    Ok(ZoneEnd::at(&point, Loss::Range, None))
+    let point = continuation.point_between(before, &beyond, bound)?;
+    Ok(ZoneEnd::at_point(&point, Loss::Range, None))
 }
 
 /// The end by a look at every special point, from the last point on, or from the first one if there is nothing to see
 /// from the last.
-pub(super) fn followed_to_end<F: Family>(
+pub(super) fn follow_to_end<F: Family>(
     continuation: &Continuation<'_, F>,
     points: &mut Vec<BranchPoint>,
     direction: Direction,
@@ -102,6 +102,6 @@ pub(super) fn followed_to_end<F: Family>(
     let last = points.last().ok_or(OrbitError::NotIsolated)?;
     Ok(match branch.special_at(last) {
         Some(special) => ZoneEnd::at_special(last, special.kind),
-        None => ZoneEnd::at(last, Loss::of(end), None),
+        None => ZoneEnd::at_point(last, Loss::of_branch_end(end), None),
     })
 }

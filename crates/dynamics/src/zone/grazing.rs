@@ -40,7 +40,7 @@ pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneErro
     scene.validate()?;
     refuse_below(scene)?;
     if !scene.followers.is_empty() {
-        return grazing_among_looks(scene);
+        return search_grazing(scene);
     }
     let (m, k, r) = (scene.mass, scene.stiffness, scene.clearance);
     let (force, square) = (scene.excitation.amplitude, scene.damping * scene.damping);
@@ -60,33 +60,34 @@ pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneErro
 }
 
 /// How far beyond the frequencies of drive and suspension grazings are looked for, as a factor.
-const WIDEST: f64 = 100.0;
+const SEARCH_FACTOR: f64 = 100.0;
 /// Frequencies that are looked at, evenly spread over their logarithm.
-const LOOKS: usize = 4096;
+const SEARCH_STEPS: usize = 4096;
 /// Relative width to which a peak of the amplitude between them is known; being flat it is known to rounding then.
-const PEAK_WIDTH: f64 = 1e-10;
+const AMPLITUDE_PEAK_WIDTH: f64 = 1e-10;
 
 /// What [`grazing_frequencies`] are where parameters follow the frequency.
-fn grazing_among_looks(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
+fn search_grazing(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
     let own = (scene.stiffness / scene.mass).sqrt();
     let drive = scene.excitation.frequency;
-    let slowest = if own > 0.0 { drive.min(own) } else { drive } / WIDEST;
-    let step = (drive.max(own) * WIDEST / slowest).ln() / LOOKS as f64;
+    let slowest = if own > 0.0 { drive.min(own) } else { drive } / SEARCH_FACTOR;
+    let step = (drive.max(own) * SEARCH_FACTOR / slowest).ln() / SEARCH_STEPS as f64;
     let at = |look: usize| slowest * (step * look as f64).exp();
     // Between -1 and 1, and of the sign of the amplitude's excess over the clearance.
     let excess = |w: f64| {
         let (amplitude, clearance) = (free_amplitude(scene, w), scene.at_frequency(w).clearance);
         (amplitude - clearance) / (amplitude + clearance.abs())
     };
-    let all: Vec<f64> = (0..=LOOKS).map(|look| excess(at(look))).collect();
-    let peaks = (1..LOOKS).filter_map(|look| {
+    let all: Vec<f64> = (0..=SEARCH_STEPS).map(|look| excess(at(look))).collect();
+    let peaks = (1..SEARCH_STEPS).filter_map(|look| {
         let sign = -all[look].signum();
         let is_peak = |beside: usize| sign * all[look] >= sign * all[beside];
         if !(is_peak(look - 1) && is_peak(look + 1)) {
             return None;
         }
         let (low, high) = (at(look - 1), at(look + 1));
-        let (w, value) = highest_point(low, high, PEAK_WIDTH * high, |w| sign * excess(w));
+        let (w, value) =
+            highest_point(low, high, AMPLITUDE_PEAK_WIDTH * high, |w| sign * excess(w));
         Some((w, sign * value))
     });
     let looks = all

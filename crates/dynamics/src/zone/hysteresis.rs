@@ -9,8 +9,8 @@
 use rayon::prelude::*;
 
 use super::end::{Loss, ZoneEnd};
-use super::followed_end::{LONGEST_BRANCH, followed_to_end};
-use super::places::{AT_FOLD, Zone, ZoneKind};
+use super::followed_end::{LONGEST_BRANCH, follow_to_end};
+use super::places::{FOLD_TEST_ROUNDING, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
 use crate::monitor::{Monitor, stop_if, unmonitored};
@@ -20,12 +20,12 @@ use softstop::internals::budget::Fork;
 
 /// Before-impact velocity, in units of that at g0, below which an unstable branch is left: it ends
 /// in grazing.
-const WEAKEST: f64 = 0.2;
+const MIN_VELOCITY_SHARE: f64 = 0.2;
 /// 1 - tr + det below which an unstable branch is left: its multiplier grows without bound only where
 /// it ends in grazing.
-const STEEPEST: f64 = -4.0;
+const MIN_FOLD_TEST: f64 = -4.0;
 /// Frequency in units of g0 beyond which no fold is looked for.
-const FARTHEST_FOLD: f64 = 8.0;
+const MAX_FOLD_FREQUENCY: f64 = 8.0;
 
 /// Machines whose motions are followed together.
 const MACHINES_TOGETHER: usize = 8;
@@ -45,7 +45,7 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
 pub fn hysteresis_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
     let start = find_with_monitor(&scene.at_frequency(grazing.1), monitor);
-    from_start(scene, grazing, (start.ok(), UpperEnd::Fold), monitor)
+    zone_from_start(scene, grazing, (start.ok(), UpperEnd::Fold), monitor)
 }
 
 /// What may end a zone above.
@@ -74,14 +74,15 @@ pub(super) fn zones_of(
 ) -> Vec<Result<Zone, ZoneError>> {
     let fork = Fork::default();
     let chunks = scenes.par_chunks(MACHINES_TOGETHER);
-    let zones = chunks.flat_map_iter(|scenes| fork.run_part(|| together(scenes, upper, monitor)));
+    let zones =
+        chunks.flat_map_iter(|scenes| fork.run_part(|| zones_together(scenes, upper, monitor)));
     let zones = zones.collect();
     fork.charge_parts();
     zones
 }
 
 /// Zones of a few machines.
-fn together(
+fn zones_together(
     scenes: &[Scene],
     upper: UpperEnd,
     monitor: Monitor<'_>,
@@ -95,13 +96,13 @@ fn together(
     let zones = scenes.iter().zip(grazing).map(|(scene, grazing)| {
         let grazing = grazing?;
         let start = starts.next().and_then(Result::ok);
-        from_start(scene, grazing, (start, upper), monitor)
+        zone_from_start(scene, grazing, (start, upper), monitor)
     });
     zones.collect()
 }
 
 /// The zone from the motion at g0.
-fn from_start(
+fn zone_from_start(
     scene: &Scene,
     (frequency_g0_below, frequency_g0): (Option<f64>, f64),
     (start, upper): (Option<Orbit>, UpperEnd),
@@ -113,16 +114,16 @@ fn from_start(
         frequency: frequency_g0.into(),
     })?;
     let continuation = Continuation::new(&family, 1);
-    let range = (frequency_g0, FARTHEST_FOLD * frequency_g0);
-    let mut branch = upward(&continuation, &start, range, monitor)?;
+    let range = (frequency_g0, MAX_FOLD_FREQUENCY * frequency_g0);
+    let mut branch = follow_upward(&continuation, &start, range, monitor)?;
     let high = match (highest_fold(&branch), upper) {
         (Some(fold), _) => fold,
-        (None, UpperEnd::Fold) => return Err(no_fold(frequency_g0, &branch)),
+        (None, UpperEnd::Fold) => return Err(no_fold_error(frequency_g0, &branch)),
         (None, UpperEnd::FoldOrGrazing) => {
-            let none = no_fold(frequency_g0, &branch);
+            let none = no_fold_error(frequency_g0, &branch);
             branch.truncate(1);
-            let end = followed_to_end(&continuation, &mut branch, Direction::Up, range).ok();
-            end.filter(is_grazing).ok_or(none)?
+            let end = follow_to_end(&continuation, &mut branch, Direction::Up, range).ok();
+            end.filter(ends_in_grazing).ok_or(none)?
         }
     };
     Ok(Zone {
@@ -132,7 +133,7 @@ fn from_start(
         frequency_g0,
         low: ZoneEnd {
             frequency: frequency_g0,
-            ..ZoneEnd::at(&branch[0], Loss::Free, None)
+            ..ZoneEnd::at_point(&branch[0], Loss::Free, None)
         },
         high,
         branch,
@@ -140,18 +141,20 @@ fn from_start(
 }
 
 /// The branch from a z = 1 motion at the lower of two frequencies on, through all its folds, in order of arclength.
-pub(super) fn upward(
+pub(super) fn follow_upward(
     continuation: &Continuation<'_, Frequencies<'_>>,
     start: &Orbit,
     (lowest, highest): (f64, f64),
     monitor: Monitor<'_>,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
     let mut branch =
-        continuation.follow(start, lowest, Direction::Up, LONGEST_BRANCH, |point| {
+        continuation.follow_points(start, lowest, Direction::Up, LONGEST_BRANCH, |point| {
             let flipped = !point.is_stable() && point.fold_test() > 0.0;
-            let weak = point.before_impact_velocity() < WEAKEST * start.before_impact_velocity();
+            let weak = point.before_impact_velocity()
+                < MIN_VELOCITY_SHARE * start.before_impact_velocity();
             let outside = point.parameter < lowest || point.parameter > highest;
-            let ends_in_grazing = point.fold_test() < STEEPEST || (weak && point.fold_test() < 0.0);
+            let ends_in_grazing =
+                point.fold_test() < MIN_FOLD_TEST || (weak && point.fold_test() < 0.0);
             stop_if(flipped || outside || ends_in_grazing || monitor(0, 0).is_break())
         })?;
     OrbitError::ask_monitor(monitor)?;
@@ -160,7 +163,7 @@ pub(super) fn upward(
 }
 
 /// True if a surface is grazed at an end.
-fn is_grazing(end: &ZoneEnd) -> bool {
+fn ends_in_grazing(end: &ZoneEnd) -> bool {
     matches!(end.special, Some(SpecialKind::Grazing(_)))
 }
 
@@ -168,7 +171,7 @@ fn is_grazing(end: &ZoneEnd) -> bool {
 pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
     let folds = branch
         .iter()
-        .filter(|point| point.fold_test().abs() < AT_FOLD);
+        .filter(|point| point.fold_test().abs() < FOLD_TEST_ROUNDING);
     let highest = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter))?;
     let kind = SpecialKind::Critical(Test::Fold);
     Some(ZoneEnd::at_special(highest, kind))
@@ -187,7 +190,7 @@ fn insert_folds(continuation: &Continuation<'_, Frequencies<'_>>, branch: &mut V
     }
 }
 
-fn no_fold(from: f64, branch: &[BranchPoint]) -> ZoneError {
+fn no_fold_error(from: f64, branch: &[BranchPoint]) -> ZoneError {
     let last = branch.last().map_or(f64::NAN, |point| point.parameter);
     let unstable = branch.iter().find(|point| !point.is_stable());
     if let Some(flipped) = unstable.filter(|point| point.fold_test() > 0.0) {
@@ -197,7 +200,7 @@ fn no_fold(from: f64, branch: &[BranchPoint]) -> ZoneError {
     }
     let end = match last {
         _ if last < from => BranchEnd::Below,
-        _ if last > FARTHEST_FOLD * from => BranchEnd::Range,
+        _ if last > MAX_FOLD_FREQUENCY * from => BranchEnd::Range,
         _ if branch.len() >= LONGEST_BRANCH => BranchEnd::Budget,
         _ => BranchEnd::Regime,
     };

@@ -6,9 +6,9 @@ use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
 
 /// Points after which a branch is given up.
-const MAX_POINTS: usize = 400;
+const MAX_LOSS_POINTS: usize = 400;
 /// How far from the orbit's own value a loss is looked for, as a factor.
-const FARTHEST_FACTOR: f64 = 4.0;
+const MAX_LOSS_FACTOR: f64 = 4.0;
 
 /// The first orbit, up or down from a stable z = 1 orbit, at which a test passes zero: s_SN by
 /// [`Test::Fold`], s_PD by [`Test::Flip`]. None if stability is lost otherwise, or not at all.
@@ -23,9 +23,9 @@ pub fn loss_of_stability(
     let from = orbit.scene.excitation.frequency;
     let family = Frequencies(&orbit.scene);
     let continuation = Continuation::new(&family, 1);
-    located(
+    locate_loss(
         &continuation,
-        &stable(&continuation, from, orbit, direction)?,
+        &follow_stable(&continuation, from, orbit, direction)?,
         test,
     )
 }
@@ -36,7 +36,7 @@ pub fn loss_of_stability(
 ///
 /// # Errors
 /// As [`loss_of_stability`].
-pub fn end_along<F: Family>(
+pub fn find_end_along<F: Family>(
     family: &F,
     from: f64,
     orbit: &Orbit,
@@ -44,37 +44,37 @@ pub fn end_along<F: Family>(
     test: Test,
 ) -> Result<Option<f64>, OrbitError> {
     let continuation = Continuation::new(family, 1);
-    let branch = stable(&continuation, from, orbit, direction)?;
-    if let Some(lost) = located(&continuation, &branch, test)? {
+    let branch = follow_stable(&continuation, from, orbit, direction)?;
+    if let Some(lost) = locate_loss(&continuation, &branch, test)? {
         return Ok(Some(lost.parameter));
     }
-    let last = branch.last().filter(|point| is_near(point, from));
+    let last = branch.last().filter(|point| is_in_reach(point, from));
     Ok(last.map(|point| point.parameter))
 }
 
-fn is_near(point: &BranchPoint, from: f64) -> bool {
-    (1.0 / FARTHEST_FACTOR..=FARTHEST_FACTOR).contains(&(point.parameter / from))
+fn is_in_reach(point: &BranchPoint, from: f64) -> bool {
+    (1.0 / MAX_LOSS_FACTOR..=MAX_LOSS_FACTOR).contains(&(point.parameter / from))
 }
 
 /// The branch as long as it is stable.
-fn stable<F: Family>(
+fn follow_stable<F: Family>(
     continuation: &Continuation<'_, F>,
     from: f64,
     orbit: &Orbit,
     direction: Direction,
 ) -> Result<Vec<BranchPoint>, OrbitError> {
-    continuation.follow(orbit, from, direction, MAX_POINTS, |point| {
-        stop_if(!point.is_stable() || !is_near(point, from))
+    continuation.follow_points(orbit, from, direction, MAX_LOSS_POINTS, |point| {
+        stop_if(!point.is_stable() || !is_in_reach(point, from))
     })
 }
 
 /// Where a test passes zero at the end of a branch.
-fn located<F: Family>(
+fn locate_loss<F: Family>(
     continuation: &Continuation<'_, F>,
     branch: &[BranchPoint],
     test: Test,
 ) -> Result<Option<BranchPoint>, OrbitError> {
-    let value = |point: &BranchPoint| test.value(&point.monodromy);
+    let value = |point: &BranchPoint| test.scaled_value(&point.monodromy);
     match branch {
         [.., before, last] if value(before) > 0.0 && value(last) <= 0.0 => {
             continuation.critical_between(before, last, test).map(Some)

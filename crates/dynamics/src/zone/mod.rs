@@ -19,7 +19,7 @@ pub use end::{Loss, ZoneEnd};
 pub use find::{find, find_among, find_with_monitor, find_zones};
 pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_with_monitor};
-pub use loss::{end_along, loss_of_stability};
+pub use loss::{find_end_along, loss_of_stability};
 pub use places::{Zone, ZoneKind};
 pub use single_impact::single_impact;
 pub use stable_range::StableRange;
@@ -53,13 +53,13 @@ pub enum ZoneError {
     #[error("no hysteresis: no stable z = 1 motion at the grazing boundary, {frequency}")]
     NoOrbit {
         /// Frequency of the grazing boundary.
-        frequency: Stated,
+        frequency: StatedFrequency,
     },
     /// The z = 1 branch loses its stability otherwise than by a fold.
     #[error("the z = 1 branch loses its stability by a flip near {frequency}, before any fold")]
     Flip {
         /// Frequency at which it is first seen unstable.
-        frequency: Stated,
+        frequency: StatedFrequency,
     },
     /// The z = 1 branch goes on without a fold.
     #[error(
@@ -67,9 +67,9 @@ pub enum ZoneError {
     )]
     NoFold {
         /// Frequency of the grazing boundary.
-        from: Stated,
+        from: StatedFrequency,
         /// Frequency up to which it was followed.
-        to: Stated,
+        to: StatedFrequency,
         /// Why no farther.
         end: BranchEnd,
     },
@@ -77,9 +77,9 @@ pub enum ZoneError {
     #[error("no stable z = 1 motion found between {from} and {to}")]
     NoMotion {
         /// The lowest frequency.
-        from: Stated,
+        from: StatedFrequency,
         /// The highest.
-        to: Stated,
+        to: StatedFrequency,
     },
     /// The machine has a stop below.
     #[error("stop.below: zones are those of machines with stops on one side")]
@@ -98,7 +98,7 @@ pub enum ZoneError {
 impl ZoneError {
     /// This error with its frequency as a machine states it.
     #[must_use]
-    pub fn stated(mut self, machine: &Machine) -> Self {
+    pub fn in_units_of(mut self, machine: &Machine) -> Self {
         let (one, other) = match &mut self {
             Self::NoOrbit { frequency } | Self::Flip { frequency } => (Some(frequency), None),
             Self::NoFold { from, to, .. } | Self::NoMotion { from, to } => (Some(from), Some(to)),
@@ -148,14 +148,14 @@ impl Display for BranchEnd {
 
 /// A drive frequency under a key of machine files, which says its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stated {
+pub struct StatedFrequency {
     /// The key: `excitation.frequency` for rad/s.
     pub key: &'static str,
     /// The frequency.
     pub value: f64,
 }
 
-impl From<f64> for Stated {
+impl From<f64> for StatedFrequency {
     /// A frequency in rad/s.
     fn from(value: f64) -> Self {
         let key = Parameter::Frequency.name();
@@ -163,7 +163,7 @@ impl From<f64> for Stated {
     }
 }
 
-impl Display for Stated {
+impl Display for StatedFrequency {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}", self.key, plain_number(self.value))
     }

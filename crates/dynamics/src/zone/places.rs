@@ -7,7 +7,7 @@ use crate::orbit::{Orbit, OrbitError};
 use softstop::Scene;
 
 /// Largest 1 - tr + det that a located fold may show.
-pub(super) const AT_FOLD: f64 = 1e-7;
+pub(super) const FOLD_TEST_ROUNDING: f64 = 1e-7;
 
 /// Which motions a zone holds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -58,16 +58,16 @@ impl Zone {
 
     /// The frequency in rad/s at a place s.
     pub fn frequency_at(&self, share: f64) -> f64 {
-        self.low.frequency + share * self.width()
+        self.low.frequency + share * self.frequency_width()
     }
 
     /// The place of a frequency in rad/s.
     pub fn place_of(&self, frequency: f64) -> f64 {
-        (frequency - self.low.frequency) / self.width()
+        (frequency - self.low.frequency) / self.frequency_width()
     }
 
     /// From end to end in rad/s.
-    pub fn width(&self) -> f64 {
+    pub fn frequency_width(&self) -> f64 {
         self.high.frequency - self.low.frequency
     }
 
@@ -76,16 +76,16 @@ impl Zone {
     /// # Errors
     /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
     pub fn orbit_at(&self, share: f64) -> Result<Orbit, ZoneError> {
-        self.orbit(&self.point_at(share)?)
+        self.orbit_of(&self.point_at(share)?)
     }
 
     /// The whole orbit at a point of the branch.
     ///
     /// # Errors
     /// [`ZoneError::Orbit`] if the orbit is lost.
-    pub fn orbit(&self, point: &BranchPoint) -> Result<Orbit, ZoneError> {
+    pub fn orbit_of(&self, point: &BranchPoint) -> Result<Orbit, ZoneError> {
         let family = Frequencies(&self.scene);
-        Ok(Continuation::new(&family, 1).orbit(point)?)
+        Ok(Continuation::new(&family, 1).orbit_at(point)?)
     }
 
     /// The z = 1 motion of the highest before-impact velocity at a place s of the zone, on the stable
@@ -103,13 +103,13 @@ impl Zone {
         let mut best: Option<BranchPoint> = None;
         for pair in self.branch.windows(2) {
             let (from, to) = (&pair[0], &pair[1]);
-            if from.fold_test() < -AT_FOLD || to.fold_test() < -AT_FOLD {
+            if from.fold_test() < -FOLD_TEST_ROUNDING || to.fold_test() < -FOLD_TEST_ROUNDING {
                 continue;
             }
             let point = match (from.parameter - target, to.parameter - target) {
                 (0.0, _) => from.clone(),
                 (_, 0.0) => to.clone(),
-                (a, b) if a * b < 0.0 => continuation.between(from, to, target)?,
+                (a, b) if a * b < 0.0 => continuation.point_between(from, to, target)?,
                 _ => continue,
             };
             let stronger =

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::followed_end::{LONGEST_BRANCH, ended};
-use super::hysteresis::{highest_fold, upward};
+use super::followed_end::{LONGEST_BRANCH, find_end};
+use super::hysteresis::{follow_upward, highest_fold};
 use super::places::{Zone, ZoneKind};
-use super::stable_range::SAME_BUT_ROUNDING;
-use super::stable_ranges::FOLLOWED;
+use super::stable_range::STATE_ROUNDING;
+use super::stable_ranges::FOLLOWED_RANGE;
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
@@ -15,9 +15,9 @@ use softstop::Scene;
 use softstop::internals::budget::Fork;
 
 /// Frequencies beside g0 at which motions are looked for.
-const STARTS: usize = 6;
+const START_FREQUENCIES: usize = 6;
 /// Highest frequency, in units of the natural one, at which they are looked for.
-const HIGHEST: f64 = 4.0;
+const MAX_START_FREQUENCY: f64 = 4.0;
 
 /// The ranges of stable z = 1 of some scenes; the frequency of their drives plays no part. Each reaches both ways from the
 /// hardest of the z = 1 motions at g0 and at some frequencies between two, in rad/s, until the motion loses its stability
@@ -43,14 +43,14 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
     scene.validate()?;
     refuse_below(scene)?;
     let mut zones: Vec<Zone> = Vec::new();
-    for frequency in starts(scene, between) {
+    for frequency in start_frequencies(scene, between) {
         let known = zones
             .iter()
             .filter_map(|zone| zone.point_at(zone.place_of(frequency)).ok());
         let known = known.map(|point| point.before_impact_velocity());
-        let least = (1.0 + SAME_BUT_ROUNDING) * known.fold(0.0, f64::max);
+        let least = (1.0 + STATE_ROUNDING) * known.fold(0.0, f64::max);
         if let Some(start) = hardest_single(&scene.at_frequency(frequency), least, monitor)? {
-            zones.extend(about(scene, &start, between, monitor).ok().flatten());
+            zones.extend(zone_about(scene, &start, between, monitor).ok().flatten());
         }
         OrbitError::ask_monitor(monitor)?;
     }
@@ -78,11 +78,11 @@ fn hardest_between(zone: &Zone, (low, high): (f64, f64)) -> Option<f64> {
 }
 
 /// The frequencies at which a scene's motions are looked for: g0, and some evenly spaced in ratio.
-fn starts(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
+fn start_frequencies(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
     let rate = scene.scales().rate;
     let (low, high) = (
-        between.0.max(FOLLOWED.0 * rate),
-        between.1.min(HIGHEST * rate),
+        between.0.max(FOLLOWED_RANGE.0 * rate),
+        between.1.min(MAX_START_FREQUENCY * rate),
     );
     // A range above all that is looked at, or one frequency, is looked at as it is.
     let (low, high) = if low < high {
@@ -91,14 +91,14 @@ fn starts(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
         (between.0, between.0)
     };
     let g0 = grazing_frequencies(scene).map(|(_, above)| above);
-    let count = if low < high { STARTS } else { 1 };
+    let count = if low < high { START_FREQUENCIES } else { 1 };
     let inside =
         (0..count).map(|index| low * (high / low).powf((index as f64 + 0.5) / count as f64));
     g0.into_iter().chain(inside).collect()
 }
 
 /// The range about a motion; none if it has no width.
-fn about(
+fn zone_about(
     scene: &Scene,
     start: &Orbit,
     between: (f64, f64),
@@ -106,21 +106,21 @@ fn about(
 ) -> Result<Option<Zone>, ZoneError> {
     let frequency = start.scene.excitation.frequency;
     let rate = scene.scales().rate;
-    let range = (FOLLOWED.0 * rate, FOLLOWED.1 * rate);
+    let range = (FOLLOWED_RANGE.0 * rate, FOLLOWED_RANGE.1 * rate);
     let family = Frequencies(scene);
     let continuation = Continuation::new(&family, 1);
-    let mut above = upward(&continuation, start, (frequency, range.1), monitor)?;
+    let mut above = follow_upward(&continuation, start, (frequency, range.1), monitor)?;
     let high = match highest_fold(&above) {
         Some(fold) => fold,
-        None => ended(&continuation, &mut above, Direction::Up, range)?,
+        None => find_end(&continuation, &mut above, Direction::Up, range)?,
     };
     let mut branch =
-        continuation.follow(start, frequency, Direction::Down, LONGEST_BRANCH, |point| {
+        continuation.follow_points(start, frequency, Direction::Down, LONGEST_BRANCH, |point| {
             let ends = !point.is_stable() || point.parameter < range.0;
             stop_if(ends || monitor(0, 0).is_break())
         })?;
     OrbitError::ask_monitor(monitor)?;
-    let low = ended(&continuation, &mut branch, Direction::Down, range)?;
+    let low = find_end(&continuation, &mut branch, Direction::Down, range)?;
     branch.reverse();
     branch.extend(above.into_iter().skip(1));
     let (frequency_g0_below, frequency_g0) = match grazing_frequencies(scene) {
@@ -137,5 +137,5 @@ fn about(
         high,
         branch,
     };
-    Ok((zone.width() > 0.0).then_some(zone))
+    Ok((zone.frequency_width() > 0.0).then_some(zone))
 }

@@ -4,13 +4,13 @@ use nalgebra::{Vector2, Vector4};
 
 use super::end::{Loss, ZoneEnd};
 use super::{Frequencies, Zone};
-use crate::continuation::{ASIDE, Branch, BranchPoint, Continuation, End, Family, SpecialKind};
+use crate::continuation::{Branch, BranchPoint, Continuation, End, Family, OFF_CHORD, SpecialKind};
 use crate::orbit::OrbitError;
 use softstop::Scene;
 use softstop::internals::highest_point;
 
 /// Share by which rounding may change a before-impact velocity or a state.
-pub(super) const SAME_BUT_ROUNDING: f64 = 1e-6;
+pub(super) const STATE_ROUNDING: f64 = 1e-6;
 
 /// A range of frequencies with a stable z = 1 motion that changes continuously.
 #[derive(Debug, Clone)]
@@ -45,7 +45,7 @@ impl StableRange {
             (Some(before), Some(to)) => {
                 let continuation = Continuation::new(&family, 1);
                 continuation
-                    .between(&self.points[before], to, frequency)
+                    .point_between(&self.points[before], to, frequency)
                     .map(Some)
             }
             _ => Ok(None),
@@ -55,24 +55,24 @@ impl StableRange {
     /// True if it is a part of another one, or the same.
     pub(super) fn is_within(&self, other: &Self, scene: &Scene) -> bool {
         let middle = &self.points[self.points.len() / 2];
-        let near = |frequency: f64| SAME_BUT_ROUNDING * frequency.abs();
+        let near = |frequency: f64| STATE_ROUNDING * frequency.abs();
         self.low.frequency >= other.low.frequency - near(self.low.frequency)
             && self.high.frequency <= other.high.frequency + near(self.high.frequency)
-            && other.contains(scene, middle).unwrap_or(false)
+            && other.contains_point(scene, middle).unwrap_or(false)
     }
 
     /// True if a point lies on it.
     ///
     /// # Errors
     /// [`OrbitError`] if the stable range is lost.
-    pub fn contains(&self, scene: &Scene, point: &BranchPoint) -> Result<bool, OrbitError> {
+    pub fn contains_point(&self, scene: &Scene, point: &BranchPoint) -> Result<bool, OrbitError> {
         let own = self.point_at(scene, point.parameter)?;
-        Ok(own.is_some_and(|own| is_same(&own, point.state(), scene)))
+        Ok(own.is_some_and(|own| is_same_state(&own, point.state(), scene)))
     }
 
     /// True if it is a part of a hysteresis zone.
     pub fn is_part_of(&self, zone: &Zone) -> bool {
-        let sizes = sizes(&zone.scene);
+        let sizes = unknown_scales(&zone.scene);
         let inside = |point: &BranchPoint| {
             let mut pairs = self.points.windows(2);
             point.is_stable() && pairs.any(|pair| lies_between(pair, point, sizes))
@@ -82,13 +82,13 @@ impl StableRange {
 }
 
 /// True if a point is at a state of the same frequency but for rounding.
-pub(super) fn is_same(one: &BranchPoint, other: Vector2<f64>, scene: &Scene) -> bool {
+pub(super) fn is_same_state(one: &BranchPoint, other: Vector2<f64>, scene: &Scene) -> bool {
     let size = other.norm().max(scene.scales().length);
-    (one.state() - other).norm() < SAME_BUT_ROUNDING * size
+    (one.state() - other).norm() < STATE_ROUNDING * size
 }
 
 /// Units of positions, velocities and frequencies.
-pub(super) fn sizes(scene: &Scene) -> [f64; 3] {
+pub(super) fn unknown_scales(scene: &Scene) -> [f64; 3] {
     let family = Frequencies(scene);
     let ([length, speed], [rate]) = (family.state_scales(), family.parameter_scales());
     [length, speed, rate]
@@ -113,27 +113,28 @@ pub(super) fn lies_between(
     let gone = place(point) - from;
     let share = gone.dot(&way) / way.norm_squared();
     let off = (gone - share * way).norm();
-    (-ASIDE..=1.0 + ASIDE).contains(&share) && off <= ASIDE * way.norm() + SAME_BUT_ROUNDING
+    (-OFF_CHORD..=1.0 + OFF_CHORD).contains(&share)
+        && off <= OFF_CHORD * way.norm() + STATE_ROUNDING
 }
 
 /// The stable ranges of a branch that was followed so.
-pub(super) fn stable(
+pub(super) fn stable_parts(
     continuation: &Continuation<'_, Frequencies<'_>>,
     branch: &Branch,
 ) -> Vec<StableRange> {
     let mut found = Vec::new();
-    let mut part = Part::new((Loss::of(&branch.ends.0), None));
+    let mut part = BranchPart::new((Loss::of_branch_end(&branch.ends.0), None));
     for point in in_order(branch) {
         let special = branch.special_at(point);
-        let cause = special.map(|special| (Loss::at(&special.kind), Some(special.kind)));
-        if let Some(cause) = cause.or_else(|| Some((part.differs(point)?, None))) {
+        let cause = special.map(|special| (Loss::at_special(&special.kind), Some(special.kind)));
+        if let Some(cause) = cause.or_else(|| Some((part.impact_change(point)?, None))) {
             part.points.push(point.clone());
-            let part = std::mem::replace(&mut part, Part::new(cause.clone()));
-            found.extend(part.ended(continuation, cause));
+            let part = std::mem::replace(&mut part, BranchPart::new(cause.clone()));
+            found.extend(part.into_range(continuation, cause));
         }
         part.points.push(point.clone());
     }
-    found.extend(part.ended(continuation, (Loss::of(&branch.ends.1), None)));
+    found.extend(part.into_range(continuation, (Loss::of_branch_end(&branch.ends.1), None)));
     found
 }
 
@@ -156,12 +157,12 @@ fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
 type RangeEnd = (Loss, Option<SpecialKind>);
 
 /// Points between two special ones.
-struct Part {
+struct BranchPart {
     begins: RangeEnd,
     points: Vec<BranchPoint>,
 }
 
-impl Part {
+impl BranchPart {
     fn new(begins: RangeEnd) -> Self {
         Self {
             begins,
@@ -170,7 +171,7 @@ impl Part {
     }
 
     /// Where the number of impacts changes otherwise than at a special point: smoothly, in a grazing that is not located.
-    fn differs(&self, point: &BranchPoint) -> Option<Loss> {
+    fn impact_change(&self, point: &BranchPoint) -> Option<Loss> {
         let last = self.points.get(1..)?.last()?;
         match (last.impacts.len(), point.impacts.len()) {
             (1, 0) | (0, 1) => Some(Loss::Grazing),
@@ -179,7 +180,7 @@ impl Part {
     }
 
     /// The stable range, if the motions between its ends are stable and have one impact.
-    fn ended(
+    fn into_range(
         self,
         continuation: &Continuation<'_, Frequencies<'_>>,
         ends: RangeEnd,
@@ -188,7 +189,7 @@ impl Part {
         // Both ends may lie on one step.
         if let [from, to] = points.as_slice() {
             let middle = 0.5 * (from.parameter + to.parameter);
-            points.insert(1, continuation.between(from, to, middle).ok()?);
+            points.insert(1, continuation.point_between(from, to, middle).ok()?);
         }
         let inner = points.get(1..points.len().saturating_sub(1))?;
         let is_single = |point: &BranchPoint| point.impacts.len() == 1 && point.is_stable();
@@ -202,9 +203,9 @@ impl Part {
         }
         let [below, above] = causes;
         Some(StableRange {
-            low: ZoneEnd::at(&points[0], below.0, below.1),
-            high: ZoneEnd::at(&points[points.len() - 1], above.0, above.1),
-            hardest: hardest(continuation, &points)?,
+            low: ZoneEnd::at_point(&points[0], below.0, below.1),
+            high: ZoneEnd::at_point(&points[points.len() - 1], above.0, above.1),
+            hardest: hardest_point(continuation, &points)?,
             points,
         })
     }
@@ -215,7 +216,7 @@ impl Part {
 const TOP_WIDTH: f64 = 1e-5;
 
 /// The hardest motion along points in rising order: about the hardest of them, by golden section between its neighbours.
-fn hardest(
+fn hardest_point(
     continuation: &Continuation<'_, Frequencies<'_>>,
     points: &[BranchPoint],
 ) -> Option<BranchPoint> {
@@ -230,7 +231,7 @@ fn hardest(
             best
         };
         continuation
-            .between(&points[near], points.get(near + 1)?, frequency)
+            .point_between(&points[near], points.get(near + 1)?, frequency)
             .ok()
     };
     let [low, high] = [below, above].map(|at| points[at].parameter);

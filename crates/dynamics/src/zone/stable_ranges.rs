@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::stable_range::{StableRange, is_same, lies_between, sizes, stable};
+use super::stable_range::{StableRange, is_same_state, lies_between, stable_parts, unknown_scales};
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
 use crate::monitor::{Monitor, unmonitored};
@@ -11,19 +11,19 @@ use softstop::Scene;
 
 /// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row: closely
 /// below, where a drive period holds several free ones and stable ranges are narrow.
-const LOOKED_AT: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
+const SEARCH_ROWS: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
 /// Frequencies in the same units up to which they are followed: farther up, but no farther down, where branches wind from
 /// resonance to resonance and more of them are not looked for.
-pub(super) const FOLLOWED: (f64, f64) = (0.25, 8.0);
+pub(super) const FOLLOWED_RANGE: (f64, f64) = (0.25, 8.0);
 /// Points of a branch in each direction.
-const MAX_POINTS: usize = 20_000;
+const MAX_RANGE_POINTS: usize = 20_000;
 
 /// Share of a frequency within which they are looked for where one there is nearly one: as far as the row is wide.
-const BETWEEN: f64 = 0.08;
+const FREE_SHARE: f64 = 0.08;
 /// Share of a frequency by which motions are looked for beside one at which the regime changes.
-const BESIDE: f64 = 2e-3;
+const OFFSET: f64 = 2e-3;
 /// Those shares where motions are looked for by the impact that a branch ends with.
-const BEYOND_BORDER: [f64; 3] = [1e-5, 1e-4, 1e-3];
+const BEYOND_SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// Most frequencies at which motions are looked for, and most branches.
 const MAX_BRANCHES: usize = 200;
 
@@ -59,16 +59,16 @@ pub(super) fn find_stable_ranges(
     scene.validate()?;
     let family = Frequencies(scene);
     let continuation = Continuation::new(&family, 1);
-    let limits = limits(scene);
-    let sizes = sizes(scene);
+    let limits = branch_limits(scene);
+    let sizes = unknown_scales(scene);
     let mut branches: Vec<Branch> = Vec::new();
-    let mut frequencies = frequencies(scene);
+    let mut frequencies = search_frequencies(scene);
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MAX_BRANCHES) {
         next += 1;
         let mut met = VecDeque::from(singles_about(
             &scene.at_frequency(frequency),
-            BETWEEN,
+            FREE_SHARE,
             monitor,
         )?);
         while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MAX_BRANCHES) {
@@ -84,7 +84,7 @@ pub(super) fn find_stable_ranges(
                 let mut pairs = branch.points.windows(2);
                 pairs.any(|pair| {
                     lies_between(pair, &point, sizes)
-                        && !is_beside(&continuation, pair, (&point, scene))
+                        && !is_off_branch(&continuation, pair, (&point, scene))
                 })
             });
             if is_known {
@@ -93,10 +93,10 @@ pub(super) fn find_stable_ranges(
             let go_on = |_: &BranchPoint| monitor(0, 0);
             if let Ok(branch) = continuation.branch(frequency, orbit.state(), &limits, go_on) {
                 OrbitError::ask_monitor(monitor)?;
-                for border in borders(&branch) {
-                    frequencies.extend(beside(border.parameter));
-                    let border = continuation.orbit(border);
-                    met.extend(border.map_or(Vec::new(), |border| beyond(scene, &border)));
+                for border in border_points(&branch) {
+                    frequencies.extend(frequencies_beside(border.parameter));
+                    let border = continuation.orbit_at(border);
+                    met.extend(border.map_or(Vec::new(), |border| orbits_beyond(scene, &border)));
                 }
                 branches.push(branch);
             }
@@ -104,7 +104,7 @@ pub(super) fn find_stable_ranges(
     }
     let mut found: Vec<StableRange> = branches
         .iter()
-        .flat_map(|branch| stable(&continuation, branch))
+        .flat_map(|branch| stable_parts(&continuation, branch))
         .collect();
     found.sort_by(|a, b| a.low.frequency.total_cmp(&b.low.frequency));
     let mut distinct: Vec<StableRange> = Vec::new();
@@ -119,47 +119,47 @@ pub(super) fn find_stable_ranges(
 
 /// True if a point that lies near the chord between two neighbours is not the one between them on their branch, as far as
 /// that can be told.
-fn is_beside(
+fn is_off_branch(
     continuation: &Continuation<'_, Frequencies<'_>>,
     pair: &[BranchPoint],
     (point, scene): (&BranchPoint, &Scene),
 ) -> bool {
     let [from, to] = [&pair[0], &pair[1]];
     let is_inside = (from.parameter < point.parameter) != (to.parameter < point.parameter);
-    let own = || continuation.between(from, to, point.parameter);
-    is_inside && own().is_ok_and(|own| !is_same(&own, point.state(), scene))
+    let own = || continuation.point_between(from, to, point.parameter);
+    is_inside && own().is_ok_and(|own| !is_same_state(&own, point.state(), scene))
 }
 
-fn limits(scene: &Scene) -> Limits {
+fn branch_limits(scene: &Scene) -> Limits {
     let natural = scene.scales().rate;
     Limits {
-        range: (FOLLOWED.0 * natural, FOLLOWED.1 * natural),
-        points: MAX_POINTS,
+        range: (FOLLOWED_RANGE.0 * natural, FOLLOWED_RANGE.1 * natural),
+        points: MAX_RANGE_POINTS,
     }
 }
 
 /// g0 and what lies beside both grazing frequencies, the row, and what lies beside its lower end, beyond which there is
 /// none to lead to a stable range that ends there.
-fn frequencies(scene: &Scene) -> Vec<f64> {
+fn search_frequencies(scene: &Scene) -> Vec<f64> {
     let natural = scene.scales().rate;
-    let row = LOOKED_AT.into_iter().flat_map(|(low, high, count)| {
+    let row = SEARCH_ROWS.into_iter().flat_map(|(low, high, count)| {
         let ratio: f64 = (high / low).powf(1.0 / count as f64);
         (0..count).map(move |index| natural * low * ratio.powi(index as i32))
     });
     let (below, above) =
         grazing_frequencies(scene).map_or((None, None), |(below, above)| (below, Some(above)));
-    let grazing = below.into_iter().chain(above).flat_map(beside);
-    let lowest = FOLLOWED.0 * natural;
+    let grazing = below.into_iter().chain(above).flat_map(frequencies_beside);
+    let lowest = FOLLOWED_RANGE.0 * natural;
     let all = above
         .into_iter()
         .chain(grazing)
         .chain(row)
-        .chain(beside(lowest));
+        .chain(frequencies_beside(lowest));
     all.filter(|frequency| *frequency >= lowest).collect()
 }
 
 /// Points at which a branch ends but does not leave the range.
-fn borders(branch: &Branch) -> Vec<&BranchPoint> {
+fn border_points(branch: &Branch) -> Vec<&BranchPoint> {
     let ends = [
         (&branch.ends.0, branch.points.first()),
         (&branch.ends.1, branch.points.last()),
@@ -172,9 +172,9 @@ fn borders(branch: &Branch) -> Vec<&BranchPoint> {
 }
 
 /// The motions beside a border with nearly the impact of the motion there.
-fn beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
+fn orbits_beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
     let impacts = border.timed_impacts();
-    let shares = BEYOND_BORDER.into_iter().flat_map(|share| [-share, share]);
+    let shares = BEYOND_SHARES.into_iter().flat_map(|share| [-share, share]);
     let near = |share: f64| {
         let there = scene.at_frequency(border.scene.excitation.frequency * (1.0 + share));
         impacts.first().map(|impact| singles_near(&there, *impact))
@@ -182,6 +182,6 @@ fn beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
     shares.filter_map(near).flatten().collect()
 }
 
-fn beside(frequency: f64) -> [f64; 2] {
-    [frequency * (1.0 - BESIDE), frequency * (1.0 + BESIDE)]
+fn frequencies_beside(frequency: f64) -> [f64; 2] {
+    [frequency * (1.0 - OFFSET), frequency * (1.0 + OFFSET)]
 }

@@ -121,7 +121,7 @@ fn curves_from_impact_to_impact_are_those_of_the_stroboscopic_map() {
                 let state = Vector2::new(point.position, point.velocity);
                 let passage = map.apply(state).expect("an image");
                 assert_near((passage.end - state).norm() / clearance, 0.0, GROWN);
-                assert_near(test.value(&passage.monodromy), 0.0, 100.0 * GROWN);
+                assert_near(test.scaled_value(&passage.monodromy), 0.0, 100.0 * GROWN);
                 *compared += 1;
             }
         }
@@ -288,13 +288,13 @@ fn curves_begin_in_points_of_codimension_two() {
         };
         let along = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
         let continuation = Continuation::new(&along, 1);
-        let flip = continuation.point(frequency, flip.state());
+        let flip = continuation.find_point(frequency, flip.state());
         let limits = Limits {
             range: (frequency - 0.1, frequency + 0.1),
             points: 500,
         };
         // Near grazing the doubled orbits are too steep to begin at.
-        let Ok(doubled) = continuation.doubled(&flip.expect("an orbit"), &limits, |_| {
+        let Ok(doubled) = continuation.double_period(&flip.expect("an orbit"), &limits, |_| {
             ControlFlow::Continue(())
         }) else {
             continue;

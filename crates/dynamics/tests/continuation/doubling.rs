@@ -22,7 +22,9 @@ fn doublings_of_a_rigid_stop_are_feigenbaums() {
     let state = Vector2::new(-0.630_529, 0.062_449);
     let branch = follow(&family, 1, (2.2, state), limits.range);
     let flip = of_kind(&branch, "PD").remove(0).point;
-    let flips = continuation.cascade(&flip, 5, &limits).expect("a cascade");
+    let flips = continuation
+        .follow_cascade(&flip, 5, &limits)
+        .expect("a cascade");
     assert_eq!(flips.len(), 5);
     for (index, flip) in flips.iter().enumerate() {
         assert_eq!(flip.impacts.len(), 1 << index);

@@ -79,11 +79,11 @@ fn doubled(
     bar: &Progress,
 ) -> Vec<Branch> {
     let follower = Continuation::new(family, branch.periods).with_steps(step(family, limits.range));
-    let flips = branch.critical(Test::Flip);
-    let doubled = flips.map(|flip| follower.doubled(flip, limits, |_| count(bar)));
+    let flips = branch.critical_points(Test::Flip);
+    let doubled = flips.map(|flip| follower.double_period(flip, limits, |_| count(bar)));
     let pitchforks = branch.specials.iter();
     let pitchforks = pitchforks.filter(|special| special.kind == SpecialKind::Pitchfork);
-    let asymmetric =
-        pitchforks.map(|special| follower.asymmetric(&special.point, limits, |_| count(bar)));
+    let asymmetric = pitchforks
+        .map(|special| follower.branch_asymmetric(&special.point, limits, |_| count(bar)));
     doubled.chain(asymmetric).filter_map(Result::ok).collect()
 }

@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use softstop::Machine;
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    Curve, CurveLimits, CurvePoint, Family, SpecialKind, curve, switch_curves,
+    Curve, CurveLimits, CurvePoint, Family, SpecialKind, follow_special, switch_curves,
 };
 
 use super::branches::{STEP, count};
@@ -36,7 +36,7 @@ pub(super) fn curves(
             continue;
         }
         let kind = (special.kind, special.point.state());
-        let curve = curve(&family, branch.periods, kind, start, &region, |_| {
+        let curve = follow_special(&family, branch.periods, kind, start, &region, |_| {
             count(&bar)
         });
         found.push(curve.map_err(|error| {

@@ -3,7 +3,7 @@
 
 use anyhow::Result;
 use softstop::{Arc, Clock, Crossing, Observer, Scene, Slope, Start, Stop};
-use softstop_dynamics::internals::turns;
+use softstop_dynamics::internals::turning_points;
 
 use super::random_machines::{Draw, Kind, Motion};
 
@@ -33,7 +33,7 @@ struct Turns {
 impl Observer for Turns {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let back = arc.course.start_node().velocity >= 0.0;
-        let turns = turns(arc.course, elapsed, back);
+        let turns = turning_points(arc.course, elapsed, back);
         self.positions.extend(turns.map(|turn| turn.position));
     }
 

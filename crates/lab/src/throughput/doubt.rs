@@ -11,7 +11,7 @@ use softstop::internals::ArcSolution;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start, Stop, Tangent,
 };
-use softstop_dynamics::internals::turns;
+use softstop_dynamics::internals::turning_points;
 
 /// Errors of position (m) and velocity (m/s) made on one arc. An arc has some ten windows and the motions are
 /// up to 20 m and 30 m/s large: rounding makes at most some 10 * 4e-15, the 4th differences of both
@@ -119,7 +119,7 @@ impl Observer for Doubt {
         self.carry();
         self.covariance += Matrix2::identity() * (ROUNDING * ROUNDING);
         let errors = before.max(self.errors());
-        let mut turns = turns(arc.course, elapsed, goes_on(arc.course, elapsed));
+        let mut turns = turning_points(arc.course, elapsed, goes_on(arc.course, elapsed));
         let near = turns.any(|turn| self.passes_near(turn.position, errors));
         self.verdict.doubtful |= near;
     }

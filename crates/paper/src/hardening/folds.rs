@@ -100,10 +100,12 @@ fn of(stiffness: f64) -> Result<Folds, OrbitError> {
     let follower = Continuation::new(&family, 1).with_steps(LARGEST);
     let branch = follower.branch(FREQUENCY, state, &limits, |_| interrupt::go_on())?;
     let described = |point: &BranchPoint| (point.parameter, point.before_impact_velocity());
-    let folds = || branch.critical(Test::Fold).map(described);
+    let folds = || branch.critical_points(Test::Fold).map(described);
     let strong = folds().reduce(|a, b| if a.1 > b.1 { a } else { b });
     let weak = folds().reduce(|a, b| if a.1 < b.1 { a } else { b });
-    let flips = branch.critical(Test::Flip).map(|point| point.parameter);
+    let flips = branch
+        .critical_points(Test::Flip)
+        .map(|point| point.parameter);
     let flips: Vec<f64> = flips.collect();
     let first = flips.iter().copied().reduce(f64::min);
     Ok(Folds {

@@ -154,7 +154,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         // Its first special point is the end of the doubled motion or, where the flip is hard, the fold from
         // which the doubled motion comes.
         let mut seen = 0;
-        let branch = continuation.doubled(&end.point, &limits, |_| {
+        let branch = continuation.double_period(&end.point, &limits, |_| {
             seen += 1;
             stop_if(seen == DOUBLED)
         });

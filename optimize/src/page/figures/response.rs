@@ -30,7 +30,7 @@ const MARGIN: f64 = 0.15;
 
 /// The frequency in rad/s of an end of a zone that is neither fold nor flip.
 fn ends_otherwise(end: &ZoneEnd) -> Option<f64> {
-    let is_named = end.is(Test::Fold) || end.is(Test::Flip);
+    let is_named = end.is_critical(Test::Fold) || end.is_critical(Test::Flip);
     (!is_named).then_some(end.frequency)
 }
 

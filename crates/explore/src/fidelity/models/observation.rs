@@ -80,7 +80,7 @@ impl Observation {
         let (mut supplied, mut lost, mut contact_time) = (0.0, 0.0, 0.0);
         let mut peak: Option<f64> = None;
         for kept in &motion.arcs {
-            let along = (&motion.seen(kept), kept.duration);
+            let along = (&motion.observed_arc(kept), kept.duration);
             let work = work(along.0, scene.mass, along.1);
             supplied += work.supplied;
             if kept.kind != PhaseKind::Free {

@@ -82,7 +82,7 @@ impl Answers {
     pub fn of(scene: &Scene, observed: Observation, wanted: bool) -> Result<Self, OrbitError> {
         let is_one = observed.regime == Some(Regime::ONE);
         let near = is_one.then_some(observed.start);
-        let bounds = wanted.then(|| Bounds::of(scene, near)).transpose()?;
+        let bounds = wanted.then(|| Bounds::of_scene(scene, near)).transpose()?;
         Ok(Self { observed, bounds })
     }
 }
