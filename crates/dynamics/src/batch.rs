@@ -6,8 +6,7 @@ use softstop::Start;
 use softstop::internals::budget;
 use softstop_lanes::{BatchObserver, Job, Machine, Outcome};
 
-/// Follows a batch of motions in the lanes on this thread, each of the machine with this number from a state for so
-/// many drive periods; none if the monitor stopped it.
+/// Follows a batch of motions (machine number, state, drive periods) in the lanes; none if the monitor stopped it.
 pub(crate) fn follow_batch<W: BatchObserver>(
     machines: &[Machine],
     motions: impl IntoIterator<Item = (usize, Start, u64)>,

@@ -64,7 +64,7 @@ pub struct Member {
     pub state: Start,
     /// What it has come to.
     pub status: Status,
-    /// Why it is lost.
+    /// The error by which it is lost.
     pub error: Option<MotionError>,
     /// Its states at drive angle phi while it was recorded, in order of time.
     pub states: Vec<Start>,
@@ -168,8 +168,7 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Advances the open members by `periods` drive periods on all threads, counts that work, and records their states
-    /// of the last `recorded` periods.
+    /// Advances the open members by drive periods on all threads and records their states of the last `recorded` ones.
     pub(crate) fn advance<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -210,8 +209,7 @@ impl<'a> Ensemble<'a> {
         self.count_work(recorded * self.advance_batch::<false, true, _>(members, recorded)?)
     }
 
-    /// Advances the open members by some drive periods on this thread and records states and impacts of the last
-    /// `recorded` periods, with the state at their beginning.
+    /// Advances open members on this thread and records states and impacts of the last `recorded` periods.
     pub(crate) fn record_run<M: HasMember>(
         &self,
         members: &mut [&mut M],
@@ -230,8 +228,8 @@ impl<'a> Ensemble<'a> {
         Ok(())
     }
 
-    /// Advances the open members by some drive periods in one batch on this thread, and returns how many they are; they
-    /// record impacts if `IMPACTS`, and states if `PERIODS`.
+    /// Advances the open members by drive periods in one batch on this thread and returns how many they are; they
+    /// record impacts if `IMPACTS`, and states at the ends of periods if `PERIODS`.
     ///
     /// # Errors
     /// [`OrbitError::Stopped`].

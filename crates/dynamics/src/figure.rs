@@ -23,30 +23,30 @@ macro_rules! figures {
         }
 
         impl Figure {
-            /// All of them.
+            /// All figures.
             pub const ALL: &[Self] = &[$(Self::$figure),*];
 
-            /// Its key in task files and in JSON.
+            /// The key of the figure in task files and in JSON.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$figure => $name),* }
             }
 
-            /// What it measures.
+            /// The physical dimension of the figure.
             pub const fn dimension(self) -> Dimension {
                 match self { $(Self::$figure => Dimension::$dimension),* }
             }
 
-            /// Which side is good, where a task gives a bare number.
+            /// The side of a bound on which the figure is good, where a task gives a bare number.
             pub const fn sense(self) -> Sense {
                 match self { $(Self::$figure => Sense::$sense),* }
             }
 
-            /// True if it takes many simulated motions: it has no derivative.
+            /// True if the figure takes many simulated motions: it has no derivative.
             pub const fn is_trial(self) -> bool {
                 match self { $(Self::$figure => $trial),* }
             }
 
-            /// What it is, in a few words.
+            /// What the figure is, in a few words.
             pub const fn meaning(self) -> &'static str {
                 match self { $(Self::$figure => $meaning),* }
             }
@@ -99,8 +99,7 @@ impl Figure {
         }
     }
 
-    /// The figure's value in SI units, NaN if the motion has none; nothing if it takes more than the motion to tell it:
-    /// a zone, trials, or the formula of a cost.
+    /// The figure's value in SI units, NaN if the motion has none; nothing if it takes a zone, trials or a formula.
     pub fn of_motion(self, orbit: &Orbit, stroke: &CycleMetrics) -> Option<f64> {
         Some(match self {
             Self::Velocity => stroke.impact_velocity,

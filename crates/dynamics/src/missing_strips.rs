@@ -52,8 +52,7 @@ pub struct StripGap {
     pub angle: f64,
     /// Whether the motion came back after the gap.
     pub comes_back: bool,
-    /// Strokes missed until the motion has come back or is given up: an impact that comes after n drive periods and not
-    /// after one has missed n - 1.
+    /// Strokes missed until the motion has come back or is given up, as a [`StrokeCount`] has them.
     pub missed: u64,
 }
 

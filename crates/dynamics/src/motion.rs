@@ -30,8 +30,7 @@ pub enum MotionKind {
     Chaos,
     /// It looks chaotic for long, but settles on something else in the end.
     TransientChaos,
-    /// It neither repeats nor is it chaotic beyond doubt: it settles too slowly, goes somewhere else just now, or
-    /// is quasi-periodic.
+    /// It neither repeats nor is surely chaotic: it settles slowly, goes elsewhere just now, or is quasi-periodic.
     Unsettled,
     /// It cannot be computed.
     Lost,
@@ -43,8 +42,7 @@ impl MotionKind {
         Self::from_regime(orbit.regime(), orbit.pattern())
     }
 
-    /// The kind of a motion that repeats, by its regime and the order of its impacts; of complete chatter the regime
-    /// counts the impacts before the summed ones.
+    /// The kind of a motion that repeats, by its regime (of chatter the impacts before summed ones) and pattern.
     pub fn from_regime(regime: Regime, order: ImpactPattern) -> Self {
         let periods = regime.periods;
         match order.counts_per_period().contains(&ImpactCount::Infinite) {

@@ -10,9 +10,8 @@ use crate::extremes::extremes;
 use softstop::Start;
 use softstop::internals::budget;
 
-/// Share of the states of two logs whose nearest neighbours lie in the other log, from which on the logs belong to one
-/// motion. It is 0.5 on average for one motion; with logs of 129 states its standard deviation is 0.05, more where
-/// states follow each other closely. It is 0 for motions apart.
+/// Share of the states of two logs whose nearest neighbours lie in the other log, from which on they are one motion. It
+/// is 0.5 on average for one motion, with a standard deviation of 0.05 or more for logs of 129 states, and 0 for two.
 const MIXED_SHARE: f64 = 0.1;
 
 /// Cells across the plane in which the places of logs are counted.

@@ -1,5 +1,4 @@
-//! The basin test: which motions come to one stable orbit. All others are not told apart, which costs far less than a
-//! survey.
+//! The basin test: which motions come to one stable orbit; it costs far less than a survey of all attractors.
 
 use std::f64::consts::TAU;
 use std::slice::from_ref;
@@ -26,20 +25,18 @@ const MOTIONS_TOGETHER: usize = 512;
 pub(super) const PERIODS_BETWEEN_LOOKS: u64 = 16;
 /// Drive periods that motions of a basin test may take before they come near the orbit.
 const BASE_PATIENCE: u64 = 256;
-/// Exponent to which motions near the orbit decay, by its slowest multiplier, in the drive periods besides.
+/// Exponent of e to which motions near a tested orbit must decay, by its slowest multiplier, to arrive.
 const SETTLING_EXPONENT: f64 = 28.0;
-/// Most drive periods for that decay.
+/// Most drive periods that a basin test grants motions for their decay onto the orbit.
 const MAX_SETTLING: f64 = 20_000.0;
-/// Decay a drive period, as an exponent, below which an orbit is at a border to rounding, as at a fold: it attracts
-/// from one side alone, and ever more slowly.
+/// Decay a drive period, as an exponent, below which an orbit is at a border to rounding, as at a fold.
 const SLOWEST_DECAY: f64 = 1e-5;
 /// Drive periods that motions get to come to an orbit at a border.
 const BORDER_PATIENCE: u64 = 512;
 /// Distance from an orbit at a border, in units of its size, at which a motion has arrived that no ball holds.
 const BORDER_ARRIVAL_DISTANCE: f64 = 2e-2;
 
-/// A test of which motions come to a stable orbit: balls about its points in which its map contracts; what lies in one
-/// of them comes to it.
+/// A test of which motions come to a stable orbit, by balls about its points in which its map contracts.
 pub struct BasinTest {
     machine: Machine,
     drive: Excitation,

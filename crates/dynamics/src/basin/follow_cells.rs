@@ -15,8 +15,7 @@ use softstop::internals::budget::Fork;
 
 /// Cells that go together as in [`TILE_CELLS`], where each motion goes alone, and takes long.
 const SMALL_TILE: usize = 16;
-/// How long cells are followed at most before what they have come to is stored: at first for a piece, and for so much
-/// longer each time.
+/// Longest time that cells are followed before a piece is stored; pieces grow up to it.
 const LONGEST_PIECE: Duration = Duration::from_secs(5);
 
 /// A cell, where its motion is, and what it has come to.

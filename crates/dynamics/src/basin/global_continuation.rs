@@ -16,7 +16,7 @@ use softstop::{Scene, Start};
 /// Distance of two orbits of different regimes, in units of the larger one's size, within which one continues the
 /// other: a soft flip and a soft grazing lead to such, a jump does not.
 const CONTINUES_DISTANCE: f64 = 0.1;
-/// Distance of two orbits found at one value that are the same, in the same units.
+/// Distance, in units of the larger one's size, of two orbits found at one value that are the same.
 const SAME_ORBIT_DISTANCE: f64 = 1e-5;
 
 /// The basins at one value of a parameter.
@@ -164,8 +164,7 @@ fn enter_orbit(basins: &mut Basins, orbit: Orbit) -> Result<(), OrbitError> {
     Ok(())
 }
 
-/// Distance of two orbits: the largest distance of a state of one at drive angle phi from the nearest one of the other,
-/// in units of the larger one's size.
+/// Distance of two orbits: the largest of a state of one from the nearest of the other, in units of their size.
 fn orbit_gap(one: &Orbit, other: &Orbit) -> Result<f64, OrbitError> {
     let states = |orbit: &Orbit| -> Result<Vec<Start>, OrbitError> {
         Ok(orbit.states()?.into_iter().map(Start::from).collect())

@@ -15,7 +15,7 @@
 //! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let scene = Ratios::unloaded().scene()?;
-//! let grid = Grid::states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
+//! let grid = Grid::of_states(Axis::position(-20.0, 10.0, 30), Axis::velocity(-25.0, 25.0, 30), 0.0);
 //! let basins = find_basins(&scene, &grid, &BasinOptions::default(), &unmonitored, None)?;
 //! // Point A: without impacts, and z = 1.
 //! let names: Vec<String> = basins.classes.iter().map(|class| class.motion.to_string()).collect();

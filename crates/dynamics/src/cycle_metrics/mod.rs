@@ -31,13 +31,11 @@ pub struct CycleMetrics {
     pub lowest: f64,
     /// Way from the lowest position to the largest, in m.
     pub length: f64,
-    /// The largest position less that of the strip's far side, clearance + thickness, in m: above zero the strip is
-    /// cut through. None without a strip.
+    /// The largest position less that of the strip's far side in m: above zero it is cut through; none without one.
     pub beyond_strip: Option<f64>,
     /// Strips cut through.
     pub strips: u64,
-    /// Way left from the largest position to a rigid stop behind the stop or the strip, in m; 0 if it is hit. None if
-    /// there is no such stop.
+    /// Way left from the largest position to a rigid stop behind stop or strip, in m; 0 if hit, none without one.
     pub before_wall: Option<f64>,
     /// Largest force of contact, of strip or stop with what contact adds to the damping, in N: F in
     /// m x'' + b1 x' + k1 x + F = F0 cos(w t). Blows of rigid stops, which last no time, are not in it.

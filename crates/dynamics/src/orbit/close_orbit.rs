@@ -12,7 +12,7 @@ use softstop::{Clock, Instant, Tangent, Touch};
 const IMPACT_TIME_TOLERANCE: f64 = 1e-4;
 
 impl MultiSegmentShooting<'_> {
-    /// The periodic orbit through impacts between which the segments fit.
+    /// The periodic orbit through impacts between which the segments of the shooting fit.
     pub(super) fn close_orbit(
         &self,
         at: &Unknowns,
@@ -107,8 +107,7 @@ impl MultiSegmentShooting<'_> {
         Ok((motion.state().into(), factor(&tangent)))
     }
 
-    /// The factor of the monodromy matrix from the beginning of the period to the first impact. If `free` is negative,
-    /// contact lasts on for so many seconds.
+    /// The monodromy factor from the period's beginning, `-free` s of it in contact, to the first impact.
     fn head_to_first_impact(
         &self,
         time: f64,

@@ -10,8 +10,7 @@ use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Start, Tangent,
 };
 
-/// Work that a passage through contact may cost, in scan windows, 4096 crossings: a mass that bounces longer within it
-/// does not come back.
+/// Work that a passage through contact may cost, in scan windows, 4096 crossings: then the mass stays.
 const MAX_CONTACT_WORK: u64 = 1 << 18;
 
 /// The face at the clearance, with the phases of its scene: where a passage through contact begins and ends.

@@ -7,14 +7,13 @@ use softstop::{MotionError, Scene};
 
 /// Batches of drive periods whose means tell how uncertain Lyapunov exponents are.
 const BATCHES: usize = 32;
-/// Drive periods in each of these batches at first and at most.
+/// Drive periods in each batch of Lyapunov exponents at first and at most.
 pub(crate) const BATCH_PERIODS: (u64, u64) = (100, 1600);
 /// Exponent of a growth, or decay, of differences that is for good: rounding to the size of the motion is 36.
 const LASTING_GROWTH: f64 = 100.0;
 /// Student's t of 31 degrees of freedom for a two-sided 95 % interval.
 const STUDENT_T: f64 = 2.039_5;
-/// Errors by which a Lyapunov exponent has to lie above zero to count as positive: beyond 3 half-widths of the 95 %
-/// interval chance is out of question.
+/// Errors (half-widths of the 95 % interval) by which an exponent has to lie above zero to be positive.
 const POSITIVE_ERRORS: f64 = 3.0;
 
 /// Both Lyapunov exponents of a motion of the state (x, x'): mean rates at which small differences grow.
@@ -66,8 +65,8 @@ impl Exponents {
     }
 
     /// True if small differences grow for good along the motion from a state: the Lyapunov exponent is positive beyond
-    /// doubt over some time, in which differences grow by far more than from rounding to the size of the motion; false
-    /// if they die out as clearly, or neither is clear after 51,200 drive periods.
+    /// doubt, and differences grow by far more than from rounding to the size of the motion; false if they die out as
+    /// clearly, or neither is clear after 51,200 drive periods.
     ///
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.

@@ -1,5 +1,4 @@
-//! z = 1 orbits with their frequency free, beside the one that is looked at: narrow isolas lie between two frequencies
-//! of any row.
+//! z = 1 orbits with their frequency free, beside a given one: narrow isolas lie between two frequencies of any row.
 
 use nalgebra::{Matrix2x3, Vector2, Vector3};
 
@@ -47,8 +46,7 @@ pub(super) fn find_beside_frequency(
     None
 }
 
-/// A scene with the frequency of its drive free, in unknowns: time of the impact in drive periods, logarithms of its
-/// velocity and of the frequency ratio.
+/// A scene with its frequency free: unknowns are impact time (periods), ln velocity, ln frequency ratio.
 struct FreeFrequency<'a>(&'a Scene);
 
 impl FreeFrequency<'_> {

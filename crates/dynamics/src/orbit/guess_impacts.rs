@@ -13,8 +13,7 @@ const NEAR_MISS_SHARE: f64 = 0.01;
 /// Time in s and before-impact velocity in m/s of each impact.
 pub(super) type TimedImpacts = Vec<(f64, f64)>;
 
-/// Guesses of the impacts of an orbit near a state over some drive periods: those of the motion from the state; then
-/// with its nearest miss as one more, and without its weakest one.
+/// Guesses of the impacts of an orbit: those of the motion from a state, with its nearest miss, less the weakest.
 pub(super) fn guess_impacts(
     scene: &Scene,
     state: Vector2<f64>,
@@ -43,8 +42,7 @@ pub(super) fn guess_impacts(
     Ok(guesses)
 }
 
-/// How near in m the free mass comes to the face without an impact, when, and how fast an impact there would be if the
-/// face stood as much nearer.
+/// The nearest miss of the face: distance in m, time, and speed of an impact if the face stood as much nearer.
 fn nearest_miss(motion: &PeriodTrajectory, face: f64) -> Option<(f64, (f64, f64))> {
     let free = motion.arcs().filter(|(arc, _)| arc.kind == PhaseKind::Free);
     let misses = free.flat_map(|(arc, elapsed)| {

@@ -14,8 +14,8 @@ use softstop::Scene;
 /// cell to the hardest motion: some cells, each of which is searched from its own middle.
 const NEWTON_REACH: (f64, f64) = (4.0 / LATTICE_TIMES as f64, 4.0);
 
-/// The stable z = 1 orbit with the hardest impact of those that are harder than this, in m/s; none if there is none.
-/// Impacts are tried from the hardest ones down, and Newton's method is followed no farther than some cells.
+/// The stable z = 1 orbit with the hardest impact above this one, in m/s, if any: impacts are tried from the hardest
+/// ones down, and Newton's method is followed no farther than some cells.
 ///
 /// # Errors
 /// As [`all_single`](super::impact_lattice::all_single).

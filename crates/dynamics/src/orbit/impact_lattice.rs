@@ -32,7 +32,7 @@ const MAX_DAMPED_SPEED: f64 = 1.5;
 const MAX_UNDAMPED_SPEED: f64 = 2000.0;
 /// Difference of times (of the period) and velocities (of themselves) within which impacts are the same.
 const SAME_IMPACT: f64 = 1e-6;
-/// Difference of impacts, in the same units, within which Newton's method leads from one to the other.
+/// Difference of impacts, as of [`SAME_IMPACT`], within which Newton's method leads from one to the other.
 pub(super) const NEAR_IMPACT: f64 = 1e-3;
 
 /// Residual, in units of the velocity but at least of the motion's speed, of a search that nearly settled.
@@ -70,8 +70,7 @@ pub(crate) fn singles_about(
     Ok(all)
 }
 
-/// The z = 1 orbits that Newton's method leads to from the time in s and the before-impact velocity in m/s of an
-/// impact, first to one and then, kept away from it, to others.
+/// The z = 1 orbits that Newton's method leads to from an impact (s, m/s), first to one, then, deflated, to others.
 pub(crate) fn singles_near(scene: &Scene, impact: (f64, f64)) -> Vec<Orbit> {
     SingleImpactSearch::new(scene).map_or(Vec::new(), |mut singles| {
         singles
@@ -201,8 +200,7 @@ pub(super) fn time_distance(one: f64, other: f64, period: f64) -> f64 {
     between.min(period - between) / period
 }
 
-/// Guesses of impacts: the middles of the lattice cells in which the residual may vanish. Coarse cells are looked at
-/// first, and those divided that it comes near to zero in.
+/// Guesses of impacts: middles of fine lattice cells in which the residual may vanish, within coarse ones.
 pub(super) fn guess_from_lattice(
     shooting: &MultiSegmentShooting<'_>,
     (period, speeds): (f64, &[f64]),
@@ -275,8 +273,7 @@ impl ImpactLattice<'_> {
     }
 }
 
-/// True if both parts change their sign between corners, or come as near to it as a share of what they change by, or may
-/// do so beyond those where there is no such motion.
+/// True if both parts nearly change their sign between corners, or may do so where there is no such motion.
 fn may_vanish(corners: &[Option<[f64; 2]>; 4], slack: f64) -> bool {
     let known = corners.iter().flatten();
     let changes = |part: usize| {

@@ -44,7 +44,7 @@ use thiserror::Error;
 use crate::monitor::Monitor;
 use softstop::{MotionError, SceneError};
 
-/// Why there is no orbit.
+/// Why a periodic orbit could not be found or followed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OrbitError {

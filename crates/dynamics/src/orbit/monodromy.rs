@@ -37,8 +37,7 @@ impl Monodromy {
         }
     }
 
-    /// Determinant of the monodromy matrix: the product of those of arcs and resets, free of the cancellation between
-    /// entries that a weak impact makes large.
+    /// Determinant of the monodromy matrix, as a product over arcs and resets: free of cancellation at weak impacts.
     pub fn determinant(&self) -> f64 {
         self.determinant
     }

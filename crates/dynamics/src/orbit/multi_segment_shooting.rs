@@ -128,8 +128,7 @@ impl<'a> MultiSegmentShooting<'a> {
         self.run_newton(guess, known, &[])
     }
 
-    /// Newton's method for the impacts of an orbit from a guess, away from the `deflated` ones; none as soon as a whole
-    /// step leads to impacts that are known.
+    /// Newton's method for impacts from a guess, away from `deflated` ones; none if a step leads to known impacts.
     fn run_newton(
         &self,
         guess: &[(f64, f64)],

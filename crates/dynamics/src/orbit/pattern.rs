@@ -26,8 +26,7 @@ pub enum ImpactCount {
 pub struct ImpactPattern(Vec<ImpactCount>);
 
 impl ImpactPattern {
-    /// The pattern of impacts, and of complete chatter that ends at `rests`, within `periods` drive periods
-    /// of `period` seconds each.
+    /// The pattern of impacts, and of complete chatter that ends at `rests`, within `periods` of `period` seconds each.
     pub fn new(impacts: &[Instant], rests: &[Instant], periods: u64, period: f64) -> Self {
         let all: Vec<Instant> = [impacts, rests].concat();
         let cut = cut_offset(&all, period);

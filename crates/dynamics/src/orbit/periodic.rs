@@ -9,8 +9,7 @@ use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicM
 use crate::period::PeriodTrajectory;
 use softstop::{Instant, MotionError, Scene, Touch};
 
-/// Distance in units of 1 + |state| within which a state that has returned after n periods has also returned after a
-/// divisor of n. Newton's method leaves about 1e-13.
+/// Distance in units of 1 + |state| within which states are the same: Newton's method leaves about 1e-13.
 pub(super) const SAME_STATE: f64 = 1e-9;
 
 /// Distance in units of 1 + |state| within which Newton's method looks for an orbit of a part of the period.
@@ -42,8 +41,7 @@ pub struct Orbit {
     pub damping_integral: f64,
 }
 
-/// Impacts up to which orbits are sought from impact to impact: a mass that bounces more often chatters, and the work
-/// grows with the cube.
+/// Impacts up to which orbits are sought from impact to impact, which costs their cube: more are chatter.
 const MAX_SHOOTING_IMPACTS: usize = 128;
 /// Norm of the map's Jacobian, in its scales, beyond which an orbit is sought from impact to impact.
 pub(super) const STEEP_MAP_NORM: f64 = 1e3;
@@ -260,8 +258,7 @@ impl Orbit {
         self.monodromy.multipliers()
     }
 
-    /// True if neighbouring motions neither come nearer nor go away: both multipliers lie on the unit circle, as a
-    /// stable motion's do without any damping.
+    /// True if neighbouring motions neither come nearer nor go away: both multipliers lie on the unit circle.
     pub fn is_neutral(&self) -> bool {
         self.monodromy.is_neutral()
     }

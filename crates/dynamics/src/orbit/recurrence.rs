@@ -35,8 +35,7 @@ pub(crate) fn motion_size<'a>(frequency: f64, states: impl IntoIterator<Item = &
     squares.fold(0.0, f64::max).sqrt()
 }
 
-/// The return of a row of states: the least number of drive periods, up to half of the row's length, after which each
-/// state of the first half of the row returns.
+/// The return of a row of states: after the least number of periods for which all of its first half return.
 pub(crate) fn find_return(frequency: f64, states: &[Start]) -> Option<Return> {
     find_return_within(frequency, states, RETURN_DISTANCE)
 }
@@ -63,10 +62,9 @@ pub(crate) fn find_return_within(frequency: f64, states: &[Start], share: f64) -
     })
 }
 
-/// Share of its first size to which a difference must fall within a row to count as one that dies out: of a motion that
-/// has returned, and of one that has not yet.
+/// Share to which a difference falls within a row if it dies out: of a motion that returned, and of another.
 const DECAY_SHARES: (f64, f64) = (0.8, 0.1);
-/// How large such a difference may be by then, in units of the distance within which states have returned.
+/// How large a difference that dies out may be late in a row, in units of the distance of a return.
 const MAX_LATE_GAP: f64 = 10.0;
 
 /// The period of what a row of states settles on; none if it does not.

@@ -18,8 +18,7 @@ use softstop::{MotionError, Scene};
 use softstop_lanes::Machine;
 
 /// Stages of the search: drive periods after which Newton's method takes over from where motions have moved least, and
-/// those after which it then takes over from all, unless what is looked for is found: few, which finds motions with
-/// small basins, and more; and far more if neither finds any.
+/// those after which it then takes over from all: few for small basins, and far more if none is found.
 const SEARCH_STAGES: [(u64, &[u64]); 3] = [(4, &[]), (12, &[2, 12]), (60, &[60])];
 /// Distance, in scales of the motion, within which a state stands for a stable fixed point.
 const STABLE_REACH: f64 = 0.02;
@@ -68,8 +67,7 @@ impl Orbit {
     }
 }
 
-/// The stable z = 1 motion that [`find`] finds of each of many scenes at once, from those motions that come back near
-/// to where they were, and only if they lead to none, from all.
+/// The stable z = 1 motion that [`find`] finds of each of many scenes at once, from few candidates if they suffice.
 ///
 /// # Errors
 /// Each as of [`find`].
@@ -77,9 +75,8 @@ pub(crate) fn find_batch(scenes: &[Scene], monitor: Monitor<'_>) -> Vec<Result<O
     search_all(scenes, 1, monitor)
 }
 
-/// Searches the hardest stable z = 1 motion of each of some scenes among all that the first groups of states lead to;
-/// further groups are tried only as long as there is none. The motions of all scenes are followed together, and those
-/// no farther that lead to a stable one that was met.
+/// Searches the hardest stable z = 1 motion of each scene among all that the first groups of states lead to, and
+/// further groups as long as there is none. Motions of all scenes go together, until they lead to a stable one.
 fn search_all(
     scenes: &[Scene],
     groups: usize,

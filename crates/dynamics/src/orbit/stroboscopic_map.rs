@@ -9,7 +9,7 @@ use crate::period::PeriodTrajectory;
 use softstop::internals::{Phases, Scales};
 use softstop::{Clock, Instant, MotionError, Observer, Scene, Touch};
 
-/// Error of a fixed point in units of what rounding leaves of its residual.
+/// Error of a fixed point of the map, in units of what rounding leaves of its residual.
 const ROUNDING_FACTOR: f64 = 100.0;
 
 /// The stroboscopic map of a scene: from a state at time 0 to the state some drive periods later.

@@ -1,5 +1,4 @@
-//! Trial motions from starts all around the plane of states, followed together: they show where periodic motions may
-//! be.
+//! Trial motions from starts all around the plane of states: they show where periodic motions may be.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +27,7 @@ pub(super) struct Candidate {
     pub before: Vector2<f64>,
 }
 
-/// Distance of two states in these scales.
+/// Distance of two states of a trial motion, in these scales.
 pub(super) fn scaled_distance(scales: &Scales, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
     scales.state(&(a - b)).norm()
 }
@@ -37,7 +36,7 @@ pub(super) fn scaled_distance(scales: &Scales, a: Vector2<f64>, b: Vector2<f64>)
 #[derive(Debug, Clone)]
 pub(super) struct Trial {
     machine: usize,
-    /// The last period.
+    /// The state after the last period, and how far it moved.
     pub last: Candidate,
     /// Impacts in the present drive period.
     impacts: u64,
@@ -145,7 +144,7 @@ struct TrialRecorder<'a, 'b> {
     trials: &'a mut [&'b mut Trial],
     scales: &'a [Scales],
     kept: &'a [u64],
-    /// Drive periods before.
+    /// Drive periods that the trials were followed before this batch.
     since: u64,
 }
 

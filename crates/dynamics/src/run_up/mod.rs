@@ -23,7 +23,7 @@ pub use way::Way;
 const RUN_UP_STEPS: usize = 256;
 /// Drive periods of each step of a slow way to run up.
 const STEP_PERIODS: u64 = 64;
-/// Distance within which a state has returned in such a step, in units of the motion's size.
+/// Distance within which a state has returned in a step of a slow way, in units of the motion's size.
 const SLOW_RETURN: f64 = 1e-2;
 
 /// Settings of running up: which ways are tried, and what is asked of them.
@@ -31,8 +31,7 @@ const SLOW_RETURN: f64 = 1e-2;
 pub struct RunUpSettings {
     /// The ways that are tried.
     pub ways: Vec<Way>,
-    /// Change of the drive's frequency in rad/s from each drive period to the next; none for a slow one, which is what a
-    /// still slower rate is taken for.
+    /// Change of the drive's frequency in rad/s from each drive period to the next; none, or less, for a slow way.
     pub ramp: Option<f64>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,

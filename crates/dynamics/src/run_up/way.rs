@@ -66,8 +66,7 @@ impl Way {
         }
     }
 
-    /// The slow change on a way to run up: which parameter, from which value in SI units, and whether up or down; none
-    /// where nothing changes, or where there is no such way.
+    /// The slow change on a way to run up: parameter, first value in SI units, direction; none without such a way.
     pub(super) fn slow_change(self, scene: &Scene) -> Option<(Parameter, f64, Direction)> {
         let w = scene.excitation.frequency;
         let (amplitude, clearance) = (scene.excitation.amplitude, scene.clearance);

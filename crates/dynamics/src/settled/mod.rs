@@ -1,5 +1,4 @@
-//! Settled motions: what motions have come to, each of a machine of its own. Many are followed together in the lanes,
-//! first unwatched, then watched, and classified after that.
+//! Settled motions: many motions, each of its own machine, are followed in the lanes, then watched and classified.
 //!
 //! ```
 //! use softstop::{Ratios, Start};
@@ -78,8 +77,8 @@ impl<'a> FollowedMotion<'a> {
 }
 
 impl Settling {
-    /// Follows a motion of each scene from its start until it settles; an error where the scene or the start cannot be,
-    /// or the motion cannot be computed. Nothing if the monitor, which is not told how much is done, wants to stop.
+    /// Follows a motion of each scene from its start until it settles; an error where the scene, the start or the
+    /// motion cannot be computed. Nothing if the monitor, which is not told how much is done, wants to stop.
     pub fn follow_motions(
         &self,
         motions: &[(&Scene, Start)],
@@ -141,9 +140,8 @@ impl Settling {
         settled.collect()
     }
 
-    /// The certainty of z = 1: share of so many starts, spread evenly over a region, that settle on it; what cannot be
-    /// computed does not. Without a region it is the box of the scene's own size that commands take starts from.
-    /// Nothing if the scene is invalid, or the monitor wants to stop.
+    /// The certainty of z = 1: share of so many starts, spread evenly over a region or else the box of the scene's
+    /// size, that settle on it. Nothing if the scene is invalid, or the monitor wants to stop.
     pub fn single_impact_certainty(
         &self,
         scene: &Scene,

@@ -1,5 +1,4 @@
-//! Derivatives of the stability of a periodic motion: multipliers are first derivatives themselves, so their own are
-//! differences.
+//! Derivatives of the stability of a periodic motion: of trace and determinant, by differences of exact matrices.
 
 use nalgebra::Vector2;
 
@@ -9,8 +8,7 @@ use super::differentiated_figure::DifferentiatedFigure;
 use super::variation::{Variation, no_derivative};
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
-/// Shares of a parameter over which the monodromy matrix is differenced: the next where the orbit beside crosses
-/// something else, or the map bends too much.
+/// Shares of a parameter over which the monodromy matrix is differenced, each where the ones before fail.
 const DIFFERENCE_SHARES: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
 /// Share by which differences over one width and over twice that width may lie apart.
 const DIFFERENCE_AGREEMENT: f64 = 0.01;

@@ -6,8 +6,7 @@ use crate::motion::MotionKind;
 /// Change of the largest before-impact velocity from one step of a sweep to the next, in units of the larger one, that
 /// is a jump if the steps before and after change it by less than a share of that.
 const JUMP_SHARES: (f64, f64) = (0.1, 0.2);
-/// Difference of the largest before-impact velocities at one value of the parameter, in units of the larger one, of two
-/// motions of the same regime that are not the same.
+/// Difference of largest velocities, in units of the larger, from which motions of one regime are two.
 const COEXISTENCE_SHARE: f64 = 0.01;
 
 /// A jump of a sweep: a change of the settled motion from one step to the next.
@@ -41,8 +40,7 @@ pub struct Coexistence {
 }
 
 impl Chain {
-    /// The jumps of a sweep, in its own order. Steps that have not settled are passed over: a jump goes from the last
-    /// settled step before them to the first one after.
+    /// The jumps of a sweep, in its own order: from a settled step to the next one, however many lie between.
     pub fn find_jumps(&self) -> Vec<Jump> {
         let settled: Vec<&Step> = self.steps.iter().filter(|step| step.is_settled()).collect();
         let jump = |pair: &[&Step]| Jump {
@@ -58,8 +56,7 @@ impl Chain {
     }
 }
 
-/// True if the sweep jumps after a step: to another kind of motion or, of one regime, to one hit much harder or less
-/// hard than the steps before and after lead to.
+/// True if the sweep jumps after a step: to another kind of motion, or to one hit much harder or less hard.
 fn is_jump(steps: &[&Step], index: usize) -> bool {
     let (before, after) = (steps[index], steps[index + 1]);
     if before.motion != after.motion {
@@ -95,8 +92,7 @@ fn pair_steps<'a>(up: &'a Chain, down: &'a Chain) -> Vec<(&'a Step, &'a Step)> {
         .collect()
 }
 
-/// The hysteresis of two sweeps: the ranges in which the same machine moves otherwise on the way up than on the way
-/// down; where one of them has not settled, nothing is said.
+/// The hysteresis of two sweeps: ranges in which a machine's settled motions on the way up and down differ.
 pub fn find_coexistences(up: &Chain, down: &Chain) -> Vec<Coexistence> {
     let mut zones: Vec<Coexistence> = Vec::new();
     let mut open = false;

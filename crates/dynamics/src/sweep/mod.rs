@@ -130,8 +130,7 @@ impl Plan {
         (self.range.1 - self.range.0) / (self.steps - 1) as f64 / self.periods as f64
     }
 
-    /// The last drive periods of a step, in which its motion is watched: half of them, but no more than 128, and no
-    /// fewer than 16 unless there are none.
+    /// The last drive periods of a step, in which its motion is watched: half of them, 16 to 128 if it has them.
     pub fn watched_periods(&self) -> u64 {
         (self.periods / 2).clamp(16.min(self.periods), 128)
     }

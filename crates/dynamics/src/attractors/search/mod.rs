@@ -17,13 +17,12 @@ use crate::orbit::{self, Exponents, OrbitError};
 use softstop::{Scene, Start};
 
 /// Starts of the pilot, which shows where motions stay.
-const PILOT_STARTS: usize = 64;
+const PILOTS: usize = 64;
 /// Divisor of the drive periods of watching for motions that do not run in lanes and cost more.
 const SLOW_WATCH_DIVISOR: u64 = 20;
 /// How many times longer wandering motions are watched from one look to the next.
 const BATCH_GROWTH: u64 = 2;
-/// Share of the transient, as a divisor, after which motions that cost more, or take long, are classified for the first
-/// time: those that have arrived by then need not be advanced.
+/// Divisor of the transient after which costly motions are first classified: some have arrived by then.
 const FIRST_LOOK_DIVISOR: u64 = 4;
 
 /// A motion of the search of attractors.
@@ -80,11 +79,8 @@ pub fn find_attractors(
 ) -> Result<Survey, OrbitError> {
     let mut search = Search::new(scene, options, monitor)?;
     let run = options.transient + search.log_length() as u64;
-    search.ensemble.planned = run * (options.starts + PILOT_STARTS) as u64 + search.watch_periods();
-    search.launch_starts(
-        Region::pilot(scene).starts(PILOT_STARTS, options.seed),
-        false,
-    )?;
+    search.ensemble.planned = run * (options.starts + PILOTS) as u64 + search.watch_periods();
+    search.launch_starts(Region::pilot(scene).starts(PILOTS, options.seed), false)?;
     let region = options
         .region
         .or_else(|| Region::about_states(scene, search.end_states()));
@@ -108,12 +104,8 @@ pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, Orbit
 pub(crate) fn end_states(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, OrbitError> {
     let options = SearchOptions::default();
     let mut search = Search::new(scene, &options, monitor)?;
-    search.ensemble.planned =
-        (options.transient + search.log_length() as u64) * PILOT_STARTS as u64;
-    search.launch_starts(
-        Region::pilot(scene).starts(PILOT_STARTS, options.seed),
-        false,
-    )?;
+    search.ensemble.planned = (options.transient + search.log_length() as u64) * PILOTS as u64;
+    search.launch_starts(Region::pilot(scene).starts(PILOTS, options.seed), false)?;
     let go_on = |_, _| stop_if(search.ensemble.count_work(0).is_err());
     let own = orbit::find_with_monitor(scene, &go_on).ok();
     search.ensemble.count_work(0)?;
@@ -141,8 +133,7 @@ pub fn classify_start(
     found.into_iter().next().ok_or(OrbitError::Stopped)
 }
 
-/// Where motions from several starts have arrived after the transient, in their order: cheaper than [`classify_start`],
-/// as a motion that has not settled then is not looked at any farther.
+/// Where motions from starts have arrived after the transient: cheaper than [`classify_start`], and no farther.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is invalid or a motion cannot be computed; [`OrbitError::Stopped`].
