@@ -1,28 +1,26 @@
-//! Curves of solutions of any system with one unknown more than equations, by pseudo-arclength
-//! (Keller 1977).
+//! Solution curves of any system with one unknown more than equations, by pseudo-arclength continuation (Keller 1977).
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::orbit::{OrbitError, ROUNDING_SHARE};
 
-/// A system in scaled unknowns. To add one, implement its evaluation; what is known exactly besides spares differences.
+/// A system of equations in scaled unknowns; what is known exactly besides the evaluation spares differences.
 pub(crate) trait Equations {
     /// What an evaluation brings to light besides the residual.
     type Point: Clone;
-    /// Unknowns for which an evaluation tells the derivatives; those for the others, the slopes, are differences.
+    /// First unknowns for which an evaluation tells the derivatives; those for the others, the slopes, are differences.
     const EXACT: usize = 0;
 
-    /// Residual and more.
+    /// Evaluates the residual of the equations, and what comes to light besides.
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Self::Point>, OrbitError>;
 
-    /// Derivatives of the residual, a row for each equation, with these slopes. Their error slows the
-    /// convergence; the residual alone decides the result.
+    /// Derivatives of the residual, a row for each equation, with these slopes; their error slows the convergence only.
     fn jacobian(&self, here: &Evaluation<Self::Point>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         let _ = here;
         slopes.clone()
     }
 
-    /// The slopes where all of them are known exactly.
+    /// Derivatives by the other unknowns, where all of them are known exactly.
     fn exact_slopes(&self, here: &Evaluation<Self::Point>) -> Option<DMatrix<f64>> {
         let _ = here;
         None
@@ -34,13 +32,13 @@ pub(crate) trait Equations {
         DIFFERENCE_WIDTH
     }
 
-    /// True if Newton's method settles from guesses very near alone.
+    /// True if Newton's method settles only from guesses very near.
     fn is_steep(&self, here: &Self::Point) -> bool {
         let _ = here;
         false
     }
 
-    /// The residual alone at a place beside another one, and whether nothing that breaks a derivative lies between them.
+    /// The residual alone beside another place, and whether nothing that breaks a derivative lies between them.
     fn residual_beside(
         &self,
         here: &Self::Point,
@@ -51,11 +49,11 @@ pub(crate) trait Equations {
     }
 }
 
-/// A system at one place.
+/// The equations evaluated at one place: residual, its rounding, and what came to light.
 #[derive(Debug, Clone)]
 pub(crate) struct Evaluation<P> {
     pub residual: DVector<f64>,
-    /// The norm of the residual that rounding alone may leave.
+    /// Norm of the residual that rounding alone may leave.
     pub tolerance: f64,
     pub point: P,
 }
@@ -74,29 +72,28 @@ impl<P> Evaluation<P> {
     }
 }
 
-/// A solution.
+/// A node of a solution curve: the unknowns of a solution, with the equations evaluated there.
 #[derive(Debug, Clone)]
 pub(crate) struct Node<P> {
     pub at: DVector<f64>,
     pub here: Evaluation<P>,
 }
 
-/// Newton steps of one correction, and the most where each goes on to halve the residual: differences across a
-/// corner of the motion make it fall by a share only.
+/// Newton steps of a correction after which each must halve the residual.
 const USUAL_CORRECTIONS: usize = 12;
+/// Most Newton steps of a correction: differences across a corner of the motion make the residual fall by a share only.
 const MAX_CORRECTIONS: usize = 48;
-/// Residual in units of what rounding may leave up to which it is worth a look whether it leaves more, and changes of the
-/// unknowns in units of their rounding with which that is looked at.
+/// Residual, in units of its rounding, up to which a correction that stagnates measures its noise.
 const MAX_NOISE_RATIO: f64 = 1000.0;
+/// Changes of the unknowns, in units of their rounding, by which that noise is measured.
 const NOISE_PROBES: [f64; 4] = [-8.0, -4.0, 4.0, 8.0];
-/// A step with kept slopes that leaves more than this share of the residual is the last with them.
+/// Share of the residual that a step with kept slopes may leave: beyond it, they are not used again.
 const STALE_SHARE: f64 = 0.02;
 /// Scaled half-width of the central differences.
 pub(crate) const DIFFERENCE_WIDTH: f64 = 1e-6;
 
-/// Newton's method from `guess`: in the plane across `normal` for a curve, with no normal for a system
-/// with as many equations as unknowns. It ends when a step no longer makes a residual smaller that is
-/// at round-off, or none could.
+/// Corrects a guess by Newton's method: in the plane across `normal` for a curve, with none for as many equations as
+/// unknowns. It ends when a step no longer makes a residual smaller that is at round-off, or none could.
 pub(crate) fn correct<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
@@ -105,7 +102,7 @@ pub(crate) fn correct<E: Equations>(
     correct_with_slopes(equations, guess, normal, &mut None, Accuracy::Full)
 }
 
-/// Newton's method where the last unknown is given: its slopes play no part.
+/// Corrects a guess to a solution where the last unknown is given: its slopes play no part.
 pub(crate) fn correct_given<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
@@ -116,7 +113,7 @@ pub(crate) fn correct_given<E: Equations>(
     correct_with_slopes(equations, guess, Some(&normal), &mut none, Accuracy::Given)
 }
 
-/// How accurately solutions are computed.
+/// Accuracy to which solutions are corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Accuracy {
     /// To the last digit, with central differences.
@@ -130,7 +127,7 @@ pub(super) enum Accuracy {
 /// Residual that a quick solution may leave.
 const QUICK_RESIDUAL: f64 = 1e-9;
 
-/// Newton's method with the slopes of a place nearby, if there are any, as long as they serve; it leaves the last ones.
+/// Corrects a guess by Newton's method with slopes of a place nearby as long as they serve; leaves the last.
 pub(super) fn correct_with_slopes<E: Equations>(
     equations: &E,
     guess: &DVector<f64>,
@@ -188,8 +185,7 @@ pub(super) fn correct_with_slopes<E: Equations>(
     Err(OrbitError::Diverged { residual: last })
 }
 
-/// The norm of the residual that rounding really leaves: how much it changes within the last digits of the unknowns. An
-/// orbit may magnify, and forget again, more than its monodromy matrix tells.
+/// Noise of the residual: how much it changes within the last digits of the unknowns, which an orbit may magnify.
 fn noise<E: Equations>(equations: &E, at: &DVector<f64>, here: &Evaluation<E::Point>) -> f64 {
     let change = |digits: &f64| {
         let there = equations.residual_beside(&here.point, &(at * (1.0 + digits * f64::EPSILON)));
@@ -198,6 +194,7 @@ fn noise<E: Equations>(equations: &E, at: &DVector<f64>, here: &Evaluation<E::Po
     NOISE_PROBES.iter().map(change).fold(0.0, f64::max)
 }
 
+/// A matrix with a normal as one row more.
 pub(super) fn border_matrix(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMatrix<f64> {
     let rows = matrix.nrows();
     DMatrix::from_fn(rows + 1, rows + 1, |row, column| {
@@ -219,7 +216,7 @@ pub(super) fn solve_linear(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option
     Some(DVector::from_column_slice(found.as_slice()))
 }
 
-/// Unit direction of a curve at a node, on the side of `along`, and the slopes there.
+/// Unit tangent of a solution curve at a node, on the side of `along`, and the slopes there.
 pub(crate) fn curve_tangent<E: Equations>(
     equations: &E,
     node: &Node<E::Point>,
@@ -228,6 +225,7 @@ pub(crate) fn curve_tangent<E: Equations>(
     curve_tangent_with(equations, node, along, Accuracy::Full)
 }
 
+/// Unit tangent of a solution curve at a node, with slopes of this accuracy.
 pub(super) fn curve_tangent_with<E: Equations>(
     equations: &E,
     node: &Node<E::Point>,
@@ -244,8 +242,8 @@ pub(super) fn curve_tangent_with<E: Equations>(
     }
 }
 
-/// Derivatives of a residual by the unknowns beyond the [`Equations::EXACT`] first ones. They are exact where the system
-/// knows them, otherwise differences, central or one-sided where that is enough or there is no machine on the other side.
+/// Slopes at a place: derivatives of the residual by unknowns beyond the [`Equations::EXACT`] first ones, exact where
+/// the system knows them, else central differences, or one-sided where that is enough or all that is possible.
 pub(super) fn slopes_at<E: Equations>(
     equations: &E,
     at: &DVector<f64>,

@@ -12,8 +12,7 @@ use super::point::BranchPoint;
 use super::test::Test;
 use crate::orbit::OrbitError;
 
-/// Distance of a point from the chord between its neighbours, as a share of the chord, within which it is taken for
-/// a point between them.
+/// Distance of a point from the chord between its neighbours, as a share of it, up to which it is between them.
 pub(crate) const OFF_CHORD: f64 = 0.2;
 /// Relative difference of a parameter within which it is the one asked for.
 const PARAMETER_ROUNDING: f64 = 1e-9;
@@ -21,7 +20,7 @@ const PARAMETER_ROUNDING: f64 = 1e-9;
 const MAX_WALK_POINTS: usize = 200;
 
 impl<F: Family> Continuation<'_, F> {
-    /// The point between two neighbours at which a test of the monodromy matrix vanishes.
+    /// The point between two neighbours of a branch at which a test of the monodromy matrix vanishes.
     ///
     /// # Errors
     /// [`OrbitError`] if a correction fails.
@@ -36,7 +35,7 @@ impl<F: Family> Continuation<'_, F> {
         })
     }
 
-    /// What is found between two neighbours, seen at a drive angle with no crossing near.
+    /// Finds a point between two neighbours of a branch, seen at a section with no crossing near.
     fn find_clear(
         &self,
         from: &BranchPoint,
@@ -50,6 +49,7 @@ impl<F: Family> Continuation<'_, F> {
         }
     }
 
+    /// The point between two nodes at which a test vanishes.
     fn critical_of_nodes(
         &self,
         ends: (&Node<PeriodMap>, &Node<PeriodMap>),
@@ -63,6 +63,7 @@ impl<F: Family> Continuation<'_, F> {
         self.point_at(&node)
     }
 
+    /// The point between two nodes at a value of the parameter.
     fn parameter_of_nodes(
         &self,
         ends: (&Node<PeriodMap>, &Node<PeriodMap>),
@@ -73,7 +74,7 @@ impl<F: Family> Continuation<'_, F> {
         self.point_at(&node)
     }
 
-    /// The point between two neighbours at a value of the parameter between theirs.
+    /// The point of a branch between two neighbours at a value of the parameter between theirs.
     ///
     /// # Errors
     /// [`OrbitError`] if a correction fails.
@@ -107,7 +108,7 @@ impl<F: Family> Continuation<'_, F> {
         }
     }
 
-    /// The point between two neighbours, followed from one of them as the branch was, where no guess between them leads to it.
+    /// The point between two neighbours, followed from one of them where no guess between them leads to it.
     fn walk_to(&self, from: &BranchPoint, to: &BranchPoint, parameter: f64) -> Option<BranchPoint> {
         [from, to].into_iter().find_map(|end| {
             let limits = Limits {
@@ -125,7 +126,7 @@ impl<F: Family> Continuation<'_, F> {
         })
     }
 
-    /// True if a point lies beside the chord between two neighbours, and on their side of a fold.
+    /// True if a point lies beside the chord between two neighbours of a branch, and on their side of a fold.
     fn is_between(&self, (from, to): (&BranchPoint, &BranchPoint), point: &BranchPoint) -> bool {
         let place = |point: &BranchPoint| self.shooting.scaled(point.state(), [point.parameter]);
         let (begin, way) = (place(from), place(to) - place(from));

@@ -1,4 +1,4 @@
-//! Whole branches: both directions, every special point on the way, and why they end.
+//! Whole branches of orbits: both directions, every special point on the way, and why they end.
 
 use std::ops::ControlFlow;
 
@@ -33,20 +33,20 @@ pub struct Branch {
     pub ends: (End, End),
 }
 
-/// Steps shorter than that in a row after which an orbit is too unstable to be followed.
+/// Shortest steps in a row after which an orbit is too unstable to be followed.
 const MAX_CRAWL_STEPS: usize = 60;
-/// Scaled distance within which an orbit repeats.
+/// Scaled distance within which an orbit repeats after a part of its periods.
 const REPEAT_DISTANCE: f64 = 1e-7;
-/// First step after a corner: others, and folds, may lie as near.
+/// First step of a branch after a corner: others, and folds, may lie as near.
 const STEP_AFTER_CORNER: f64 = 1e-5;
 
 impl Branch {
-    /// What is special at a point of it, if anything is.
+    /// The special point of the branch at this point, if it is one.
     pub fn special_at(&self, point: &BranchPoint) -> Option<&Special> {
         self.specials.iter().find(|special| special.is_at(point))
     }
 
-    /// The orbits on it at which a test vanishes, in their order.
+    /// The points of the branch at which a test vanishes, in their order.
     pub fn critical_points(&self, test: Test) -> impl Iterator<Item = &BranchPoint> {
         let own = move |special: &&Special| special.kind == SpecialKind::Critical(test);
         let own = self.specials.iter().filter(own);
@@ -109,8 +109,7 @@ impl<'a, F: Family> Continuation<'a, F> {
             .unwrap_or(periods)
     }
 
-    /// The branch from a point beside a flip or a pitchfork on, away from it: in one direction, given as a change of state
-    /// and parameter.
+    /// The branch from a point beside a flip or a pitchfork on, in one direction of state and parameter.
     pub(super) fn branch_along(
         &self,
         start: Node<PeriodMap>,
@@ -122,6 +121,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         self.join_halves(&start, HalfBranch::empty(), way)
     }
 
+    /// The branch of two halves, joined at their start.
     fn join_halves(
         &self,
         start: &Node<PeriodMap>,
@@ -141,6 +141,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         })
     }
 
+    /// Follows half a branch, in one direction from a node, from section to section.
     fn follow_half(
         &self,
         start: Node<PeriodMap>,
@@ -162,7 +163,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         Ok(way)
     }
 
-    /// Goes on along a branch as long as this section serves; then how it goes on, if it does.
+    /// Follows half a branch as long as this section serves; then how it goes on, if it does.
     fn follow_section(
         &self,
         way: &mut HalfBranch,
@@ -262,8 +263,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         Ok(None)
     }
 
-    /// Adds the end of a step and the special points on it; says why the branch ends there, if it does. Nothing is added
-    /// where that fails.
+    /// Records the end of a step and the special points on it, unless that fails; why the branch ends, if it does.
     fn record_step(
         &self,
         way: &mut HalfBranch,

@@ -1,4 +1,4 @@
-//! Points of codimension two, and the systems on whose curves they lie.
+//! Points of codimension two on curves of special points, and the systems that these curves solve.
 
 use nalgebra::{DVector, Vector2};
 
@@ -15,29 +15,29 @@ use super::shooting::Critical;
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
 
-/// A point of a curve of special points.
+/// A point of a curve of special points in two parameters.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct CurvePoint {
-    /// The parameters' values.
+    /// Values of both parameters.
     pub parameters: [f64; 2],
     /// Position in m at time 0.
     pub position: f64,
     /// Velocity in m/s at time 0.
     pub velocity: f64,
-    /// Before-impact velocities in m/s.
+    /// Before-impact velocities of the orbit in m/s.
     pub impacts: Vec<f64>,
     /// Jacobian of the map over the periods from where it is computed: time 0, an impact or a touch, which is left out.
     pub monodromy: Monodromy,
 }
 
 impl CurvePoint {
-    /// Position and velocity at time 0.
+    /// State of the orbit at time 0, position and velocity.
     pub fn state(&self) -> Vector2<f64> {
         Vector2::new(self.position, self.velocity)
     }
 
-    /// The highest before-impact velocity in m/s; 0 without any impact.
+    /// The highest before-impact velocity of the orbit in m/s; 0 without any impact.
     pub fn before_impact_velocity(&self) -> f64 {
         self.impacts.iter().copied().fold(0.0, f64::max)
     }
@@ -49,8 +49,7 @@ impl CurvePoint {
 pub enum CodimensionTwo {
     /// Two curves of folds meet in a cusp (Kuznetsov 2004, section 9.2).
     Cusp,
-    /// A flip whose normal form has no cubic term: supercritical on one side, subcritical on the other (Kuznetsov 2004, section
-    /// 9.4).
+    /// A flip whose normal form has no cubic term: between super- and subcritical (Kuznetsov 2004, section 9.4).
     GeneralisedFlip,
     /// Curves of folds and flips end on a curve of grazing: a weak impact has no bearing on the next (Simpson and Ghosh,
     /// arXiv 2602.22797).
@@ -58,7 +57,7 @@ pub enum CodimensionTwo {
 }
 
 impl CodimensionTwo {
-    /// In one word: CP, GPD, RG.
+    /// The point of codimension two as a symbol: CP, GPD, RG.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Cusp => "CP",
@@ -67,7 +66,7 @@ impl CodimensionTwo {
         }
     }
 
-    /// In words.
+    /// The point of codimension two in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Cusp => "cusp",
@@ -77,29 +76,29 @@ impl CodimensionTwo {
     }
 }
 
-/// Part of a direction along the parameters that is none.
+/// Part of a curve's direction along the parameters that counts as none.
 pub(super) const TURNING_SHARE: f64 = 1e-6;
 
-/// The part of a direction along the two parameters.
+/// The part of a curve's direction along the two parameters.
 pub(super) fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
     direction.rows(direction.len() - 2, 2).into_owned()
 }
 
-/// A system whose solutions are special points in two parameters, its last two unknowns.
+/// A system whose solutions are special points in two parameters, its last two unknowns: it makes a curve.
 pub(super) trait Codimension: Equations {
     /// The machines.
     type Machines: Family<2>;
 
-    /// The machines, and the drive periods of the orbits.
+    /// The machines of the curve, and the drive periods of its orbits.
     fn family_and_periods(&self) -> (&Self::Machines, u64);
-    /// What vanishes on the curve; none on one of grazing.
+    /// The test that vanishes on the curve; none on one of grazing.
     fn critical_test(&self) -> Option<Test>;
-    /// The state at time 0.
+    /// The state of the orbit at time 0 for these unknowns.
     fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError>;
-    /// The before-impact velocities of an orbit, its Jacobian, and what it crosses.
+    /// The before-impact velocities of the orbit of a point, its Jacobian, and what it crosses.
     fn orbit_of(point: &Self::Point) -> (&[f64], Monodromy, Sequence);
 
-    /// The parameters' values.
+    /// Values of the two parameters of these unknowns.
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
         let scales = self.family_and_periods().0.parameter_scales();
         std::array::from_fn(|index| at[at.len() - 2 + index] * scales[index])
@@ -118,9 +117,9 @@ pub(super) trait Codimension: Equations {
         })
     }
 
-    /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a direction;
-    /// before, it had another one. Not a number where it cannot be computed. At a cusp both parameters turn back, at a
-    /// generalised flip the coefficient of the normal form vanishes.
+    /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a
+    /// direction; before, it had another one. Not a number where it cannot be computed. At a cusp both parameters turn
+    /// back, at a generalised flip the coefficient of the normal form vanishes.
     fn degeneracy_test(
         &self,
         node: &Node<Self::Point>,

@@ -16,7 +16,7 @@ use crate::orbit::OrbitError;
 
 /// Scaled distances beyond a corner at which the branch is taken up.
 const CORNER_DISTANCES: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
-/// How many times as far from this side of the corner it may lie, and the touch from both.
+/// How many times as far the branch beyond a corner, and the touch, may lie as they are looked for.
 const CORNER_REACH: f64 = 10.0;
 
 impl<F: Family> Continuation<'_, F> {
@@ -51,7 +51,7 @@ impl<F: Family> Continuation<'_, F> {
         })
     }
 
-    /// What is special about a corner between two nodes: the touch, and the tests that jump through zero.
+    /// The special points of a corner between two nodes: the touch, and the tests that jump through zero.
     pub(super) fn specials_of_corner(
         &self,
         from: &Node<PeriodMap>,

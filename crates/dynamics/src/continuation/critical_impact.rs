@@ -20,8 +20,7 @@ use crate::period::PeriodTrajectory;
 use softstop::internals::Phase;
 use softstop::{Clock, CrossingKind, MotionError, Scene};
 
-/// Orbits on which a test vanishes, in unknowns: drive angle of their slowest impact, its velocity and the parameters,
-/// scaled.
+/// Orbits on which a test vanishes, in scaled unknowns: angle and velocity of the slowest impact, parameters.
 #[derive(Debug)]
 pub(crate) struct CriticalImpact<'a, F, const N: usize> {
     pub section: ImpactSection<'a, F, N>,
@@ -29,8 +28,7 @@ pub(crate) struct CriticalImpact<'a, F, const N: usize> {
 }
 
 impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
-    /// The system and its unknowns at an orbit; none if its slowest entry is no section, which is one into a rigid or a
-    /// preloaded stop.
+    /// The system and its unknowns at an orbit; none if its slowest entry is none into a rigid or preloaded stop.
     pub fn at_orbit(
         (family, periods): (&'a F, u64),
         test: Test,
@@ -69,8 +67,7 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         Ok(Some((Self { section, test }, guess)))
     }
 
-    /// The orbit that has a weak impact where another one grazes, with these unknowns; the velocity of the impact is given, in
-    /// units of the family's scales.
+    /// The orbit with a weak impact of this velocity, in units of the family's scales, where another one grazes.
     pub fn with_weak_impact(
         grazing: &GrazingOrbit<'a, F, N>,
         touch: &DVector<f64>,
@@ -94,13 +91,13 @@ impl<'a, F: Family<N>, const N: usize> CriticalImpact<'a, F, N> {
         at[1] * speed
     }
 
-    /// The state at time 0 of the family's scene.
+    /// The state of the orbit at time 0 of the family's scene.
     pub fn state(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
         let velocity = self.section.face.side_sign() * self.impact_velocity(at);
         self.section.state(at, velocity)
     }
 
-    /// Resonant grazing of these orbits, and its unknowns near them.
+    /// The system of resonant grazing of these orbits, and its unknowns near them.
     pub fn resonant_grazing(&self, at: &DVector<f64>) -> (ResonantGrazing<'a, F, N>, DVector<f64>) {
         let section = ImpactSection {
             crossings: self.section.crossings - 1,
@@ -153,9 +150,9 @@ impl<F: Family<N>, const N: usize> Equations for CriticalImpact<'_, F, N> {
     }
 }
 
-/// The saltation matrix of the entry from the last law of a motion that is taken on to where it began into the first, which
-/// the motion does not tell; none at a rigid stop, whose rebound it tells. Both have the drive's force, so that plays no part
-/// in the jump.
+/// The saltation matrix of the entry from the last law of a motion that is taken on to where it began into the first,
+/// which the motion does not tell; none at a rigid stop, whose rebound it tells. Both have the drive's force, so that
+/// plays no part in the jump.
 fn entry_jump(
     motion: &PeriodTrajectory,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! Curves of special points in two parameters: what they are, and how one is followed.
+//! Curves of special points in two parameters, and following one from point to point.
 
 use std::ops::ControlFlow;
 
@@ -14,10 +14,10 @@ use super::point::SpecialKind;
 use super::stepper::Stepper;
 use crate::orbit::OrbitError;
 
-/// The part of the plane of two parameters in which a curve is followed.
+/// Limits of a curve: the part of the plane of two parameters in which it is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveLimits {
-    /// Lowest and highest values.
+    /// Lowest and highest values of the parameters.
     pub ranges: [(f64, f64); 2],
     /// Points in each direction.
     pub points: usize,
@@ -25,7 +25,7 @@ pub struct CurveLimits {
     pub step: f64,
 }
 
-/// Why a curve ends.
+/// Why a curve of special points ends.
 #[derive(Debug, Clone)]
 pub enum CurveEnd {
     /// A parameter reaches the end of its range; the last point is there.
@@ -36,8 +36,7 @@ pub enum CurveEnd {
     Closed,
     /// Beyond its last point the orbit would cross surfaces in another order: it grazes there.
     Grazing,
-    /// It ends in a point of codimension two, its last one: in resonant grazing, or a fold of orbits of twice the period on a
-    /// flip.
+    /// It ends in a point of codimension two, its last one: resonant grazing, or a fold at its flip.
     CodimensionTwo(CodimensionTwo),
     /// The monitor asked for it.
     Stopped,
@@ -49,7 +48,7 @@ pub enum CurveEnd {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Curve {
-    /// What they are.
+    /// What its points are.
     pub kind: SpecialKind,
     /// Drive periods of the orbits.
     pub periods: u64,
@@ -61,7 +60,7 @@ pub struct Curve {
     pub ends: (CurveEnd, CurveEnd),
 }
 
-/// The curve through the solution near a guess, in both directions.
+/// Follows the curve through the solution near a guess, in both directions.
 pub(super) fn follow_curve<E: Codimension>(
     equations: &E,
     kind: SpecialKind,
@@ -96,18 +95,20 @@ pub(super) fn follow_curve<E: Codimension>(
     })
 }
 
-/// Points after which a curve may be found closed, and distance from its start, in units of the step.
+/// Points after which a curve or a branch may be found closed.
 pub(super) const MIN_LOOP_POINTS: usize = 8;
+/// Distance from its start, in units of the step, within which a curve is closed.
 pub(super) const CLOSING_SHARE: f64 = 0.05;
 
-/// Share of the largest step up to which a curve creeps, and steps in a row for which it may: beside grazing they can stay so
-/// short for ever.
+/// Share of the largest step up to which a curve creeps: beside grazing steps can stay so short for ever.
 const CREEP_SHARE: f64 = 1e-4;
+/// Creeping steps in a row after which a curve is given up.
 const MAX_CREEP_STEPS: usize = 40;
 
-/// Points of a curve one way, those of codimension two among them, and why it ends.
+/// Points of a curve in one direction, those of codimension two among them, and why it ends.
 type HalfCurve = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
 
+/// Follows a curve in one direction from a node.
 fn follow_half_curve<E: Codimension>(
     equations: &E,
     start: Node<E::Point>,
@@ -208,10 +209,10 @@ fn special_between<E: Codimension>(
     Ok(is_found.then_some((kind, point)))
 }
 
-/// Share of the gaps of its neighbours that is left of one that vanishes.
+/// Share of the gaps of its neighbours up to which a gap vanishes.
 const MERGED_GAP_SHARE: f64 = 1e-6;
 
-/// True if a fold between two nodes repeats after half its drive periods already: it is a flip.
+/// True if a fold between two nodes of a curve repeats after half its drive periods already: it is a flip.
 fn is_merging<E: Codimension>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
@@ -229,7 +230,7 @@ fn is_merging<E: Codimension>(
     left.is_some_and(|it| it.norm() < MERGED_GAP_SHARE * before.norm().max(after.norm()))
 }
 
-/// The end of a step, or the point on it where a parameter leaves its range.
+/// The end of a step of a curve, or the point on it where a parameter leaves its range, and whether one does.
 fn clip_to_region<E: Codimension>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),

@@ -1,4 +1,4 @@
-//! What lies on one step of a branch: special points, ends.
+//! Detection of what lies on one step of a branch: special points, ends.
 
 use std::cell::RefCell;
 
@@ -17,8 +17,7 @@ use super::test::Test;
 use crate::orbit::OrbitError;
 use softstop::internals::highest_point;
 
-/// Share of its way across that half a round may have left where an orbit has become one of half as many
-/// periods.
+/// Share of its gap after half its periods that may be left where an orbit has become one of half as many periods.
 const MERGED_SHARE: f64 = 1e-3;
 /// Scaled distance within which an end of the range is reached where it cannot be passed.
 const BOUND_DISTANCE: f64 = 1e-4;
@@ -26,8 +25,9 @@ const BOUND_DISTANCE: f64 = 1e-4;
 const START_DISTANCE: f64 = 1e-3;
 /// Share of a step to which the place is found where a multiplier is farthest beyond -1.
 const DIP_WIDTH: f64 = 1e-6;
-/// Share of a step over which a test is taken to be straight, and the value from which on no step leads to zero and back.
+/// Share of a step over which a test is taken to be straight.
 const STRAIGHT_SHARE: f64 = 0.02;
+/// Value of a test from which on no step leads to zero and back.
 const MAX_DIP_TEST: f64 = 0.2;
 /// Scaled length of the shortest part of a step that is halved to find a grazing on it.
 const MIN_HALVED_LENGTH: f64 = 1e-7;
@@ -46,7 +46,7 @@ impl<F: Family> Continuation<'_, F> {
         (bound != now).then_some((bound, is_at))
     }
 
-    /// The orbit at the end of the range that a node has reached to within `AT_BOUND`.
+    /// The orbit at the end of the range that a node has reached to within `BOUND_DISTANCE`.
     pub(super) fn bound_at(
         &self,
         node: &Node<PeriodMap>,
@@ -64,7 +64,7 @@ impl<F: Family> Continuation<'_, F> {
         (events(&found) == events(node)).then_some(found)
     }
 
-    /// The special points of a step, in their order.
+    /// The special points on a step of a branch, in their order.
     pub(super) fn specials_between(
         &self,
         from: &Node<PeriodMap>,
@@ -135,8 +135,7 @@ impl<F: Family> Continuation<'_, F> {
         flips.into_iter().collect()
     }
 
-    /// The grazings on a step where the branch goes on. A part of the step is halved as long as none is found on it that
-    /// makes the whole difference in crossings.
+    /// The grazings on a step where the branch goes on, which is halved until they make the whole difference.
     fn grazes_between(
         &self,
         from: &Node<PeriodMap>,
@@ -213,8 +212,8 @@ impl<F: Family> Continuation<'_, F> {
                 .is_ok_and(|node| (origin - &node.at).norm() < START_DISTANCE * way.norm())
     }
 
-    /// The flip at which an orbit becomes one of half as many periods, or the pitchfork at which it becomes symmetric, and why the
-    /// branch ends there, if it does on a step: half a round leads to the other side of it.
+    /// The flip at which an orbit becomes one of half as many periods, or the pitchfork at which it becomes symmetric,
+    /// and why the branch ends there, if it does on a step: half the period leads to the other side of it.
     pub(super) fn merging_point(
         &self,
         from: &Node<PeriodMap>,
@@ -254,8 +253,7 @@ impl<F: Family> Continuation<'_, F> {
     }
 }
 
-/// A place on a step, as a share of its way, at which a test is negative that is positive at both ends: by golden section
-/// until one is found.
+/// A node on a step, with its share of the way, at which a test is negative that is positive at both ends.
 fn find_negative<E: Equations>(
     cubic: &CurveCubic<'_, E>,
     value: impl Fn(&Node<E::Point>) -> f64,

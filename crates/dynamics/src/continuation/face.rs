@@ -1,8 +1,8 @@
-//! The surfaces that an orbit may graze.
+//! Faces: the surfaces that an orbit may graze.
 
 use softstop::{Parameter, Scene, Stop};
 
-/// A surface at which a scene's law of force changes.
+/// A face: a surface at which a scene's law of force changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Face {
     /// The clearance: an impact.
@@ -18,7 +18,7 @@ pub enum Face {
 }
 
 impl Face {
-    /// All.
+    /// All faces.
     pub const ALL: [Self; 5] = [
         Self::Clearance,
         Self::Pierced,
@@ -27,7 +27,7 @@ impl Face {
         Self::Below,
     ];
 
-    /// Its position in m, if the scene has it.
+    /// Position of the face in m, if the scene has it.
     pub fn face_position(self, scene: &Scene) -> Option<f64> {
         match self {
             Self::Clearance => Some(scene.clearance),
@@ -40,17 +40,17 @@ impl Face {
         }
     }
 
-    /// 1 where a motion meets it upwards, -1 where downwards.
+    /// 1 where a motion meets the face upwards, -1 where downwards.
     pub(crate) fn side_sign(self) -> f64 {
         if self == Self::Below { -1.0 } else { 1.0 }
     }
 
-    /// True if meeting it is an impact.
+    /// True if meeting the face is an impact.
     pub(crate) fn is_clearance(self) -> bool {
         matches!(self, Self::Clearance | Self::Below)
     }
 
-    /// True if an orbit can graze it without losing its derivative: the force does not jump there.
+    /// True if an orbit can graze the face without losing its derivative: the force does not jump there.
     pub(crate) fn is_gentle(self, scene: &Scene) -> bool {
         match (self, scene.piercing) {
             (Self::Clearance, Some(strip)) => strip.thickness > 0.0,
@@ -72,8 +72,8 @@ impl Face {
         }
     }
 
-    /// True if a weak impact there has a square root, and a motion may begin there: at a rigid stop, and where the force jumps
-    /// against the mass or with it but for the strip's edges.
+    /// True if a weak impact at the face has a square root, and a motion may begin there: at a rigid stop, and where
+    /// the force jumps against the mass or with it but for the strip's edges.
     pub(crate) fn is_steep(self, scene: &Scene) -> bool {
         match self {
             Self::Clearance => scene.piercing.is_none() && !self.is_gentle(scene),
@@ -99,14 +99,14 @@ impl Face {
     }
 }
 
-/// Where an orbit comes near to grazing.
+/// Where an orbit comes near to grazing a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NearTouch {
     /// Time in s.
     pub time: f64,
-    /// Velocity in m/s of a crossing, or distance in m of a turning point from the surface ahead.
+    /// Velocity in m/s of a crossing, or distance in m of a turning point from the face ahead.
     pub amount: f64,
-    /// The surface.
+    /// The face.
     pub face: Face,
     /// Dry friction turns its sign there.
     pub reverses: bool,

@@ -1,4 +1,4 @@
-//! Orbits of a family followed along its parameter.
+//! Continuation of the orbits of a family along its parameter.
 
 use std::ops::ControlFlow;
 
@@ -17,7 +17,7 @@ use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 /// Scaled distance along a branch to which special points are located.
 pub(crate) const LOCATED_WIDTH: f64 = 1e-12;
 
-/// Follows the orbits of a family over a number of drive periods.
+/// A continuation: follows the orbits of a family over a number of drive periods.
 #[derive(Debug)]
 pub struct Continuation<'a, F> {
     pub(super) shooting: Shooting<'a, F, 1>,
@@ -40,8 +40,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         }
     }
 
-    /// With steps of at most `largest`, in units of the family's scales: for curves without visible
-    /// corners.
+    /// This continuation with steps of at most `largest`, in units of the family's scales: for visibly smooth curves.
     #[must_use]
     pub fn with_steps(self, largest: f64) -> Self {
         Self { largest, ..self }
@@ -63,7 +62,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         }
     }
 
-    /// The orbit at `parameter`, stable or not, that Newton's method reaches from a state near it.
+    /// The point of a branch at `parameter` that Newton's method reaches from a state near it, stable or not.
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle.
@@ -75,6 +74,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         self.point_at(&self.correct_start(parameter, state)?)
     }
 
+    /// The node at a parameter that Newton's method reaches from a state near it.
     pub(super) fn correct_start(
         &self,
         parameter: f64,
@@ -84,7 +84,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         correct_given(&self.shooting, &guess)
     }
 
-    /// The direction of rising or falling parameters.
+    /// The direction of rising or falling parameters, in scaled unknowns.
     pub(super) fn direction_vector(direction: Direction) -> DVector<f64> {
         let way = match direction {
             Direction::Up => 1.0,
@@ -93,8 +93,8 @@ impl<'a, F: Family> Continuation<'a, F> {
         DVector::from_vec(vec![0.0, 0.0, way])
     }
 
-    /// The branch of z = 1 motions from an orbit at `parameter`, until `watch` stops it at its last point or `limit` points are there, or until it cannot be followed any
-    /// farther even with the smallest step (where the regime ends).
+    /// Follows the branch of z = 1 motions from an orbit at `parameter`, until `watch` stops it, `limit` points are
+    /// there, or it cannot be followed any farther even with the smallest step (where the regime ends).
     ///
     /// # Errors
     /// [`OrbitError`] if the start is not on a branch.
@@ -180,7 +180,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         Ok(None)
     }
 
-    /// The orbit at which a test vanishes, by Newton's method for orbit and parameter together.
+    /// Locates the orbit at which a test vanishes, by Newton's method for orbit and parameter together.
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle.
@@ -191,7 +191,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         plain.point_at(&correct(&Critical { shooting, test }, &guess, None)?)
     }
 
-    /// The full orbit at a point.
+    /// The full orbit at a point of a branch.
     ///
     /// # Errors
     /// [`OrbitError`] if the point is not on a z = 1 orbit.
@@ -207,7 +207,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         ))
     }
 
-    /// A node as it is seen at drive angle phi.
+    /// The point of a branch at a node, as it is seen at drive angle phi.
     ///
     /// # Errors
     /// [`OrbitError`] if it cannot be carried there.
@@ -232,6 +232,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         })
     }
 
+    /// The node at a point of a branch, as it is seen at this section.
     pub(super) fn node_at(&self, point: &BranchPoint) -> Result<Node<PeriodMap>, OrbitError> {
         let at = self.place_of(point)?;
         let here = self.shooting.evaluate(&at)?;
@@ -239,8 +240,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     }
 }
 
-/// True if a step has not leapt to another piece of the branch: no test of the monodromy matrix changes much, and it goes
-/// on in the same sense.
+/// True if a step has not leapt to another piece of the branch: no test changes much, the sense does not change.
 fn is_same_piece<F: Family>(
     stepper: &Stepper<'_, Shooting<'_, F, 1>>,
     step: &CurveStep<PeriodMap>,
@@ -249,7 +249,7 @@ fn is_same_piece<F: Family>(
     Test::change_little(from, to) && keeps_sense((&stepper.direction, from), (&step.direction, to))
 }
 
-/// Sense that rounding may leave where there is none.
+/// Sense of a direction that rounding may leave where there is none.
 const SENSE_ROUNDING: f64 = 1e-8;
 
 /// True if directions at two places of a branch, each with the monodromy matrix there, may be one: the parameter turns
@@ -263,7 +263,7 @@ pub(super) fn keeps_sense(
     is_one_sense(sense(from, before), sense(to, after))
 }
 
-/// True if two senses are one, or there is none.
+/// True if two senses of direction are one, or there is none.
 pub(super) fn is_one_sense(from: f64, to: f64) -> bool {
     from * to >= 0.0 || from.abs().min(to.abs()) <= SENSE_ROUNDING
 }

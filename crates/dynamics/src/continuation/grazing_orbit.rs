@@ -1,4 +1,4 @@
-//! Orbits that graze a surface: with the touch at their beginning, all that follows is smooth.
+//! Grazing orbits, which touch a surface: with the touch at their beginning, all that follows is smooth.
 //!
 //! Near grazing the map over whole periods has a derivative without bounds (saltation with 1/v), but
 //! the orbit that just touches solves a regular system: from rest at a surface at a drive angle, over
@@ -22,7 +22,7 @@ pub(crate) struct GrazingOrbit<'a, F, const N: usize> {
 }
 
 impl<F: Family<N>, const N: usize> GrazingOrbit<'_, F, N> {
-    /// The touch, as of a crossing that dies.
+    /// The touch of a grazing orbit, as of a crossing that dies.
     pub fn graze_at(&self, node: &Node<SectionPoint>) -> Graze {
         Graze {
             angle: node.at[0],
@@ -33,7 +33,7 @@ impl<F: Family<N>, const N: usize> GrazingOrbit<'_, F, N> {
         }
     }
 
-    /// How far the velocity at a touch moves the position at the next, without units.
+    /// Response of a grazing orbit: how far the velocity at a touch moves the position at the next, without units.
     pub fn touch_response(&self, point: &SectionPoint) -> f64 {
         let [length, speed] = self.section.family.state_scales();
         point.monodromy.m12 * speed / length

@@ -1,4 +1,4 @@
-//! How near to grazing an orbit is, and the grazing orbit ahead of it.
+//! The grazing test: how near to grazing an orbit is, and the grazing orbits ahead of it.
 
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
@@ -16,9 +16,10 @@ use crate::period::PeriodTrajectory;
 use crate::period::turn::turning_points;
 use softstop::{Crossing, CrossingKind, MotionError, Scene};
 
-/// An orbit's slowest crossing and its nearest turning point.
+/// A grazing test of an orbit: its slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
 pub(crate) struct GrazingTest {
+    /// The slowest crossing, which may die.
     dying: Option<NearTouch>,
     rising: Option<NearTouch>,
     /// Crossings of the orbit, and those that a dying impact takes along.
@@ -38,7 +39,7 @@ pub(crate) struct GrazingTest {
 }
 
 impl GrazingTest {
-    /// That of an orbit.
+    /// The grazing test of the orbit at a node.
     pub fn of_node<F: Family>(
         shooting: &Shooting<'_, F, 1>,
         node: &Node<PeriodMap>,
@@ -64,7 +65,7 @@ impl GrazingTest {
         })
     }
 
-    /// This test with what its distances have lost on the step from the test before.
+    /// This grazing test with what its distances have lost on the step from the test before.
     pub fn after_step(self, before: &Self, step: f64) -> Self {
         let loss = |(then, now): (Option<NearTouch>, Option<NearTouch>)| match (then, now) {
             (Some(then), Some(now)) if then.face == now.face && self.is_gentle(now.face) => {
@@ -76,8 +77,7 @@ impl GrazingTest {
         Self { losses, ..self }
     }
 
-    /// True if a distance to a smooth grazing falls so fast that it vanishes within a step, beyond which the orbit crosses as
-    /// much as before it: it may graze twice on it.
+    /// True if a step may graze twice: a distance to a smooth grazing would vanish on it, no crossing changes.
     pub fn may_graze_twice(&self, ahead: &Self, step: f64) -> bool {
         let vanishes = |(touch, loss): (Option<NearTouch>, f64)| {
             touch.is_some_and(|touch| touch.amount < loss * step)
@@ -89,8 +89,7 @@ impl GrazingTest {
                 .any(vanishes)
     }
 
-    /// True if neither distance to a grazing that is not smooth has shrunk below `share` of what it was, or both are
-    /// still more than `near`.
+    /// True if a step leaves at least `share` of each distance to a grazing that is not smooth, or more than `near`.
     pub fn may_step(&self, before: &Self, share: f64, near: f64) -> bool {
         let leaves = |now: Option<NearTouch>, then: Option<NearTouch>| match (now, then) {
             (Some(now), Some(then)) if !self.is_gentle(now.face) => {
@@ -114,11 +113,12 @@ impl GrazingTest {
         faces.any(|(one, gentle)| one == face && gentle)
     }
 
-    /// The grazing orbits that Newton's method reaches from here.
+    /// The grazing orbits that Newton's method reaches from the tested one, computed once.
     pub fn grazing_orbits<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> &[Special] {
         self.grazes.get_or_init(|| self.find_grazings(shooting))
     }
 
+    /// Finds the grazing orbits that Newton's method reaches from both touches.
     fn find_grazings<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
         let (total, taken) = self.crossings;
         let dying = self.dying.zip(total.checked_sub(taken));
@@ -136,6 +136,7 @@ impl GrazingTest {
             .collect()
     }
 
+    /// The grazing orbit that Newton's method reaches from a near touch.
     fn grazing_at<F: Family>(
         &self,
         shooting: &Shooting<'_, F, 1>,
@@ -226,8 +227,7 @@ fn nearest_turn(motion: &PeriodTrajectory, scene: &Scene) -> Option<NearTouch> {
     })
 }
 
-/// How many crossings of a motion go with one, at a time in s, if it dies: a rebound with the rest right after it, all up
-/// to the way back through a surface otherwise.
+/// How many crossings die with one at a time in s: a rebound with the rest after it, or all up to the way back.
 fn crossings_with(motion: &PeriodTrajectory, time: f64) -> usize {
     let all: Vec<&Crossing> = motion.crossings().collect();
     let is_it = |one: &&Crossing| motion.clock.time(one.instant) == time;

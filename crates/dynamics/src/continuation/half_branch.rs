@@ -1,9 +1,9 @@
-//! How far a branch is followed one way, and why it ends.
+//! Half a branch: how far it is followed one way, and why it ends.
 
 use super::point::{BranchPoint, Special};
 use crate::orbit::OrbitError;
 
-/// How far a branch is followed.
+/// Limits of a branch: how far it is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Lowest and highest value of the parameter.
@@ -48,7 +48,7 @@ pub enum BorderCollision {
     Surface,
 }
 
-/// One direction of a branch, its start left out.
+/// Half a branch: its points in one direction, without its start.
 pub(super) struct HalfBranch {
     pub(super) points: Vec<BranchPoint>,
     pub(super) specials: Vec<Special>,
@@ -58,7 +58,7 @@ pub(super) struct HalfBranch {
 }
 
 impl HalfBranch {
-    /// Ends in a grazing; false if there is none.
+    /// Ends half a branch in a grazing; false if there is none.
     pub(super) fn end_in_grazing(&mut self, special: Option<Special>) -> bool {
         let Some(special) = special else {
             return false;
@@ -69,6 +69,7 @@ impl HalfBranch {
         true
     }
 
+    /// Half a branch without points.
     pub(super) fn empty() -> Self {
         Self {
             points: Vec::new(),

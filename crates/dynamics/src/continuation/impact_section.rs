@@ -1,4 +1,4 @@
-//! Orbits seen from a surface: they begin there, and their last arc is taken back to it as if the surface were not there.
+//! Impact sections: orbits seen from a surface at which they begin, and to which their last arc is taken back.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -15,7 +15,7 @@ use crate::orbit::{Monodromy, OrbitError};
 use crate::period::PeriodTrajectory;
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene};
 
-/// Where orbits of a family begin and end: at a surface.
+/// An impact section of a family: the surface at which its orbits begin and end.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ImpactSection<'a, F, const N: usize> {
     pub family: &'a F,
@@ -26,7 +26,7 @@ pub(crate) struct ImpactSection<'a, F, const N: usize> {
     pub face: Face,
 }
 
-/// An orbit seen from a surface.
+/// An orbit seen from an impact section.
 #[derive(Debug, Clone)]
 pub(crate) struct SectionPoint {
     /// Jacobian of the map from just before the surface to there; of an orbit that grazes it, as if it were not there.
@@ -48,13 +48,13 @@ impl SectionPoint {
     }
 }
 
-/// The orbit does not cross as often as it should, or there is no such surface.
+/// The error of an orbit that does not cross as often as it should, or of a scene without the surface.
 const NO_CROSSING: OrbitError = OrbitError::Diverged {
     residual: f64::INFINITY,
 };
 
 impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
-    /// The surface that an orbit grazes.
+    /// The section at the surface that an orbit grazes.
     pub fn of_graze(graze: &Graze, (family, periods): (&'a F, u64)) -> Self {
         Self {
             family,
@@ -64,14 +64,14 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
         }
     }
 
-    /// Unknowns of an orbit: its drive angle at the section and what else it has there, then the parameters, scaled.
+    /// Unknowns of an orbit at the section: its drive angle and what else it has there, then the parameters, scaled.
     pub fn scaled_unknowns(&self, places: &[f64], parameters: [f64; N]) -> DVector<f64> {
         let scaled = parameters.into_iter().zip(self.family.parameter_scales());
         let scaled = scaled.map(|(value, scale)| value / scale);
         DVector::from_iterator(places.len() + N, places.iter().copied().chain(scaled))
     }
 
-    /// The parameters, which are the last of the unknowns.
+    /// The parameters of these unknowns, which are the last of them.
     pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
         let scales = self.family.parameter_scales();
         std::array::from_fn(|index| at[at.len() - N + index] * scales[index])
@@ -85,8 +85,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
         Ok((scene, position))
     }
 
-    /// How far a motion from a state at the section is from it after its periods, in units of the family's scales, and the
-    /// motion.
+    /// Carries a motion around from the section: how far it is off after its periods, scaled, and the motion.
     pub fn carry_around(
         &self,
         scene: &Scene,
@@ -98,7 +97,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
         Ok((Vector2::new(drift.x / length, drift.y / speed), around))
     }
 
-    /// The state at time 0 of the family's scene of an orbit with these unknowns, that leaves the section with a velocity.
+    /// The state at time 0 of the family's scene of an orbit that leaves the section with a velocity.
     pub fn state(&self, at: &DVector<f64>, velocity: f64) -> Result<Vector2<f64>, OrbitError> {
         let (angle, parameters) = (at[0], self.parameters(at));
         let phase = self.family.scene(parameters)?.excitation.phase;
@@ -110,7 +109,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
     }
 }
 
-/// A motion whose arc after a number of crossings is taken on to the end, whether or not something comes in between.
+/// A motion whose arc after a number of crossings is carried to the end, whether or not something comes in between.
 pub(crate) struct LastArc {
     /// The motion, which ends with that arc.
     pub motion: PeriodTrajectory,
@@ -125,7 +124,7 @@ pub(crate) struct LastArc {
 const CUT_ROUNDING: f64 = 1e-6;
 
 impl LastArc {
-    /// The motion of a scene from a state at time 0 over some drive periods.
+    /// The motion of a scene over some drive periods, its last arc carried past what comes in between.
     ///
     /// # Errors
     /// [`OrbitError`] if it does not cross as often, or cannot be computed.
@@ -150,8 +149,7 @@ impl LastArc {
         around.is_found.then_some(around).ok_or(NO_CROSSING)
     }
 
-    /// Takes an arc on to the end. A series holds no farther than its law: another arc goes on from its end. A mass that is held
-    /// touches nothing: it gives no end.
+    /// Extends an arc to the end, a series no farther than its law; a mass that is held gives no end.
     fn extend_arc(&mut self, arc: &Arc<'_>, lasts: f64) {
         let elapsed = arc.clock.elapsed(arc.start, self.until);
         if lasts < elapsed && arc.course.is_series() || arc.course.is_held() {

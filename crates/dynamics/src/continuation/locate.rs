@@ -1,4 +1,4 @@
-//! Special points between two solutions of a curve.
+//! Locating special points between two nodes of a solution curve.
 
 use std::cell::RefCell;
 
@@ -11,12 +11,11 @@ use super::arclength::{
 use crate::orbit::OrbitError;
 use softstop::internals::narrow_root;
 
-/// The first two nodes known are those that a special point lies between.
+/// Nodes known first: the two that a special point lies between.
 const END_NODES: usize = 2;
 
-/// The node between two neighbours at which `test` changes its sign, and its share of the way: trials
-/// on the curve through the nearest nodes known, each corrected across the chord, until they are `width` apart on
-/// it.
+/// Locates the node between two neighbours at which `test` changes its sign, and its share of the way: trials on the
+/// curve through the nearest nodes known, each corrected across the chord, until they are `width` apart on it.
 pub(crate) fn locate_zero<E: Equations>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
@@ -54,12 +53,13 @@ pub(crate) fn locate_zero<E: Equations>(
         .ok_or(OrbitError::LOST)
 }
 
-/// Most rounds, and nodes that the value of a test is followed back to zero through.
+/// Most rounds of solving for the zero of a test.
 const MAX_ZERO_ROUNDS: usize = 12;
+/// Last values of a test that its zero is interpolated from.
 const SUPPORT_VALUES: usize = 4;
 
-/// The node near the curve between two neighbours at which `test` vanishes. Each round is one evaluation: a step of
-/// Newton's method to the curve, and along the chord to where the last values of the test say that it vanishes.
+/// Solves for the node near the curve between two neighbours at which `test` vanishes. Each round is one evaluation: a
+/// step of Newton's method to the curve, and along the chord to where the last values of the test say that it vanishes.
 pub(crate) fn solve_zero<E: Equations>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
@@ -95,13 +95,12 @@ pub(crate) fn solve_zero<E: Equations>(
     Err(lost(f64::NAN))
 }
 
-/// True if a place is no farther from the line between two neighbours than they are from each other: what Newton's method
-/// finds farther off lies on another curve.
+/// True if a place is no farther from the line between two neighbours than they are apart: else it is on another curve.
 pub(super) fn is_beside((from, way): (&DVector<f64>, &DVector<f64>), at: &DVector<f64>) -> bool {
     along_chord((from, way), at).1 <= way.norm()
 }
 
-/// The share of the way from a place to its neighbour at which another place lies, and how far from the straight line.
+/// The share of the way along the chord between two neighbours at which a place lies, and its distance from it.
 pub(super) fn along_chord(
     (from, way): (&DVector<f64>, &DVector<f64>),
     at: &DVector<f64>,
@@ -111,7 +110,7 @@ pub(super) fn along_chord(
     (share, (gone - share * way).norm())
 }
 
-/// Where a function with these values vanishes, as the polynomial through its inverse has it.
+/// Where a function with these values vanishes, by inverse interpolation.
 fn interpolated_zero(values: &[(f64, f64)]) -> f64 {
     let weight = |index: usize| -> f64 {
         let others = values
@@ -125,18 +124,19 @@ fn interpolated_zero(values: &[(f64, f64)]) -> f64 {
     parts.map(|(index, (place, _))| place * weight(index)).sum()
 }
 
-/// The cubic between two neighbours along the directions of their curve.
+/// The cubic between two nodes along the tangents of their curve.
 pub(super) struct CurveCubic<'a, E: Equations> {
     equations: &'a E,
     from: &'a DVector<f64>,
     way: DVector<f64>,
-    /// Unit directions at both ends.
+    /// Unit tangents at both ends.
     directions: [DVector<f64>; 2],
     /// Slopes at the node found last.
     slopes: RefCell<Option<DMatrix<f64>>>,
 }
 
 impl<'a, E: Equations> CurveCubic<'a, E> {
+    /// The cubic between two nodes of a curve.
     pub fn between(
         equations: &'a E,
         (from, to): (&'a Node<E::Point>, &Node<E::Point>),
@@ -153,7 +153,7 @@ impl<'a, E: Equations> CurveCubic<'a, E> {
         })
     }
 
-    /// The point at this share of the way.
+    /// The point at this share of the way on the cubic: a guess of the curve's node.
     pub fn guess_at(&self, share: f64) -> DVector<f64> {
         let [begins, ends] = &self.directions;
         let far = self.way.norm() * (1.0 + (ends - begins).norm_squared() / 24.0);
@@ -162,7 +162,7 @@ impl<'a, E: Equations> CurveCubic<'a, E> {
         self.from + &self.way * smooth + bend
     }
 
-    /// The node of the curve at this share of the way.
+    /// The node of the curve near the cubic at this share of the way.
     pub fn node_at(&self, share: f64) -> Result<Node<E::Point>, OrbitError> {
         let (guess, chord) = (self.guess_at(share), self.way.normalize());
         let slopes = &mut *self.slopes.borrow_mut();
@@ -170,8 +170,9 @@ impl<'a, E: Equations> CurveCubic<'a, E> {
     }
 }
 
-/// Nodes that a guess between nodes is drawn through, and the shares of the way that they are apart at least.
+/// Nodes that a guess between nodes is interpolated from.
 const SUPPORT_NODES: usize = 4;
+/// Least distance of these nodes, as shares of the way.
 const MIN_NODE_SPACING: f64 = 1e-6;
 
 /// The point at this share of the way on the polynomial (Lagrange) through the nodes nearest to it.

@@ -1,12 +1,11 @@
 //! Branches of periodic orbits in one parameter, by pseudo-arclength (Keller 1977), their
 //! bifurcations, and curves of bifurcations in two parameters.
 //!
-//! A [`Family`] is a machine with one parameter or two left open: [`ParameterFamily`] makes one of any machine and
-//! any [`Parameter`](softstop::Parameter). A [`Continuation`] follows its orbits over a number of drive periods, whether stable or
-//! not, through folds; [`Continuation::branch`] finds every fold, flip and grazing on the way,
-//! [`Continuation::doubled`] goes on to the orbits of twice the period, [`Continuation::asymmetric`] to those that come out of
-//! symmetric ones at a pitchfork, and [`curve`] follows a special point
-//! in two parameters.
+//! A [`Family`] is a machine with one parameter or two left open: [`ParameterFamily`] makes one of any machine and any
+//! [`Parameter`](softstop::Parameter). A [`Continuation`] follows its orbits over a number of drive periods, whether
+//! stable or not, through folds; [`Continuation::branch`] finds every fold, flip and grazing on the way,
+//! [`Continuation::double_period`] goes on to the orbits of twice the period, [`Continuation::branch_asymmetric`] to those that come
+//! out of symmetric ones at a pitchfork, and [`follow_special`] follows a special point in two parameters.
 //!
 //! ```
 //! use std::ops::ControlFlow;
@@ -75,18 +74,18 @@ pub use test::Test;
 
 use softstop::{MotionError, Scene};
 
-/// Scenes along one or more parameters. To add one, implement the first three methods.
+/// A family of scenes along one or more parameters. To add one, implement the first three methods.
 pub trait Family<const PARAMETERS: usize = 1> {
-    /// The scene at values of the parameters.
+    /// The scene of the family at values of the parameters.
     ///
     /// # Errors
     /// [`MotionError`] if there is no such scene.
     fn scene(&self, parameters: [f64; PARAMETERS]) -> Result<Scene, MotionError>;
 
-    /// Typical sizes of position in m and velocity in m/s.
+    /// Typical sizes of position in m and velocity in m/s in the family.
     fn state_scales(&self) -> [f64; 2];
 
-    /// Typical changes of the parameters: with the sizes of the state, the units of the arclength.
+    /// Typical changes of the family's parameters: with the sizes of the state, the units of the arclength.
     fn parameter_scales(&self) -> [f64; PARAMETERS];
 
     /// d(drive frequency in rad/s) / d(parameter) of each parameter that changes nothing else: the exact derivatives of

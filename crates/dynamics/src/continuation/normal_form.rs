@@ -8,7 +8,7 @@ use softstop::Scene;
 
 /// Distances along the critical eigenvector, in the map's scales, over which the Jacobian is differenced.
 const FORM_DISTANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
-/// Share of their terms by which coefficients over one such distance and half of it differ at most.
+/// Share of their terms by which normal form coefficients over a distance and half of it may differ.
 const FORM_AGREEMENT: f64 = 1e-3;
 
 /// The coefficient of the normal form of a fixed point's map: a of u + a u^2 at a fold, c of -u + c u^3 at a flip, for the

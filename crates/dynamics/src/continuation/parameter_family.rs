@@ -1,9 +1,9 @@
-//! A machine along its parameters.
+//! The family of a machine along its own parameters.
 
 use super::Family;
 use softstop::{Dimension, Machine, MotionError, Parameter, Scene, SceneError};
 
-/// A machine along some of its parameters.
+/// A machine as a family along some of its parameters.
 #[derive(Debug, Clone)]
 pub struct ParameterFamily<const N: usize> {
     machine: Machine,
@@ -44,7 +44,7 @@ impl<const N: usize> ParameterFamily<N> {
         })
     }
 
-    /// The values of the parameters of the machine itself.
+    /// The values of the family's parameters that the machine itself has.
     pub fn own_values(&self) -> [f64; N] {
         self.parameters
             .map(|parameter| self.machine.value(parameter).unwrap_or(f64::NAN))

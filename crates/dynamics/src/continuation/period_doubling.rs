@@ -1,4 +1,4 @@
-//! From a flip to the orbits of twice the period.
+//! Period doubling: from a flip to the orbits of twice the period.
 
 use std::ops::ControlFlow;
 
@@ -18,15 +18,13 @@ use crate::orbit::OrbitError;
 
 /// Scaled distances from a flip or a pitchfork at which the branch that comes out of it is looked for.
 const BRANCHING_DISTANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-/// Smallest share of such a distance by which half a round must lead away.
+/// Smallest share of the distance from a flip by which half the doubled period must lead away.
 const HALF_PERIOD_GAP: f64 = 0.5;
-/// Greatest value of the test of a fold, 0 at the flip or pitchfork, where the new branch begins: farther on it may have flipped
-/// itself, or the orbit may be another one.
+/// Largest value of the test of a fold where the new branch begins: beyond, it may have flipped itself.
 const MAX_FOLD_TEST: f64 = 0.5;
 
 impl<F: Family> Continuation<'_, F> {
-    /// The branch of orbits of twice the period from a flip of these orbits on, along the
-    /// critical eigenvector.
+    /// Follows the branch of orbits of twice the period from a flip of these orbits on, along the critical eigenvector.
     ///
     /// # Errors
     /// [`OrbitError::Diverged`] if there is no such branch near the point.
@@ -47,8 +45,7 @@ impl<F: Family> Continuation<'_, F> {
         Ok(branch)
     }
 
-    /// A node of these orbits that `leads_away` from a point where a multiplier is critical, along its eigenvector, and the way
-    /// there.
+    /// A node that `leads_away` from a point with a critical multiplier, along its eigenvector, and the way there.
     pub(super) fn branch_off(
         &self,
         from: &BranchPoint,
@@ -73,8 +70,7 @@ impl<F: Family> Continuation<'_, F> {
         Err(OrbitError::LOST)
     }
 
-    /// The doublings of a branch, one after the other: the first flip among `specials`, the first on the
-    /// branch of twice the period from there, and so on; `count` at most.
+    /// Follows a cascade of at most `count` doublings: the first flip, the first on its doubled branch, and so on.
     ///
     /// # Errors
     /// [`OrbitError`] if a doubled branch cannot be followed.
@@ -104,7 +100,7 @@ impl<F: Family> Continuation<'_, F> {
         Ok(flips)
     }
 
-    /// Scaled distance between the states at half a round and at its start.
+    /// Scaled distance of the state after half the period from that at its start.
     fn half_period_gap(&self, node: &Node<PeriodMap>) -> f64 {
         let half = node
             .here
@@ -116,10 +112,12 @@ impl<F: Family> Continuation<'_, F> {
     }
 }
 
+/// True if the test of a flip is positive at a point.
 fn flip_sign(point: &BranchPoint) -> bool {
     Test::Flip.scaled_value(&point.monodromy) > 0.0
 }
 
+/// True if a special point is a flip.
 fn is_flip(special: &Special) -> bool {
     special.kind == SpecialKind::Critical(Test::Flip)
 }

@@ -1,4 +1,4 @@
-//! The map over the drive periods of an orbit, with everything that a continuation looks at.
+//! The map over the drive periods of an orbit, with all that a continuation needs to know.
 
 use std::sync::Arc as Shared;
 
@@ -11,30 +11,29 @@ use crate::period::PeriodTrajectory;
 use softstop::internals::{FrequencySensitivity, Motion, Phases};
 use softstop::{Arc, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scene};
 
-/// The image of a state after a number of drive periods from time 0, its derivatives, and what happens on the way.
+/// The period map of a state: its image after some drive periods from time 0, derivatives, and what happens on the way.
 #[derive(Debug, Clone)]
 pub(crate) struct PeriodMap {
-    /// Where it begins: the state, or the face of a rigid stop for a state beyond it.
+    /// Where the map begins: the state, or the face of a rigid stop for a state beyond it.
     pub start: Vector2<f64>,
-    /// Exact Jacobian.
+    /// Exact Jacobian of the map.
     pub monodromy: Monodromy,
-    /// Its exact derivative by the drive's frequency in m s/rad and m/rad, where all laws have one in closed form.
+    /// Exact derivative of the image by the drive's frequency in m s/rad and m/rad, where a closed form has one.
     pub by_frequency: Option<Vector2<f64>>,
     /// Before-impact velocities in m/s, in order of time.
     pub impacts: Vec<f64>,
-    /// How often it crosses what.
+    /// How often the motion crosses what.
     pub sequence: Sequence,
     /// The slowest crossing of a surface.
     pub slowest: Option<NearTouch>,
     /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
     pub margin: f64,
-    /// All of the motion.
+    /// Arcs and crossings of the motion.
     pub trajectory: Shared<PeriodTrajectory>,
 }
 
 impl PeriodMap {
-    /// The map of a valid scene, with its phases, from a state; with its derivative by the drive's frequency if that is
-    /// wanted.
+    /// The period map of a valid scene, with its phases, from a state; by the drive's frequency, too, if wanted.
     pub fn from_state(
         machine: (&Scene, Shared<Phases>),
         periods: u64,
@@ -91,7 +90,7 @@ fn crossing_margin(trajectory: &PeriodTrajectory, periods: u64) -> f64 {
     })
 }
 
-/// The image alone of a state, and how often the motion crosses what, without any derivative.
+/// The image alone of a state under the period map, and how often the motion crosses what, without any derivative.
 pub(crate) fn period_image(
     machine: (&Scene, Shared<Phases>),
     periods: u64,
@@ -131,8 +130,7 @@ pub(super) fn state_after(
 /// Distance and speed, in the scene's scales, within which a mass rests at a rigid stop.
 const REST_DISTANCE: f64 = 1e-9;
 
-/// A state, or one at the face of a rigid stop for one beyond it, or at rest there to rounding: so the map goes on
-/// continuously past the face, and has no other fixed points.
+/// A state, moved to the face of a rigid stop from beyond or from rest near it, so that the map stays continuous.
 pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
     let (lowest, highest) = scene.reach();
     let scales = scene.scales();
@@ -145,11 +143,11 @@ pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(state.x.min(highest).max(lowest), state.y)
 }
 
-/// Work that an orbit may cost per drive period, in scan windows: 32,000 crossings. A mass that bounces more
-/// often is on its way to rest, and its motion is no orbit that could be followed.
+/// Work that an orbit may cost per drive period, in scan windows: 32,000 crossings. A mass that bounces more often is
+/// on its way to rest, and its motion is no orbit that could be followed.
 const MAX_PERIOD_WORK: u64 = 1 << 21;
 
-/// Carries a motion on by a drive period at most.
+/// Carries a motion on to an instant, by a drive period at most.
 ///
 /// # Errors
 /// [`MotionError`] if it cannot be computed.

@@ -1,4 +1,4 @@
-//! Points of branches, and what is special about some.
+//! Points of branches, and special points among them.
 
 use nalgebra::Vector2;
 
@@ -6,10 +6,10 @@ use super::face::Face;
 use super::test::Test;
 use crate::orbit::Monodromy;
 
-/// A point of a branch.
+/// A point of a branch: the orbit at one value of the parameter.
 #[derive(Debug, Clone)]
 pub struct BranchPoint {
-    /// The parameter's value.
+    /// Value of the parameter.
     pub parameter: f64,
     /// Position in m at time 0.
     pub position: f64,
@@ -22,17 +22,17 @@ pub struct BranchPoint {
 }
 
 impl BranchPoint {
-    /// The highest before-impact velocity in m/s; 0 without any impact.
+    /// The highest before-impact velocity of the orbit in m/s; 0 without any impact.
     pub fn before_impact_velocity(&self) -> f64 {
         self.impacts.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Position and velocity at time 0.
+    /// State of the orbit at time 0, position and velocity.
     pub fn state(&self) -> Vector2<f64> {
         Vector2::new(self.position, self.velocity)
     }
 
-    /// 1 - tr + det: zero at a fold, positive on its stable side.
+    /// 1 - tr + det of the orbit: zero at a fold, positive on its stable side.
     pub fn fold_test(&self) -> f64 {
         self.monodromy.fold_test()
     }
@@ -43,11 +43,10 @@ impl BranchPoint {
     }
 }
 
-/// What a special point is.
+/// The kind of a special point of a branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SpecialKind {
-    /// A bifurcation that the monodromy matrix tells: fold (the paper's SN), flip (PD),
-    /// Neimark-Sacker.
+    /// A bifurcation that the monodromy matrix tells: fold (the paper's SN), flip (PD), Neimark-Sacker.
     Critical(Test),
     /// The orbit grazes the stop (the paper's G).
     Grazing(Graze),
@@ -55,7 +54,7 @@ pub enum SpecialKind {
     Pitchfork,
 }
 
-/// An orbit that grazes.
+/// The touch of an orbit that grazes a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Graze {
@@ -73,7 +72,7 @@ pub struct Graze {
 }
 
 impl SpecialKind {
-    /// In one word, as in the paper's table where it has one: SN, PD, NS, G, PF.
+    /// The kind of special point as a symbol, as in the paper's table where it has one: SN, PD, NS, G, PF.
     pub fn symbol(&self) -> &'static str {
         match self {
             Self::Critical(Test::Fold) => "SN",
@@ -84,7 +83,7 @@ impl SpecialKind {
         }
     }
 
-    /// In words.
+    /// The kind of special point in words.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Critical(Test::Fold) => "fold",
@@ -100,14 +99,14 @@ impl SpecialKind {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Special {
-    /// What it is.
+    /// The kind of special point.
     pub kind: SpecialKind,
-    /// Where it is.
+    /// The point of the branch.
     pub point: BranchPoint,
 }
 
 impl Special {
-    /// True if this is the point.
+    /// True if the special point is this point of the branch.
     pub(crate) fn is_at(&self, point: &BranchPoint) -> bool {
         self.point.parameter == point.parameter && self.point.state() == point.state()
     }

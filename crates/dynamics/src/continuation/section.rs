@@ -1,4 +1,4 @@
-//! The drive angle at which a branch is looked at.
+//! The section of a branch: the drive angle at which it is looked at.
 //!
 //! Where the state at drive angle phi comes to lie on a surface, the orbit crosses the surface as before. But if the
 //! force jumps there, so does the acceleration, and the state at that angle changes its direction along the branch;
@@ -15,18 +15,17 @@ use super::point::BranchPoint;
 use crate::period::PeriodTrajectory;
 use softstop::MotionError;
 
-/// Drive periods between the section and a crossing within which the crossing may stand in the way.
+/// Drive periods from a branch's section to a crossing within which the crossing may stand in the way.
 const CROSSING_MARGIN: f64 = 0.05;
-/// How much farther from all crossings another section must be.
+/// Factor by which another section must be farther from all crossings.
 const MARGIN_GAIN: f64 = 2.0;
 /// Scaled distance back along a branch by which its direction is carried to another section.
 const BACKWARD_STEP: f64 = 1e-6;
-/// Scaled distance from where a motion is carried to within which it is found there: where it is wildly unstable, Newton's
-/// method may run off to another one.
+/// Scaled distance from where a motion is carried to up to which Newton's method has found the same one.
 const MAX_CARRY_ERROR: f64 = 1e-2;
 
 impl<'a, F: Family> Continuation<'a, F> {
-    /// The branch seen where no crossing stands in the way; none if this section is as good as any.
+    /// Turns the section of a branch to where no crossing stands in the way; none if this section is as good as any.
     pub(super) fn turn_section(
         &self,
         node: &Node<PeriodMap>,
@@ -55,7 +54,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         })
     }
 
-    /// With the section in the middle of the orbit's longest flight; none if no crossing is near the present one.
+    /// This continuation with its section in the middle of the orbit's longest flight; none if no crossing is near.
     pub(super) fn clear_of(&self, node: &Node<PeriodMap>) -> Option<Self> {
         let margin = node.here.point.margin;
         if margin > CROSSING_MARGIN {
@@ -65,7 +64,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         (0.5 * gap > MARGIN_GAIN * margin).then(|| self.with_turn(self.shooting.turn + middle))
     }
 
-    /// A place some drive periods later on the same motion.
+    /// Carries a place to another section: to that some drive periods later on the same motion.
     pub(super) fn carry_place(
         &self,
         at: &DVector<f64>,
@@ -79,7 +78,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         Ok(self.shooting.scaled(state, self.shooting.parameters(at)))
     }
 
-    /// Where a point lies in this section.
+    /// The place of a point of a branch, as it is seen at this section.
     pub(super) fn place_of(&self, point: &BranchPoint) -> Result<DVector<f64>, MotionError> {
         let plain = self.with_turn(0.0);
         let at = plain.shooting.scaled(point.state(), [point.parameter]);
@@ -90,8 +89,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     }
 }
 
-/// Middle and length of the longest time in which a motion, which repeats after so many drive periods, crosses nothing and
-/// is not held, in drive periods.
+/// Middle and length in drive periods of the longest flight of a motion: it crosses nothing and is not held.
 fn longest_flight(motion: &PeriodTrajectory, periods: u64) -> (f64, f64) {
     let ended = motion.arcs.iter();
     let all = ended.filter_map(|arc| {

@@ -1,18 +1,18 @@
-//! What an orbit crosses, and how often.
+//! The sequence of crossings of an orbit: what it crosses, and how often.
 
 use super::face::{Face, NearTouch};
 use super::half_branch::BorderCollision;
 use crate::period::PeriodTrajectory;
 use softstop::{Crossing, CrossingKind, Scene};
 
-/// How often an orbit crosses what; it changes only where the orbit grazes something.
+/// Counts of what an orbit crosses; they change only where it grazes something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Sequence {
     /// Impacts; each row of bounces that ends in rest counts as one.
     pub impacts: usize,
     /// Crossings of surfaces, impacts on a rigid stop among them.
     pub surfaces: usize,
-    /// Those of them at a [`Face`](super::face::Face).
+    /// Crossings of surfaces at a [`Face`].
     pub faces: usize,
     /// Turns under dry friction.
     pub reversals: usize,
@@ -27,17 +27,17 @@ pub(crate) struct Sequence {
 }
 
 impl Sequence {
-    /// True if no crossing with a jump of the force makes the difference.
+    /// True if two sequences differ in no crossing with a jump of the force.
     pub fn has_same_jumps(&self, other: &Self) -> bool {
         self.jump_counts() == other.jump_counts() && self.rests == other.rests
     }
 
-    /// True if the sequences agree and have as many impacts.
+    /// True if a sequence continues another: no other jumps of the force, and as many impacts.
     pub fn continues(&self, other: &Self) -> bool {
         self.impacts == other.impacts && self.has_same_jumps(other)
     }
 
-    /// What comes in between two orbits.
+    /// The border collision that lies between orbits of two sequences.
     pub fn border_to(&self, other: &Self) -> Option<BorderCollision> {
         let ([surfaces, turns], [others, other_turns]) = (self.jump_counts(), other.jump_counts());
         if (self.holds, self.rests) != (other.holds, other.rests) {
@@ -49,6 +49,7 @@ impl Sequence {
         }
     }
 
+    /// Crossings of surfaces, and turns, at which the force jumps.
     fn jump_counts(&self) -> [usize; 2] {
         [
             self.surfaces - self.gentle[0],
@@ -61,7 +62,7 @@ impl Sequence {
         [self.impacts, self.surfaces, self.reversals, self.rests]
     }
 
-    /// Crossings of all kinds.
+    /// Number of crossings of all kinds.
     pub fn crossing_count(&self) -> usize {
         self.surfaces + self.reversals + self.others
     }
@@ -75,7 +76,7 @@ pub(crate) struct CountedCrossings<'a> {
 }
 
 impl<'a> CountedCrossings<'a> {
-    /// Those of a motion of a scene.
+    /// The counted crossings of a motion of a scene.
     pub fn of_motion(scene: &Scene, trajectory: &'a PeriodTrajectory) -> Self {
         let mut all: Vec<(&Crossing, Option<Face>)> = Vec::new();
         // Which one is the first of the present row of bounces, and how fast the last is.
@@ -100,7 +101,7 @@ impl<'a> CountedCrossings<'a> {
         Self { trajectory, all }
     }
 
-    /// Before-impact velocities in m/s, in order of time.
+    /// Before-impact velocities of the motion in m/s, in order of time.
     pub fn impact_velocities(&self) -> impl Iterator<Item = f64> {
         self.all.iter().filter_map(|(it, _)| it.impact_velocity())
     }
@@ -121,7 +122,7 @@ impl<'a> CountedCrossings<'a> {
         touches.min_by(|a, b| a.amount.total_cmp(&b.amount))
     }
 
-    /// How often the motion crosses what.
+    /// Counts the crossings of the motion: how often it crosses what.
     pub fn count_crossings(&self, scene: &Scene) -> Sequence {
         let held = self.trajectory.arcs.iter().map(|arc| arc.course.is_held());
         let before = std::iter::once(false).chain(held.clone());
@@ -175,7 +176,7 @@ impl Sequence {
     }
 }
 
-/// True if a surface is passed or a rigid stop hit.
+/// True if a crossing passes a surface or hits a rigid stop.
 fn is_passage(crossing: &Crossing) -> bool {
     matches!(
         crossing.kind,

@@ -1,4 +1,4 @@
-//! The equations of a periodic orbit: P(s) = s over a number of drive periods.
+//! Stroboscopic shooting: the equations P(s) = s of a periodic orbit over a number of drive periods.
 
 use std::cell::RefCell;
 use std::f64::consts::TAU;
@@ -15,8 +15,7 @@ use crate::orbit::OrbitError;
 use softstop::internals::Phases;
 use softstop::{MotionError, Scene};
 
-/// Orbits of a family over a number of drive periods, in scaled unknowns: position, velocity,
-/// parameters.
+/// The shooting for orbits of a family over drive periods, in scaled unknowns: position, velocity, parameters.
 #[derive(Debug)]
 pub(crate) struct Shooting<'a, F, const N: usize> {
     pub family: &'a F,
@@ -24,11 +23,12 @@ pub(crate) struct Shooting<'a, F, const N: usize> {
     /// Drive periods from drive angle phi to the section.
     pub turn: f64,
     scales: DVector<f64>,
-    /// The phases at the last place.
+    /// The phases of the scene at the last place.
     lowered: Rc<RefCell<Option<Shared<Phases>>>>,
 }
 
 impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
+    /// The shooting for orbits of a family over some drive periods, with the section at drive angle phi.
     pub fn new(family: &'a F, periods: u64) -> Self {
         let scales = family.state_scales().into_iter();
         let scales = scales.chain(family.parameter_scales());
@@ -41,7 +41,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         }
     }
 
-    /// The family of these orbits over another number of drive periods, seen so many of them after drive angle phi.
+    /// This shooting over another number of drive periods, with its section so many of them after drive angle phi.
     pub fn seen_at(&self, turn: f64, periods: u64) -> Self {
         Self {
             family: self.family,
@@ -52,27 +52,30 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         }
     }
 
+    /// The scaled unknowns of the shooting for a state and parameters.
     pub fn scaled(&self, state: Vector2<f64>, parameters: [f64; N]) -> DVector<f64> {
         let raw = [state.x, state.y].into_iter().chain(parameters);
         DVector::from_iterator(2 + N, raw).component_div(&self.scales)
     }
 
+    /// The state that these scaled unknowns of the shooting stand for.
     pub fn state_at(&self, at: &DVector<f64>) -> Vector2<f64> {
         Vector2::new(at[0] * self.scales[0], at[1] * self.scales[1])
     }
 
+    /// The parameters that these scaled unknowns of the shooting stand for.
     pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
         std::array::from_fn(|index| at[2 + index] * self.scales[2 + index])
     }
 
-    /// The scene with time 0 at the section.
+    /// The scene of these unknowns, with time 0 at the section.
     pub fn scene_at(&self, at: &DVector<f64>) -> Result<Scene, MotionError> {
         let mut scene = self.family.scene(self.parameters(at))?;
         scene.excitation.phase += TAU * self.turn;
         Ok(scene)
     }
 
-    /// The phases of a scene of the family.
+    /// The phases of a scene of the family, lowered anew only where more than the frequency differs.
     pub fn lower_phases(&self, scene: &Scene) -> Shared<Phases> {
         let known = self.lowered.take().filter(|_| self.is_by_frequency());
         let phases = known.map_or_else(
@@ -93,6 +96,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         self.family.by_frequency().iter().all(Option::is_some)
     }
 
+    /// The scaled residual of a state whose image is `end`.
     fn scaled_residual(&self, state: Vector2<f64>, end: Vector2<f64>) -> DVector<f64> {
         let gap = end - state;
         DVector::from_vec(vec![gap.x / self.scales[0], gap.y / self.scales[1]])
@@ -103,7 +107,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         self.scales[1]
     }
 
-    /// Norm of a monodromy matrix without units.
+    /// Norm of a monodromy matrix without units: growth of small differences.
     pub fn growth(&self, m: &Matrix2<f64>) -> f64 {
         let [length, speed] = self.family.state_scales();
         let mixed = (m.m12 * speed / length).hypot(m.m21 * length / speed);
@@ -139,7 +143,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         Ok((self.scaled_residual(state, end), sequence == here.sequence))
     }
 
-    /// The exact Jacobian of the map, and the slopes.
+    /// The exact Jacobian of the residual: that of the map, and the slopes.
     fn jacobian(&self, here: &Evaluation<PeriodMap>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
         let (m, ratio) = (&here.point.monodromy, self.scales[1] / self.scales[0]);
         let own = Matrix2::new(m.m11 - 1.0, m.m12 * ratio, m.m21 / ratio, m.m22 - 1.0);
@@ -149,8 +153,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         })
     }
 
-    /// Near grazing the map bends within the square of the speed of the touch, or of what its Jacobian's reciprocal
-    /// measures.
+    /// Half-width of differences: near grazing the map bends within the square of the touch's speed.
     fn difference_width(&self, here: &Evaluation<PeriodMap>) -> f64 {
         let size = self.growth(&here.point.monodromy);
         let speed = self.velocity_scale();
@@ -159,7 +162,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         DIFFERENCE_WIDTH * share.clamp(MIN_WIDTH_SHARE, 1.0)
     }
 
-    /// Small changes of the state grow a hundredfold and more, though it grazes nothing.
+    /// True if small changes of the state grow a hundredfold and more, though the orbit grazes nothing.
     fn is_steep(&self, here: &PeriodMap) -> bool {
         let speed = self.velocity_scale();
         let grazes = here
@@ -179,16 +182,16 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     }
 }
 
-/// Size of a Jacobian from which on its orbit is taken to be near grazing.
+/// Norm of a Jacobian from which on its orbit is taken to be near grazing.
 const GRAZING_GROWTH: f64 = 10.0;
-/// Multiplier from which on a guess must be very near.
+/// Trace of a Jacobian from which on a guess must be very near.
 const UNSTABLE_TRACE: f64 = 100.0;
-/// Scaled speed of a touch up to which it is.
+/// Scaled speed of a touch up to which an orbit is near grazing.
 const SLOW_TOUCH: f64 = 0.01;
 /// The smallest share of the usual width that rounding leaves good for a difference.
 const MIN_WIDTH_SHARE: f64 = 1e-5;
 
-/// What rounding alone may leave of P(s) - s in units of `sizes`.
+/// What rounding alone may leave of the residual P(s) - s, in units of `sizes`.
 pub(crate) fn round_off(
     scene: &Scene,
     state: &Vector2<f64>,
@@ -200,7 +203,7 @@ pub(crate) fn round_off(
     scales.map_rounding(state, jacobian) / least
 }
 
-/// Periodic orbits on which a test function vanishes besides.
+/// The shooting for periodic orbits on which a test function vanishes besides.
 #[derive(Debug)]
 pub(crate) struct Critical<'a, F, const N: usize> {
     pub shooting: Shooting<'a, F, N>,

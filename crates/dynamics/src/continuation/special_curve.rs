@@ -1,4 +1,4 @@
-//! Special points followed in two parameters.
+//! Following a special point of a branch in two parameters, along its curve.
 
 use std::ops::ControlFlow;
 
@@ -15,8 +15,8 @@ use super::shooting::{Critical, Shooting};
 use super::test::Test;
 use crate::orbit::OrbitError;
 
-/// Follows a special point, of this kind and with this state at time 0, in both directions. `parameters` are its own: that of
-/// the branch and the value of the second; `watch` sees each point as it comes.
+/// Follows a special point, of this kind and with this state at time 0, in both directions of two parameters.
+/// `parameters` are its own: that of the branch and the value of the second; `watch` sees each point as it comes.
 ///
 /// # Errors
 /// [`OrbitError`] if the point is not a special one of this family.
@@ -33,6 +33,7 @@ pub fn follow_special<F: Family<2>>(
     Ok(found)
 }
 
+/// Follows a special point as [`follow_special`] does, without the last point of folds that end in flips.
 fn follow_raw<F: Family<2>>(
     family: &F,
     periods: u64,
@@ -65,8 +66,7 @@ fn follow_raw<F: Family<2>>(
 /// Points and steps, in those of the region, of the curve of flips on which a generalised flip is looked for.
 const FLIP_SEARCH: (usize, f64) = (5, 0.1);
 
-/// Gives curves of folds that end near a generalised flip their last point: the folds' own equations are singular there, so
-/// that of the curve of flips is taken.
+/// Gives curves of folds that end near a generalised flip, singular there, their last point by that of flips.
 pub(super) fn end_in_flips<F: Family<2>>(family: &F, folds: &mut Curve, region: &CurveLimits) {
     let is_fold = folds.kind == SpecialKind::Critical(Test::Fold);
     if !is_fold || !folds.periods.is_multiple_of(2) {

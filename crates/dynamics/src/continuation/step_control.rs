@@ -1,4 +1,4 @@
-//! What keeps a step along a branch from missing anything, and what ends a branch that no step can follow.
+//! Step control of a branch: what keeps a step from missing anything, and what ends a branch that no step can follow.
 
 use super::Family;
 use super::arclength::{DIFFERENCE_WIDTH, Equations, Node, correct};
@@ -12,29 +12,29 @@ use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::orbit::OrbitError;
 
-/// Smallest share that a step may leave of the distance to grazing, while that is more than `NEAR_GRAZING`
-/// (scaled).
+/// Smallest share that a step may leave of the distance to grazing.
 const MIN_SHARE_LEFT: f64 = 0.3;
+/// Scaled distance to grazing up to which a step may leave less.
 const GRAZING_DISTANCE: f64 = 1e-4;
-/// Length of the steps up to which a grazing orbit is looked for ahead: nothing but a fold or a flip is on so short a way.
+/// Length of steps up to which a grazing orbit is looked for ahead: they pass but a fold or a flip.
 const GRAZING_SEARCH_STEP: f64 = 1e-3;
-/// Shares of that way at which a fold is looked for behind.
+/// Shares of the way to a grazing at which a fold is looked for behind.
 const FOLD_SEARCH_SHARES: [f64; 3] = [0.9, 0.99, 0.999];
 /// Scaled distance within which a branch that cannot be followed is taken to end in the grazing ahead: multipliers grow
 /// as the reciprocal of the distance, and no step is short enough for them.
 const GRAZING_AHEAD: f64 = 1e-2;
 /// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
 const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
-/// Scaled distances ahead, where the orbits of a branch come to lie side by side.
+/// Scaled distances ahead at which a rest is looked for, where the orbits of a branch come to lie side by side.
 const REST_DISTANCES: [f64; 3] = [1e-4, 1e-3, 1e-2];
-/// Monodromy beyond which an orbit is within rounding of a grazing: on which side of it, rounding decides.
+/// Norm of a monodromy matrix beyond which rounding decides on which side of a grazing an orbit is.
 const WILD_GROWTH: f64 = 1e8;
-/// Length of the steps from which on all changes are taken.
+/// Length of a step below which all changes but those of the sequence are taken.
 pub(super) const SHORT_STEP: f64 = 1e-5;
 
 impl<F: Family> Continuation<'_, F> {
-    /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just
-    /// ahead (of values that no machine can have beyond), at an orbit that is too unstable, or lost.
+    /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just ahead
+    /// (of values that no machine can have beyond), at an orbit that is too unstable, or lost.
     pub(super) fn end_branch(
         &self,
         way: &mut HalfBranch,
@@ -70,8 +70,8 @@ impl<F: Family> Continuation<'_, F> {
         };
     }
 
-    /// What the orbits just ahead of a node meet, and it does not, or those just behind it, as where a corner was passed
-    /// beyond which no orbit goes on. A mass that slips ever less along the branch comes to be held for good.
+    /// The border collision just ahead of a node, or just behind it, as where a corner was passed beyond which no orbit
+    /// goes on. A mass that slips ever less along the branch comes to be held for good.
     fn border_ahead(
         &self,
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
@@ -93,7 +93,7 @@ impl<F: Family> Continuation<'_, F> {
             .or_else(|| held().filter(|_| *error == OrbitError::NotIsolated))
     }
 
-    /// True if nothing can be missed on a step.
+    /// True if nothing can be missed on a step of a branch.
     pub(super) fn may_take_step(
         &self,
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
@@ -159,7 +159,7 @@ impl<F: Family> Continuation<'_, F> {
         FOLD_SEARCH_SHARES.iter().any(turns)
     }
 
-    /// The grazing ahead within a scaled distance, if there is one.
+    /// The grazing ahead of a node within a scaled distance, if there is one.
     fn graze_within(
         &self,
         reach: f64,

@@ -1,4 +1,4 @@
-//! Steps along a curve of solutions, as long as it allows.
+//! The stepper along a solution curve, with steps as long as the curve allows.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,29 +7,35 @@ use super::arclength::{
 };
 use crate::orbit::OrbitError;
 
-/// First, smallest and largest arclength steps.
+/// First step along a curve, in arclength.
 const FIRST_STEP: f64 = 0.02;
+/// Smallest step along a curve, in arclength.
 const SMALLEST_STEP: f64 = 1e-11;
+/// Largest step along a curve, in arclength, unless it is said otherwise.
 pub(crate) const LARGEST_STEP: f64 = 0.25;
-/// Largest turn of the direction per step, as a cosine, and that up to which steps grow.
+/// Cosine of the largest turn of the direction in a step.
 const LARGEST_TURN: f64 = 0.96;
+/// Cosine of the turn up to which steps grow.
 const GENTLE_TURN: f64 = 0.995;
 /// Distance of the next node in steps beyond which it lies on another curve.
 const LONGEST_CHORD: f64 = 1.1;
-/// By what steps grow up to it.
+/// Factor by which steps grow.
 const STEP_GROWTH: f64 = 1.6;
 
-/// Settings of quick ways: first and largest step, largest turn, the turn that steps are meant to make, how far a
-/// guess is meant to be off (scaled), and the growth.
+/// First and largest of quick steps, in arclength.
 const QUICK_STEPS: (f64, f64) = (0.05, 1.0);
+/// Cosine of the largest turn of the direction in a quick step.
 const QUICK_TURN: f64 = 0.85;
+/// Cosine of the turn that quick steps are meant to make.
 const MEANT_TURN: f64 = 0.93;
+/// Scaled distance by which the guess of a quick step is meant to be off.
 const MEANT_ERROR: f64 = 5e-3;
+/// Least and largest factor by which quick steps grow.
 const QUICK_GROWTH: (f64, f64) = (0.5, 2.5);
 /// Quick step below which it is the node from which no step can be taken that is in doubt.
 const DOUBTFUL_STEP: f64 = 1e-3;
 
-/// Goes along a curve with adaptive steps.
+/// A stepper along a solution curve, with adaptive steps.
 pub(crate) struct Stepper<'a, E: Equations> {
     equations: &'a E,
     pub node: Node<E::Point>,
@@ -43,7 +49,7 @@ pub(crate) struct Stepper<'a, E: Equations> {
     largest: f64,
 }
 
-/// A step that can be taken.
+/// A step along a curve that can be taken.
 pub(crate) struct CurveStep<P> {
     pub node: Node<P>,
     pub direction: DVector<f64>,
@@ -52,7 +58,7 @@ pub(crate) struct CurveStep<P> {
 }
 
 impl<'a, E: Equations> Stepper<'a, E> {
-    /// From a node on the side of `along`, with steps of at most `largest`.
+    /// A stepper from a node on the side of `along`, with steps of at most `largest`.
     pub fn new(
         equations: &'a E,
         node: Node<E::Point>,
@@ -84,7 +90,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         }
     }
 
-    /// The next node at the present length of step.
+    /// Attempts a step of the present length: the next node of the curve.
     pub fn attempt_step(&self) -> Result<CurveStep<E::Point>, OrbitError> {
         let guess = self.predict();
         let mut slopes = Some(self.slopes.clone());
@@ -110,9 +116,8 @@ impl<'a, E: Equations> Stepper<'a, E> {
         })
     }
 
-    /// Where the curve may be after a step: on the cubic through the last two nodes and along their directions. The plane
-    /// across the direction here, in which Newton's method goes on, stands a step away, but where the curve is followed in
-    /// few long steps or is steep.
+    /// Predicts the next node, on the cubic through the last two nodes and their directions: in the plane across the
+    /// direction here, a step away, but where steps are quick or the curve is steep.
     fn predict(&self) -> DVector<f64> {
         let straight = &self.node.at + self.step * &self.direction;
         let Some((last, before)) = &self.last else {
@@ -134,7 +139,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         straight + bend - along * &self.direction
     }
 
-    /// Goes there.
+    /// Takes a step: goes to its node, with the next length.
     pub fn step_to(&mut self, step: CurveStep<E::Point>) {
         let last = std::mem::replace(&mut self.node, step.node);
         let before = std::mem::replace(&mut self.direction, step.direction);
@@ -145,7 +150,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
     }
 
     /// Shortens the step; false if it is the shortest already. A quick node, whose direction is that of the place one
-    /// Newton step before, perhaps beyond a corner, is looked at anew.
+    /// Newton step before, perhaps beyond a corner, is corrected anew.
     pub fn shorten_step(&mut self) -> bool {
         if self.accuracy == Accuracy::Quick && self.step < DOUBTFUL_STEP && !self.is_renewed {
             self.is_renewed = true;
@@ -157,7 +162,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         possible
     }
 
-    /// The node and the direction there to the last digit.
+    /// Corrects the node and the direction there to the last digit.
     fn renew_node(&mut self) -> Result<(), OrbitError> {
         let across = Some(&self.direction);
         let node = correct_with_slopes(
@@ -173,7 +178,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
     }
 }
 
-/// By what a quick step grows, or shrinks, from one that turned so far (as a cosine) and whose guess was so far off.
+/// Factor by which a quick step grows or shrinks, by the cosine of its turn and the error of its guess.
 fn quick_growth(turn: f64, off: f64) -> f64 {
     let (least, most) = QUICK_GROWTH;
     let by_turn = ((1.0 - MEANT_TURN) / (1.0 - turn)).sqrt();

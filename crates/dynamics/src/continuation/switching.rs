@@ -1,4 +1,4 @@
-//! From a point of codimension two on one curve to the other curves that begin there.
+//! Curve switching: from a point of codimension two on one curve to the other curves that begin there.
 
 use std::ops::ControlFlow;
 
@@ -18,8 +18,7 @@ use super::test::Test;
 use crate::monitor::stop_if;
 use softstop::{MotionError, Scene};
 
-/// Velocities of the weak impact, in units of the family's scales, at which folds and flips beside resonant grazing are looked
-/// for.
+/// Scaled velocities of the weak impact at which folds and flips beside resonant grazing are looked for.
 const WEAK_VELOCITIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
 /// The curves that begin in the points of codimension two of a curve: those of grazing, folds and flips in resonant grazing, and
@@ -71,7 +70,7 @@ pub fn switch_curves<F: Family<2>>(
     found
 }
 
-/// The curve of folds or flips from resonant grazing.
+/// The curve of folds or flips that begins in resonant grazing.
 fn from_grazing<F: Family<2>>(
     family: &F,
     (periods, graze, parameters): (u64, &Graze, [f64; 2]),

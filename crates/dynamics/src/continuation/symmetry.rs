@@ -23,9 +23,9 @@ use crate::orbit::{Monodromy, OrbitError};
 use crate::period::PeriodTrajectory;
 use softstop::{Clock, Instant, MotionError, Scene};
 
-/// Scaled distance of half a round from the mirror image of its start up to which an orbit is symmetric.
+/// Scaled distance of half a period from the mirror image of its start up to which an orbit is symmetric.
 const SYMMETRY_DISTANCE: f64 = 1e-7;
-/// Smallest share of the distance from a pitchfork by which half a round must lead away from the mirror image.
+/// Smallest share of the distance from a pitchfork by which half a period must lead away from the mirror image.
 const MIN_ASYMMETRY: f64 = 0.5;
 
 /// True if a machine is its own mirror image half a drive period later: both stops are alike.
@@ -36,7 +36,7 @@ fn is_symmetric(scene: &Scene) -> bool {
     is_alike && scene.piercing.is_none() && scene.rigid.is_none()
 }
 
-/// Half a round.
+/// Half the period of an orbit, compared with the mirror image of its start.
 struct HalfPeriod {
     /// Scaled distance of its end from the mirror image of its start.
     asymmetry: DVector<f64>,
@@ -47,8 +47,7 @@ struct HalfPeriod {
 }
 
 impl<F: Family> Shooting<'_, F, 1> {
-    /// Half a round from a place; none if the machine is not its own mirror image half a drive period later, or the orbits are
-    /// those of an even number of periods.
+    /// Half the period from a place; none if the machine is not its own mirror image, or periods are even in number.
     fn half_period(&self, at: &DVector<f64>) -> Result<Option<HalfPeriod>, MotionError> {
         let scene = self.scene_at(at)?;
         if self.periods.is_multiple_of(2) || !is_symmetric(&scene) {
@@ -72,14 +71,14 @@ impl<F: Family> Shooting<'_, F, 1> {
         }))
     }
 
-    /// The Jacobian of half a round of a symmetric orbit; none of another one.
+    /// The Jacobian of half the period of a symmetric orbit; none of another one.
     fn symmetric_half_period(&self, node: &Node<PeriodMap>) -> Option<Monodromy> {
         let half = self.half_period(&node.at).ok()??;
         (half.asymmetry.norm() < SYMMETRY_DISTANCE).then_some(half.monodromy)
     }
 }
 
-/// Symmetric orbits with a multiplier -1 of the mirrored half round.
+/// The equations of a pitchfork: symmetric orbits with a multiplier -1 of the mirrored half period.
 struct Pitchfork<'a, 'b, F>(&'b Shooting<'a, F, 1>);
 
 impl<F: Family> Equations for Pitchfork<'_, '_, F> {
@@ -98,14 +97,13 @@ impl<F: Family> Equations for Pitchfork<'_, '_, F> {
 }
 
 impl<F: Family> Continuation<'_, F> {
-    /// Scaled distance of half a round of an orbit from the mirror image of its start; none if it cannot be symmetric.
+    /// Scaled distance of half an orbit's period from the mirror image of its start; none if it cannot be symmetric.
     pub(super) fn mirror_gap(&self, node: &Node<PeriodMap>) -> Option<DVector<f64>> {
         let half = self.shooting.half_period(&node.at).ok()??;
         (half.asymmetry.norm() >= SYMMETRY_DISTANCE).then_some(half.asymmetry)
     }
 
-    /// True if the directions at both ends of a step between symmetric orbits may be one: among them alone, a branch does not
-    /// turn back at a pitchfork.
+    /// True if directions at both ends of a step between symmetric orbits, which turn at no pitchfork, may be one.
     pub(super) fn keeps_symmetric_sense(
         &self,
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
@@ -122,7 +120,7 @@ impl<F: Family> Continuation<'_, F> {
         )
     }
 
-    /// The pitchfork on a step and its share of the way, if there is one.
+    /// The pitchfork of symmetric orbits on a step and its share of the way, if there is one.
     pub(super) fn pitchfork_between(
         &self,
         from: &Node<PeriodMap>,
@@ -146,15 +144,15 @@ impl<F: Family> Continuation<'_, F> {
         Ok(Some((share, Special { kind, point })))
     }
 
-    /// The pitchfork near a place.
+    /// The node of the pitchfork near a place.
     pub(super) fn pitchfork(&self, near: &DVector<f64>) -> Result<Node<PeriodMap>, OrbitError> {
         let at = correct(&Pitchfork(&self.shooting), near, None)?.at;
         let here = self.shooting.evaluate(&at)?;
         Ok(Node { at, here })
     }
 
-    /// The branch of asymmetric orbits from a pitchfork of symmetric ones on, along the critical eigenvector; the other one is its
-    /// mirror image, half a drive period later.
+    /// Follows the branch of asymmetric orbits from a pitchfork of symmetric ones on, along the critical eigenvector;
+    /// the other one is its mirror image, half a drive period later.
     ///
     /// # Errors
     /// [`OrbitError::Diverged`] if there is no such branch near the point.

@@ -1,4 +1,4 @@
-//! What the monodromy matrix says: folds, flips, Neimark-Sacker points.
+//! Test functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
 
 use crate::orbit::Monodromy;
 
@@ -9,24 +9,23 @@ pub enum Test {
     Fold,
     /// 1 + tr + det: a multiplier is -1.
     Flip,
-    /// det - 1 between two complex multipliers. Never where there is any damping: det =
-    /// exp(-integral of damping over mass) times R^2 for each rebound, and a scene's damping is not
-    /// negative.
+    /// det - 1 between two complex multipliers. Never where there is any damping: det = exp(-integral of damping over
+    /// mass) times R^2 for each rebound, and a scene's damping is not negative.
     NeimarkSacker,
 }
 
 impl Test {
-    /// All.
+    /// All tests.
     pub const ALL: [Self; 3] = [Self::Fold, Self::Flip, Self::NeimarkSacker];
 
-    /// The value, scaled by the size of trace and determinant: bounded also where they grow beyond all
+    /// The value of the test, scaled by the size of trace and determinant: bounded also where they grow beyond all
     /// bounds, at grazing.
     pub fn scaled_value(self, monodromy: &Monodromy) -> f64 {
         self.weighted_value(monodromy, 1.0)
     }
 
-    /// The value of a weight times the test, scaled by the size of the weight times trace and determinant: smooth down to
-    /// weight 0 where trace and determinant grow as its reciprocal.
+    /// The value of a weight times the test, scaled by the size of the weight times trace and determinant: smooth down
+    /// to weight 0 where trace and determinant grow as its reciprocal.
     pub(crate) fn weighted_value(self, monodromy: &Monodromy, weight: f64) -> f64 {
         let (trace, determinant) = (monodromy.trace(), monodromy.determinant());
         let size = 1.0f64.hypot(weight * trace).hypot(weight * determinant);
@@ -44,8 +43,8 @@ impl Test {
         Self::ALL.iter().all(|test| change(test) < MAX_TEST_CHANGE)
     }
 
-    /// True if the test passes zero between two orbits. Without damping the determinant is 1 to rounding
-    /// all along: nothing passes there.
+    /// True if the test passes zero between two orbits. Without damping the determinant is 1 to rounding all along:
+    /// nothing passes there.
     pub(crate) fn passes_zero(self, from: &Monodromy, to: &Monodromy) -> bool {
         let (a, b) = (self.scaled_value(from), self.scaled_value(to));
         let changes = (a > 0.0) != (b > 0.0);
@@ -60,7 +59,7 @@ impl Test {
     }
 }
 
-/// Largest change of a test on one short piece.
+/// Largest change of a test on one short piece of a branch.
 const MAX_TEST_CHANGE: f64 = 0.3;
 
 /// Change of the determinant that rounding may bring.

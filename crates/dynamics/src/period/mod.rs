@@ -1,4 +1,4 @@
-//! The motion over some drive periods, kept: what is asked of it follows without running it again.
+//! The trajectory of a motion over some drive periods, kept: what is asked of it follows without running it again.
 
 pub mod turn;
 
@@ -15,27 +15,27 @@ use softstop::{
 };
 use turn::turning_points;
 
-/// Arcs for which there is room at first: as many as most drive periods have.
+/// Arcs of a trajectory for which there is room at first: as many as most drive periods have.
 const FIRST_ARC_ROOM: usize = 8;
 
-/// Arcs that are kept of a motion at most: some 150 MB, and up to three times that of Taylor steps.
+/// Most arcs that are kept of a trajectory: some 150 MB, and up to three times that of Taylor steps.
 const MAX_KEPT_ARCS: usize = 1 << 18;
 
-/// The arcs and crossings of a motion from time 0 on, in order of time.
+/// The kept trajectory of a motion: its arcs and crossings from time 0 on, in order of time.
 #[derive(Debug, Clone)]
 pub struct PeriodTrajectory {
-    /// The phases it moves through.
+    /// The phases that the motion moves through.
     pub phases: Shared<Phases>,
-    /// The clock of its instants.
+    /// The clock that its instants refer to.
     pub clock: Clock,
-    /// Its arcs, each with the crossing at its end.
+    /// The arcs of the trajectory, each with the crossing at its end.
     pub arcs: Vec<KeptArc>,
-    /// Position and velocity in the end.
+    /// Position and velocity at the end of the trajectory.
     pub end: Vector2<f64>,
 }
 
 impl PeriodTrajectory {
-    /// A motion through phases of which nothing is kept yet.
+    /// An empty trajectory of a motion through phases.
     pub fn empty(phases: Shared<Phases>, clock: Clock) -> Self {
         Self {
             phases,
@@ -45,7 +45,7 @@ impl PeriodTrajectory {
         }
     }
 
-    /// The motion through phases from a state at time 0, as far as it is advanced.
+    /// Records the trajectory of the motion through phases from a state at time 0, as far as it is advanced.
     ///
     /// # Errors
     /// [`MotionError`] if the state is not finite or beyond a rigid stop, and that of advancing;
@@ -71,7 +71,7 @@ impl PeriodTrajectory {
         Ok(kept)
     }
 
-    /// Tells an observer of all arcs and crossings.
+    /// Replays all arcs and crossings of the trajectory to an observer.
     pub fn replay(&self, observer: &mut dyn Observer) {
         for kept in &self.arcs {
             observer.arc(&self.observed_arc(kept), kept.duration);
@@ -81,31 +81,31 @@ impl PeriodTrajectory {
         }
     }
 
-    /// A new observer that has been told of all arcs and crossings.
+    /// A new observer to which all arcs and crossings of the trajectory have been replayed.
     pub fn replayed<O: Observer + Default>(&self) -> O {
         let mut observer = O::default();
         self.replay(&mut observer);
         observer
     }
 
-    /// One of its arcs as observers see it.
+    /// One arc of the trajectory as observers see it.
     pub fn observed_arc<'a>(&'a self, kept: &'a KeptArc) -> Arc<'a> {
         kept.seen(&self.clock, &self.phases)
     }
 
-    /// Its arcs as observers see them, and how long each lasts, in s.
+    /// The arcs of the trajectory as observers see them, and how long each lasts, in s.
     pub fn arcs(&self) -> impl Iterator<Item = (Arc<'_>, f64)> {
         self.arcs
             .iter()
             .map(|kept| (self.observed_arc(kept), kept.duration))
     }
 
-    /// Its crossings.
+    /// The crossings of the trajectory, in order of time.
     pub fn crossings(&self) -> impl Iterator<Item = &Crossing> + Clone {
         self.arcs.iter().filter_map(|arc| arc.crossing.as_ref())
     }
 
-    /// The state when so many drive periods are complete.
+    /// The state of the trajectory when so many drive periods are complete.
     pub fn at_cycle(&self, periods: u64) -> Vector2<f64> {
         let at = Clock::at_cycle(periods);
         let next = self.arcs.partition_point(|arc| arc.start <= at);
@@ -120,12 +120,12 @@ impl PeriodTrajectory {
         last.map_or(self.end, state)
     }
 
-    /// Its exact Jacobian.
+    /// The tangent of the whole trajectory, its exact Jacobian.
     pub fn tangent(&self) -> Tangent {
         self.replayed()
     }
 
-    /// Its impacts.
+    /// The impacts of the trajectory, in order of time.
     pub fn impacts(&self) -> impl Iterator<Item = Touch> {
         self.crossings().filter_map(|crossing| {
             Some(Touch {
@@ -135,29 +135,29 @@ impl PeriodTrajectory {
         })
     }
 
-    /// Times in s and before-impact velocities in m/s of its impacts.
+    /// Times in s and before-impact velocities in m/s of the trajectory's impacts.
     pub fn timed_impacts(&self) -> impl Iterator<Item = (f64, f64)> {
         let timed = |touch: Touch| (self.clock.time(touch.instant), touch.before_impact_velocity);
         self.impacts().map(timed)
     }
 
-    /// When complete chatter ends.
+    /// Instants at which complete chatter of the trajectory ends in rest.
     pub fn rests(&self) -> impl Iterator<Item = Instant> {
         let rests = self.crossings().filter(|it| it.kind == CrossingKind::Rest);
         rests.map(|crossing| crossing.instant)
     }
 
-    /// The largest position in m.
+    /// The largest position of the trajectory in m.
     pub fn max_position(&self) -> f64 {
         self.farthest_position(true, f64::max)
     }
 
-    /// The lowest position in m.
+    /// The lowest position of the trajectory in m.
     pub fn min_position(&self) -> f64 {
         self.farthest_position(false, f64::min)
     }
 
-    /// The farthest position in m of turning points, crossings and ends.
+    /// The farthest position of the trajectory in m, of turning points, crossings and ends.
     fn farthest_position(&self, back: bool, farther: impl Fn(f64, f64) -> f64) -> f64 {
         let begin = self.arcs.first();
         let begin = begin.map_or(self.end.x, |arc| arc.course.departure.position);

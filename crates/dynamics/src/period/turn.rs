@@ -1,20 +1,19 @@
-//! Where a course turns.
+//! The turning points of an arc.
 
 use softstop::internals::{ArcSolution, Guard, NextEvent, budget, first_crossing};
 
-/// A turning point of a course.
+/// A turning point of an arc, where its velocity is zero.
 #[derive(Debug, Clone, Copy)]
 pub struct TurningPoint {
-    /// True if it turns back, away from the stop.
+    /// True if the mass turns back, away from the stop.
     pub back: bool,
-    /// Time in s since the course began.
+    /// Time in s since the arc began.
     pub elapsed: f64,
     /// Position in m.
     pub position: f64,
 }
 
-/// The turning points of a course within `duration` seconds, back and forward by turns: first the first `back` or
-/// forward.
+/// The turning points of an arc within `duration` seconds, back and forward by turns, the first one `back` or forward.
 pub fn turning_points(
     course: &ArcSolution,
     duration: f64,

@@ -1,4 +1,4 @@
-//! The frequencies at which the z = 1 motion of a machine begins and ends.
+//! Bounds of z = 1: the frequencies at which the motion of a machine begins and ends.
 
 use serde::Serialize;
 
@@ -7,7 +7,7 @@ use crate::continuation::{Direction, Test};
 use crate::orbit::{Orbit, OrbitError};
 use softstop::{Scene, Start};
 
-/// Frequencies in rad/s that bound regimes of a machine.
+/// Frequencies in rad/s that bound z = 1 of a machine: grazing g0, flip s_PD, fold s_SN.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Bounds {
@@ -20,7 +20,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// Those of a scene; those of its z = 1 motion only with a state near it.
+    /// The bounds of a scene; those of its z = 1 motion only with a state near it.
     ///
     /// # Errors
     /// [`OrbitError`] if the branch cannot be begun.

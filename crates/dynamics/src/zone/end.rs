@@ -1,4 +1,4 @@
-//! What ends a range of z = 1 motions.
+//! The end of a zone or a stable range, and why it is there.
 
 use crate::continuation::{BorderCollision, Branch, BranchPoint, End, Face, SpecialKind, Test};
 use crate::orbit::OrbitError;
@@ -35,7 +35,7 @@ pub enum Loss {
     Lost(OrbitError),
 }
 
-/// One end of a range of frequencies with a stable z = 1 motion.
+/// One end of a zone or of a range of frequencies with a stable z = 1 motion.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ZoneEnd {
@@ -50,7 +50,7 @@ pub struct ZoneEnd {
 }
 
 impl ZoneEnd {
-    /// The end at a point of a branch.
+    /// The end of a zone at a point of a branch.
     pub(super) fn at_point(point: &BranchPoint, loss: Loss, special: Option<SpecialKind>) -> Self {
         Self {
             frequency: point.parameter,
@@ -60,12 +60,12 @@ impl ZoneEnd {
         }
     }
 
-    /// The end at a special point of a branch.
+    /// The end of a zone at a special point of a branch.
     pub(super) fn at_special(point: &BranchPoint, kind: SpecialKind) -> Self {
         Self::at_point(point, Loss::at_special(&kind), Some(kind))
     }
 
-    /// True if a test of the monodromy matrix vanishes there.
+    /// True if a test of the monodromy matrix vanishes at the end.
     pub fn is_critical(&self, test: Test) -> bool {
         self.special == Some(SpecialKind::Critical(test))
     }
@@ -93,7 +93,7 @@ pub(super) fn first_end<'a>(
 }
 
 impl Loss {
-    /// At a special point.
+    /// The loss of z = 1 at a special point.
     pub(super) fn at_special(kind: &SpecialKind) -> Self {
         match kind {
             SpecialKind::Critical(test) => Self::from(*test),
@@ -106,7 +106,7 @@ impl Loss {
         }
     }
 
-    /// Where a branch ends otherwise; at a grazing its special point says which.
+    /// The loss of z = 1 where a branch ends otherwise; at a grazing its special point says which.
     pub(super) fn of_branch_end(end: &End) -> Self {
         match end {
             End::Points => Self::Budget,

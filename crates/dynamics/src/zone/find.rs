@@ -11,9 +11,9 @@ use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{self, Orbit, OrbitError};
 use softstop::Scene;
 
-/// The stable z = 1 motion of a scene with the highest before-impact velocity: of those on all ranges of stable z = 1
-/// ([`stable_ranges`](super::stable_ranges)) that hold the frequency of the drive, and of those that a search at that frequency
-/// alone finds, from starts spread over the plane of states and from a lattice of impacts.
+/// The stable z = 1 motion of a scene with the highest before-impact velocity: of those on all
+/// [`stable_ranges`](super::stable_ranges()) that hold the frequency of the drive, and of those that a search at that
+/// frequency alone finds ([`orbit::find`]).
 ///
 /// # Errors
 /// [`OrbitError::NotFound`] if there is none; [`OrbitError::Motion`] if the scene is invalid.
@@ -21,7 +21,7 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
     find_with_monitor(scene, &unmonitored)
 }
 
-/// The motion that [`find`] finds, as long as a monitor, which is not told how much is done, lets the search go on.
+/// The motion that [`find`] finds, as long as a monitor, which sees no progress, lets the search go on.
 ///
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
@@ -30,8 +30,7 @@ pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, O
     find_among(scene, &stable_ranges, monitor)
 }
 
-/// The motion that [`find`] finds, with the stable ranges of the scene, which do not depend on the frequency of its drive,
-/// known already.
+/// The motion that [`find`] finds, with the stable ranges of the scene, at whatever frequency, known already.
 ///
 /// # Errors
 /// As [`find_with_monitor`].
@@ -67,7 +66,7 @@ pub fn find_zones(
     }
 }
 
-/// The motion of a stable range at the frequency of the scene's drive.
+/// The z = 1 motion of a stable range at the frequency of the scene's drive.
 fn on_stable_range(scene: &Scene, stable_range: &StableRange) -> Option<Orbit> {
     let point = stable_range
         .point_at(scene, scene.excitation.frequency)

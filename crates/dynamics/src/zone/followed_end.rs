@@ -1,4 +1,4 @@
-//! Where the stable motions of a branch end.
+//! The end of the stable motions of a branch that was followed.
 
 use super::end::{Loss, ZoneEnd, first_end};
 use crate::continuation::{
@@ -10,8 +10,8 @@ use crate::orbit::OrbitError;
 /// Points after which a branch is given up.
 pub const LONGEST_BRANCH: usize = 2000;
 
-/// Where stable motions end that were followed from the first of these points on; the last point is then there. Where
-/// that shows in none of the tests, as at a grazing, every special point of the branch is looked at.
+/// Finds where stable motions end that were followed from the first of these points on; the last point is then there.
+/// Where that shows in none of the tests, as at a grazing, every special point of the branch is looked at.
 ///
 /// # Errors
 /// [`OrbitError`] if the branch cannot be followed.
@@ -34,8 +34,7 @@ pub fn find_end<F: Family>(
     follow_to_end(continuation, points, direction, range)
 }
 
-/// The end of stable motions between a point before it and one beyond: where a test vanishes, or the bound of the range
-/// if that comes first.
+/// The end of stable motions between a point before it and one beyond: at a test's zero, or the range's bound.
 fn end_between<F: Family>(
     continuation: &Continuation<'_, F>,
     before: &BranchPoint,
@@ -56,8 +55,7 @@ fn end_between<F: Family>(
     Ok(ZoneEnd::at_point(&point, Loss::Range, None))
 }
 
-/// The end by a look at every special point, from the last point on, or from the first one if there is nothing to see
-/// from the last.
+/// Follows stable motions to their end by every special point, from the last point on, or from the first.
 pub(super) fn follow_to_end<F: Family>(
     continuation: &Continuation<'_, F>,
     points: &mut Vec<BranchPoint>,

@@ -1,4 +1,4 @@
-//! The motion without impacts and where it grazes the stop.
+//! The grazing of the motion without impacts, g0.
 
 use std::convert::Infallible;
 
@@ -13,7 +13,7 @@ pub fn free_amplitude(scene: &Scene, frequency: f64) -> f64 {
     scene.excitation.amplitude / spring.hypot(scene.damping * frequency)
 }
 
-/// The largest of these amplitudes, at resonance; infinite without damping.
+/// The largest amplitude in m of the impact-less motion, at resonance; infinite without damping.
 fn largest_free_amplitude(scene: &Scene) -> f64 {
     let (m, k, force) = (scene.mass, scene.stiffness, scene.excitation.amplitude);
     let square = scene.damping * scene.damping;
@@ -59,14 +59,14 @@ pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneErro
     Ok(((below > 0.0).then(|| below.sqrt()), above.sqrt()))
 }
 
-/// How far beyond the frequencies of drive and suspension grazings are looked for, as a factor.
+/// Factor by which grazings are searched beyond the frequencies of drive and suspension.
 const SEARCH_FACTOR: f64 = 100.0;
-/// Frequencies that are looked at, evenly spread over their logarithm.
+/// Frequencies at which grazings are searched, evenly spread over their logarithm.
 const SEARCH_STEPS: usize = 4096;
-/// Relative width to which a peak of the amplitude between them is known; being flat it is known to rounding then.
+/// Relative width to which a peak of the free amplitude is located; its height is then known to rounding.
 const AMPLITUDE_PEAK_WIDTH: f64 = 1e-10;
 
-/// What [`grazing_frequencies`] are where parameters follow the frequency.
+/// Searches the [`grazing_frequencies`] where parameters follow the frequency.
 fn search_grazing(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
     let own = (scene.stiffness / scene.mass).sqrt();
     let drive = scene.excitation.frequency;

@@ -1,4 +1,4 @@
-//! From grazing of the impact-less motion to the fold of z = 1.
+//! The hysteresis zone, from grazing of the impact-less motion to the fold of z = 1.
 //!
 //! A zone of the unloaded machine takes 4.6 million instructions (AVX2, a grid of 12 x 12 over clearance 2 to 22 and stiffness
 //! 1 to 30): 41 % are the lanes' 1,491 periods (144 starts of 4 periods, and 8 more unless a known motion attracts them), 32 %
@@ -18,16 +18,14 @@ use crate::orbit::{Orbit, OrbitError, find_batch, find_with_monitor};
 use softstop::Scene;
 use softstop::internals::budget::Fork;
 
-/// Before-impact velocity, in units of that at g0, below which an unstable branch is left: it ends
-/// in grazing.
+/// Before-impact velocity, in units of that at g0, below which an unstable branch is left: it ends in grazing.
 const MIN_VELOCITY_SHARE: f64 = 0.2;
-/// 1 - tr + det below which an unstable branch is left: its multiplier grows without bound only where
-/// it ends in grazing.
+/// 1 - tr + det below which an unstable branch is left: its multiplier grows so far only before grazing.
 const MIN_FOLD_TEST: f64 = -4.0;
 /// Frequency in units of g0 beyond which no fold is looked for.
 const MAX_FOLD_FREQUENCY: f64 = 8.0;
 
-/// Machines whose motions are followed together.
+/// Machines whose hysteresis zones are found together.
 const MACHINES_TOGETHER: usize = 8;
 
 /// The hysteresis zone of a scene with any stop; the frequency of its drive plays no part.
@@ -48,7 +46,7 @@ pub fn hysteresis_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Zo
     zone_from_start(scene, grazing, (start.ok(), UpperEnd::Fold), monitor)
 }
 
-/// What may end a zone above.
+/// What may end a hysteresis zone above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum UpperEnd {
     /// A fold.
@@ -57,7 +55,7 @@ pub(super) enum UpperEnd {
     FoldOrGrazing,
 }
 
-/// The hysteresis zones of many machines at once, in groups of some on all cores, in a fraction of the work: the z = 1 motion at g0 is the hardest of
+/// The hysteresis zones of many machines at once, in a fraction of the work: the z = 1 motion at g0 is the hardest of
 /// those that motions come back near to, and where there is none of them, as in [`hysteresis`].
 ///
 /// # Errors
@@ -81,7 +79,7 @@ pub(super) fn zones_of(
     zones
 }
 
-/// Zones of a few machines.
+/// The hysteresis zones of a few machines, whose motions at g0 are found together.
 fn zones_together(
     scenes: &[Scene],
     upper: UpperEnd,
@@ -101,7 +99,7 @@ fn zones_together(
     zones.collect()
 }
 
-/// The zone from the motion at g0.
+/// The hysteresis zone from the z = 1 motion at g0.
 fn zone_from_start(
     scene: &Scene,
     (frequency_g0_below, frequency_g0): (Option<f64>, f64),
@@ -140,7 +138,7 @@ fn zone_from_start(
     })
 }
 
-/// The branch from a z = 1 motion at the lower of two frequencies on, through all its folds, in order of arclength.
+/// Follows the branch from a z = 1 motion at the lower of two frequencies upward, through all its folds.
 pub(super) fn follow_upward(
     continuation: &Continuation<'_, Frequencies<'_>>,
     start: &Orbit,
@@ -162,12 +160,12 @@ pub(super) fn follow_upward(
     Ok(branch)
 }
 
-/// True if a surface is grazed at an end.
+/// True if a surface is grazed at the end of a zone.
 fn ends_in_grazing(end: &ZoneEnd) -> bool {
     matches!(end.special, Some(SpecialKind::Grazing(_)))
 }
 
-/// The fold at the highest frequency; none if the branch has none.
+/// The fold of a branch at the highest frequency; none if it has none.
 pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
     let folds = branch
         .iter()
@@ -177,8 +175,7 @@ pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
     Some(ZoneEnd::at_special(highest, kind))
 }
 
-/// Adds the folds to a branch, between the neighbours where 1 - tr + det changes its sign; where it leaps over zero, in
-/// a border collision, there is none.
+/// Adds the folds to a branch, between neighbours where 1 - tr + det passes zero, but for border collisions.
 fn insert_folds(continuation: &Continuation<'_, Frequencies<'_>>, branch: &mut Vec<BranchPoint>) {
     for index in (1..branch.len()).rev() {
         let (from, to) = (&branch[index - 1], &branch[index]);
@@ -190,6 +187,7 @@ fn insert_folds(continuation: &Continuation<'_, Frequencies<'_>>, branch: &mut V
     }
 }
 
+/// The error of a branch from a frequency on that has no fold.
 fn no_fold_error(from: f64, branch: &[BranchPoint]) -> ZoneError {
     let last = branch.last().map_or(f64::NAN, |point| point.parameter);
     let unstable = branch.iter().find(|point| !point.is_stable());

@@ -1,13 +1,13 @@
-//! Where a motion loses its stability as the drive's frequency, or another parameter, changes.
+//! Loss of stability of a motion as the drive's frequency, or another parameter, changes.
 
 use super::Frequencies;
 use crate::continuation::{BranchPoint, Continuation, Direction, Family, Test};
 use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
 
-/// Points after which a branch is given up.
+/// Points after which a branch is given up that does not lose its stability.
 const MAX_LOSS_POINTS: usize = 400;
-/// How far from the orbit's own value a loss is looked for, as a factor.
+/// Factor of the orbit's own value of the parameter up to which a loss of stability is looked for.
 const MAX_LOSS_FACTOR: f64 = 4.0;
 
 /// The first orbit, up or down from a stable z = 1 orbit, at which a test passes zero: s_SN by
@@ -30,9 +30,9 @@ pub fn loss_of_stability(
     )
 }
 
-/// Where stability is lost along the parameter of any family, of which the orbit has the value `from`, by whatever it is,
-/// or where the branch ends: where the test passes zero, or else the last value of
-/// the parameter up to which the motion was followed; none if it stays stable as far as is looked.
+/// Finds where stability is lost along the parameter of any family, of which the orbit has the value `from`, by
+/// whatever it is, or where the branch ends: where the test passes zero, or else the last value of the parameter up to
+/// which the motion was followed; none if it stays stable as far as is looked.
 ///
 /// # Errors
 /// As [`loss_of_stability`].
@@ -52,11 +52,12 @@ pub fn find_end_along<F: Family>(
     Ok(last.map(|point| point.parameter))
 }
 
+/// True if a point is within that factor of the orbit's own value.
 fn is_in_reach(point: &BranchPoint, from: f64) -> bool {
     (1.0 / MAX_LOSS_FACTOR..=MAX_LOSS_FACTOR).contains(&(point.parameter / from))
 }
 
-/// The branch as long as it is stable.
+/// Follows a branch as long as it is stable.
 fn follow_stable<F: Family>(
     continuation: &Continuation<'_, F>,
     from: f64,
@@ -68,7 +69,7 @@ fn follow_stable<F: Family>(
     })
 }
 
-/// Where a test passes zero at the end of a branch.
+/// Locates where a test passes zero at the end of a branch.
 fn locate_loss<F: Family>(
     continuation: &Continuation<'_, F>,
     branch: &[BranchPoint],

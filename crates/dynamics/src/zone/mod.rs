@@ -96,7 +96,7 @@ pub enum ZoneError {
 }
 
 impl ZoneError {
-    /// This error with its frequency as a machine states it.
+    /// This error with its frequency in the units and under the key of a machine.
     #[must_use]
     pub fn in_units_of(mut self, machine: &Machine) -> Self {
         let (one, other) = match &mut self {
@@ -112,8 +112,7 @@ impl ZoneError {
     }
 }
 
-/// Refuses a machine with a stop below: a zone begins where the motion without impacts grazes one stop, and all motions with
-/// one impact are looked for by the free motion between impacts.
+/// Refuses a machine with a stop below: zones are computed from the free motion between impacts on one stop.
 fn refuse_below(scene: &Scene) -> Result<(), ZoneError> {
     match scene.below {
         None => Ok(()),
@@ -146,7 +145,7 @@ impl Display for BranchEnd {
     }
 }
 
-/// A drive frequency under a key of machine files, which says its unit.
+/// A drive frequency as a machine states it: under a key of machine files, which says its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StatedFrequency {
     /// The key: `excitation.frequency` for rad/s.
@@ -175,7 +174,7 @@ impl From<SceneError> for ZoneError {
     }
 }
 
-/// One scene at all frequencies.
+/// The family of one scene at all frequencies of its drive.
 #[doc(hidden)]
 #[derive(Debug)]
 pub struct Frequencies<'a>(pub &'a Scene);

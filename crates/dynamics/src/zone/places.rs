@@ -1,4 +1,4 @@
-//! A range of frequencies with a stable z = 1 motion, and its places.
+//! A zone: a range of frequencies with a stable z = 1 motion, and its places s from 0 to 1.
 
 use super::end::ZoneEnd;
 use super::{Frequencies, ZoneError};
@@ -9,14 +9,14 @@ use softstop::Scene;
 /// Largest 1 - tr + det that a located fold may show.
 pub(super) const FOLD_TEST_ROUNDING: f64 = 1e-7;
 
-/// Which motions a zone holds.
+/// The kind of a zone: which motions it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ZoneKind {
-    /// Those that coexist with the motion without impacts: from g0 to the fold s_SN ([`hysteresis`](super::hysteresis)).
+    /// Those that coexist with the motion without impacts: from g0 to the fold s_SN ([`hysteresis`](super::hysteresis())).
     #[default]
     Hysteresis,
     /// All stable ones on the branch of the hardest one between two frequencies in rad/s
-    /// ([`single_impact`](super::single_impact)).
+    /// ([`single_impact`](super::single_impact())).
     SingleImpact {
         /// Lowest and highest frequency at which the motion is looked for.
         between: (f64, f64),
@@ -31,8 +31,7 @@ pub struct Zone {
     pub kind: ZoneKind,
     /// The machine; the frequency of its drive plays no part.
     pub scene: Scene,
-    /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the
-    /// stop.
+    /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the stop.
     pub frequency_g0_below: Option<f64>,
     /// Grazing frequency g0 in rad/s, above resonance: above it the motion without impacts does not reach the clearance.
     /// 0 if it never does, infinite without a clearance.
@@ -46,7 +45,7 @@ pub struct Zone {
 }
 
 impl Zone {
-    /// True if it holds only motions that coexist with the motion without impacts.
+    /// True if the zone holds only motions that coexist with the motion without impacts.
     pub fn is_hysteresis(&self) -> bool {
         self.kind == ZoneKind::Hysteresis
     }
@@ -56,17 +55,17 @@ impl Zone {
         self.scene.at_frequency(self.frequency_at(share))
     }
 
-    /// The frequency in rad/s at a place s.
+    /// The frequency in rad/s at a place s of the zone.
     pub fn frequency_at(&self, share: f64) -> f64 {
         self.low.frequency + share * self.frequency_width()
     }
 
-    /// The place of a frequency in rad/s.
+    /// The place s of a frequency in rad/s in the zone.
     pub fn place_of(&self, frequency: f64) -> f64 {
         (frequency - self.low.frequency) / self.frequency_width()
     }
 
-    /// From end to end in rad/s.
+    /// Width of the zone, from end to end in rad/s.
     pub fn frequency_width(&self) -> f64 {
         self.high.frequency - self.low.frequency
     }
@@ -79,7 +78,7 @@ impl Zone {
         self.orbit_of(&self.point_at(share)?)
     }
 
-    /// The whole orbit at a point of the branch.
+    /// The whole orbit at a point of the zone's branch.
     ///
     /// # Errors
     /// [`ZoneError::Orbit`] if the orbit is lost.
@@ -88,8 +87,7 @@ impl Zone {
         Ok(Continuation::new(&family, 1).orbit_at(point)?)
     }
 
-    /// The z = 1 motion of the highest before-impact velocity at a place s of the zone, on the stable
-    /// side of the folds; s = 1 is the last fold itself.
+    /// The z = 1 motion with the hardest impact at a place s of the zone, on the stable side of its folds.
     ///
     /// # Errors
     /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.

@@ -1,4 +1,4 @@
-//! All stable z = 1 motions on one branch, below g0 as well.
+//! Single-impact zones: all stable z = 1 motions on one branch, below g0 as well.
 
 use rayon::prelude::*;
 
@@ -14,14 +14,14 @@ use crate::orbit::{Orbit, OrbitError, hardest_single};
 use softstop::Scene;
 use softstop::internals::budget::Fork;
 
-/// Frequencies beside g0 at which motions are looked for.
+/// Frequencies beside g0 at which single-impact motions are looked for.
 const START_FREQUENCIES: usize = 6;
 /// Highest frequency, in units of the natural one, at which they are looked for.
 const MAX_START_FREQUENCY: f64 = 4.0;
 
-/// The ranges of stable z = 1 of some scenes; the frequency of their drives plays no part. Each reaches both ways from the
-/// hardest of the z = 1 motions at g0 and at some frequencies between two, in rad/s, until the motion loses its stability
-/// or another impact comes up: above, over a fold to the fold at the highest frequency.
+/// The single-impact zones, ranges of stable z = 1, of some scenes; the frequency of their drives plays no part. Each
+/// reaches both ways from the hardest of the z = 1 motions at g0 and at some frequencies between two, in rad/s, until
+/// the motion loses its stability or another impact comes up: above, over a fold to the fold at the highest frequency.
 ///
 /// # Errors
 /// Each a [`ZoneError`]: [`ZoneError::NoMotion`] if there is no such motion at these frequencies.
@@ -38,7 +38,7 @@ pub fn single_impact(
     zones
 }
 
-/// The range of one scene.
+/// The single-impact zone of one scene.
 fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<Zone, ZoneError> {
     scene.validate()?;
     refuse_below(scene)?;
@@ -67,7 +67,7 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
     best.map(|(zone, _)| zone).ok_or(none)
 }
 
-/// The highest velocity at the points of a zone between two frequencies, and at these; none if it lies outside.
+/// The highest velocity of a zone's motions between two frequencies, and at these; none if it lies outside.
 fn hardest_between(zone: &Zone, (low, high): (f64, f64)) -> Option<f64> {
     let inside = zone.branch.iter();
     let inside = inside.filter(|it| it.is_stable() && (low..=high).contains(&it.parameter));
@@ -77,7 +77,7 @@ fn hardest_between(zone: &Zone, (low, high): (f64, f64)) -> Option<f64> {
         .max_by(f64::total_cmp)
 }
 
-/// The frequencies at which a scene's motions are looked for: g0, and some evenly spaced in ratio.
+/// The frequencies at which a scene's single-impact motions are looked for: g0, and some evenly spaced in ratio.
 fn start_frequencies(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
     let rate = scene.scales().rate;
     let (low, high) = (
@@ -97,7 +97,7 @@ fn start_frequencies(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
     g0.into_iter().chain(inside).collect()
 }
 
-/// The range about a motion; none if it has no width.
+/// The single-impact zone about a motion; none if it has no width.
 fn zone_about(
     scene: &Scene,
     start: &Orbit,

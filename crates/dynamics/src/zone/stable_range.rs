@@ -1,4 +1,4 @@
-//! A range of frequencies with a stable z = 1 motion, and what ends it.
+//! A stable range: a range of frequencies with a stable z = 1 motion, and what ends it.
 
 use nalgebra::{Vector2, Vector4};
 
@@ -20,9 +20,9 @@ pub struct StableRange {
     pub low: ZoneEnd,
     /// Its upper end.
     pub high: ZoneEnd,
-    /// The motion that hits hardest.
+    /// The motion with the hardest impact.
     pub hardest: BranchPoint,
-    /// Its points, in rising order of frequency.
+    /// Points of its branch, in rising order of frequency.
     points: Vec<BranchPoint>,
 }
 
@@ -52,7 +52,7 @@ impl StableRange {
         }
     }
 
-    /// True if it is a part of another one, or the same.
+    /// True if the stable range is a part of another one, or the same.
     pub(super) fn is_within(&self, other: &Self, scene: &Scene) -> bool {
         let middle = &self.points[self.points.len() / 2];
         let near = |frequency: f64| STATE_ROUNDING * frequency.abs();
@@ -61,7 +61,7 @@ impl StableRange {
             && other.contains_point(scene, middle).unwrap_or(false)
     }
 
-    /// True if a point lies on it.
+    /// True if a point lies on the stable range.
     ///
     /// # Errors
     /// [`OrbitError`] if the stable range is lost.
@@ -70,7 +70,7 @@ impl StableRange {
         Ok(own.is_some_and(|own| is_same_state(&own, point.state(), scene)))
     }
 
-    /// True if it is a part of a hysteresis zone.
+    /// True if the stable range is a part of a hysteresis zone.
     pub fn is_part_of(&self, zone: &Zone) -> bool {
         let sizes = unknown_scales(&zone.scene);
         let inside = |point: &BranchPoint| {
@@ -87,7 +87,7 @@ pub(super) fn is_same_state(one: &BranchPoint, other: Vector2<f64>, scene: &Scen
     (one.state() - other).norm() < STATE_ROUNDING * size
 }
 
-/// Units of positions, velocities and frequencies.
+/// Scales of positions, velocities and frequencies of a scene.
 pub(super) fn unknown_scales(scene: &Scene) -> [f64; 3] {
     let family = Frequencies(scene);
     let ([length, speed], [rate]) = (family.state_scales(), family.parameter_scales());
@@ -117,7 +117,7 @@ pub(super) fn lies_between(
         && off <= OFF_CHORD * way.norm() + STATE_ROUNDING
 }
 
-/// The stable ranges of a branch that was followed so.
+/// The stable ranges of a branch.
 pub(super) fn stable_parts(
     continuation: &Continuation<'_, Frequencies<'_>>,
     branch: &Branch,
@@ -138,7 +138,7 @@ pub(super) fn stable_parts(
     found
 }
 
-/// Its points; those of a closed branch from its first special point around to it again.
+/// The points of a branch; those of a closed one from its first special point around to it again.
 fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
     let points = branch.points.iter();
     let (End::Closed, Some(first)) = (&branch.ends.1, branch.specials.first()) else {
@@ -156,13 +156,14 @@ fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
 /// Why a part of a branch ends, and the special point there.
 type RangeEnd = (Loss, Option<SpecialKind>);
 
-/// Points between two special ones.
+/// A part of a branch, its points between two special ones.
 struct BranchPart {
     begins: RangeEnd,
     points: Vec<BranchPoint>,
 }
 
 impl BranchPart {
+    /// A part of a branch that begins so.
     fn new(begins: RangeEnd) -> Self {
         Self {
             begins,
@@ -170,7 +171,7 @@ impl BranchPart {
         }
     }
 
-    /// Where the number of impacts changes otherwise than at a special point: smoothly, in a grazing that is not located.
+    /// The loss where the number of impacts changes but at a special point: in a grazing that is not located.
     fn impact_change(&self, point: &BranchPoint) -> Option<Loss> {
         let last = self.points.get(1..)?.last()?;
         match (last.impacts.len(), point.impacts.len()) {
@@ -179,7 +180,7 @@ impl BranchPart {
         }
     }
 
-    /// The stable range, if the motions between its ends are stable and have one impact.
+    /// The stable range, if the motions between the ends of the part are stable and have one impact.
     fn into_range(
         self,
         continuation: &Continuation<'_, Frequencies<'_>>,
@@ -211,11 +212,10 @@ impl BranchPart {
     }
 }
 
-/// Share of the way between the neighbours of the hardest point to which the top is known: being flat, its height is
-/// then known to ten digits.
+/// Share of the way between the neighbours of the hardest point to which it is known, its velocity to ten digits.
 const TOP_WIDTH: f64 = 1e-5;
 
-/// The hardest motion along points in rising order: about the hardest of them, by golden section between its neighbours.
+/// The point with the hardest impact along points in rising order: by golden section about the hardest of them.
 fn hardest_point(
     continuation: &Continuation<'_, Frequencies<'_>>,
     points: &[BranchPoint],

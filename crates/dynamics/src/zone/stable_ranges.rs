@@ -9,22 +9,21 @@ use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{Orbit, OrbitError, singles_about, singles_near};
 use softstop::Scene;
 
-/// Frequencies in units of the natural one between which motions are looked for, and how many of them in a row: closely
-/// below, where a drive period holds several free ones and stable ranges are narrow.
+/// Frequencies in units of the natural one between which z = 1 motions are searched, and how many of them in a row:
+/// closely below, where a drive period holds several free ones and stable ranges are narrow.
 const SEARCH_ROWS: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
-/// Frequencies in the same units up to which they are followed: farther up, but no farther down, where branches wind from
-/// resonance to resonance and more of them are not looked for.
+/// Frequencies in units of the natural one up to which branches are followed; below, they wind.
 pub(super) const FOLLOWED_RANGE: (f64, f64) = (0.25, 8.0);
 /// Points of a branch in each direction.
 const MAX_RANGE_POINTS: usize = 20_000;
 
-/// Share of a frequency within which they are looked for where one there is nearly one: as far as the row is wide.
+/// Share of a frequency within which motions are searched where one there is nearly one: as far as the row is wide.
 const FREE_SHARE: f64 = 0.08;
-/// Share of a frequency by which motions are looked for beside one at which the regime changes.
+/// Offset, as a share of a frequency, by which motions are searched beside one at which the regime changes.
 const OFFSET: f64 = 2e-3;
-/// Those shares where motions are looked for by the impact that a branch ends with.
+/// Shares of a frequency by which motions are searched beyond a branch's end, by the impact there.
 const BEYOND_SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
-/// Most frequencies at which motions are looked for, and most branches.
+/// Most frequencies at which motions are searched, and most branches.
 const MAX_BRANCHES: usize = 200;
 
 /// All stable ranges of a scene, in rising order of frequency; the frequency of its drive plays no part.
@@ -39,7 +38,7 @@ pub fn stable_ranges(scene: &Scene) -> Result<Vec<StableRange>, ZoneError> {
     stable_ranges_with_monitor(scene, &unmonitored)
 }
 
-/// All stable ranges of a scene, as long as a monitor, which is not told how much is done, lets it go on.
+/// All stable ranges of a scene, as long as a monitor, which sees no progress, lets the search go on.
 ///
 /// # Errors
 /// As [`stable_ranges`]; [`OrbitError::Stopped`].
@@ -51,7 +50,7 @@ pub fn stable_ranges_with_monitor(
     Ok(find_stable_ranges(scene, monitor)?)
 }
 
-/// All stable ranges of a scene.
+/// Finds all stable ranges of a scene.
 pub(super) fn find_stable_ranges(
     scene: &Scene,
     monitor: Monitor<'_>,
@@ -117,8 +116,7 @@ pub(super) fn find_stable_ranges(
     Ok(distinct)
 }
 
-/// True if a point that lies near the chord between two neighbours is not the one between them on their branch, as far as
-/// that can be told.
+/// True if a point near the chord between two neighbours is not the one between them on their branch.
 fn is_off_branch(
     continuation: &Continuation<'_, Frequencies<'_>>,
     pair: &[BranchPoint],
@@ -130,6 +128,7 @@ fn is_off_branch(
     is_inside && own().is_ok_and(|own| !is_same_state(&own, point.state(), scene))
 }
 
+/// The limits of the branches of a scene.
 fn branch_limits(scene: &Scene) -> Limits {
     let natural = scene.scales().rate;
     Limits {
@@ -138,8 +137,7 @@ fn branch_limits(scene: &Scene) -> Limits {
     }
 }
 
-/// g0 and what lies beside both grazing frequencies, the row, and what lies beside its lower end, beyond which there is
-/// none to lead to a stable range that ends there.
+/// The frequencies at which motions are searched: g0, those beside both grazings, the rows, and beside their end.
 fn search_frequencies(scene: &Scene) -> Vec<f64> {
     let natural = scene.scales().rate;
     let row = SEARCH_ROWS.into_iter().flat_map(|(low, high, count)| {
@@ -171,7 +169,7 @@ fn border_points(branch: &Branch) -> Vec<&BranchPoint> {
     ends.into_iter().filter_map(border).collect()
 }
 
-/// The motions beside a border with nearly the impact of the motion there.
+/// The orbits beside a border with nearly the impact of the motion there.
 fn orbits_beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
     let impacts = border.timed_impacts();
     let shares = BEYOND_SHARES.into_iter().flat_map(|share| [-share, share]);
@@ -182,6 +180,7 @@ fn orbits_beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
     shares.filter_map(near).flatten().collect()
 }
 
+/// The two frequencies beside one.
 fn frequencies_beside(frequency: f64) -> [f64; 2] {
     [frequency * (1.0 - OFFSET), frequency * (1.0 + OFFSET)]
 }
