@@ -12,6 +12,7 @@ mod exponents;
 mod grazing;
 mod in_service;
 mod invariants;
+mod kept_period;
 mod limits;
 mod machine_reference;
 mod slopes;

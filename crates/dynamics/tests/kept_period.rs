@@ -1,0 +1,91 @@
+//! What is kept of some drive periods says what a run of them says, at walls, at rest and up to the bound on its arcs.
+
+use nalgebra::Vector2;
+use proptest::prelude::*;
+use softstop::{Clock, MotionError, PhaseKind, Ratios, Scene, Stop};
+use softstop_dynamics::StroboscopicMap;
+use softstop_testing::tolerance::MOTION;
+use softstop_testing::{assert_near, cases, machines, start_below};
+
+/// Drive periods of the random motions.
+const PERIODS: u64 = 5;
+
+fn rigid(restitution: f64) -> Scene {
+    let mut scene = Scene {
+        clearance: 0.2,
+        ..Scene::of_stop(Stop::Rigid { restitution })
+    };
+    scene.excitation.frequency = 0.5;
+    scene
+}
+
+fn map(scene: &Scene, periods: u64) -> StroboscopicMap {
+    StroboscopicMap::new(scene, periods).expect("a map")
+}
+
+proptest! {
+    #![proptest_config(cases(400))]
+
+    #[test]
+    fn states_after_each_period_are_those_of_a_run_that_ends_there(
+        scene in machines(),
+        depth in 0.0..6.0f64,
+        velocity in -6.0..6.0f64,
+    ) {
+        let state = Vector2::from(start_below(&scene, depth, velocity));
+        let (lowest, highest) = scene.reach();
+        let kept = map(&scene, PERIODS).trajectory(state).expect("bounded");
+        for periods in 0..=PERIODS {
+            let after = kept.after(periods);
+            let run = map(&scene, periods).image(state).expect("bounded");
+            assert_near((after - run).norm(), 0.0, MOTION * (1.0 + run.norm()));
+            prop_assert!((lowest..=highest).contains(&after.x), "{after}");
+        }
+        let trajectory = scene.trajectory(state.into(), PERIODS).expect("bounded");
+        let crossings: Vec<_> = trajectory.crossings.iter().map(|it| it.instant).collect();
+        let of_kept: Vec<_> = kept.crossings().map(|it| it.instant).collect();
+        prop_assert_eq!(of_kept, crossings);
+    }
+}
+
+/// The mass comes to rest on the wall within each period: after complete chatter it is held until the drive pulls it off.
+#[test]
+fn a_period_that_begins_and_ends_at_rest_keeps_the_crossings_of_its_held_arcs() {
+    let mut scene = rigid(0.3);
+    scene.excitation.amplitude = 3.0;
+    let mut held = 0;
+    for phase in (0..24).map(|step| 0.27 * f64::from(step)) {
+        scene.excitation.phase = phase;
+        let settled = map(&scene, 40).image(Vector2::zeros()).expect("bounded");
+        let kept = map(&scene, 2).trajectory(settled).expect("bounded");
+        let trajectory = scene.trajectory(settled.into(), 2).expect("bounded");
+        let kinds: Vec<_> = kept.crossings().map(|it| it.kind).collect();
+        let of_trajectory: Vec<_> = trajectory.crossings.iter().map(|it| it.kind).collect();
+        assert_eq!(kinds, of_trajectory, "at phase {phase}");
+        let last = kept.arcs.last().expect("an arc");
+        if last.kind == PhaseKind::Resting && last.start < Clock::at_cycle(2) {
+            assert_eq!(kept.end, Vector2::new(scene.clearance, 0.0));
+            assert_eq!(kept.after(2), kept.end, "at phase {phase}");
+            held += 1;
+        }
+    }
+    assert!(held >= 3, "{held} of 24");
+}
+
+/// A motion of more arcs than are kept is an error that says where it stopped; its image and impacts are counted without.
+#[test]
+fn periods_with_too_many_arcs_are_refused_but_their_image_is_not() {
+    let scene = Ratios::unloaded().scene().expect("valid");
+    let long = map(&scene, 140_000);
+    let start = Vector2::new(0.0, 14.0);
+    let Err(MotionError::Endless { time, .. }) = long.trajectory(start) else {
+        panic!("kept, or refused for another reason");
+    };
+    let periods = time / scene.period();
+    assert!((60_000.0..140_000.0).contains(&periods), "{periods}");
+    assert!(matches!(
+        long.apply(start),
+        Err(MotionError::Endless { .. })
+    ));
+    assert!(long.image(start).expect("bounded").norm() < 100.0);
+}
