@@ -231,9 +231,8 @@ impl Trials<'_> {
             true => (0..=last).take(FEW_TRIES).collect(),
             false => (0..TRIES).map(|index| index * last / (TRIES - 1)).collect(),
         };
-        let passing = spread.into_iter();
-        let passing = passing.filter(|index| self.is_passed(&all[*index]));
-        let mut low = passing.max()?;
+        let mut ascending = spread.into_iter();
+        let mut low = ascending.rfind(|index| self.is_passed(&all[*index]))?;
         let mut high = all.len();
         while high - low > 1 {
             let middle = low.midpoint(high);

@@ -214,6 +214,12 @@ impl Problem {
 
     /// Whether it meets one: with few motions by what was counted, else by the lower end of its interval.
     fn is_passed(&self, requirement: &Requirement, orbit: &Orbit, effort: Effort) -> bool {
+        let is_asked_for_one = (requirement.least, requirement.most) == (Some(1.0), None);
+        if requirement.figure == Figure::RunUp && is_asked_for_one {
+            let watcher = &interrupt::watch;
+            return RunUp::is_possible(orbit, &self.run_up, effort.angles, watcher)
+                .unwrap_or(false);
+        }
         self.tried_of(requirement, orbit, effort)
             .is_ok_and(|met| match effort.starts < STARTS {
                 true => requirement.margin(met.value) >= 0.0,

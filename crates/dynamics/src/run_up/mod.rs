@@ -139,17 +139,35 @@ impl RunUp {
         monitor: Monitor<'_>,
     ) -> Result<Self, OrbitError> {
         let basin_test = BasinTest::of(orbit)?;
-        let tried = settings.ways.par_iter().map(|way| match way {
-            Way::SwitchedOn => {
-                try_switching_on(orbit, &basin_test, (settings, angles), monitor).map(Some)
-            }
-            _ => try_slow_change(orbit, &basin_test, (settings, *way), monitor),
-        });
+        let tried = settings.ways.par_iter();
+        let tried = tried.map(|way| try_way(orbit, &basin_test, (settings, *way, angles), monitor));
         let tried = tried.collect::<Result<Vec<Option<Attempt>>, OrbitError>>()?;
         Ok(Self {
             ways: tried.into_iter().flatten().collect(),
             most_force: settings.most_force,
         })
+    }
+
+    /// True if some way works, as [`RunUp::working_ways`] says: once one does, no other is begun.
+    ///
+    /// # Errors
+    /// [`OrbitError::Motion`] if the motion cannot be computed.
+    pub fn is_possible(
+        orbit: &Orbit,
+        settings: &RunUpSettings,
+        angles: usize,
+        monitor: Monitor<'_>,
+    ) -> Result<bool, OrbitError> {
+        let basin_test = BasinTest::of(orbit)?;
+        let works = |way: &Way| {
+            let attempt = try_way(orbit, &basin_test, (settings, *way, angles), monitor);
+            let of_one_way = Self {
+                ways: attempt.ok().flatten().into_iter().collect(),
+                most_force: settings.most_force,
+            };
+            of_one_way.working_ways().next().is_some()
+        };
+        Ok(settings.ways.par_iter().any(works))
     }
 
     /// The attempts by ways that lead to the motion for sure, with no more force than is allowed.
@@ -192,6 +210,21 @@ impl Display for RunUp {
                 it.way.name()
             )
         })
+    }
+}
+
+/// Tries one way to run up; none if the machine has no such way.
+fn try_way(
+    orbit: &Orbit,
+    basin_test: &BasinTest,
+    (settings, way, angles): (&RunUpSettings, Way, usize),
+    monitor: Monitor<'_>,
+) -> Result<Option<Attempt>, OrbitError> {
+    match way {
+        Way::SwitchedOn => {
+            try_switching_on(orbit, basin_test, (settings, angles), monitor).map(Some)
+        }
+        _ => try_slow_change(orbit, basin_test, (settings, way), monitor),
     }
 }
 
