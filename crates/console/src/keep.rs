@@ -3,7 +3,7 @@
 //! Beside its results a run has a file, gone once they are in place. Each finished [piece] of work is appended to it at
 //! once, with its checksum: a kill loses the pieces under way, and a record that it cuts off ends the file.
 //!
-//! [piece]: softstop_dynamics::monitor::piece
+//! [piece]: softstop_dynamics::monitor::recall_or_compute
 
 use std::collections::HashMap;
 use std::fs;

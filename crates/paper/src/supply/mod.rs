@@ -3,7 +3,7 @@
 //! At the end of each drive period, while the mass is short of the strip, the supply breaks off or sets in again
 //! by chance, so that strips come and fail in runs of a mean length. The motion begins as z = 1; in the end the
 //! supply is steady once more, and it is counted whether each period has its impact still. What is there without a
-//! strip can be read in two ways ([`Reading`]).
+//! strip can be read in two ways ([`StopWithoutStrip`]).
 
 mod chart;
 
