@@ -36,7 +36,7 @@ proptest! {
         let (lowest, highest) = scene.reach();
         let kept = map(&scene, PERIODS).trajectory(state).expect("bounded");
         for periods in 0..=PERIODS {
-            let after = kept.after(periods);
+            let after = kept.at_cycle(periods);
             let run = map(&scene, periods).image(state).expect("bounded");
             assert_near((after - run).norm(), 0.0, MOTION * (1.0 + run.norm()));
             prop_assert!((lowest..=highest).contains(&after.x), "{after}");
@@ -65,7 +65,7 @@ fn a_period_that_begins_and_ends_at_rest_keeps_the_crossings_of_its_held_arcs() 
         let last = kept.arcs.last().expect("an arc");
         if last.kind == PhaseKind::Resting && last.start < Clock::at_cycle(2) {
             assert_eq!(kept.end, Vector2::new(scene.clearance, 0.0));
-            assert_eq!(kept.after(2), kept.end, "at phase {phase}");
+            assert_eq!(kept.at_cycle(2), kept.end, "at phase {phase}");
             held += 1;
         }
     }

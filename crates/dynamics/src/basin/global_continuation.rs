@@ -34,7 +34,7 @@ pub struct BasinsAt {
 }
 
 /// Follows attractors along a parameter: the basins of scenes, one for each value, in order; the grid is the same for
-/// all. The monitor is told of the cells done at all values.
+/// all. The monitor is told of the cells done at all values, and of each value whose attractors have been carried over.
 ///
 /// # Errors
 /// As [`find_basins`](super::find_basins).
@@ -46,14 +46,16 @@ pub fn follow_attractors(
     kept: OptionalMemory<'_>,
 ) -> Result<Vec<BasinsAt>, OrbitError> {
     let cells = (grid.cell_count() * scenes.len()) as u64;
+    let planned = cells + scenes.len() as u64;
     let all = scenes.iter().map(|(_, scene)| scene);
-    let all = find_basins_of_scenes(all, grid, options, monitor, kept)?;
-    let pause = |_, _| monitor(cells, cells);
+    let before_carrying = |done, _| monitor(done, planned);
+    let all = find_basins_of_scenes(all, grid, options, &before_carrying, kept)?;
     let mut found: Vec<BasinsAt> = Vec::with_capacity(scenes.len());
     let mut known = 0;
     for ((value, scene), mut basins) in scenes.iter().zip(all) {
         let mut surest = Vec::new();
         if let Some(last) = found.last() {
+            let pause = |_, _| monitor(cells + found.len() as u64, planned);
             carry_over_orbits(last, scene, &mut basins, options, &pause)?;
             surest = find_claims(last, &basins)?;
         }
