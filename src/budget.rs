@@ -7,27 +7,26 @@
 use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What a crossing costs, in windows: a window takes some 10 ns, a crossing with the arc after it half a
-/// microsecond to two.
+/// Cost of a crossing with the arc after it, in scan windows: a window takes some 10 ns, a crossing half a microsecond to two.
 pub(crate) const CROSSING: u64 = 64;
-/// What the derivatives at a node of a scan cost, in windows, where a window is not passed at once.
+/// Cost of the derivatives at a node of a scan, in windows, where a window is not passed at once.
 pub(crate) const JETS: u64 = 8;
-/// What the derivatives at a node cost that is computed anew.
+/// Cost of a node that is computed anew with its derivatives, in windows.
 pub(crate) const NODE: u64 = 96;
-/// What a search of a window costs, in windows, on its Taylor polynomial.
+/// Cost of the search of one window on its Taylor polynomial, in windows.
 pub(crate) const POLYNOMIAL: u64 = 128;
-/// What a halving costs, in windows: of a window whose polynomial leaves open what happens, or of a bracket in which
+/// Cost of a halving, in windows: of a window whose polynomial leaves open what happens, or of a bracket in which
 /// Newton's method does not converge.
 pub(crate) const HALVING: u64 = 4;
-/// What zero-state responses cost, in windows, where there is no closed form.
+/// Cost of zero-state responses without a closed form, in windows.
 pub(crate) const RESPONSES: u64 = 32;
-/// What zero-state responses cost besides for each doubling of their time.
+/// Further cost of zero-state responses for each doubling of their time, in windows.
 pub(crate) const DOUBLING: u64 = 8;
-/// What a Taylor step costs besides, in windows, that tells how small changes go on along it.
+/// Further cost of a Taylor step with state variations, in windows.
 pub(crate) const TANGENT: u64 = 256;
-/// What a step of Newton's method for slow motion under heavy damping costs, in windows.
+/// Cost of a step of Newton's method for slow motion under heavy damping, in windows.
 pub(crate) const CREEP: u64 = 768;
-/// What a Taylor step costs, in windows, for a microsecond.
+/// Cost of a Taylor step, in windows: it takes a microsecond.
 pub(crate) const TAYLOR_STEP: u64 = 128;
 
 thread_local! {

@@ -2,31 +2,34 @@
 
 use std::f64::consts::TAU;
 
-/// Share of an interval that each step of a golden section keeps.
-const KEPT: f64 = 0.618_033_988_749_894_9;
-/// Samples of a function in the time of its fastest oscillation, at least and at most.
-const LOOKS: f64 = 24.0;
-const FEWEST: f64 = 6.0;
-const MOST: f64 = 4096.0;
-/// Share of the time between two samples to which a peak is known; being flat it is known to rounding then.
-const WIDTH: f64 = 1e-8;
+/// Share of an interval that each step of the golden section keeps: (sqrt(5) - 1) / 2.
+const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
+/// Steps between samples of a function in a period of its fastest oscillation.
+const SAMPLES_PER_OSCILLATION: f64 = 24.0;
+/// Fewest steps between samples, however short the time.
+const MIN_SAMPLES: f64 = 6.0;
+/// Most steps between samples, however long the time.
+const MAX_SAMPLES: f64 = 4096.0;
+/// Width to which the time of a peak is narrowed, as a share of the step between samples: its value, being flat there, is
+/// known to rounding then.
+const PEAK_WIDTH: f64 = 1e-8;
 
 /// The largest value between two times of a function that oscillates no faster than with `rate` in rad/s.
 pub fn largest_value((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let looks = (LOOKS * rate * (to - from) / TAU)
-        .clamp(FEWEST, MOST)
+    let steps = (SAMPLES_PER_OSCILLATION * rate * (to - from) / TAU)
+        .clamp(MIN_SAMPLES, MAX_SAMPLES)
         .ceil();
-    let at = |look: f64| from + (to - from) * (look / looks);
-    let all: Vec<f64> = (0..=looks as u32)
-        .map(|look| value(at(look.into())))
+    let at = |sample: f64| from + (to - from) * (sample / steps);
+    let all: Vec<f64> = (0..=steps as u32)
+        .map(|sample| value(at(sample.into())))
         .collect();
-    let before = |look: usize| all[look.saturating_sub(1)];
-    let after = |look: usize| all[(look + 1).min(all.len() - 1)];
-    let tops = (0..all.len()).filter(|&look| all[look] >= before(look).max(after(look)));
-    let tops = tops.map(|look| {
-        let ends = [look as f64 - 1.0, look as f64 + 1.0].map(|end| at(end.clamp(0.0, looks)));
-        let (_, top) = highest_point(ends[0], ends[1], WIDTH * (at(1.0) - from), &value);
-        top.max(all[look])
+    let before = |sample: usize| all[sample.saturating_sub(1)];
+    let after = |sample: usize| all[(sample + 1).min(all.len() - 1)];
+    let tops = (0..all.len()).filter(|&sample| all[sample] >= before(sample).max(after(sample)));
+    let tops = tops.map(|sample| {
+        let ends = [sample as f64 - 1.0, sample as f64 + 1.0].map(|end| at(end.clamp(0.0, steps)));
+        let (_, top) = highest_point(ends[0], ends[1], PEAK_WIDTH * (at(1.0) - from), &value);
+        top.max(all[sample])
     });
     tops.fold(f64::NEG_INFINITY, f64::max)
 }
@@ -35,7 +38,12 @@ pub fn largest_value((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f
 /// until the place is known to `width`, or to rounding.
 pub fn highest_point(low: f64, high: f64, width: f64, value: impl Fn(f64) -> f64) -> (f64, f64) {
     let (mut low, mut high) = (low, high);
-    let inner = |low: f64, high: f64| [high - KEPT * (high - low), low + KEPT * (high - low)];
+    let inner = |low: f64, high: f64| {
+        [
+            high - GOLDEN_RATIO * (high - low),
+            low + GOLDEN_RATIO * (high - low),
+        ]
+    };
     let mut places = inner(low, high);
     let mut values = places.map(&value);
     while high - low > width && low < places[0] && places[0] < places[1] && places[1] < high {

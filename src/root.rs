@@ -16,8 +16,8 @@ impl Bracket {
     }
 }
 
-/// Evaluations beyond those of bisection that a search may take.
-const SLACK: f64 = 1.0;
+/// Evaluations that a search may take beyond those of bisection: the n0 of Oliveira and Takahashi.
+const EXTRA_EVALUATIONS: f64 = 1.0;
 
 /// Narrows the interval between `low` and `high`, where the function has the values `at_low` and
 /// `at_high` of opposite signs, to `width`: interpolation, truncation, projection (Oliveira and
@@ -34,7 +34,7 @@ pub fn narrow_root<E>(
 ) -> Result<Bracket, E> {
     let ((mut a, mut f_a), (mut b, mut f_b)) = (low, high);
     let half = 0.5 * width;
-    let most = ((b - a) / width).log2().ceil().max(0.0) + SLACK;
+    let most = ((b - a) / width).log2().ceil().max(0.0) + EXTRA_EVALUATIONS;
     let truncation = 0.2 / (b - a);
     let mut evaluations = 0;
     while b - a > width {

@@ -7,7 +7,7 @@ use operations::Step;
 pub use operations::{Differentiated, chained};
 use parser::Parser;
 
-/// Characters of an expression at most.
+/// Most characters of an expression.
 const MAX_LENGTH: usize = 1000;
 
 /// An expression as the steps of a stack machine.

@@ -29,8 +29,8 @@ pub struct Parser<'a> {
     depth: usize,
 }
 
-/// Brackets within brackets at most.
-const DEEPEST: usize = 100;
+/// Most levels of brackets within brackets.
+const MAX_BRACKET_DEPTH: usize = 100;
 
 impl<'a> Parser<'a> {
     /// The steps of an expression and the names in it.
@@ -78,9 +78,9 @@ impl<'a> Parser<'a> {
 
     fn parse_sum(&mut self) -> Result<(), String> {
         self.depth += 1;
-        if self.depth > DEEPEST {
+        if self.depth > MAX_BRACKET_DEPTH {
             return Err(format!(
-                "has more than {DEEPEST} brackets within each other"
+                "has more than {MAX_BRACKET_DEPTH} brackets within each other"
             ));
         }
         self.parse_product()?;

@@ -13,5 +13,5 @@ pub use crate::machine::nearest_name;
 pub use crate::peak::{highest_point, largest_value};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow_root;
-pub use crate::scene::{FASTEST, HEAVIEST, Scales, force_of};
+pub use crate::scene::{MAX_DAMPER_RATE, MAX_SPRING_RATE, Scales, force_of};
 pub use crate::tangent::{FrequencySensitivity, ParameterSensitivity, PhaseDerivatives, saltation};

@@ -64,7 +64,7 @@ impl Machine {
             return Ok(None);
         }
         if keys::other_statement_of(key) == Some(Parameter::Preload) {
-            self.known_parameter(keys::DEFLECTION)?;
+            self.known_parameter(keys::PRELOAD_DEFLECTION)?;
         }
         self.known_parameter(key).map(Some)
     }
@@ -102,7 +102,7 @@ impl Machine {
                 return Ok(Parameter::Frequency.name());
             }
             Some(Parameter::Preload) => {
-                self.known_parameter(keys::DEFLECTION)?;
+                self.known_parameter(keys::PRELOAD_DEFLECTION)?;
                 self.untie_parameter(Parameter::Preload);
                 self.preload_deflection = Some(0.0);
                 self.set(Parameter::Preload, number()?);
@@ -142,11 +142,11 @@ impl Machine {
             let is_new = changes.iter().any(|(key, _)| key == words.model);
             keys.any(|key| {
                 let slope = SlopeKey::parse(key).map(|it| it.is_below);
-                all.contains(&key.as_str()) || slope == Some(all == keys::OF_STOP_BELOW.all())
+                all.contains(&key.as_str()) || slope == Some(all == keys::STOP_BELOW_WORDS.all())
             })
             .then_some(is_new)
         };
-        if let Some(is_new) = set(&keys::OF_STOP) {
+        if let Some(is_new) = set(&keys::STOP_WORDS) {
             let mut stop = Table::new();
             if is_new {
                 self.preload_deflection = None;
@@ -157,7 +157,7 @@ impl Machine {
             self.scene.stop =
                 Stop::deserialize(stop).map_err(|error| stop_error(&error, "stop"))?;
         }
-        if let Some(is_new) = set(&keys::OF_STOP_BELOW) {
+        if let Some(is_new) = set(&keys::STOP_BELOW_WORDS) {
             let mut stop = Table::try_from(&self.scene.below).unwrap_or_default();
             stop.retain(|key, _| !is_new || key == "clearance");
             set_in_stop(&mut stop, changes, true)?;

@@ -95,7 +95,7 @@ impl Machine {
             let tie = Tie {
                 key: match (otherwise, parameter) {
                     (None, _) => parameter.name(),
-                    (Some(_), Parameter::Preload) => keys::DEFLECTION,
+                    (Some(_), Parameter::Preload) => keys::PRELOAD_DEFLECTION,
                     (Some(_), _) => keys::FREQUENCY_HZ,
                 },
                 text: text.clone(),

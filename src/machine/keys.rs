@@ -6,13 +6,21 @@ use super::{Machine, UnitSystem};
 use crate::error::MachineError;
 use crate::scene::{Dimension, Parameter, Stop};
 
+/// Key of the initial position, in m.
 pub(super) const POSITION: &str = "initial.position";
+/// Key of the initial velocity, in m/s.
 pub(super) const VELOCITY: &str = "initial.velocity";
+/// Key of the drive's frequency in Hz, beside the one in rad/s.
 pub(super) const FREQUENCY_HZ: &str = "excitation.frequency_hz";
-pub(super) const DEFLECTION: &str = "stop.preload_deflection";
+/// Key of the deflection by the preload, in m, beside the preload in N.
+pub(super) const PRELOAD_DEFLECTION: &str = "stop.preload_deflection";
+/// Key of the model of the stop above.
 const MODEL: &str = "stop.model";
+/// Key of the rule by which the stop above is left.
 const RELEASE: &str = "stop.release";
+/// Key of the slopes of the force of the stop above while it is loaded.
 const LOADING: &str = "stop.loading";
+/// Key of the slopes of the force of the stop above while it is unloaded.
 const UNLOADING: &str = "stop.unloading";
 
 /// Keys of a stop whose values are no numbers.
@@ -23,16 +31,16 @@ pub(super) struct WordKeys {
     pub unloading: &'static str,
 }
 
-/// The keys of the stop above whose values are no numbers.
-pub(super) const OF_STOP: WordKeys = WordKeys {
+/// The keys of the stop above whose values are words or lists.
+pub(super) const STOP_WORDS: WordKeys = WordKeys {
     model: MODEL,
     release: RELEASE,
     loading: LOADING,
     unloading: UNLOADING,
 };
 
-/// The keys of the stop below whose values are no numbers.
-pub(super) const OF_STOP_BELOW: WordKeys = WordKeys {
+/// The keys of the stop below whose values are words or lists.
+pub(super) const STOP_BELOW_WORDS: WordKeys = WordKeys {
     model: "stop.below.model",
     release: "stop.below.release",
     loading: "stop.below.loading",
@@ -56,7 +64,7 @@ impl WordKeys {
 
 /// The keys of both stops whose values are no numbers: they make a new stop.
 pub(super) fn word_keys() -> impl Iterator<Item = &'static str> {
-    OF_STOP.all().into_iter().chain(OF_STOP_BELOW.all())
+    STOP_WORDS.all().into_iter().chain(STOP_BELOW_WORDS.all())
 }
 
 /// The stop of a key, true if it is the one below, and the key's name in its table.
@@ -102,17 +110,17 @@ impl<'a> SlopeKey<'a> {
 }
 
 /// Keys of a file that name no [`Parameter`], of machines in SI units.
-pub(super) const FURTHER: [&str; 14] = [
+pub(super) const OTHER_KEYS: [&str; 14] = [
     FREQUENCY_HZ,
     MODEL,
     RELEASE,
     LOADING,
     UNLOADING,
-    OF_STOP_BELOW.model,
-    OF_STOP_BELOW.release,
-    OF_STOP_BELOW.loading,
-    OF_STOP_BELOW.unloading,
-    DEFLECTION,
+    STOP_BELOW_WORDS.model,
+    STOP_BELOW_WORDS.release,
+    STOP_BELOW_WORDS.loading,
+    STOP_BELOW_WORDS.unloading,
+    PRELOAD_DEFLECTION,
     POSITION,
     VELOCITY,
     "name",
@@ -120,7 +128,7 @@ pub(super) const FURTHER: [&str; 14] = [
 ];
 
 /// Tables of a file that are no part of the machine: the task of `softstop optimize`.
-pub(super) const TASK: [&str; 7] = [
+pub(super) const TASK_TABLES: [&str; 7] = [
     "vary",
     "tolerance",
     "objective",
@@ -136,7 +144,7 @@ pub(super) fn all_keys(unit_system: UnitSystem) -> Vec<&'static str> {
     let numbers = Parameter::ALL
         .into_iter()
         .filter(|it| !(ratios && it.is_unit()));
-    let further = FURTHER
+    let further = OTHER_KEYS
         .into_iter()
         .filter(|key| !(ratios && *key == FREQUENCY_HZ));
     numbers.map(Parameter::name).chain(further).collect()
@@ -155,23 +163,23 @@ pub(super) fn meant_key(key: &str, keys: &[&'static str]) -> Option<&'static str
         .or_else(|| nearest_name(key, keys))
 }
 
-/// The table of a key, if none of these keys is in it, and that of [`TASK`] that it may mean.
+/// The table of a key, if none of these keys is in it, and that of [`TASK_TABLES`] that it may mean.
 pub(super) fn meant_table<'a>(
     key: &'a str,
     keys: &[&'static str],
 ) -> Option<(&'a str, &'static str)> {
     let (table, _) = key.split_once('.')?;
     let is_table = |key: &&str| key.split_once('.').is_some_and(|(own, _)| own == table);
-    let meant = nearest_name(table, &TASK).filter(|_| !keys.iter().any(is_table))?;
+    let meant = nearest_name(table, &TASK_TABLES).filter(|_| !keys.iter().any(is_table))?;
     Some((table, meant))
 }
 
-/// Most letters of a misspelt name; no name has a third of that.
-const LONGEST: usize = 200;
+/// Most bytes of an unknown name for which the nearest known one is searched; no known name has a third of that.
+const MAX_NAME_LENGTH: usize = 200;
 
 /// The one of these names that a misspelt one may mean; dots part a name, and its last part may stand alone.
 pub fn nearest_name(name: &str, known: &[&'static str]) -> Option<&'static str> {
-    if name.len() > LONGEST {
+    if name.len() > MAX_NAME_LENGTH {
         return None;
     }
     let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
@@ -202,7 +210,7 @@ fn edit_distance(a: &str, b: &str) -> usize {
 pub(super) fn other_statement_of(key: &str) -> Option<Parameter> {
     match key {
         FREQUENCY_HZ | "frequency_hz" => Some(Parameter::Frequency),
-        DEFLECTION | "preload_deflection" => Some(Parameter::Preload),
+        PRELOAD_DEFLECTION | "preload_deflection" => Some(Parameter::Preload),
         _ => None,
     }
 }
@@ -279,23 +287,25 @@ impl Machine {
     pub(super) fn file_keys(&self) -> Vec<&'static str> {
         let has = |key: &&str| match *key {
             FREQUENCY_HZ => self.unit_system == UnitSystem::Si,
-            DEFLECTION => {
+            PRELOAD_DEFLECTION => {
                 self.preload_deflection.is_none() && self.value(Parameter::Preload).is_some()
             }
-            RELEASE | LOADING | UNLOADING => OF_STOP.fits(key, &self.scene.stop),
-            key if OF_STOP_BELOW.all().contains(&key) => match &self.scene.below {
-                Some(below) => key == OF_STOP_BELOW.model || OF_STOP_BELOW.fits(key, &below.stop),
+            RELEASE | LOADING | UNLOADING => STOP_WORDS.fits(key, &self.scene.stop),
+            key if STOP_BELOW_WORDS.all().contains(&key) => match &self.scene.below {
+                Some(below) => {
+                    key == STOP_BELOW_WORDS.model || STOP_BELOW_WORDS.fits(key, &below.stop)
+                }
                 None => false,
             },
             _ => true,
         };
-        let further = FURTHER.into_iter().filter(has);
+        let further = OTHER_KEYS.into_iter().filter(has);
         self.parameter_names().into_iter().chain(further).collect()
     }
 
     /// The error that this machine does not have a key, with those that it `has`.
     pub(super) fn unknown_key(&self, key: &str, has: Vec<&'static str>) -> MachineError {
-        let exists = FURTHER.contains(&key) || Parameter::ALL.iter().any(|it| it.is_called(key));
+        let exists = OTHER_KEYS.contains(&key) || Parameter::ALL.iter().any(|it| it.is_called(key));
         if exists {
             return MachineError::Lacks {
                 key: key.to_owned(),

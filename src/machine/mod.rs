@@ -247,7 +247,7 @@ impl Machine {
     pub fn name(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Frequency if self.unit_system == UnitSystem::Hertz => keys::FREQUENCY_HZ,
-            Parameter::Preload if self.preload_deflection.is_some() => keys::DEFLECTION,
+            Parameter::Preload if self.preload_deflection.is_some() => keys::PRELOAD_DEFLECTION,
             _ => parameter.name(),
         }
     }

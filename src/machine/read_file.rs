@@ -14,7 +14,7 @@ use crate::scene::{Parameter, Scene, Stop};
 type Value<'a> = Spanned<DeValue<'a>>;
 
 /// Name of the table of ratios.
-const RATIOS: &str = "ratios";
+const RATIOS_TABLE: &str = "ratios";
 
 /// The table `[initial]`.
 #[derive(Debug, Clone, Copy, Default, Deserialize)]
@@ -35,7 +35,7 @@ struct Place {
 
 impl Machine {
     /// Tables of a machine file that say what `softstop optimize` is to do with the machine; they play no part in it.
-    pub const TASK: [&str; 7] = keys::TASK;
+    pub const TASK: [&str; 7] = keys::TASK_TABLES;
 
     /// Reads the text of a machine file: SI units, or a table `[ratios]`.
     ///
@@ -50,7 +50,7 @@ impl Machine {
         for task in Self::TASK {
             table.get_mut().remove(task);
         }
-        let language = match table.get_ref().get(RATIOS) {
+        let language = match table.get_ref().get(RATIOS_TABLE) {
             Some(_) => UnitSystem::Ratios,
             None => UnitSystem::Si,
         };
@@ -110,7 +110,7 @@ fn collect_keys(
 ) {
     for (name, value) in table {
         let key = match (path, name.get_ref().as_ref()) {
-            ("", RATIOS) => String::new(),
+            ("", RATIOS_TABLE) => String::new(),
             ("", "start") => "initial".to_owned(),
             ("", "contact_damping") => Parameter::ContactDamping.name().to_owned(),
             ("", name) => name.to_owned(),
@@ -152,7 +152,7 @@ fn placeholder() -> DeValue<'static> {
 
 /// True if a number stands under this key.
 fn is_number(key: &str) -> bool {
-    Parameter::named(key).is_some() || [keys::FREQUENCY_HZ, keys::DEFLECTION].contains(&key)
+    Parameter::named(key).is_some() || [keys::FREQUENCY_HZ, keys::PRELOAD_DEFLECTION].contains(&key)
 }
 
 /// Refuses a key that no machine has. A table in whose place something else stands is left to be found by its type.
@@ -246,13 +246,13 @@ fn read_table(mut file: Spanned<DeTable<'_>>, language: UnitSystem) -> Result<Ma
     let name = take_value(table, "name")?;
     let description = take_value(table, "description")?;
     let mut initial = take_initial(table)?;
-    if let Some(value) = table.remove(RATIOS) {
+    if let Some(value) = table.remove(RATIOS_TABLE) {
         if let Some(key) = table.keys().next() {
             return Err(MachineError::BesideRatios(key.get_ref().to_string()).into());
         }
         let span = value.span();
         let DeValue::Table(ratios) = value.into_inner() else {
-            return Err(MachineError::NoTable(RATIOS).into());
+            return Err(MachineError::NoTable(RATIOS_TABLE).into());
         };
         file = Spanned::new(span, ratios);
         let table = file.get_mut();
@@ -271,7 +271,7 @@ fn read_table(mut file: Spanned<DeTable<'_>>, language: UnitSystem) -> Result<Ma
     rename_stop_below(file.get_mut());
     let keys = (keys::FREQUENCY_HZ, Parameter::Frequency.name());
     let hertz = take_other_statement(file.get_mut(), keys, "frequency = 1.0")?;
-    let keys = (keys::DEFLECTION, Parameter::Preload.name());
+    let keys = (keys::PRELOAD_DEFLECTION, Parameter::Preload.name());
     let deflection = take_other_statement(file.get_mut(), keys, "preload = 0.0")?;
     let Initial { position, velocity } = initial.unwrap_or_default();
     let mut machine = Machine {

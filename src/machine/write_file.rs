@@ -6,8 +6,8 @@ use super::keys::WordKeys;
 use super::{Machine, UnitSystem, keys};
 use crate::scene::{Dimension, Release, Slope, Stop};
 
-/// Column at which comments begin.
-const COMMENT: usize = 35;
+/// Least width of a statement before its comment, in characters.
+const COMMENT_COLUMN: usize = 35;
 
 /// A table of the file, and its lines.
 type Section = (&'static str, Vec<Line>);
@@ -60,7 +60,7 @@ impl Machine {
                 let stated = format!("{} = {value}", key.trim_start_matches('.'));
                 let line = match meaning.as_str() {
                     "" => stated,
-                    _ => format!("{stated:COMMENT$} # {meaning}"),
+                    _ => format!("{stated:COMMENT_COLUMN$} # {meaning}"),
                 };
                 text += &line;
                 text.push('\n');
@@ -82,9 +82,9 @@ impl Machine {
                 lines.push(Line(key, value, self.label_of(parameter)));
             }
         }
-        self.add_words(&self.scene.stop, &keys::OF_STOP, &mut lines);
+        self.add_words(&self.scene.stop, &keys::STOP_WORDS, &mut lines);
         if let Some(below) = &self.scene.below {
-            self.add_words(&below.stop, &keys::OF_STOP_BELOW, &mut lines);
+            self.add_words(&below.stop, &keys::STOP_BELOW_WORDS, &mut lines);
         }
         for (key, value, what, dimension) in [
             (

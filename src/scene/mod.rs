@@ -18,7 +18,7 @@ pub(crate) use stop::stiffness_from;
 pub use stop::{Below, Release, RigidStop, Slope, Stop, force_of};
 pub use ties::Ties;
 pub(crate) use ties::{Quantity, Tie};
-pub use time_scales::{FASTEST, HEAVIEST};
+pub use time_scales::{MAX_DAMPER_RATE, MAX_SPRING_RATE};
 pub use units::Units;
 
 use serde::{Deserialize, Serialize};

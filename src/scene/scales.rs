@@ -14,8 +14,8 @@ pub struct Scales {
     pub rate: f64,
 }
 
-/// Share of m w^2 below which the suspension is too soft to be a measure.
-const SOFT: f64 = 0.01;
+/// Least stiffness of a suspension that serves as a scale, in units of m w^2.
+const MIN_SCALE_STIFFNESS: f64 = 0.01;
 
 impl Scene {
     /// The scales of the machine, the units of [`Ratios`](super::Ratios): the static deflection F0/k1 and Omega =
@@ -23,7 +23,7 @@ impl Scene {
     #[doc(hidden)]
     pub fn scales(&self) -> Scales {
         let w = self.excitation.frequency;
-        let stiffness = self.stiffness.max(SOFT * self.mass * w * w);
+        let stiffness = self.stiffness.max(MIN_SCALE_STIFFNESS * self.mass * w * w);
         Scales {
             length: or_one(self.excitation.amplitude / stiffness, self.clearance),
             rate: (stiffness / self.mass).sqrt(),

@@ -3,18 +3,18 @@
 use super::{Parameter, Scene, Slope, Stop};
 use crate::error::SceneError;
 
-/// Rates sqrt(k/m) in units of the drive's frequency up to which a contact keeps eight digits of the motion: positions
-/// are rounded to 2^-53 of the clearance, a contact is this many times shallower than a motion is wide.
-pub const FASTEST: f64 = 1e7;
-/// Rates b/m in units of the drive's frequency beyond which nothing is left of a contact: a mass that creeps back leaves so slowly that
-/// only its position tells when. Up to 1e6 eight digits hold.
-pub const HEAVIEST: f64 = 1e9;
+/// Largest rate sqrt(k/m) of a spring, in units of the drive's frequency: up to it a contact keeps eight digits of the motion,
+/// as positions are rounded to 2^-53 of the clearance and a contact is this many times shallower than a motion is wide.
+pub const MAX_SPRING_RATE: f64 = 1e7;
+/// Largest rate b/m of a damper, in units of the drive's frequency: beyond it nothing is left of a contact, as a mass that creeps
+/// back leaves so slowly that only its position tells when. Up to 1e6 eight digits hold.
+pub const MAX_DAMPER_RATE: f64 = 1e9;
 
 impl Scene {
     /// Refuses springs and dampers so fast beside the drive that doubles do not resolve them.
     pub(super) fn validate_time_scales(&self) -> Result<(), SceneError> {
         let frequency = self.excitation.frequency;
-        let least = (self.stiffness / self.mass).sqrt() / FASTEST;
+        let least = (self.stiffness / self.mass).sqrt() / MAX_SPRING_RATE;
         if frequency < least {
             return Err(SceneError::TimeScales {
                 name: Parameter::Frequency.name(),
@@ -23,9 +23,9 @@ impl Scene {
                 limit: least,
             });
         }
-        let rate = FASTEST * frequency;
+        let rate = MAX_SPRING_RATE * frequency;
         let spring = self.mass * rate * rate;
-        let damper = self.mass * HEAVIEST * frequency;
+        let damper = self.mass * MAX_DAMPER_RATE * frequency;
         for parameter in Parameter::ALL {
             use Parameter as P;
             let most = match parameter {
@@ -61,7 +61,7 @@ impl Scene {
     ) -> Result<(), SceneError> {
         let motion = self.motion_scales();
         let speed = motion.speed();
-        let depth = motion.length / FASTEST;
+        let depth = motion.length / MAX_SPRING_RATE;
         let taken = (exponent + 1.0) * self.mass * speed / depth.powf(exponent + 1.0);
         check_at_most(
             Parameter::StopStiffness.name(),

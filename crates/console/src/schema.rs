@@ -4,7 +4,7 @@ use crate::machine::Regime;
 use crate::older::PaperRatios;
 use clap::{Args, Command, ValueEnum};
 use serde_json::{Map, Value, json};
-use softstop::internals::{FASTEST, HEAVIEST};
+use softstop::internals::{MAX_DAMPER_RATE, MAX_SPRING_RATE};
 use softstop::{Allowed, Below, Machine, Parameter, Release, Scene, Stop, UnitSystem};
 
 /// The draft in which schemas are written.
@@ -186,14 +186,14 @@ fn pace(parameter: Parameter) -> String {
     match parameter {
         P::Frequency => format!(
             "; at least {:e} of the rate sqrt(k1/m) of the suspension",
-            1.0 / FASTEST
+            1.0 / MAX_SPRING_RATE
         ),
         P::StopStiffness | P::BelowStiffness | P::PiercingStiffness | P::PiercingFriction => {
-            format!("; its rate sqrt(k/m) is at most {FASTEST:e} times the drive frequency")
+            format!("; its rate sqrt(k/m) is at most {MAX_SPRING_RATE:e} times the drive frequency")
         }
         P::Damping | P::ContactDamping => {
             format!(
-                "; its rate, damping over mass, is at most {HEAVIEST:e} times the drive frequency"
+                "; its rate, damping over mass, is at most {MAX_DAMPER_RATE:e} times the drive frequency"
             )
         }
         _ => String::new(),

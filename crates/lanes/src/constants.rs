@@ -4,23 +4,24 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Complex, Vector2};
 
-use super::law::{Constants, SPAN, TERMS};
+use super::law::{Constants, FREE_TERMS, WINDOW_ANGLE};
 use softstop::PhaseKind;
 use softstop::internals::{Beyond, Exit, Hertz, Modes, Phase, Phases, SurfaceId};
 
-/// Most windows per drive period that lanes scan.
-const FINEST: f64 = 65_536.0;
-/// Least stiffness per mass, in units of the drive's w^2, with which a constant force is described by a static
-/// deflection: a larger one would cost the motion its digits.
-const SOFTEST: f64 = 1e-2;
-/// Exponents of power laws that lanes follow, and the fastest rate under one in units of the drive's: under heavier damping
-/// the mass creeps, which the safe engine follows in long steps.
-const EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
-const CREEPING: f64 = 100.0;
-/// Distance from a guard within which the safe engine decides, relative to the size of the motion.
-const AMBIGUITY: f64 = 1e-10;
-/// Velocity below which the safe engine decides, relative to the largest velocity.
-const SLOW: f64 = 1e-5;
+/// Most scan windows per drive period with which lanes follow a machine; the safe engine follows stiffer ones.
+const MAX_WINDOWS_PER_PERIOD: f64 = 65_536.0;
+/// Least stiffness per mass, in units of the drive's w^2, with which lanes describe a constant force by a static
+/// deflection: the deflection of a softer spring is so large that the motion loses its digits.
+const MIN_STIFFNESS: f64 = 1e-2;
+/// Exponents of the power laws that lanes follow.
+const POWER_LAW_EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
+/// Largest rate of the linear part of a power-law contact, in units of the drive's w, with which lanes follow it: under heavier
+/// damping the mass creeps, which the safe engine follows in long steps.
+const MAX_POWER_LAW_RATE: f64 = 100.0;
+/// Distance from a guard within which only the safe engine decides, relative to the size of the motion.
+const AMBIGUOUS_DISTANCE: f64 = 1e-10;
+/// Speed at a guard below which only the safe engine decides, relative to size times fastest rate of the motion.
+const AMBIGUOUS_SPEED: f64 = 1e-5;
 
 impl Constants {
     /// Sets all constants to those of a phase, from zero; none if only the safe engine can follow it.
@@ -91,11 +92,11 @@ impl Constants {
             }
         }
         constants.set_single_end();
-        if !EXPONENTS.contains(&hertz.exponent) || constants.end != hertz.origin {
+        if !POWER_LAW_EXPONENTS.contains(&hertz.exponent) || constants.end != hertz.origin {
             return None;
         }
         let flow = &phase.flow;
-        if flow.modes.fastest_rate() > CREEPING * flow.frequency {
+        if flow.modes.fastest_rate() > MAX_POWER_LAW_RATE * flow.frequency {
             return None;
         }
         let press = hertz.stiffness / hertz.mass;
@@ -195,9 +196,9 @@ impl Constants {
         let (cosine, sine) = flow.steady_state()?;
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
-        let window = SPAN / fastest;
-        let soft = flow.modes.stiffness.abs() < SOFTEST * w * w;
-        if TAU / w > FINEST * window || (soft && phase.law.force != 0.0) {
+        let window = WINDOW_ANGLE / fastest;
+        let soft = flow.modes.stiffness.abs() < MIN_STIFFNESS * w * w;
+        if TAU / w > MAX_WINDOWS_PER_PERIOD * window || (soft && phase.law.force != 0.0) {
             return None;
         }
         let [[xx, vx], [xv, vv]] = flow.modes.transition(window).data.0;
@@ -273,8 +274,8 @@ impl Constants {
         let size = finite(self.low)
             .max(finite(self.high))
             .max(self.swing + self.offset.abs());
-        self.ambiguity = AMBIGUITY * size;
-        self.slow = SLOW * size * fastest;
+        self.ambiguity = AMBIGUOUS_DISTANCE * size;
+        self.slow = AMBIGUOUS_SPEED * size * fastest;
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
     }
 
@@ -292,11 +293,11 @@ impl Constants {
     }
 }
 
-/// 1/(n (n + 1))
-const RECIPROCALS: [f64; TERMS] = {
-    let mut table = [0.0; TERMS];
+/// 1/(n (n + 1)) for n from 0; 0 for n = 0.
+const RECIPROCAL_PRODUCTS: [f64; FREE_TERMS] = {
+    let mut table = [0.0; FREE_TERMS];
     let mut n = 1;
-    while n < TERMS {
+    while n < FREE_TERMS {
         table[n] = 1.0 / (n * (n + 1)) as f64;
         n += 1;
     }
@@ -304,16 +305,16 @@ const RECIPROCALS: [f64; TERMS] = {
 };
 
 /// The polynomial of the free motion from (0, 1), x'' + 2 a x' + b x = 0, term by term.
-fn free_response(modes: &Modes, window: f64) -> [f64; TERMS] {
+fn free_response(modes: &Modes, window: f64) -> [f64; FREE_TERMS] {
     let (damping, stiffness) = (
         2.0 * modes.decay * window,
         modes.stiffness * window * window,
     );
-    let mut terms = [1.0; TERMS];
-    for n in 1..TERMS {
+    let mut terms = [1.0; FREE_TERMS];
+    for n in 1..FREE_TERMS {
         let before = if n > 1 { terms[n - 2] } else { 0.0 };
         let pull = damping * n as f64 * terms[n - 1] + stiffness * before;
-        terms[n] = -pull * RECIPROCALS[n];
+        terms[n] = -pull * RECIPROCAL_PRODUCTS[n];
     }
     terms
 }

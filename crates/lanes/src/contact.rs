@@ -20,15 +20,16 @@ use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::move_lanes::LaneEnd;
 
-/// Lanes in contact wait until this many of eight are in contact, or for this many rounds.
-const QUORUM: usize = 7;
-const PATIENCE: usize = 6;
-/// Most Taylor steps before the other phases have their turn.
-const MOST_STEPS: usize = 64;
-/// Least share of a drive period that this many steps cover: slower contacts are left to the safe engine.
-const LEAST: f64 = 1.0 / 16.0;
-/// Distance, in drive periods, of a release from the end of a period that rounding could bridge.
-const BRIDGED: f64 = 1e-12;
+/// Eighths of the busy lanes that have to be in power-law contact before these are moved: until then they wait.
+const MIN_EIGHTHS_IN_CONTACT: usize = 7;
+/// Most rounds over all phases for which lanes in contact wait for others.
+const MAX_ROUNDS_WAITED: usize = 6;
+/// Most Taylor steps of a contact in one round over all phases.
+const MAX_STEPS: usize = 64;
+/// Least time that [`MAX_STEPS`] have to cover, in drive periods: slower contacts are left to the safe engine.
+const MIN_TIME_COVERED: f64 = 1.0 / 16.0;
+/// Time between a release and the end of a period, in drive periods, below which rounding decides which comes first.
+const AMBIGUOUS_TIME: f64 = 1e-12;
 
 /// The way of the lanes through one contact: where each has come to, and whether it still goes on, has left contact,
 /// has arrived at the end of its time, or is to be decided by the safe engine.
@@ -52,7 +53,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         if count == 0 {
             return active;
         }
-        if 8 * count >= QUORUM * self.state.busy_lanes().count() || self.waited >= PATIENCE {
+        if 8 * count >= MIN_EIGHTHS_IN_CONTACT * self.state.busy_lanes().count()
+            || self.waited >= MAX_ROUNDS_WAITED
+        {
             self.waited = 0;
             let (ended, doubtful) = self.step_through_contact(phase, pressed, self.time_to_stop());
             if (ended | doubtful).any() {
@@ -99,12 +102,12 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             doubtful: active.and_not(moves),
         };
         let mut steps = 0;
-        while path.going.any() && steps < MOST_STEPS {
+        while path.going.any() && steps < MAX_STEPS {
             power.expand(law, frequency, &path.place);
-            path.step(law, power, due, period * due.like(BRIDGED));
+            path.step(law, power, due, period * due.like(AMBIGUOUS_TIME));
             steps += 1;
         }
-        let slow = path.going & path.place.time.below(period * due.like(LEAST));
+        let slow = path.going & path.place.time.below(period * due.like(MIN_TIME_COVERED));
         let (left, arrived) = (path.left, path.arrived);
         let doubtful = path.doubtful | slow;
         let place = path.place;

@@ -6,14 +6,14 @@ use pulp::Simd;
 use super::contact_series::{ContactSeries, DEGREE, RECIPROCALS, Series};
 use super::lanes::{Lanes, Mask, Pair};
 
-/// How often a step that is not decided is halved before the safe engine decides.
-const MOST_HALVINGS: usize = 6;
-/// Steps of Newton's method before a lane is left to the safe engine.
-const MOST_TRIES: usize = 10;
-/// Last step of Newton's method, relative to the whole: the next one would be lost in rounding.
-const SHORT: f64 = 1e-8;
-/// Rounding of a sum, relative to its terms.
-const ROUNDING: f64 = 1e-14;
+/// Most halvings of a Taylor step in which the release is not decided; then the safe engine decides.
+const MAX_HALVINGS: usize = 6;
+/// Most steps of Newton's method; then the safe engine finds the release.
+const MAX_NEWTON_STEPS: usize = 10;
+/// Longest last step of Newton's method, relative to the Taylor step: the next one would be lost in rounding.
+const MAX_LAST_STEP: f64 = 1e-8;
+/// Bound on the rounding of a series' value, relative to its first two terms.
+const SUM_ROUNDING: f64 = 1e-14;
 
 /// Whether, and where, lanes leave contact within a step.
 pub(super) struct Release<S: Simd, const N: usize> {
@@ -53,7 +53,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
             let next = if k < DEGREE { self.root[k + 1] } else { zero };
             *term = touches.choose(next, *term);
         }
-        for _ in 0..=MOST_HALVINGS {
+        for _ in 0..=MAX_HALVINGS {
             let bounds = term_bounds(&series, release.sigma);
             let single = bounds.falls | (bounds.is_concave & zero.below(series[0]));
             let leaves = open & single & bounds.end.at_most(zero);
@@ -87,7 +87,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         }
         let tail = tail * sigma * sigma;
         let first = self.root[1] * sigma;
-        let (value, rounding) = (self.root[0], zero.like(ROUNDING));
+        let (value, rounding) = (self.root[0], zero.like(SUM_ROUNDING));
         let margin = rounding.mul_add(value + first.abs(), tail);
         margin.below(first) | margin.below(value + first.min(zero))
     }
@@ -139,12 +139,12 @@ fn solve_series<S: Simd, const N: usize>(
     let zero = sigma.like(0.0);
     let mut at = sigma * share;
     let mut open = of;
-    for _ in 0..MOST_TRIES {
+    for _ in 0..MAX_NEWTON_STEPS {
         let (value, rate) = value_and_rate(series, at);
         let step = (value - level) / rate;
         let next = (at - step).max(zero).min(sigma);
         at = open.choose(next, at);
-        open = open.and_not(step.abs().below(sigma * zero.like(SHORT)));
+        open = open.and_not(step.abs().below(sigma * zero.like(MAX_LAST_STEP)));
         if !open.any() {
             break;
         }
@@ -178,7 +178,7 @@ fn term_bounds<S: Simd, const N: usize>(series: &Series<S, N>, sigma: Lanes<S, N
         }
     }
     let (value, first) = (series[0], series[1] * sigma);
-    let rounding = zero.like(ROUNDING) * (value.abs() + first.abs());
+    let rounding = zero.like(SUM_ROUNDING) * (value.abs() + first.abs());
     let square = sigma * sigma;
     let bend = series[2] * square;
     let low = value + first.min(zero);

@@ -14,9 +14,9 @@ use pulp::Simd;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
 
-/// Degree of the series, odd.
+/// Degree of the series in the regularised time sigma; odd.
 pub(super) const DEGREE: usize = 25;
-/// 1/n.
+/// 1/n for n from 0 to [`DEGREE`] + 1; 0 for n = 0.
 pub(super) const RECIPROCALS: [f64; DEGREE + 2] = {
     let mut table = [0.0; DEGREE + 2];
     let mut n = 1;

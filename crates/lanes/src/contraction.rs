@@ -2,10 +2,11 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-/// How far above the spectral radius the norm of the map may lie, as a share of what is left to 1.
-const EXCESS: f64 = 0.02;
-/// Doublings of the sum that gives the norm: 256 terms. Where more would count, the map contracts a little less in it.
-const DOUBLINGS: usize = 8;
+/// Excess of the bound g over the spectral radius, as a share of the difference between 1 and that radius.
+const BOUND_EXCESS: f64 = 0.02;
+/// Doublings of the number of terms of the sum that gives the norm, up to 256. Where more would count, the map contracts a
+/// little less in it.
+const SUM_DOUBLINGS: usize = 8;
 
 /// The norm |P y| with the Euclidean length, in which a map shortens every vector.
 #[derive(Debug, Clone, Copy)]
@@ -22,9 +23,9 @@ impl ContractionNorm {
     /// (M'/g)^k (M/g)^k over all k (Stein's equation).
     pub fn of_map(map: &Matrix2<f64>) -> Option<Self> {
         let radius = spectral_radius(map.trace(), map.determinant());
-        let bound = radius + EXCESS * (1.0 - radius);
+        let bound = radius + BOUND_EXCESS * (1.0 - radius);
         let (mut power, mut sum) = (map / bound, Matrix2::identity());
-        for _ in 0..DOUBLINGS {
+        for _ in 0..SUM_DOUBLINGS {
             sum += power.transpose() * sum * power;
             power *= power;
         }

@@ -87,10 +87,13 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
         if rising.any() {
             // Up, down and up again?
             let winds = zero.below(self.slope.min(self.last_slope)) & middle.below(zero);
-            let near = self.eval(root).abs().below(error_bound * one.like(NEAR));
+            let near = self
+                .eval(root)
+                .abs()
+                .below(error_bound * one.like(MAX_VALUE_AT_ROOT));
             let slope = self.slope_at(root);
             let curvature = first.abs().max(curve.abs());
-            let least = slope.mul_add(one.like(SLOPE), curvature * one.like(BAND));
+            let least = slope.mul_add(one.like(RISE_BY_SLOPE), curvature * one.like(RISE_BY_CURVE));
             let steep = (error_bound * least).below(slope * slope) & zero.below(slope);
             let behind = (error_bound * one.like(2.2)).below(slope * (one - root));
             let apart = self.value.below(-error_bound) & near & steep & behind;
@@ -144,10 +147,11 @@ impl<S: Simd, const N: usize> Cubic<S, N> {
     }
 }
 
-/// About the zero the function may vanish where the cubic is within its error bound, at most 2 error bound / slope away: there
-/// its slope is at least slope - 2 curvature error bound / slope - 3.08 error bound, positive with these factors (the curvature
-/// is twice the difference of two slopes).
-const SLOPE: f64 = 3.3;
-const BAND: f64 = 4.6;
-/// Largest value of the cubic at its root, in units of the error bound.
-const NEAR: f64 = 0.02;
+/// Factor a of the condition slope^2 > error bound (a slope + b curve) for a single rise of the function: it may vanish where
+/// the cubic is within its error bound, at most 2 error bound / slope from the root of the cubic, where its own slope is at
+/// least slope - 4 curve error bound / slope - 3.08 error bound (twice `curve` is the curvature).
+const RISE_BY_SLOPE: f64 = 3.3;
+/// Factor b of that condition.
+const RISE_BY_CURVE: f64 = 4.6;
+/// Largest value of the cubic at the guess of its root, in units of the error bound.
+const MAX_VALUE_AT_ROOT: f64 = 0.02;

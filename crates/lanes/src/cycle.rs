@@ -15,12 +15,13 @@ use softstop::internals::Modes;
 
 /// Most windows into which a cycle is divided.
 const MAX_WINDOWS: usize = 4096;
-/// Longest window of a cycle under a force that draws back, in windows of the scan, and the shortest as a share of it.
-const LONGEST: f64 = 2.0;
-const SHORTEST: f64 = 1.0 / 256.0;
-/// Largest difference between the end of an arc by its linear law and the crossing that was recorded, relative to the
-/// size of the motion, with which the arc is trusted.
-const AGREEMENT: f64 = 1e-9;
+/// Longest window of an arc whose spring draws the mass back, in windows of the scan.
+const MAX_WINDOW_LENGTH: f64 = 2.0;
+/// Shortest window of an arc, as a share of the longest one of that arc.
+const MIN_WINDOW_SHARE: f64 = 1.0 / 256.0;
+/// Largest difference between the state at the end of an arc by its linear law and the one that was recorded there,
+/// relative to the size of the motion, with which the arc is used.
+const MAX_ARC_MISMATCH: f64 = 1e-9;
 
 /// A passage and cos + i sin of the drive's angle then.
 type Instant<'a> = (&'a Passage, Complex<f64>);
@@ -137,7 +138,7 @@ impl Cycle {
         let [_, v, a, _] = end.jet;
         let exit = law.crossed_face(to);
         let rate = exit.position * v + exit.velocity * a;
-        if off.x + off.y * law.window > AGREEMENT * size || rate <= 0.0 {
+        if off.x + off.y * law.window > MAX_ARC_MISMATCH * size || rate <= 0.0 {
             return None;
         }
         let gradient = RowVector2::new(exit.position, exit.velocity) / rate;
@@ -201,7 +202,11 @@ impl CycleArc {
 
     /// Adds the windows of the arc; those in which a bound does not suffice are halved.
     fn divide_arc(&self, law: &Constants, drive: &Drive, windows: &mut CycleWindows) -> Option<()> {
-        let longest = if law.stiffness < 0.0 { LONGEST } else { 1.0 };
+        let longest = if law.stiffness < 0.0 {
+            MAX_WINDOW_LENGTH
+        } else {
+            1.0
+        };
         let count = (self.duration * law.per_window / longest).ceil();
         let whole = self.duration / count.max(1.0);
         let (mut here, mut transition) = (self.start, Matrix2::identity());
@@ -217,7 +222,7 @@ impl CycleArc {
             let ends = (entry, is_last.then_some(self.exit));
             if !windows.add_window(law, (&here, &there), step, ends, at_start) {
                 step *= 0.5;
-                if step < whole * SHORTEST {
+                if step < whole * MIN_WINDOW_SHARE {
                     return None;
                 }
                 over = self.step_propagators(drive, step);

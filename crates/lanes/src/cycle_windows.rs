@@ -6,12 +6,13 @@ use nalgebra::Vector4;
 
 use super::cycle_state::{CycleState, Derivatives};
 use super::face::Face;
-use super::law::{Constants, SPAN};
+use super::law::{Constants, WINDOW_ANGLE};
 
-/// Error of the first and second derivative of a cubic Hermite interpolant over a step h, in units of its own error M
-/// h^4 / 384: sqrt(3)/216 M h^3 and M h^2 / 12 (Birkhoff and Priver 1967).
-const FIRST: f64 = 384.0 * 0.008_018_753_738_744_818;
-const SECOND: f64 = 384.0 / 12.0;
+/// Error sqrt(3)/216 M h^3 of the first derivative of a cubic Hermite interpolant over a step h, times h, in units of the
+/// error M h^4 / 384 of its value, M the largest fourth derivative (Birkhoff and Priver 1967).
+const RATE_ERROR: f64 = 384.0 * 0.008_018_753_738_744_818;
+/// Error M h^2 / 12 of the second derivative of that interpolant, times h^2, in units of the error of its value.
+const SECOND_DERIVATIVE_ERROR: f64 = 384.0 / 12.0;
 
 /// The windows of a cycle, one after another.
 #[derive(Debug, Default)]
@@ -104,7 +105,11 @@ impl CycleWindows {
         self.all.push(CycleWindow {
             at_start,
             step,
-            growth: if law.stiffness < 0.0 { 1.0 } else { SPAN.exp() },
+            growth: if law.stiffness < 0.0 {
+                1.0
+            } else {
+                WINDOW_ANGLE.exp()
+            },
             margins,
         });
         true
@@ -165,12 +170,12 @@ impl Margin {
         let differences = [b1 - g0, b2 - b1, g1 - b2].map(|difference| difference / third);
         let [d0, d1, d2] = differences;
         if is_start {
-            margin.slope = -d0.max(d1).max(d2) - FIRST * error_bound / step;
+            margin.slope = -d0.max(d1).max(d2) - RATE_ERROR * error_bound / step;
         } else if is_exit {
-            margin.slope = d0.min(d1).min(d2) - FIRST * error_bound / step;
+            margin.slope = d0.min(d1).min(d2) - RATE_ERROR * error_bound / step;
         }
         let second = (d1 - d0).min(d2 - d1) * 2.0 / step;
-        margin.convex = second - SECOND * error_bound / (step * step);
+        margin.convex = second - SECOND_DERIVATIVE_ERROR * error_bound / (step * step);
         margin
     }
 

@@ -11,10 +11,10 @@ use super::move_lanes::LaneEnd;
 use super::parts::Parts;
 use super::scan::Reached;
 
-/// Shortest part of a window that is decided, in windows.
-const LEAST: f64 = 1e-12;
-/// Shortest share of a window that is tried before the safe engine decides.
-const SHORTEST: f64 = 1.0 / 512.0;
+/// Shortest time that is decided at once, in windows: less that is left of a period is taken for this long.
+const MIN_DECIDED_SPAN: f64 = 1e-12;
+/// Least share of a window that lanes decide, after halvings; below it the safe engine decides.
+const MIN_WINDOW_SHARE: f64 = 1.0 / 512.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Decides the window ahead of the lanes that the scan has stopped, and moves all `active` ones on, none longer
@@ -31,7 +31,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let pending = active.and_not(reached.go);
         let scanned = reached.count * law.window;
         let remaining = due - scanned;
-        let least = law.window * due.like(LEAST);
+        let least = law.window * due.like(MIN_DECIDED_SPAN);
         let span = (self.state.share * law.window).min(remaining).max(least);
         let ahead = self.window_ahead(law, reached, pending, span);
         let guard = Guard::of_window::<GUARDED>(law, &ahead, reached.error_bound);
@@ -40,7 +40,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             self.move_to_decision::<GUARDED>(phase, active, &guard, &found, scanned);
         let arrived = found.clear & remaining.at_most(span);
         self.state.share = self.next_shares(active, pending.and_not(hits | found.clear));
-        let doubtful = doubtful | self.state.share.below(due.like(SHORTEST));
+        let doubtful = doubtful | self.state.share.below(due.like(MIN_WINDOW_SHARE));
         (self.end_periods(arrived), doubtful)
     }
 

@@ -10,11 +10,11 @@ use super::law::Law;
 use super::local_taylor;
 use super::move_lanes::LaneEnd;
 use super::parts::Parts;
-use super::scan::LEAVING;
-use super::sine_cosine::MOMENT;
+use super::scan::LEAVING_MARGIN;
+use super::sine_cosine::MOMENT_DEGREE;
 
-/// Least time, in windows, that a crossing lies before the end of the period or job: more than rounding could bridge.
-const BEFORE: f64 = 1e-4;
+/// Least time between a crossing and the end of the period or job, in windows: more than rounding could bridge.
+const MIN_TIME_TO_END: f64 = 1e-4;
 
 /// The way of each lane to the end of its phase.
 struct DirectPath<S: Simd, const N: usize> {
@@ -60,7 +60,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let crossing = local_taylor::nearby_zero(&sought, law.window, active);
         let moment = crossing.time;
         let time = path.time + moment;
-        let latest = law.window.min(due - law.window * due.like(BEFORE));
+        let latest = law.window.min(due - law.window * due.like(MIN_TIME_TO_END));
         let in_time = zero.below(time) & time.below(latest);
 
         let (mut end_x, mut end_v) = (path.surface, crossing.slope);
@@ -90,7 +90,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             before: end_v,
         };
         let angle = parts
-            .turn_drive::<MOMENT>(frequency, moment)
+            .turn_drive::<MOMENT_DEGREE>(frequency, moment)
             .drive_angle(law);
         self.state.share = hits.choose(one, self.state.share);
         self.move_lanes((hits, hits), &end, angle, time);
@@ -160,7 +160,8 @@ impl<S: Simd, const N: usize> DirectPath<S, N> {
         // At an end where it is zero its first Bernstein coefficient needs no proof.
         let first = self.rests.choose(b1, side * v0);
         let last = self.turns.choose(b2, side * v1);
-        let margin = (self.rests | self.turns).choose(error_bound * one.like(LEAVING), error_bound);
+        let margin =
+            (self.rests | self.turns).choose(error_bound * one.like(LEAVING_MARGIN), error_bound);
         let keeps = (law.slow + margin).below(first.min(last).min(b1.min(b2)));
         let reverses = law.ends_at_reversal();
         let away = (side * law.by_velocity).below(one.like(0.0));

@@ -7,8 +7,8 @@ use super::job::{Instructions, Job, Outcome, Task};
 use super::machine::Machine;
 use super::observer::ObserverHandle;
 
-/// Registers that hold the lanes side by side.
-pub(super) const ABREAST: usize = 2;
+/// Vector registers over which the lanes of one batch are spread.
+pub(super) const REGISTERS_PER_BATCH: usize = 2;
 
 /// Follows all jobs with the instruction set asked for, or the widest below it.
 pub(super) fn run_jobs<'a>(
@@ -28,7 +28,7 @@ pub(super) fn run_jobs<'a>(
     };
     match instructions {
         Instructions::OneByOne => run_one_by_one(task),
-        _ => dispatch(Batch::<ABREAST>(task), instructions),
+        _ => dispatch(Batch::<REGISTERS_PER_BATCH>(task), instructions),
     }
 }
 
@@ -72,7 +72,7 @@ fn run_one_by_one(task: Task) -> Vec<Outcome> {
     if let Some(simd) = pulp::x86::V3::try_new() {
         return Simd::vectorize(simd, Batch::<1>(task));
     }
-    dispatch(Batch::<ABREAST>(task), Instructions::Portable)
+    dispatch(Batch::<REGISTERS_PER_BATCH>(task), Instructions::Portable)
 }
 
 /// A task in N registers abreast.

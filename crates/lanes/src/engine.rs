@@ -37,11 +37,12 @@ use super::safe_engine::{self, Resumed, SafeStart};
 use super::state::State;
 use softstop::Start;
 
-/// Rounds of the loop after which the observer is asked whether to go on, and what they cost, in scan windows.
-const ROUNDS: usize = 16;
-const WINDOWS: u64 = 1 << 10;
-/// The index of the free phase: with several ends, it lies between two stops.
-const FREE: usize = 0;
+/// Rounds over all phases after which their work is counted and overdue trials end.
+const ROUNDS_PER_COUNT: usize = 16;
+/// Work of these rounds, in scan windows.
+const WORK_PER_COUNT: u64 = 1 << 10;
+/// Index of the free phase: with several ends, it lies between two stops.
+const FREE_PHASE: usize = 0;
 
 /// The lanes, the laws of their machines, and the jobs.
 pub(super) struct Engine<'a, S: Simd, const N: usize> {
@@ -144,9 +145,9 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
                 }
             }
             steps += 1;
-            if steps % ROUNDS == 0 {
+            if steps % ROUNDS_PER_COUNT == 0 {
                 self.end_overdue_trials();
-                if self.task.watch.count_work(WINDOWS).is_break() {
+                if self.task.watch.count_work(WORK_PER_COUNT).is_break() {
                     break;
                 }
             }
@@ -191,7 +192,7 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
     #[inline(always)]
     fn step_phase<const GUARDED: bool>(&mut self, phase: usize, active: Mask<S, N>) {
         let due = self.time_to_stop();
-        let between = GUARDED && phase == FREE;
+        let between = GUARDED && phase == FREE_PHASE;
         let active = if GUARDED && !between {
             self.direct_step(phase, active, due)
         } else {

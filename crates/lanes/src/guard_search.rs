@@ -9,10 +9,10 @@ use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
 use super::local_taylor;
 use super::parts::Parts;
-use super::sine_cosine::MOMENT;
+use super::sine_cosine::MOMENT_DEGREE;
 
-/// Most instants that are tried for a crossing or a maximum before the lane is left to the safe engine.
-const MOST_TRIES: usize = 6;
+/// Most instants besides the first at which a crossing or a maximum is searched for; then the safe engine finds it.
+const MAX_INSTANTS: usize = 6;
 
 /// What the search has found in each lane.
 pub(super) struct Found<S: Simd, const N: usize> {
@@ -133,7 +133,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             let hits = goal.rises & zeros.sure;
             let open = (goal.rises | goal.humps).and_not(hits);
             tries += 1;
-            if !open.any() || tries > MOST_TRIES {
+            if !open.any() || tries > MAX_INSTANTS {
                 let moment = hits.choose(zeros.time, zero);
                 let (position, velocity) = if GUARDED {
                     local_taylor::position_and_velocity_at(&derivatives, moment)
@@ -145,7 +145,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
                     hits,
                     doubtful: goal.doubtful | open,
                     time: goal.at + moment,
-                    parts: parts.turn_drive::<MOMENT>(ahead.frequency, moment),
+                    parts: parts.turn_drive::<MOMENT_DEGREE>(ahead.frequency, moment),
                     rate: zeros.slope,
                     position,
                     velocity,

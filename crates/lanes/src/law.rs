@@ -4,10 +4,10 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Mask, Pair};
 
-/// Product of window and fastest rate.
-pub(super) const SPAN: f64 = 1.2;
-/// Terms of the free motion's polynomial: for times of up to half a window, 0.6^16 / 16! < 2e-17.
-pub(super) const TERMS: usize = 15;
+/// Length of a window times the fastest rate, in rad.
+pub(super) const WINDOW_ANGLE: f64 = 1.2;
+/// Terms of the polynomial of the free motion over at most half a window: the first one left out is 0.6^16 / 16! < 2e-17.
+pub(super) const FREE_TERMS: usize = 15;
 
 macro_rules! law {
     ($($(#[$doc:meta])* $field:ident,)*) => {
@@ -17,21 +17,21 @@ macro_rules! law {
             $($(#[$doc])* pub $field: f64,)*
             /// The free motion from (0, 1): position over window as polynomial of time over window, from the linear
             /// term on.
-            pub response: [f64; TERMS],
+            pub response: [f64; FREE_TERMS],
         }
 
         /// The constants of the laws in all lanes.
         #[derive(Debug, Clone, Copy)]
         pub(super) struct Law<S: Simd, const N: usize> {
             $(pub $field: Lanes<S, N>,)*
-            pub response: [Lanes<S, N>; TERMS],
+            pub response: [Lanes<S, N>; FREE_TERMS],
         }
 
         impl<S: Simd, const N: usize> Law<S, N> {
             #[inline(always)]
             pub fn new(simd: S) -> Self {
                 let none = Lanes::splat(simd, 0.0);
-                Self { $($field: none,)* response: [none; TERMS] }
+                Self { $($field: none,)* response: [none; FREE_TERMS] }
             }
 
             #[inline(always)]

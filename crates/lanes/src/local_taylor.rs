@@ -9,16 +9,17 @@ use super::parts::Parts;
 /// Taylor coefficients of a function of time, its value first.
 pub(super) type Taylor<S, const N: usize> = [Lanes<S, N>; TERMS];
 
-/// Number of terms: over [`REACH`], the next is below 3e-16.
+/// Number of Taylor coefficients: over [`MAX_ZERO_ANGLE`], the first one left out adds less than 3e-16.
 const TERMS: usize = 7;
-/// Longest time over which the polynomials are used, times the fastest rate.
-const REACH: f64 = 0.02;
-/// Longest last step of Newton's method, in windows, and longest step that would follow it: lost in rounding.
-const SHORT: f64 = 1e-7;
-const LOST: f64 = 4e-16;
+/// Longest time from the centre to a zero that is used, times the fastest rate, in rad.
+const MAX_ZERO_ANGLE: f64 = 0.02;
+/// Longest step of Newton's method that may be the last, in windows.
+const MAX_LAST_STEP: f64 = 1e-7;
+/// Longest step of Newton's method that is lost in rounding and so need not be made, in windows.
+const MAX_OMITTED_STEP: f64 = 4e-16;
 
-/// 1/n!
-const FACTORS: [f64; TERMS + 1] = {
+/// 1/n! for n from 0 to [`TERMS`].
+const RECIPROCAL_FACTORIALS: [f64; TERMS + 1] = {
     let mut table = [1.0; TERMS + 1];
     let mut n = 2;
     while n <= TERMS {
@@ -74,7 +75,7 @@ pub(super) fn guard_taylor<S: Simd, const N: usize, const GUARDED: bool>(
         *term = match n {
             0 if GUARDED => value - level,
             0 | 1 => value,
-            _ => value * here.like(FACTORS[n]),
+            _ => value * here.like(RECIPROCAL_FACTORIALS[n]),
         };
     }
     local
@@ -115,7 +116,7 @@ pub(super) fn nearby_zero<S: Simd, const N: usize>(
     let tail = first.mul_add(first.mul_add(fourth, third), -a);
     let start = (first * first).mul_add(tail, first);
     let (time, slope, step) = newton_step(local, start);
-    let reach = window * window.like(REACH / super::law::SPAN);
+    let reach = window * window.like(MAX_ZERO_ANGLE / super::law::WINDOW_ANGLE);
     let near = time.abs().below(reach);
     let sure = near & is_last_step(step, a, window);
     let open = of & near.and_not(sure);
@@ -138,7 +139,8 @@ fn is_last_step<S: Simd, const N: usize>(
     window: Lanes<S, N>,
 ) -> Mask<S, N> {
     let next = (a * step * step).abs();
-    step.abs().below(window * window.like(SHORT)) & next.below(window * window.like(LOST))
+    step.abs().below(window * window.like(MAX_LAST_STEP))
+        & next.below(window * window.like(MAX_OMITTED_STEP))
 }
 
 /// One step of Newton's method: where it leads, the slope there, and the step.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 use super::law::Constants;
-use super::phase_graph::{MOST_PHASES, PhaseGraph};
+use super::phase_graph::{MAX_PHASES, PhaseGraph};
 use softstop::internals::{Beyond, Exit, Phase, PhaseId, Phases, Surface};
 use softstop::{Clock, Excitation, Scene, SceneError};
 
@@ -35,7 +35,7 @@ impl Machine {
             phases: &phases,
             drive,
         };
-        let for_lanes = count <= MOST_PHASES && trains.ends_before_rest();
+        let for_lanes = count <= MAX_PHASES && trains.ends_before_rest();
         let laws = if for_lanes { trains.lane_laws() } else { None };
         let kept = OnceLock::new();
         if laws.is_none() {
@@ -85,13 +85,13 @@ impl Machine {
     }
 }
 
-/// Restitution above which a row of bounces may grow beyond counting.
-const ELASTIC: f64 = 1.0 - 1.0 / 65_536.0;
-/// Shortest bounce that lanes follow at a face where bounces may come in rows, in drive periods.
-const SHORTEST: f64 = 1e-2;
-/// Most that damping may take of a motion in a drive period, as an exponent, where faces bring trains of bounces: bounces that are longer
-/// do not become a row without end before the drive lifts the mass.
-const MOST_DAMPING: f64 = 6.0;
+/// Largest restitution of a wall whose bounces die out in few enough impacts for lanes.
+const MAX_RESTITUTION: f64 = 1.0 - 1.0 / 65_536.0;
+/// Duration of the shortest bounce that lanes follow at a face with trains of bounces, in drive periods.
+const MIN_BOUNCE_DURATION: f64 = 1e-2;
+/// Largest exponent (damping / mass) times drive period of a machine with trains of bounces: under less damping, bounces
+/// of at least [`MIN_BOUNCE_DURATION`] do not come to rest before the drive lifts the mass.
+const MAX_DAMPING_EXPONENT: f64 = 6.0;
 
 /// Faces with trains of bounces: the drive can press the mass onto them while they throw it back with hardly any loss, by a jump of
 /// the force that is larger than the press, or as a wall that is nearly elastic. Bounces there may form rows without
@@ -136,7 +136,7 @@ impl BounceTrains<'_> {
                 let least = after + self.force_rounding(above, surface.position);
                 least < before && after < self.drive.amplitude
             }
-            Beyond::Wall { restitution } => restitution > ELASTIC,
+            Beyond::Wall { restitution } => restitution > MAX_RESTITUTION,
         });
         elastic && before + self.drive.amplitude > 0.0
     }
@@ -146,7 +146,7 @@ impl BounceTrains<'_> {
     fn ends_before_rest(&self) -> bool {
         let damping = self.phases.phases.iter().map(|phase| phase.law.damping);
         let damping = damping.fold(0.0, f64::max) / self.phases.mass;
-        let strong = damping * TAU / self.drive.frequency > MOST_DAMPING;
+        let strong = damping * TAU / self.drive.frequency > MAX_DAMPING_EXPONENT;
         let lifts = |surface: &Surface| {
             self.force_towards_stop(surface.before, surface) < self.drive.amplitude && !strong
         };
@@ -164,7 +164,7 @@ impl BounceTrains<'_> {
             self.force_towards_stop(surface.before, surface) + self.drive.amplitude
         };
         let presses = faces.filter(|surface| self.bounces_at(surface)).map(press);
-        let half = 0.5 * SHORTEST * TAU / self.drive.frequency;
+        let half = 0.5 * MIN_BOUNCE_DURATION * TAU / self.drive.frequency;
         presses.fold(0.0, f64::max) / self.phases.mass * half
     }
 }

@@ -42,8 +42,8 @@ pub(super) struct ObserverHandle<'a> {
     answer: ControlFlow<()>,
 }
 
-/// Work after which the observer is asked again, in scan windows: a millisecond, or a few.
-const ASKED: u64 = 1 << 15;
+/// Work after which the observer is asked again whether the batch goes on, in scan windows: a millisecond, or a few.
+const WORK_BETWEEN_QUESTIONS: u64 = 1 << 15;
 
 impl<'a> ObserverHandle<'a> {
     /// The handle of an observer.
@@ -60,7 +60,7 @@ impl<'a> ObserverHandle<'a> {
     /// Counts work, in scan windows; whether the batch goes on.
     pub fn count_work(&mut self, windows: u64) -> ControlFlow<()> {
         self.work += windows;
-        if self.work >= ASKED && self.answer.is_continue() {
+        if self.work >= WORK_BETWEEN_QUESTIONS && self.answer.is_continue() {
             (self.work, self.answer) = (0, self.watch.ask());
         }
         self.answer

@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
-use super::sine_cosine::{HALF_WINDOW, cos_sinc};
+use super::sine_cosine::{HALF_WINDOW_DEGREE, cos_sinc};
 
 /// A motion as the sum of a free part, position y and velocity u, and the steady part under the drive, p and q.
 #[derive(Debug, Clone, Copy)]
@@ -63,18 +63,18 @@ impl<S: Simd, const N: usize> Parts<S, N> {
             p,
             q,
         }
-        .turn_drive::<HALF_WINDOW>(frequency, time)
+        .turn_drive::<HALF_WINDOW_DEGREE>(frequency, time)
     }
 
     /// These parts with the steady one taken on by a `time` for which this many terms of cosine and sine are enough.
     #[inline(always)]
-    pub fn turn_drive<const TERMS: usize>(
+    pub fn turn_drive<const DEGREE: usize>(
         &self,
         frequency: Lanes<S, N>,
         time: Lanes<S, N>,
     ) -> Self {
         let angle = frequency * time;
-        let (cos, sinc) = cos_sinc::<S, N, TERMS>(angle * angle);
+        let (cos, sinc) = cos_sinc::<S, N, DEGREE>(angle * angle);
         let by_velocity = sinc * time;
         let by_position = -(sinc * angle * frequency);
         Self {

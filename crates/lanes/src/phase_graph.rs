@@ -3,12 +3,12 @@
 
 use super::law::Constants;
 
-/// Most phases that lanes choose between.
-pub(super) const MOST_PHASES: usize = 16;
-/// Most successors of a phase.
-const ENDS: usize = 3;
-/// Stands for no successor.
-const NONE: u8 = u8::MAX;
+/// Most phases of a machine that lanes follow.
+pub(super) const MAX_PHASES: usize = 16;
+/// Most phases that may follow on one phase.
+const MAX_SUCCESSORS: usize = 3;
+/// Marks an unused place in the list of successors.
+const NO_SUCCESSOR: u8 = u8::MAX;
 
 /// The phases of a machine and their successors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,17 +19,17 @@ pub(super) struct PhaseGraph {
     plain: u16,
     presses: u16,
     /// Successors of each phase, those on the way to the stop first.
-    beyond: [[u8; ENDS]; MOST_PHASES],
+    beyond: [[u8; MAX_SUCCESSORS]; MAX_PHASES],
 }
 
 impl PhaseGraph {
-    /// The graph of a machine with these laws, at most [`MOST_PHASES`].
+    /// The graph of a machine with these laws, at most [`MAX_PHASES`].
     pub fn from_laws(laws: &[Constants]) -> Self {
         let mut outline = Self {
             count: laws.len(),
             plain: 0,
             presses: 0,
-            beyond: [[NONE; ENDS]; MOST_PHASES],
+            beyond: [[NO_SUCCESSOR; MAX_SUCCESSORS]; MAX_PHASES],
         };
         for (phase, law) in laws.iter().enumerate() {
             outline.plain |= u16::from(law.has_one_end()) << phase;
@@ -65,7 +65,7 @@ impl PhaseGraph {
     /// The phases that follow on one.
     pub fn successors(&self, phase: usize) -> impl Iterator<Item = usize> + '_ {
         let ends = self.beyond[phase].iter();
-        ends.filter(|end| **end != NONE)
+        ends.filter(|end| **end != NO_SUCCESSOR)
             .map(|end| usize::from(*end))
     }
 }

@@ -2,7 +2,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::dispatch::{ABREAST, dispatch};
+use super::dispatch::{REGISTERS_PER_BATCH, dispatch};
 use super::job::Instructions;
 use super::lanes::Lanes;
 
@@ -44,7 +44,7 @@ impl WithSimd for MeasureRegisters {
         };
         Registers {
             name,
-            lanes: Lanes::<S, ABREAST>::COUNT,
+            lanes: Lanes::<S, REGISTERS_PER_BATCH>::COUNT,
         }
     }
 }

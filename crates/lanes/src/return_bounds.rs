@@ -12,9 +12,9 @@ use nalgebra::{Matrix2, Vector2, Vector4};
 use super::cycle::{Cycle, CycleArc};
 use super::cycle_state::Derivatives;
 
-/// Largest share by which damping and stiffness may change a derivative between two crossings of one face, and by
-/// which what first order leaves out may change the time between them.
-const MAX_CHANGE: f64 = 0.25;
+/// Largest relative change of a derivative by damping and stiffness between the crossings of one face by two motions, and of
+/// the time between these crossings by what first order leaves out.
+const MAX_RELATIVE_CHANGE: f64 = 0.25;
 
 /// Bounds on the next return of any motion in a ball: velocity and drive angle.
 #[derive(Debug, Clone, Copy, Default)]
@@ -122,11 +122,11 @@ impl CycleArc {
         };
         let at_end = passed.deviation(&self.at_end, ball, rest);
         let linear = self.gradient.abs().dot(&at_end.transpose());
-        let late = (1.0 + MAX_CHANGE) * linear;
+        let late = (1.0 + MAX_RELATIVE_CHANGE) * linear;
         let moved = self.cycle_derivative_bounds(late, frequency)?;
         let rates = self.deviation_rates(&at_end, late, &passed.delayed)?;
         let left_out = (Vector2::new(moved[1], moved[2]) * (0.5 * late) + rates) * late;
-        if self.gradient.abs().dot(&left_out.transpose()) > MAX_CHANGE * linear {
+        if self.gradient.abs().dot(&left_out.transpose()) > MAX_RELATIVE_CHANGE * linear {
             return None;
         }
         let own = self.at_end.transition.abs() * passed.curve + passed.curve;
@@ -170,7 +170,7 @@ impl CycleArc {
     /// Share of a derivative that damping and stiffness do not change in a time; none if the time is too long.
     fn unchanged_share(&self, time: f64) -> Option<f64> {
         let changes = self.damping * time + self.stiffness * time * time;
-        (changes <= MAX_CHANGE).then_some(1.0 - changes)
+        (changes <= MAX_RELATIVE_CHANGE).then_some(1.0 - changes)
     }
 
     /// Bounds on the velocity and acceleration of a deviation within `time` of its instant.

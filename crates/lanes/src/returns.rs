@@ -25,41 +25,49 @@ use super::cycle::Cycle;
 use super::cycle_state::{Drive, Passage};
 use super::law::Constants;
 
-/// Returns that a first guess is made from.
-const GUESSED_FROM: usize = 4;
-/// Largest difference between the time of a return and a whole number of drive periods, in periods.
-const SLIP: f64 = 0.25;
-/// Most drive periods between two returns; share of the distance of other returns at which one is a recurrence.
+/// Returns of the motion from which the limit is first extrapolated.
+const RETURNS_PER_GUESS: usize = 4;
+/// Largest difference between the time of a return and a whole number of drive periods, in drive periods.
+const MAX_TIME_OFFSET: f64 = 0.25;
+/// Most drive periods between two returns.
 const MAX_PERIODS: f64 = 4.0;
-const CLOSER: f64 = 0.3;
-/// Drive periods before the returns of a motion are recorded for the first time, and before they are recorded again.
-const FIRST: f64 = 28.0;
-const PAUSE: f64 = 6.0;
-/// How much longer each pause is than the one before.
-const LONGER: f64 = 1.5;
-/// Drive periods at the end of a job that are never extrapolated, and the fewest whose extrapolation is worth a trial.
-const LAST: f64 = 2.0;
-const FEWEST: f64 = 24.0;
-/// Largest distance between two returns, velocities in units of the velocity and times as angles of the drive, that
-/// tells how long the returns take to come close, and the largest from which their limit is extrapolated.
-const NEAR: f64 = 0.3;
-const CLOSE: f64 = 0.02;
-/// Difference of returns below which the last one is as good a guess as any.
-const SETTLED: f64 = 1e-8;
-/// Largest last step of Newton's method, and largest ratio of any other step to the one before.
-const FINAL: f64 = 1e-7;
-const SMALLER: f64 = 0.3;
-/// Least decay of a deviation in one return: the multipliers lie below 1 less this.
-const SLOWEST: f64 = 1e-3;
-/// Bounds on the error of the limit, and on that of how far from it the motion ends; the latter adds up what is left
-/// out in all returns, as if each bent the motion the same way.
-const ERROR: f64 = 4e-12;
-const MAX_SUM: f64 = 2e-10;
-/// Most balls that are tried, and the ratio of the radius of each to that of the one before.
+/// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return
+/// next to the first.
+const MAX_RECURRENCE_RATIO: f64 = 0.3;
+/// Drive periods from the beginning of a job to the first recording of returns.
+const PERIODS_BEFORE_RECORDING: f64 = 28.0;
+/// Drive periods from a failed attempt to the next recording of returns, before the first growth.
+const FIRST_PAUSE_PERIODS: f64 = 6.0;
+/// Ratio of the length of each pause to that of the one before.
+const PAUSE_GROWTH: f64 = 1.5;
+/// Drive periods at the end of a job that are never extrapolated.
+const FOLLOWED_LAST_PERIODS: f64 = 2.0;
+/// Fewest drive periods left, per period of the cycle, with which their extrapolation is worth a trial.
+const MIN_PERIODS_LEFT: f64 = 24.0;
+/// Largest distance between two returns from which the number of returns until they are close is predicted; velocities
+/// in units of the first return's, times as angles of the drive in rad.
+const MAX_PREDICTION_DISTANCE: f64 = 0.3;
+/// Largest distance between two returns, in these units, from which their limit is extrapolated.
+const MAX_EXTRAPOLATION_DISTANCE: f64 = 0.02;
+/// Distance between the last two returns, in these units, below which the last one is taken for the limit.
+const SETTLED_DISTANCE: f64 = 1e-8;
+/// Largest last step of Newton's method, in these units.
+const MAX_LAST_STEP: f64 = 1e-7;
+/// Largest ratio of a step of Newton's method to the one before with which the trial goes on.
+const MAX_STEP_RATIO: f64 = 0.3;
+/// Least difference between 1 and the spectral radius of the map of returns: deviations decay at least so much in one.
+const MIN_DECAY: f64 = 1e-3;
+/// Largest error of the limit, in units of the distance of returns.
+const MAX_LIMIT_ERROR: f64 = 4e-12;
+/// Largest error of the extrapolated last return, in these units: it adds up what is left out in all returns, as if each bent
+/// the motion the same way.
+const MAX_END_ERROR: f64 = 2e-10;
+/// Most balls about the limit that are tried for the proof.
 const MAX_BALLS: usize = 8;
-const SHRINK: f64 = 0.25;
-/// Least norm of a map in the bound on how deviations die out.
-const LEAST_RATE: f64 = 0.25;
+/// Ratio of the radius of a ball to that of the one before, on which the proof failed.
+const RADIUS_RATIO: f64 = 0.25;
+/// Least norm of the map of returns that is assumed in the bound on how deviations die out.
+const MIN_RATE: f64 = 0.25;
 
 /// The state of a motion just after an impact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -103,7 +111,7 @@ pub(super) struct Returns {
     /// Drive periods until returns are recorded again after no limit was found.
     pause: f64,
     /// The last returns of the motion itself, not of a trial cycle.
-    own: [Return; GUESSED_FROM],
+    own: [Return; RETURNS_PER_GUESS],
     /// What all are measured by: a velocity, drive periods left and a moment in them.
     velocity: f64,
     left: f64,
@@ -155,8 +163,8 @@ impl Returns {
     /// Begins with a job of so many drive periods; how many of them are left when returns are recorded first.
     pub fn begin_job(&mut self, per_period: f64, left: f64) -> f64 {
         self.per_period = per_period;
-        (self.every, self.pause) = (1.0, PAUSE);
-        self.forget_returns(left - FIRST).again
+        (self.every, self.pause) = (1.0, FIRST_PAUSE_PERIODS);
+        self.forget_returns(left - PERIODS_BEFORE_RECORDING).again
     }
 
     /// Records a crossing of the trial cycle.
@@ -187,10 +195,10 @@ impl Returns {
         }
         self.own[self.count] = now;
         self.count += 1;
-        if self.count < GUESSED_FROM {
+        if self.count < RETURNS_PER_GUESS {
             return None;
         }
-        if now.left < FEWEST * self.every {
+        if now.left < MIN_PERIODS_LEFT * self.every {
             return Some(self.forget_returns(f64::NEG_INFINITY));
         }
         let decision = self.guess_limit();
@@ -203,13 +211,13 @@ impl Returns {
     /// Whether a cycle is complete from one impact to another; none if it is still under way.
     fn is_cycle_complete(&self, before: &Return, now: &Return) -> Option<bool> {
         let periods = (before.left - now.left) + (now.offset - before.offset) * self.per_period;
-        if periods < self.every - SLIP {
+        if periods < self.every - MAX_TIME_OFFSET {
             return None;
         }
         let made = now.impacts - before.impacts;
         let same = before.position == now.position && before.phase == now.phase;
         let is_first = self.count == 1 && matches!(self.stage, Stage::Open);
-        Some(periods <= self.every + SLIP && same && (is_first || made == self.each))
+        Some(periods <= self.every + MAX_TIME_OFFSET && same && (is_first || made == self.each))
     }
 
     /// Drive periods after which the motion comes much closer to its first return than after others; 1 if none does.
@@ -217,8 +225,8 @@ impl Returns {
         let [first, rest @ ..] = self.own_points();
         let away = rest.map(|point| (point - first).norm());
         let recurs = match away {
-            [one, two, _] if two < CLOSER * one => 2.0,
-            [one, _, three] if three < CLOSER * one => 3.0,
+            [one, two, _] if two < MAX_RECURRENCE_RATIO * one => 2.0,
+            [one, _, three] if three < MAX_RECURRENCE_RATIO * one => 3.0,
             _ => 1.0,
         };
         let every = self.every * recurs;
@@ -237,7 +245,7 @@ impl Returns {
 
     /// Ends a trial that leads nowhere: the lane goes on from the last return of its own motion.
     pub fn end_trial(&mut self) -> Option<Decision> {
-        let to = self.own[GUESSED_FROM - 1];
+        let to = self.own[RETURNS_PER_GUESS - 1];
         self.is_trial().then(|| Decision {
             to: Some(to),
             ..self.pause_recording(to.left)
@@ -246,7 +254,7 @@ impl Returns {
 
     /// Records again after a longer pause than before.
     fn pause_recording(&mut self, left: f64) -> Decision {
-        self.pause *= LONGER;
+        self.pause *= PAUSE_GROWTH;
         self.forget_returns(left - self.pause)
     }
 
@@ -265,13 +273,13 @@ impl Returns {
         (whole, point)
     }
 
-    fn own_points(&self) -> [Vector2<f64>; GUESSED_FROM] {
+    fn own_points(&self) -> [Vector2<f64>; RETURNS_PER_GUESS] {
         std::array::from_fn(|index| self.return_point(&self.own[index]).1)
     }
 
     /// The return at a point (velocity, drive angle), so many returns after the last one of the motion itself.
     fn return_at(&self, point: Vector2<f64>, times: f64) -> Return {
-        let after = &self.own[GUESSED_FROM - 1];
+        let after = &self.own[RETURNS_PER_GUESS - 1];
         let (number, _) = self.return_point(after);
         let periods = point.y / TAU;
         let whole = periods.floor();
@@ -293,13 +301,14 @@ impl Returns {
         self.moment = first.offset * self.per_period;
         let points = self.own_points();
         let step = (points[3] - points[2]).norm();
-        if step >= NEAR {
+        if step >= MAX_PREDICTION_DISTANCE {
             return None;
         }
         let (limit, radius) = extrapolate_limit(&points)?;
-        if step > CLOSE {
-            let wait = (CLOSE / step).ln() / radius.ln() - (GUESSED_FROM - 1) as f64;
-            let left = self.own[GUESSED_FROM - 1].left;
+        if step > MAX_EXTRAPOLATION_DISTANCE {
+            let wait = (MAX_EXTRAPOLATION_DISTANCE / step).ln() / radius.ln()
+                - (RETURNS_PER_GUESS - 1) as f64;
+            let left = self.own[RETURNS_PER_GUESS - 1].left;
             return Some(self.forget_returns(left - wait.max(0.0) * self.every));
         }
         Some(self.begin_trial(limit, f64::INFINITY))
@@ -334,22 +343,22 @@ impl Returns {
         let step = inverse * (self.return_point(now).1 - tried);
         let limit = tried + step;
         let length = step.norm();
-        if length > FINAL || length.is_nan() {
-            let goes_on = length < SMALLER * before && limit.x > 0.0;
+        if length > MAX_LAST_STEP || length.is_nan() {
+            let goes_on = length < MAX_STEP_RATIO * before && limit.x > 0.0;
             return goes_on.then(|| self.begin_trial(limit, length));
         }
-        if spectral_radius(map.trace(), map.determinant()) > 1.0 - SLOWEST {
+        if spectral_radius(map.trace(), map.determinant()) > 1.0 - MIN_DECAY {
             return None;
         }
         let norm = ContractionNorm::of_map(&map)?;
         self.cycle.divide_into_windows(laws, drive)?;
         let aside = norm.norm_of(&step);
-        let off = self.own_points()[GUESSED_FROM - 1] - limit;
+        let off = self.own_points()[RETURNS_PER_GUESS - 1] - limit;
         let most = norm.norm_of(&off) + aside;
-        let (radius, curvature) = self.find_ball(&norm, &inverse, most.max(FINAL))?;
-        let rate = norm.rate.max(LEAST_RATE);
-        if curvature * aside * aside / (1.0 - rate) * norm.largest_length() > ERROR {
-            return (length < SMALLER * before).then(|| self.begin_trial(limit, length));
+        let (radius, curvature) = self.find_ball(&norm, &inverse, most.max(MAX_LAST_STEP))?;
+        let rate = norm.rate.max(MIN_RATE);
+        if curvature * aside * aside / (1.0 - rate) * norm.largest_length() > MAX_LIMIT_ERROR {
+            return (length < MAX_STEP_RATIO * before).then(|| self.begin_trial(limit, length));
         }
         let certificate = Certificate {
             limit,
@@ -370,15 +379,15 @@ impl Returns {
         inverse: &Matrix2<f64>,
         most: f64,
     ) -> Option<(f64, f64)> {
-        let rate = norm.rate.max(LEAST_RATE);
+        let rate = norm.rate.max(MIN_RATE);
         let mut radius = most;
         for _ in 0..MAX_BALLS {
             let ball = norm.from * radius;
             let Some(remainder) = self.cycle.remainder(&ball) else {
-                radius *= SHRINK;
+                radius *= RADIUS_RATIO;
                 continue;
             };
-            if (inverse.abs() * remainder.rounding).norm() > ERROR {
+            if (inverse.abs() * remainder.rounding).norm() > MAX_LIMIT_ERROR {
                 return None;
             }
             let curvature = norm.largest_norm(&remainder.curvature) / (radius * radius);
@@ -388,7 +397,7 @@ impl Returns {
             } else if self.cycle.ball_is_clear(&ball) {
                 return Some((radius, curvature));
             } else {
-                radius *= SHRINK;
+                radius *= RADIUS_RATIO;
             }
         }
         None
@@ -396,12 +405,13 @@ impl Returns {
 
     /// What the lane does after a return of a motion whose limit is known.
     fn approach_limit(&mut self, now: Return, certificate: &Certificate) -> Option<Decision> {
-        let last = self.own[GUESSED_FROM - 1];
+        let last = self.own[RETURNS_PER_GUESS - 1];
         let same = last.position == now.position && last.phase == now.phase;
-        if !same || (self.return_point(&now).1 - certificate.limit).norm() > NEAR {
+        if !same || (self.return_point(&now).1 - certificate.limit).norm() > MAX_PREDICTION_DISTANCE
+        {
             return None;
         }
-        self.own[GUESSED_FROM - 1] = now;
+        self.own[RETURNS_PER_GUESS - 1] = now;
         let decision = self.extrapolate_to_end(certificate);
         Some(Decision {
             to: decision.to.filter(|to| *to != now),
@@ -418,15 +428,15 @@ impl Returns {
             aside,
             ..
         } = certificate;
-        let own = self.own[GUESSED_FROM - 1];
+        let own = self.own[RETURNS_PER_GUESS - 1];
         let off = self.return_point(&own).1 - certificate.limit;
-        let rate = norm.rate.max(LEAST_RATE);
-        let times = ((own.left - LAST) / self.every).floor();
+        let rate = norm.rate.max(MIN_RATE);
+        let times = ((own.left - FOLLOWED_LAST_PERIODS) / self.every).floor();
         let back = |decision| Decision {
             to: Some(own),
             ..decision
         };
-        if own.left < FEWEST * self.every {
+        if own.left < MIN_PERIODS_LEFT * self.every {
             return back(self.forget_returns(f64::NEG_INFINITY));
         }
         let length = norm.norm_of(&off) + aside;
@@ -434,11 +444,13 @@ impl Returns {
         let q = 1.0 / (1.0 - curvature * length / (rate * (1.0 - rate))).max(0.5);
         let bent = curvature * length * q * (q * length / (1.0 - rate) + 2.0 * times * aside);
         let error = bent * rate.powf(times - 1.0) * norm.largest_length();
-        let excess = ((length + aside) / certificate.radius).max(error / MAX_SUM);
+        let excess = ((length + aside) / certificate.radius).max(error / MAX_END_ERROR);
         if excess > 1.0 || excess.is_nan() {
             self.stage = Stage::Known(*certificate);
             let wait = (excess.ln() / -rate.ln()).ceil();
-            return back(Decision::wait(own.left - (wait * self.every - SLIP)));
+            return back(Decision::wait(
+                own.left - (wait * self.every - MAX_TIME_OFFSET),
+            ));
         }
         let power = certificate.map.pow(times as u32);
         let to = self.return_at(certificate.limit + power * off, times);
@@ -453,10 +465,10 @@ impl Returns {
 
 /// The limit of a sequence of returns and the spectral radius with which they approach it, by minimal polynomial
 /// extrapolation (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d.
-fn extrapolate_limit(points: &[Vector2<f64>; GUESSED_FROM]) -> Option<(Vector2<f64>, f64)> {
+fn extrapolate_limit(points: &[Vector2<f64>; RETURNS_PER_GUESS]) -> Option<(Vector2<f64>, f64)> {
     let [a, b, c] = [0, 1, 2].map(|k| points[k + 1] - points[k]);
-    let last = points[GUESSED_FROM - 1];
-    if c.norm() < SETTLED {
+    let last = points[RETURNS_PER_GUESS - 1];
+    if c.norm() < SETTLED_DISTANCE {
         return Some((last, 0.0));
     }
     let area = b.perp(&a);
@@ -468,7 +480,7 @@ fn extrapolate_limit(points: &[Vector2<f64>; GUESSED_FROM]) -> Option<(Vector2<f
     let way = (c * trace - (c + b) * determinant) / (1.0 - trace + determinant);
     let is_like = way.norm() * (1.0 - radius) < 2.0 * c.norm();
     let limit = last + way;
-    (radius < 1.0 - SLOWEST && is_like && limit.x > 0.0).then_some((limit, radius))
+    (radius < 1.0 - MIN_DECAY && is_like && limit.x > 0.0).then_some((limit, radius))
 }
 
 impl Decision {

@@ -10,9 +10,9 @@ use super::machine::Machine;
 use super::observer::{BatchObserver, ObserverHandle};
 use softstop::Start;
 
-/// Jobs of a part: long enough for all lanes to be busy nearly to the end. Lanes that go together round together, so
-/// parts do not depend on the number of threads.
-const PART: usize = 128;
+/// Jobs that one thread follows as a batch: enough for all lanes to be busy nearly to its end. The lanes of a batch share
+/// their rounding, so its size does not depend on the number of threads.
+const JOBS_PER_BATCH: usize = 128;
 
 /// Follows all jobs on this thread with the widest instruction set.
 ///
@@ -45,10 +45,10 @@ pub fn run_parallel<W: BatchObserver + Send>(
     watch: impl Fn(Range<usize>) -> W + Sync,
 ) -> (Vec<Outcome>, Vec<W>) {
     let parts: Vec<(Vec<Outcome>, W)> = jobs
-        .par_chunks(PART)
+        .par_chunks(JOBS_PER_BATCH)
         .enumerate()
         .map(|(part, jobs)| {
-            let first = part * PART;
+            let first = part * JOBS_PER_BATCH;
             let mut numbered = Numbered {
                 first,
                 watch: watch(first..first + jobs.len()),

@@ -80,7 +80,7 @@ pub(super) fn follow_safely(
             followed = Err(error);
             break;
         }
-        if counter.progress(A_PERIOD).is_break() {
+        if counter.progress(WORK_PER_PERIOD).is_break() {
             break;
         }
         outcome.handed_over += 1;
@@ -105,8 +105,8 @@ pub(super) fn follow_safely(
     followed
 }
 
-/// What a drive period costs besides its crossings, in scan windows.
-const A_PERIOD: u64 = 16;
+/// Work of a drive period besides its crossings, in scan windows.
+const WORK_PER_PERIOD: u64 = 16;
 
 struct Counter<'a, 'b> {
     job: usize,

@@ -8,11 +8,11 @@ use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::parts::Parts;
 
-/// Most windows that are scanned before the lanes that have stopped are decided: about a drive period.
-pub(super) const MOST_WINDOWS: usize = 12;
-/// Multiple of the error of the cubic by which its second Bernstein coefficient has to lie below zero in the first
-/// window after a crossing, where the motion leaves zero: 16/3.
-pub(super) const LEAVING: f64 = 16.0 / 3.0;
+/// Most windows of one scan, after which the lanes that have stopped are decided: about a drive period.
+pub(super) const MAX_SCAN_WINDOWS: usize = 12;
+/// Least distance of the second Bernstein coefficient of a window's cubic from the guard, in units of the cubic's error, in
+/// the first window after a crossing, where the motion leaves the guard: 16/3.
+pub(super) const LEAVING_MARGIN: f64 = 16.0 / 3.0;
 
 /// Where the scan has brought the lanes.
 #[derive(Debug, Clone, Copy)]
@@ -85,7 +85,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let mut top = law.third.mul_add(v, x);
         // On the edge the first two Bernstein coefficients need no proof.
         top = apart.choose(top.max(x), one.like(f64::NEG_INFINITY));
-        let leaving = error_bound.mul_add(one.like(-LEAVING), ceiling);
+        let leaving = error_bound.mul_add(one.like(-LEAVING_MARGIN), ceiling);
         let mut below = apart.choose(limit, leaving);
         let lowest = floor + error_bound;
         let (mut bottom, mut above) = (x, lowest);
@@ -94,12 +94,12 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             go = go & (apart | law.slow.below(v));
             let ahead = law.third.mul_add(v, x);
             bottom = apart.choose(ahead.min(x), one.like(f64::INFINITY));
-            let leaving = error_bound.mul_add(one.like(LEAVING), floor);
+            let leaving = error_bound.mul_add(one.like(LEAVING_MARGIN), floor);
             above = apart.choose(lowest, leaving);
         }
-        let capped = (go & cap.below(one.like(MOST_WINDOWS as f64))).any();
+        let capped = (go & cap.below(one.like(MAX_SCAN_WINDOWS as f64))).any();
         // All lanes move on, those that have stopped too, or each window would wait for the verdict on the one before.
-        for window in 0..MOST_WINDOWS {
+        for window in 0..MAX_SCAN_WINDOWS {
             let count = one.like(window as f64);
             let (x, v) = (next.y + next.p, next.u + next.q);
             let before = x.minus_product(law.third, v);
@@ -130,7 +130,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             (bottom, above) = (top, lowest);
         }
         if go.any() {
-            reached.stop_lanes(go, &parts, &next, one.like(MOST_WINDOWS as f64));
+            reached.stop_lanes(go, &parts, &next, one.like(MAX_SCAN_WINDOWS as f64));
         }
         Reached { go, ..reached }
     }

@@ -6,11 +6,12 @@ use pulp::Simd;
 
 use super::lanes::{Lanes, Pair};
 
-/// Terms of the series: for angles of half a window, 0.6^16 / 16! < 2e-17, for an eighth of a turn, and for a moment,
-/// 0.02^8 / 8! < 1e-18.
-pub(super) const HALF_WINDOW: usize = 7;
-const EIGHTH: usize = 8;
-pub(super) const MOMENT: usize = 3;
+/// Degree in angle^2 of the series for the angle of half a window, 0.6 rad: the first term left out is 0.6^16 / 16! < 2e-17.
+pub(super) const HALF_WINDOW_DEGREE: usize = 7;
+/// Degree in angle^2 of the series for an eighth of a turn, 0.79 rad: the first term left out is below 3e-18.
+const EIGHTH_TURN_DEGREE: usize = 8;
+/// Degree in angle^2 of the series for angles up to a nearby zero, 0.02 rad: the first term left out is 0.02^8 / 8! < 1e-18.
+pub(super) const MOMENT_DEGREE: usize = 3;
 
 /// cos and sin of `turns` full turns, of 0 to 1.
 #[inline(always)]
@@ -20,8 +21,8 @@ pub(super) fn cos_sin<S: Simd, const N: usize>(turns: Lanes<S, N>) -> Pair<S, N>
     let rest = quarter.mul_add(turns.like(-0.25), turns);
     let angle = rest * turns.like(TAU);
     let square = angle * angle;
-    let c = alternating_series::<S, N, EIGHTH>(square, 0);
-    let s = angle * alternating_series::<S, N, EIGHTH>(square, 1);
+    let c = alternating_series::<S, N, EIGHTH_TURN_DEGREE>(square, 0);
+    let s = angle * alternating_series::<S, N, EIGHTH_TURN_DEGREE>(square, 1);
     let second = one + one;
     let odd = (quarter - second).abs().equals(one);
     let (even_c, even_s) = (odd.choose(-s, c), odd.choose(c, s));
@@ -35,36 +36,37 @@ pub(super) fn cos_sin<S: Simd, const N: usize>(turns: Lanes<S, N>) -> Pair<S, N>
 
 /// The cosine of a small angle, and the sine over the angle, from its square.
 #[inline(always)]
-pub(super) fn cos_sinc<S: Simd, const N: usize, const TERMS: usize>(
+pub(super) fn cos_sinc<S: Simd, const N: usize, const DEGREE: usize>(
     square: Lanes<S, N>,
 ) -> Pair<S, N> {
     (
-        alternating_series::<S, N, TERMS>(square, 0),
-        alternating_series::<S, N, TERMS>(square, 1),
+        alternating_series::<S, N, DEGREE>(square, 0),
+        alternating_series::<S, N, DEGREE>(square, 1),
     )
 }
 
 /// 1 - q odd!/(odd + 2)! + q^2 odd!/(odd + 4)! - ..., q = angle^2: the cosine for `odd` = 0, the sine over the
 /// angle for 1.
 #[inline(always)]
-fn alternating_series<S: Simd, const N: usize, const TERMS: usize>(
+fn alternating_series<S: Simd, const N: usize, const DEGREE: usize>(
     square: Lanes<S, N>,
     odd: usize,
 ) -> Lanes<S, N> {
-    let mut sum = square.like(ALTERNATING[odd][TERMS]);
-    for n in (0..TERMS).rev() {
-        sum = sum.mul_add(square, square.like(ALTERNATING[odd][n]));
+    let mut sum = square.like(ALTERNATING_COEFFICIENTS[odd][DEGREE]);
+    for n in (0..DEGREE).rev() {
+        sum = sum.mul_add(square, square.like(ALTERNATING_COEFFICIENTS[odd][n]));
     }
     sum
 }
 
-/// Coefficients of [`alternating_series`] for the cosine and for the sine.
-const ALTERNATING: [[f64; EIGHTH + 1]; 2] = [reciprocal_factorials(0), reciprocal_factorials(1)];
+/// Coefficients (-1)^n / (2 n)! and (-1)^n / (2 n + 1)! of [`alternating_series`], for the cosine and for the sine.
+const ALTERNATING_COEFFICIENTS: [[f64; EIGHTH_TURN_DEGREE + 1]; 2] =
+    [reciprocal_factorials(0), reciprocal_factorials(1)];
 
-const fn reciprocal_factorials(odd: usize) -> [f64; EIGHTH + 1] {
-    let mut table = [1.0; EIGHTH + 1];
+const fn reciprocal_factorials(odd: usize) -> [f64; EIGHTH_TURN_DEGREE + 1] {
+    let mut table = [1.0; EIGHTH_TURN_DEGREE + 1];
     let mut n = 1;
-    while n <= EIGHTH {
+    while n <= EIGHTH_TURN_DEGREE {
         let k = 2 * n + odd;
         table[n] = -table[n - 1] / (k * (k - 1)) as f64;
         n += 1;

@@ -7,8 +7,8 @@ use super::lanes::{Lanes, Mask};
 use super::parts::Parts;
 use super::scan::Reached;
 
-/// Drive periods at the end of a job that are not skipped: more than a scan reaches.
-const LAST: f64 = 4.0;
+/// Drive periods at the end of a job that are never skipped: more than one scan covers.
+const UNSKIPPED_PERIODS: f64 = 4.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Moves the active lanes that stand before nothing, or only before the end of a period, on to the last periods of
@@ -24,7 +24,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let law = &self.laws[phase];
         let parts = reached.parts;
         let left = self.state.left;
-        let (zero, last) = (left.like(0.0), left.like(LAST));
+        let (zero, last) = (left.like(0.0), left.like(UNSKIPPED_PERIODS));
         let far = law.longest.mul_add(parts.u.abs(), parts.y.abs()) + law.swing;
         let (ceiling, floor) = law.edges::<GUARDED>();
         let room = if GUARDED {
@@ -57,7 +57,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     fn count_calm_periods(&mut self, calm: Mask<S, N>) {
         for lane in 0..Lanes::<S, N>::COUNT {
             if calm.get(lane) && !self.returns[lane].is_trial() {
-                self.count_skipped(lane, self.state.left.get(lane) - LAST);
+                self.count_skipped(lane, self.state.left.get(lane) - UNSKIPPED_PERIODS);
             }
         }
     }
@@ -68,7 +68,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let law = &self.laws[phase];
         let drive = self.state.drive;
         let Parts { y, u, .. } = reached.parts;
-        let (zero, one, last) = (y.like(0.0), y.like(1.0), y.like(LAST));
+        let (zero, one, last) = (y.like(0.0), y.like(1.0), y.like(UNSKIPPED_PERIODS));
         let rest = drive.period - (self.state.offset + reached.count * law.window);
         let mut free = Parts::free_after(law, drive.frequency, calm.choose(rest, zero), (y, u));
         let (xx, vx) = Parts::free_after(law, drive.frequency, drive.period, (one, zero));

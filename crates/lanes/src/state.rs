@@ -9,8 +9,8 @@ use super::returns::Return;
 use super::sine_cosine::cos_sin;
 use softstop::Start;
 
-/// Drive periods after which a lane computes the drive angle from the time again.
-const RENEWAL: f64 = 32.0;
+/// Drive periods after which a lane computes cos and sin of the drive angle from the time again, not by rotation.
+const ANGLE_RENEWAL_PERIODS: f64 = 32.0;
 
 /// The state of all lanes.
 #[derive(Debug, Clone, Copy)]
@@ -176,7 +176,7 @@ impl<S: Simd, const N: usize> State<S, N> {
     #[inline(always)]
     fn angle_renewals(&self) -> Lanes<S, N> {
         let done = self.periods - self.left;
-        (done * done.like(1.0 / RENEWAL)).floor()
+        (done * done.like(1.0 / ANGLE_RENEWAL_PERIODS)).floor()
     }
 
     /// Counts the ends of drive periods that have passed. Every few periods of its own, whatever the others do, a lane
