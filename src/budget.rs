@@ -75,12 +75,12 @@ pub fn is_spent() -> bool {
 /// Parts of one piece of work that go on several threads. Each may cost what was left before; all are charged together
 /// in the end. So whether the budget is spent depends on the work alone, not on the threads.
 #[derive(Debug)]
-pub struct Fork {
+pub struct SharedBudget {
     left: u64,
     spent: AtomicU64,
 }
 
-impl Default for Fork {
+impl Default for SharedBudget {
     fn default() -> Self {
         Self {
             left: LEFT.get(),
@@ -89,7 +89,7 @@ impl Default for Fork {
     }
 }
 
-impl Fork {
+impl SharedBudget {
     /// Does a part, on any thread. Where the others have spent all, it has nothing: it is discarded with them.
     pub fn run_part<T>(&self, work: impl FnOnce() -> T) -> T {
         let is_open = self.spent.load(Ordering::Relaxed) < self.left;
@@ -109,7 +109,7 @@ impl Fork {
 
 #[cfg(test)]
 mod tests {
-    use super::{Fork, charge, is_spent, within};
+    use super::{SharedBudget, charge, is_spent, within};
 
     #[test]
     fn work_is_charged_to_the_innermost_budget() {
@@ -128,7 +128,7 @@ mod tests {
     fn parts_are_charged_together_whatever_their_order() {
         let cost = |parts: [u64; 3]| {
             let all = || {
-                let fork = Fork::default();
+                let fork = SharedBudget::default();
                 let part = |cost| fork.run_part(|| charge(cost));
                 let ends = parts.map(part);
                 fork.charge_parts();

@@ -7,12 +7,14 @@ mod id;
 mod layer_plan;
 mod lower;
 mod mode;
+mod spring;
 mod store;
 
 pub use id::{PhaseId, SurfaceId};
 pub(crate) use mode::Threshold;
 pub use mode::{Mode, Sticking};
-pub use store::{Spring, Store};
+pub use spring::Spring;
+pub use store::Store;
 
 use std::ops::Index;
 

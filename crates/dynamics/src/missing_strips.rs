@@ -1,19 +1,19 @@
 //! Missing strips: what becomes of the z = 1 motion of a loaded machine while strips fail to come, and after.
 
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
 use std::sync::Arc as Shared;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::basin::{BasinTest, TestedMotion};
-use crate::ensemble::Member;
-use crate::monitor::{Monitor, stop_if};
+use crate::interrupted_motion::InterruptedMotion;
+use crate::member::Member;
+use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
 pub use crate::stroke_count::StrokeCount;
 use softstop::internals::{Motion, Phases};
-use softstop::{Clock, Crossing, Instant, MotionError, Observer, Piercing, Scene};
+use softstop::{Clock, MotionError, Piercing, Scene};
 use softstop_lanes::Machine;
 
 /// Position of the stop while there is no strip.
@@ -80,8 +80,6 @@ impl StripSurvival {
     }
 }
 
-/// Drive periods for which the mass may stay beyond the clearance before strips change all the same.
-const MAX_PERIODS_BEYOND: u64 = 16;
 /// Gaps of missing strips whose motions are followed together; it may not depend on how many threads there are.
 const RUNS_TOGETHER: usize = 256;
 
@@ -188,80 +186,5 @@ impl<'a> StripPhases<'a> {
         run.switch_strips(&self.with)?;
         run.advance_period(false)?;
         Ok(run)
-    }
-}
-
-/// A motion through a gap of missing strips, with time in drive periods from where the gap began.
-struct InterruptedMotion {
-    motion: Motion,
-    clearance: f64,
-    begin: Instant,
-    /// Drive periods that are complete since then.
-    periods: u64,
-    /// Its strokes, by times since the orbit's time 0.
-    strokes: StrokeCount,
-}
-
-impl InterruptedMotion {
-    /// Goes on with the phases with or without strips, from where the mass is clear of them.
-    fn switch_strips(&mut self, to: &Shared<Phases>) -> Result<(), MotionError> {
-        let last = self.periods + MAX_PERIODS_BEYOND;
-        while self.motion.state().position >= self.clearance && self.periods < last {
-            if self.advance_period(true)? {
-                break;
-            }
-        }
-        let (clock, now, state) = (*self.motion.clock(), self.motion.now(), self.motion.state());
-        self.motion = Motion::new(to.clone(), clock, now, state)?;
-        Ok(())
-    }
-
-    /// Advances by a drive period, or, if that `stops` it, to where the mass leaves strip or stop: true then.
-    fn advance_period(&mut self, stops: bool) -> Result<bool, MotionError> {
-        let cycles = self.begin.cycles + (self.periods + 1) as f64;
-        let left = self.count_strokes(
-            Instant {
-                cycles,
-                ..self.begin
-            },
-            stops,
-        )?;
-        self.periods += u64::from(!left);
-        Ok(left)
-    }
-
-    /// Advances the motion with missing strips and counts its strokes; true if it stopped as strip or stop was left.
-    fn count_strokes(&mut self, until: Instant, stops: bool) -> Result<bool, MotionError> {
-        let mut watch = StrokeObserver {
-            clearance: self.clearance,
-            period: self.motion.clock().period(),
-            strokes: &mut self.strokes,
-            stops,
-            left: false,
-        };
-        Ok(self.motion.watch(until, &mut watch)?.is_break())
-    }
-}
-
-/// Counts the strokes of a motion, and stops it where the mass leaves strip or stop.
-struct StrokeObserver<'a> {
-    clearance: f64,
-    period: f64,
-    strokes: &'a mut StrokeCount,
-    stops: bool,
-    left: bool,
-}
-
-impl Observer for StrokeObserver<'_> {
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.left |= crossing.position == self.clearance && crossing.velocity_after < 0.0;
-        if crossing.kind.is_impact() {
-            let Instant { cycles, offset } = crossing.instant;
-            self.strokes.record_impact(cycles + offset / self.period);
-        }
-    }
-
-    fn progress(&mut self, _: u64) -> ControlFlow<()> {
-        stop_if(self.stops && self.left)
     }
 }

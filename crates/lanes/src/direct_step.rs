@@ -9,6 +9,7 @@ use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
 use super::local_taylor;
 use super::move_lanes::LaneEnd;
+use super::nearby_zero::nearby_zero;
 use super::parts::Parts;
 use super::scan::LEAVING_MARGIN;
 use super::sine_cosine::MOMENT_DEGREE;
@@ -57,7 +58,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
                 *sought = turns.choose(velocity, *sought);
             }
         }
-        let crossing = local_taylor::nearby_zero(&sought, law.window, active);
+        let crossing = nearby_zero(&sought, law.window, active);
         let moment = crossing.time;
         let time = path.time + moment;
         let latest = law.window.min(due - law.window * due.like(MIN_TIME_TO_END));

@@ -8,6 +8,7 @@ use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
 use super::local_taylor;
+use super::nearby_zero::nearby_zero;
 use super::parts::Parts;
 use super::sine_cosine::MOMENT_DEGREE;
 
@@ -129,7 +130,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
                     *sought = goal.humps.choose(falling, *sought);
                 }
             }
-            let zeros = local_taylor::nearby_zero(&sought, law.window, goal.rises | goal.humps);
+            let zeros = nearby_zero(&sought, law.window, goal.rises | goal.humps);
             let hits = goal.rises & zeros.sure;
             let open = (goal.rises | goal.humps).and_not(hits);
             tries += 1;

@@ -52,6 +52,7 @@
 //! and no laws from the machine's numbers (0.5 us, as much as 13 of the 200 periods). Instructions were counted by single
 //! steps or by callgrind, which no command of the project repeats. `engine.rs` lists what was tried and dropped.
 
+mod bounce_trains;
 mod constants;
 mod contact;
 mod contact_release;
@@ -76,6 +77,7 @@ mod law;
 mod local_taylor;
 mod machine;
 mod move_lanes;
+mod nearby_zero;
 mod observer;
 mod parts;
 mod phase_graph;

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::Certainty;
-use crate::ensemble::Status;
+use crate::member::MemberStatus;
 use crate::orbit::recurrence::{find_return, motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use softstop::{Scene, Start};
@@ -71,33 +71,33 @@ impl<'a> AttractorCatalogue<'a> {
     }
 
     /// What a motion whose last states are this log has come to; a new stable orbit is entered in the catalogue.
-    pub(crate) fn classify_log(&mut self, log: &[Start]) -> Result<Status, OrbitError> {
+    pub(crate) fn classify_log(&mut self, log: &[Start]) -> Result<MemberStatus, OrbitError> {
         let Some(last) = log.last() else {
-            return Ok(Status::Wandering);
+            return Ok(MemberStatus::Wandering);
         };
         if let Some(orbit) = self.find_reached(log) {
-            return Ok(Status::Arrived(orbit));
+            return Ok(MemberStatus::Arrived(orbit));
         }
         let Some(found) = find_return(self.drive_frequency(), log) else {
-            return Ok(Status::Wandering);
+            return Ok(MemberStatus::Wandering);
         };
         if self.is_at_rest(last)? {
-            return Ok(Status::AtRest);
+            return Ok(MemberStatus::AtRest);
         }
         let orbit = match Orbit::find_periodic(self.scene, (*last).into(), found.periods as u64) {
             Ok(orbit) if orbit.is_stable() => orbit,
-            _ => return Ok(Status::Wandering),
+            _ => return Ok(MemberStatus::Wandering),
         };
         if self.is_at_rest(&orbit.state().into())? {
-            return Ok(Status::AtRest);
+            return Ok(MemberStatus::AtRest);
         }
         let orbit = self.enter_orbit(orbit, found.distance)?;
         let known = &self.orbits[orbit];
         let gap = self.orbit_distance(known, last);
         let is_near = found.distance <= ARRIVAL_DISTANCE && gap <= NEAR_ORBIT_DISTANCE * known.size;
         Ok(match is_near || self.find_reached(log).is_some() {
-            true => Status::Arrived(orbit),
-            false => Status::Approaching(orbit),
+            true => MemberStatus::Arrived(orbit),
+            false => MemberStatus::Approaching(orbit),
         })
     }
 

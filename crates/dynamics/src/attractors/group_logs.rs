@@ -19,8 +19,8 @@ const CELLS_ACROSS: f64 = 100.0;
 /// Share of the larger set of cells that two logs of one motion have in common at least.
 const COMMON_CELL_SHARE: f64 = 0.1;
 
-/// Pairs of states that are compared in the time of a scan window.
-const PAIRS_PER_WINDOW: usize = 8;
+/// Pairs of states of two logs that are compared at the cost of one scan window.
+const STATE_PAIRS_PER_SCAN_WINDOW: usize = 8;
 
 /// A state in units of the plane's size.
 type Place = [f64; 2];
@@ -49,7 +49,9 @@ pub(super) fn group_logs<E>(
             if group[index] == group[other] {
                 continue;
             }
-            budget::charge((logs[index].len() * logs[other].len() / PAIRS_PER_WINDOW) as u64);
+            budget::charge(
+                (logs[index].len() * logs[other].len() / STATE_PAIRS_PER_SCAN_WINDOW) as u64,
+            );
             let pair = [index, other].map(|at| (places[at].as_slice(), own[at].as_slice()));
             if have_common_cells(&cells[index], &cells[other]) || are_mixed(pair) {
                 let (kept, gone) = (group[other], group[index]);

@@ -8,8 +8,8 @@
 
 pub(crate) mod catalogue;
 mod chaos;
+mod escape_counts;
 mod group_logs;
-mod lifetime;
 pub(crate) mod region;
 mod search;
 

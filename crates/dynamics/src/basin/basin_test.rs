@@ -8,14 +8,15 @@ use rayon::prelude::*;
 use super::contraction_ball::ContractionBalls;
 use super::section::bring_to_section;
 use crate::attractors::catalogue::ARRIVAL_DISTANCE;
-use crate::ensemble::{Ensemble, HasMember, Member, Status};
+use crate::ensemble::Ensemble;
+use crate::member::{HasMember, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::recurrence::{motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError};
 use crate::stroke_count::StrokeCount;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
-use softstop::internals::budget::Fork;
+use softstop::internals::budget::SharedBudget;
 use softstop::{Excitation, Instant, MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
@@ -70,7 +71,7 @@ pub(crate) struct TestedMotion {
 impl TestedMotion {
     /// True if the motion has come to the orbit of the basin test.
     pub fn reaches_orbit(&self) -> bool {
-        self.member.status == Status::Arrived(OWN_ORBIT)
+        self.member.status == MemberStatus::Arrived(OWN_ORBIT)
     }
 }
 
@@ -143,7 +144,7 @@ impl BasinTest {
             let ended = self.follow_motions::<false>(from_ref(&self.machine), motions, monitor)?;
             Ok(ended.iter().map(TestedMotion::reaches_orbit).collect())
         };
-        let (fork, chunks) = (Fork::default(), starts.par_chunks(MOTIONS_TOGETHER));
+        let (fork, chunks) = (SharedBudget::default(), starts.par_chunks(MOTIONS_TOGETHER));
         let chunks = chunks.map(|starts| fork.run_part(|| follow_motions(starts)));
         let chunks = chunks.collect::<Result<Vec<Vec<bool>>, OrbitError>>();
         fork.charge_parts();
@@ -168,29 +169,29 @@ impl BasinTest {
             periods += PERIODS_BETWEEN_LOOKS;
             for motion in &mut left {
                 motion.time += PERIODS_BETWEEN_LOOKS as f64;
-                if motion.member.status == Status::Open {
+                if motion.member.status == MemberStatus::Open {
                     motion.member.status = self.classify_motion(motion, periods >= self.patience);
                 }
             }
-            left.retain(|motion| motion.member.status == Status::Open);
+            left.retain(|motion| motion.member.status == MemberStatus::Open);
         }
         Ok(motions)
     }
 
     /// What a motion of the basin test has come to.
-    fn classify_motion(&self, motion: &TestedMotion, is_last: bool) -> Status {
+    fn classify_motion(&self, motion: &TestedMotion, is_last: bool) -> MemberStatus {
         let phases = self.machine.shared_phases();
         let state = bring_to_section(&phases, self.drive, motion.member.state, motion.angle);
         let Ok(state) = state else {
-            return Status::Lost;
+            return MemberStatus::Lost;
         };
         let is_near =
             |own: &Start| state_distance(self.drive.frequency, own, &state) <= self.arrived;
         match self.balls.orbit_holding(state) {
-            Some(orbit) => Status::Arrived(orbit),
-            None if !is_last => Status::Open,
-            None if self.states.iter().any(is_near) => Status::Arrived(OWN_ORBIT),
-            None => Status::Wandering,
+            Some(orbit) => MemberStatus::Arrived(orbit),
+            None if !is_last => MemberStatus::Open,
+            None if self.states.iter().any(is_near) => MemberStatus::Arrived(OWN_ORBIT),
+            None => MemberStatus::Wandering,
         }
     }
 }

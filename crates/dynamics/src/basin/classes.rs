@@ -4,7 +4,7 @@ use super::Basins;
 use super::survey::BasinSurvey;
 use crate::attractors::Attractor;
 use crate::attractors::catalogue::KnownOrbit;
-use crate::ensemble::Status;
+use crate::member::MemberStatus;
 use crate::motion::MotionKind;
 use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
 
@@ -33,14 +33,14 @@ impl BasinSurvey<'_> {
         }
         let (wandering, exponents) = self.classify_wandering_cells()?;
         for (outcome, motion) in [
-            (Status::AtRest, MotionKind::Rest),
-            (Status::Wandering, wandering),
-            (Status::Lost, MotionKind::Lost),
+            (MemberStatus::AtRest, MotionKind::Rest),
+            (MemberStatus::Wandering, wandering),
+            (MemberStatus::Lost, MotionKind::Lost),
         ] {
             let first = self.outcomes.iter().position(|it| *it == outcome);
             let Some(first) = first else { continue };
             let class = |starts| Attractor {
-                exponents: exponents.filter(|_| outcome == Status::Wandering),
+                exponents: exponents.filter(|_| outcome == MemberStatus::Wandering),
                 ..Attractor::new(motion, self.states[first], starts)
             };
             self.enter_class(&mut basins, |it| it == outcome, class);
@@ -51,7 +51,7 @@ impl BasinSurvey<'_> {
     /// The kind of motion of the cells that have not returned, and the exponents of the first one.
     fn classify_wandering_cells(&self) -> Result<(MotionKind, Option<Exponents>), OrbitError> {
         let mut outcomes = self.outcomes.iter();
-        let Some(cell) = outcomes.position(|outcome| *outcome == Status::Wandering) else {
+        let Some(cell) = outcomes.position(|outcome| *outcome == MemberStatus::Wandering) else {
             return Ok((MotionKind::Unsettled, None));
         };
         let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
@@ -68,7 +68,7 @@ impl BasinSurvey<'_> {
     fn enter_class(
         &self,
         basins: &mut Basins,
-        has_come: impl Fn(Status) -> bool,
+        has_come: impl Fn(MemberStatus) -> bool,
         class: impl FnOnce((usize, usize)) -> Attractor,
     ) {
         let number = basins.classes.len() as u16;

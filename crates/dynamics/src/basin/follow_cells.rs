@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use super::basin_test::PERIODS_BETWEEN_LOOKS;
 use super::survey::{BasinSurvey, LostCell, TILE_CELLS, earlier_lost};
-use crate::ensemble::{Member, Status};
+use crate::member::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
 use crate::orbit::OrbitError;
 use softstop::Start;
-use softstop::internals::budget::Fork;
+use softstop::internals::budget::SharedBudget;
 
 /// Cells that go together as in [`TILE_CELLS`], where each motion goes alone, and takes long.
 const SMALL_TILE: usize = 16;
@@ -19,7 +19,7 @@ const SMALL_TILE: usize = 16;
 const LONGEST_PIECE: Duration = Duration::from_secs(5);
 
 /// A cell, where its motion is, and what it has come to.
-type FollowedCell = (usize, Start, Status);
+type FollowedCell = (usize, Start, MemberStatus);
 
 /// Cells that were followed together for some time.
 #[derive(Serialize, Deserialize)]
@@ -40,7 +40,7 @@ impl BasinSurvey<'_> {
         } else {
             SMALL_TILE
         };
-        let (fork, tiles) = (Fork::default(), open.par_chunks(tile));
+        let (fork, tiles) = (SharedBudget::default(), open.par_chunks(tile));
         let followed = tiles.map(|tile| fork.run_part(|| self.follow_tile(tile)));
         let followed: Result<Vec<_>, OrbitError> = followed.collect();
         fork.charge_parts();
@@ -59,7 +59,7 @@ impl BasinSurvey<'_> {
         tile: &[usize],
     ) -> Result<(Vec<FollowedCell>, Option<LostCell>), OrbitError> {
         let of = ("tile", self.scene, self.grid, self.options, tile[0]);
-        let open = |cell: &usize| (*cell, self.states[*cell], Status::Open);
+        let open = |cell: &usize| (*cell, self.states[*cell], MemberStatus::Open);
         let mut left: Vec<FollowedCell> = tile.iter().map(open).collect();
         let (mut ended, mut lost) = (Vec::new(), None);
         let (mut periods, mut time) = (0, PIECE_DURATION);
@@ -67,7 +67,7 @@ impl BasinSurvey<'_> {
             let on = || self.follow_cells_for(&left, periods, time);
             let next = recall_or_compute(self.kept, &(of, periods), on)?;
             let all = next.cells.into_iter();
-            let (open, come): (Vec<_>, Vec<_>) = all.partition(|it| it.2 == Status::Open);
+            let (open, come): (Vec<_>, Vec<_>) = all.partition(|it| it.2 == MemberStatus::Open);
             self.ensemble.count_work(come.len() as u64)?;
             ended.extend(come);
             (periods, left, lost) = (next.periods, open, earlier_lost(lost, next.lost));
@@ -97,10 +97,10 @@ impl BasinSurvey<'_> {
                 if let Some(orbit) = self.balls.orbit_holding(member.state)
                     && member.error.is_none()
                 {
-                    member.status = Status::Arrived(orbit);
+                    member.status = MemberStatus::Arrived(orbit);
                 }
             }
-            open.retain(|member| member.status == Status::Open);
+            open.retain(|member| member.status == MemberStatus::Open);
             self.ensemble.count_work(0)?;
         }
         let mut all = FollowedCells {

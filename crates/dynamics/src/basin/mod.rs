@@ -34,6 +34,7 @@ mod global_continuation;
 mod grid;
 mod largest_ball;
 mod section;
+mod state_ball;
 mod survey;
 
 pub use crate::wilson_interval::wilson_interval;

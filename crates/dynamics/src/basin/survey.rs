@@ -7,10 +7,11 @@ use super::contraction_ball::ContractionBalls;
 use super::section::bring_to_section;
 use super::{BasinOptions, Basins, Grid};
 use crate::attractors::catalogue::AttractorCatalogue;
-use crate::ensemble::{Ensemble, Member, Status};
+use crate::ensemble::Ensemble;
+use crate::member::{Member, MemberStatus};
 use crate::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
 use crate::orbit::OrbitError;
-use softstop::internals::budget::Fork;
+use softstop::internals::budget::SharedBudget;
 use softstop::{MotionError, Scene, Start};
 
 /// Cells of a tile, which go together: enough for all lanes, whatever the number of threads.
@@ -37,7 +38,7 @@ pub(super) struct BasinSurvey<'a> {
     /// Contraction balls of the orbits in the catalogue.
     pub balls: ContractionBalls,
     pub states: Vec<Start>,
-    pub outcomes: Vec<Status>,
+    pub outcomes: Vec<MemberStatus>,
     /// Why the first lost cell is lost.
     pub lost: Option<LostCell>,
     pub kept: OptionalMemory<'a>,
@@ -50,7 +51,7 @@ type CellLog = (Start, Vec<Start>, Option<String>);
 #[derive(Serialize, Deserialize, Default)]
 struct CellOutcomes {
     states: Vec<Start>,
-    outcomes: Vec<Status>,
+    outcomes: Vec<MemberStatus>,
     /// Logs by which the catalogue has grown, in order.
     entered: Vec<Vec<Start>>,
     lost: Option<LostCell>,
@@ -118,16 +119,16 @@ impl BasinSurvey<'_> {
         for from in (0..cells).step_by(CELLS_BROUGHT_TOGETHER) {
             self.ensemble.count_work(0)?;
             let here = from..cells.min(from + CELLS_BROUGHT_TOGETHER);
-            let (fork, brought) = (Fork::default(), here.clone().into_par_iter());
+            let (fork, brought) = (SharedBudget::default(), here.clone().into_par_iter());
             let brought = brought.map(|cell| fork.run_part(|| self.cell_at_section(cell)));
             let brought: Vec<_> = brought.collect();
             fork.charge_parts();
             for (cell, result) in here.zip(brought) {
                 let (state, outcome) = match result {
-                    Ok(state) => (state, Status::Open),
+                    Ok(state) => (state, MemberStatus::Open),
                     Err(error) => {
                         self.lost.get_or_insert((cell, error.to_string()));
-                        (self.grid.start_of_cell(cell).0, Status::Lost)
+                        (self.grid.start_of_cell(cell).0, MemberStatus::Lost)
                     }
                 };
                 self.states.push(state);
@@ -154,7 +155,7 @@ impl BasinSurvey<'_> {
                 let columns_here = (along(columns) / 2..columns).step_by(along(columns));
                 columns_here.map(move |column| row * columns + column)
             })
-            .filter(|cell| self.outcomes[*cell] == Status::Open)
+            .filter(|cell| self.outcomes[*cell] == MemberStatus::Open)
             .collect();
         self.judge_cells(&cells, self.options.transient)
     }
@@ -166,7 +167,7 @@ impl BasinSurvey<'_> {
 
     /// The cells that have not come to anything yet.
     pub(super) fn open_cells(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.outcomes.len()).filter(|cell| self.outcomes[*cell] == Status::Open)
+        (0..self.outcomes.len()).filter(|cell| self.outcomes[*cell] == MemberStatus::Open)
     }
 
     /// Judges all cells that no ball holds.
@@ -217,7 +218,7 @@ impl BasinSurvey<'_> {
             looked.outcomes.push(match error {
                 Some(error) => {
                     looked.lost.get_or_insert((*cell, error));
-                    Status::Lost
+                    MemberStatus::Lost
                 }
                 None => self.judge_log(&log)?,
             });
@@ -238,7 +239,7 @@ impl BasinSurvey<'_> {
             let of = ("cell", self.scene, self.grid, self.options, cell, periods);
             recall_or_compute(self.kept, &of, || self.log_together(&[*cell], periods))
         };
-        let fork = Fork::default();
+        let fork = SharedBudget::default();
         let seen = cells.par_iter().map(|cell| fork.run_part(|| one(cell)));
         let seen = seen.collect::<Result<Vec<_>, OrbitError>>();
         fork.charge_parts();
@@ -261,7 +262,7 @@ impl BasinSurvey<'_> {
     }
 
     /// What a motion with a log has come to; contraction balls are added about an orbit that it turns up.
-    fn judge_log(&mut self, log: &[Start]) -> Result<Status, OrbitError> {
+    fn judge_log(&mut self, log: &[Start]) -> Result<MemberStatus, OrbitError> {
         let known = self.catalogue.orbits.len();
         let outcome = self.catalogue.classify_log(log)?;
         for (index, entry) in self.catalogue.orbits.iter().enumerate().skip(known) {

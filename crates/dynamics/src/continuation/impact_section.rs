@@ -120,8 +120,8 @@ pub(crate) struct LastArc {
     is_found: bool,
 }
 
-/// Share of the last arc that rounding may leave of it.
-const CUT_ROUNDING: f64 = 1e-6;
+/// Largest share of the time to the end by which the last arc may be shorter, by rounding, and not count as cut.
+const MAX_UNCUT_SHARE: f64 = 1e-6;
 
 impl LastArc {
     /// The motion of a scene over some drive periods, its last arc carried past what comes in between.
@@ -158,7 +158,7 @@ impl LastArc {
         self.motion.arc(arc, elapsed);
         let (position, velocity) = arc.course.state_at(elapsed, arc.clock.drive(self.until));
         self.motion.end = Vector2::new(position, velocity);
-        self.is_cut = lasts < (1.0 - CUT_ROUNDING) * elapsed;
+        self.is_cut = lasts < (1.0 - MAX_UNCUT_SHARE) * elapsed;
         self.is_found = true;
     }
 }

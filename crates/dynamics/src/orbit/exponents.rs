@@ -1,12 +1,11 @@
 //! Lyapunov exponents of a motion, from its exact tangent.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
-use super::{Orbit, StroboscopicMap};
+use super::Orbit;
+use super::tangent_motion::{BATCHES, TangentMotion};
 use softstop::{MotionError, Scene};
 
-/// Batches of drive periods whose means tell how uncertain Lyapunov exponents are.
-const BATCHES: usize = 32;
 /// Drive periods in each batch of Lyapunov exponents at first and at most.
 pub(crate) const BATCH_PERIODS: (u64, u64) = (100, 1600);
 /// Exponent of a growth, or decay, of differences that is for good: rounding to the size of the motion is 36.
@@ -61,7 +60,7 @@ impl Exponents {
         let batch = batch.max(1);
         let mut sums = Vec::with_capacity(BATCHES);
         walk.add_batches(&mut sums, batch, ask)?;
-        Ok((walk.exponents_of_batches(&sums, batch), walk.state))
+        Ok((Self::of_batches(&sums, batch, scene.period()), walk.state))
     }
 
     /// True if small differences grow for good along the motion from a state: the Lyapunov exponent is positive beyond
@@ -75,7 +74,7 @@ impl Exponents {
         let (mut sums, mut batch) = (Vec::with_capacity(BATCHES), BATCH_PERIODS.0);
         loop {
             walk.add_batches(&mut sums, batch, || Ok::<(), MotionError>(()))?;
-            let found = walk.exponents_of_batches(&sums, batch);
+            let found = Self::of_batches(&sums, batch, scene.period());
             let largest = found.per_period[0];
             let is_clear = largest.abs() > POSITIVE_ERRORS * found.error;
             let is_much = largest.abs() * found.periods as f64 > LASTING_GROWTH;
@@ -87,6 +86,31 @@ impl Exponents {
                 pairs.map(|pair| [0, 1].map(|which| pair.iter().map(|sum| sum[which]).sum()));
             sums = pairs.collect();
             batch *= 2;
+        }
+    }
+
+    /// The Lyapunov exponents from the sums of growth over batches of so many drive periods, each `period` s long.
+    fn of_batches(batches: &[[f64; 2]], periods: u64, period: f64) -> Self {
+        let count = BATCHES as f64;
+        let means = batches.iter();
+        let means: Vec<[f64; 2]> = means
+            .map(|sums| sums.map(|sum| sum / periods as f64))
+            .collect();
+        let mean = |which: usize| means.iter().map(|batch| batch[which]).sum::<f64>() / count;
+        // The frame turns where multipliers are complex: either may come out as the larger one by the ends of the batches.
+        let mut exponents = [mean(0), mean(1)];
+        let larger = usize::from(exponents[1] > exponents[0]);
+        exponents.rotate_left(larger);
+        let squares = means
+            .iter()
+            .map(|batch| (batch[larger] - exponents[0]).powi(2));
+        let variance = squares.sum::<f64>() / (count - 1.0);
+        let error = STUDENT_T * (variance / count).sqrt();
+        Self {
+            per_period: exponents,
+            error: if error.is_nan() { 0.0 } else { error },
+            periods: BATCHES as u64 * periods,
+            period,
         }
     }
 
@@ -123,85 +147,4 @@ impl Exponents {
     pub fn is_positive(&self) -> bool {
         self.per_period[0] > POSITIVE_ERRORS * self.error
     }
-}
-
-/// A motion along which an orthonormal frame of small differences is carried, for its Lyapunov exponents.
-struct TangentMotion {
-    map: StroboscopicMap,
-    state: Vector2<f64>,
-    frame: Matrix2<f64>,
-}
-
-impl TangentMotion {
-    /// A motion of a scene from a state, with a fresh frame of differences.
-    fn new(scene: &Scene, state: Vector2<f64>) -> Result<Self, MotionError> {
-        Ok(Self {
-            map: StroboscopicMap::new(scene, 1)?,
-            state,
-            frame: Matrix2::identity(),
-        })
-    }
-
-    /// Adds sums of growth over batches of drive periods until there are enough; an error where `ask` gives one.
-    fn add_batches<E: From<MotionError>>(
-        &mut self,
-        batches: &mut Vec<[f64; 2]>,
-        periods: u64,
-        ask: impl Fn() -> Result<(), E>,
-    ) -> Result<(), E> {
-        while batches.len() < BATCHES {
-            let mut sums = [0.0; 2];
-            for _ in 0..periods {
-                ask()?;
-                let passage = self.map.apply(self.state)?;
-                self.state = passage.end;
-                let [first, second] = carry_frame(&mut self.frame, &passage.monodromy);
-                sums[0] += first;
-                sums[1] += second;
-            }
-            batches.push(sums);
-        }
-        Ok(())
-    }
-
-    /// The Lyapunov exponents from all batches of so many drive periods.
-    fn exponents_of_batches(&self, batches: &[[f64; 2]], periods: u64) -> Exponents {
-        let count = BATCHES as f64;
-        let means = batches.iter();
-        let means: Vec<[f64; 2]> = means
-            .map(|sums| sums.map(|sum| sum / periods as f64))
-            .collect();
-        let mean = |which: usize| means.iter().map(|batch| batch[which]).sum::<f64>() / count;
-        // The frame turns where multipliers are complex: either may come out as the larger one by the ends of the batches.
-        let mut exponents = [mean(0), mean(1)];
-        let larger = usize::from(exponents[1] > exponents[0]);
-        exponents.rotate_left(larger);
-        let squares = means
-            .iter()
-            .map(|batch| (batch[larger] - exponents[0]).powi(2));
-        let variance = squares.sum::<f64>() / (count - 1.0);
-        let error = STUDENT_T * (variance / count).sqrt();
-        Exponents {
-            per_period: exponents,
-            error: if error.is_nan() { 0.0 } else { error },
-            periods: BATCHES as u64 * periods,
-            period: self.map.clock().period(),
-        }
-    }
-}
-
-/// Carries an orthonormal frame through a Jacobian: M Q = Q' R. Returns ln |R| on the diagonal.
-fn carry_frame(frame: &mut Matrix2<f64>, jacobian: &Matrix2<f64>) -> [f64; 2] {
-    let image = jacobian * *frame;
-    let first = image.column(0).into_owned();
-    let length = first.norm();
-    if length == 0.0 {
-        return [f64::NEG_INFINITY; 2];
-    }
-    let along = first / length;
-    let across = Vector2::new(-along.y, along.x);
-    // |R22| from the determinant: free of the cancellation of a projection.
-    let other = jacobian.determinant().abs() / length;
-    *frame = Matrix2::from_columns(&[along, across]);
-    [length.ln(), other.ln()]
 }

@@ -21,7 +21,8 @@ pub use settled_motion::{SettledMotion, classify_wandering};
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::Region;
-use crate::ensemble::{Ensemble, HasMember, Member, Status};
+use crate::ensemble::Ensemble;
+use crate::member::{HasMember, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::Regime;
 use crate::orbit::recurrence::RETURN_DISTANCE;
@@ -127,7 +128,7 @@ impl Settling {
                 }
                 let now = SettledMotion::of(scene, member, self.tolerance, followed);
                 if now.periods.is_some() {
-                    member.status = Status::Arrived(0);
+                    member.status = MemberStatus::Arrived(0);
                 }
                 *seen = Some(now);
             }

@@ -1,6 +1,6 @@
 //! A settled motion: what a motion is seen to have come to.
 
-use crate::ensemble::Member;
+use crate::member::Member;
 use crate::motion::MotionKind;
 use crate::orbit::recurrence::find_settled_period;
 use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};

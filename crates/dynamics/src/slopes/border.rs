@@ -10,7 +10,7 @@ use nalgebra::{Matrix2, Vector2};
 use softstop::internals::ParameterSensitivity;
 use softstop::{Parameter, Scene, SceneError};
 
-use super::variation::{Variation, no_derivative, phase_derivatives};
+use super::variation::{Variation, phase_derivatives};
 use crate::continuation::{
     BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, Test, find_grazing,
 };
@@ -120,7 +120,7 @@ impl Border {
         match (&end.loss, end.special) {
             (Loss::Free, _) => Self::at_g0(scene, true, parameters),
             (_, Some(kind)) => Ok(Self::at_point(scene, 1, (kind, &end.point), parameters)?),
-            (_, None) => Err(no_derivative(parameters).into()),
+            (_, None) => Err(OrbitError::no_derivative(parameters).into()),
         }
     }
 
@@ -227,7 +227,7 @@ impl Border {
             .map(|rate| rate / own)
             .collect();
         if !normal.iter().all(|part| part.is_finite()) {
-            return Err(no_derivative(parameters));
+            return Err(OrbitError::no_derivative(parameters));
         }
         Ok(Self {
             kind: BorderKind::Motion(kind),
@@ -291,7 +291,7 @@ fn grazing_rates(
     graze: &Graze,
     (parameters, along): (&[Parameter], &[(Parameter, f64)]),
 ) -> Result<Vec<f64>, OrbitError> {
-    let missing = || no_derivative(parameters);
+    let missing = || OrbitError::no_derivative(parameters);
     let mut scene = scene.clone();
     scene.excitation.phase = graze.angle;
     let place = graze.face.face_position(&scene).ok_or_else(missing)?;

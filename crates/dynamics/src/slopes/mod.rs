@@ -66,7 +66,7 @@ pub fn differentiate_orbit(orbit: &Orbit, parameters: &[Parameter]) -> Result<Sl
         value: found.value,
         by: variation.total_rates(found, &starts),
     };
-    let missing = || variation.no_derivative();
+    let missing = || OrbitError::no_derivative(&variation.parameters);
     let watched = &variation.watched;
     let (position, velocity) = variation.start_state(&starts);
     Ok(Slopes {

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use softstop::{Parameter, Scene};
 
 use super::differentiated_figure::DifferentiatedFigure;
-use super::variation::{Variation, no_derivative};
+use super::variation::Variation;
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 
 /// Shares of a parameter over which the monodromy matrix is differenced, each where the ones before fail.
@@ -100,7 +100,7 @@ impl Variation {
             })
         });
         let rates: Option<Vec<_>> = rates.collect();
-        rates.ok_or_else(|| no_derivative(&self.parameters))
+        rates.ok_or_else(|| OrbitError::no_derivative(&self.parameters))
     }
 }
 

@@ -37,12 +37,6 @@ pub(super) fn phase_derivatives(
         .collect()
 }
 
-/// The error where a motion has no derivatives by these parameters.
-pub(super) fn no_derivative(parameters: &[Parameter]) -> OrbitError {
-    let name = parameters.first().map_or("state", |first| first.name());
-    MotionError::NoDerivative { name }.into()
-}
-
 impl Variation {
     /// The variation of the motion of a scene from a state over some drive periods, by parameters.
     pub fn of_motion(
@@ -58,7 +52,7 @@ impl Variation {
         let columns = recorder
             .influence
             .columns()
-            .ok_or_else(|| no_derivative(parameters))?;
+            .ok_or_else(|| OrbitError::no_derivative(parameters))?;
         let supplied = DifferentiatedFigure {
             value: recorder.influence.supplied,
             by: columns.iter().map(|column| column.z).collect(),
@@ -72,11 +66,6 @@ impl Variation {
             supplied,
             watched: recorder.watched,
         })
-    }
-
-    /// The error where this motion has no derivatives.
-    pub fn no_derivative(&self) -> OrbitError {
-        no_derivative(&self.parameters)
     }
 
     /// Derivatives of the orbit's state at time 0 by each parameter, velocities with the drive's frequency held.

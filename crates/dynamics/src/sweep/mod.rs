@@ -25,18 +25,20 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod compare;
+mod chain;
+mod coexistence;
 mod run;
 mod step;
 
-pub use compare::{Coexistence, Jump, find_coexistences};
+pub use chain::{Chain, Jump};
+pub use coexistence::{Coexistence, find_coexistences};
 pub use step::Step;
 
 use thiserror::Error;
 
 pub use crate::direction::Direction;
 use crate::orbit::recurrence::RETURN_DISTANCE;
-use softstop::{Machine, Parameter, Start};
+use softstop::{Parameter, Start};
 
 /// The plan of a sweep: which parameter, which values, for how long each.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,40 +135,5 @@ impl Plan {
     /// The last drive periods of a step, in which its motion is watched: half of them, 16 to 128 if it has them.
     pub fn watched_periods(&self) -> u64 {
         (self.periods / 2).clamp(16.min(self.periods), 128)
-    }
-}
-
-/// A sweep of one machine in one direction, with the steps that it has made.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Chain {
-    /// The machine; its own value of the parameter plays no part.
-    pub machine: Machine,
-    /// The direction in which the parameter changes.
-    pub direction: Direction,
-    /// The steps that are complete, in the order in which they were made.
-    pub steps: Vec<Step>,
-    /// Why the sweep cannot go on, in words.
-    pub error: Option<String>,
-}
-
-impl Chain {
-    /// A sweep of a machine that has not begun.
-    pub fn new(machine: impl Into<Machine>, direction: Direction) -> Self {
-        Self {
-            machine: machine.into(),
-            direction,
-            steps: Vec::new(),
-            error: None,
-        }
-    }
-
-    /// The steps of the sweep in rising order of the parameter.
-    pub fn rising_steps(&self) -> Vec<&Step> {
-        let mut steps: Vec<&Step> = self.steps.iter().collect();
-        if self.direction == Direction::Down {
-            steps.reverse();
-        }
-        steps
     }
 }

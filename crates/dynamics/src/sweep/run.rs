@@ -9,10 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use super::step::Step;
 use super::{Chain, Plan};
-use crate::ensemble::{Ensemble, Member};
+use crate::ensemble::Ensemble;
+use crate::member::Member;
 use crate::monitor::{Monitor, OptionalMemory, PIECE_DURATION, recall_or_compute};
 use crate::settled::SettledMotion;
-use softstop::internals::budget::{self, Fork};
+use softstop::internals::budget::{self, SharedBudget};
 use softstop::{MotionError, Parameter, Scene};
 use softstop_lanes::Machine;
 
@@ -39,7 +40,7 @@ impl Plan {
         let stopped = AtomicBool::new(false);
         let done = chains.iter().map(|chain| chain.steps.len() as u64);
         let done = AtomicU64::new(done.sum());
-        let fork = Fork::default();
+        let fork = SharedBudget::default();
         let run = |group: &mut [Chain]| {
             while !stopped.load(Ordering::Relaxed) {
                 let ask = |_, _| monitor(done.load(Ordering::Relaxed), all);

@@ -59,4 +59,13 @@ impl Step {
     pub fn is_settled(&self) -> bool {
         self.motion != MotionKind::Unsettled
     }
+
+    /// True if the motions of two steps are of different kinds, or of one regime with hardest impacts that differ by more
+    /// than a share of the larger one.
+    pub(super) fn differs_from(&self, other: &Self, share: f64) -> bool {
+        let (one, two) = (self.hardest_impact(), other.hardest_impact());
+        let (low, high) = (one.min(two), one.max(two));
+        let repeats = self.motion.periods().is_some();
+        self.motion != other.motion || (repeats && high - low > share * high)
+    }
 }

@@ -1,11 +1,11 @@
 //! The stable z = 1 motion of a scene at the frequency of its drive, and the zones of scenes.
 
 use super::hysteresis::{UpperEnd, zones_of};
-use super::places::{Zone, ZoneKind};
 use super::single_impact::single_impact;
 use super::stable_range::StableRange;
 use super::stable_ranges::find_stable_ranges;
 use super::{Frequencies, ZoneError};
+use super::{Zone, ZoneKind};
 use crate::continuation::Continuation;
 use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{self, Orbit, OrbitError};

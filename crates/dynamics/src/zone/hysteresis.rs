@@ -10,13 +10,13 @@ use rayon::prelude::*;
 
 use super::end::{Loss, ZoneEnd};
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
-use super::places::{FOLD_TEST_ROUNDING, Zone, ZoneKind};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
+use super::{FOLD_TEST_ROUNDING, Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_monitor};
 use softstop::Scene;
-use softstop::internals::budget::Fork;
+use softstop::internals::budget::SharedBudget;
 
 /// Before-impact velocity, in units of that at g0, below which an unstable branch is left: it ends in grazing.
 const MIN_VELOCITY_SHARE: f64 = 0.2;
@@ -70,7 +70,7 @@ pub(super) fn zones_of(
     upper: UpperEnd,
     monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
-    let fork = Fork::default();
+    let fork = SharedBudget::default();
     let chunks = scenes.par_chunks(MACHINES_TOGETHER);
     let zones =
         chunks.flat_map_iter(|scenes| fork.run_part(|| zones_together(scenes, upper, monitor)));

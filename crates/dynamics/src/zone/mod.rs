@@ -4,111 +4,148 @@
 
 mod bounds;
 mod end;
+mod error;
 mod find;
 pub(crate) mod followed_end;
+mod frequencies;
 mod grazing;
 mod hysteresis;
-mod loss;
-mod places;
+mod loss_of_stability;
 mod single_impact;
 mod stable_range;
 mod stable_ranges;
 
 pub use bounds::Bounds;
 pub use end::{Loss, ZoneEnd};
+pub use error::{BranchEnd, StatedFrequency, ZoneError};
 pub use find::{find, find_among, find_with_monitor, find_zones};
+pub use frequencies::Frequencies;
 pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_with_monitor};
-pub use loss::{find_end_along, loss_of_stability};
-pub use places::{Zone, ZoneKind};
+pub use loss_of_stability::{find_end_along, loss_of_stability};
 pub use single_impact::single_impact;
 pub use stable_range::StableRange;
 pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
 
-use std::fmt::{self, Display, Formatter};
+use crate::continuation::{BranchPoint, Continuation};
+use crate::orbit::{Orbit, OrbitError};
+use softstop::Scene;
 
-use thiserror::Error;
+/// Largest 1 - tr + det that a located fold may show.
+pub(super) const FOLD_TEST_ROUNDING: f64 = 1e-7;
 
-use crate::continuation::Family;
-use crate::orbit::OrbitError;
-use softstop::internals::{Scales, plain_number};
-use softstop::{Dimension, Machine, MotionError, Parameter, Scene, SceneError};
-
-/// Why a machine has no hysteresis zone.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum ZoneError {
-    /// The impact-less motion never reaches the stop.
-    #[error(
-        "clearance = {clearance}: must be > 0 and below {largest}, the largest amplitude of the \
-         impact-less motion, for a grazing boundary to exist"
-    )]
-    NoGrazing {
-        /// The clearance in m.
-        clearance: f64,
-        /// The amplitude at resonance in m.
-        largest: f64,
+/// The kind of a zone: which motions it holds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum ZoneKind {
+    /// Those that coexist with the motion without impacts: from g0 to the fold s_SN ([`hysteresis`](hysteresis())).
+    #[default]
+    Hysteresis,
+    /// All stable ones on the branch of the hardest one between two frequencies in rad/s
+    /// ([`single_impact`](single_impact())).
+    SingleImpact {
+        /// Lowest and highest frequency at which the motion is looked for.
+        between: (f64, f64),
     },
-    /// There is no stable z = 1 motion where the zone would begin.
-    #[error("no hysteresis: no stable z = 1 motion at the grazing boundary, {frequency}")]
-    NoOrbit {
-        /// Frequency of the grazing boundary.
-        frequency: StatedFrequency,
-    },
-    /// The z = 1 branch loses its stability otherwise than by a fold.
-    #[error("the z = 1 branch loses its stability by a flip near {frequency}, before any fold")]
-    Flip {
-        /// Frequency at which it is first seen unstable.
-        frequency: StatedFrequency,
-    },
-    /// The z = 1 branch goes on without a fold.
-    #[error(
-        "no hysteresis: the hardest z = 1 motion at the grazing boundary, {from}, stays stable up to {to}, where {end}"
-    )]
-    NoFold {
-        /// Frequency of the grazing boundary.
-        from: StatedFrequency,
-        /// Frequency up to which it was followed.
-        to: StatedFrequency,
-        /// Why no farther.
-        end: BranchEnd,
-    },
-    /// There is no stable z = 1 motion at the frequencies at which it is looked for.
-    #[error("no stable z = 1 motion found between {from} and {to}")]
-    NoMotion {
-        /// The lowest frequency.
-        from: StatedFrequency,
-        /// The highest.
-        to: StatedFrequency,
-    },
-    /// The machine has a stop below.
-    #[error("stop.below: zones are those of machines with stops on one side")]
-    StopBelow,
-    /// A place outside the zone was asked for.
-    #[error("s = {share}: must lie in [0, 1], from end to end of the zone")]
-    Outside {
-        /// The share that was asked for.
-        share: f64,
-    },
-    /// The branch could not be computed.
-    #[error(transparent)]
-    Orbit(#[from] OrbitError),
 }
 
-impl ZoneError {
-    /// This error with its frequency in the units and under the key of a machine.
-    #[must_use]
-    pub fn in_units_of(mut self, machine: &Machine) -> Self {
-        let (one, other) = match &mut self {
-            Self::NoOrbit { frequency } | Self::Flip { frequency } => (Some(frequency), None),
-            Self::NoFold { from, to, .. } | Self::NoMotion { from, to } => (Some(from), Some(to)),
-            _ => (None, None),
-        };
-        for frequency in one.into_iter().chain(other) {
-            frequency.key = machine.name(Parameter::Frequency);
-            frequency.value = machine.to_own(Dimension::Frequency, frequency.value);
+/// A range of frequencies with a stable z = 1 motion of one machine, and the branch of that motion.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Zone {
+    /// Which motions it holds.
+    pub kind: ZoneKind,
+    /// The machine; the frequency of its drive plays no part.
+    pub scene: Scene,
+    /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the stop.
+    pub frequency_g0_below: Option<f64>,
+    /// Grazing frequency g0 in rad/s, above resonance: above it the motion without impacts does not reach the clearance.
+    /// 0 if it never does, infinite without a clearance.
+    pub frequency_g0: f64,
+    /// The lower end, s = 0: of a hysteresis zone g0.
+    pub low: ZoneEnd,
+    /// The upper end, s = 1: of a hysteresis zone the fold s_SN.
+    pub high: ZoneEnd,
+    /// The branch from the lower end on, through all its folds, in order of arclength.
+    pub branch: Vec<BranchPoint>,
+}
+
+impl Zone {
+    /// True if the zone holds only motions that coexist with the motion without impacts.
+    pub fn is_hysteresis(&self) -> bool {
+        self.kind == ZoneKind::Hysteresis
+    }
+
+    /// The machine at a place s of the zone.
+    pub fn scene_at(&self, share: f64) -> Scene {
+        self.scene.at_frequency(self.frequency_at(share))
+    }
+
+    /// The frequency in rad/s at a place s of the zone.
+    pub fn frequency_at(&self, share: f64) -> f64 {
+        self.low.frequency + share * self.frequency_width()
+    }
+
+    /// The place s of a frequency in rad/s in the zone.
+    pub fn place_of(&self, frequency: f64) -> f64 {
+        (frequency - self.low.frequency) / self.frequency_width()
+    }
+
+    /// Width of the zone, from end to end in rad/s.
+    pub fn frequency_width(&self) -> f64 {
+        self.high.frequency - self.low.frequency
+    }
+
+    /// The z = 1 orbit at a place s of the zone, as [`Zone::point_at`] has it.
+    ///
+    /// # Errors
+    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
+    pub fn orbit_at(&self, share: f64) -> Result<Orbit, ZoneError> {
+        self.orbit_of(&self.point_at(share)?)
+    }
+
+    /// The whole orbit at a point of the zone's branch.
+    ///
+    /// # Errors
+    /// [`ZoneError::Orbit`] if the orbit is lost.
+    pub fn orbit_of(&self, point: &BranchPoint) -> Result<Orbit, ZoneError> {
+        let family = Frequencies(&self.scene);
+        Ok(Continuation::new(&family, 1).orbit_at(point)?)
+    }
+
+    /// The z = 1 motion with the hardest impact at a place s of the zone, on the stable side of its folds.
+    ///
+    /// # Errors
+    /// [`ZoneError::Outside`] if s is not in [0, 1]; [`ZoneError::Orbit`] if the orbit is lost.
+    pub fn point_at(&self, share: f64) -> Result<BranchPoint, ZoneError> {
+        if !(0.0..=1.0).contains(&share) {
+            return Err(ZoneError::Outside { share });
         }
-        self
+        let family = Frequencies(&self.scene);
+        let continuation = Continuation::new(&family, 1);
+        let target = self.frequency_at(share);
+        let mut best: Option<BranchPoint> = None;
+        for pair in self.branch.windows(2) {
+            let (from, to) = (&pair[0], &pair[1]);
+            if from.fold_test() < -FOLD_TEST_ROUNDING || to.fold_test() < -FOLD_TEST_ROUNDING {
+                continue;
+            }
+            let point = match (from.parameter - target, to.parameter - target) {
+                (0.0, _) => from.clone(),
+                (_, 0.0) => to.clone(),
+                (a, b) if a * b < 0.0 => continuation.point_between(from, to, target)?,
+                _ => continue,
+            };
+            let stronger =
+                |best: &BranchPoint| point.before_impact_velocity() > best.before_impact_velocity();
+            if best.as_ref().is_none_or(stronger) {
+                best = Some(point);
+            }
+        }
+        let lost = OrbitError::NotFound {
+            frequency: target,
+            clearance: self.scene.clearance,
+        };
+        Ok(best.ok_or(lost)?)
     }
 }
 
@@ -117,86 +154,5 @@ fn refuse_below(scene: &Scene) -> Result<(), ZoneError> {
     match scene.below {
         None => Ok(()),
         Some(_) => Err(ZoneError::StopBelow),
-    }
-}
-
-/// Why a stable branch is followed no farther.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum BranchEnd {
-    /// No motion with one impact of its kind goes on.
-    Regime,
-    /// It lies below the grazing boundary.
-    Below,
-    /// No fold is looked for beyond.
-    Range,
-    /// It has more points than are followed.
-    Budget,
-}
-
-impl Display for BranchEnd {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Regime => "it ends otherwise than by a fold",
-            Self::Below => "it has come back below the boundary",
-            Self::Range => "the search for a fold ends",
-            Self::Budget => "it has more points than are followed",
-        })
-    }
-}
-
-/// A drive frequency as a machine states it: under a key of machine files, which says its unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StatedFrequency {
-    /// The key: `excitation.frequency` for rad/s.
-    pub key: &'static str,
-    /// The frequency.
-    pub value: f64,
-}
-
-impl From<f64> for StatedFrequency {
-    /// A frequency in rad/s.
-    fn from(value: f64) -> Self {
-        let key = Parameter::Frequency.name();
-        Self { key, value }
-    }
-}
-
-impl Display for StatedFrequency {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {}", self.key, plain_number(self.value))
-    }
-}
-
-impl From<SceneError> for ZoneError {
-    fn from(error: SceneError) -> Self {
-        Self::Orbit(error.into())
-    }
-}
-
-/// The family of one scene at all frequencies of its drive.
-#[doc(hidden)]
-#[derive(Debug)]
-pub struct Frequencies<'a>(pub &'a Scene);
-
-impl Family for Frequencies<'_> {
-    fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {
-        let scene = self.0.at_frequency(frequency);
-        scene.validate()?;
-        Ok(scene)
-    }
-
-    fn state_scales(&self) -> [f64; 2] {
-        let Scales { length, rate } = self.0.scales();
-        let length = self.0.clearance.abs().max(length);
-        [length, length * rate]
-    }
-
-    fn parameter_scales(&self) -> [f64; 1] {
-        [0.2 * self.0.scales().rate]
-    }
-
-    fn by_frequency(&self) -> [Option<f64>; 1] {
-        [self.0.followers.is_empty().then_some(1.0)]
     }
 }

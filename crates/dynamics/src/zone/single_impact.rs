@@ -4,15 +4,15 @@ use rayon::prelude::*;
 
 use super::followed_end::{LONGEST_BRANCH, find_end};
 use super::hysteresis::{follow_upward, highest_fold};
-use super::places::{Zone, ZoneKind};
 use super::stable_range::STATE_ROUNDING;
 use super::stable_ranges::FOLLOWED_RANGE;
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
+use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError, hardest_single};
 use softstop::Scene;
-use softstop::internals::budget::Fork;
+use softstop::internals::budget::SharedBudget;
 
 /// Frequencies beside g0 at which single-impact motions are looked for.
 const START_FREQUENCIES: usize = 6;
@@ -30,7 +30,7 @@ pub fn single_impact(
     between: (f64, f64),
     monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
-    let fork = Fork::default();
+    let fork = SharedBudget::default();
     let zones = scenes.par_iter();
     let zones = zones.map(|scene| fork.run_part(|| of_scene(scene, between, monitor)));
     let zones = zones.collect();

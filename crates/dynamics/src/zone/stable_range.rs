@@ -75,7 +75,7 @@ impl StableRange {
         let sizes = unknown_scales(&zone.scene);
         let inside = |point: &BranchPoint| {
             let mut pairs = self.points.windows(2);
-            point.is_stable() && pairs.any(|pair| lies_between(pair, point, sizes))
+            point.is_stable() && pairs.any(|pair| lies_on_chord(pair, point, sizes))
         };
         zone.branch.iter().any(inside)
     }
@@ -94,8 +94,9 @@ pub(super) fn unknown_scales(scene: &Scene) -> [f64; 3] {
     [length, speed, rate]
 }
 
-/// True if a point lies on the chord between two neighbours, or as near to it as their curve may.
-pub(super) fn lies_between(
+/// True if a point lies on the chord between two neighbouring points of a branch, or as near to it as the branch may; state,
+/// frequency and before-impact velocity in units of the three scales.
+pub(super) fn lies_on_chord(
     pair: &[BranchPoint],
     point: &BranchPoint,
     [length, speed, rate]: [f64; 3],

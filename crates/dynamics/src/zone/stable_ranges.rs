@@ -2,7 +2,9 @@
 
 use std::collections::VecDeque;
 
-use super::stable_range::{StableRange, is_same_state, lies_between, stable_parts, unknown_scales};
+use super::stable_range::{
+    StableRange, is_same_state, lies_on_chord, stable_parts, unknown_scales,
+};
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
 use crate::monitor::{Monitor, unmonitored};
@@ -82,7 +84,7 @@ pub(super) fn find_stable_ranges(
             let is_known = branches.iter().any(|branch| {
                 let mut pairs = branch.points.windows(2);
                 pairs.any(|pair| {
-                    lies_between(pair, &point, sizes)
+                    lies_on_chord(pair, &point, sizes)
                         && !is_off_branch(&continuation, pair, (&point, scene))
                 })
             });

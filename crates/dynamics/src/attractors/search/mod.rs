@@ -8,9 +8,10 @@ use std::ops::Range;
 
 use super::catalogue::AttractorCatalogue;
 use super::chaos::Chaos;
-use super::lifetime::EscapeCounts;
+use super::escape_counts::EscapeCounts;
 use super::{Arrival, Attractor, Region, SearchOptions, Survey};
-use crate::ensemble::{Ensemble, Member, Status};
+use crate::ensemble::Ensemble;
+use crate::member::{Member, MemberStatus};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::find_return;
 use crate::orbit::{self, Exponents, OrbitError};
@@ -195,7 +196,7 @@ impl<'a> Search<'a> {
     fn end_states(&self) -> impl Iterator<Item = &Start> + Clone {
         let members = self.members.iter().map(|it| &it.member);
         members.flat_map(|member| match member.status {
-            Status::Arrived(orbit) => self.catalogue.orbits[orbit].section_states(),
+            MemberStatus::Arrived(orbit) => self.catalogue.orbits[orbit].section_states(),
             _ => &member.states,
         })
     }

@@ -4,8 +4,8 @@ use super::super::catalogue::KnownOrbit;
 use super::super::chaos::Chaos;
 use super::super::{Attractor, Region, Survey};
 use super::{Group, Search, SearchMember};
-use crate::ensemble::Status;
 use crate::extremes::extremes;
+use crate::member::MemberStatus;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, OrbitError};
 use softstop::MotionError;
@@ -50,7 +50,7 @@ impl Search<'_> {
     fn wandering_attractors(&self, counted: usize) -> Vec<Attractor> {
         let attractor = |(number, group): (&usize, &Group)| {
             let wanders = |it: &&SearchMember| {
-                it.group == Some(*number) && it.member.status == Status::Wandering
+                it.group == Some(*number) && it.member.status == MemberStatus::Wandering
             };
             let left: Vec<&SearchMember> = self.members.iter().filter(wanders).collect();
             let starts = left.iter().filter(|member| member.counts).count();
@@ -79,7 +79,7 @@ impl Search<'_> {
 
     /// The attractor of motions that end at rest, if some do.
     fn rest_attractor(&self, counted: usize) -> Option<Attractor> {
-        let rests = |it: &&SearchMember| it.member.status == Status::AtRest;
+        let rests = |it: &&SearchMember| it.member.status == MemberStatus::AtRest;
         let members: Vec<&SearchMember> = self.members.iter().filter(rests).collect();
         let positions = extremes(members.iter().map(|it| it.member.state.position))?;
         let starts = members.iter().filter(|member| member.counts).count();

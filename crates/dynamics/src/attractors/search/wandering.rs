@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::chaos::Chaos;
 use super::super::group_logs::group_logs;
 use super::{BATCH_GROWTH, Group, Search};
-use crate::ensemble::{Member, Status};
+use crate::member::{Member, MemberStatus};
 use crate::orbit::{BATCH_PERIODS, Exponents, OrbitError};
 use softstop::Start;
 
@@ -21,7 +21,7 @@ impl Search<'_> {
     pub(super) fn group_wandering(&mut self) -> Result<(), OrbitError> {
         let wandering: Vec<usize> = self
             .open_members()
-            .filter(|index| self.members[*index].member.status == Status::Wandering)
+            .filter(|index| self.members[*index].member.status == MemberStatus::Wandering)
             .collect();
         let log = |index: &usize| self.members[*index].member.states.as_slice();
         let logs: Vec<&[Start]> = wandering.iter().map(log).collect();
@@ -78,7 +78,7 @@ impl Search<'_> {
             let logged = self.log_length();
             self.ensemble
                 .advance(&mut [&mut after], logged as u64, logged)?;
-            let wanders = self.catalogue.classify_log(&after.states)? == Status::Wandering;
+            let wanders = self.catalogue.classify_log(&after.states)? == MemberStatus::Wandering;
             let found = (exponents, after.state, wanders);
             if !wanders {
                 return Ok(best.unwrap_or(found));

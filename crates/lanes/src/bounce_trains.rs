@@ -1,0 +1,91 @@
+//! Trains of bounces: whether lanes may follow a machine whose faces throw the mass back again and again.
+
+use std::f64::consts::TAU;
+
+use super::law::Constants;
+use softstop::Excitation;
+use softstop::internals::{Beyond, Exit, Phase, PhaseId, Phases, Surface};
+
+/// Largest restitution of a wall whose bounces die out in few enough impacts for lanes.
+const MAX_RESTITUTION: f64 = 1.0 - 1.0 / 65_536.0;
+/// Duration of the shortest bounce that lanes follow at a face with trains of bounces, in drive periods.
+const MIN_BOUNCE_DURATION: f64 = 1e-2;
+/// Largest exponent (damping / mass) times drive period of a machine with trains of bounces: under less damping, bounces
+/// of at least [`MIN_BOUNCE_DURATION`] do not come to rest before the drive lifts the mass.
+const MAX_DAMPING_EXPONENT: f64 = 6.0;
+
+/// Faces with trains of bounces: the drive can press the mass onto them while they throw it back with hardly any loss, by a jump of
+/// the force that is larger than the press, or as a wall that is nearly elastic. Bounces there may form rows without
+/// end, whose end the safe engine decides from the whole row.
+pub(super) struct BounceTrains<'a> {
+    pub phases: &'a Phases,
+    pub drive: Excitation,
+}
+
+impl BounceTrains<'_> {
+    /// The laws of all phases, if lanes can follow them.
+    pub fn lane_laws(&self) -> Option<Vec<Constants>> {
+        let mut laws = vec![Constants::default(); self.phases.phases.len()];
+        for (law, phase) in laws.iter_mut().zip(&self.phases.phases) {
+            law.set_to_phase(self.phases, phase)?;
+            law.slow = law.slow.max(self.slowest_bounce(phase));
+        }
+        Some(laws)
+    }
+
+    /// The constant force on the mass towards the stop at a surface in a phase.
+    fn force_towards_stop(&self, phase: PhaseId, surface: &Surface) -> f64 {
+        let law = &self.phases[phase].law;
+        surface.side * (law.force - law.stiffness * surface.position)
+    }
+
+    /// Rounding of the difference between that force in this phase and in another one.
+    fn force_rounding(&self, phase: PhaseId, position: f64) -> f64 {
+        let law = &self.phases[phase].law;
+        8.0 * f64::EPSILON * (law.force.abs() + (law.stiffness * position).abs())
+    }
+
+    /// True if a surface throws the mass back with hardly any loss while the drive can press it onto it.
+    fn bounces_at(&self, surface: &Surface) -> bool {
+        let before = self.force_towards_stop(surface.before, surface);
+        let mut beyond = [Some(surface.beyond), surface.beyond_unfed]
+            .into_iter()
+            .flatten();
+        let elastic = beyond.any(|above| match above {
+            Beyond::Phase(above) => {
+                let after = self.force_towards_stop(above, surface);
+                let least = after + self.force_rounding(above, surface.position);
+                least < before && after < self.drive.amplitude
+            }
+            Beyond::Wall { restitution } => restitution > MAX_RESTITUTION,
+        });
+        elastic && before + self.drive.amplitude > 0.0
+    }
+
+    /// True if no row of bounces that lanes follow comes to its end: the drive lifts the mass from all such faces,
+    /// before damping has taken much.
+    pub fn ends_before_rest(&self) -> bool {
+        let damping = self.phases.phases.iter().map(|phase| phase.law.damping);
+        let damping = damping.fold(0.0, f64::max) / self.phases.mass;
+        let strong = damping * TAU / self.drive.frequency > MAX_DAMPING_EXPONENT;
+        let lifts = |surface: &Surface| {
+            self.force_towards_stop(surface.before, surface) < self.drive.amplitude && !strong
+        };
+        let mut faces = self.phases.surfaces.iter();
+        faces.all(|surface| lifts(surface) || !self.bounces_at(surface))
+    }
+
+    /// Speed of the shortest bounces that lanes follow at the ends of a phase.
+    fn slowest_bounce(&self, phase: &Phase) -> f64 {
+        let faces = phase.exits.iter().filter_map(|exit| match exit {
+            Exit::Forward(surface) | Exit::Backward(surface) => Some(&self.phases[*surface]),
+            Exit::Reversal { .. } | Exit::Switch(_) => None,
+        });
+        let press = |surface: &Surface| {
+            self.force_towards_stop(surface.before, surface) + self.drive.amplitude
+        };
+        let presses = faces.filter(|surface| self.bounces_at(surface)).map(press);
+        let half = 0.5 * MIN_BOUNCE_DURATION * TAU / self.drive.frequency;
+        presses.fold(0.0, f64::max) / self.phases.mass * half
+    }
+}

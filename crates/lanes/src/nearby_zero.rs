@@ -1,0 +1,82 @@
+//! The zero of a Taylor polynomial next to its centre, in all lanes at once.
+
+use pulp::Simd;
+
+use super::lanes::{Lanes, Mask};
+use super::law::WINDOW_ANGLE;
+use super::local_taylor::{TERMS, Taylor, curvature_at};
+
+/// Longest time from the centre to a zero that is used, times the fastest rate, in rad.
+const MAX_ZERO_ANGLE: f64 = 0.02;
+/// Longest step of Newton's method that may be the last, in windows.
+const MAX_LAST_STEP: f64 = 1e-7;
+/// Longest step of Newton's method that is lost in rounding and so need not be made, in windows.
+const MAX_OMITTED_STEP: f64 = 4e-16;
+
+/// A zero of a Taylor polynomial: at which time, the slope there, and where it is certain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Zero<S: Simd, const N: usize> {
+    pub time: Lanes<S, N>,
+    pub slope: Lanes<S, N>,
+    pub sure: Mask<S, N>,
+}
+
+/// The zero of a Taylor polynomial next to its centre, in the lanes `of`: the series reverted to fourth order, then
+/// one step of Newton's method, in hard cases two.
+#[inline(always)]
+pub(super) fn nearby_zero<S: Simd, const N: usize>(
+    local: &Taylor<S, N>,
+    window: Lanes<S, N>,
+    of: Mask<S, N>,
+) -> Zero<S, N> {
+    let inverse = window.like(1.0) / local[1];
+    let first = -(local[0] * inverse);
+    let (a, b, c) = (local[2] * inverse, local[3] * inverse, local[4] * inverse);
+    let square = a * a;
+    let fourth = (a * a.like(5.0)).mul_add(b - square, -c);
+    let third = square + (square - b);
+    let tail = first.mul_add(first.mul_add(fourth, third), -a);
+    let start = (first * first).mul_add(tail, first);
+    let (time, slope, step) = newton_step(local, start);
+    let reach = window * window.like(MAX_ZERO_ANGLE / WINDOW_ANGLE);
+    let near = time.abs().below(reach);
+    let sure = near & is_last_step(step, a, window);
+    let open = of & near.and_not(sure);
+    if open.any() {
+        let (again, slope_again, step) = newton_step(local, time);
+        return Zero {
+            time: open.choose(again, time),
+            slope: open.choose(slope_again, slope),
+            sure: sure | (open & is_last_step(step, a, window)),
+        };
+    }
+    Zero { time, slope, sure }
+}
+
+/// True where the next step of Newton's method would be lost in rounding, `a` being half the curvature over the slope.
+#[inline(always)]
+fn is_last_step<S: Simd, const N: usize>(
+    step: Lanes<S, N>,
+    a: Lanes<S, N>,
+    window: Lanes<S, N>,
+) -> Mask<S, N> {
+    let next = (a * step * step).abs();
+    step.abs().below(window * window.like(MAX_LAST_STEP))
+        & next.below(window * window.like(MAX_OMITTED_STEP))
+}
+
+/// One step of Newton's method: where it leads, the slope there, and the step.
+#[inline(always)]
+fn newton_step<S: Simd, const N: usize>(
+    local: &Taylor<S, N>,
+    at: Lanes<S, N>,
+) -> (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>) {
+    let mut value = local[TERMS - 1];
+    let mut slope = value.like(0.0);
+    for term in local[..TERMS - 1].iter().rev() {
+        slope = slope.mul_add(at, value);
+        value = value.mul_add(at, *term);
+    }
+    let step = value / slope;
+    (at - step, slope - curvature_at(local, at) * step, step)
+}
