@@ -56,7 +56,7 @@ use case::Case;
 use judge::{Judged, Met};
 use operating_point::OperatingPoint;
 use rayon::prelude::*;
-use softstop::internals::budget::Fork;
+use softstop::internals::budget::SharedBudget;
 use softstop::{Dimension, Machine, MotionError, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::zone::{ZoneError, ZoneKind};
@@ -195,7 +195,7 @@ impl Problem {
             (own, cases.collect::<Vec<_>>())
         };
         let all: Vec<_> = own.into_iter().map(with_cases).collect();
-        let fork = Fork::default();
+        let fork = SharedBudget::default();
         let designs = all.into_par_iter();
         let designs = designs.map(|(own, cases)| fork.run_part(|| self.best_of(own, cases)));
         let designs = designs.collect();
