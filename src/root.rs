@@ -2,14 +2,14 @@
 
 /// A bracket of a root.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bracket {
+pub struct RootBracket {
     /// Ends between which the function changes its sign.
     pub ends: (f64, f64),
     /// Evaluations of the function.
     pub evaluations: usize,
 }
 
-impl Bracket {
+impl RootBracket {
     /// The middle of the bracket.
     pub fn middle(&self) -> f64 {
         0.5 * (self.ends.0 + self.ends.1)
@@ -31,7 +31,7 @@ pub fn narrow_root<E>(
     high: (f64, f64),
     width: f64,
     mut function: impl FnMut(f64) -> Result<f64, E>,
-) -> Result<Bracket, E> {
+) -> Result<RootBracket, E> {
     let ((mut a, mut f_a), (mut b, mut f_b)) = (low, high);
     let half = 0.5 * width;
     let most = ((b - a) / width).log2().ceil().max(0.0) + EXTRA_EVALUATIONS;
@@ -72,7 +72,7 @@ pub fn narrow_root<E>(
             (a, f_a) = (at, value);
         }
     }
-    Ok(Bracket {
+    Ok(RootBracket {
         ends: (a, b),
         evaluations,
     })

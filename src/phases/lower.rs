@@ -18,26 +18,26 @@ pub(super) fn lower_scene(scene: &Scene) -> Phases {
         force: 0.0,
     };
     let drive = scene.excitation;
-    let mut builder = Builder {
+    let mut lowering = Lowering {
         scene: Cow::Borrowed(scene),
         side: 1.0,
         phases: Vec::with_capacity(8),
         surfaces: Vec::new(),
     };
-    builder.add_phase(PhaseKind::Free, free, None, Store::default());
-    let unfed = builder.add_stack(&plan_layers(scene, free, false));
+    lowering.add_phase(PhaseKind::Free, free, None, Store::default());
+    let unfed = lowering.add_stack(&plan_layers(scene, free, false));
     let fed = match scene.piercing {
-        Some(_) => builder.add_stack(&plan_layers(scene, free, true)),
+        Some(_) => lowering.add_stack(&plan_layers(scene, free, true)),
         None => unfed.clone(),
     };
-    builder.join_to_free(&fed, &unfed);
+    lowering.join_to_free(&fed, &unfed);
     let below = match scene.mirrored() {
-        Some(mirrored) => builder.add_stack_below(mirrored, free),
+        Some(mirrored) => lowering.add_stack_below(mirrored, free),
         None => Stack::default(),
     };
     Phases {
-        phases: builder.phases,
-        surfaces: builder.surfaces,
+        phases: lowering.phases,
+        surfaces: lowering.surfaces,
         amplitude: drive.amplitude / scene.mass,
         frequency: drive.frequency,
         mass: scene.mass,
@@ -48,7 +48,7 @@ pub(super) fn lower_scene(scene: &Scene) -> Phases {
 }
 
 /// The phases and surfaces of a scene, as they are added.
-struct Builder<'a> {
+struct Lowering<'a> {
     scene: Cow<'a, Scene>,
     /// 1 as the scene is, -1 where it is a mirrored one: its plans then count positions downwards.
     side: f64,
@@ -56,7 +56,7 @@ struct Builder<'a> {
     surfaces: Vec<Surface>,
 }
 
-impl Builder<'_> {
+impl Lowering<'_> {
     fn add_phase(
         &mut self,
         kind: PhaseKind,
@@ -147,7 +147,7 @@ impl Builder<'_> {
             spring: plan.spring,
             hertz: plan.hertz,
         };
-        let add = |builder: &mut Self, law| builder.add_phase(plan.kind, law, plan.hertz, store);
+        let add = |lowering: &mut Self, law| lowering.add_phase(plan.kind, law, plan.hertz, store);
         let inward = add(self, plan.forward);
         let outward = plan.backward.map_or(inward, |law| add(self, law));
         let beyond = Beyond::Phase(inward);

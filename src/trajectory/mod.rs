@@ -1,71 +1,19 @@
 //! A motion kept: its arcs, its crossings, its energies.
 
+mod kept_arc;
+
+pub use kept_arc::KeptArc;
+
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::MotionError;
-use crate::flow::{ArcSolution, Drive};
 use crate::integrator::{
     Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, force_from_derivatives,
     mechanical_energy, work,
 };
-use crate::phases::{PhaseId, PhaseKind, Phases};
 use crate::scene::Scene;
-
-/// One arc of a trajectory.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct KeptArc {
-    /// When it began.
-    pub start: Instant,
-    /// How long it lasts, in s.
-    pub duration: f64,
-    /// The exact motion along the arc.
-    #[doc(hidden)]
-    pub course: ArcSolution,
-    /// What the mass does on it.
-    pub kind: PhaseKind,
-    /// Which phase; none while the mass is held.
-    #[doc(hidden)]
-    pub phase: Option<PhaseId>,
-    /// The crossing at its end, if there is one.
-    #[doc(hidden)]
-    pub crossing: Option<Crossing>,
-    side: f64,
-    end: Option<(f64, Start, Drive)>,
-}
-
-impl KeptArc {
-    /// An arc that has ended so many seconds after its start.
-    #[doc(hidden)]
-    pub fn new(arc: &Arc<'_>, duration: f64) -> Self {
-        Self {
-            start: arc.start,
-            duration,
-            course: arc.course.clone(),
-            kind: arc.kind,
-            phase: arc.phase.map(|phase| phase.id),
-            crossing: None,
-            side: arc.side,
-            end: arc.end,
-        }
-    }
-
-    /// The arc as an observer of a motion through these phases sees it.
-    #[doc(hidden)]
-    pub fn seen<'a>(&'a self, clock: &'a Clock, phases: &'a Phases) -> Arc<'a> {
-        Arc {
-            start: self.start,
-            clock,
-            course: &self.course,
-            phase: self.phase.map(|phase| &phases[phase]),
-            kind: self.kind,
-            side: self.side,
-            end: self.end,
-        }
-    }
-}
 
 /// A mass that touches: when, and how fast.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -165,9 +113,9 @@ impl Scene {
     ) -> Result<Trajectory, MotionError> {
         let mut motion = self.motion(start)?;
         let energy_before = mechanical_energy(self, &motion);
-        let mut recorder = Recorder {
+        let mut recorder = TrajectoryRecorder {
             mass: self.mass,
-            ..Recorder::default()
+            ..TrajectoryRecorder::default()
         };
         let mut flow = ControlFlow::Continue(());
         for force in forces {
@@ -213,14 +161,14 @@ impl Scene {
 
 /// Keeps the arcs and crossings of a motion.
 #[derive(Default)]
-struct Recorder {
+struct TrajectoryRecorder {
     mass: f64,
     arcs: Vec<KeptArc>,
     crossings: Vec<Crossing>,
     work: Work,
 }
 
-impl Observer for Recorder {
+impl Observer for TrajectoryRecorder {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         self.work += work(arc, self.mass, elapsed);
         self.arcs.push(KeptArc::new(arc, elapsed));

@@ -67,7 +67,7 @@ pub mod internals {
     pub use crate::cycle_metrics::peak_contact_force;
     pub use crate::ensemble::Ensemble;
     pub use crate::member::{HasMember, Member};
-    pub use crate::orbit::regime::ImpactCounter;
+    pub use crate::orbit::impact_counter::ImpactCounter;
     pub use crate::period::PeriodTrajectory;
     pub use crate::period::turn::turning_points;
     pub use crate::zone::Frequencies;

@@ -3,13 +3,14 @@
 use pulp::Simd;
 
 use super::engine::Engine;
-use super::guard::{Guard, WindowAhead};
+use super::guard::Guard;
 use super::guard_search::Found;
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::move_lanes::LaneEnd;
 use super::parts::Parts;
-use super::scan::Reached;
+use super::scan::ScanResult;
+use super::window_ahead::WindowAhead;
 
 /// Shortest time that is decided at once, in windows: less that is left of a period is taken for this long.
 const MIN_DECIDED_SPAN: f64 = 1e-12;
@@ -24,7 +25,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         &mut self,
         phase: usize,
         active: Mask<S, N>,
-        reached: &Reached<S, N>,
+        reached: &ScanResult<S, N>,
         due: Lanes<S, N>,
     ) -> (Mask<S, N>, Mask<S, N>) {
         let law = &self.laws[phase];
@@ -49,7 +50,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     fn window_ahead(
         &self,
         law: &Law<S, N>,
-        reached: &Reached<S, N>,
+        reached: &ScanResult<S, N>,
         pending: Mask<S, N>,
         span: Lanes<S, N>,
     ) -> WindowAhead<S, N> {

@@ -6,19 +6,7 @@ use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
 use super::parts::Parts;
-
-/// The window that is decided, or the first part of it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct WindowAhead<S: Simd, const N: usize> {
-    pub frequency: Lanes<S, N>,
-    /// The motion now, at the end of the part that is decided, and a window from now.
-    pub here: Parts<S, N>,
-    pub there: Parts<S, N>,
-    pub next: Parts<S, N>,
-    pub span: Lanes<S, N>,
-    /// (span / window)^4.
-    pub scale: Lanes<S, N>,
-}
+use super::window_ahead::WindowAhead;
 
 /// The guard that each lane may meet in its window: g = position x + velocity v - level.
 pub(super) struct Guard<S: Simd, const N: usize> {
@@ -34,25 +22,6 @@ pub(super) struct Guard<S: Simd, const N: usize> {
     /// Lanes that meet no guard in the window, and lanes that may meet more than one.
     pub none: Mask<S, N>,
     pub several: Mask<S, N>,
-}
-
-impl<S: Simd, const N: usize> WindowAhead<S, N> {
-    /// The motion at a time within the window.
-    #[inline(always)]
-    pub fn motion_at(&self, law: &Law<S, N>, time: Lanes<S, N>) -> Parts<S, N> {
-        self.here
-            .within_window(law, self.frequency, &self.next, time)
-    }
-
-    /// Position from the edge, velocity and acceleration.
-    #[inline(always)]
-    fn state_from_edge(&self, law: &Law<S, N>, parts: &Parts<S, N>) -> [Lanes<S, N>; 3] {
-        [
-            parts.y + (parts.p - law.edge),
-            parts.u + parts.q,
-            parts.acceleration(law, self.frequency),
-        ]
-    }
 }
 
 impl<S: Simd, const N: usize> Guard<S, N> {

@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::cubic::Cubic;
-use super::guard::{Guard, WindowAhead};
+use super::guard::Guard;
 use super::guard_interval::GuardInterval;
 use super::lanes::{Lanes, Mask, Pair};
 use super::law::Law;
@@ -11,6 +11,7 @@ use super::local_taylor;
 use super::nearby_zero::nearby_zero;
 use super::parts::Parts;
 use super::sine_cosine::MOMENT_DEGREE;
+use super::window_ahead::WindowAhead;
 
 /// Most instants besides the first at which a crossing or a maximum is searched for; then the safe engine finds it.
 const MAX_INSTANTS: usize = 6;

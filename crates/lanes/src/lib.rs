@@ -92,6 +92,7 @@ mod scan;
 mod sine_cosine;
 mod skip_calm;
 mod state;
+mod window_ahead;
 
 pub use job::{Instructions, Job, Outcome};
 pub use machine::Machine;

@@ -16,14 +16,14 @@ pub(super) const LEAVING_MARGIN: f64 = 16.0 / 3.0;
 
 /// Where the scan has brought the lanes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reached<S: Simd, const N: usize> {
+pub(super) struct ScanResult<S: Simd, const N: usize> {
     /// The motion where they stand.
     pub parts: Parts<S, N>,
     /// The motion a window later.
     pub next: Parts<S, N>,
     /// |x''''| window^4 / 384.
     pub error_bound: Lanes<S, N>,
-    /// CycleWindows scanned.
+    /// Windows scanned.
     pub count: Lanes<S, N>,
     /// Lanes that may go on.
     pub go: Mask<S, N>,
@@ -48,9 +48,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 
     /// The result of a scan that has not moved: the lanes decide their next window at once.
     #[inline(always)]
-    pub fn stand_before_window(&self, law: &Law<S, N>, active: Mask<S, N>) -> Reached<S, N> {
+    pub fn stand_before_window(&self, law: &Law<S, N>, active: Mask<S, N>) -> ScanResult<S, N> {
         let parts = self.motion_parts(law);
-        Reached {
+        ScanResult {
             parts,
             next: parts.after_window(law),
             error_bound: parts.position_error(law),
@@ -67,10 +67,10 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         law: &Law<S, N>,
         active: Mask<S, N>,
         cap: Lanes<S, N>,
-    ) -> Reached<S, N> {
+    ) -> ScanResult<S, N> {
         let one = cap.like(1.0);
         let mut reached = self.stand_before_window(law, active);
-        let Reached {
+        let ScanResult {
             mut parts,
             mut next,
             error_bound,
@@ -132,11 +132,11 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         if go.any() {
             reached.stop_lanes(go, &parts, &next, one.like(MAX_SCAN_WINDOWS as f64));
         }
-        Reached { go, ..reached }
+        ScanResult { go, ..reached }
     }
 }
 
-impl<S: Simd, const N: usize> Reached<S, N> {
+impl<S: Simd, const N: usize> ScanResult<S, N> {
     /// Notes that lanes stand here.
     #[inline(always)]
     fn stop_lanes(

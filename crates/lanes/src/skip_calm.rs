@@ -5,7 +5,7 @@ use pulp::Simd;
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::parts::Parts;
-use super::scan::Reached;
+use super::scan::ScanResult;
 
 /// Drive periods at the end of a job that are never skipped: more than one scan covers.
 const UNSKIPPED_PERIODS: f64 = 4.0;
@@ -19,7 +19,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         &mut self,
         phase: usize,
         active: Mask<S, N>,
-        reached: &mut Reached<S, N>,
+        reached: &mut ScanResult<S, N>,
     ) {
         let law = &self.laws[phase];
         let parts = reached.parts;
@@ -64,7 +64,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 
     /// Tells the observer of all ends of periods that lanes skip.
     #[inline(always)]
-    fn tell_calm_periods(&mut self, phase: usize, calm: Mask<S, N>, reached: &Reached<S, N>) {
+    fn tell_calm_periods(&mut self, phase: usize, calm: Mask<S, N>, reached: &ScanResult<S, N>) {
         let law = &self.laws[phase];
         let drive = self.state.drive;
         let Parts { y, u, .. } = reached.parts;

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::Certainty;
+use super::known_orbit::KnownOrbit;
 use crate::member::MemberStatus;
 use crate::orbit::recurrence::{find_return, motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
@@ -17,22 +18,6 @@ const SAME_ORBIT: (f64, f64) = (1e-7, 1e-3);
 const CREEP_TOLERANCE: f64 = 1e-6;
 /// Distance, in units of the orbit's size, at which a motion that returns is believed to return to an orbit at once.
 const NEAR_ORBIT_DISTANCE: f64 = 1e-3;
-
-/// A stable orbit in the catalogue.
-#[derive(Debug, Clone)]
-pub(crate) struct KnownOrbit {
-    pub orbit: Orbit,
-    pub certainty: Certainty,
-    states: Vec<Start>,
-    size: f64,
-}
-
-impl KnownOrbit {
-    /// States of the known orbit at drive angle phi, after each drive period.
-    pub(crate) fn section_states(&self) -> &[Start] {
-        &self.states
-    }
-}
 
 /// The stable orbits of a scene that are known.
 pub(crate) struct AttractorCatalogue<'a> {

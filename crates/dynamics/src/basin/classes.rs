@@ -3,7 +3,7 @@
 use super::Basins;
 use super::survey::BasinSurvey;
 use crate::attractors::Attractor;
-use crate::attractors::catalogue::KnownOrbit;
+use crate::attractors::known_orbit::KnownOrbit;
 use crate::member::MemberStatus;
 use crate::motion::MotionKind;
 use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};

@@ -1,6 +1,7 @@
 //! The largest ball inside a basin, which measures its integrity.
 
-use super::grid::{Axis, Grid};
+use super::axis::Axis;
+use super::grid::Grid;
 
 /// The largest ball of cells inside a basin.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,5 +1,7 @@
 //! A periodic motion of any regime, stable or not.
 
+use std::cmp::Ordering;
+
 use nalgebra::{Complex, Vector2};
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +47,9 @@ pub struct Orbit {
 const MAX_SHOOTING_IMPACTS: usize = 128;
 /// Norm of the map's Jacobian, in its scales, beyond which an orbit is sought from impact to impact.
 pub(super) const STEEP_MAP_NORM: f64 = 1e3;
+
+/// Share of a before-impact velocity by which rounding may change it.
+const SPEED_ROUNDING: f64 = 1e-9;
 
 impl Orbit {
     /// The z = 1 orbit, stable or not, that Newton's method reaches from a state near it.
@@ -266,5 +271,16 @@ impl Orbit {
     /// True if the orbit is stable: both multipliers lie inside the unit circle, or on it where it is neutral.
     pub fn is_stable(&self) -> bool {
         self.monodromy.is_stable()
+    }
+
+    /// The order of two orbits by their before-impact velocities.
+    pub(crate) fn compare_velocity(&self, other: &Self) -> Ordering {
+        let [own, other] = [self, other].map(Self::before_impact_velocity);
+        own.total_cmp(&other)
+    }
+
+    /// True if the impact of this orbit is harder than that of another one, beyond rounding.
+    pub(crate) fn is_harder(&self, other: &Self) -> bool {
+        self.before_impact_velocity() > (1.0 + SPEED_ROUNDING) * other.before_impact_velocity()
     }
 }

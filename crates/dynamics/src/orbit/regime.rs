@@ -4,8 +4,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::impact_counter::ImpactCounter;
 use super::recurrence::find_return;
-use softstop::{Clock, Crossing, MotionError, Observer, Scene, Start};
+use softstop::{Clock, MotionError, Scene, Start};
 
 /// The regime z = p/n: p impacts in n drive periods, after which the state returns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -64,15 +65,5 @@ impl fmt::Display for Regime {
             (impacts, 1) => write!(formatter, "{impacts}"),
             (impacts, periods) => write!(formatter, "{impacts}/{periods}"),
         }
-    }
-}
-
-/// An observer that counts the impacts of a motion.
-#[derive(Default)]
-pub struct ImpactCounter(pub u64);
-
-impl Observer for ImpactCounter {
-    fn crossing(&mut self, crossing: &Crossing) {
-        self.0 += u64::from(crossing.impact_velocity().is_some());
     }
 }

@@ -14,15 +14,18 @@
 //! # Ok::<(), softstop::SceneError>(())
 //! ```
 
+mod followed_motion;
 mod settled_motion;
 
 pub use settled_motion::{SettledMotion, classify_wandering};
 
 use serde::{Deserialize, Serialize};
 
+use followed_motion::FollowedMotion;
+
 use crate::attractors::Region;
 use crate::ensemble::Ensemble;
-use crate::member::{HasMember, Member, MemberStatus};
+use crate::member::MemberStatus;
 use crate::monitor::Monitor;
 use crate::orbit::Regime;
 use crate::orbit::recurrence::RETURN_DISTANCE;
@@ -49,30 +52,6 @@ impl Default for Settling {
             watched: 64,
             longest: 8000,
             tolerance: RETURN_DISTANCE,
-        }
-    }
-}
-
-/// A motion that is followed until it settles, and what it was seen to have come to last.
-struct FollowedMotion<'a> {
-    scene: &'a Scene,
-    member: Member,
-    seen: Option<SettledMotion>,
-}
-
-impl HasMember for FollowedMotion<'_> {
-    fn member_mut(&mut self) -> &mut Member {
-        &mut self.member
-    }
-}
-
-impl<'a> FollowedMotion<'a> {
-    /// A motion of a scene, which is the machine with this number, from a start.
-    fn new(scene: &'a Scene, machine: usize, start: Start) -> Self {
-        Self {
-            scene,
-            member: Member::new(machine, start),
-            seen: None,
         }
     }
 }

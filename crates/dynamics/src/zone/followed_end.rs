@@ -1,6 +1,7 @@
 //! The end of the stable motions of a branch that was followed.
 
-use super::end::{Loss, ZoneEnd, first_end};
+use super::end::{ZoneEnd, first_end};
+use super::loss::Loss;
 use crate::continuation::{
     BranchPoint, Continuation, Direction, Family, Limits, SpecialKind, Test,
 };

@@ -8,8 +8,9 @@
 
 use rayon::prelude::*;
 
-use super::end::{Loss, ZoneEnd};
+use super::end::ZoneEnd;
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
+use super::loss::Loss;
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
 use super::{FOLD_TEST_ROUNDING, Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};

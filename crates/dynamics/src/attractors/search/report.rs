@@ -1,7 +1,7 @@
 //! The survey that a search of attractors reports.
 
-use super::super::catalogue::KnownOrbit;
 use super::super::chaos::Chaos;
+use super::super::known_orbit::KnownOrbit;
 use super::super::{Attractor, Region, Survey};
 use super::{Group, Search, SearchMember};
 use crate::extremes::extremes;
