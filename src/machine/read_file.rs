@@ -304,7 +304,7 @@ fn take_initial(table: &mut DeTable<'_>) -> Result<Option<Initial>, ReadError> {
 }
 
 /// Why a machine has a damping in contact.
-const DAMPER: &str =
+const DAMPING_REASON: &str =
     "the damper while bodies touch; a rigid stop without a strip does not use it, 0 will do";
 
 /// Renames `contact.damping`: it is the field `contact_damping` of a scene.
@@ -313,7 +313,7 @@ fn rename_contact_damping(table: &mut DeTable<'_>) -> Result<(), ReadError> {
     table.remove("contact");
     match (damping, table.contains_key("contact_damping")) {
         (Some(_), true) => Err(MachineError::Both("contact.damping", "contact_damping").into()),
-        (None, false) => Err(MachineError::Missing("contact.damping", DAMPER).into()),
+        (None, false) => Err(MachineError::Missing("contact.damping", DAMPING_REASON).into()),
         (None, true) => Ok(()),
         (Some((key, damping)), false) => {
             table.insert(Spanned::new(key.span(), "contact_damping".into()), damping);

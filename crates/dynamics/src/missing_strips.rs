@@ -81,7 +81,7 @@ impl StripSurvival {
 }
 
 /// Gaps of missing strips whose motions are followed together; it may not depend on how many threads there are.
-const RUNS_TOGETHER: usize = 256;
+const GAPS_TOGETHER: usize = 256;
 
 /// A stable motion of a loaded machine from which `missing` strips are taken in a row: it runs as it does until one of
 /// so many drive angles, evenly spread over its period, then goes on without strips for as many drive periods, then
@@ -103,7 +103,7 @@ pub fn survives_missing_strips(
         .map(|index| turn * index as f64 / angles as f64)
         .collect();
     let gaps = angles
-        .par_chunks(RUNS_TOGETHER)
+        .par_chunks(GAPS_TOGETHER)
         .map(|angles| -> Result<_, OrbitError> {
             let (mut machines, mut motions) = (Vec::new(), Vec::new());
             for (machine, turned) in angles.iter().enumerate() {

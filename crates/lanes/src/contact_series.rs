@@ -62,7 +62,7 @@ pub(super) struct ContactSeries<S: Simd, const N: usize> {
 }
 
 /// Which exponents the power laws of the lanes have.
-struct Exponents<S: Simd, const N: usize> {
+struct ContactExponents<S: Simd, const N: usize> {
     /// All are 3/2.
     are_halves_of_three: bool,
     is_half_of_three: Mask<S, N>,
@@ -71,7 +71,7 @@ struct Exponents<S: Simd, const N: usize> {
     grips: bool,
 }
 
-impl<S: Simd, const N: usize> Exponents<S, N> {
+impl<S: Simd, const N: usize> ContactExponents<S, N> {
     #[inline(always)]
     fn of_laws(law: &Law<S, N>) -> Self {
         let zero = law.press.like(0.0);
@@ -122,7 +122,7 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
     #[inline(always)]
     pub fn expand(&mut self, law: &Law<S, N>, frequency: Lanes<S, N>, from: &ContactState<S, N>) {
         let zero = frequency.like(0.0);
-        let exponents = Exponents::of_laws(law);
+        let exponents = ContactExponents::of_laws(law);
         (self.root[0], self.depth[0]) = (from.root, from.root * from.root);
         self.root[1] = from.velocity * zero.like(0.5);
         (self.cos[0], self.sin[0]) = from.angle;
@@ -164,7 +164,12 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
 
     /// Sets the coefficients of order k of the two factors of the springs' force.
     #[inline(always)]
-    fn set_spring_factors(&mut self, law: &Law<S, N>, exponents: &Exponents<S, N>, k: usize) {
+    fn set_spring_factors(
+        &mut self,
+        law: &Law<S, N>,
+        exponents: &ContactExponents<S, N>,
+        k: usize,
+    ) {
         let (root, depth) = (self.root[k], self.depth[k]);
         let (mut steep, mut soft, mut other) = (depth, root, depth);
         if !exponents.are_halves_of_three {

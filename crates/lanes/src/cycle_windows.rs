@@ -19,7 +19,7 @@ const SECOND_DERIVATIVE_ERROR: f64 = 384.0 / 12.0;
 pub(super) struct CycleWindows {
     pub all: Vec<CycleWindow>,
     /// The margins of the faces of their phases, window by window.
-    margins: Vec<Margin>,
+    margins: Vec<WindowMargin>,
 }
 
 /// A window of an arc.
@@ -36,7 +36,7 @@ pub(super) struct CycleWindow {
 /// The margin of a face in a window: largest deviations of its value, rate and second derivative with which it is
 /// provably not met, or at the end of an arc not before that end.
 #[derive(Debug, Clone, Copy)]
-struct Margin {
+struct WindowMargin {
     /// Weights of position and velocity.
     position: f64,
     velocity: f64,
@@ -85,7 +85,7 @@ impl CycleWindows {
             };
             let [is_entry, is_exit] =
                 [entry, exit].map(|it| it.is_some_and(|it| it.has_gradient_of(&face)));
-            Margin::of_face(
+            WindowMargin::of_face(
                 &face,
                 (from, to),
                 step,
@@ -126,7 +126,7 @@ impl CycleWindows {
     }
 }
 
-impl Margin {
+impl WindowMargin {
     fn of_face(
         face: &Face,
         (from, to): (&CycleState, &CycleState),

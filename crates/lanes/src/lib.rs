@@ -67,6 +67,7 @@ mod decide_window;
 mod direct_step;
 mod dispatch;
 mod engine;
+mod extrapolate_limit;
 mod face;
 mod guard;
 mod guard_interval;

@@ -7,7 +7,7 @@ use pulp::Simd;
 use super::cycle_state::{Drive, Passage};
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
-use super::returns::Decision;
+use super::returns::ReturnDecision;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Begins to record the returns of a lane, unless an observer watches what lies between them.
@@ -79,7 +79,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     }
 
     /// Does what was decided after a return: where the lane goes on, and when its returns are recorded again.
-    fn apply_decision(&mut self, lane: usize, decision: Decision) {
+    fn apply_decision(&mut self, lane: usize, decision: ReturnDecision) {
         self.state.noted.set(lane, decision.again);
         self.count_skipped(lane, decision.leapt);
         if let Some(to) = decision.to {

@@ -23,10 +23,9 @@ use nalgebra::{Matrix2, Vector2};
 use super::contraction::{ContractionNorm, spectral_radius};
 use super::cycle::Cycle;
 use super::cycle_state::{Drive, Passage};
+use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
 use super::law::Constants;
 
-/// Returns of the motion from which the limit is first extrapolated.
-const RETURNS_PER_GUESS: usize = 4;
 /// Largest difference between the time of a return and a whole number of drive periods, in drive periods.
 const MAX_TIME_OFFSET: f64 = 0.25;
 /// Most drive periods between two returns.
@@ -49,14 +48,10 @@ const MIN_PERIODS_LEFT: f64 = 24.0;
 const MAX_PREDICTION_DISTANCE: f64 = 0.3;
 /// Largest distance between two returns, in these units, from which their limit is extrapolated.
 const MAX_EXTRAPOLATION_DISTANCE: f64 = 0.02;
-/// Distance between the last two returns, in these units, below which the last one is taken for the limit.
-const SETTLED_DISTANCE: f64 = 1e-8;
 /// Largest last step of Newton's method, in these units.
 const MAX_LAST_STEP: f64 = 1e-7;
 /// Largest ratio of a step of Newton's method to the one before with which the trial goes on.
 const MAX_STEP_RATIO: f64 = 0.3;
-/// Least difference between 1 and the spectral radius of the map of returns: deviations decay at least so much in one.
-const MIN_DECAY: f64 = 1e-3;
 /// Largest error of the limit, in units of the distance of returns.
 const MAX_LIMIT_ERROR: f64 = 4e-12;
 /// Largest error of the extrapolated last return, in these units: it adds up what is left out in all returns, as if each bent
@@ -150,7 +145,7 @@ struct Certificate {
 
 /// What a lane does after a return.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Decision {
+pub(super) struct ReturnDecision {
     /// Where it goes on, if not where it is.
     pub to: Option<Return>,
     /// Drive periods left at which its returns are recorded again.
@@ -173,7 +168,12 @@ impl Returns {
     }
 
     /// Records a return; what the lane does next, if not just to go on.
-    pub fn record(&mut self, now: Return, laws: &[Constants], drive: &Drive) -> Option<Decision> {
+    pub fn record(
+        &mut self,
+        now: Return,
+        laws: &[Constants],
+        drive: &Drive,
+    ) -> Option<ReturnDecision> {
         match self.stage {
             Stage::Known(certificate) => return self.approach_limit(now, &certificate),
             Stage::Trial(most) => {
@@ -244,24 +244,24 @@ impl Returns {
     }
 
     /// Ends a trial that leads nowhere: the lane goes on from the last return of its own motion.
-    pub fn end_trial(&mut self) -> Option<Decision> {
+    pub fn end_trial(&mut self) -> Option<ReturnDecision> {
         let to = self.own[RETURNS_PER_GUESS - 1];
-        self.is_trial().then(|| Decision {
+        self.is_trial().then(|| ReturnDecision {
             to: Some(to),
             ..self.pause_recording(to.left)
         })
     }
 
     /// Records again after a longer pause than before.
-    fn pause_recording(&mut self, left: f64) -> Decision {
+    fn pause_recording(&mut self, left: f64) -> ReturnDecision {
         self.pause *= PAUSE_GROWTH;
         self.forget_returns(left - self.pause)
     }
 
     /// Forgets what is known; returns are recorded again when so many periods are left.
-    fn forget_returns(&mut self, again: f64) -> Decision {
+    fn forget_returns(&mut self, again: f64) -> ReturnDecision {
         (self.stage, self.count) = (Stage::Open, 0);
-        Decision::wait(again)
+        ReturnDecision::wait(again)
     }
 
     /// Whole drive periods up to a return, and the return as a point (velocity, drive angle).
@@ -295,7 +295,7 @@ impl Returns {
     }
 
     /// Extrapolates the limit from the motion's own returns and begins a trial there, or waits until they are close.
-    fn guess_limit(&mut self) -> Option<Decision> {
+    fn guess_limit(&mut self) -> Option<ReturnDecision> {
         let first = &self.own[0];
         (self.velocity, self.left) = (first.velocity, first.left);
         self.moment = first.offset * self.per_period;
@@ -315,13 +315,13 @@ impl Returns {
     }
 
     /// Begins to follow the trial cycle from a guess of its return.
-    fn begin_trial(&mut self, guess: Vector2<f64>, step: f64) -> Decision {
+    fn begin_trial(&mut self, guess: Vector2<f64>, step: f64) -> ReturnDecision {
         self.tried = self.return_at(guess, 0.0);
         self.passages.clear();
         self.stage = Stage::Trial(step);
-        Decision {
+        ReturnDecision {
             to: Some(self.tried),
-            ..Decision::wait(f64::INFINITY)
+            ..ReturnDecision::wait(f64::INFINITY)
         }
     }
 
@@ -332,7 +332,7 @@ impl Returns {
         before: f64,
         laws: &[Constants],
         drive: &Drive,
-    ) -> Option<Decision> {
+    ) -> Option<ReturnDecision> {
         let velocity = self.velocity;
         let begun = self.tried.as_passage();
         self.cycle
@@ -404,7 +404,7 @@ impl Returns {
     }
 
     /// What the lane does after a return of a motion whose limit is known.
-    fn approach_limit(&mut self, now: Return, certificate: &Certificate) -> Option<Decision> {
+    fn approach_limit(&mut self, now: Return, certificate: &Certificate) -> Option<ReturnDecision> {
         let last = self.own[RETURNS_PER_GUESS - 1];
         let same = last.position == now.position && last.phase == now.phase;
         if !same || (self.return_point(&now).1 - certificate.limit).norm() > MAX_PREDICTION_DISTANCE
@@ -413,7 +413,7 @@ impl Returns {
         }
         self.own[RETURNS_PER_GUESS - 1] = now;
         let decision = self.extrapolate_to_end(certificate);
-        Some(Decision {
+        Some(ReturnDecision {
             to: decision.to.filter(|to| *to != now),
             ..decision
         })
@@ -421,7 +421,7 @@ impl Returns {
 
     /// Extrapolates all periods but the last at once from the motion's own last return, or waits until that is exact
     /// enough.
-    fn extrapolate_to_end(&mut self, certificate: &Certificate) -> Decision {
+    fn extrapolate_to_end(&mut self, certificate: &Certificate) -> ReturnDecision {
         let Certificate {
             norm,
             curvature,
@@ -432,7 +432,7 @@ impl Returns {
         let off = self.return_point(&own).1 - certificate.limit;
         let rate = norm.rate.max(MIN_RATE);
         let times = ((own.left - FOLLOWED_LAST_PERIODS) / self.every).floor();
-        let back = |decision| Decision {
+        let back = |decision| ReturnDecision {
             to: Some(own),
             ..decision
         };
@@ -448,42 +448,22 @@ impl Returns {
         if excess > 1.0 || excess.is_nan() {
             self.stage = Stage::Known(*certificate);
             let wait = (excess.ln() / -rate.ln()).ceil();
-            return back(Decision::wait(
+            return back(ReturnDecision::wait(
                 own.left - (wait * self.every - MAX_TIME_OFFSET),
             ));
         }
         let power = certificate.map.pow(times as u32);
         let to = self.return_at(certificate.limit + power * off, times);
         self.forget_returns(f64::NEG_INFINITY);
-        Decision {
+        ReturnDecision {
             to: Some(to),
             leapt: times * self.every,
-            ..Decision::wait(f64::NEG_INFINITY)
+            ..ReturnDecision::wait(f64::NEG_INFINITY)
         }
     }
 }
 
-/// The limit of a sequence of returns and the spectral radius with which they approach it, by minimal polynomial
-/// extrapolation (Cabay and Jackson 1976): differences of successive returns obey d'' = trace d' - determinant d.
-fn extrapolate_limit(points: &[Vector2<f64>; RETURNS_PER_GUESS]) -> Option<(Vector2<f64>, f64)> {
-    let [a, b, c] = [0, 1, 2].map(|k| points[k + 1] - points[k]);
-    let last = points[RETURNS_PER_GUESS - 1];
-    if c.norm() < SETTLED_DISTANCE {
-        return Some((last, 0.0));
-    }
-    let area = b.perp(&a);
-    let (trace, determinant) = match area.abs() > 1e-4 * a.norm() * b.norm() {
-        true => (c.perp(&a) / area, c.perp(&b) / area),
-        false => (c.dot(&b) / b.norm_squared(), 0.0),
-    };
-    let radius = spectral_radius(trace, determinant);
-    let way = (c * trace - (c + b) * determinant) / (1.0 - trace + determinant);
-    let is_like = way.norm() * (1.0 - radius) < 2.0 * c.norm();
-    let limit = last + way;
-    (radius < 1.0 - MIN_DECAY && is_like && limit.x > 0.0).then_some((limit, radius))
-}
-
-impl Decision {
+impl ReturnDecision {
     /// Goes on as it is; returns are recorded again when so many drive periods are left.
     fn wait(again: f64) -> Self {
         Self {

@@ -23,17 +23,17 @@ use softstop_lanes::Machine;
 /// Motions of a basin test that go together, enough for all lanes, whatever the number of threads.
 const MOTIONS_TOGETHER: usize = 512;
 /// Drive periods between two looks at whether motions have arrived in a ball.
-pub(super) const PERIODS_BETWEEN_LOOKS: u64 = 16;
+pub(super) const PERIODS_BETWEEN_CHECKS: u64 = 16;
 /// Drive periods that motions of a basin test may take before they come near the orbit.
-const BASE_PATIENCE: u64 = 256;
+const APPROACH_PERIODS: u64 = 256;
 /// Exponent of e to which motions near a tested orbit must decay, by its slowest multiplier, to arrive.
 const SETTLING_EXPONENT: f64 = 28.0;
 /// Most drive periods that a basin test grants motions for their decay onto the orbit.
-const MAX_SETTLING: f64 = 20_000.0;
+const MAX_SETTLING_PERIODS: f64 = 20_000.0;
 /// Decay a drive period, as an exponent, below which an orbit is at a border to rounding, as at a fold.
-const SLOWEST_DECAY: f64 = 1e-5;
+const MIN_DECAY_EXPONENT: f64 = 1e-5;
 /// Drive periods that motions get to come to an orbit at a border.
-const BORDER_PATIENCE: u64 = 512;
+const BORDER_PERIODS: u64 = 512;
 /// Distance from an orbit at a border, in units of its size, at which a motion has arrived that no ball holds.
 const BORDER_ARRIVAL_DISTANCE: f64 = 2e-2;
 
@@ -98,12 +98,12 @@ impl BasinTest {
         let slowest = orbit.multipliers()[0].norm();
         let decay = -slowest.ln() / orbit.periods as f64;
         let (patience, arrived) = match decay {
-            _ if decay > SLOWEST_DECAY => {
-                let settling = (SETTLING_EXPONENT / decay).min(MAX_SETTLING);
-                (BASE_PATIENCE + settling as u64, ARRIVAL_DISTANCE)
+            _ if decay > MIN_DECAY_EXPONENT => {
+                let settling = (SETTLING_EXPONENT / decay).min(MAX_SETTLING_PERIODS);
+                (APPROACH_PERIODS + settling as u64, ARRIVAL_DISTANCE)
             }
-            _ if decay > -SLOWEST_DECAY && !orbit.is_neutral() => {
-                (BORDER_PATIENCE, BORDER_ARRIVAL_DISTANCE)
+            _ if decay > -MIN_DECAY_EXPONENT && !orbit.is_neutral() => {
+                (BORDER_PERIODS, BORDER_ARRIVAL_DISTANCE)
             }
             _ => (0, 0.0),
         };
@@ -165,10 +165,10 @@ impl BasinTest {
         let mut periods = 0;
         while !left.is_empty() && periods < self.patience {
             ensemble.count_work(0)?;
-            ensemble.advance_batch::<COUNTS, false, _>(&mut left, PERIODS_BETWEEN_LOOKS)?;
-            periods += PERIODS_BETWEEN_LOOKS;
+            ensemble.advance_batch::<COUNTS, false, _>(&mut left, PERIODS_BETWEEN_CHECKS)?;
+            periods += PERIODS_BETWEEN_CHECKS;
             for motion in &mut left {
-                motion.time += PERIODS_BETWEEN_LOOKS as f64;
+                motion.time += PERIODS_BETWEEN_CHECKS as f64;
                 if motion.member.status == MemberStatus::Open {
                     motion.member.status = self.classify_motion(motion, periods >= self.patience);
                 }

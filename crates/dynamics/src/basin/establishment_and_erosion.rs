@@ -47,7 +47,7 @@ impl Establishment {
         starts: usize,
         monitor: Monitor<'_>,
     ) -> Result<Self, OrbitError> {
-        let states = region.starts(starts, SEED);
+        let states = region.starts(starts, START_SEED);
         let reached = BasinTest::of(orbit)?.test_starts(&states, monitor)?;
         Ok(Self::from_reached(&reached, region))
     }
@@ -63,7 +63,7 @@ impl Establishment {
         starts: usize,
         monitor: Monitor<'_>,
     ) -> Result<(Self, f64), OrbitError> {
-        certainty_and_ball_radius(orbit, region, &region.starts(starts, SEED), monitor)
+        certainty_and_ball_radius(orbit, region, &region.starts(starts, START_SEED), monitor)
     }
 
     /// The establishment of a motion from which of the starts in a region have reached it.
@@ -79,7 +79,7 @@ impl Establishment {
 }
 
 /// Seed of the quasi-random starts, which shifts them.
-const SEED: u64 = 0;
+const START_SEED: u64 = 0;
 /// Places of a zone that its box of starts is made for.
 const BOX_PLACES: [f64; 3] = [0.0, 0.5, 0.99];
 /// Divisor of the number of starts for those with which a ball is filled anew.
@@ -157,7 +157,7 @@ impl ErosionProfile {
         let held = region.widened_to_hold(&zone.scene, &all.collect::<Vec<_>>());
         let widened = held != *region;
         let region = held;
-        let states = region.starts(starts, SEED);
+        let states = region.starts(starts, START_SEED);
         let place = |(place, orbit): (&f64, &Orbit)| -> Result<Integrity, ZoneError> {
             let (certainty, radius) = certainty_and_ball_radius(orbit, &region, &states, monitor)?;
             Ok(Integrity {

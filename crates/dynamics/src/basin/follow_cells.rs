@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::basin_test::PERIODS_BETWEEN_LOOKS;
+use super::basin_test::PERIODS_BETWEEN_CHECKS;
 use super::survey::{BasinSurvey, LostCell, TILE_CELLS, earlier_lost};
 use crate::member::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
@@ -14,9 +14,9 @@ use softstop::Start;
 use softstop::internals::budget::SharedBudget;
 
 /// Cells that go together as in [`TILE_CELLS`], where each motion goes alone, and takes long.
-const SMALL_TILE: usize = 16;
+const SMALL_TILE_CELLS: usize = 16;
 /// Longest time that cells are followed before a piece is stored; pieces grow up to it.
-const LONGEST_PIECE: Duration = Duration::from_secs(5);
+const MAX_PIECE_TIME: Duration = Duration::from_secs(5);
 
 /// A cell, where its motion is, and what it has come to.
 type FollowedCell = (usize, Start, MemberStatus);
@@ -38,7 +38,7 @@ impl BasinSurvey<'_> {
         let tile = if self.ensemble.runs_in_lanes() {
             TILE_CELLS
         } else {
-            SMALL_TILE
+            SMALL_TILE_CELLS
         };
         let (fork, tiles) = (SharedBudget::default(), open.par_chunks(tile));
         let followed = tiles.map(|tile| fork.run_part(|| self.follow_tile(tile)));
@@ -71,7 +71,7 @@ impl BasinSurvey<'_> {
             self.ensemble.count_work(come.len() as u64)?;
             ended.extend(come);
             (periods, left, lost) = (next.periods, open, earlier_lost(lost, next.lost));
-            time = (time + PIECE_DURATION).min(LONGEST_PIECE);
+            time = (time + PIECE_DURATION).min(MAX_PIECE_TIME);
         }
         ended.extend(left);
         Ok((ended, lost))
@@ -89,7 +89,7 @@ impl BasinSurvey<'_> {
         let mut members: Vec<Member> = members.collect();
         let mut open: Vec<&mut Member> = members.iter_mut().collect();
         while periods < self.options.transient && !open.is_empty() && begin.elapsed() < time {
-            let stretch = PERIODS_BETWEEN_LOOKS.min(self.options.transient - periods);
+            let stretch = PERIODS_BETWEEN_CHECKS.min(self.options.transient - periods);
             periods += stretch;
             self.ensemble
                 .advance_batch::<false, false, _>(&mut open, stretch)?;

@@ -18,7 +18,7 @@ pub struct Regime {
 }
 
 /// Most drive periods after which a state is looked for again to tell a regime.
-const LONGEST_PERIOD: u64 = 64;
+const MAX_REGIME_PERIODS: u64 = 64;
 
 impl Regime {
     /// The regime z = 1: one impact in each drive period.
@@ -45,7 +45,7 @@ impl Regime {
         let settled = motion.state();
         let mut counter = ImpactCounter::default();
         let (mut states, mut counts) = (vec![settled], vec![0]);
-        for period in 1..=2 * LONGEST_PERIOD {
+        for period in 1..=2 * MAX_REGIME_PERIODS {
             motion.advance(Clock::at_cycle(transient + period), &mut counter)?;
             states.push(motion.state());
             counts.push(counter.0);

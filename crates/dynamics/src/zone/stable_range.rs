@@ -125,13 +125,13 @@ pub(super) fn stable_parts(
     branch: &Branch,
 ) -> Vec<StableRange> {
     let mut found = Vec::new();
-    let mut part = BranchPart::new((Loss::of_branch_end(&branch.ends.0), None));
+    let mut part = RangeCandidate::new((Loss::of_branch_end(&branch.ends.0), None));
     for point in in_order(branch) {
         let special = branch.special_at(point);
         let cause = special.map(|special| (Loss::at_special(&special.kind), Some(special.kind)));
         if let Some(cause) = cause.or_else(|| Some((part.impact_change(point)?, None))) {
             part.points.push(point.clone());
-            let part = std::mem::replace(&mut part, BranchPart::new(cause.clone()));
+            let part = std::mem::replace(&mut part, RangeCandidate::new(cause.clone()));
             found.extend(part.into_range(continuation, cause));
         }
         part.points.push(point.clone());
@@ -158,14 +158,14 @@ fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
 /// Why a part of a branch ends, and the special point there.
 type RangeEnd = (Loss, Option<SpecialKind>);
 
-/// A part of a branch, its points between two special ones.
-struct BranchPart {
+/// A part of a branch that may be a stable range: its points between two special ones.
+struct RangeCandidate {
     begins: RangeEnd,
     points: Vec<BranchPoint>,
 }
 
-impl BranchPart {
-    /// A part of a branch that begins so.
+impl RangeCandidate {
+    /// A part of a branch without points, with the reason for which it begins.
     fn new(begins: RangeEnd) -> Self {
         Self {
             begins,

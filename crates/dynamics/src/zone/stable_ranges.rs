@@ -22,7 +22,7 @@ const MAX_RANGE_POINTS: usize = 20_000;
 /// Share of a frequency within which motions are searched where one there is nearly one: as far as the row is wide.
 const FREE_SHARE: f64 = 0.08;
 /// Offset, as a share of a frequency, by which motions are searched beside one at which the regime changes.
-const OFFSET: f64 = 2e-3;
+const NEIGHBOUR_OFFSET: f64 = 2e-3;
 /// Shares of a frequency by which motions are searched beyond a branch's end, by the impact there.
 const BEYOND_SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// Most frequencies at which motions are searched, and most branches.
@@ -184,5 +184,8 @@ fn orbits_beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
 
 /// The two frequencies beside one.
 fn frequencies_beside(frequency: f64) -> [f64; 2] {
-    [frequency * (1.0 - OFFSET), frequency * (1.0 + OFFSET)]
+    [
+        frequency * (1.0 - NEIGHBOUR_OFFSET),
+        frequency * (1.0 + NEIGHBOUR_OFFSET),
+    ]
 }
