@@ -41,11 +41,6 @@ impl LinearLaw {
         Self::of_modes(modes, amplitude / mass, frequency)
     }
 
-    /// This law under a drive of another frequency.
-    pub(crate) fn with_frequency(&self, frequency: f64) -> Self {
-        Self::of_modes(self.modes, self.amplitude, frequency)
-    }
-
     /// This law under another drive, of this amplitude per mass.
     pub(crate) fn with_drive(&self, amplitude: f64, frequency: f64) -> Self {
         Self::of_modes(self.modes, amplitude, frequency)

@@ -74,7 +74,7 @@ impl Motion {
             push: Polynomial::default(),
             acceleration: None,
         };
-        let course = ArcSolution::held(&phases.law_of_held_mass(), departure);
+        let course = ArcSolution::held(&phases.held, departure);
         let push = phases.push(drive, &force);
         let mode = phases.mode_at(start.position, start.velocity, push, fed);
         let outlook = NextEvent::Never;
@@ -257,7 +257,7 @@ impl Motion {
         finer: Option<FinePlace>,
         chatter: Option<Chatter>,
     ) {
-        let held = || self.phases.law_of_held_mass();
+        let held = &self.phases.held;
         match (mode, chatter) {
             (Mode::Moving(phase), _) => {
                 let phase = &self.phases[phase];
@@ -275,10 +275,10 @@ impl Motion {
                 }
             }
             (Mode::Chattering(_), Some(chatter)) => {
-                self.course = ArcSolution::chattering(&held(), departure, chatter);
+                self.course = ArcSolution::chattering(held, departure, chatter);
             }
             (Mode::Held(_) | Mode::Chattering(_), _) => {
-                self.course = ArcSolution::held(&held(), departure);
+                self.course = ArcSolution::held(held, departure);
             }
         }
         (self.mode, self.is_put) = (mode, false);

@@ -1,5 +1,7 @@
 //! Restarts a motion on an arc of its own: through other phases, under another force, beside its state.
 
+use std::sync::Arc as Shared;
+
 use super::clock::{Clock, Instant};
 use super::force::Force;
 use super::motion::Motion;
@@ -9,15 +11,15 @@ use crate::flow::Polynomial;
 use crate::phases::{Mode, Phases};
 
 impl Motion {
-    /// This motion, taken up at its present state through other phases.
+    /// This motion, taken up in a state through phases under a clock, which says that it is now `at`.
     pub(super) fn restarted_through(
         &self,
-        phases: Phases,
-        clock: Clock,
+        (phases, clock): (impl Into<Shared<Phases>>, Clock),
         at: Instant,
+        state: Start,
     ) -> Result<Self, MotionError> {
         let latched = self.is_latched();
-        let motion = Self::with_force(phases, clock, at, self.state(), self.force(), latched)?;
+        let motion = Self::with_force(phases, clock, at, state, self.force(), latched)?;
         Ok(Self {
             fed: self.fed,
             pierced: self.pierced,
@@ -28,13 +30,7 @@ impl Motion {
     /// Goes on from here under another external force; true if a new arc begins. Phase, latched strip and
     /// bounces in a row stay as they are; only a held mass may be let go at once.
     pub(crate) fn set_force(&mut self, force: Polynomial) -> bool {
-        if self.keeps_bouncing(&force) {
-            self.force = Force::new(force.shifted(-self.elapsed()), self.start);
-            return false;
-        }
-        let state = self.state();
-        self.restart_under(force, state);
-        true
+        self.restart_under(force, self.state())
     }
 
     /// Goes on under another drive as well, by the same laws under that drive and its clock, which says that it is now
@@ -49,16 +45,15 @@ impl Motion {
         let (state, elapsed) = (self.state(), self.elapsed());
         (self.phases, self.clock, self.now) = (phases.into(), clock, at);
         self.start = clock.after(at, -elapsed);
-        if self.keeps_bouncing(&force) {
-            self.force = Force::new(force.shifted(-elapsed), self.start);
-            return false;
-        }
-        self.restart_under(force, state);
-        true
+        self.restart_under(force, state)
     }
 
-    /// Begins an arc in a state under an external force.
-    fn restart_under(&mut self, force: Polynomial, state: Start) {
+    /// Begins an arc in a state under an external force, unless bounces go on under it to their rest.
+    fn restart_under(&mut self, force: Polynomial, state: Start) -> bool {
+        if self.keeps_bouncing(&force) {
+            self.force = Force::new(force.shifted(-self.elapsed()), self.start);
+            return false;
+        }
         let drive = self.clock.drive(self.now);
         self.start = self.now;
         self.force = Force::new(force, self.now);
@@ -81,6 +76,7 @@ impl Motion {
             Mode::Moving(_) => {}
         }
         self.begin_arc(state, drive, self.mode);
+        true
     }
 
     /// True if the mass bounces on a rigid stop towards its rest, and another force would not keep it
@@ -100,13 +96,8 @@ impl Motion {
     pub(super) fn displace(&mut self, position: f64, velocity: f64) -> Result<(), MotionError> {
         let state = self.state();
         let start = Start::new(state.position + position, state.velocity + velocity);
-        let (phases, latched) = (self.phases.clone(), self.is_latched());
-        let motion = Self::with_force(phases, self.clock, self.now, start, self.force(), latched)?;
-        *self = Self {
-            fed: self.fed,
-            pierced: self.pierced,
-            ..motion
-        };
+        let phases = self.phases.clone();
+        *self = self.restarted_through((phases, self.clock), self.now, start)?;
         Ok(())
     }
 

@@ -258,7 +258,9 @@ impl Simulation {
             clock = Clock::new(new.frequency, angle);
             at = Clock::at_cycle(0);
         }
-        let motion = self.motion.restarted_through(scene.phases(), clock, at)?;
+        let state = self.motion.state();
+        let through = (scene.phases(), clock);
+        let motion = self.motion.restarted_through(through, at, state)?;
         self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
         if retimed {
             self.restart_clock();

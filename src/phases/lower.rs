@@ -41,6 +41,7 @@ pub(super) fn lower_scene(scene: &Scene) -> Phases {
         amplitude: drive.amplitude / scene.mass,
         frequency: drive.frequency,
         mass: scene.mass,
+        held: LinearLaw::new(scene.mass, 0.0, 0.0, drive.amplitude, drive.frequency),
         fed,
         unfed,
         below,

@@ -148,6 +148,8 @@ pub struct Phases {
     pub frequency: f64,
     /// The mass in kg.
     pub mass: f64,
+    /// The law of a mass that is held: the drive alone.
+    pub(crate) held: LinearLaw,
     fed: Stack,
     unfed: Stack,
     below: Stack,
@@ -184,21 +186,22 @@ impl Scene {
 impl Phases {
     /// Changes the frequency in rad/s of the drive, and with it no law.
     pub fn set_frequency(&mut self, frequency: f64) {
-        self.frequency = frequency;
-        for phase in &mut self.phases {
-            phase.flow = phase.flow.with_frequency(frequency);
-        }
+        self.set_drive(self.amplitude, frequency);
     }
 
     /// These laws under another drive, of this amplitude in N and frequency in rad/s.
     pub(crate) fn with_drive(&self, amplitude: f64, frequency: f64) -> Self {
         let mut phases = self.clone();
-        let amplitude = amplitude / self.mass;
-        (phases.amplitude, phases.frequency) = (amplitude, frequency);
-        for phase in &mut phases.phases {
-            phase.flow = phase.flow.with_drive(amplitude, frequency);
-        }
+        phases.set_drive(amplitude / self.mass, frequency);
         phases
+    }
+
+    fn set_drive(&mut self, amplitude: f64, frequency: f64) {
+        (self.amplitude, self.frequency) = (amplitude, frequency);
+        let flows = self.phases.iter_mut().map(|phase| &mut phase.flow);
+        for flow in flows.chain([&mut self.held]) {
+            *flow = flow.with_drive(amplitude, frequency);
+        }
     }
 }
 
@@ -258,11 +261,6 @@ impl Phases {
     pub(crate) fn walls(&self) -> impl Iterator<Item = &Surface> {
         let walls = [self.fed.wall, self.below.wall].into_iter().flatten();
         walls.map(|wall| &self[wall])
-    }
-
-    /// The law of a mass that is held: the drive alone.
-    pub(crate) fn law_of_held_mass(&self) -> LinearLaw {
-        LinearLaw::new(1.0, 0.0, 0.0, self.amplitude, self.frequency)
     }
 
     /// Push of drive and external force per mass, in m/s^2.
