@@ -122,6 +122,14 @@ fn sum_series(modes: &Modes, w: f64, time: f64) -> DoubledResponse {
         wave[n % 2][n] = sign * term;
         term *= w * time / (n + 1) as f64;
     }
+    // Of each power of the time against a wave.
+    let integrals = wave.map(|wave| -> ResponseSeries {
+        let integral = |n: usize| -> f64 {
+            let terms = wave.iter().enumerate().rev();
+            terms.map(|(j, term)| term / (n + j + 1) as f64).sum()
+        };
+        std::array::from_fn(integral)
+    });
     let mut one = [0.0; TERMS];
     one[0] = 1.0;
     let zero = [0.0; TERMS];
@@ -141,17 +149,17 @@ fn sum_series(modes: &Modes, w: f64, time: f64) -> DoubledResponse {
             Some(next) => (n + 1) as f64 * next,
             None => 0.0,
         });
-        let against = |wave: &ResponseSeries| -> f64 {
-            let power = |n: usize| -> f64 { (0..=n).map(|j| wave[j] * velocity[n - j]).sum() };
-            (0..TERMS).rev().map(|n| power(n) / (n + 1) as f64).sum()
+        let against = |integrals: &ResponseSeries| -> f64 {
+            let pairs = velocity.iter().zip(integrals).rev();
+            pairs.map(|(rate, integral)| rate * integral).sum()
         };
         let speed: f64 = velocity.iter().rev().sum();
         let rate = if time > 0.0 { speed / time } else { y[1] };
         [
             y.iter().rev().sum(),
             rate,
-            against(&wave[0]),
-            against(&wave[1]),
+            against(&integrals[0]),
+            against(&integrals[1]),
         ]
     };
     let mut found = DoubledResponse::zeros();

@@ -12,8 +12,8 @@ const STEP: f64 = 1.0 / 128.0;
 /// in the time w t, mass and dampers are w^2 and w times as large, and velocities are per radian.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PhaseDerivatives {
-    /// The parameter.
-    pub parameter: Parameter,
+    /// Derivative of the logarithm of the drive's frequency.
+    pub frequency: f64,
     pub(super) mass: f64,
     pub(super) amplitude: f64,
     pub(super) angle: f64,
@@ -39,94 +39,73 @@ impl PhaseDerivatives {
     pub fn new(parameter: Parameter, scene: &Scene, phases: &Phases) -> Result<Self, MotionError> {
         let name = parameter.name();
         let value = parameter.get(scene).ok_or(SceneError::Lacks(name))?;
-        let mut change = Self {
-            parameter,
-            mass: 0.0,
-            amplitude: 0.0,
-            angle: 0.0,
-            laws: vec![LawChange::default(); phases.phases.len()],
-            surfaces: vec![(0.0, 0.0); phases.surfaces.len()],
-        };
-        let none = MotionError::NoDerivative { name };
-        match parameter {
-            Parameter::Mass => change.mass = 1.0,
-            Parameter::Amplitude => change.amplitude = 1.0,
-            Parameter::Phase => change.angle = 1.0,
-            Parameter::Frequency => {
-                change.mass = 2.0 * scene.mass / value;
-                for (law, phase) in change.laws.iter_mut().zip(&phases.phases) {
-                    law.law.damping = phase.law.damping / value;
-                    let dissipation = phase.hertz.map_or(0.0, |hertz| hertz.dissipation);
-                    law.hertz[2] = dissipation / value;
-                }
-            }
-            Parameter::Exponent
-            | Parameter::Dissipation
-            | Parameter::BelowExponent
-            | Parameter::BelowDissipation => {
-                let (own, side) = match parameter.above() {
-                    Some(twin) => (twin, -1.0),
-                    None => (parameter, 1.0),
-                };
-                let which = if own == Parameter::Exponent { 1 } else { 2 };
-                let mut found = false;
-                for (law, phase) in change.laws.iter_mut().zip(&phases.phases) {
-                    let is_its = phase.hertz.is_some_and(|hertz| hertz.side == side);
-                    law.hertz[which] = f64::from(u8::from(is_its));
-                    found |= is_its;
-                }
-                return found.then_some(change).ok_or(none);
-            }
-            _ => {
-                let mut moved = scene.clone();
-                let step = STEP * value.abs().max(typical_size(parameter, scene));
-                parameter.set(&mut moved, value + step);
-                let step = (value + step) - value;
-                return change.difference(phases, &moved.phases(), step).ok_or(none);
-            }
-        }
-        Ok(change)
+        let mut moved = scene.clone();
+        let step = STEP * value.abs().max(typical_size(parameter, scene));
+        parameter.set(&mut moved, value + step);
+        let step = (value + step) - value;
+        let found = Self::between((scene, phases), (&moved, &moved.phases()), step);
+        found.ok_or(MotionError::NoDerivative { name })
     }
 
-    /// Sets the derivatives from the phases of two scenes `step` apart: every coefficient is linear in any one of the
-    /// other parameters, so their difference is exact.
-    fn difference(mut self, from: &Phases, to: &Phases, step: f64) -> Option<Self> {
+    /// The derivatives of a valid scene with its phases towards another one, by a parameter that is `step` larger there: every
+    /// coefficient is linear in any one parameter, so their difference is exact. None where the other is another kind of
+    /// machine.
+    pub fn between(
+        (scene, phases): (&Scene, &Phases),
+        (moved, moved_phases): (&Scene, &Phases),
+        step: f64,
+    ) -> Option<Self> {
         let slope = |from: f64, to: f64| (to - from) / step;
+        let (drive, moved_drive) = (&scene.excitation, &moved.excitation);
+        let frequency = slope(drive.frequency, moved_drive.frequency) / drive.frequency;
         let releases = |phase: &Phase| phase.kind == PhaseKind::Released;
-        let released = from.phases.iter().any(releases);
+        let released = phases.phases.iter().any(releases);
         // At zero dissipation contact may only then cease to press when there is some.
-        let mut others = to
+        let mut others = moved_phases
             .phases
             .iter()
             .filter(|phase| released || !releases(phase));
-        for (change, phase) in self.laws.iter_mut().zip(&from.phases) {
+        let mut laws = Vec::with_capacity(phases.phases.len());
+        for phase in &phases.phases {
             let other = others.next().filter(|other| other.kind == phase.kind)?;
             let (a, b) = (&phase.law, &other.law);
-            change.law = Law {
-                damping: slope(a.damping, b.damping),
+            let law = Law {
+                damping: slope(a.damping, b.damping) + frequency * a.damping,
                 stiffness: slope(a.stiffness, b.stiffness),
                 force: slope(a.force, b.force),
             };
-            if let (Some(a), Some(b)) = (&phase.hertz, &other.hertz) {
-                change.hertz[0] = slope(a.stiffness, b.stiffness);
-                change.hertz[3] = slope(a.origin, b.origin);
-            }
+            let hertz = match (&phase.hertz, &other.hertz) {
+                (Some(a), Some(b)) => [
+                    slope(a.stiffness, b.stiffness),
+                    slope(a.exponent, b.exponent),
+                    slope(a.dissipation, b.dissipation) + frequency * a.dissipation,
+                    slope(a.origin, b.origin),
+                ],
+                (None, None) => [0.0; 4],
+                _ => return None,
+            };
+            laws.push(LawChange { law, hertz });
         }
-        if others.next().is_some() || from.surfaces.len() != to.surfaces.len() {
+        if others.next().is_some() || phases.surfaces.len() != moved_phases.surfaces.len() {
             return None;
         }
         let restitution = |beyond: Beyond| match beyond {
             Beyond::Wall { restitution } => restitution,
             Beyond::Phase(_) => 0.0,
         };
-        let pairs = from.surfaces.iter().zip(&to.surfaces);
-        self.surfaces = pairs
-            .map(|(a, b)| {
-                let kept = slope(restitution(a.beyond), restitution(b.beyond));
-                (slope(a.position, b.position), kept)
-            })
-            .collect();
-        Some(self)
+        let pairs = phases.surfaces.iter().zip(&moved_phases.surfaces);
+        let surfaces = pairs.map(|(a, b)| {
+            let kept = slope(restitution(a.beyond), restitution(b.beyond));
+            (slope(a.position, b.position), kept)
+        });
+        Some(Self {
+            frequency,
+            mass: slope(scene.mass, moved.mass) + 2.0 * scene.mass * frequency,
+            amplitude: slope(drive.amplitude, moved_drive.amplitude),
+            angle: slope(drive.phase, moved_drive.phase),
+            laws,
+            surfaces: surfaces.collect(),
+        })
     }
 
     /// Derivative of the position in m of the surface at a position.

@@ -17,7 +17,9 @@ mod search;
 pub use chaos::Chaos;
 pub use region::Region;
 pub(crate) use search::end_states;
-pub use search::{classify_start, find_attractors, settle_starts, starting_box};
+pub use search::{
+    classify_start, find_attractors, find_attractors_until, settle_starts, starting_box,
+};
 
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, Orbit};

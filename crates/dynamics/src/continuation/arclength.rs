@@ -26,10 +26,10 @@ pub(crate) trait Equations {
         None
     }
 
-    /// Scaled half-width of the differences by the other unknowns.
-    fn difference_width(&self, here: &Evaluation<Self::Point>) -> f64 {
+    /// The slopes as the motion that an evaluation keeps tells them; none where it does not.
+    fn slopes_along(&self, here: &Evaluation<Self::Point>) -> Option<DMatrix<f64>> {
         let _ = here;
-        DIFFERENCE_WIDTH
+        None
     }
 
     /// True if Newton's method settles only from guesses very near.
@@ -38,14 +38,9 @@ pub(crate) trait Equations {
         false
     }
 
-    /// The residual alone beside another place, and whether nothing that breaks a derivative lies between them.
-    fn residual_beside(
-        &self,
-        here: &Self::Point,
-        at: &DVector<f64>,
-    ) -> Result<(DVector<f64>, bool), OrbitError> {
-        let _ = here;
-        Ok((self.evaluate(at)?.residual, true))
+    /// The residual alone at a place.
+    fn residual(&self, at: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
+        Ok(self.evaluate(at)?.residual)
     }
 }
 
@@ -116,9 +111,9 @@ pub(crate) fn correct_given<E: Equations>(
 /// Accuracy to which solutions are corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Accuracy {
-    /// To the last digit, with central differences.
+    /// To the last digit.
     Full,
-    /// To nine digits, with one-sided differences, and known from the place one Newton step before.
+    /// To nine digits, and known from the place one Newton step before.
     Quick,
     /// To the last digit, with the last unknown given: slopes play no part.
     Given,
@@ -165,7 +160,7 @@ pub(super) fn correct_with_slopes<E: Equations>(
             };
         let known = match exact.or(kept) {
             Some(known) => known,
-            None => slopes_at(equations, &at, &here, accuracy)?,
+            None => slopes_at(equations, &at, &here)?,
         };
         let mut right = here.residual.clone();
         let mut matrix = -equations.jacobian(&here, slopes.insert(known));
@@ -188,8 +183,8 @@ pub(super) fn correct_with_slopes<E: Equations>(
 /// Noise of the residual: how much it changes within the last digits of the unknowns, which an orbit may magnify.
 fn noise<E: Equations>(equations: &E, at: &DVector<f64>, here: &Evaluation<E::Point>) -> f64 {
     let change = |digits: &f64| {
-        let there = equations.residual_beside(&here.point, &(at * (1.0 + digits * f64::EPSILON)));
-        there.map_or(0.0, |(there, _)| (there - &here.residual).norm())
+        let there = equations.residual(&(at * (1.0 + digits * f64::EPSILON)));
+        there.map_or(0.0, |there| (there - &here.residual).norm())
     };
     NOISE_PROBES.iter().map(change).fold(0.0, f64::max)
 }
@@ -222,17 +217,7 @@ pub(crate) fn curve_tangent<E: Equations>(
     node: &Node<E::Point>,
     along: &DVector<f64>,
 ) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-    curve_tangent_with(equations, node, along, Accuracy::Full)
-}
-
-/// Unit tangent of a solution curve at a node, with slopes of this accuracy.
-pub(super) fn curve_tangent_with<E: Equations>(
-    equations: &E,
-    node: &Node<E::Point>,
-    along: &DVector<f64>,
-    accuracy: Accuracy,
-) -> Result<(DVector<f64>, DMatrix<f64>), OrbitError> {
-    let slopes = slopes_at(equations, &node.at, &node.here, accuracy)?;
+    let slopes = slopes_at(equations, &node.at, &node.here)?;
     let matrix = border_matrix(&equations.jacobian(&node.here, &slopes), along);
     let mut right = DVector::zeros(node.at.len());
     right[node.at.len() - 1] = 1.0;
@@ -242,36 +227,32 @@ pub(super) fn curve_tangent_with<E: Equations>(
     }
 }
 
-/// Slopes at a place: derivatives of the residual by unknowns beyond the [`Equations::EXACT`] first ones, exact where
-/// the system knows them, else central differences, or one-sided where that is enough or all that is possible.
+/// Slopes at a place: derivatives of the residual by unknowns beyond the [`Equations::EXACT`] first ones, exact where the
+/// system knows them, otherwise differences, one-sided where there is no machine on the other side.
 pub(super) fn slopes_at<E: Equations>(
     equations: &E,
     at: &DVector<f64>,
     here: &Evaluation<E::Point>,
-    accuracy: Accuracy,
 ) -> Result<DMatrix<f64>, OrbitError> {
-    if let Some(exact) = equations.exact_slopes(here) {
+    let exact = equations.exact_slopes(here);
+    if let Some(exact) = exact.or_else(|| equations.slopes_along(here)) {
         return Ok(exact);
     }
-    let width = equations.difference_width(here);
-    let mut columns = Vec::new();
-    for unknown in E::EXACT..at.len() {
+    let column = |unknown: usize| {
         let beside = |shift: f64| {
             let mut at = at.clone();
             at[unknown] += shift;
-            equations.residual_beside(&here.point, &at)
+            equations.residual(&at)
         };
-        let one_sided = |there: DVector<f64>, shift: f64| (there - &here.residual) / shift;
-        let ahead = beside(width);
-        columns.push(match (ahead, accuracy) {
-            (Ok((ahead, true)), Accuracy::Quick) => one_sided(ahead, width),
-            (ahead, _) => match (ahead, beside(-width)) {
-                (Ok((ahead, a)), Ok((behind, b))) if a == b => (ahead - behind) / (2.0 * width),
-                (Ok((ahead, true)), _) | (Ok((ahead, _)), Err(_)) => one_sided(ahead, width),
-                (_, Ok((behind, _))) => one_sided(behind, -width),
-                (Err(error), Err(_)) => return Err(error),
-            },
-        });
-    }
-    Ok(DMatrix::from_columns(&columns))
+        match (beside(DIFFERENCE_WIDTH), beside(-DIFFERENCE_WIDTH)) {
+            (Ok(ahead), Ok(behind)) => Ok((ahead - behind) / (2.0 * DIFFERENCE_WIDTH)),
+            (Ok(ahead), Err(_)) => Ok((ahead - &here.residual) / DIFFERENCE_WIDTH),
+            (Err(_), Ok(behind)) => Ok((&here.residual - behind) / DIFFERENCE_WIDTH),
+            (Err(error), Err(_)) => Err(error),
+        }
+    };
+    let columns = (E::EXACT..at.len()).map(column);
+    Ok(DMatrix::from_columns(
+        &columns.collect::<Result<Vec<_>, _>>()?,
+    ))
 }

@@ -173,7 +173,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
         let origin = self.place_of(origin)?;
-        let mut grazing_test = GrazingTest::of_node(&self.shooting, &start)?;
+        let mut grazing_test = GrazingTest::of_node(&self.shooting, &start);
         let mut stepper = Stepper::new(&self.shooting, start, along, self.largest)?;
         let mut crawled = 0;
         // Since the last corner, if one was passed.
@@ -184,7 +184,7 @@ impl<'a, F: Family> Continuation<'a, F> {
                 return Ok(None);
             }
             let step = stepper.attempt_step().and_then(|step| {
-                let ahead = GrazingTest::of_node(&self.shooting, &step.node)?;
+                let ahead = GrazingTest::of_node(&self.shooting, &step.node);
                 if !self.may_take_step(&stepper, &step, (&grazing_test, &ahead)) {
                     return Err(OrbitError::LOST);
                 }
@@ -238,7 +238,7 @@ impl<'a, F: Family> Continuation<'a, F> {
                     let beyond = self
                         .specials_of_corner(step.0, step.1)
                         .and_then(|specials| {
-                            let ahead = GrazingTest::of_node(&self.shooting, &node)?;
+                            let ahead = GrazingTest::of_node(&self.shooting, &node);
                             let end = self.record_step(way, step, specials, &origin, limits)?;
                             let mut next =
                                 Stepper::new(&self.shooting, node.clone(), &along, self.largest)?;

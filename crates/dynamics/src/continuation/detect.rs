@@ -178,8 +178,7 @@ impl<F: Family> Continuation<'_, F> {
     ) -> Result<Option<(f64, Special)>, OrbitError> {
         let way = &to.at - &from.at;
         for node in [from, to] {
-            for special in
-                GrazingTest::of_node(&self.shooting, node)?.grazing_orbits(&self.shooting)
+            for special in GrazingTest::of_node(&self.shooting, node).grazing_orbits(&self.shooting)
             {
                 let at = self.place_of(&special.point)?;
                 let (share, off) = along_chord((&from.at, &way), &at);

@@ -62,14 +62,10 @@ impl<F: Family<N>, const N: usize> Equations for GrazingOrbit<'_, F, N> {
         })
     }
 
-    fn residual_beside(
-        &self,
-        _: &SectionPoint,
-        at: &DVector<f64>,
-    ) -> Result<(DVector<f64>, bool), OrbitError> {
+    fn residual(&self, at: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
         let (scene, position) = self.section.scene_at(at[0], self.section.parameters(at))?;
         let touch = Vector2::new(position, 0.0);
         let (drift, _) = self.section.carry_around(&scene, touch)?;
-        Ok((DVector::from_column_slice(drift.as_slice()), true))
+        Ok(DVector::from_column_slice(drift.as_slice()))
     }
 }

@@ -14,7 +14,7 @@ use super::shooting::Shooting;
 use crate::orbit::OrbitError;
 use crate::period::PeriodTrajectory;
 use crate::period::turn::turning_points;
-use softstop::{Crossing, CrossingKind, MotionError, Scene};
+use softstop::{Crossing, CrossingKind, Scene};
 
 /// A grazing test of an orbit: its slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
@@ -40,21 +40,18 @@ pub(crate) struct GrazingTest {
 
 impl GrazingTest {
     /// The grazing test of the orbit at a node.
-    pub fn of_node<F: Family>(
-        shooting: &Shooting<'_, F, 1>,
-        node: &Node<PeriodMap>,
-    ) -> Result<Self, MotionError> {
-        let scene = shooting.scene_at(&node.at)?;
+    pub fn of_node<F: Family>(shooting: &Shooting<'_, F, 1>, node: &Node<PeriodMap>) -> Self {
         let round = &node.here.point;
+        let scene = &round.scene;
         let total = round.sequence.crossing_count();
         let motion = &round.trajectory;
         let taken = round
             .slowest
             .map_or(0, |touch| crossings_with(motion, touch.time));
-        Ok(Self {
+        Self {
             dying: round.slowest,
-            gentle: Face::ALL.map(|face| face.is_gentle(&scene)),
-            rising: nearest_turn(motion, &scene),
+            gentle: Face::ALL.map(|face| face.is_gentle(scene)),
+            rising: nearest_turn(motion, scene),
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
             drive: (scene.excitation.phase, scene.excitation.frequency),
@@ -62,7 +59,7 @@ impl GrazingTest {
             speed: shooting.velocity_scale(),
             losses: [0.0; 2],
             grazes: OnceCell::new(),
-        })
+        }
     }
 
     /// This grazing test with what its distances have lost on the step from the test before.

@@ -87,7 +87,7 @@ pub(crate) fn solve_zero<E: Equations>(
                 (0.0..=along(&to.at)).contains(&place) && is_beside((&from.at, &way), &at);
             return is_between.then_some(Node { at, here }).ok_or(lost(size));
         }
-        let slopes = slopes_at(equations, &at, &here, Accuracy::Full)?;
+        let slopes = slopes_at(equations, &at, &here)?;
         let matrix = border_matrix(&equations.jacobian(&here, &slopes), &chord);
         let step = solve_linear(matrix, &(-here.residual).push(onward));
         at += step.ok_or(lost(size))?;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc as Shared;
 
-use nalgebra::Vector2;
+use nalgebra::{DVector, Vector2};
 
 use super::face::NearTouch;
 use super::sequence::{CountedCrossings, Sequence};
@@ -14,6 +14,10 @@ use softstop::{Arc, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scen
 /// The period map of a state: its image after some drive periods from time 0, derivatives, and what happens on the way.
 #[derive(Debug, Clone)]
 pub(crate) struct PeriodMap {
+    /// The unknowns that it belongs to.
+    pub place: DVector<f64>,
+    /// Its machine.
+    pub scene: Shared<Scene>,
     /// Where the map begins: the state, or the face of a rigid stop for a state beyond it.
     pub start: Vector2<f64>,
     /// Exact Jacobian of the map.
@@ -33,16 +37,19 @@ pub(crate) struct PeriodMap {
 }
 
 impl PeriodMap {
-    /// The period map of a valid scene, with its phases, from a state; by the drive's frequency, too, if wanted.
+    /// The period map of a valid scene, with its phases, from unknowns and the state that they are; with its derivative by
+    /// the drive's frequency if that is wanted.
     pub fn from_state(
-        machine: (&Scene, Shared<Phases>),
+        (scene, phases): (Scene, Shared<Phases>),
         periods: u64,
-        state: Vector2<f64>,
+        (place, state): (&DVector<f64>, Vector2<f64>),
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
-        let scene = machine.0;
-        let start = before_wall(scene, state);
-        let trajectory = follow_periods(machine, periods, state)?;
+        let start = before_wall(&scene, state);
+        let over = |motion: &mut Motion, kept: &mut PeriodTrajectory| {
+            carry_through(motion, Clock::at_cycle(periods), kept)
+        };
+        let trajectory = PeriodTrajectory::record((phases, scene.clock()), start, over)?;
         let mut sensitivity = FrequencySensitivity::default();
         if by_frequency {
             trajectory.replay(&mut sensitivity);
@@ -57,8 +64,9 @@ impl PeriodMap {
         let (lowest, highest) = scene.reach();
         let at_wall = start.x == lowest || start.x == highest;
         let margin = crossing_margin(&trajectory, periods);
-        let crossings = CountedCrossings::of_motion(scene, &trajectory);
+        let crossings = CountedCrossings::of_motion(&scene, &trajectory);
         Ok(Self {
+            place: place.clone(),
             start,
             // Whatever comes to rest at a rigid stop goes on alike.
             monodromy: match at_wall && margin == 0.0 {
@@ -67,9 +75,10 @@ impl PeriodMap {
             },
             by_frequency: by_frequency.flatten(),
             impacts: crossings.impact_velocities().collect(),
-            sequence: crossings.count_crossings(scene),
+            sequence: crossings.count_crossings(&scene),
             slowest: crossings.slowest_crossing(),
             margin,
+            scene: scene.into(),
             trajectory: trajectory.into(),
         })
     }
@@ -88,30 +97,6 @@ fn crossing_margin(trajectory: &PeriodTrajectory, periods: u64) -> f64 {
     times.fold(f64::INFINITY, |margin, time| {
         margin.min(time).min(periods as f64 - time)
     })
-}
-
-/// The image alone of a state under the period map, and how often the motion crosses what, without any derivative.
-pub(crate) fn period_image(
-    machine: (&Scene, Shared<Phases>),
-    periods: u64,
-    state: Vector2<f64>,
-) -> Result<(Vector2<f64>, Sequence), MotionError> {
-    let scene = machine.0;
-    let trajectory = follow_periods(machine, periods, state)?;
-    let sequence = CountedCrossings::of_motion(scene, &trajectory).count_crossings(scene);
-    Ok((trajectory.end, sequence))
-}
-
-/// Follows a motion over the periods, from a state or from the face of a rigid stop for a state beyond it.
-fn follow_periods(
-    (scene, phases): (&Scene, Shared<Phases>),
-    periods: u64,
-    state: Vector2<f64>,
-) -> Result<PeriodTrajectory, MotionError> {
-    let over = |motion: &mut Motion, kept: &mut PeriodTrajectory| {
-        carry_through(motion, Clock::at_cycle(periods), kept)
-    };
-    PeriodTrajectory::record((phases, scene.clock()), before_wall(scene, state), over)
 }
 
 /// The state of a valid scene, with its phases, so many drive periods after one at time 0.

@@ -9,10 +9,10 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{DIFFERENCE_WIDTH, Equations, Evaluation};
-use super::period_map::{PeriodMap, period_image};
+use super::period_map::PeriodMap;
 use super::test::Test;
-use crate::orbit::OrbitError;
-use softstop::internals::Phases;
+use crate::orbit::{Monodromy, OrbitError};
+use softstop::internals::{ParameterSensitivity, PhaseDerivatives, Phases};
 use softstop::{MotionError, Scene};
 
 /// The shooting for orbits of a family over drive periods, in scaled unknowns: position, velocity, parameters.
@@ -96,10 +96,9 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
         self.family.by_frequency().iter().all(Option::is_some)
     }
 
-    /// The scaled residual of a state whose image is `end`.
-    fn scaled_residual(&self, state: Vector2<f64>, end: Vector2<f64>) -> DVector<f64> {
-        let gap = end - state;
-        DVector::from_vec(vec![gap.x / self.scales[0], gap.y / self.scales[1]])
+    /// A change of the state in units of the family's scales.
+    fn scaled_change(&self, change: Vector2<f64>) -> Vector2<f64> {
+        change.component_div(&self.scales.fixed_rows::<2>(0))
     }
 
     /// Typical size of the velocity in m/s.
@@ -122,25 +121,17 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<PeriodMap>, OrbitError> {
         let state = self.state_at(at);
         let scene = self.scene_at(at)?;
-        let machine = (&scene, self.lower_phases(&scene));
-        let round = PeriodMap::from_state(machine, self.periods, state, self.is_by_frequency())?;
+        let phases = self.lower_phases(&scene);
+        let start = (at, state);
+        let round =
+            PeriodMap::from_state((scene, phases), self.periods, start, self.is_by_frequency())?;
+        let gap = round.trajectory.end - state;
+        let sizes = self.family.state_scales();
         Ok(Evaluation {
-            residual: self.scaled_residual(state, round.trajectory.end),
-            tolerance: round_off(&scene, &state, &round.monodromy, self.family.state_scales()),
+            residual: DVector::from_column_slice(self.scaled_change(gap).as_slice()),
+            tolerance: round_off(&round.scene, &state, &round.monodromy, sizes),
             point: round,
         })
-    }
-
-    fn residual_beside(
-        &self,
-        here: &PeriodMap,
-        at: &DVector<f64>,
-    ) -> Result<(DVector<f64>, bool), OrbitError> {
-        let state = self.state_at(at);
-        let scene = self.scene_at(at)?;
-        let (end, sequence) =
-            period_image((&scene, self.lower_phases(&scene)), self.periods, state)?;
-        Ok((self.scaled_residual(state, end), sequence == here.sequence))
     }
 
     /// The exact Jacobian of the residual: that of the map, and the slopes.
@@ -153,15 +144,6 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         })
     }
 
-    /// Half-width of differences: near grazing the map bends within the square of the touch's speed.
-    fn difference_width(&self, here: &Evaluation<PeriodMap>) -> f64 {
-        let size = self.growth(&here.point.monodromy);
-        let speed = self.velocity_scale();
-        let touch = here.point.slowest.map_or(1.0, |touch| touch.amount / speed);
-        let share = (GRAZING_GROWTH / size).min(touch / SLOW_TOUCH).powi(2);
-        DIFFERENCE_WIDTH * share.clamp(MIN_WIDTH_SHARE, 1.0)
-    }
-
     /// True if small changes of the state grow a hundredfold and more, though the orbit grazes nothing.
     fn is_steep(&self, here: &PeriodMap) -> bool {
         let speed = self.velocity_scale();
@@ -172,25 +154,56 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     }
 
     fn exact_slopes(&self, here: &Evaluation<PeriodMap>) -> Option<DMatrix<f64>> {
-        let change = here.point.by_frequency?;
-        let change = change.component_div(&self.scales.fixed_rows::<2>(0));
+        let change = self.scaled_change(here.point.by_frequency?);
         let mut slopes = DMatrix::zeros(2, N);
         for (index, unit) in self.family.by_frequency().into_iter().enumerate() {
             slopes.set_column(index, &(change * (unit? * self.scales[2 + index])));
         }
         Some(slopes)
     }
+
+    fn slopes_along(&self, here: &Evaluation<PeriodMap>) -> Option<DMatrix<f64>> {
+        let PeriodMap {
+            scene,
+            trajectory,
+            start,
+            ..
+        } = &here.point;
+        let by = (2..2 + N).map(|unknown| {
+            let towards = |step: f64| {
+                let mut residual_beside = here.point.place.clone();
+                residual_beside[unknown] += step;
+                let moved = self.scene_at(&residual_beside).ok()?;
+                let machine = (&**scene, &*trajectory.phases);
+                PhaseDerivatives::between(machine, (&moved, &moved.phases()), step)
+            };
+            towards(DIFFERENCE_WIDTH).or_else(|| towards(-DIFFERENCE_WIDTH))
+        });
+        let by = by.collect::<Option<Vec<_>>>()?;
+        let mut sensitivity = ParameterSensitivity::new(&trajectory.phases, &by);
+        trajectory.replay(&mut sensitivity);
+        let [from_position, from_velocity, forced @ ..] = sensitivity.columns()? else {
+            return None;
+        };
+        let slopes = forced.iter().zip(&by).map(|(forced, by)| {
+            // Velocities are per radian there; a mass at rest at a wall begins where that stands.
+            let faster = by.frequency * Vector2::new(0.0, trajectory.end.y)
+                - by.frequency * start.y * from_velocity.xy();
+            let moved = match here.point.monodromy == Monodromy::ZERO {
+                true => by.surface_derivative(&trajectory.phases, start.x) * from_position.xy(),
+                false => Vector2::zeros(),
+            };
+            self.scaled_change(forced.xy() + faster + moved)
+        });
+        let slopes: Vec<_> = slopes.collect();
+        Some(DMatrix::from_fn(2, N, |row, column| slopes[column][row]))
+    }
 }
 
-/// Norm of a Jacobian from which on its orbit is taken to be near grazing.
-const GRAZING_GROWTH: f64 = 10.0;
 /// Trace of a Jacobian from which on a guess must be very near.
 const UNSTABLE_TRACE: f64 = 100.0;
 /// Scaled speed of a touch up to which an orbit is near grazing.
 const SLOW_TOUCH: f64 = 0.01;
-/// The smallest share of the usual width that rounding leaves good for a difference.
-const MIN_WIDTH_SHARE: f64 = 1e-5;
-
 /// What rounding alone may leave of the residual P(s) - s, in units of `sizes`.
 pub(crate) fn round_off(
     scene: &Scene,

@@ -27,6 +27,9 @@ const GRAZING_AHEAD: f64 = 1e-2;
 const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Scaled distances ahead at which a rest is looked for, where the orbits of a branch come to lie side by side.
 const REST_DISTANCES: [f64; 3] = [1e-4, 1e-3, 1e-2];
+/// Value of the fold test up to which orbits with a mass that is held on the way are taken to lie side by side, as where it is held for
+/// good: what it slips by then changes with the square of what is left.
+const SIDE_BY_SIDE: f64 = 1e-4;
 /// Norm of a monodromy matrix beyond which rounding decides on which side of a grazing an orbit is.
 const WILD_GROWTH: f64 = 1e8;
 /// Length of a step below which all changes but those of the sequence are taken.
@@ -83,6 +86,7 @@ impl<F: Family> Continuation<'_, F> {
             let beyond = self.shooting.evaluate(&there).ok()?;
             node.here.point.sequence.border_to(&beyond.point.sequence)
         };
+        let slips_little = || slips_within(2.0 * SIDE_BY_SIDE, &node.here.point);
         let behind = BORDER_DISTANCES.map(|reach| -reach);
         let mut near = BORDER_DISTANCES.into_iter().chain(behind);
         let held = || {
@@ -91,6 +95,7 @@ impl<F: Family> Continuation<'_, F> {
         };
         near.find_map(border)
             .or_else(|| held().filter(|_| *error == OrbitError::NotIsolated))
+            .or_else(|| slips_little().then_some(BorderCollision::Rest))
     }
 
     /// True if nothing can be missed on a step of a branch.
@@ -103,6 +108,7 @@ impl<F: Family> Continuation<'_, F> {
         let (from, to) = (&stepper.node.here.point, &step.node.here.point);
         let same = from.sequence.has_same_jumps(&to.sequence)
             && self.shooting.growth(&to.monodromy) < WILD_GROWTH
+            && !slips_within(SIDE_BY_SIDE, to)
             && (keeps_sense(
                 (&stepper.direction, &from.monodromy),
                 (&step.direction, &to.monodromy),
@@ -176,4 +182,9 @@ impl<F: Family> Continuation<'_, F> {
         let mut grazes = grazing_test.grazing_orbits(&self.shooting).iter();
         grazes.find(is_ahead).cloned()
     }
+}
+
+/// True if a mass is held on the way and the fold test is less than `near`.
+fn slips_within(near: f64, map: &PeriodMap) -> bool {
+    map.sequence.holds > 0 && Test::Fold.scaled_value(&map.monodromy).abs() < near
 }

@@ -2,9 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::arclength::{
-    Accuracy, Equations, Node, correct_with_slopes, curve_tangent, curve_tangent_with,
-};
+use super::arclength::{Accuracy, Equations, Node, correct_with_slopes, curve_tangent};
 use crate::orbit::OrbitError;
 
 /// First step along a curve, in arclength.
@@ -96,8 +94,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
         let mut slopes = Some(self.slopes.clone());
         let (equations, across) = (self.equations, Some(&self.direction));
         let node = correct_with_slopes(equations, &guess, across, &mut slopes, self.accuracy)?;
-        let (direction, slopes) =
-            curve_tangent_with(equations, &node, &self.direction, self.accuracy)?;
+        let (direction, slopes) = curve_tangent(equations, &node, &self.direction)?;
         let turn = direction.dot(&self.direction);
         let leaps = (&node.at - &self.node.at).norm() > LONGEST_CHORD * self.step;
         let (largest, growth) = match self.accuracy {

@@ -5,7 +5,9 @@ use std::sync::Arc as Shared;
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::internals::{ArcSolution, Beyond, Mode, Motion, PhaseId, Phases, Surface, saltation};
+use softstop::internals::{
+    ArcSolution, Beyond, Departure, Mode, Motion, PhaseId, Phases, Polynomial, Surface, saltation,
+};
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Start, Tangent,
 };
@@ -75,6 +77,19 @@ impl ContactFace {
             .acceleration(phase, self.face_position(), velocity, push)
     }
 
+    /// The free motion from the face, at an instant with a velocity in m/s, as if there were no stop.
+    fn free_course(&self, at: Instant, velocity: f64) -> ArcSolution {
+        let free = &self.phases[PhaseId::FREE];
+        let departure = Departure {
+            position: self.face_position(),
+            velocity,
+            drive: self.clock.drive(at),
+            push: Polynomial::linear(free.law.force / self.phases.mass, 0.0),
+            acceleration: None,
+        };
+        ArcSolution::new(&free.flow, departure)
+    }
+
     /// A motion that begins at the face, at an instant with a velocity in m/s.
     pub(super) fn release(&self, at: Instant, velocity: f64) -> Result<Motion, MotionError> {
         let start = Start::new(self.face_position(), velocity);
@@ -89,7 +104,8 @@ impl ContactFace {
         longest: f64,
     ) -> Result<Option<ContactPassage>, MotionError> {
         let before = self.free_acceleration_at_face(at, velocity);
-        let Some(entry) = self.enter_contact(at, velocity)? else {
+        let mut contact = self.begin_contact(at, velocity)?;
+        let Some(entry) = self.enter_contact(at, velocity, contact.as_ref()) else {
             return Ok(None);
         };
         let (velocity_after, after) = (entry.velocity_after, entry.acceleration);
@@ -102,7 +118,8 @@ impl ContactFace {
             acceleration_before: before,
             acceleration_after: after,
         });
-        let Some(exit) = self.exit_contact::<Tangent>(at, entry, longest)? else {
+        let begin = (at, velocity_after);
+        let Some(exit) = self.exit_contact::<Tangent>(begin, contact.as_mut(), longest)? else {
             return Ok(None);
         };
         let by_time = -Vector2::new(velocity_after, after);
@@ -125,11 +142,21 @@ impl ContactFace {
         velocity: f64,
         longest: f64,
     ) -> Result<Option<(Instant, ArcSolution)>, MotionError> {
-        let Some(entry) = self.enter_contact(at, velocity)? else {
+        let mut contact = self.begin_contact(at, velocity)?;
+        let Some(entry) = self.enter_contact(at, velocity, contact.as_ref()) else {
             return Ok(None);
         };
-        let exit = self.exit_contact::<()>(at, entry, longest)?;
+        let begin = (at, entry.velocity_after);
+        let exit = self.exit_contact::<()>(begin, contact.as_mut(), longest)?;
         Ok(exit.map(|exit| (exit.instant, exit.course)))
+    }
+
+    /// The motion in contact after an impact; none where the face is rigid.
+    fn begin_contact(&self, at: Instant, velocity: f64) -> Result<Option<Motion>, MotionError> {
+        match self.surface.beyond {
+            Beyond::Wall { .. } => Ok(None),
+            Beyond::Phase(_) => self.release(at, velocity).map(Some),
+        }
     }
 
     /// The impact that a contact begins with; none if the mass rests from there on.
@@ -137,9 +164,10 @@ impl ContactFace {
         &self,
         at: Instant,
         velocity: f64,
-    ) -> Result<Option<ContactEntry>, MotionError> {
-        let entry = match self.surface.beyond {
-            Beyond::Wall { restitution } => {
+        contact: Option<&Motion>,
+    ) -> Option<ContactEntry> {
+        let entry = match (self.surface.beyond, contact.map(Motion::mode)) {
+            (Beyond::Wall { restitution }, _) => {
                 let velocity_after = -restitution * velocity;
                 ContactEntry {
                     kind: CrossingKind::Rebound {
@@ -148,38 +176,31 @@ impl ContactFace {
                     },
                     velocity_after,
                     acceleration: self.free_acceleration_at_face(at, velocity_after),
-                    contact: None,
                 }
             }
-            Beyond::Phase(_) => {
-                let motion = self.release(at, velocity)?;
-                let Mode::Moving(phase) = motion.mode() else {
-                    return Ok(None);
-                };
-                ContactEntry {
-                    kind: CrossingKind::Surface {
-                        forward: true,
-                        impact: true,
-                        pierces: false,
-                    },
-                    velocity_after: velocity,
-                    acceleration: self.acceleration_at_face(phase, at, velocity),
-                    contact: Some(motion),
-                }
-            }
+            (Beyond::Phase(_), Some(Mode::Moving(phase))) => ContactEntry {
+                kind: CrossingKind::Surface {
+                    forward: true,
+                    impact: true,
+                    pierces: false,
+                },
+                velocity_after: velocity,
+                acceleration: self.acceleration_at_face(phase, at, velocity),
+            },
+            _ => return None,
         };
-        Ok((entry.velocity_after != 0.0).then_some(entry))
+        (entry.velocity_after != 0.0).then_some(entry)
     }
 
-    /// Follows a contact to its end: when the mass is free, its free motion, and what an observer gathered.
+    /// Follows a contact from right after its impact to its end.
     fn exit_contact<T: Observer + Default>(
         &self,
-        at: Instant,
-        entry: ContactEntry,
+        begin: (Instant, f64),
+        contact: Option<&mut Motion>,
         longest: f64,
     ) -> Result<Option<ContactExit<T>>, MotionError> {
-        let (gathered, found) = match entry.contact {
-            None => (T::default(), Some((at, entry.velocity_after))),
+        let (gathered, found) = match contact {
+            None => (T::default(), Some(begin)),
             Some(motion) => self.follow_contact(motion, longest)?,
         };
         let Some((instant, velocity)) = found.filter(|(_, velocity)| *velocity < 0.0) else {
@@ -188,14 +209,14 @@ impl ContactFace {
         Ok(Some(ContactExit {
             gathered,
             instant,
-            course: self.release(instant, velocity)?.arc().course.clone(),
+            course: self.free_course(instant, velocity),
         }))
     }
 
     /// Follows a mass in contact until it is free: what an observer gathers, when that is, and its velocity in m/s.
     fn follow_contact<T: Observer + Default>(
         &self,
-        mut motion: Motion,
+        motion: &mut Motion,
         longest: f64,
     ) -> Result<(T, Option<(Instant, f64)>), MotionError> {
         let at = motion.now();
@@ -210,14 +231,13 @@ impl ContactFace {
     }
 }
 
-/// The impact that begins a contact, and the motion in contact after it, unless the face is rigid.
+/// The impact that begins a contact.
 struct ContactEntry {
     kind: CrossingKind,
     /// Velocity in m/s right after it.
     velocity_after: f64,
     /// Acceleration in m/s^2 right after it.
     acceleration: f64,
-    contact: Option<Motion>,
 }
 
 /// The end of a contact: what was gathered up to there, when the mass is free, and its free motion from there on.

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use softstop::internals::{ParameterSensitivity, Phase, PhaseDerivatives, PhaseId, Phases};
-use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Parameter, PhaseKind};
+use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, PhaseKind};
 
 use super::differentiated_figure::DifferentiatedFigure;
 use super::force_peaks::force_peaks;
@@ -26,7 +26,6 @@ pub(super) struct FigureRecorder<'a> {
     phases: &'a Phases,
     by: &'a [PhaseDerivatives],
     clock: Clock,
-    frequency: f64,
     /// The phase of the last arc.
     phase: Option<PhaseId>,
     /// Delays of the last crossing by each unknown, and the acceleration in m/s^2 after it.
@@ -42,7 +41,6 @@ impl<'a> FigureRecorder<'a> {
             phases,
             by,
             clock,
-            frequency: phases.frequency,
             phase: None,
             edge: None,
         }
@@ -51,9 +49,7 @@ impl<'a> FigureRecorder<'a> {
     /// A figure with its derivatives, and how the drive's frequency changes it where the drive angle is held.
     fn figure_row(&self, value: f64, mut by: Vec<f64>, with_time: f64) -> DifferentiatedFigure {
         for (part, by) in by.iter_mut().skip(2).zip(self.by) {
-            if by.parameter == Parameter::Frequency {
-                *part += with_time / self.frequency;
-            }
+            *part += by.frequency * with_time;
         }
         DifferentiatedFigure { value, by }
     }

@@ -3,9 +3,8 @@
 use anyhow::{Error, anyhow};
 use nalgebra::Vector2;
 use softstop::Scene;
-use softstop_dynamics::attractors::{SearchOptions, find_attractors};
-use softstop_dynamics::zone::find_with_monitor;
-use softstop_dynamics::{Orbit, Regime};
+use softstop_dynamics::attractors::{SearchOptions, find_attractors_until};
+use softstop_dynamics::{MotionKind, Orbit, Regime, orbit, zone};
 
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -47,10 +46,13 @@ pub fn state(text: &str) -> Result<Vector2<f64>, String> {
         .ok_or_else(|| "must be X,V: two finite numbers".to_owned())
 }
 
-/// The stable orbit of this regime with the largest share of starts.
+/// A stable orbit of this regime. Of 1/1 the one with the hardest impact that shows at the frequency of the drive, or else on
+/// branches that lead there from other frequencies; of others the first that motions from starts far and wide settle on, or else
+/// from starts where these motions stay.
 pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
     if wanted == Regime::ONE
-        && let Ok(orbit) = find_with_monitor(scene, &interrupt::watch)
+        && let Ok(orbit) = orbit::find_with_monitor(scene, &interrupt::watch)
+            .or_else(|_| zone::find_with_monitor(scene, &interrupt::watch))
     {
         return Ok(orbit);
     }
@@ -60,7 +62,8 @@ pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
         ..SearchOptions::default()
     };
     let bar = Progress::new(1, "drive periods at most, in search of the orbit");
-    let survey = find_attractors(scene, &options, &|done, planned| {
+    let is_enough = |orbit: &Orbit| MotionKind::of(orbit).regime() == Some(wanted);
+    let survey = find_attractors_until(scene, &options, is_enough, &|done, planned| {
         bar.at_of(done, planned);
         interrupt::go_on()
     });
@@ -69,7 +72,7 @@ pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
     let mut others = Vec::new();
     for attractor in survey.attractors {
         match attractor.orbit {
-            Some(orbit) if attractor.motion.regime() == Some(wanted) => return Ok(*orbit),
+            Some(orbit) if is_enough(&orbit) => return Ok(*orbit),
             _ => others.push(attractor.motion.to_string()),
         }
     }

@@ -14,7 +14,7 @@ use crate::ensemble::Ensemble;
 use crate::member::{Member, MemberStatus};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::find_return;
-use crate::orbit::{self, Exponents, OrbitError};
+use crate::orbit::{self, Exponents, Orbit, OrbitError};
 use softstop::{Scene, Start};
 
 /// Starts of the pilot, which shows where motions stay.
@@ -78,16 +78,36 @@ pub fn find_attractors(
     options: &SearchOptions,
     monitor: Monitor<'_>,
 ) -> Result<Survey, OrbitError> {
+    find_attractors_until(scene, options, |_| false, monitor)
+}
+
+/// The motions on which a scene settles, until a stable orbit is met that is enough: that is asked after the starts from far
+/// and wide, which count in no share, and again before motions that do not settle are watched.
+///
+/// # Errors
+/// As [`find_attractors`].
+pub fn find_attractors_until(
+    scene: &Scene,
+    options: &SearchOptions,
+    is_enough: impl Fn(&Orbit) -> bool,
+    monitor: Monitor<'_>,
+) -> Result<Survey, OrbitError> {
     let mut search = Search::new(scene, options, monitor)?;
     let run = options.transient + search.log_length() as u64;
     search.ensemble.planned = run * (options.starts + PILOTS) as u64 + search.watch_periods();
-    search.launch_starts(Region::pilot(scene).starts(PILOTS, options.seed), false)?;
+    let pilot = Region::pilot(scene);
+    search.launch_starts(pilot.starts(PILOTS, options.seed), false)?;
+    if search.knows(&is_enough) {
+        return search.into_survey(pilot);
+    }
     let region = options
         .region
         .or_else(|| Region::about_states(scene, search.end_states()));
-    let region = region.unwrap_or_else(|| Region::pilot(scene));
+    let region = region.unwrap_or(pilot);
     search.launch_starts(region.starts(options.starts, options.seed), true)?;
-    search.watch_wandering()?;
+    if !search.knows(&is_enough) {
+        search.watch_wandering()?;
+    }
     search.into_survey(region)
 }
 
@@ -190,6 +210,12 @@ impl<'a> Search<'a> {
             true => self.options.patience,
             false => self.options.patience / SLOW_WATCH_DIVISOR,
         }
+    }
+
+    /// True if it knows a stable orbit that is enough.
+    fn knows(&self, is_enough: impl Fn(&Orbit) -> bool) -> bool {
+        let mut known = self.catalogue.orbits.iter();
+        known.any(|known| is_enough(&known.orbit))
     }
 
     /// Where motions of the search stay: the states of the orbits at which they have arrived, or their last states.
