@@ -171,9 +171,9 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         } = &here.point;
         let by = (2..2 + N).map(|unknown| {
             let towards = |step: f64| {
-                let mut residual_beside = here.point.place.clone();
-                residual_beside[unknown] += step;
-                let moved = self.scene_at(&residual_beside).ok()?;
+                let mut moved_place = here.point.place.clone();
+                moved_place[unknown] += step;
+                let moved = self.scene_at(&moved_place).ok()?;
                 let machine = (&**scene, &*trajectory.phases);
                 PhaseDerivatives::between(machine, (&moved, &moved.phases()), step)
             };
