@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use softstop::internals::{ParameterSensitivity, PhaseDerivatives};
-use softstop::{Clock, CrossingKind, Parameter, Scene, Start, Trajectory};
+use softstop::{Below, Clock, CrossingKind, Parameter, Scene, Start, Stop, Trajectory};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{Meets, cases, machines, start_below};
 
@@ -71,6 +71,42 @@ fn differences(
     let fourth = (4.0 * narrow - wide) / 3.0;
     let sixth = 1.5 * narrow - 0.6 * wide + 0.1 * far;
     Some((sixth, (sixth - fourth).norm()))
+}
+
+/// With some dissipation a stop may cease to press, without any it may not; the other stop has some.
+#[test]
+fn dissipation_of_one_of_two_stops_may_begin_at_zero() {
+    let hertz = |dissipation: f64| Stop::Hertz {
+        stiffness: 20.0,
+        exponent: 1.5,
+        dissipation,
+    };
+    let scene = |[above, below]: [f64; 2]| Scene {
+        clearance: 0.5,
+        below: Some(Box::new(Below {
+            clearance: 0.5,
+            stop: hertz(below),
+        })),
+        ..Scene::of_stop(hertz(above))
+    };
+    let start = Start::new(0.0, 1.0);
+    let width = 1e-6;
+    for (parameter, from, to) in [
+        (Parameter::Dissipation, [0.0, 0.3], [width, 0.3]),
+        (Parameter::BelowDissipation, [0.3, 0.0], [0.3, width]),
+    ] {
+        let [(before, kinds), (beside, others)] =
+            [from, to].map(|of| after(&scene(of), start, 2).expect("bounded"));
+        assert_eq!(kinds, others);
+        let found = exact(&scene(from), start, 2, parameter).expect("derivatives");
+        let difference = (beside - before) / width;
+        let size = found.norm();
+        assert!(size > 1e-3, "{parameter:?}: {found}");
+        assert!(
+            (difference - found).norm() < 1e-4 * size,
+            "{found} {difference}"
+        );
+    }
 }
 
 proptest! {

@@ -47,8 +47,8 @@ impl PhaseDerivatives {
         found.ok_or(MotionError::NoDerivative { name })
     }
 
-    /// The derivatives of a valid scene with its phases towards another one, by a parameter that is `step` larger there: every
-    /// coefficient is linear in any one parameter, so their difference is exact. None where the other is another kind of
+    /// The derivatives of a valid scene with its phases towards another one, by a parameter that is `step` larger there: where
+    /// every coefficient is linear in it, as in any parameter that no other follows, their difference is exact. None where the other is another kind of
     /// machine.
     pub fn between(
         (scene, phases): (&Scene, &Phases),
@@ -58,15 +58,14 @@ impl PhaseDerivatives {
         let slope = |from: f64, to: f64| (to - from) / step;
         let (drive, moved_drive) = (&scene.excitation, &moved.excitation);
         let frequency = slope(drive.frequency, moved_drive.frequency) / drive.frequency;
-        let releases = |phase: &Phase| phase.kind == PhaseKind::Released;
-        let released = phases.phases.iter().any(releases);
         // At zero dissipation contact may only then cease to press when there is some.
-        let mut others = moved_phases
-            .phases
-            .iter()
-            .filter(|phase| released || !releases(phase));
+        let mut others = moved_phases.phases.iter().peekable();
+        let is_released = |phase: &&Phase| phase.kind == PhaseKind::Released;
         let mut laws = Vec::with_capacity(phases.phases.len());
         for phase in &phases.phases {
+            if !is_released(&phase) {
+                others.next_if(is_released);
+            }
             let other = others.next().filter(|other| other.kind == phase.kind)?;
             let (a, b) = (&phase.law, &other.law);
             let law = Law {
@@ -86,6 +85,7 @@ impl PhaseDerivatives {
             };
             laws.push(LawChange { law, hertz });
         }
+        others.next_if(is_released);
         if others.next().is_some() || phases.surfaces.len() != moved_phases.surfaces.len() {
             return None;
         }

@@ -77,6 +77,7 @@ pub fn follow_attractors(
             entropy: basins.basin_entropy(),
             basins,
         });
+        OrbitError::ask_monitor(&|_, _| monitor(cells + found.len() as u64, planned))?;
     }
     Ok(found)
 }

@@ -8,7 +8,7 @@ use crate::orbit::{OrbitError, ROUNDING_SHARE};
 pub(crate) trait Equations {
     /// What an evaluation brings to light besides the residual.
     type Point: Clone;
-    /// First unknowns for which an evaluation tells the derivatives; those for the others, the slopes, are differences.
+    /// First unknowns for which an evaluation tells the derivatives; those for the others are the slopes.
     const EXACT: usize = 0;
 
     /// Evaluates the residual of the equations, and what comes to light besides.
@@ -26,7 +26,7 @@ pub(crate) trait Equations {
         None
     }
 
-    /// The slopes as the motion that an evaluation keeps tells them; none where it does not.
+    /// The slopes to first order in 1e-6, from the motion that an evaluation keeps; none where it does not tell them.
     fn slopes_along(&self, here: &Evaluation<Self::Point>) -> Option<DMatrix<f64>> {
         let _ = here;
         None
@@ -41,6 +41,16 @@ pub(crate) trait Equations {
     /// The residual alone at a place.
     fn residual(&self, at: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
         Ok(self.evaluate(at)?.residual)
+    }
+
+    /// The residual beside another place, and whether nothing that breaks a derivative lies between them.
+    fn residual_beside(
+        &self,
+        here: &Self::Point,
+        at: &DVector<f64>,
+    ) -> Result<(DVector<f64>, bool), OrbitError> {
+        let _ = here;
+        Ok((self.residual(at)?, true))
     }
 }
 
@@ -76,7 +86,7 @@ pub(crate) struct Node<P> {
 
 /// Newton steps of a correction after which each must halve the residual.
 const USUAL_CORRECTIONS: usize = 12;
-/// Most Newton steps of a correction: differences across a corner of the motion make the residual fall by a share only.
+/// Most Newton steps of a correction: across a corner of the motion the residual falls by a share only.
 const MAX_CORRECTIONS: usize = 48;
 /// Residual, in units of its rounding, up to which a correction that stagnates measures its noise.
 const MAX_NOISE_RATIO: f64 = 1000.0;
@@ -228,7 +238,8 @@ pub(crate) fn curve_tangent<E: Equations>(
 }
 
 /// Slopes at a place: derivatives of the residual by unknowns beyond the [`Equations::EXACT`] first ones, exact where the
-/// system knows them, otherwise differences, one-sided where there is no machine on the other side.
+/// system knows them, otherwise differences, one-sided where the other side is another piece
+/// or has no machine.
 pub(super) fn slopes_at<E: Equations>(
     equations: &E,
     at: &DVector<f64>,
@@ -242,12 +253,16 @@ pub(super) fn slopes_at<E: Equations>(
         let beside = |shift: f64| {
             let mut at = at.clone();
             at[unknown] += shift;
-            equations.residual(&at)
+            equations.residual_beside(&here.point, &at)
         };
         match (beside(DIFFERENCE_WIDTH), beside(-DIFFERENCE_WIDTH)) {
-            (Ok(ahead), Ok(behind)) => Ok((ahead - behind) / (2.0 * DIFFERENCE_WIDTH)),
-            (Ok(ahead), Err(_)) => Ok((ahead - &here.residual) / DIFFERENCE_WIDTH),
-            (Err(_), Ok(behind)) => Ok((&here.residual - behind) / DIFFERENCE_WIDTH),
+            (Ok((ahead, a)), Ok((behind, b))) if a == b => {
+                Ok((ahead - behind) / (2.0 * DIFFERENCE_WIDTH))
+            }
+            (Ok((ahead, _)), Err(_) | Ok((_, false))) => {
+                Ok((ahead - &here.residual) / DIFFERENCE_WIDTH)
+            }
+            (_, Ok((behind, _))) => Ok((&here.residual - behind) / DIFFERENCE_WIDTH),
             (Err(error), Err(_)) => Err(error),
         }
     };

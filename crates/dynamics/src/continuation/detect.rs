@@ -220,15 +220,7 @@ impl<F: Family> Continuation<'_, F> {
     ) -> Option<(BranchPoint, End)> {
         let periods = self.shooting.periods;
         let is_even = periods.is_multiple_of(2);
-        let gap = |node: &Node<PeriodMap>| {
-            if !is_even {
-                return self.mirror_gap(node);
-            }
-            let half = node.here.point.trajectory.at_cycle(periods / 2);
-            let way = half - self.shooting.state_at(&node.at);
-            Some(self.shooting.scaled(way, [0.0]))
-        };
-        let (a, b) = (gap(from)?, gap(to)?);
+        let (a, b) = (self.merging_gap(from)?, self.merging_gap(to)?);
         if a.dot(&b) >= 0.0 && b.norm() > MERGED_SHARE * a.norm() {
             return None;
         }
@@ -249,6 +241,18 @@ impl<F: Family> Continuation<'_, F> {
         let flip = continuation.locate(&near, Test::Flip).ok()?;
         let place = self.shooting.scaled(flip.state(), [flip.parameter]);
         is_near(&place).then_some((flip, End::Merged))
+    }
+
+    /// Scaled gap that closes where an orbit merges: from a state to that after half the periods, or to its mirror image; none
+    /// where there is neither.
+    pub(super) fn merging_gap(&self, node: &Node<PeriodMap>) -> Option<DVector<f64>> {
+        let periods = self.shooting.periods;
+        if !periods.is_multiple_of(2) {
+            return self.mirror_gap(node);
+        }
+        let half = node.here.point.trajectory.at_cycle(periods / 2);
+        let way = half - self.shooting.state_at(&node.at);
+        Some(self.shooting.scaled(way, [0.0]))
     }
 }
 

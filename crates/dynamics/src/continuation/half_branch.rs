@@ -31,7 +31,7 @@ pub enum End {
     Stopped,
     /// Just beyond the last point the orbit would meet something where the force jumps.
     Border(BorderCollision),
-    /// The orbit is so unstable that the differences along the parameter leave its neighbourhood.
+    /// The orbit is so unstable that changes of 1e-6 along the parameter leave its neighbourhood.
     Unstable,
     /// It cannot be followed even with the smallest step.
     Lost(OrbitError),

@@ -88,8 +88,8 @@ pub trait Family<const PARAMETERS: usize = 1> {
     /// Typical changes of the family's parameters: with the sizes of the state, the units of the arclength.
     fn parameter_scales(&self) -> [f64; PARAMETERS];
 
-    /// d(drive frequency in rad/s) / d(parameter) of each parameter that changes nothing else: the exact derivatives of
-    /// orbits by these need no differences.
+    /// d(drive frequency in rad/s) / d(parameter) of each parameter that changes nothing else: the derivatives of orbits by
+    /// these are exact.
     fn by_frequency(&self) -> [Option<f64>; PARAMETERS] {
         [None; PARAMETERS]
     }

@@ -153,6 +153,15 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         !grazes && here.monodromy.trace().abs() > UNSTABLE_TRACE
     }
 
+    fn residual_beside(
+        &self,
+        here: &PeriodMap,
+        at: &DVector<f64>,
+    ) -> Result<(DVector<f64>, bool), OrbitError> {
+        let there = self.evaluate(at)?;
+        Ok((there.residual, there.point.sequence == here.sequence))
+    }
+
     fn exact_slopes(&self, here: &Evaluation<PeriodMap>) -> Option<DMatrix<f64>> {
         let change = self.scaled_change(here.point.by_frequency?);
         let mut slopes = DMatrix::zeros(2, N);

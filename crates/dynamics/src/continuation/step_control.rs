@@ -27,9 +27,11 @@ const GRAZING_AHEAD: f64 = 1e-2;
 const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Scaled distances ahead at which a rest is looked for, where the orbits of a branch come to lie side by side.
 const REST_DISTANCES: [f64; 3] = [1e-4, 1e-3, 1e-2];
-/// Value of the fold test up to which orbits with a mass that is held on the way are taken to lie side by side, as where it is held for
-/// good: what it slips by then changes with the square of what is left.
+/// Value of the fold test to which it falls where a mass that is held on the way slips ever less: what it slips by then
+/// changes with the square of what is left, and Newton's method settles on orbits that no longer slip.
 const SIDE_BY_SIDE: f64 = 1e-4;
+/// Scaled gap above which an orbit merges with none, where the fold test falls, too.
+const APART_FROM_MERGING: f64 = 0.05;
 /// Norm of a monodromy matrix beyond which rounding decides on which side of a grazing an orbit is.
 const WILD_GROWTH: f64 = 1e8;
 /// Length of a step below which all changes but those of the sequence are taken.
@@ -86,7 +88,8 @@ impl<F: Family> Continuation<'_, F> {
             let beyond = self.shooting.evaluate(&there).ok()?;
             node.here.point.sequence.border_to(&beyond.point.sequence)
         };
-        let slips_little = || slips_within(2.0 * SIDE_BY_SIDE, &node.here.point);
+        let is_lost = !matches!(error, OrbitError::Motion(_));
+        let slips_little = || is_lost && self.fold_test_while_held(node) < 2.0 * SIDE_BY_SIDE;
         let behind = BORDER_DISTANCES.map(|reach| -reach);
         let mut near = BORDER_DISTANCES.into_iter().chain(behind);
         let held = || {
@@ -108,7 +111,7 @@ impl<F: Family> Continuation<'_, F> {
         let (from, to) = (&stepper.node.here.point, &step.node.here.point);
         let same = from.sequence.has_same_jumps(&to.sequence)
             && self.shooting.growth(&to.monodromy) < WILD_GROWTH
-            && !slips_within(SIDE_BY_SIDE, to)
+            && !self.comes_to_rest(&stepper.node, &step.node)
             && (keeps_sense(
                 (&stepper.direction, &from.monodromy),
                 (&step.direction, &to.monodromy),
@@ -120,6 +123,29 @@ impl<F: Family> Continuation<'_, F> {
             && same
             && ahead.may_step(now, MIN_SHARE_LEFT, GRAZING_DISTANCE)
             && !now.may_graze_twice(ahead, stepper.step)
+    }
+
+    /// True if a mass that is held on the way slips so much less after a step that rounding tells its orbits apart.
+    fn comes_to_rest(&self, from: &Node<PeriodMap>, to: &Node<PeriodMap>) -> bool {
+        let after = self.fold_test_while_held(to);
+        let [before, there] = [from, to].map(|node| &node.here.point.monodromy);
+        after < SIDE_BY_SIDE
+            && after < Test::Fold.scaled_value(before).abs()
+            && !Test::Fold.passes_zero(before, there)
+    }
+
+    /// Size of the fold test of an orbit with a mass that is held on the way; infinite for others, and near a merging.
+    fn fold_test_while_held(&self, node: &Node<PeriodMap>) -> f64 {
+        let map = &node.here.point;
+        let fold = Test::Fold.scaled_value(&map.monodromy).abs();
+        let merges = || {
+            let gap = self.merging_gap(node);
+            gap.is_some_and(|gap| gap.norm() < APART_FROM_MERGING)
+        };
+        match map.sequence.holds > 0 && fold < 2.0 * SIDE_BY_SIDE && !merges() {
+            true => fold,
+            false => f64::INFINITY,
+        }
     }
 
     /// The grazing within the next step that leads no further, if there is one. Where an impact dies that no rest follows,
@@ -182,9 +208,4 @@ impl<F: Family> Continuation<'_, F> {
         let mut grazes = grazing_test.grazing_orbits(&self.shooting).iter();
         grazes.find(is_ahead).cloned()
     }
-}
-
-/// True if a mass is held on the way and the fold test is less than `near`.
-fn slips_within(near: f64, map: &PeriodMap) -> bool {
-    map.sequence.holds > 0 && Test::Fold.scaled_value(&map.monodromy).abs() < near
 }

@@ -121,7 +121,8 @@ impl RunUpPeaks {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunUp {
-    /// The attempts, in the order in which they were asked for; ways that a machine does not have are left out.
+    /// The attempts, in the order in which they were asked for; ways that a machine does not have, or
+    /// that cannot be computed, are left out.
     pub ways: Vec<Attempt>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,
@@ -140,7 +141,13 @@ impl RunUp {
     ) -> Result<Self, OrbitError> {
         let basin_test = BasinTest::of(orbit)?;
         let tried = settings.ways.par_iter();
-        let tried = tried.map(|way| try_way(orbit, &basin_test, (settings, *way, angles), monitor));
+        let tried =
+            tried.map(
+                |way| match try_way(orbit, &basin_test, (settings, *way, angles), monitor) {
+                    Err(OrbitError::Motion(_)) => Ok(None),
+                    tried => tried,
+                },
+            );
         let tried = tried.collect::<Result<Vec<Option<Attempt>>, OrbitError>>()?;
         Ok(Self {
             ways: tried.into_iter().flatten().collect(),
@@ -148,10 +155,11 @@ impl RunUp {
         })
     }
 
-    /// True if some way works, as [`RunUp::working_ways`] says: once one does, no other is begun.
+    /// True if some way works, as [`RunUp::working_ways`] says: once one does, no other is begun. False if none does, and
+    /// if the monitor says stop.
     ///
     /// # Errors
-    /// [`OrbitError::Motion`] if the motion cannot be computed.
+    /// [`OrbitError::Motion`] if the motion of the orbit cannot be computed.
     pub fn is_possible(
         orbit: &Orbit,
         settings: &RunUpSettings,

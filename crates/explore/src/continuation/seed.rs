@@ -48,7 +48,7 @@ pub fn state(text: &str) -> Result<Vector2<f64>, String> {
 
 /// A stable orbit of this regime. Of 1/1 the one with the hardest impact that shows at the frequency of the drive, or else on
 /// branches that lead there from other frequencies; of others the first that motions from starts far and wide settle on, or else
-/// from starts where these motions stay.
+/// the one to which most starts about these motions lead.
 pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
     if wanted == Regime::ONE
         && let Ok(orbit) = orbit::find_with_monitor(scene, &interrupt::watch)

@@ -65,7 +65,7 @@ pub(super) fn run(
     let of = (&scenes, grid, options);
     let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
     let cells = grid.cell_count() * scenes.len();
-    let progress = Progress::new(cells as u64, "cells");
+    let progress = Progress::new((cells + scenes.len()) as u64, "cells and values");
     let kept: OptionalMemory<'_> = Some(&keep);
     let places = limit.limit_many(cells, || {
         let places = follow_attractors(&scenes, &grid, options, &progress.watcher(), kept);
