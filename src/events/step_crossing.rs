@@ -16,6 +16,9 @@ pub(super) fn crossing_on_step(segment: &TaylorStep, guards: &[Guard], node: Nod
         return NextEvent::Unbounded(node);
     }
     let rise = |guard: &Guard| {
+        if guard.asks_for_position() && segment.stays_short(guard.position, guard.level, to) {
+            return None;
+        }
         let coefficients =
             segment.guard_series(guard.position, guard.velocity, guard.push, guard.level);
         if series_stays_below(&coefficients, to) {

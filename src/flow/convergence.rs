@@ -4,7 +4,7 @@ use super::series::Series;
 use super::taylor::{DEGREE, RECIPROCALS};
 
 /// Binary logarithm of what the last coefficients may amount to, relative to the first: 1/64 of rounding.
-const TRUNCATION: f64 = -58.0;
+pub(super) const TRUNCATION: f64 = -58.0;
 
 /// The truncation bound for a sphere, where the terms left out sum to an eighth of rounding.
 const OF_SPHERE: f64 = -54.0;

@@ -1,8 +1,14 @@
 //! Taylor steps of a linear law in time itself, under a force that is not linear in time.
+//!
+//! With |r| <= rho for both roots of the law, t^k / k! is answered from rest by coefficients of at most (n - k - 1)
+//! rho^(n-k-2) / n! for t^n. So the first one that the polynomial leaves out is known beforehand, and the step can be
+//! made so short that it is lost in the rounding of the others. What the drive and the free motion leave out is so over
+//! one reach of the flow (see [`Taylor`]).
 
-use super::convergence::{convergence_reach, first_span};
+use super::convergence::{TRUNCATION, first_span};
 use super::hertz::Hertz;
-use super::taylor::{Taylor, push_series};
+use super::series::{Series, ZERO};
+use super::taylor::{DEGREE, Taylor, push_series};
 use super::taylor_step::TaylorStep;
 use super::{Departure, LinearLaw};
 
@@ -54,8 +60,41 @@ impl TaylorStep {
         if from.push.is_linear() {
             return reach;
         }
-        let holds = convergence_reach(&self.depth).min(convergence_reach(&self.velocity_series()));
-        let spans = first_span(&self.depth).min(first_span(&self.velocity_series()));
-        reach.min(holds).min(spans)
+        let (depth, velocity) = (&self.depth, &self.velocity_series());
+        let left_out = truncation_bound(flow, from);
+        let order = (DEGREE + 1) as i32;
+        reach
+            .min(first_span(depth))
+            .min(first_span(velocity))
+            .min(reach_below_rounding(depth, left_out, order))
+            .min(reach_below_rounding(
+                velocity,
+                f64::from(order) * left_out,
+                order - 1,
+            ))
     }
+}
+
+/// A bound on the first coefficient of the position that is left out, as far as the curved part of the force
+/// brings it about.
+fn truncation_bound(flow: &LinearLaw, from: &Departure) -> f64 {
+    let rate = flow.modes.fastest_rate();
+    let answer = |k: usize| (DEGREE - k) as f64 * rate.powi((DEGREE - 1 - k) as i32);
+    let derivatives = from.push.derivatives().iter().enumerate().skip(2);
+    let sum: f64 = derivatives.map(|(k, f)| f.abs() * answer(k)).sum();
+    (2..=DEGREE + 1).fold(sum, |sum, n| sum / n as f64)
+}
+
+/// Up to where a term `left_out` t^`order` is below the rounding of one of the lower coefficients' terms.
+fn reach_below_rounding(series: &Series, left_out: f64, order: i32) -> f64 {
+    if left_out == 0.0 || series == &ZERO {
+        return f64::INFINITY;
+    }
+    let size = left_out.log2();
+    let reach = |(j, coefficient): (usize, &f64)| {
+        (coefficient.abs().log2() - size + TRUNCATION) / f64::from(order - j as i32)
+    };
+    let lower = series[..DEGREE.div_ceil(2)].iter().enumerate();
+    // Comparisons pass over what is not a number: zero against zero.
+    lower.map(reach).fold(f64::NEG_INFINITY, f64::max).exp2()
 }

@@ -68,6 +68,19 @@ pub(super) fn majorant(series: &Series) -> Series {
     series.map(f64::abs)
 }
 
+/// A bound on a series within `span` without its first two terms.
+pub(super) fn curved_part(series: &Series, span: f64) -> f64 {
+    let square = span * span;
+    let (pairs, _) = series.as_chunks::<2>();
+    let mut sums = [0.0; 2];
+    for pair in pairs[1..].iter().rev() {
+        for lane in 0..2 {
+            sums[lane] = (sums[lane] + pair[lane].abs()) * square;
+        }
+    }
+    sums[0] + span * sums[1]
+}
+
 /// A power of a series that is known coefficient by coefficient.
 #[derive(Debug, Clone)]
 pub(super) enum PowerRecurrence {

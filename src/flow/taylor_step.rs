@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use super::LinearLaw;
 use super::hertz::Hertz;
-use super::series::{Series, ZERO, derivative, power_series, product, value};
+use super::series::{Series, ZERO, curved_part, derivative, power_series, product, value};
 use super::slow_manifold::SlowManifold;
 use super::taylor::{evaluate, evaluate_from};
 
@@ -267,6 +267,19 @@ impl TaylorStep {
             Some(stretch) => value(&stretch.time, sigma),
             None => sigma,
         }
+    }
+
+    /// True if `position` x - `level` < 0 throughout [0, span], as its tangent and the sizes of all other terms show.
+    pub fn stays_short(&self, position: f64, level: f64, span: f64) -> bool {
+        let position = self.side() * position;
+        let level = level - position * self.hertz.origin;
+        let series = match &self.stretch {
+            Some(stretch) if level == 0.0 => &stretch.root,
+            _ => &self.depth,
+        };
+        let start = position * (series[0] + self.low) - level;
+        let tangent = start + (position * series[1] * span).max(0.0);
+        tangent + position.abs() * curved_part(series, span) < 0.0
     }
 
     /// The guard `position` x + `velocity` v + `push` q - `level` as a series in sigma; where it is the distance from
