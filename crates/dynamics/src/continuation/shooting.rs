@@ -213,6 +213,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
 const UNSTABLE_TRACE: f64 = 100.0;
 /// Scaled speed of a touch up to which an orbit is near grazing.
 const SLOW_TOUCH: f64 = 0.01;
+
 /// What rounding alone may leave of the residual P(s) - s, in units of `sizes`.
 pub(crate) fn round_off(
     scene: &Scene,

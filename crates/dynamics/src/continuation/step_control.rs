@@ -134,7 +134,8 @@ impl<F: Family> Continuation<'_, F> {
             && !Test::Fold.passes_zero(before, there)
     }
 
-    /// Size of the fold test of an orbit with a mass that is held on the way; infinite for others, and near a merging.
+    /// Size of the fold test of an orbit with a mass that is held on the way; infinite for others, above twice
+    /// [`SIDE_BY_SIDE`], and near a merging.
     fn fold_test_while_held(&self, node: &Node<PeriodMap>) -> f64 {
         let map = &node.here.point;
         let fold = Test::Fold.scaled_value(&map.monodromy).abs();

@@ -157,7 +157,7 @@ impl Border {
         )
     }
 
-    /// The same border of a machine close by, by Newton's method from this one and along its normal.
+    /// This border of a machine close by: Newton's method finds it from this one along its normal.
     ///
     /// # Errors
     /// [`ZoneError`] if it is not reached, or has no normal there.
