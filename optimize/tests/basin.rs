@@ -34,7 +34,7 @@ fn point_a_has_two_basins_and_the_same_in_all_files() -> Outcome {
 
 #[test]
 fn chaos_and_two_isolated_motions_are_found_side_by_side() {
-    let report = SOFTSTOP.report("basin --frequency 0.9875 --x 0:15 --v=-20:20 --size 30");
+    let report = SOFTSTOP.report("basin --set eta=0.9875 --x 0:15 --v=-20:20 --size 30");
     assert_eq!(motions(&report), ["2/3", "2/4", "chaos"]);
     assert_eq!(report.at("basins/1/order"), "1-1-0-0");
     assert!(report.number("basins/2/exponent") > 0.0);
@@ -57,10 +57,10 @@ fn the_zone_takes_the_box_of_the_machine() {
     assert_eq!(along.at("grid"), report("").at("grid"));
     assert_eq!(along.at("widened"), false);
     // At a frequency far below the zone motions are slower, and the box is made wider for those of the zone.
-    let along = report("--frequency 0.2 --along-zone 2");
+    let along = report("--set eta=0.2 --along-zone 2");
     assert_eq!(along.at("widened"), true);
     let high = "grid/up/range/1";
-    assert!(along.number(high) > report("--frequency 0.2").number(high));
+    assert!(along.number(high) > report("--set eta=0.2").number(high));
 }
 
 #[test]

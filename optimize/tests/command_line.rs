@@ -4,16 +4,14 @@ mod names;
 mod optimize;
 mod tasks;
 
-use std::fs;
-
 use serde_json::Value;
-use softstop_testing::{assert_near, has_near, number};
+use softstop_testing::{assert_near, has_near, number, words};
 
 use super::{Outcome, SOFTSTOP};
 
 #[test]
 fn orbit_at_point_a() {
-    let orbit = SOFTSTOP.value("orbit --regime unloaded --frequency 1.15 --clearance 10");
+    let orbit = SOFTSTOP.value("orbit unloaded --set eta=1.15 --set rho=10");
     let figures = [
         ("frequency", 1.15, 0.0),
         ("clearance", 10.0, 0.0),
@@ -35,7 +33,7 @@ fn orbit_at_point_a() {
 
 #[test]
 fn orbit_at_point_b() {
-    let orbit = SOFTSTOP.value("orbit --regime loaded");
+    let orbit = SOFTSTOP.value("orbit loaded");
     // X_m is confirmed by an independent Runge-Kutta integration (order 8, tolerance 1e-12).
     let figures = [
         ("before_impact_velocity", 8.39868, 5e-6),
@@ -46,8 +44,8 @@ fn orbit_at_point_b() {
 
 #[test]
 fn preload_as_a_deflection_is_the_papers_reading() {
-    let mut force = SOFTSTOP.value("orbit --preload 70");
-    let mut deflection = SOFTSTOP.value("orbit --preload-deflection 10");
+    let mut force = SOFTSTOP.value("orbit --set stop.preload=70");
+    let mut deflection = SOFTSTOP.value("orbit --set stop.preload_deflection=10");
     // Each is told as it was stated.
     let stated = [&mut force, &mut deflection].map(|report| report["machine"]["parameters"].take());
     assert_eq!(stated[0]["stop.preload"], 70.0);
@@ -58,7 +56,7 @@ fn preload_as_a_deflection_is_the_papers_reading() {
 /// The zone of the paper, and all its stretches.
 #[test]
 fn zone_of_the_paper() {
-    let zone = SOFTSTOP.value("zone --clearance 10");
+    let zone = SOFTSTOP.value("zone --set rho=10");
     let figures = [
         ("frequency_g0", 1.04444, 5e-6),
         ("frequency_sn", 1.369036, 5e-7),
@@ -78,10 +76,10 @@ fn zone_of_the_paper() {
 #[test]
 fn an_isola_is_no_zone_and_is_listed() {
     let zone = SOFTSTOP.value(
-        "zone --regime loaded --clearance 4.966953067590672 --stiffness 1.4398692936028583 \
-         --preload 262.9190348246658 --damping 0.005802743231567894 --contact-damping 0.002011340630926028 \
-         --piercing-stiffness 2.2530448386935893 --piercing-friction 23.91485155268388 \
-         --thickness 0.8282795600642743 --travel 0.7915560771078273",
+        "zone loaded --set rho=4.966953067590672 --set stop.stiffness=1.4398692936028583 \
+         --set stop.preload=262.9190348246658 --set damping=0.005802743231567894 --set contact.damping=0.002011340630926028 \
+         --set piercing.stiffness=2.2530448386935893 --set piercing.friction=23.91485155268388 \
+         --set sigma=0.8282795600642743 --set nu=0.7915560771078273",
     );
     assert!(zone["frequency_sn"].is_null());
     let why = zone["no_zone"].as_str().expect("why");
@@ -93,7 +91,7 @@ fn an_isola_is_no_zone_and_is_listed() {
 /// A motion that always impacts grazes nothing: no g0, and stretches all the same.
 #[test]
 fn without_a_grazing_boundary_stretches_are_listed() -> Outcome {
-    let zone = SOFTSTOP.value("zone --clearance 0");
+    let zone = SOFTSTOP.value("zone --set rho=0");
     let why = zone["no_zone"].as_str().ok_or("why")?;
     assert!(why.contains("clearance = 0"), "{why}");
     let stretches = zone["stretches"].as_array().ok_or("stretches")?;
@@ -101,7 +99,7 @@ fn without_a_grazing_boundary_stretches_are_listed() -> Outcome {
         let at: f64 = frequency.parse()?;
         let holds = |one: &Value| (number(one, "from")..number(one, "to")).contains(&at);
         assert_eq!(stretches.iter().any(holds), is_stable);
-        let orbit = SOFTSTOP.run(&["orbit", "--clearance", "0", "--frequency", frequency]);
+        let orbit = SOFTSTOP.run(&words(&format!("orbit --set rho=0 --set eta={frequency}")));
         assert_eq!(orbit.status.success(), is_stable);
     }
     Ok(())
@@ -111,30 +109,10 @@ fn without_a_grazing_boundary_stretches_are_listed() -> Outcome {
 fn without_damping_motions_are_neutral() {
     let stability = |line: &str| SOFTSTOP.value(line)["stability"].clone();
     assert_eq!(
-        stability("orbit --damping 0 --contact-damping 0"),
+        stability("orbit --set damping=0 --set contact.damping=0"),
         "neutral"
     );
     assert_eq!(stability("orbit"), "stable");
-}
-
-/// Files, shorthands and keys.
-#[test]
-fn ways_to_say_a_machine_come_to_the_same() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let file = folder.path().join("machine.toml");
-    let machine = "regime = \"loaded\"\nfrequency = 1.2\nclearance = 10.0\nthickness = 0.4\n";
-    fs::write(&file, machine)?;
-    let from_file = format!("orbit --scene {} --frequency 1.15", file.display());
-    for (one, other) in [
-        (from_file.as_str(), "orbit --regime loaded"),
-        (
-            "orbit --regime loaded --clearance 9 --stiffness 8 --thickness 0.3 --preload-deflection 10",
-            "orbit loaded --set clearance=9 --set stop.stiffness=8 --set sigma=0.3 --set stop.preload_deflection=10",
-        ),
-    ] {
-        assert_eq!(SOFTSTOP.value(one), SOFTSTOP.value(other));
-    }
-    Ok(())
 }
 
 #[test]

@@ -112,7 +112,7 @@ fn branches_begin_at_points_of_earlier_ones() -> Outcome {
 fn an_isolated_motion_is_followed_to_its_ends() {
     // Rows 12 and 17 of Table 1; an independent simulation sees the flip at 1.005452.
     let report = SOFTSTOP
-        .report("continue --frequency 0.9875 --orbit 2/3 --parameter eta --from 0.95 --to 1.05");
+        .report("continue --set eta=0.9875 --orbit 2/3 --parameter eta --from 0.95 --to 1.05");
     assert_eq!(*report.at("branches/0/periods"), 3);
     has_specials(
         &report,
@@ -224,7 +224,7 @@ fn a_machine_in_si_units_is_followed_along_eta() {
 fn a_mass_that_bounces_without_end_is_no_obstacle() {
     // Pressed on a stop at its place of rest; doubling there once ran without end.
     let report = SOFTSTOP.report(
-        "continue --preload 1 --clearance 0 --double 1 --parameter eta --from 0.9 --to 1.5",
+        "continue --set stop.preload=1 --set rho=0 --double 1 --parameter eta --from 0.9 --to 1.5",
     );
     assert_eq!(report.at("branches/0/specials/0/symbol"), "PD");
 }

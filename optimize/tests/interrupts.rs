@@ -57,7 +57,7 @@ fn watch() {
 
 #[test]
 fn motions() {
-    ends("motions --clearance -3", &[]);
+    ends("motions --set rho=-3", &[]);
     ends("motions SCENES/chatter.toml --starts 100000", &[]);
 }
 
@@ -109,7 +109,7 @@ const DESIGN: [&str; 6] = [
 /// An interrupted search writes its best design, whole and marked; if none is as asked, nothing.
 #[test]
 fn the_best_design_so_far_is_written() -> Outcome {
-    let task = "regime = \"loaded\"\n[vary]\nstop.stiffness = [1, 30]\nclearance = [2, 22]\ndamping = [0.01, 0.05]\n\
+    let task = "machine = \"loaded\"\n[vary]\nstop.stiffness = [1, 30]\nclearance = [2, 22]\ndamping = [0.01, 0.05]\n\
                 [search]\nevaluations = 4000000\n";
     for (require, is_met) in [("", true), ("[require]\nvelocity = 1000\n", false)] {
         let folder = tempfile::tempdir()?;

@@ -87,7 +87,7 @@ fn a_seed_gives_other_starts_and_the_same_motions() -> Outcome {
 
 #[test]
 fn the_text_tells_regime_certainty_and_exponents() {
-    let text = SOFTSTOP.text(&words("motions --frequency 0.9885 --starts 64"));
+    let text = SOFTSTOP.text(&words("motions --set eta=0.9885 --starts 64"));
     let told = [
         "z = 2/4",
         "1-1-0-0",
@@ -104,10 +104,10 @@ fn the_text_tells_regime_certainty_and_exponents() {
 #[test]
 fn one_box_of_starts_for_all_commands() {
     for machine in [
-        "unloaded --clearance 0.5",
+        "unloaded --set rho=0.5",
         "loaded",
-        "loaded --clearance 1",
-        "unloaded --stiffness 1000",
+        "loaded --set rho=1",
+        "unloaded --set stop.stiffness=1000",
         "SCENES/rigid.toml",
         "SCENES/kelvin-voigt.toml",
     ] {

@@ -91,7 +91,7 @@ fn the_page_holds_every_impact_of_every_stop() -> Outcome {
 
 #[test]
 fn ratios_speak_ratios_and_take_the_options_of_simulate() -> Outcome {
-    let line = "--frequency 1.2 --clearance 9 --position 0.5 --velocity 12 --periods 15";
+    let line = "--set eta=1.2 --set rho=9 --position 0.5 --velocity 12 --periods 15";
     let motion = holds_every_impact(&words(line))?;
     assert_eq!(motion["machine"]["language"], "ratios");
     assert_eq!(motion["labels"]["position"], "position x");

@@ -9,7 +9,6 @@ use crate::budget::BudgetArguments;
 use crate::change::Change;
 use crate::failure::Failure;
 use crate::machine::Regime;
-use crate::older::OlderFlags;
 use crate::output::Format;
 use crate::scene_file::read;
 
@@ -48,9 +47,6 @@ pub struct MachineArguments {
     /// Change a value of the machine, by its key in the file; repeatable
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub set: Vec<Change>,
-    /// Older flags.
-    #[command(flatten)]
-    pub older: OlderFlags,
 }
 
 impl MachineArguments {
@@ -71,15 +67,14 @@ impl MachineArguments {
         machine: Option<PathBuf>,
         below: &[Change],
     ) -> Result<Machine, Failure> {
-        let said = self.older.rewrite(self.machine.as_deref(), &self.set)?;
-        let named = said.machine.or(machine);
+        let named = self.machine.clone().or(machine);
         let named = named.unwrap_or_else(|| Regime::Unloaded.name().into());
         let regime = Regime::called(&named);
         let mut machine = match regime.and_then(|regime| Machine::named(regime.name())) {
             Some(machine) => machine,
             None => read(&named)?,
         };
-        for (word, changes) in [("set", below), ("set", &said.below), ("--set", &said.set)] {
+        for (word, changes) in [("set", below), ("--set", &self.set)] {
             let of_strip = changes.iter().find(|it| it.key().starts_with("piercing."));
             if let (Some(Regime::Unloaded), Some(change)) = (regime, of_strip) {
                 return Err(Failure::usage(format!(
@@ -130,7 +125,7 @@ impl MachineArguments {
 
     /// Refuses a key that the command line states, and why.
     fn refuse_key(&self, is_refused: impl Fn(&str) -> bool, why: &str) -> Result<(), Failure> {
-        match self.keys().iter().find(|key| is_refused(key)) {
+        match self.keys().find(|key| is_refused(key)) {
             Some(key) => Err(Failure::usage(format!("{key}: {why}"))),
             None => Ok(()),
         }
@@ -172,12 +167,8 @@ impl MachineArguments {
     }
 
     /// The keys that the command line states.
-    pub fn keys(&self) -> Vec<String> {
-        let older = self.older.changes().into_iter();
-        older
-            .chain(self.set.iter().cloned())
-            .map(|change| change.key().to_owned())
-            .collect()
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.set.iter().map(Change::key)
     }
 }
 

@@ -17,7 +17,6 @@ pub mod machine;
 pub mod median;
 pub mod names;
 pub mod number;
-pub mod older;
 pub mod output;
 mod position;
 

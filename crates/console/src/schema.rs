@@ -1,8 +1,6 @@
 //! The JSON Schema of machine files, made from the list of parameters, and parts of that of task files.
 
-use crate::machine::Regime;
-use crate::older::PaperRatios;
-use clap::{Args, Command, ValueEnum};
+use clap::ValueEnum;
 use serde_json::{Map, Value, json};
 use softstop::internals::{MAX_DAMPER_RATE, MAX_SPRING_RATE};
 use softstop::{Allowed, Below, Machine, Parameter, Release, Scene, Stop, UnitSystem};
@@ -15,27 +13,6 @@ pub fn words<T: ValueEnum>() -> Value {
     let words = T::value_variants().iter();
     let words = words.filter_map(|word| Some(word.to_possible_value()?.get_name().to_owned()));
     json!({ "enum": words.collect::<Vec<_>>() })
-}
-
-/// A table of values by the dotted keys of a machine's file.
-pub fn keyed(value: Value) -> Value {
-    let inner = json!({ "type": "object", "additionalProperties": value });
-    json!({ "type": "object", "additionalProperties": { "anyOf": [value, inner] } })
-}
-
-/// The shorthands of the paper's machines, as the command line has them.
-pub fn shorthands() -> Value {
-    let flags = PaperRatios::augment_args(Command::new("shorthands"));
-    let all = flags.get_arguments().map(|flag| {
-        let mut schema = match flag.get_id().as_str() {
-            "regime" => words::<Regime>(),
-            _ => json!({ "type": "number" }),
-        };
-        let what = flag.get_help().map(ToString::to_string);
-        schema["description"] = what.unwrap_or_default().into();
-        (flag.get_id().to_string(), schema)
-    });
-    object(Map::from_iter(all))
 }
 
 /// The schema of machine files (draft 2020-12). Editors find it by a first line

@@ -4,7 +4,6 @@ mod cases;
 mod cost;
 mod met;
 mod objective;
-mod older;
 pub mod outcome;
 mod pareto;
 mod progress;
@@ -135,12 +134,6 @@ pub struct OptimizeArguments {
     /// zone] or any other; repeatable
     #[arg(long, value_name = "NAME=VALUE|LOW:HIGH")]
     pub vary: Vec<Variable>,
-    /// Older form of --vary for a value
-    #[arg(long, hide = true)]
-    pub fix: Vec<Variable>,
-    /// Older form of --vary for a range
-    #[arg(long, hide = true)]
-    pub bounds: Vec<Variable>,
     /// Task in a TOML file (softstop schema task says what it may hold); the command line has the last word
     #[arg(long, value_name = "FILE.toml")]
     pub config: Option<PathBuf>,
@@ -150,9 +143,6 @@ pub struct OptimizeArguments {
     /// Folder for design.json, design.svg and design.fmu [default: softstop-design]
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Ignored: the search is deterministic
-    #[arg(long, value_name = "N", hide = true)]
-    pub seed: Option<u64>,
     /// Zones to compute at most, at least 100; the search ends before when it gains nothing [default: 1200]
     #[arg(long, value_name = "N")]
     pub evaluations: Option<u64>,

@@ -1,6 +1,5 @@
 //! The task as command line and TOML file state it together, checked.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -18,6 +17,7 @@ use softstop_dynamics::basin::wilson_interval;
 use softstop_dynamics::zone::ZoneKind;
 use toml::Table;
 
+use super::OptimizeArguments;
 use super::cases::{self, cases};
 use super::cost::cost;
 use super::objective::objectives;
@@ -26,7 +26,6 @@ use super::task_spec::{Motions, Search, TaskSpec};
 use super::title::{Source, Title};
 use super::tolerance::tolerances;
 use super::vary::{Searched, held, searched, variables};
-use super::{OptimizeArguments, older};
 use crate::design::Problem;
 use crate::design::case::Case;
 use crate::design::conflict::short;
@@ -139,18 +138,7 @@ impl Job {
         for axis in &axes {
             has_effect(&machine, axis)?;
         }
-        let Search {
-            seed,
-            evaluations,
-            zone,
-        } = task.search;
-        if arguments.seed.or(seed).is_some() {
-            // If nobody reads it, there is nobody to tell.
-            let _ = writeln!(
-                io::stderr(),
-                "seed: the search is deterministic and needs none"
-            );
-        }
+        let Search { evaluations, zone } = task.search;
         let evaluations = arguments.evaluations.or(evaluations).unwrap_or(EVALUATIONS);
         let least = format!(">= {LEAST_EVALUATIONS}");
         require(
@@ -322,14 +310,16 @@ fn searched_by(
     task: &TaskSpec,
     machine: &Machine,
 ) -> Result<Searched, Failure> {
-    let keys: Vec<&str> = task.set.iter().map(Change::key).collect();
     let line = [
-        older::variables(arguments),
-        held(machine, &arguments.machine.keys()),
+        arguments.vary.clone(),
+        held(machine, arguments.machine.keys()),
     ];
-    let below = [variables(&task.vary)?, held(machine, &keys)];
+    let below = [
+        variables(&task.vary)?,
+        held(machine, task.set.iter().map(Change::key)),
+    ];
     let layers = [line.concat(), below.concat()];
-    searched(machine, &layers, task.with_usual || task.vary.is_empty())
+    searched(machine, &layers, task.vary.is_empty())
 }
 
 /// Refuses a tolerance so many times as wide within which there are no machines even about the highest value that is searched.
@@ -431,13 +421,11 @@ fn machine(
     arguments.machine.machine_over(place, &task.set)
 }
 
-/// The task of a file, older words rewritten, and its text.
+/// The task of a file and its text.
 ///
 /// # Errors
 /// [`Failure::Usage`] naming the file, and line and key of what is wrong in it.
 fn read(path: &Path) -> Result<(TaskSpec, String), Failure> {
     let text = scene_file::text(path)?;
-    let mut task: TaskSpec = scene_file::parse(path, &text)?;
-    older::rewrite(&mut task).map_err(|error| error.in_text(path, &text))?;
-    Ok((task, text))
+    Ok((scene_file::parse(path, &text)?, text))
 }

@@ -7,8 +7,6 @@ use serde_json::json;
 use softstop::Machine;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
-use softstop_console::machine::Regime;
-use softstop_console::older::PaperRatios;
 use softstop_console::output::Format;
 use softstop_console::schema;
 use softstop_dynamics::run_up::Way;
@@ -29,9 +27,6 @@ macro_rules! task {
         #[serde(deny_unknown_fields, default)]
         pub struct TaskSpec {
             $($(#[doc = $what])* pub $key: $type,)*
-            /// Whether the usual parameters are searched beside those of [`TaskSpec::vary`]: older words have them.
-            #[serde(skip)]
-            pub with_usual: bool,
         }
 
         impl TaskSpec {
@@ -42,9 +37,6 @@ macro_rules! task {
                     let what = concat!($($what),*).trim();
                     let mut schema: serde_json::Value = $schema;
                     schema["description"] = what.into();
-                    if what.starts_with(OLDER) {
-                        schema["deprecated"] = true.into();
-                    }
                     keys.insert(stringify!($key).to_owned(), schema);
                 })*
                 json!({
@@ -54,15 +46,11 @@ macro_rules! task {
                     "type": "object",
                     "properties": keys,
                     "additionalProperties": false,
-                    "not": { "required": ["machine", "regime"] },
                 })
             }
         }
     };
 }
-
-/// How the description of an older word begins.
-const OLDER: &str = "Older form of";
 
 task! {
     /// Machine file, seen from the task's folder, or `unloaded` (A) or `loaded` (B).
@@ -105,7 +93,6 @@ task! {
     search: Search, json!({
         "type": "object",
         "properties": {
-            "seed": { "type": "integer", "minimum": 0, "deprecated": true },
             "evaluations": evaluations(),
             "zone": {
                 "enum": ["hysteresis", "z = 1"], "default": "hysteresis",
@@ -120,22 +107,6 @@ task! {
     output: Option<PathBuf>, json!({ "type": "string" });
     /// How to print the result.
     format: Option<Format>, schema::words::<Format>();
-    /// Older form of `machine`.
-    regime: Option<Regime>, schema::words::<Regime>();
-    /// Older form of `set`, for the paper's machines.
-    scene: PaperRatios, schema::shorthands();
-    /// Older form of `require.margin`.
-    margin: Option<f64>, json!({ "type": "number", "minimum": 0, "maximum": 0.5 });
-    /// Older form of a number in `[vary]`, beside the usual parameters.
-    fix: Table, schema::keyed(json!({ "type": "number" }));
-    /// Older form of a range in `[vary]`, beside the usual parameters.
-    bounds: Table, schema::keyed(json!({
-        "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
-    }));
-    /// Older form of `search.seed`.
-    seed: Option<u64>, json!({ "type": "integer", "minimum": 0 });
-    /// Older form of `search.evaluations`.
-    evaluations: Option<u64>, evaluations();
 }
 
 fn evaluations() -> serde_json::Value {
@@ -156,8 +127,6 @@ fn sought() -> serde_json::Value {
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Search {
-    /// Ignored: the search is deterministic.
-    pub seed: Option<u64>,
     /// Zones that the search may compute.
     pub evaluations: Option<u64>,
     /// Which motions are searched.
@@ -268,11 +237,9 @@ mod tests {
     /// A task with every key; a key that the schema lacks is unknown to the reader, and the other way about.
     #[test]
     fn schema_and_reader_have_the_same_keys() -> Result<(), Box<dyn std::error::Error>> {
-        let file = "machine = \"press.toml\"\nset = [\"clearance=3\"]\nregime = \"loaded\"\nmargin = 0.2\nseed = 1\n\
-                    evaluations = 200\noutput = \"there\"\nformat = \"json\"\n[fix]\nstop.stiffness = 7\n\
-                    [bounds]\nclearance = [2, 22]\n[scene]\ndamping = 0.02\n[vary]\nclearance = 3\n\
+        let file = "machine = \"press.toml\"\nset = [\"clearance=3\"]\noutput = \"there\"\nformat = \"json\"\n[vary]\nclearance = 3\n\
                     [tolerance]\nclearance = 0.1\n[objective]\nmaximise = \"velocity\"\n[require]\n\
-                    velocity = 3\n[[case]]\nname = \"worn\"\ndamping = 0.02\n[search]\nseed = 1\nzone = \"z = 1\"\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
+                    velocity = 3\n[[case]]\nname = \"worn\"\ndamping = 0.02\n[search]\nzone = \"z = 1\"\n[report]\nauthor = \"A. Engineer\"\ndate = 2026-11-26\n";
         toml::from_str::<TaskSpec>(file)?;
         let written: toml::Table = toml::from_str(file)?;
         let schema = TaskSpec::schema();
@@ -282,16 +249,6 @@ mod tests {
         let mut stated: Vec<&str> = keys.keys().map(String::as_str).collect();
         stated.sort_unstable();
         assert_eq!(all, stated);
-        let scene = keys["scene"]["properties"].as_object().ok_or("no ratios")?;
-        for (key, rule) in scene {
-            let value = if rule["enum"].is_array() {
-                "\"loaded\""
-            } else {
-                "1.5"
-            };
-            toml::from_str::<TaskSpec>(&format!("[scene]\n{key} = {value}\n"))?;
-        }
-        assert_eq!(scene.len(), 12);
         Ok(())
     }
 }

@@ -115,8 +115,8 @@ pub(super) fn variables(table: &Table) -> Result<Vec<Variable>, Failure> {
 }
 
 /// The machine's own values of these keys, held: those that the search would choose.
-pub(super) fn held(machine: &Machine, keys: &[impl AsRef<str>]) -> Vec<Variable> {
-    let one = |key: &str| {
+pub(super) fn held<'a>(machine: &Machine, keys: impl Iterator<Item = &'a str>) -> Vec<Variable> {
+    let one = |key| {
         let parameter = machine.parameter(key).ok()?;
         let usual = USUAL.iter().any(|(usual, _)| *usual == parameter);
         let is_searched = usual || parameter == Parameter::Frequency;
@@ -126,7 +126,7 @@ pub(super) fn held(machine: &Machine, keys: &[impl AsRef<str>]) -> Vec<Variable>
             values: Values::Range([value, value]),
         })
     };
-    keys.iter().filter_map(|key| one(key.as_ref())).collect()
+    keys.filter_map(one).collect()
 }
 
 /// What is searched, and what follows it, in the machine's own units.

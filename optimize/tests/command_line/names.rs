@@ -69,7 +69,6 @@ fn a_named_pipe_is_no_file_to_wait_for_or_to_replace() -> Outcome {
         ("study", 2, "named pipe"),
         ("orbit", 2, "named pipe"),
         ("optimize --config", 2, "named pipe"),
-        ("orbit --scene", 2, "named pipe"),
         ("fmu --output", 1, "a device is in its place"),
         ("watch --output", 1, "a device is in its place"),
     ] {

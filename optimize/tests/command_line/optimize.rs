@@ -1,7 +1,6 @@
 //! `softstop optimize`: what it prints and writes, and that it leaves nothing behind.
 
 use std::fs;
-use std::path::Path;
 
 use serde_json::Value;
 use softstop_testing::{docs, has_near, words};
@@ -9,7 +8,7 @@ use softstop_testing::{docs, has_near, words};
 use super::{Outcome, SOFTSTOP};
 
 /// A search that is quick: one quantity, few evaluations.
-const QUICK: &str = "optimize --fix stiffness=7 --evaluations 100 --bounds clearance=2:22";
+const QUICK: &str = "optimize --vary stiffness=7 --evaluations 100 --vary clearance=2:22";
 
 #[test]
 fn optimize_prints_json_only_and_writes_the_files_it_names() -> Outcome {
@@ -54,7 +53,7 @@ fn optimize_prints_json_only_and_writes_the_files_it_names() -> Outcome {
     // The design is the orbit that the program finds there.
     let design = report.at("design");
     let line = format!(
-        "orbit --frequency {} --clearance {}",
+        "orbit --set eta={} --set rho={}",
         design["frequency"], design["clearance"]
     );
     let same = words("position velocity before_impact_velocity max_position");
@@ -69,8 +68,8 @@ fn optimize_prints_json_only_and_writes_the_files_it_names() -> Outcome {
 fn task_file_and_command_line_say_the_same() -> Outcome {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("task.toml");
-    let task = "regime = \"unloaded\"\nmargin = 0.4\nevaluations = 100\nformat = \"json\"\n\
-                [fix]\nstiffness = 7\n[bounds]\nclearance = [2, 22]\n[scene]\ncontact-damping = 0.09\n";
+    let task = "machine = \"unloaded\"\nset = [\"contact.damping=0.09\"]\nformat = \"json\"\n[vary]\nstiffness = 7\n\
+                clearance = [2, 22]\n[require]\nmargin = 0.4\n[search]\nevaluations = 100\n";
     fs::write(&file, task)?;
     let output = format!("--output {}", folder.path().display());
     let from_file = format!(
@@ -97,49 +96,5 @@ fn a_certain_design_is_found_far_from_the_hardest_one() -> Outcome {
         .report(&line)
         .number("design/before_impact_velocity");
     assert!(velocity > 8.0, "{velocity}");
-    Ok(())
-}
-
-/// A search of some words, and its notes.
-fn noted(line: &str, output: &Path) -> Outcome<(Value, Vec<String>)> {
-    let more = "--no-report --evaluations 100 --format json --output";
-    let line = format!("optimize {line} {more} {}", output.display());
-    let run = SOFTSTOP.run(&words(&line));
-    let notes = String::from_utf8_lossy(&run.stderr);
-    let notes: Vec<String> = notes.lines().map(str::to_owned).collect();
-    assert!(run.status.success(), "{notes:?}");
-    Ok((serde_json::from_slice(&run.stdout)?, notes))
-}
-
-/// Older words do what the present ones do, and say once what to write instead.
-#[test]
-fn older_words_say_what_to_write_instead() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let file = folder.path().join("task.toml");
-    let present =
-        "loaded --set damping=0.021 --vary stop.stiffness=7 --vary clearance=2:22 --margin 0.3";
-    let older =
-        "--regime loaded --damping 0.021 --bounds clearance=2:22 --fix stiffness=7 --margin 0.3";
-    let (expected, none) = noted(present, folder.path())?;
-    let (found, notes) = noted(older, folder.path())?;
-    assert_eq!((&found, none.len()), (&expected, 0));
-    let told = [
-        "note: instead of --regime loaded --damping 0.021 write loaded --set damping=0.021",
-        "note: instead of --bounds clearance=2:22 --fix stiffness=7 write --vary clearance=2:22 --vary stiffness=7",
-    ];
-    assert_eq!(notes.len(), told.len(), "{notes:?}");
-    for (note, told) in notes.iter().zip(told) {
-        assert!(note.starts_with(told), "{note}");
-    }
-    let files = [
-        "machine = \"loaded\"\nset = [\"damping=0.021\"]\n[vary]\nstop.stiffness = 7\nclearance = [2, 22]\n\
-         [require]\nmargin = 0.3\n",
-        "regime = \"loaded\"\nmargin = 0.3\n[scene]\ndamping = 0.021\n[fix]\nstiffness = 7\n[bounds]\nclearance = [2, 22]\n",
-    ];
-    for (text, count) in files.into_iter().zip([0, 1]) {
-        fs::write(&file, text)?;
-        let (found, notes) = noted(&format!("--config {}", file.display()), folder.path())?;
-        assert_eq!((&found, notes.len()), (&expected, count), "{notes:?}");
-    }
     Ok(())
 }
