@@ -5,7 +5,7 @@ use pulp::{Simd, WithSimd};
 use super::engine::Engine;
 use super::job::{Instructions, Job, Outcome, Task};
 use super::machine::Machine;
-use super::observer::ObserverHandle;
+use super::observer::{BatchObserver, ObserverHandle};
 
 /// Vector registers over which the lanes of one batch are spread.
 pub(super) const REGISTERS_PER_BATCH: usize = 2;
@@ -21,15 +21,14 @@ pub(super) fn run_jobs<'a>(
         machines,
         jobs,
         watch,
-        at_once: match instructions {
-            Instructions::OneByOne => 1,
-            _ => usize::MAX,
-        },
+        at_once: usize::MAX,
     };
-    match instructions {
-        Instructions::OneByOne => run_one_by_one(task),
-        _ => dispatch(Batch::<REGISTERS_PER_BATCH>(task), instructions),
-    }
+    run_task(task, instructions)
+}
+
+/// Does a task in the registers of a batch.
+fn run_task(task: Task, instructions: Instructions) -> Vec<Outcome> {
+    dispatch(Batch::<REGISTERS_PER_BATCH>(task), instructions)
 }
 
 /// Does a task with an instruction set, or the widest below it that the processor has. Each is the whole engine
@@ -66,13 +65,24 @@ fn vectorize<T: WithSimd>(task: T, instructions: Instructions) -> Result<T::Outp
     }
 }
 
-/// Does a task one motion after another, in a single register where registers are wide.
-fn run_one_by_one(task: Task) -> Vec<Outcome> {
+/// Follows jobs one after another, in a single register where registers are wide. It is generic so that the engine
+/// for one register is compiled where it is called.
+pub(super) fn run_one_by_one<W: BatchObserver>(
+    machines: &[Machine],
+    jobs: &[Job],
+    watch: &mut W,
+) -> Vec<Outcome> {
+    let task = Task {
+        machines,
+        jobs,
+        watch: ObserverHandle::new(watch),
+        at_once: 1,
+    };
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     if let Some(simd) = pulp::x86::V3::try_new() {
         return Simd::vectorize(simd, Batch::<1>(task));
     }
-    dispatch(Batch::<REGISTERS_PER_BATCH>(task), Instructions::Portable)
+    run_task(task, Instructions::Portable)
 }
 
 /// A task in N registers abreast.

@@ -41,8 +41,6 @@ pub enum Instructions {
     Avx2,
     /// No vector instructions but those that every processor of its kind has.
     Portable,
-    /// One motion after another, each alone in one register of at most 256 bits.
-    OneByOne,
 }
 
 /// Jobs, the machines that they name, and who watches them.

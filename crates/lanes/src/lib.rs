@@ -99,4 +99,4 @@ pub use job::{Instructions, Job, Outcome};
 pub use machine::Machine;
 pub use observer::BatchObserver;
 pub use registers::Registers;
-pub use run::{run, run_parallel, run_with};
+pub use run::{run, run_one_by_one, run_parallel, run_with};

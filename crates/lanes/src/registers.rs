@@ -18,14 +18,7 @@ pub struct Registers {
 impl Instructions {
     /// The registers that this processor has for this instruction set.
     pub fn registers(self) -> Registers {
-        let registers = dispatch(MeasureRegisters, self);
-        match self {
-            Self::OneByOne => Registers {
-                lanes: 1,
-                ..registers
-            },
-            _ => registers,
-        }
+        dispatch(MeasureRegisters, self)
     }
 }
 

@@ -32,6 +32,19 @@ pub fn run_with(
     dispatch::run_jobs(machines, jobs, ObserverHandle::new(watch), instructions)
 }
 
+/// Follows all jobs on this thread, one after another, each alone in one register of at most 256 bits: what a motion
+/// costs without others beside it.
+///
+/// # Panics
+/// If a job names a machine that is not there.
+pub fn run_one_by_one(
+    machines: &[Machine],
+    jobs: &[Job],
+    watch: &mut impl BatchObserver,
+) -> Vec<Outcome> {
+    dispatch::run_one_by_one(machines, jobs, watch)
+}
+
 /// Follows all jobs on the threads of rayon's pool, part by part, with the same result for any number of
 /// threads. Each part has an observer of its own, which `watch` makes for the jobs in this range; they come
 /// back in order. They are told of jobs by their number in `jobs`.

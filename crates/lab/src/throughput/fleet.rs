@@ -5,7 +5,9 @@ use serde::Serialize;
 use softstop::{Clock, MotionError, Scene, SceneError, Start};
 use softstop_console::machine::Regime;
 use softstop_dynamics::internals::ImpactCounter;
-use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run_parallel, run_with};
+use softstop_lanes::{
+    BatchObserver, Instructions, Job, Machine, Outcome, run_one_by_one, run_parallel, run_with,
+};
 
 /// The motions.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -103,7 +105,15 @@ impl Fleet {
     /// # Errors
     /// As [`Fleet::safe`].
     pub fn batch(&self, instructions: Instructions) -> Result<Count, MotionError> {
-        self.batch_watched(instructions, &mut ())
+        self.follow(|machines, jobs| run_with(instructions, machines, jobs, &mut ()))
+    }
+
+    /// All in one lane on this thread, each machine lowered first.
+    ///
+    /// # Errors
+    /// As [`Fleet::safe`].
+    pub fn one_by_one(&self) -> Result<Count, MotionError> {
+        self.follow(|machines, jobs| run_one_by_one(machines, jobs, &mut ()))
     }
 
     /// The same, each impact told, so that no motion with impacts is leapt over.
@@ -111,13 +121,12 @@ impl Fleet {
     /// # Errors
     /// As [`Fleet::safe`].
     pub fn each_impact(&self, instructions: Instructions) -> Result<Count, MotionError> {
-        self.batch_watched(instructions, &mut EachImpact)
+        self.follow(|machines, jobs| run_with(instructions, machines, jobs, &mut EachImpact))
     }
 
-    fn batch_watched(
+    fn follow(
         &self,
-        instructions: Instructions,
-        watch: &mut impl BatchObserver,
+        run: impl Fn(&[Machine], &[Job]) -> Vec<Outcome>,
     ) -> Result<Count, MotionError> {
         let mut all = Vec::new();
         for (scenes, jobs) in self.scenes.chunks(PART).zip(self.jobs.chunks(PART)) {
@@ -125,7 +134,7 @@ impl Fleet {
             let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
             let own = |(machine, job): (usize, &Job)| Job { machine, ..*job };
             let jobs: Vec<Job> = jobs.iter().enumerate().map(own).collect();
-            all.extend(run_with(instructions, &machines, &jobs, watch));
+            all.extend(run(&machines, &jobs));
         }
         Count::of(&all)
     }

@@ -72,7 +72,7 @@ pub fn measure(
     let lanes = |set| -> Way<'_> { Box::new(move || fleet.batch(set)) };
     let mut ways: Vec<Way<'_>> = vec![
         Box::new(|| fleet.safe()),
-        lanes(Instructions::OneByOne),
+        Box::new(|| fleet.one_by_one()),
         lanes(Instructions::Widest),
         Box::new(|| fleet.each_impact(Instructions::Widest)),
         Box::new(|| all.install(|| fleet.parallel(ROUNDS))),

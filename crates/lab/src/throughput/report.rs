@@ -131,7 +131,10 @@ impl ThroughputReport {
             scene,
             repeats,
             safe: Engine::new(safe, work),
-            scalar: lanes(Instructions::OneByOne, scalar),
+            scalar: LaneEngine {
+                lanes: 1,
+                ..lanes(Instructions::Avx2, scalar)
+            },
             batch: lanes(Instructions::Widest, batch),
             each_impact: lanes(Instructions::Widest, each_impact),
             avx2: narrower(Instructions::Avx2),
