@@ -45,6 +45,7 @@ pub mod slopes;
 mod stroke_count;
 mod stroke_observer;
 pub mod sweep;
+mod tolerance;
 mod wilson_interval;
 pub mod zone;
 

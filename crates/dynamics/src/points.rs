@@ -14,8 +14,6 @@ use rayon::prelude::*;
 pub const SEQUENCE_LENGTH: usize = 1 << 16;
 /// Largest dimension of a point.
 pub const MAX_DIMENSIONS: u32 = 4 * sobol_burley::NUM_DIMENSION_SETS_4D;
-/// Half the distance between numbers of 24 bits in [0, 1): it centres coordinates in their cells.
-const HALF_SPACING: f64 = 0.5 / (1 << 24) as f64;
 /// An odd multiplier of seeds whose multiples are far apart: no two seeds share a Sobol sequence soon.
 const SEED_STEP: u32 = 0x9e37_79b9;
 
@@ -36,7 +34,9 @@ pub fn parallel_blocks(
 pub fn sobol_coordinate(seed: u32, index: u64, dimension: u32) -> f64 {
     let sequence = (index / SEQUENCE_LENGTH as u64) as u32 ^ seed.wrapping_mul(SEED_STEP);
     let within = (index % SEQUENCE_LENGTH as u64) as u32;
-    f64::from(sobol_burley::sample(within, dimension, sequence)) + HALF_SPACING
+    let centring = 0.25 * f64::from(f32::EPSILON);
+    // Half the distance between numbers of 24 bits in [0, 1): coordinates lie in the middle of their cells.
+    f64::from(sobol_burley::sample(within, dimension, sequence)) + centring
 }
 
 /// The scrambled Sobol point `index` in at most [`MAX_DIMENSIONS`], each coordinate between -1 and 1.

@@ -7,17 +7,12 @@ use super::known_orbit::KnownOrbit;
 use crate::member::MemberStatus;
 use crate::orbit::recurrence::{find_return, motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
+use crate::tolerance::{NEAR, SAME};
 use softstop::{Scene, Start};
 
-/// Distance from an orbit at which a motion has arrived, in units of the orbit's size.
-pub(crate) const ARRIVAL_DISTANCE: f64 = 1e-6;
 /// Two orbits of the same period are one if two of their states are as near as the first of these, and the
 /// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows.
 const SAME_ORBIT: (f64, f64) = (1e-7, 1e-3);
-/// Distance from 1 of the multiplier of a mass that creeps to rest.
-const CREEP_TOLERANCE: f64 = 1e-6;
-/// Distance, in units of the orbit's size, at which a motion that returns is believed to return to an orbit at once.
-const NEAR_ORBIT_DISTANCE: f64 = 1e-3;
 
 /// The stable orbits of a scene that are known.
 pub(crate) struct AttractorCatalogue<'a> {
@@ -44,7 +39,7 @@ impl<'a> AttractorCatalogue<'a> {
         self.orbits.iter().position(|known| {
             let recent = log.iter().rev().take(known.states.len());
             let mut gaps = recent.map(|state| self.orbit_distance(known, state));
-            gaps.any(|gap| gap <= ARRIVAL_DISTANCE * known.size)
+            gaps.any(|gap| gap <= SAME * known.size)
         })
     }
 
@@ -79,7 +74,7 @@ impl<'a> AttractorCatalogue<'a> {
         let orbit = self.enter_orbit(orbit, found.distance)?;
         let known = &self.orbits[orbit];
         let gap = self.orbit_distance(known, last);
-        let is_near = found.distance <= ARRIVAL_DISTANCE && gap <= NEAR_ORBIT_DISTANCE * known.size;
+        let is_near = found.distance <= SAME && gap <= NEAR * known.size;
         Ok(match is_near || self.find_reached(log).is_some() {
             true => MemberStatus::Arrived(orbit),
             false => MemberStatus::Approaching(orbit),
@@ -95,8 +90,7 @@ impl<'a> AttractorCatalogue<'a> {
         let gap = Start::new(state.position - passage.end.x, state.velocity);
         let creep = state_distance(self.drive_frequency(), &gap, &Start::from(Vector2::zeros()));
         let size = motion_size(self.drive_frequency(), [state]);
-        Ok((passage.monodromy.matrix - held).norm() <= CREEP_TOLERANCE
-            && creep <= ARRIVAL_DISTANCE * size)
+        Ok((passage.monodromy.matrix - held).norm() <= SAME && creep <= SAME * size)
     }
 
     /// The known orbit that has these states, if there is one.

@@ -11,13 +11,12 @@ use softstop::Start;
 use softstop::internals::budget;
 
 /// Share of the states of two logs whose nearest neighbours lie in the other log, from which on they are one motion. It
-/// is 0.5 on average for one motion, with a standard deviation of 0.05 or more for logs of 129 states, and 0 for two.
+/// is 0.5 on average for one motion, with a standard deviation of 0.05 or more for logs of 129 states, and 0 for two. So is
+/// the share of the larger set of cells that the logs have in common.
 const MIXED_SHARE: f64 = 0.1;
 
 /// Cells across the plane in which the places of logs are counted.
 const CELLS_ACROSS: f64 = 100.0;
-/// Share of the larger set of cells that two logs of one motion have in common at least.
-const COMMON_CELL_SHARE: f64 = 0.1;
 
 /// Pairs of states of two logs that are compared at the cost of one scan window.
 const STATE_PAIRS_PER_SCAN_WINDOW: usize = 8;
@@ -107,7 +106,7 @@ fn visited_cells(log: &[Place]) -> Vec<(i64, i64)> {
 /// True if two logs have enough of their cells in common.
 fn have_common_cells(a: &[(i64, i64)], b: &[(i64, i64)]) -> bool {
     let common = a.iter().filter(|cell| b.binary_search(cell).is_ok());
-    common.count() as f64 >= COMMON_CELL_SHARE * a.len().max(b.len()) as f64
+    common.count() as f64 >= MIXED_SHARE * a.len().max(b.len()) as f64
 }
 
 /// True if enough places of two logs have their nearest neighbour in the other one.

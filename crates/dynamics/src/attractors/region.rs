@@ -24,8 +24,6 @@ const REGION_MARGIN: f64 = 0.5;
 const LEAST_HALF_SIZE: f64 = 0.1;
 /// Least half-size of the box of all starts, in units of the motion's length (and of w times it).
 const BOX_HALF_SIZE: f64 = 2.0;
-/// Size of the box of all starts in units of the motions in it.
-const BOX_ROOM: f64 = 1.5;
 /// 1/g and 1/g^2 with g^3 = g + 1: of all pairs the one whose multiples fill a square most evenly (Roberts 2018).
 const SEQUENCE_STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
@@ -65,13 +63,13 @@ impl Region {
     /// The box that commands take starts from: twice the motion's length both ways, or wider where states need it.
     pub(crate) fn start_box(scene: &Scene, states: impl IntoIterator<Item = Start>) -> Self {
         let Scales { length, rate } = scene.motion_scales();
-        let length = BOX_HALF_SIZE * length;
+        let (length, room) = (BOX_HALF_SIZE * length, 1.0 + REGION_MARGIN);
         let half = states
             .into_iter()
             .fold((length, length * rate), |(x, v), state| {
                 let (far, fast) = (state.position.abs(), state.velocity.abs());
                 match (far + fast).is_finite() {
-                    true => (x.max(BOX_ROOM * far), v.max(BOX_ROOM * fast)),
+                    true => (x.max(room * far), v.max(room * fast)),
                     false => (x, v),
                 }
             });

@@ -7,13 +7,13 @@ use rayon::prelude::*;
 
 use super::contraction_ball::ContractionBalls;
 use super::section::bring_to_section;
-use crate::attractors::catalogue::ARRIVAL_DISTANCE;
 use crate::ensemble::Ensemble;
 use crate::member::{HasMember, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::recurrence::{motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError};
 use crate::stroke_count::StrokeCount;
+use crate::tolerance::SAME;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
 use softstop::internals::budget::SharedBudget;
@@ -100,7 +100,7 @@ impl BasinTest {
         let (patience, arrived) = match decay {
             _ if decay > MIN_DECAY_EXPONENT => {
                 let settling = (SETTLING_EXPONENT / decay).min(MAX_SETTLING_PERIODS);
-                (APPROACH_PERIODS + settling as u64, ARRIVAL_DISTANCE)
+                (APPROACH_PERIODS + settling as u64, SAME)
             }
             _ if decay > -MIN_DECAY_EXPONENT && !orbit.is_neutral() => {
                 (BORDER_PERIODS, BORDER_ARRIVAL_DISTANCE)

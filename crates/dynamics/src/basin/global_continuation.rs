@@ -11,13 +11,12 @@ use crate::attractors::{Attractor, SearchOptions, settle_starts};
 use crate::monitor::{Monitor, OptionalMemory};
 use crate::orbit::recurrence::{motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError};
+use crate::tolerance::SAME;
 use softstop::{Scene, Start};
 
 /// Distance of two orbits of different regimes, in units of the larger one's size, within which one continues the
 /// other: a soft flip and a soft grazing lead to such, a jump does not.
 const CONTINUES_DISTANCE: f64 = 0.1;
-/// Distance, in units of the larger one's size, of two orbits found at one value that are the same.
-const SAME_ORBIT_DISTANCE: f64 = 1e-5;
 
 /// The basins at one value of a parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,7 +156,7 @@ fn enter_orbit(basins: &mut Basins, orbit: Orbit) -> Result<(), OrbitError> {
     for class in &basins.classes {
         if let Some(known) = class.orbit.as_deref()
             && known.periods == orbit.periods
-            && orbit_gap(known, &orbit)? < SAME_ORBIT_DISTANCE
+            && orbit_gap(known, &orbit)? < SAME
         {
             return Ok(());
         }

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::orbit::{OrbitError, ROUNDING_SHARE};
+use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, ROUNDING, TEST_ROUNDING};
 
 /// A system of equations in scaled unknowns; what is known exactly besides the evaluation spares differences.
 pub(crate) trait Equations {
@@ -63,9 +64,6 @@ pub(crate) struct Evaluation<P> {
     pub point: P,
 }
 
-/// What rounding leaves of a test function on orbits that stretch little.
-const TEST_ROUNDING: f64 = 1e-12;
-
 impl<P> Evaluation<P> {
     /// This evaluation with one equation more: a test function vanishes.
     pub fn with_test(self, value: f64) -> Self {
@@ -88,14 +86,10 @@ pub(crate) struct Node<P> {
 const USUAL_CORRECTIONS: usize = 12;
 /// Most Newton steps of a correction: across a corner of the motion the residual falls by a share only.
 const MAX_CORRECTIONS: usize = 48;
-/// Residual, in units of its rounding, up to which a correction that stagnates measures its noise.
-const MAX_NOISE_RATIO: f64 = 1000.0;
 /// Changes of the unknowns, in units of their rounding, by which that noise is measured.
 const NOISE_PROBES: [f64; 4] = [-8.0, -4.0, 4.0, 8.0];
 /// Share of the residual that a step with kept slopes may leave: beyond it, they are not used again.
 const STALE_SHARE: f64 = 0.02;
-/// Scaled half-width of the central differences.
-pub(crate) const DIFFERENCE_WIDTH: f64 = 1e-6;
 
 /// Corrects a guess by Newton's method: in the plane across `normal` for a curve, with none for as many equations as
 /// unknowns. It ends when a step no longer makes a residual smaller that is at round-off, or none could.
@@ -129,9 +123,6 @@ pub(super) enum Accuracy {
     Given,
 }
 
-/// Residual that a quick solution may leave.
-const QUICK_RESIDUAL: f64 = 1e-9;
-
 /// Corrects a guess by Newton's method with slopes of a place nearby as long as they serve; leaves the last.
 pub(super) fn correct_with_slopes<E: Equations>(
     equations: &E,
@@ -151,7 +142,7 @@ pub(super) fn correct_with_slopes<E: Equations>(
             return Ok(Node { at, here });
         }
         if late && size > 0.5 * last {
-            if size < MAX_NOISE_RATIO * here.tolerance && size <= noise(equations, &at, &here) {
+            if NEAR * size < here.tolerance && size <= noise(equations, &at, &here) {
                 return Ok(Node { at, here });
             }
             return Err(OrbitError::Diverged { residual: size });
@@ -183,7 +174,7 @@ pub(super) fn correct_with_slopes<E: Equations>(
             _ if fits => return Err(OrbitError::NotIsolated),
             _ => return Err(OrbitError::Diverged { residual: size }),
         }
-        if accuracy == Accuracy::Quick && round > 0 && next <= QUICK_RESIDUAL {
+        if accuracy == Accuracy::Quick && round > 0 && next <= ROUNDING {
             return Ok(Node { at, here });
         }
     }

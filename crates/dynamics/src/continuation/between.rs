@@ -4,18 +4,15 @@ use std::ops::ControlFlow;
 
 use super::Family;
 use super::arclength::Node;
-use super::follow::{Continuation, LOCATED_WIDTH};
+use super::follow::Continuation;
 use super::half_branch::Limits;
-use super::locate::{along_chord, locate_zero, solve_zero};
+use super::locate::{OFF_CHORD, along_chord, locate_zero, solve_zero};
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
 use super::test::Test;
 use crate::orbit::OrbitError;
+use crate::tolerance::ROUNDING;
 
-/// Distance of a point from the chord between its neighbours, as a share of it, up to which it is between them.
-pub(crate) const OFF_CHORD: f64 = 0.2;
-/// Relative difference of a parameter within which it is the one asked for.
-const PARAMETER_ROUNDING: f64 = 1e-9;
 /// Most points that a branch is followed through between two neighbours.
 const MAX_WALK_POINTS: usize = 200;
 
@@ -56,9 +53,9 @@ impl<F: Family> Continuation<'_, F> {
         test: Test,
     ) -> Result<BranchPoint, OrbitError> {
         let value = |round: &PeriodMap| test.scaled_value(&round.monodromy);
-        let node = solve_zero(&self.shooting, ends, LOCATED_WIDTH, value).or_else(|_| {
+        let node = solve_zero(&self.shooting, ends, value).or_else(|_| {
             let value = |node: &Node<PeriodMap>| value(&node.here.point);
-            locate_zero(&self.shooting, ends, LOCATED_WIDTH, value).map(|(node, _)| node)
+            locate_zero(&self.shooting, ends, value).map(|(node, _)| node)
         })?;
         self.point_at(&node)
     }
@@ -70,7 +67,7 @@ impl<F: Family> Continuation<'_, F> {
         parameter: f64,
     ) -> Result<BranchPoint, OrbitError> {
         let value = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - parameter;
-        let (node, _) = locate_zero(&self.shooting, ends, LOCATED_WIDTH, value)?;
+        let (node, _) = locate_zero(&self.shooting, ends, value)?;
         self.point_at(&node)
     }
 
@@ -96,9 +93,7 @@ impl<F: Family> Continuation<'_, F> {
             continuation.parameter_of_nodes(ends, parameter)
         });
         match located {
-            Ok(point)
-                if (point.parameter - parameter).abs() <= PARAMETER_ROUNDING * parameter.abs() =>
-            {
+            Ok(point) if (point.parameter - parameter).abs() <= ROUNDING * parameter.abs() => {
                 Ok(point)
             }
             other => {

@@ -7,17 +7,17 @@ use nalgebra::{DVector, Vector2};
 use super::Family;
 use super::arclength::Node;
 use super::curve::MIN_LOOP_POINTS;
-use super::follow::{Continuation, LOCATED_WIDTH, SectionChange};
+use super::follow::{Continuation, SectionChange};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{End, HalfBranch, Limits};
-use super::locate::locate_zero;
+use super::locate::{locate_zero, passes_place};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
-use super::step_control::SHORT_STEP;
 use super::stepper::Stepper;
 use super::test::Test;
 use crate::direction::Direction;
 use crate::orbit::OrbitError;
+use crate::tolerance::SAME;
 
 /// A branch of orbits, in order of arclength.
 #[derive(Debug, Clone)]
@@ -32,13 +32,6 @@ pub struct Branch {
     /// Why it ends at its first point and at its last.
     pub ends: (End, End),
 }
-
-/// Shortest steps in a row after which an orbit is too unstable to be followed.
-const MAX_CRAWL_STEPS: usize = 60;
-/// Scaled distance within which an orbit repeats after a part of its periods.
-const REPEAT_DISTANCE: f64 = 1e-7;
-/// First step of a branch after a corner: others, and folds, may lie as near.
-const STEP_AFTER_CORNER: f64 = 1e-5;
 
 impl Branch {
     /// The special point of the branch at this point, if it is one.
@@ -101,7 +94,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         let returns = |after: &u64| {
             let way =
                 node.here.point.trajectory.at_cycle(*after) - self.shooting.state_at(&node.at);
-            self.shooting.scaled(way, [0.0]).norm() < REPEAT_DISTANCE
+            self.shooting.scaled(way, [0.0]).norm() < SAME
         };
         (1..periods)
             .filter(|after| periods.is_multiple_of(*after))
@@ -174,12 +167,11 @@ impl<'a, F: Family> Continuation<'a, F> {
     ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
         let origin = self.place_of(origin)?;
         let mut grazing_test = GrazingTest::of_node(&self.shooting, &start);
-        let mut stepper = Stepper::new(&self.shooting, start, along, self.largest)?;
-        let mut crawled = 0;
+        let mut stepper = Stepper::new(&self.shooting, start, along, &self.settings)?;
         // Since the last corner, if one was passed.
         let mut goes_on = true;
         while way.points.len() < limits.points {
-            if crawled > MAX_CRAWL_STEPS {
+            if stepper.is_crawling() {
                 self.end_branch(way, &stepper, &grazing_test, limits, OrbitError::LOST);
                 return Ok(None);
             }
@@ -195,11 +187,6 @@ impl<'a, F: Family> Continuation<'a, F> {
             });
             match step {
                 Ok((step, ahead, end)) => {
-                    crawled = if stepper.step < SHORT_STEP {
-                        crawled + 1
-                    } else {
-                        0
-                    };
                     grazing_test = ahead.after_step(&grazing_test, stepper.step);
                     stepper.step_to(step);
                     goes_on = true;
@@ -241,8 +228,8 @@ impl<'a, F: Family> Continuation<'a, F> {
                             let ahead = GrazingTest::of_node(&self.shooting, &node);
                             let end = self.record_step(way, step, specials, &origin, limits)?;
                             let mut next =
-                                Stepper::new(&self.shooting, node.clone(), &along, self.largest)?;
-                            next.step = STEP_AFTER_CORNER;
+                                Stepper::new(&self.shooting, node.clone(), &along, &self.settings)?;
+                            next.step = self.settings.crawling_step;
                             Ok((end, ahead, next))
                         });
                     let (end, ahead, next) = match beyond {
@@ -272,14 +259,15 @@ impl<'a, F: Family> Continuation<'a, F> {
         origin: &DVector<f64>,
         limits: &Limits,
     ) -> Result<Option<End>, OrbitError> {
-        let closes = way.points.len() >= MIN_LOOP_POINTS && self.closes_branch(from, to, origin);
+        let closes =
+            way.points.len() >= MIN_LOOP_POINTS && passes_place(&self.shooting, (from, to), origin);
         let bound = self.bound_passed((from, to), limits);
         let merged = self.merging_point(from, to);
         let (to, end) = match (bound, merged) {
             (Some((_, true)), _) => return Ok(Some(End::Range)),
             (Some((bound, false)), _) => {
                 let test = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
-                let (node, _) = locate_zero(&self.shooting, (from, to), LOCATED_WIDTH, test)?;
+                let (node, _) = locate_zero(&self.shooting, (from, to), test)?;
                 let sequence = node.here.point.sequence;
                 let is_end =
                     |end: &&Node<PeriodMap>| end.here.point.sequence.has_same_jumps(&sequence);

@@ -76,9 +76,6 @@ impl CodimensionTwo {
     }
 }
 
-/// Part of a curve's direction along the parameters that counts as none.
-pub(super) const TURNING_SHARE: f64 = 1e-6;
-
 /// The part of a curve's direction along the two parameters.
 pub(super) fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
     direction.rows(direction.len() - 2, 2).into_owned()

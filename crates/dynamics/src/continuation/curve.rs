@@ -5,14 +5,13 @@ use std::ops::ControlFlow;
 use nalgebra::DVector;
 
 use super::arclength::{Node, correct, curve_tangent};
-use super::codimension_two::{
-    Codimension, CodimensionTwo, CurvePoint, TURNING_SHARE, along_parameters,
-};
-use super::follow::LOCATED_WIDTH;
-use super::locate::{along_chord, locate_zero};
+use super::codimension_two::{Codimension, CodimensionTwo, CurvePoint, along_parameters};
+use super::locate::{locate_zero, passes_place};
 use super::point::SpecialKind;
+use super::settings::ContinuationSettings;
 use super::stepper::Stepper;
 use crate::orbit::OrbitError;
+use crate::tolerance::SAME;
 
 /// Limits of a curve: the part of the plane of two parameters in which it is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,13 +96,6 @@ pub(super) fn follow_curve<E: Codimension>(
 
 /// Points after which a curve or a branch may be found closed.
 pub(super) const MIN_LOOP_POINTS: usize = 8;
-/// Distance from its start, in units of the step, within which a curve is closed.
-pub(super) const CLOSING_SHARE: f64 = 0.05;
-
-/// Share of the largest step up to which a curve creeps: beside grazing steps can stay so short for ever.
-const CREEP_SHARE: f64 = 1e-4;
-/// Creeping steps in a row after which a curve is given up.
-const MAX_CREEP_STEPS: usize = 40;
 
 /// Points of a curve in one direction, those of codimension two among them, and why it ends.
 type HalfCurve = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
@@ -118,9 +110,12 @@ fn follow_half_curve<E: Codimension>(
 ) -> Result<HalfCurve, OrbitError> {
     let origin = start.at.clone();
     let sequence = E::orbit_of(&start.here.point).2;
-    let mut stepper = Stepper::new(equations, start, along, region.step)?;
+    let settings = ContinuationSettings {
+        largest_step: region.step,
+        ..ContinuationSettings::default()
+    };
+    let mut stepper = Stepper::new(equations, start, along, &settings)?;
     let (mut points, mut specials) = (Vec::new(), Vec::new());
-    let mut creeping = 0;
     while points.len() < region.points {
         let last = stepper.node.clone();
         let ahead = stepper.step * &stepper.direction;
@@ -150,22 +145,15 @@ fn follow_half_curve<E: Codimension>(
         let special = special_between(equations, (&last, &node), directions);
         specials.extend(special.ok().flatten());
         stepper.step_to(step);
-        let step = &node.at - &last.at;
-        creeping = if step.norm() < CREEP_SHARE * region.step {
-            creeping + 1
-        } else {
-            0
-        };
-        let (share, off) = along_chord((&last.at, &step), &origin);
-        let passes = (0.0..=1.0).contains(&share) && off < CLOSING_SHARE * step.norm();
-        let closed = points.len() >= MIN_LOOP_POINTS && passes;
+        let closed =
+            points.len() >= MIN_LOOP_POINTS && passes_place(equations, (&last, &node), &origin);
         let point = equations.curve_point(&node)?;
         let stopped = watch(&point).is_break();
         points.push(point);
         if leaves {
             return Ok((points, specials, CurveEnd::Range));
         }
-        if creeping == MAX_CREEP_STEPS {
+        if stepper.is_crawling() {
             return Ok((points, specials, CurveEnd::Lost(OrbitError::LOST)));
         }
         if closed {
@@ -196,11 +184,11 @@ fn special_between<E: Codimension>(
             direction(node).map(|(here, _)| equations.degeneracy_test(node, [begins, &here]).1);
         value.unwrap_or(f64::NAN)
     };
-    let (node, _) = locate_zero(equations, (from, to), LOCATED_WIDTH, value)?;
+    let (node, _) = locate_zero(equations, (from, to), value)?;
     let (kind, _) = equations.degeneracy_test(&node, [begins, begins]);
     // A curve that only turns sharply has its parameters change there, too.
     let is_found = match kind {
-        CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < TURNING_SHARE,
+        CodimensionTwo::Cusp => along_parameters(&direction(&node)?.0).norm() < SAME,
         // It changes its sign as well where it grows beyond all bounds.
         CodimensionTwo::GeneralisedFlip => value(&node).abs() < before.abs().min(after.abs()),
         CodimensionTwo::ResonantGrazing(_) => true,
@@ -208,9 +196,6 @@ fn special_between<E: Codimension>(
     let point = equations.curve_point(&node)?;
     Ok(is_found.then_some((kind, point)))
 }
-
-/// Share of the gaps of its neighbours up to which a gap vanishes.
-const MERGED_GAP_SHARE: f64 = 1e-6;
 
 /// True if a fold between two nodes of a curve repeats after half its drive periods already: it is a flip.
 fn is_merging<E: Codimension>(
@@ -225,9 +210,9 @@ fn is_merging<E: Codimension>(
         return false;
     }
     let value = |node: &Node<E::Point>| gap(node).map_or(f64::NAN, |it| it.dot(&before));
-    let between = locate_zero(equations, (from, to), LOCATED_WIDTH, value).ok();
+    let between = locate_zero(equations, (from, to), value).ok();
     let left = between.and_then(|(node, _)| gap(&node));
-    left.is_some_and(|it| it.norm() < MERGED_GAP_SHARE * before.norm().max(after.norm()))
+    left.is_some_and(|it| it.norm() < SAME * before.norm().max(after.norm()))
 }
 
 /// The end of a step of a curve, or the point on it where a parameter leaves its range, and whether one does.
@@ -243,7 +228,7 @@ fn clip_to_region<E: Codimension>(
         let bound = now.clamp(low, high);
         if bound != now && value(from) != bound {
             let test = |node: &Node<E::Point>| value(node) - bound;
-            let (node, _) = locate_zero(equations, (from, &end.0), LOCATED_WIDTH, test)?;
+            let (node, _) = locate_zero(equations, (from, &end.0), test)?;
             end = (node, true);
         }
     }

@@ -6,8 +6,7 @@ use nalgebra::DVector;
 
 use super::Family;
 use super::arclength::{Equations, Node};
-use super::curve::CLOSING_SHARE;
-use super::follow::{Continuation, LOCATED_WIDTH};
+use super::follow::Continuation;
 use super::grazing_test::GrazingTest;
 use super::half_branch::{End, Limits};
 use super::locate::{CurveCubic, along_chord, locate_zero};
@@ -15,22 +14,11 @@ use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::test::Test;
 use crate::orbit::OrbitError;
+use crate::tolerance::{DIFFERENCE_WIDTH, NEAR};
 use softstop::internals::highest_point;
 
-/// Share of its gap after half its periods that may be left where an orbit has become one of half as many periods.
-const MERGED_SHARE: f64 = 1e-3;
-/// Scaled distance within which an end of the range is reached where it cannot be passed.
-const BOUND_DISTANCE: f64 = 1e-4;
-/// Distance of an orbit from the start of a branch, in units of the step, at which the branch is closed.
-const START_DISTANCE: f64 = 1e-3;
-/// Share of a step to which the place is found where a multiplier is farthest beyond -1.
-const DIP_WIDTH: f64 = 1e-6;
 /// Share of a step over which a test is taken to be straight.
 const STRAIGHT_SHARE: f64 = 0.02;
-/// Value of a test from which on no step leads to zero and back.
-const MAX_DIP_TEST: f64 = 0.2;
-/// Scaled length of the shortest part of a step that is halved to find a grazing on it.
-const MIN_HALVED_LENGTH: f64 = 1e-7;
 
 impl<F: Family> Continuation<'_, F> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
@@ -46,7 +34,7 @@ impl<F: Family> Continuation<'_, F> {
         (bound != now).then_some((bound, is_at))
     }
 
-    /// The orbit at the end of the range that a node has reached to within `BOUND_DISTANCE`.
+    /// The orbit at the end of the range that a node has reached.
     pub(super) fn bound_at(
         &self,
         node: &Node<PeriodMap>,
@@ -56,7 +44,7 @@ impl<F: Family> Continuation<'_, F> {
         let state = self.shooting.state_at(&node.at);
         let reached = |bound: &f64| {
             let at = self.shooting.scaled(state, [*bound]);
-            (at - &node.at).norm() < BOUND_DISTANCE
+            (at - &node.at).norm() < self.settings.border_distance
         };
         let bound = [low, high].into_iter().find(reached)?;
         let found = self.correct_start(bound, state).ok()?;
@@ -81,7 +69,7 @@ impl<F: Family> Continuation<'_, F> {
                     continue;
                 }
                 let value = |node: &Node<PeriodMap>| test.scaled_value(&node.here.point.monodromy);
-                let (node, share) = locate_zero(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
+                let (node, share) = locate_zero(&self.shooting, (from, to), value)?;
                 let point = self.point_at(&node)?;
                 let kind = SpecialKind::Critical(test);
                 found.push((share, Special { kind, point }));
@@ -108,7 +96,7 @@ impl<F: Family> Continuation<'_, F> {
             return Ok(Vec::new());
         }
         let turns_over = a.m12 * b.m12 < 0.0 || a.m21 * b.m21 < 0.0;
-        if !turns_over && begins.min(ends) > MAX_DIP_TEST {
+        if !turns_over && begins.min(ends) > self.settings.max_test_change {
             return Ok(Vec::new());
         }
         let cubic = CurveCubic::between(&self.shooting, (from, to))?;
@@ -127,7 +115,7 @@ impl<F: Family> Continuation<'_, F> {
         };
         let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
         let flips = halves.map(|(from, to, begins, ends)| {
-            let (node, own) = locate_zero(&self.shooting, (from, to), LOCATED_WIDTH, value)?;
+            let (node, own) = locate_zero(&self.shooting, (from, to), value)?;
             let kind = SpecialKind::Critical(Test::Flip);
             let point = self.point_at(&node)?;
             Ok((begins + own * (ends - begins), Special { kind, point }))
@@ -154,7 +142,7 @@ impl<F: Family> Continuation<'_, F> {
         };
         if found.as_ref().is_some_and(|(_, special)| is_whole(special))
             || before == after
-            || (&to.at - &from.at).norm() < MIN_HALVED_LENGTH
+            || (&to.at - &from.at).norm() < DIFFERENCE_WIDTH
         {
             return Ok(found.into_iter().collect());
         }
@@ -195,22 +183,6 @@ impl<F: Family> Continuation<'_, F> {
         Ok(None)
     }
 
-    /// True if a step passes the start of the branch: near enough, and no other piece that lies beside it.
-    pub(super) fn closes_branch(
-        &self,
-        from: &Node<PeriodMap>,
-        to: &Node<PeriodMap>,
-        origin: &DVector<f64>,
-    ) -> bool {
-        let way = &to.at - &from.at;
-        let (share, off) = along_chord((&from.at, &way), origin);
-        (0.0..=1.0).contains(&share)
-            && off < CLOSING_SHARE * way.norm()
-            && CurveCubic::between(&self.shooting, (from, to))
-                .and_then(|cubic| cubic.node_at(share))
-                .is_ok_and(|node| (origin - &node.at).norm() < START_DISTANCE * way.norm())
-    }
-
     /// The flip at which an orbit becomes one of half as many periods, or the pitchfork at which it becomes symmetric,
     /// and why the branch ends there, if it does on a step: half the period leads to the other side of it.
     pub(super) fn merging_point(
@@ -221,7 +193,7 @@ impl<F: Family> Continuation<'_, F> {
         let periods = self.shooting.periods;
         let is_even = periods.is_multiple_of(2);
         let (a, b) = (self.merging_gap(from)?, self.merging_gap(to)?);
-        if a.dot(&b) >= 0.0 && b.norm() > MERGED_SHARE * a.norm() {
+        if a.dot(&b) >= 0.0 && b.norm() > NEAR * a.norm() {
             return None;
         }
         let share = a.norm() / (a.norm() + b.norm());
@@ -273,6 +245,6 @@ fn find_negative<E: Equations>(
         }
         depth
     };
-    highest_point(0.0, 1.0, DIP_WIDTH, depth);
+    highest_point(0.0, 1.0, DIFFERENCE_WIDTH, depth);
     found.into_inner()
 }

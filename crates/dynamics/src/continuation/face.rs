@@ -1,5 +1,6 @@
 //! Faces: the surfaces that an orbit may graze.
 
+use crate::tolerance::ROUNDING;
 use softstop::{Parameter, Scene, Stop};
 
 /// A face: a surface at which a scene's law of force changes.
@@ -90,7 +91,7 @@ impl Face {
 
     /// The face at a position, to rounding.
     pub(crate) fn at_position(scene: &Scene, position: f64) -> Option<Self> {
-        let near = 1e-9 * (scene.scales().length + position.abs());
+        let near = ROUNDING * (scene.scales().length + position.abs());
         let stands = |face: &Self| {
             face.face_position(scene)
                 .is_some_and(|level| (level - position).abs() < near)

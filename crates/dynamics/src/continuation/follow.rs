@@ -8,20 +8,19 @@ use super::Family;
 use super::arclength::{Equations, Node, correct, correct_given};
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
+use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
-use super::stepper::{CurveStep, LARGEST_STEP, Stepper};
+use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::direction::Direction;
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
-
-/// Scaled distance along a branch to which special points are located.
-pub(crate) const LOCATED_WIDTH: f64 = 1e-12;
+use crate::tolerance::ROUNDING;
 
 /// A continuation: follows the orbits of a family over a number of drive periods.
 #[derive(Debug)]
 pub struct Continuation<'a, F> {
     pub(super) shooting: Shooting<'a, F, 1>,
-    pub(super) largest: f64,
+    pub(super) settings: ContinuationSettings,
 }
 
 /// A branch seen at another section: a node of it, and the direction in which it goes on.
@@ -36,21 +35,28 @@ impl<'a, F: Family> Continuation<'a, F> {
     pub fn new(family: &'a F, periods: u64) -> Self {
         Self {
             shooting: Shooting::new(family, periods),
-            largest: LARGEST_STEP,
+            settings: ContinuationSettings::default(),
         }
     }
 
     /// This continuation with steps of at most `largest`, in units of the family's scales: for visibly smooth curves.
     #[must_use]
-    pub fn with_steps(self, largest: f64) -> Self {
-        Self { largest, ..self }
+    pub fn with_steps(mut self, largest: f64) -> Self {
+        self.settings.largest_step = largest;
+        self
+    }
+
+    /// This continuation with other settings.
+    #[must_use]
+    pub fn with_settings(self, settings: ContinuationSettings) -> Self {
+        Self { settings, ..self }
     }
 
     /// This continuation over another number of drive periods.
     pub(super) fn over_periods(&self, periods: u64) -> Self {
         Self {
             shooting: self.shooting.seen_at(self.shooting.turn, periods),
-            largest: self.largest,
+            settings: self.settings,
         }
     }
 
@@ -58,7 +64,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     pub(super) fn with_turn(&self, turn: f64) -> Self {
         Self {
             shooting: self.shooting.seen_at(turn, self.shooting.periods),
-            largest: self.largest,
+            settings: self.settings,
         }
     }
 
@@ -149,7 +155,7 @@ impl<'a, F: Family> Continuation<'a, F> {
     ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
         let sequence = node.here.point.sequence;
         let mut stepper =
-            Stepper::new(&self.shooting, node, along, self.largest)?.with_quick_steps();
+            Stepper::new(&self.shooting, node, along, &self.settings)?.with_long_steps();
         while points.len() < limit {
             match stepper.attempt_step() {
                 Ok(step)
@@ -246,11 +252,9 @@ fn is_same_piece<F: Family>(
     step: &CurveStep<PeriodMap>,
 ) -> bool {
     let [from, to] = [&stepper.node, &step.node].map(|node| &node.here.point.monodromy);
-    Test::change_little(from, to) && keeps_sense((&stepper.direction, from), (&step.direction, to))
+    Test::change_little(from, to, stepper.settings.max_test_change)
+        && keeps_sense((&stepper.direction, from), (&step.direction, to))
 }
-
-/// Sense of a direction that rounding may leave where there is none.
-const SENSE_ROUNDING: f64 = 1e-8;
 
 /// True if directions at two places of a branch, each with the monodromy matrix there, may be one: the parameter turns
 /// back where 1 - tr + det changes its sign, and nowhere else. Its rate along the curve is that test times a factor of one
@@ -265,5 +269,5 @@ pub(super) fn keeps_sense(
 
 /// True if two senses of direction are one, or there is none.
 pub(super) fn is_one_sense(from: f64, to: f64) -> bool {
-    from * to >= 0.0 || from.abs().min(to.abs()) <= SENSE_ROUNDING
+    from * to >= 0.0 || from.abs().min(to.abs()) <= ROUNDING
 }

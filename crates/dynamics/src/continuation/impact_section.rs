@@ -13,6 +13,7 @@ use super::sequence::Sequence;
 use crate::monitor::stop_if;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::period::PeriodTrajectory;
+use crate::tolerance::SAME;
 use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene};
 
 /// An impact section of a family: the surface at which its orbits begin and end.
@@ -120,9 +121,6 @@ pub(crate) struct LastArc {
     is_found: bool,
 }
 
-/// Largest share of the time to the end by which the last arc may be shorter, by rounding, and not count as cut.
-const MAX_UNCUT_SHARE: f64 = 1e-6;
-
 impl LastArc {
     /// The motion of a scene over some drive periods, its last arc carried past what comes in between.
     ///
@@ -158,7 +156,7 @@ impl LastArc {
         self.motion.arc(arc, elapsed);
         let (position, velocity) = arc.course.state_at(elapsed, arc.clock.drive(self.until));
         self.motion.end = Vector2::new(position, velocity);
-        self.is_cut = lasts < (1.0 - MAX_UNCUT_SHARE) * elapsed;
+        self.is_cut = lasts < (1.0 - SAME) * elapsed;
         self.is_found = true;
     }
 }

@@ -9,17 +9,17 @@ use super::arclength::{
     solve_linear,
 };
 use crate::orbit::OrbitError;
+use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, TEST_ROUNDING};
 use softstop::internals::narrow_root;
 
 /// Nodes known first: the two that a special point lies between.
 const END_NODES: usize = 2;
 
 /// Locates the node between two neighbours at which `test` changes its sign, and its share of the way: trials on the
-/// curve through the nearest nodes known, each corrected across the chord, until they are `width` apart on it.
+/// curve through the nearest nodes known, each corrected across the chord, until rounding alone tells them apart on it.
 pub(crate) fn locate_zero<E: Equations>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
-    width: f64,
     test: impl Fn(&Node<E::Point>) -> f64,
 ) -> Result<(Node<E::Point>, f64), OrbitError> {
     let way = &to.at - &from.at;
@@ -27,7 +27,7 @@ pub(crate) fn locate_zero<E: Equations>(
     let mut slopes = None;
     let mut known = vec![(0.0, test(from), from.clone()), (1.0, test(to), to.clone())];
     let ends = ((0.0, known[0].1), (1.0, known[1].1));
-    narrow_root(ends.0, ends.1, width / way.norm(), |share| {
+    narrow_root(ends.0, ends.1, TEST_ROUNDING / way.norm(), |share| {
         let straight = known.len() == END_NODES && equations.is_steep(&from.here.point);
         let bent = straight.then(|| CurveCubic::between(equations, (from, to)));
         let guess = match bent {
@@ -63,7 +63,6 @@ const SUPPORT_VALUES: usize = 4;
 pub(crate) fn solve_zero<E: Equations>(
     equations: &E,
     (from, to): (&Node<E::Point>, &Node<E::Point>),
-    width: f64,
     test: impl Fn(&E::Point) -> f64,
 ) -> Result<Node<E::Point>, OrbitError> {
     let lost = |residual| OrbitError::Diverged { residual };
@@ -82,7 +81,7 @@ pub(crate) fn solve_zero<E: Equations>(
         values.push((place, test(&here.point)));
         values.drain(..values.len().saturating_sub(SUPPORT_VALUES));
         let onward = interpolated_zero(&values) - place;
-        if size <= here.tolerance && onward.abs() <= width {
+        if size <= here.tolerance && onward.abs() <= TEST_ROUNDING {
             let is_between =
                 (0.0..=along(&to.at)).contains(&place) && is_beside((&from.at, &way), &at);
             return is_between.then_some(Node { at, here }).ok_or(lost(size));
@@ -108,6 +107,24 @@ pub(super) fn along_chord(
     let gone = at - from;
     let share = gone.dot(way) / way.norm_squared();
     (share, (gone - share * way).norm())
+}
+
+/// Distance of a point from the chord between its neighbours, as a share of it, up to which it is between them.
+pub(crate) const OFF_CHORD: f64 = 0.2;
+
+/// True if a step of a curve passes a place: near enough, and no other piece that lies beside it.
+pub(super) fn passes_place<E: Equations>(
+    equations: &E,
+    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    place: &DVector<f64>,
+) -> bool {
+    let way = &to.at - &from.at;
+    let (share, off) = along_chord((&from.at, &way), place);
+    (0.0..=1.0).contains(&share)
+        && off < OFF_CHORD * way.norm()
+        && CurveCubic::between(equations, (from, to))
+            .and_then(|cubic| cubic.node_at(share))
+            .is_ok_and(|node| (place - &node.at).norm() < NEAR * way.norm())
 }
 
 /// Where a function with these values vanishes, by inverse interpolation.
@@ -172,15 +189,13 @@ impl<'a, E: Equations> CurveCubic<'a, E> {
 
 /// Nodes that a guess between nodes is interpolated from.
 const SUPPORT_NODES: usize = 4;
-/// Least distance of these nodes, as shares of the way.
-const MIN_NODE_SPACING: f64 = 1e-6;
 
 /// The point at this share of the way on the polynomial (Lagrange) through the nodes nearest to it.
 fn interpolate_nodes<P>(known: &[(f64, f64, Node<P>)], share: f64) -> DVector<f64> {
     let mut near: Vec<(f64, &DVector<f64>)> =
         known.iter().map(|(at, _, node)| (*at, &node.at)).collect();
     near.sort_by(|a, b| (a.0 - share).abs().total_cmp(&(b.0 - share).abs()));
-    near.dedup_by(|a, b| (a.0 - b.0).abs() < MIN_NODE_SPACING);
+    near.dedup_by(|a, b| (a.0 - b.0).abs() < DIFFERENCE_WIDTH);
     near.truncate(SUPPORT_NODES);
     let weight = |index: usize| -> f64 {
         let others = near.iter().enumerate().filter(|(other, _)| *other != index);

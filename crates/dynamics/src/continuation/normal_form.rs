@@ -4,12 +4,11 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::test::Test;
 use crate::orbit::{OrbitError, StroboscopicMap};
+use crate::tolerance::NEAR;
 use softstop::Scene;
 
 /// Distances along the critical eigenvector, in the map's scales, over which the Jacobian is differenced.
 const FORM_DISTANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
-/// Share of their terms by which normal form coefficients over a distance and half of it may differ.
-const FORM_AGREEMENT: f64 = 1e-3;
 
 /// The coefficient of the normal form of a fixed point's map: a of u + a u^2 at a fold, c of -u + c u^3 at a flip, for the
 /// coordinate u along the critical eigenvector of length 1 in units of [`Scene::scales`]. A flip with c > 0 is supercritical:
@@ -71,7 +70,7 @@ pub fn normal_form_coefficient(
         let (wide, narrow) = (coefficient(*width)?, coefficient(0.5 * width)?);
         let size: f64 = narrow.iter().map(|part| part.abs()).sum();
         let [wide, narrow] = [wide, narrow].map(|parts| parts[0] + parts[1]);
-        ((wide - narrow).abs() <= FORM_AGREEMENT * size).then_some(narrow)
+        ((wide - narrow).abs() <= NEAR * size).then_some(narrow)
     }))
 }
 

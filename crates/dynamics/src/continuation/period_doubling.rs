@@ -18,10 +18,6 @@ use crate::orbit::OrbitError;
 
 /// Scaled distances from a flip or a pitchfork at which the branch that comes out of it is looked for.
 const BRANCHING_DISTANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-/// Smallest share of the distance from a flip by which half the doubled period must lead away.
-const HALF_PERIOD_GAP: f64 = 0.5;
-/// Largest value of the test of a fold where the new branch begins: beyond, it may have flipped itself.
-const MAX_FOLD_TEST: f64 = 0.5;
 
 impl<F: Family> Continuation<'_, F> {
     /// Follows the branch of orbits of twice the period from a flip of these orbits on, along the critical eigenvector.
@@ -35,22 +31,18 @@ impl<F: Family> Continuation<'_, F> {
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let doubled = self.over_periods(2 * self.shooting.periods);
-        let leads_away = |node: &Node<PeriodMap>, distance: f64| {
-            let twice = node.here.point.impacts.len() == 2 * flip.impacts.len();
-            twice && doubled.half_period_gap(node) > HALF_PERIOD_GAP * distance
-        };
-        let (node, along) = doubled.branch_off(flip, -1.0, leads_away)?;
+        let (node, along) = doubled.branch_off(flip, (-1.0, 2))?;
         let mut branch = doubled.branch_along(node, &along, limits, &mut watch)?;
         branch.ends.0 = End::Merged;
         Ok(branch)
     }
 
-    /// A node that `leads_away` from a point with a critical multiplier, along its eigenvector, and the way there.
+    /// A node away from a point with a critical multiplier, along its eigenvector, with so many times its impacts, and the
+    /// way there: half the period, or its mirror image, leads as clearly away.
     pub(super) fn branch_off(
         &self,
         from: &BranchPoint,
-        multiplier: f64,
-        leads_away: impl Fn(&Node<PeriodMap>, f64) -> bool,
+        (multiplier, times): (f64, usize),
     ) -> Result<(Node<PeriodMap>, DVector<f64>), OrbitError> {
         let at = self.shooting.scaled(from.state(), [from.parameter]);
         let away = null_vector(&(from.monodromy.matrix - multiplier * Matrix2::identity()));
@@ -62,8 +54,11 @@ impl<F: Family> Continuation<'_, F> {
             };
             let along: DVector<f64> = &node.at - &at;
             let fold = Test::Fold.scaled_value(&node.here.point.monodromy);
-            let near = along.norm() < 2.0 * distance && fold.abs() < MAX_FOLD_TEST;
-            if near && leads_away(&node, distance) {
+            // Beyond, the new branch may have flipped itself.
+            let near = along.norm() < 2.0 * distance && fold.abs() < self.settings.max_test_change;
+            let gap = self.merging_gap(&node);
+            let leads_away = gap.is_some_and(|gap| gap.norm() > 0.5 * distance);
+            if near && leads_away && node.here.point.impacts.len() == times * from.impacts.len() {
                 return Ok((node, along));
             }
         }
@@ -98,17 +93,6 @@ impl<F: Family> Continuation<'_, F> {
             periods *= 2;
         }
         Ok(flips)
-    }
-
-    /// Scaled distance of the state after half the period from that at its start.
-    fn half_period_gap(&self, node: &Node<PeriodMap>) -> f64 {
-        let half = node
-            .here
-            .point
-            .trajectory
-            .at_cycle(self.shooting.periods / 2);
-        let way = half - self.shooting.state_at(&node.at);
-        self.shooting.scaled(way, [0.0]).norm()
     }
 }
 

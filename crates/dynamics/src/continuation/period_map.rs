@@ -8,6 +8,7 @@ use super::face::NearTouch;
 use super::sequence::{CountedCrossings, Sequence};
 use crate::orbit::Monodromy;
 use crate::period::PeriodTrajectory;
+use crate::tolerance::ROUNDING;
 use softstop::internals::{FrequencySensitivity, Motion, Phases};
 use softstop::{Arc, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scene};
 
@@ -112,16 +113,13 @@ pub(super) fn state_after(
     Ok(motion.state().into())
 }
 
-/// Distance and speed, in the scene's scales, within which a mass rests at a rigid stop.
-const REST_DISTANCE: f64 = 1e-9;
-
 /// A state, moved to the face of a rigid stop from beyond or from rest near it, so that the map stays continuous.
 pub(crate) fn before_wall(scene: &Scene, state: Vector2<f64>) -> Vector2<f64> {
     let (lowest, highest) = scene.reach();
     let scales = scene.scales();
-    let is_near = |wall: &f64| (wall - state.x).abs() < REST_DISTANCE * scales.length;
+    let is_near = |wall: &f64| (wall - state.x).abs() < ROUNDING * scales.length;
     if let Some(wall) = [highest, lowest].into_iter().find(is_near)
-        && state.y.abs() < REST_DISTANCE * scales.speed()
+        && state.y.abs() < ROUNDING * scales.speed()
     {
         return Vector2::new(wall, 0.0);
     }

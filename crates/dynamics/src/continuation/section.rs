@@ -13,16 +13,8 @@ use super::follow::{Continuation, SectionChange, keeps_sense};
 use super::period_map::{PeriodMap, before_wall, state_after};
 use super::point::BranchPoint;
 use crate::period::PeriodTrajectory;
+use crate::tolerance::DIFFERENCE_WIDTH;
 use softstop::MotionError;
-
-/// Drive periods from a branch's section to a crossing within which the crossing may stand in the way.
-const CROSSING_MARGIN: f64 = 0.05;
-/// Factor by which another section must be farther from all crossings.
-const MARGIN_GAIN: f64 = 2.0;
-/// Scaled distance back along a branch by which its direction is carried to another section.
-const BACKWARD_STEP: f64 = 1e-6;
-/// Scaled distance from where a motion is carried to up to which Newton's method has found the same one.
-const MAX_CARRY_ERROR: f64 = 1e-2;
 
 impl<'a, F: Family> Continuation<'a, F> {
     /// Turns the section of a branch to where no crossing stands in the way; none if this section is as good as any.
@@ -35,10 +27,10 @@ impl<'a, F: Family> Continuation<'a, F> {
         let by = continuation.shooting.turn - self.shooting.turn;
         let carried = |at: &DVector<f64>| self.carry_place(at, by);
         let at = carried(&node.at).ok()?;
-        let back = carried(&(&node.at - BACKWARD_STEP * direction)).ok()?;
+        let back = carried(&(&node.at - DIFFERENCE_WIDTH * direction)).ok()?;
         let along = (&at - back).normalize();
         let seen = correct(&continuation.shooting, &at, Some(&along)).ok()?;
-        if (&seen.at - &at).norm() > MAX_CARRY_ERROR {
+        if (&seen.at - &at).norm() > self.settings.newton_reach {
             return None;
         }
         let (mut along, _) = curve_tangent(&continuation.shooting, &seen, &along).ok()?;
@@ -57,11 +49,12 @@ impl<'a, F: Family> Continuation<'a, F> {
     /// This continuation with its section in the middle of the orbit's longest flight; none if no crossing is near.
     pub(super) fn clear_of(&self, node: &Node<PeriodMap>) -> Option<Self> {
         let margin = node.here.point.margin;
-        if margin > CROSSING_MARGIN {
+        if margin > self.settings.section_margin {
             return None;
         }
         let (middle, gap) = longest_flight(&node.here.point.trajectory, self.shooting.periods);
-        (0.5 * gap > MARGIN_GAIN * margin).then(|| self.with_turn(self.shooting.turn + middle))
+        let is_better = 0.5 * gap > 2.0 * margin;
+        is_better.then(|| self.with_turn(self.shooting.turn + middle))
     }
 
     /// Carries a place to another section: to that some drive periods later on the same motion.

@@ -8,10 +8,11 @@ use std::sync::Arc as Shared;
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
-use super::arclength::{DIFFERENCE_WIDTH, Equations, Evaluation};
+use super::arclength::{Equations, Evaluation};
 use super::period_map::PeriodMap;
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
+use crate::tolerance::DIFFERENCE_WIDTH;
 use softstop::internals::{ParameterSensitivity, PhaseDerivatives, Phases};
 use softstop::{MotionError, Scene};
 

@@ -1,7 +1,7 @@
 //! Step control of a branch: what keeps a step from missing anything, and what ends a branch that no step can follow.
 
 use super::Family;
-use super::arclength::{DIFFERENCE_WIDTH, Equations, Node, correct};
+use super::arclength::{Equations, Node, correct};
 use super::follow::{Continuation, keeps_sense};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{BorderCollision, End, HalfBranch, Limits};
@@ -11,31 +11,14 @@ use super::shooting::Shooting;
 use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::orbit::OrbitError;
+use crate::tolerance::DIFFERENCE_WIDTH;
 
-/// Smallest share that a step may leave of the distance to grazing.
-const MIN_SHARE_LEFT: f64 = 0.3;
-/// Scaled distance to grazing up to which a step may leave less.
-const GRAZING_DISTANCE: f64 = 1e-4;
-/// Length of steps up to which a grazing orbit is looked for ahead: they pass but a fold or a flip.
-const GRAZING_SEARCH_STEP: f64 = 1e-3;
 /// Shares of the way to a grazing at which a fold is looked for behind.
 const FOLD_SEARCH_SHARES: [f64; 3] = [0.9, 0.99, 0.999];
-/// Scaled distance within which a branch that cannot be followed is taken to end in the grazing ahead: multipliers grow
-/// as the reciprocal of the distance, and no step is short enough for them.
-const GRAZING_AHEAD: f64 = 1e-2;
 /// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
 const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Scaled distances ahead at which a rest is looked for, where the orbits of a branch come to lie side by side.
 const REST_DISTANCES: [f64; 3] = [1e-4, 1e-3, 1e-2];
-/// Value of the fold test to which it falls where a mass that is held on the way slips ever less: what it slips by then
-/// changes with the square of what is left, and Newton's method settles on orbits that no longer slip.
-const SIDE_BY_SIDE: f64 = 1e-4;
-/// Scaled gap above which an orbit merges with none, where the fold test falls, too.
-const APART_FROM_MERGING: f64 = 0.05;
-/// Norm of a monodromy matrix beyond which rounding decides on which side of a grazing an orbit is.
-const WILD_GROWTH: f64 = 1e8;
-/// Length of a step below which all changes but those of the sequence are taken.
-pub(super) const SHORT_STEP: f64 = 1e-5;
 
 impl<F: Family> Continuation<'_, F> {
     /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just ahead
@@ -48,7 +31,8 @@ impl<F: Family> Continuation<'_, F> {
         limits: &Limits,
         error: OrbitError,
     ) {
-        if way.end_in_grazing(self.graze_within(GRAZING_AHEAD, stepper, grazing_test)) {
+        let reach = self.settings.newton_reach;
+        if way.end_in_grazing(self.graze_within(reach, stepper, grazing_test)) {
             return;
         }
         if let Some(node) = self.bound_at(&stepper.node, limits) {
@@ -62,7 +46,7 @@ impl<F: Family> Continuation<'_, F> {
             return;
         }
         let dies = grazing_test
-            .dies_within(GRAZING_DISTANCE)
+            .dies_within(self.settings.border_distance)
             .then_some(BorderCollision::Surface);
         way.end = match self.border_ahead(stepper, &error).or(dies) {
             Some(border) => End::Border(border),
@@ -89,7 +73,7 @@ impl<F: Family> Continuation<'_, F> {
             node.here.point.sequence.border_to(&beyond.point.sequence)
         };
         let is_lost = !matches!(error, OrbitError::Motion(_));
-        let slips_little = || is_lost && self.fold_test_while_held(node) < 2.0 * SIDE_BY_SIDE;
+        let slips_little = || is_lost && self.fold_test_while_held(node).is_finite();
         let behind = BORDER_DISTANCES.map(|reach| -reach);
         let mut near = BORDER_DISTANCES.into_iter().chain(behind);
         let held = || {
@@ -110,18 +94,20 @@ impl<F: Family> Continuation<'_, F> {
     ) -> bool {
         let (from, to) = (&stepper.node.here.point, &step.node.here.point);
         let same = from.sequence.has_same_jumps(&to.sequence)
-            && self.shooting.growth(&to.monodromy) < WILD_GROWTH
+            // Beyond, rounding decides on which side of a grazing an orbit is.
+            && self.shooting.growth(&to.monodromy) * f64::EPSILON.sqrt() < 1.0
             && !self.comes_to_rest(&stepper.node, &step.node)
             && (keeps_sense(
                 (&stepper.direction, &from.monodromy),
                 (&step.direction, &to.monodromy),
             ) || self.keeps_symmetric_sense(stepper, step));
-        if stepper.step < SHORT_STEP {
+        let settings = &self.settings;
+        if stepper.step < settings.crawling_step {
             return same;
         }
-        Test::change_little(&from.monodromy, &to.monodromy)
+        Test::change_little(&from.monodromy, &to.monodromy, settings.max_test_change)
             && same
-            && ahead.may_step(now, MIN_SHARE_LEFT, GRAZING_DISTANCE)
+            && ahead.may_step(now, settings.min_distance_left, settings.border_distance)
             && !now.may_graze_twice(ahead, stepper.step)
     }
 
@@ -129,21 +115,22 @@ impl<F: Family> Continuation<'_, F> {
     fn comes_to_rest(&self, from: &Node<PeriodMap>, to: &Node<PeriodMap>) -> bool {
         let after = self.fold_test_while_held(to);
         let [before, there] = [from, to].map(|node| &node.here.point.monodromy);
-        after < SIDE_BY_SIDE
+        after < self.settings.border_distance
             && after < Test::Fold.scaled_value(before).abs()
             && !Test::Fold.passes_zero(before, there)
     }
 
-    /// Size of the fold test of an orbit with a mass that is held on the way; infinite for others, above twice
-    /// [`SIDE_BY_SIDE`], and near a merging.
+    /// Size of the fold test of an orbit with a mass that is held on the way; infinite for others, above twice the distance
+    /// of a border, and near a merging. It falls where the mass slips ever less: what it slips by then changes with the square
+    /// of what is left, and Newton's method settles on orbits that no longer slip.
     fn fold_test_while_held(&self, node: &Node<PeriodMap>) -> f64 {
         let map = &node.here.point;
         let fold = Test::Fold.scaled_value(&map.monodromy).abs();
         let merges = || {
             let gap = self.merging_gap(node);
-            gap.is_some_and(|gap| gap.norm() < APART_FROM_MERGING)
+            gap.is_some_and(|gap| gap.norm() < self.settings.first_step)
         };
-        match map.sequence.holds > 0 && fold < 2.0 * SIDE_BY_SIDE && !merges() {
+        match map.sequence.holds > 0 && fold < 2.0 * self.settings.border_distance && !merges() {
             true => fold,
             false => f64::INFINITY,
         }
@@ -156,7 +143,7 @@ impl<F: Family> Continuation<'_, F> {
         stepper: &Stepper<'_, Shooting<'_, F, 1>>,
         grazing_test: &GrazingTest,
     ) -> Option<Special> {
-        if stepper.step > GRAZING_SEARCH_STEP {
+        if stepper.step > self.settings.doubtful_step {
             return None;
         }
         let round = &stepper.node.here.point;

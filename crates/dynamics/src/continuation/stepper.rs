@@ -3,35 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::arclength::{Accuracy, Equations, Node, correct_with_slopes, curve_tangent};
+use super::settings::ContinuationSettings;
 use crate::orbit::OrbitError;
 
-/// First step along a curve, in arclength.
-const FIRST_STEP: f64 = 0.02;
-/// Smallest step along a curve, in arclength.
-const SMALLEST_STEP: f64 = 1e-11;
-/// Largest step along a curve, in arclength, unless it is said otherwise.
-pub(crate) const LARGEST_STEP: f64 = 0.25;
-/// Cosine of the largest turn of the direction in a step.
-const LARGEST_TURN: f64 = 0.96;
-/// Cosine of the turn up to which steps grow.
-const GENTLE_TURN: f64 = 0.995;
-/// Distance of the next node in steps beyond which it lies on another curve.
-const LONGEST_CHORD: f64 = 1.1;
-/// Factor by which steps grow.
-const STEP_GROWTH: f64 = 1.6;
-
-/// First and largest of quick steps, in arclength.
-const QUICK_STEPS: (f64, f64) = (0.05, 1.0);
-/// Cosine of the largest turn of the direction in a quick step.
-const QUICK_TURN: f64 = 0.85;
-/// Cosine of the turn that quick steps are meant to make.
-const MEANT_TURN: f64 = 0.93;
-/// Scaled distance by which the guess of a quick step is meant to be off.
-const MEANT_ERROR: f64 = 5e-3;
-/// Least and largest factor by which quick steps grow.
-const QUICK_GROWTH: (f64, f64) = (0.5, 2.5);
-/// Quick step below which it is the node from which no step can be taken that is in doubt.
-const DOUBTFUL_STEP: f64 = 1e-3;
+/// Crawling steps in a row after which a curve is given up.
+const MAX_CRAWL_STEPS: usize = 60;
 
 /// A stepper along a solution curve, with adaptive steps.
 pub(crate) struct Stepper<'a, E: Equations> {
@@ -44,7 +20,9 @@ pub(crate) struct Stepper<'a, E: Equations> {
     accuracy: Accuracy,
     is_renewed: bool,
     pub step: f64,
-    largest: f64,
+    pub settings: ContinuationSettings,
+    /// Crawling steps in a row.
+    crawled: usize,
 }
 
 /// A step along a curve that can be taken.
@@ -56,12 +34,12 @@ pub(crate) struct CurveStep<P> {
 }
 
 impl<'a, E: Equations> Stepper<'a, E> {
-    /// A stepper from a node on the side of `along`, with steps of at most `largest`.
+    /// A stepper from a node on the side of `along`.
     pub fn new(
         equations: &'a E,
         node: Node<E::Point>,
         along: &DVector<f64>,
-        largest: f64,
+        settings: &ContinuationSettings,
     ) -> Result<Self, OrbitError> {
         let (direction, slopes) = curve_tangent(equations, &node, along)?;
         Ok(Self {
@@ -72,18 +50,19 @@ impl<'a, E: Equations> Stepper<'a, E> {
             node,
             direction,
             slopes,
-            step: FIRST_STEP.min(largest),
-            largest,
+            step: settings.first_step.min(settings.largest_step),
+            settings: *settings,
+            crawled: 0,
         })
     }
 
     /// This stepper in few long steps, with guesses that bend as the curve did: for smooth curves.
-    pub fn with_quick_steps(self) -> Self {
-        let (step, largest) = QUICK_STEPS;
+    pub fn with_long_steps(self) -> Self {
+        let settings = self.settings.with_long_steps();
         Self {
             accuracy: Accuracy::Quick,
-            step,
-            largest,
+            step: settings.first_step,
+            settings,
             ..self
         }
     }
@@ -96,21 +75,33 @@ impl<'a, E: Equations> Stepper<'a, E> {
         let node = correct_with_slopes(equations, &guess, across, &mut slopes, self.accuracy)?;
         let (direction, slopes) = curve_tangent(equations, &node, &self.direction)?;
         let turn = direction.dot(&self.direction);
-        let leaps = (&node.at - &self.node.at).norm() > LONGEST_CHORD * self.step;
-        let (largest, growth) = match self.accuracy {
-            Accuracy::Quick => (QUICK_TURN, quick_growth(turn, (&node.at - guess).norm())),
-            _ if turn > GENTLE_TURN => (LARGEST_TURN, STEP_GROWTH),
-            _ => (LARGEST_TURN, 1.0),
-        };
-        if turn <= largest || leaps {
+        let least = self.settings.min_turn_cosine;
+        // A node farther off than the largest turn allows lies on another curve.
+        let chord = (&node.at - &self.node.at).norm();
+        if turn <= least || least * chord > self.step {
             return Err(OrbitError::Diverged { residual: 0.0 });
         }
+        let growth = match self.accuracy {
+            Accuracy::Quick => self.growth_at(turn, (&node.at - guess).norm()),
+            _ if 1.0 - turn < 0.125 * (1.0 - least) => self.settings.step_growth,
+            _ => 1.0,
+        };
         Ok(CurveStep {
             node,
             direction,
             slopes,
             growth,
         })
+    }
+
+    /// Factor by which a long step grows or shrinks, so that it makes half the largest turn and its guess is off by half of
+    /// what Newton's method reaches, by the cosine of its turn and the error of its guess.
+    fn growth_at(&self, turn: f64, off: f64) -> f64 {
+        let settings = &self.settings;
+        let by_turn = (0.5 * (1.0 - settings.min_turn_cosine) / (1.0 - turn)).sqrt();
+        let by_guess = (0.5 * settings.newton_reach / off).powf(0.25);
+        let most = settings.step_growth;
+        by_turn.min(by_guess).clamp(most.recip(), most)
     }
 
     /// Predicts the next node, on the cubic through the last two nodes and their directions: in the plane across the
@@ -143,18 +134,30 @@ impl<'a, E: Equations> Stepper<'a, E> {
         self.last = Some((last.at, before));
         self.slopes = step.slopes;
         self.is_renewed = false;
-        self.step = (step.growth * self.step).min(self.largest);
+        self.crawled = match self.step < self.settings.crawling_step {
+            true => self.crawled + 1,
+            false => 0,
+        };
+        self.step = (step.growth * self.step).min(self.settings.largest_step);
+    }
+
+    /// True if the steps have been crawling for so long that the curve is given up.
+    pub fn is_crawling(&self) -> bool {
+        self.crawled > MAX_CRAWL_STEPS
     }
 
     /// Shortens the step; false if it is the shortest already. A quick node, whose direction is that of the place one
     /// Newton step before, perhaps beyond a corner, is corrected anew.
     pub fn shorten_step(&mut self) -> bool {
-        if self.accuracy == Accuracy::Quick && self.step < DOUBTFUL_STEP && !self.is_renewed {
+        if self.accuracy == Accuracy::Quick
+            && self.step < self.settings.doubtful_step
+            && !self.is_renewed
+        {
             self.is_renewed = true;
             self.renew_node().unwrap_or_default();
             return true;
         }
-        let possible = self.step > SMALLEST_STEP;
+        let possible = self.step > self.settings.smallest_step;
         self.step *= 0.4;
         possible
     }
@@ -173,12 +176,4 @@ impl<'a, E: Equations> Stepper<'a, E> {
         (self.node, self.direction, self.slopes, self.last) = (node, direction, slopes, None);
         Ok(())
     }
-}
-
-/// Factor by which a quick step grows or shrinks, by the cosine of its turn and the error of its guess.
-fn quick_growth(turn: f64, off: f64) -> f64 {
-    let (least, most) = QUICK_GROWTH;
-    let by_turn = ((1.0 - MEANT_TURN) / (1.0 - turn)).sqrt();
-    let by_guess = (MEANT_ERROR / off).powf(0.25);
-    by_turn.min(by_guess).clamp(least, most)
 }

@@ -21,12 +21,8 @@ use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::period::PeriodTrajectory;
+use crate::tolerance::SAME;
 use softstop::{Clock, Instant, MotionError, Scene};
-
-/// Scaled distance of half a period from the mirror image of its start up to which an orbit is symmetric.
-const SYMMETRY_DISTANCE: f64 = 1e-7;
-/// Smallest share of the distance from a pitchfork by which half a period must lead away from the mirror image.
-const MIN_ASYMMETRY: f64 = 0.5;
 
 /// True if a machine is its own mirror image half a drive period later: both stops are alike.
 fn is_symmetric(scene: &Scene) -> bool {
@@ -74,7 +70,7 @@ impl<F: Family> Shooting<'_, F, 1> {
     /// The Jacobian of half the period of a symmetric orbit; none of another one.
     fn symmetric_half_period(&self, node: &Node<PeriodMap>) -> Option<Monodromy> {
         let half = self.half_period(&node.at).ok()??;
-        (half.asymmetry.norm() < SYMMETRY_DISTANCE).then_some(half.monodromy)
+        (half.asymmetry.norm() < SAME).then_some(half.monodromy)
     }
 }
 
@@ -100,7 +96,7 @@ impl<F: Family> Continuation<'_, F> {
     /// Scaled distance of half an orbit's period from the mirror image of its start; none if it cannot be symmetric.
     pub(super) fn mirror_gap(&self, node: &Node<PeriodMap>) -> Option<DVector<f64>> {
         let half = self.shooting.half_period(&node.at).ok()??;
-        (half.asymmetry.norm() >= SYMMETRY_DISTANCE).then_some(half.asymmetry)
+        (half.asymmetry.norm() >= SAME).then_some(half.asymmetry)
     }
 
     /// True if directions at both ends of a step between symmetric orbits, which turn at no pitchfork, may be one.
@@ -162,11 +158,7 @@ impl<F: Family> Continuation<'_, F> {
         limits: &Limits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
-        let leads_away = |node: &Node<PeriodMap>, distance: f64| {
-            let asymmetry = self.mirror_gap(node);
-            asymmetry.is_some_and(|asymmetry| asymmetry.norm() > MIN_ASYMMETRY * distance)
-        };
-        let (node, along) = self.branch_off(pitchfork, 1.0, leads_away)?;
+        let (node, along) = self.branch_off(pitchfork, (1.0, 1))?;
         let mut branch = self.branch_along(node, &along, limits, &mut watch)?;
         branch.ends.0 = End::Symmetric;
         Ok(branch)

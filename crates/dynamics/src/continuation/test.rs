@@ -1,6 +1,7 @@
 //! Test functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
 
 use crate::orbit::Monodromy;
+use crate::tolerance::TEST_ROUNDING;
 
 /// A function of the monodromy matrix that vanishes at a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,10 +38,10 @@ impl Test {
         weight * test / size
     }
 
-    /// True if no test changes much between two orbits, as on one short piece of a branch.
-    pub(crate) fn change_little(from: &Monodromy, to: &Monodromy) -> bool {
+    /// True if no test changes by more than `most` between two orbits.
+    pub(crate) fn change_little(from: &Monodromy, to: &Monodromy, most: f64) -> bool {
         let change = |test: &Self| (test.scaled_value(from) - test.scaled_value(to)).abs();
-        Self::ALL.iter().all(|test| change(test) < MAX_TEST_CHANGE)
+        Self::ALL.iter().all(|test| change(test) < most)
     }
 
     /// True if the test passes zero between two orbits. Without damping the determinant is 1 to rounding all along:
@@ -52,18 +53,12 @@ impl Test {
             Self::Fold | Self::Flip => changes,
             Self::NeimarkSacker => {
                 let rotates = |monodromy: &Monodromy| monodromy.trace().abs() < 2.0;
-                let moves = (a - b).abs() > DETERMINANT_ROUNDING;
+                let moves = (a - b).abs() > TEST_ROUNDING;
                 changes && moves && rotates(from) && rotates(to)
             }
         }
     }
 }
-
-/// Largest change of a test on one short piece of a branch.
-const MAX_TEST_CHANGE: f64 = 0.3;
-
-/// Change of the determinant that rounding may bring.
-const DETERMINANT_ROUNDING: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {

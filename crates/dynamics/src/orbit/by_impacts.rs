@@ -3,8 +3,8 @@
 use softstop::Scene;
 
 use super::multi_segment_shooting::MultiSegmentShooting;
-use super::periodic::SAME_STATE;
 use super::{Orbit, OrbitError};
+use crate::tolerance::ROUNDING;
 
 impl Orbit {
     /// The periodic orbit, stable or not, that Newton's method from impact to impact reaches from times in s
@@ -44,7 +44,7 @@ impl Orbit {
         let speed = self.scene.scales().speed();
         let pairs = impacts.iter().zip(&impacts[shift..]);
         let mut pairs = pairs.map(|(a, b)| ((b.0 - a.0 - span) / period, (b.1 - a.1) / speed));
-        let most = SAME_STATE * (1.0 + self.velocity.abs() / speed);
+        let most = ROUNDING * (1.0 + self.velocity.abs() / speed);
         pairs.all(|(time, velocity)| time.hypot(velocity) <= most)
     }
 }

@@ -5,7 +5,7 @@
 //! 1 / (1 - grad(ln M) . step) (Farrell, Birkisson and Funke 2015, SIAM J. Sci. Comput. 37, A2026).
 
 /// Width w of deflation: a share of the drive period in time, and of the velocity in velocity.
-const DEFLATION_WIDTH: f64 = 0.05;
+pub(super) const DEFLATION_WIDTH: f64 = 0.05;
 
 /// An impact: its time in s and its before-impact velocity in m/s.
 type Impact = (f64, f64);

@@ -2,7 +2,6 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::impact_lattice::GRAZING_SPEED_SHARE;
 use super::newton::find_new_fixed_point;
 use super::periodic::STEEP_MAP_NORM;
 use super::trials::{
@@ -10,15 +9,12 @@ use super::trials::{
 };
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::monitor::Monitor;
+use crate::tolerance::{NEAR, SAME};
 use softstop::internals::Scales;
 use softstop::{MotionError, Scene};
 
 /// Distance, in scales of the motion, within which a state stands for a stable fixed point.
 const STABLE_REACH: f64 = 0.02;
-/// Distance, in scales of the motion, within which a state stands for an unstable fixed point.
-const UNSTABLE_REACH: f64 = 1e-3;
-/// Share of what a state moves within a period up to which it stands for another one in the search for an orbit.
-const STAND_IN_SHARE: f64 = 0.5;
 
 /// The fixed points of a scene's map over one drive period that the search has met.
 pub(super) struct FixedPoints<'a> {
@@ -49,11 +45,7 @@ impl FixedPoint {
         Self {
             state,
             lead: monodromy.resolvent(),
-            reach: if is_stable {
-                STABLE_REACH
-            } else {
-                UNSTABLE_REACH
-            },
+            reach: if is_stable { STABLE_REACH } else { NEAR },
             is_stable,
         }
     }
@@ -101,7 +93,7 @@ impl<'a> FixedPoints<'a> {
 
     /// The stable motions with one impact per drive period met so far.
     fn stable_singles(&self) -> impl Iterator<Item = &Orbit> {
-        let faintest = GRAZING_SPEED_SHARE * self.scales.speed();
+        let faintest = SAME * self.scales.speed();
         let is_single = move |orbit: &&Orbit| {
             orbit.impacts.len() == 1 && orbit.before_impact_velocity() > faintest
         };
@@ -117,8 +109,7 @@ impl<'a> FixedPoints<'a> {
         for candidate in candidates {
             OrbitError::ask_monitor(monitor)?;
             let Candidate { moves, state, .. } = candidate;
-            let stands =
-                |other: &Vector2<f64>| self.scaled_gap(*other, state) < STAND_IN_SHARE * moves;
+            let stands = |other: &Vector2<f64>| self.scaled_gap(*other, state) < 0.5 * moves;
             if !self.is_known(state)
                 && !self.tried.iter().any(stands)
                 && !self

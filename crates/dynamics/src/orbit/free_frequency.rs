@@ -4,14 +4,13 @@ use nalgebra::{Matrix2x3, Vector2, Vector3};
 
 use super::multi_segment_shooting::MultiSegmentShooting;
 use super::{Orbit, OrbitError};
+use crate::tolerance::DIFFERENCE_WIDTH;
 use softstop::Scene;
 
 /// Newton steps for an orbit with free frequency before giving up.
 const MAX_STEPS: usize = 20;
 /// Largest Newton step in time (drive periods), ln velocity and ln frequency.
 const MAX_STEP: [f64; 3] = [0.1, 0.3, 0.02];
-/// Half-width of the central differences by these unknowns.
-const DIFFERENCE_WIDTH: f64 = 1e-6;
 
 /// The z = 1 orbit nearest to an impact of which little is missing, with its frequency free: steps of least norm
 /// (Gauss and Newton) in the time of the impact in drive periods and the logarithms of its velocity and of the frequency.

@@ -3,11 +3,12 @@
 use std::cell::Cell;
 
 use super::impact_lattice::{
-    LATTICE_SPEED_RATIO, LATTICE_TIMES, NEAR_IMPACT, SingleImpactSearch, guess_from_lattice,
-    impact_distance, lattice_speeds, time_distance,
+    LATTICE_SPEED_RATIO, LATTICE_TIMES, SingleImpactSearch, guess_from_lattice, impact_distance,
+    lattice_speeds, time_distance,
 };
 use super::{Orbit, OrbitError};
 use crate::monitor::Monitor;
+use crate::tolerance::NEAR;
 use softstop::Scene;
 
 /// Difference of times, in units of the period, and ratio of velocities, up to which Newton's method is followed from a
@@ -55,7 +56,7 @@ impl SingleImpactSearch<'_> {
         let is_near = |at: (f64, f64)| {
             impacts
                 .iter()
-                .any(|it| impact_distance(*it, at, period) < NEAR_IMPACT)
+                .any(|it| impact_distance(*it, at, period) < NEAR)
         };
         let leaves = |at: (f64, f64)| {
             let ratio = (at.1 / guess.1).max(guess.1 / at.1);

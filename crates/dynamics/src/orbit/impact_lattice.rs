@@ -5,11 +5,13 @@
 //! up shows the cells in which it may vanish, and Newton's method from there finds where it does. How small the basin
 //! of a motion is plays no part.
 
+use super::deflation::DEFLATION_WIDTH;
 use super::free_frequency::find_beside_frequency;
 use super::multi_segment_shooting::{MultiSegmentShooting, NearestMiss};
 use super::{Orbit, OrbitError};
 use crate::extremes::extremes;
 use crate::monitor::{Monitor, unmonitored};
+use crate::tolerance::{NEAR, SAME};
 use softstop::Scene;
 
 /// Times of the impact lattice in a drive period.
@@ -18,27 +20,14 @@ pub(super) const LATTICE_TIMES: usize = 20;
 pub(super) const LATTICE_SPEED_RATIO: f64 = 1.25;
 /// Every so many times and velocities of the lattice are coarse ones, looked at first.
 const COARSE_STRIDE: usize = 2;
-/// How near to zero, in units of its change in a coarse cell, the residual must come for the cell to be divided.
-const COARSE_SLACK: f64 = 1.0;
 /// How near to zero, in units of its change in a fine cell, the residual must come for Newton's method to begin there.
 const FINE_SLACK: f64 = 0.5;
 /// The slowest impact of the lattice, in units of the motion's speed.
 const MIN_LATTICE_SPEED: f64 = 0.005;
-/// Before-impact velocity, in units of the motion's speed, up to which an impact is grazing to rounding.
-pub(crate) const GRAZING_SPEED_SHARE: f64 = 1e-6;
 /// The fastest impact of the lattice, in units of the speed at which damping takes all that the drive gives.
 const MAX_DAMPED_SPEED: f64 = 1.5;
 /// The fastest impact of the lattice in units of the motion's speed, for machines with little damping or none.
 const MAX_UNDAMPED_SPEED: f64 = 2000.0;
-/// Difference of times (of the period) and velocities (of themselves) within which impacts are the same.
-const SAME_IMPACT: f64 = 1e-6;
-/// Difference of impacts, as of [`SAME_IMPACT`], within which Newton's method leads from one to the other.
-pub(super) const NEAR_IMPACT: f64 = 1e-3;
-
-/// Residual, in units of the velocity but at least of the motion's speed, of a search that nearly settled.
-const MAX_MISS_RESIDUAL: f64 = 1.0;
-/// Difference of impacts, as of [`SAME_IMPACT`], up to which two near misses are one.
-const MIN_MISS_DISTANCE: f64 = 0.05;
 
 /// Most z = 1 orbits at one frequency: where friction holds the mass at any of many places, there is no end to them.
 const MAX_SINGLE_IMPACT_ORBITS: usize = 100;
@@ -127,7 +116,7 @@ impl<'a> SingleImpactSearch<'a> {
         OrbitError::ask_monitor(monitor)?;
         let (period, impacts) = (self.period, self.found_impacts());
         let known = |at: &[f64]| {
-            let near = |other| impact_distance(other, (at[0], at[1]), period) < NEAR_IMPACT;
+            let near = |other| impact_distance(other, (at[0], at[1]), period) < NEAR;
             impacts.iter().copied().any(near)
         };
         let settled = self.shooting.solve_unless_known(&[guess], known);
@@ -159,7 +148,7 @@ impl<'a> SingleImpactSearch<'a> {
 
     /// True if the impact of an orbit is more than grazing to rounding.
     fn has_impact(&self, orbit: &Orbit) -> bool {
-        orbit.before_impact_velocity() > GRAZING_SPEED_SHARE * self.unit
+        orbit.before_impact_velocity() > SAME * self.unit
     }
 
     /// The impacts, times in s and velocities in m/s, of the orbits found so far.
@@ -167,13 +156,12 @@ impl<'a> SingleImpactSearch<'a> {
         self.found.iter().map(impact_of).collect()
     }
 
-    /// Keeps the impact of a search that settled nowhere, if it is a near miss and a new one.
+    /// Keeps the impact of a search that settled nowhere, if it is a near miss, by less than the velocity and the motion's
+    /// speed, and a new one.
     fn keep_miss(&mut self, NearestMiss { impact, residual }: NearestMiss) {
         let told =
-            |other: &(f64, f64)| impact_distance(*other, impact, self.period) < MIN_MISS_DISTANCE;
-        if residual < MAX_MISS_RESIDUAL * (impact.1 / self.unit).max(1.0)
-            && !self.missed.iter().any(told)
-        {
+            |other: &(f64, f64)| impact_distance(*other, impact, self.period) < DEFLATION_WIDTH;
+        if residual < (impact.1 / self.unit).max(1.0) && !self.missed.iter().any(told) {
             self.missed.push(impact);
         }
     }
@@ -181,7 +169,7 @@ impl<'a> SingleImpactSearch<'a> {
 
 /// True if two z = 1 orbits have the same impact.
 fn have_same_impact(a: &Orbit, b: &Orbit, period: f64) -> bool {
-    impact_distance(impact_of(a), impact_of(b), period) < SAME_IMPACT
+    impact_distance(impact_of(a), impact_of(b), period) < SAME
 }
 
 /// Time in s and before-impact velocity in m/s of the impact of a z = 1 orbit.
@@ -220,7 +208,7 @@ pub(super) fn guess_from_lattice(
         for row in (0..last).step_by(COARSE_STRIDE) {
             let top = last.min(row + COARSE_STRIDE);
             let coarse = lattice.cell_corners([column, column + COARSE_STRIDE], [row, top])?;
-            if !may_vanish(&coarse, COARSE_SLACK) {
+            if !may_vanish(&coarse, 1.0) {
                 continue;
             }
             for (column, row) in

@@ -6,10 +6,8 @@ use nalgebra::{Complex, Matrix2};
 use serde::{Deserialize, Serialize};
 
 use super::quadratic_roots;
+use crate::tolerance::TEST_ROUNDING;
 use softstop::Tangent;
-
-/// Distance of a determinant from 1 that rounding alone may leave.
-const NEUTRAL_TOLERANCE: f64 = 1e-12;
 
 /// The Jacobian of the stroboscopic map over a period, with its determinant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -67,13 +65,13 @@ impl Monodromy {
     /// + det > 0 (no flip), det < 1; or det = 1 to rounding, as without any damping: neutral.
     pub fn is_stable(&self) -> bool {
         let (trace, determinant) = (self.trace(), self.determinant);
-        let spirals_in = determinant < 1.0 + NEUTRAL_TOLERANCE;
+        let spirals_in = determinant < 1.0 + TEST_ROUNDING;
         self.fold_test() > 0.0 && 1.0 + trace + determinant > 0.0 && spirals_in
     }
 
     /// True if both multipliers lie on the unit circle, as a stable motion's do without any damping.
     pub fn is_neutral(&self) -> bool {
-        self.is_stable() && (self.determinant - 1.0).abs() < NEUTRAL_TOLERANCE
+        self.is_stable() && (self.determinant - 1.0).abs() < TEST_ROUNDING
     }
 }
 

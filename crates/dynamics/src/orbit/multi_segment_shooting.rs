@@ -26,10 +26,9 @@ const MAX_SHOOTING_STEPS: usize = 60;
 const MAX_IDLE_STEPS: usize = 16;
 /// Halvings of a Newton step that leads to no motion.
 const MAX_HALVINGS: u32 = 8;
-/// Share of a before-impact velocity that a Newton step may take away.
-const MAX_VELOCITY_FALL: f64 = 0.9;
-/// Share of the drive period by which a Newton step may move an impact.
-const MAX_TIME_SHIFT: f64 = 0.1;
+
+/// Share of the drive period by which a Newton step may move an impact, and of its velocity that it must leave.
+const STEP_SHARE: f64 = 0.1;
 
 /// Unknowns of the shooting: times in s from drive period 0 on and before-impact velocities in m/s, by turns.
 pub(super) type Unknowns = DVector<f64>;
@@ -225,9 +224,9 @@ impl<'a> MultiSegmentShooting<'a> {
         let mut share = 1.0f64;
         for (index, (value, change)) in at.iter().zip(step).enumerate() {
             let (most, taken) = if index % 2 == 0 {
-                (MAX_TIME_SHIFT * self.face.clock.period(), change.abs())
+                (STEP_SHARE * self.face.clock.period(), change.abs())
             } else {
-                (MAX_VELOCITY_FALL * value, -change)
+                ((1.0 - STEP_SHARE) * value, -change)
             };
             if taken > most {
                 share = share.min(most / taken);

@@ -9,13 +9,8 @@ use super::guess_impacts::guess_impacts;
 use super::newton::find_fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
 use crate::period::PeriodTrajectory;
+use crate::tolerance::{NEAR, ROUNDING};
 use softstop::{Instant, MotionError, Scene, Touch};
-
-/// Distance in units of 1 + |state| within which states are the same: Newton's method leaves about 1e-13.
-pub(super) const SAME_STATE: f64 = 1e-9;
-
-/// Distance in units of 1 + |state| within which Newton's method looks for an orbit of a part of the period.
-const NEAR_STATE: f64 = 1e-3;
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -47,9 +42,6 @@ pub struct Orbit {
 const MAX_SHOOTING_IMPACTS: usize = 128;
 /// Norm of the map's Jacobian, in its scales, beyond which an orbit is sought from impact to impact.
 pub(super) const STEEP_MAP_NORM: f64 = 1e3;
-
-/// Share of a before-impact velocity by which rounding may change it.
-const SPEED_ROUNDING: f64 = 1e-9;
 
 impl Orbit {
     /// The z = 1 orbit, stable or not, that Newton's method reaches from a state near it.
@@ -134,7 +126,7 @@ impl Orbit {
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let size = |state: &Vector2<f64>| map.scales().state(state).norm();
             let unit = 1.0 + size(&state);
-            if size(&(passage.trajectory.at_cycle(part) - state)) > NEAR_STATE * unit {
+            if size(&(passage.trajectory.at_cycle(part) - state)) > NEAR * unit {
                 continue;
             }
             let shorter = StroboscopicMap::new(scene, part)?;
@@ -143,8 +135,7 @@ impl Orbit {
             };
             let apart = size(&(own - state));
             let stays = once.monodromy.is_stable() || !passage.monodromy.is_stable();
-            if apart <= SAME_STATE * unit
-                || apart <= map.fixed_point_error(state, &passage) && stays
+            if apart <= ROUNDING * unit || apart <= map.fixed_point_error(state, &passage) && stays
             {
                 return Ok(Self::from_map(scene, part, own, once));
             }
@@ -281,6 +272,6 @@ impl Orbit {
 
     /// True if the impact of this orbit is harder than that of another one, beyond rounding.
     pub(crate) fn is_harder(&self, other: &Self) -> bool {
-        self.before_impact_velocity() > (1.0 + SPEED_ROUNDING) * other.before_impact_velocity()
+        self.before_impact_velocity() > (1.0 + ROUNDING) * other.before_impact_velocity()
     }
 }

@@ -4,13 +4,10 @@ use std::sync::Arc as Shared;
 
 use nalgebra::Vector2;
 
-use super::Monodromy;
+use super::{Monodromy, ROUNDING_SHARE};
 use crate::period::PeriodTrajectory;
 use softstop::internals::{Phases, Scales};
 use softstop::{Clock, Instant, MotionError, Observer, Scene, Touch};
-
-/// Error of a fixed point of the map, in units of what rounding leaves of its residual.
-const ROUNDING_FACTOR: f64 = 100.0;
 
 /// The stroboscopic map of a scene: from a state at time 0 to the state some drive periods later.
 #[derive(Debug, Clone)]
@@ -91,7 +88,7 @@ impl StroboscopicMap {
     pub(super) fn fixed_point_error(&self, state: Vector2<f64>, passage: &Passage) -> f64 {
         let response = passage.monodromy.resolvent();
         let response = response.map_or(f64::INFINITY, |it| self.scales.jacobian(&it).norm());
-        ROUNDING_FACTOR * self.scales.map_rounding(&state, &passage.monodromy) * response
+        self.scales.map_rounding(&state, &passage.monodromy) * response / ROUNDING_SHARE
     }
 
     /// The image of a state under the map, without the Jacobian.

@@ -1,13 +1,12 @@
 //! A settled motion: what a motion is seen to have come to.
 
+use std::f64::consts::LN_10;
+
 use crate::member::Member;
 use crate::motion::MotionKind;
 use crate::orbit::recurrence::find_settled_period;
 use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};
 use softstop::{Instant, MotionError, Scene, Start};
-
-/// ln of a hundredfold growth of small differences, beyond which a motion that does not return is chaos.
-const CHAOS_GROWTH: f64 = 4.605_170_185_988_092;
 
 /// What a motion that was followed has settled on.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,7 +147,8 @@ pub fn classify_wandering(
 ) -> Result<(MotionKind, f64), MotionError> {
     let tangent = map.apply(from.into())?.monodromy;
     let growth = map.scales().jacobian(&tangent).norm().ln();
-    let motion = match growth > CHAOS_GROWTH {
+    // A hundredfold growth.
+    let motion = match growth > 2.0 * LN_10 {
         true => MotionKind::Chaos,
         false => MotionKind::Unsettled,
     };

@@ -1,12 +1,11 @@
 //! Where the contact force peaks along an arc.
 
+use crate::tolerance::ROUNDING;
 use softstop::Arc;
 use softstop::internals::{Phase, PhaseId, Phases, narrow_root};
 
 /// Pieces of an arc in which force peaks are looked for: for each rad of the fastest rate, at least and at most.
 const PEAK_PIECES: (f64, f64, f64) = (2.0, 4.0, 4096.0);
-/// Share of a piece to which a force peak is located; its height is known to the square of that.
-const PEAK_WIDTH: f64 = 1e-9;
 
 /// The peaks of the contact force on an arc: times in s since its start, with position, velocity and acceleration.
 pub(super) fn force_peaks<'a>(
@@ -40,7 +39,7 @@ pub(super) fn force_peaks<'a>(
             return None;
         }
         let ends = ((time - piece, last), (time, here));
-        let found = narrow_root(ends.0, ends.1, PEAK_WIDTH * piece, |time| {
+        let found = narrow_root(ends.0, ends.1, ROUNDING * piece, |time| {
             Ok::<_, ()>(rate(time))
         });
         let time = found.ok()?.middle();

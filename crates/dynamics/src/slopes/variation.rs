@@ -8,9 +8,7 @@ use softstop::{MotionError, Parameter, Scene};
 use super::differentiated_figure::DifferentiatedFigure;
 use super::figure_recorder::{FigureRecorder, RecordedFigures};
 use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
-
-/// 1 - tr + det in units of the size of the monodromy matrix up to which a motion is at a fold to rounding.
-const SINGULAR_FOLD_TEST: f64 = 1e-11;
+use crate::tolerance::TEST_ROUNDING;
 
 /// A motion from time 0 over some drive periods, with its derivatives by start and parameters.
 pub(super) struct Variation {
@@ -72,7 +70,7 @@ impl Variation {
     pub fn start_rates(&self) -> Result<Vec<Vector2<f64>>, OrbitError> {
         let monodromy = &self.monodromy;
         let size = 1.0 + monodromy.trace().abs() + monodromy.determinant().abs();
-        let inverse = (monodromy.fold_test().abs() > SINGULAR_FOLD_TEST * size)
+        let inverse = (monodromy.fold_test().abs() > TEST_ROUNDING * size)
             .then(|| monodromy.resolvent())
             .flatten()
             .ok_or(OrbitError::NotIsolated)?;

@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 
 use super::{ZoneError, refuse_below};
+use crate::tolerance::ROUNDING;
 use softstop::Scene;
 use softstop::internals::{highest_point, narrow_root};
 
@@ -63,8 +64,6 @@ pub fn grazing_frequencies(scene: &Scene) -> Result<(Option<f64>, f64), ZoneErro
 const SEARCH_FACTOR: f64 = 100.0;
 /// Frequencies at which grazings are searched, evenly spread over their logarithm.
 const SEARCH_STEPS: usize = 4096;
-/// Relative width to which a peak of the free amplitude is located; its height is then known to rounding.
-const AMPLITUDE_PEAK_WIDTH: f64 = 1e-10;
 
 /// Searches the [`grazing_frequencies`] where parameters follow the frequency.
 fn search_grazing(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
@@ -86,8 +85,7 @@ fn search_grazing(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
             return None;
         }
         let (low, high) = (at(look - 1), at(look + 1));
-        let (w, value) =
-            highest_point(low, high, AMPLITUDE_PEAK_WIDTH * high, |w| sign * excess(w));
+        let (w, value) = highest_point(low, high, ROUNDING * high, |w| sign * excess(w));
         Some((w, sign * value))
     });
     let looks = all

@@ -12,10 +12,11 @@ use super::end::ZoneEnd;
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
 use super::loss::Loss;
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
-use super::{FOLD_TEST_ROUNDING, Zone, ZoneKind};
+use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_monitor};
+use crate::tolerance::SAME;
 use softstop::Scene;
 use softstop::internals::budget::SharedBudget;
 
@@ -168,9 +169,7 @@ fn ends_in_grazing(end: &ZoneEnd) -> bool {
 
 /// The fold of a branch at the highest frequency; none if it has none.
 pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
-    let folds = branch
-        .iter()
-        .filter(|point| point.fold_test().abs() < FOLD_TEST_ROUNDING);
+    let folds = branch.iter().filter(|point| point.fold_test().abs() < SAME);
     let highest = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter))?;
     let kind = SpecialKind::Critical(Test::Fold);
     Some(ZoneEnd::at_special(highest, kind))

@@ -31,10 +31,8 @@ pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
 
 use crate::continuation::{BranchPoint, Continuation};
 use crate::orbit::{Orbit, OrbitError};
+use crate::tolerance::SAME;
 use softstop::Scene;
-
-/// Largest 1 - tr + det that a located fold may show.
-pub(super) const FOLD_TEST_ROUNDING: f64 = 1e-7;
 
 /// The kind of a zone: which motions it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -128,7 +126,7 @@ impl Zone {
         let mut best: Option<BranchPoint> = None;
         for pair in self.branch.windows(2) {
             let (from, to) = (&pair[0], &pair[1]);
-            if from.fold_test() < -FOLD_TEST_ROUNDING || to.fold_test() < -FOLD_TEST_ROUNDING {
+            if from.fold_test() < -SAME || to.fold_test() < -SAME {
                 continue;
             }
             let point = match (from.parameter - target, to.parameter - target) {

@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use super::followed_end::{LONGEST_BRANCH, find_end};
 use super::hysteresis::{follow_upward, highest_fold};
-use super::stable_range::STATE_ROUNDING;
 use super::stable_ranges::FOLLOWED_RANGE;
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError, hardest_single};
+use crate::tolerance::SAME;
 use softstop::Scene;
 use softstop::internals::budget::SharedBudget;
 
@@ -48,7 +48,7 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
             .iter()
             .filter_map(|zone| zone.point_at(zone.place_of(frequency)).ok());
         let known = known.map(|point| point.before_impact_velocity());
-        let least = (1.0 + STATE_ROUNDING) * known.fold(0.0, f64::max);
+        let least = (1.0 + SAME) * known.fold(0.0, f64::max);
         if let Some(start) = hardest_single(&scene.at_frequency(frequency), least, monitor)? {
             zones.extend(zone_about(scene, &start, between, monitor).ok().flatten());
         }

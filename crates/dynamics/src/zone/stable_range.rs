@@ -7,11 +7,9 @@ use super::loss::Loss;
 use super::{Frequencies, Zone};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Family, OFF_CHORD, SpecialKind};
 use crate::orbit::OrbitError;
+use crate::tolerance::SAME;
 use softstop::Scene;
 use softstop::internals::highest_point;
-
-/// Share by which rounding may change a before-impact velocity or a state.
-pub(super) const STATE_ROUNDING: f64 = 1e-6;
 
 /// A range of frequencies with a stable z = 1 motion that changes continuously.
 #[derive(Debug, Clone)]
@@ -56,7 +54,7 @@ impl StableRange {
     /// True if the stable range is a part of another one, or the same.
     pub(super) fn is_within(&self, other: &Self, scene: &Scene) -> bool {
         let middle = &self.points[self.points.len() / 2];
-        let near = |frequency: f64| STATE_ROUNDING * frequency.abs();
+        let near = |frequency: f64| SAME * frequency.abs();
         self.low.frequency >= other.low.frequency - near(self.low.frequency)
             && self.high.frequency <= other.high.frequency + near(self.high.frequency)
             && other.contains_point(scene, middle).unwrap_or(false)
@@ -85,7 +83,7 @@ impl StableRange {
 /// True if a point is at a state of the same frequency but for rounding.
 pub(super) fn is_same_state(one: &BranchPoint, other: Vector2<f64>, scene: &Scene) -> bool {
     let size = other.norm().max(scene.scales().length);
-    (one.state() - other).norm() < STATE_ROUNDING * size
+    (one.state() - other).norm() < SAME * size
 }
 
 /// Scales of positions, velocities and frequencies of a scene.
@@ -115,8 +113,7 @@ pub(super) fn lies_on_chord(
     let gone = place(point) - from;
     let share = gone.dot(&way) / way.norm_squared();
     let off = (gone - share * way).norm();
-    (-OFF_CHORD..=1.0 + OFF_CHORD).contains(&share)
-        && off <= OFF_CHORD * way.norm() + STATE_ROUNDING
+    (-OFF_CHORD..=1.0 + OFF_CHORD).contains(&share) && off <= OFF_CHORD * way.norm() + SAME
 }
 
 /// The stable ranges of a branch.

@@ -9,6 +9,7 @@ use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
 use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{Orbit, OrbitError, singles_about, singles_near};
+use crate::tolerance::NEAR;
 use softstop::Scene;
 
 /// Frequencies in units of the natural one between which z = 1 motions are searched, and how many of them in a row:
@@ -21,8 +22,6 @@ const MAX_RANGE_POINTS: usize = 20_000;
 
 /// Share of a frequency within which motions are searched where one there is nearly one: as far as the row is wide.
 const FREE_SHARE: f64 = 0.08;
-/// Offset, as a share of a frequency, by which motions are searched beside one at which the regime changes.
-const NEIGHBOUR_OFFSET: f64 = 2e-3;
 /// Shares of a frequency by which motions are searched beyond a branch's end, by the impact there.
 const BEYOND_SHARES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// Most frequencies at which motions are searched, and most branches.
@@ -185,7 +184,7 @@ fn orbits_beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
 /// The two frequencies beside one.
 fn frequencies_beside(frequency: f64) -> [f64; 2] {
     [
-        frequency * (1.0 - NEIGHBOUR_OFFSET),
-        frequency * (1.0 + NEIGHBOUR_OFFSET),
+        frequency * (1.0 - 2.0 * NEAR),
+        frequency * (1.0 + 2.0 * NEAR),
     ]
 }

@@ -1,0 +1,65 @@
+//! Settings of a continuation.
+
+/// Settings of a continuation: how it steps along a curve, and what it takes for a border. Lengths and distances are those
+/// of scaled unknowns: position, velocity and parameters in units of the family's scales.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContinuationSettings {
+    /// First step along a curve.
+    pub first_step: f64,
+    /// Smallest step: a curve that asks for a smaller one ends.
+    pub smallest_step: f64,
+    /// Largest step.
+    pub largest_step: f64,
+    /// Factor by which steps grow at most.
+    pub step_growth: f64,
+    /// Cosine of the largest turn of the direction in a step.
+    pub min_turn_cosine: f64,
+    /// Step below which something stands in the way of a branch: a grazing is looked for ahead.
+    pub doubtful_step: f64,
+    /// Step below which a branch crawls, as beside grazing: changes of test functions no longer shorten it, and after sixty
+    /// such steps in a row it ends. The first step after a corner.
+    pub crawling_step: f64,
+    /// Largest change of a scaled test function in a step.
+    pub max_test_change: f64,
+    /// Smallest share that a step may leave of the distance to a grazing at which the force jumps.
+    pub min_distance_left: f64,
+    /// Distance from a border (a grazing, an end of the range, a rest where orbits come to lie side by side) within which it
+    /// counts as reached where no step leads to it.
+    pub border_distance: f64,
+    /// Distance within which what Newton's method finds belongs to a node: the same orbit at another section, a grazing ahead.
+    pub newton_reach: f64,
+    /// Drive periods from the section of a branch to a crossing within which the crossing may stand in the way.
+    pub section_margin: f64,
+}
+
+impl Default for ContinuationSettings {
+    fn default() -> Self {
+        Self {
+            first_step: 0.02,
+            smallest_step: 1e-11,
+            largest_step: 0.25,
+            step_growth: 1.6,
+            min_turn_cosine: 0.96,
+            doubtful_step: 1e-3,
+            crawling_step: 1e-5,
+            max_test_change: 0.3,
+            min_distance_left: 0.3,
+            border_distance: 1e-4,
+            newton_reach: 1e-2,
+            section_margin: 0.05,
+        }
+    }
+}
+
+impl ContinuationSettings {
+    /// These settings with few long steps, for smooth curves of which special points alone matter.
+    pub(super) fn with_long_steps(self) -> Self {
+        Self {
+            first_step: 0.05,
+            largest_step: 1.0,
+            step_growth: 2.5,
+            min_turn_cosine: 0.85,
+            ..self
+        }
+    }
+}

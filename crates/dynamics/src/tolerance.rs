@@ -1,0 +1,13 @@
+//! Tolerances of orbits: how near two quantities are that count as one.
+
+/// Relative difference of two quantities that rounding alone may leave: Newton's method leaves about 1e-13 of a state.
+pub(crate) const ROUNDING: f64 = 1e-9;
+/// Relative difference of two orbits, or of two figures of one, that are the same as far as Newton's method and differences
+/// tell: near a fold an orbit is known to the square root of rounding alone.
+pub(crate) const SAME: f64 = 1e-6;
+/// Relative distance of two orbits, or of two figures, from one of which Newton's method leads to the other.
+pub(crate) const NEAR: f64 = 1e-3;
+/// Half-width of central differences, in scaled unknowns; what lies nearer is not told apart.
+pub(crate) const DIFFERENCE_WIDTH: f64 = 1e-6;
+/// What rounding leaves of a scaled test function of a monodromy matrix, and of the place at which one vanishes.
+pub(crate) const TEST_ROUNDING: f64 = 1e-12;
