@@ -4,12 +4,11 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct};
-use super::critical_impact::CriticalImpact;
-use super::grazing_orbit::GrazingOrbit;
 use super::impact_section::SectionPoint;
 use super::normal_form::normal_form_coefficient;
 use super::period_map::PeriodMap;
 use super::point::Graze;
+use super::section_orbit::SectionOrbit;
 use super::sequence::Sequence;
 use super::shooting::Critical;
 use super::test::Test;
@@ -114,6 +113,12 @@ pub(super) trait Codimension: Equations {
         })
     }
 
+    /// The test of resonant grazing at a node of a curve of grazing; none on other curves.
+    fn resonance_test(&self, node: &Node<Self::Point>) -> Option<(CodimensionTwo, f64)> {
+        let _ = node;
+        None
+    }
+
     /// A function that changes its sign where the curve has a point of codimension two, at a node where it has a
     /// direction; before, it had another one. Not a number where it cannot be computed. At a cusp both parameters turn
     /// back, at a generalised flip the coefficient of the normal form vanishes.
@@ -122,6 +127,9 @@ pub(super) trait Codimension: Equations {
         node: &Node<Self::Point>,
         [before, here]: [&DVector<f64>; 2],
     ) -> (CodimensionTwo, f64) {
+        if let Some(found) = self.resonance_test(node) {
+            return found;
+        }
         if self.critical_test() != Some(Test::Flip) {
             let value = along_parameters(before).dot(&along_parameters(here));
             return (CodimensionTwo::Cusp, value);
@@ -180,7 +188,7 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
     }
 }
 
-impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
+impl<F: Family<2>> Codimension for SectionOrbit<'_, F, 2> {
     type Machines = F;
 
     fn family_and_periods(&self) -> (&F, u64) {
@@ -188,7 +196,7 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
     }
 
     fn critical_test(&self) -> Option<Test> {
-        Some(self.test)
+        self.critical_test()
     }
 
     fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
@@ -199,11 +207,23 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
         (&point.impacts, point.monodromy, point.crossing_sequence())
     }
 
+    fn resonance_test(&self, node: &Node<SectionPoint>) -> Option<(CodimensionTwo, f64)> {
+        if self.critical_test().is_some() {
+            return None;
+        }
+        let scene = self.section.scene_at(0.0, self.parameters(&node.at));
+        let is_hard = scene.is_ok_and(|(scene, _)| self.section.face.is_steep(&scene));
+        let value = self.touch_response(&node.here.point);
+        let kind = CodimensionTwo::ResonantGrazing(self.graze_at(node));
+        Some((kind, if is_hard { value } else { 0.0 }))
+    }
+
     fn ending_point(
         &self,
         node: &Node<SectionPoint>,
         step: &DVector<f64>,
     ) -> Option<(CodimensionTwo, CurvePoint)> {
+        self.critical_test()?;
         let (velocity, change) = (node.at[1], step[1]);
         if velocity + change > 0.0 {
             return None;
@@ -211,40 +231,8 @@ impl<F: Family<2>> Codimension for CriticalImpact<'_, F, 2> {
         let (resonant, guess) = self.resonant_grazing(&(&node.at - step * (velocity / change)));
         let found = correct(&resonant, &guess, None).ok()?;
         let is_near = (&found.at - node.at.clone().remove_row(1)).norm() <= step.norm();
-        let kind = CodimensionTwo::ResonantGrazing(resonant.0.graze_at(&found));
-        let point = is_near.then(|| resonant.0.curve_point(&found).ok());
+        let kind = CodimensionTwo::ResonantGrazing(resonant.graze_at(&found));
+        let point = is_near.then(|| resonant.curve_point(&found).ok());
         Some((kind, point.flatten()?))
-    }
-}
-
-impl<F: Family<2>> Codimension for GrazingOrbit<'_, F, 2> {
-    type Machines = F;
-
-    fn family_and_periods(&self) -> (&F, u64) {
-        (self.section.family, self.section.periods)
-    }
-
-    fn critical_test(&self) -> Option<Test> {
-        None
-    }
-
-    fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
-        self.section.state(at, 0.0)
-    }
-
-    fn orbit_of(point: &SectionPoint) -> (&[f64], Monodromy, Sequence) {
-        (&point.impacts, point.monodromy, point.crossing_sequence())
-    }
-
-    fn degeneracy_test(
-        &self,
-        node: &Node<SectionPoint>,
-        _: [&DVector<f64>; 2],
-    ) -> (CodimensionTwo, f64) {
-        let scene = self.section.scene_at(0.0, self.parameters(&node.at));
-        let is_hard = scene.is_ok_and(|(scene, _)| self.section.face.is_steep(&scene));
-        let value = self.touch_response(&node.here.point);
-        let kind = CodimensionTwo::ResonantGrazing(self.graze_at(node));
-        (kind, if is_hard { value } else { 0.0 })
     }
 }

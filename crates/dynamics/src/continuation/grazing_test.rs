@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 use super::Family;
 use super::arclength::{Node, correct};
 use super::face::{Face, NearTouch};
-use super::grazing_orbit::GrazingOrbit;
-use super::impact_section::{ImpactSection, SectionPoint};
+use super::impact_section::SectionPoint;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
+use super::section_orbit::SectionOrbit;
 use super::shooting::Shooting;
 use crate::orbit::OrbitError;
 use crate::period::PeriodTrajectory;
@@ -162,12 +162,11 @@ pub(crate) fn find_grazing<F: Family>(
     phase: f64,
     parameter: f64,
 ) -> Result<Special, OrbitError> {
-    let section = ImpactSection::of_graze(near, (family, periods));
-    let touching = GrazingOrbit { section };
+    let touching = SectionOrbit::of_graze(near, (family, periods));
     let guess = touching.section.scaled_unknowns(&[near.angle], [parameter]);
     let node = correct(&touching, &guess, None)?;
     let [parameter] = touching.section.parameters(&node.at);
-    let state = touching.section.state(&node.at, 0.0)?;
+    let state = touching.state(&node.at)?;
     let SectionPoint {
         monodromy, impacts, ..
     } = node.here.point;

@@ -6,11 +6,9 @@ use nalgebra::Vector2;
 
 use super::Family;
 use super::codimension_two::{CodimensionTwo, CurvePoint};
-use super::critical_impact::CriticalImpact;
 use super::curve::{Curve, CurveEnd, CurveLimits, follow_curve};
-use super::grazing_orbit::GrazingOrbit;
-use super::impact_section::ImpactSection;
 use super::point::SpecialKind;
+use super::section_orbit::SectionOrbit;
 use super::shooting::{Critical, Shooting};
 use super::test::Test;
 use crate::orbit::OrbitError;
@@ -47,7 +45,7 @@ fn follow_raw<F: Family<2>>(
             let shooting = Shooting::new(family, periods);
             let guess = shooting.scaled(state, parameters);
             let critical = Critical { shooting, test };
-            match CriticalImpact::at_orbit((family, periods), test, state, parameters)? {
+            match SectionOrbit::at_orbit((family, periods), test, state, parameters)? {
                 Some((at_impact, impact)) => follow_curve(&at_impact, kind, &impact, region, watch)
                     .or_else(|_| follow_curve(&critical, kind, &guess, region, watch)),
                 None => follow_curve(&critical, kind, &guess, region, watch),
@@ -55,8 +53,7 @@ fn follow_raw<F: Family<2>>(
         }
         SpecialKind::Pitchfork => Err(OrbitError::NotIsolated),
         SpecialKind::Grazing(graze) => {
-            let section = ImpactSection::of_graze(&graze, (family, periods));
-            let touching = GrazingOrbit { section };
+            let touching = SectionOrbit::of_graze(&graze, (family, periods));
             let guess = touching.section.scaled_unknowns(&[graze.angle], parameters);
             follow_curve(&touching, kind, &guess, region, watch)
         }

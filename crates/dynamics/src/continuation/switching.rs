@@ -6,13 +6,11 @@ use nalgebra::Vector2;
 
 use super::Family;
 use super::codimension_two::{CodimensionTwo, CurvePoint};
-use super::critical_impact::CriticalImpact;
 use super::curve::{Curve, CurveLimits, follow_curve};
 use super::follow::Continuation;
-use super::grazing_orbit::GrazingOrbit;
 use super::half_branch::Limits;
-use super::impact_section::ImpactSection;
 use super::point::{Graze, SpecialKind};
+use super::section_orbit::SectionOrbit;
 use super::special_curve::{end_in_flips, follow_special};
 use super::test::Test;
 use crate::monitor::stop_if;
@@ -78,11 +76,9 @@ fn from_grazing<F: Family<2>>(
     region: &CurveLimits,
     watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Option<Curve> {
-    let section = ImpactSection::of_graze(graze, (family, periods));
-    let touching = GrazingOrbit { section };
+    let touching = SectionOrbit::of_graze(graze, (family, periods));
     let touch = touching.section.scaled_unknowns(&[graze.angle], parameters);
-    let beside =
-        |velocity: &f64| CriticalImpact::with_weak_impact(&touching, &touch, test, *velocity).ok();
+    let beside = |velocity: &f64| touching.with_weak_impact(&touch, test, *velocity).ok();
     let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
     let kind = SpecialKind::Critical(test);
     let mut curve = follow_curve(&critical, kind, &node.at, region, watch).ok()?;

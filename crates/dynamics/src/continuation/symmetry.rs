@@ -14,15 +14,14 @@ use super::branch::Branch;
 use super::follow::{Continuation, is_one_sense};
 use super::half_branch::{End, Limits};
 use super::locate::{along_chord, is_beside};
-use super::period_map::{PeriodMap, before_wall, carry_through};
+use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::shooting::{Shooting, round_off};
 use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
-use crate::period::PeriodTrajectory;
 use crate::tolerance::SAME;
-use softstop::{Clock, Instant, MotionError, Scene};
+use softstop::{Clock, Instant, Scene};
 
 /// True if a machine is its own mirror image half a drive period later: both stops are alike.
 fn is_symmetric(scene: &Scene) -> bool {
@@ -43,33 +42,28 @@ struct HalfPeriod {
 }
 
 impl<F: Family> Shooting<'_, F, 1> {
-    /// Half the period from a place; none if the machine is not its own mirror image, or periods are even in number.
-    fn half_period(&self, at: &DVector<f64>) -> Result<Option<HalfPeriod>, MotionError> {
-        let scene = self.scene_at(at)?;
-        if self.periods.is_multiple_of(2) || !is_symmetric(&scene) {
-            return Ok(None);
+    /// Half the period of a motion; none if the machine is not its own mirror image, or periods are even in number.
+    fn half_period(&self, map: &PeriodMap) -> Option<HalfPeriod> {
+        let scene = &*map.scene;
+        if self.periods.is_multiple_of(2) || !is_symmetric(scene) {
+            return None;
         }
-        let state = before_wall(&scene, self.state_at(at));
-        let half = Instant {
+        let motion = map.trajectory.up_to(Instant {
             offset: 0.5 * scene.period(),
             ..Clock::at_cycle(self.periods / 2)
-        };
-        let machine = (self.lower_phases(&scene), scene.clock());
-        let over_half =
-            |motion: &mut _, kept: &mut PeriodTrajectory| carry_through(motion, half, kept);
-        let motion = PeriodTrajectory::record(machine, state, over_half)?;
+        });
         let monodromy = Monodromy::from(&motion.tangent());
         let scales = self.family.state_scales();
-        Ok(Some(HalfPeriod {
-            asymmetry: self.scaled(-motion.end - self.state_at(at), [0.0]),
-            tolerance: round_off(&scene, &state, &monodromy, scales),
+        Some(HalfPeriod {
+            asymmetry: self.scaled(-motion.end - self.state_at(&map.place), [0.0]),
+            tolerance: round_off(scene, &map.start, &monodromy, scales),
             monodromy,
-        }))
+        })
     }
 
     /// The Jacobian of half the period of a symmetric orbit; none of another one.
     fn symmetric_half_period(&self, node: &Node<PeriodMap>) -> Option<Monodromy> {
-        let half = self.half_period(&node.at).ok()??;
+        let half = self.half_period(&node.here.point)?;
         (half.asymmetry.norm() < SAME).then_some(half.monodromy)
     }
 }
@@ -81,8 +75,8 @@ impl<F: Family> Equations for Pitchfork<'_, '_, F> {
     type Point = Monodromy;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Monodromy>, OrbitError> {
-        let half = self.0.half_period(at)?;
-        let half = half.ok_or(OrbitError::LOST)?;
+        let map = self.0.evaluate(at)?.point;
+        let half = self.0.half_period(&map).ok_or(OrbitError::LOST)?;
         let symmetric = Evaluation {
             residual: half.asymmetry.rows(0, 2).into_owned(),
             tolerance: half.tolerance,
@@ -95,7 +89,7 @@ impl<F: Family> Equations for Pitchfork<'_, '_, F> {
 impl<F: Family> Continuation<'_, F> {
     /// Scaled distance of half an orbit's period from the mirror image of its start; none if it cannot be symmetric.
     pub(super) fn mirror_gap(&self, node: &Node<PeriodMap>) -> Option<DVector<f64>> {
-        let half = self.shooting.half_period(&node.at).ok()??;
+        let half = self.shooting.half_period(&node.here.point)?;
         (half.asymmetry.norm() >= SAME).then_some(half.asymmetry)
     }
 

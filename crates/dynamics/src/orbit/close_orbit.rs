@@ -5,11 +5,9 @@ use nalgebra::{Matrix2, Vector2};
 use super::contact_passage::ContactPassage;
 use super::multi_segment_shooting::{MultiSegmentShooting, ShootingEvaluation, Unknowns};
 use super::{Monodromy, Orbit, OrbitError, StroboscopicMap};
+use crate::tolerance::SAME;
 use softstop::internals::{LinearLaw, Motion, NextEvent, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Tangent, Touch};
-
-/// Share of the drive period by which an impact found by its crossing may precede the one that segments were shot to.
-const IMPACT_TIME_TOLERANCE: f64 = 1e-4;
 
 impl MultiSegmentShooting<'_> {
     /// The periodic orbit through impacts between which the segments of the shooting fit.
@@ -34,13 +32,20 @@ impl MultiSegmentShooting<'_> {
         let free = self.span() - time - last.lasting;
         let (state, tail) = self.tail_after_last_impact(time, last)?;
         let mut factors = vec![self.head_to_first_impact(impacts[0].0, free, state)?];
+        // The factor by the saltation at the impact of a contact.
+        let entry = |&(time, velocity, passing): &(f64, f64, &ContactPassage)| {
+            let matrix = self
+                .face
+                .entry_saltation(clock.instant(time), velocity, passing);
+            (matrix, matrix.determinant())
+        };
         for pair in impacts.windows(2) {
             let (time, _, passing) = pair[0];
             let flight = pair[1].0 - time - passing.lasting;
             let free = flight_factor(&passing.course.flow, flight);
-            factors.extend([entry_factor(passing), factor(&passing.tangent), free]);
+            factors.extend([entry(&pair[0]), factor(&passing.tangent), free]);
         }
-        factors.push(entry_factor(last));
+        factors.extend(impacts.last().map(entry));
         if free >= 0.0 {
             factors.extend([
                 factor(&last.tangent),
@@ -84,7 +89,7 @@ impl MultiSegmentShooting<'_> {
             let around = if next <= segment { self.span() } else { 0.0 };
             let flight = at[2 * next] + around - at[2 * segment] - passing.lasting;
             let (course, guards) = (&passing.course, &self.face.phases[PhaseId::FREE].guards);
-            let early = flight - IMPACT_TIME_TOLERANCE * self.face.clock.period();
+            let early = flight - SAME * self.face.clock.period();
             if let NextEvent::Crossing(found) =
                 first_crossing(course, guards, course.start_node(), flight)
                 && found.elapsed < early
@@ -134,11 +139,6 @@ type MonodromyFactor = (Matrix2<f64>, f64);
 /// The factor of a monodromy matrix that a tangent stands for.
 fn factor(tangent: &Tangent) -> MonodromyFactor {
     (tangent.matrix, tangent.determinant)
-}
-
-/// The factor of a monodromy matrix by the saltation at the impact of a contact.
-fn entry_factor(passing: &ContactPassage) -> MonodromyFactor {
-    (passing.entry, passing.entry.determinant())
 }
 
 /// The factor of a monodromy matrix by a free flight over a time in s.

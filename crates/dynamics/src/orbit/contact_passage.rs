@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc as Shared;
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Matrix2;
 
 use softstop::internals::{
     ArcSolution, Beyond, Departure, Mode, Motion, PhaseId, Phases, Polynomial, Surface, saltation,
@@ -23,19 +23,16 @@ pub(super) struct ContactFace {
     surface: Surface,
 }
 
-/// A passage through contact, from its impact until the mass is free again, with its derivatives.
+/// A passage through contact, from its impact until the mass is free again.
 #[derive(Debug, Clone)]
-pub(super) struct ContactPassage {
-    /// Change of the state right after the impact with its time, seen at a fixed time.
-    pub by_time: Vector2<f64>,
-    /// Change of the state right after the impact with its velocity.
-    pub by_velocity: Vector2<f64>,
-    /// The saltation matrix of the impact.
-    pub entry: Matrix2<f64>,
-    /// Tangent from right after the impact to the free motion.
-    pub tangent: Tangent,
+pub(super) struct ContactPassage<T = Tangent> {
+    kind: CrossingKind,
     /// Velocity in m/s right after the impact.
     pub velocity_after: f64,
+    /// Acceleration in m/s^2 right after the impact.
+    pub acceleration_after: f64,
+    /// What an observer gathers from right after the impact to the free motion: the tangent.
+    pub tangent: T,
     /// Time in s from the impact until the mass is free again.
     pub lasting: f64,
     /// Instant at which the mass is free again.
@@ -65,11 +62,6 @@ impl ContactFace {
         self.surface.position
     }
 
-    /// Acceleration in m/s^2 of the free mass at the face, at an instant with a velocity in m/s.
-    fn free_acceleration_at_face(&self, at: Instant, velocity: f64) -> f64 {
-        self.acceleration_at_face(PhaseId::FREE, at, velocity)
-    }
-
     /// Acceleration in m/s^2 of the mass in a phase at the face, at an instant with a velocity in m/s.
     fn acceleration_at_face(&self, phase: PhaseId, at: Instant, velocity: f64) -> f64 {
         let push = self.phases.amplitude * self.clock.drive(at).cos;
@@ -97,120 +89,70 @@ impl ContactFace {
     }
 
     /// The passage through contact from an impact; none if the mass rests in it or stays longer than `longest` s.
-    pub(super) fn pass_contact(
+    pub(super) fn pass_contact<T: Observer + Default>(
         &self,
         at: Instant,
         velocity: f64,
         longest: f64,
-    ) -> Result<Option<ContactPassage>, MotionError> {
-        let before = self.free_acceleration_at_face(at, velocity);
-        let mut contact = self.begin_contact(at, velocity)?;
-        let Some(entry) = self.enter_contact(at, velocity, contact.as_ref()) else {
-            return Ok(None);
+    ) -> Result<Option<ContactPassage<T>>, MotionError> {
+        let mut contact = match self.surface.beyond {
+            Beyond::Wall { .. } => None,
+            Beyond::Phase(_) => Some(self.release(at, velocity)?),
         };
-        let (velocity_after, after) = (entry.velocity_after, entry.acceleration);
-        let saltation = saltation(&Crossing {
-            instant: at,
-            kind: entry.kind,
-            position: self.face_position(),
-            velocity,
-            velocity_after,
-            acceleration_before: before,
-            acceleration_after: after,
-        });
-        let begin = (at, velocity_after);
-        let Some(exit) = self.exit_contact::<Tangent>(begin, contact.as_mut(), longest)? else {
-            return Ok(None);
-        };
-        let by_time = -Vector2::new(velocity_after, after);
-        Ok(Some(ContactPassage {
-            by_time,
-            by_velocity: Vector2::new(0.0, velocity_after / velocity),
-            entry: saltation,
-            tangent: exit.gathered,
-            velocity_after,
-            lasting: self.clock.elapsed(at, exit.instant),
-            free_from: exit.instant,
-            course: exit.course,
-        }))
-    }
-
-    /// The end of the contact from an impact, without its tangent: when the mass is free, and its free motion.
-    pub(super) fn leave_contact(
-        &self,
-        at: Instant,
-        velocity: f64,
-        longest: f64,
-    ) -> Result<Option<(Instant, ArcSolution)>, MotionError> {
-        let mut contact = self.begin_contact(at, velocity)?;
-        let Some(entry) = self.enter_contact(at, velocity, contact.as_ref()) else {
-            return Ok(None);
-        };
-        let begin = (at, entry.velocity_after);
-        let exit = self.exit_contact::<()>(begin, contact.as_mut(), longest)?;
-        Ok(exit.map(|exit| (exit.instant, exit.course)))
-    }
-
-    /// The motion in contact after an impact; none where the face is rigid.
-    fn begin_contact(&self, at: Instant, velocity: f64) -> Result<Option<Motion>, MotionError> {
-        match self.surface.beyond {
-            Beyond::Wall { .. } => Ok(None),
-            Beyond::Phase(_) => self.release(at, velocity).map(Some),
-        }
-    }
-
-    /// The impact that a contact begins with; none if the mass rests from there on.
-    fn enter_contact(
-        &self,
-        at: Instant,
-        velocity: f64,
-        contact: Option<&Motion>,
-    ) -> Option<ContactEntry> {
-        let entry = match (self.surface.beyond, contact.map(Motion::mode)) {
-            (Beyond::Wall { restitution }, _) => {
-                let velocity_after = -restitution * velocity;
-                ContactEntry {
-                    kind: CrossingKind::Rebound {
-                        impact: true,
-                        pierces: false,
-                    },
-                    velocity_after,
-                    acceleration: self.free_acceleration_at_face(at, velocity_after),
+        let (kind, phase, velocity_after) =
+            match (self.surface.beyond, contact.as_ref().map(Motion::mode)) {
+                (Beyond::Wall { restitution }, _) => {
+                    let (impact, pierces) = (true, false);
+                    let kind = CrossingKind::Rebound { impact, pierces };
+                    (kind, PhaseId::FREE, -restitution * velocity)
                 }
-            }
-            (Beyond::Phase(_), Some(Mode::Moving(phase))) => ContactEntry {
-                kind: CrossingKind::Surface {
-                    forward: true,
-                    impact: true,
-                    pierces: false,
-                },
-                velocity_after: velocity,
-                acceleration: self.acceleration_at_face(phase, at, velocity),
-            },
-            _ => return None,
-        };
-        (entry.velocity_after != 0.0).then_some(entry)
-    }
-
-    /// Follows a contact from right after its impact to its end.
-    fn exit_contact<T: Observer + Default>(
-        &self,
-        begin: (Instant, f64),
-        contact: Option<&mut Motion>,
-        longest: f64,
-    ) -> Result<Option<ContactExit<T>>, MotionError> {
-        let (gathered, found) = match contact {
-            None => (T::default(), Some(begin)),
+                (Beyond::Phase(_), Some(Mode::Moving(phase))) => {
+                    let (forward, impact, pierces) = (true, true, false);
+                    let kind = CrossingKind::Surface {
+                        forward,
+                        impact,
+                        pierces,
+                    };
+                    (kind, phase, velocity)
+                }
+                _ => return Ok(None),
+            };
+        if velocity_after == 0.0 {
+            return Ok(None);
+        }
+        let acceleration_after = self.acceleration_at_face(phase, at, velocity_after);
+        let (tangent, end) = match &mut contact {
+            None => (T::default(), Some((at, velocity_after))),
             Some(motion) => self.follow_contact(motion, longest)?,
         };
-        let Some((instant, velocity)) = found.filter(|(_, velocity)| *velocity < 0.0) else {
-            return Ok(None);
-        };
-        Ok(Some(ContactExit {
-            gathered,
-            instant,
-            course: self.free_course(instant, velocity),
+        let end = end.filter(|(_, velocity)| *velocity < 0.0);
+        Ok(end.map(|(free_from, velocity)| ContactPassage {
+            kind,
+            velocity_after,
+            acceleration_after,
+            tangent,
+            lasting: self.clock.elapsed(at, free_from),
+            free_from,
+            course: self.free_course(free_from, velocity),
         }))
+    }
+
+    /// The saltation matrix of the impact, at an instant with a velocity in m/s, that a passage begins with.
+    pub(super) fn entry_saltation<T>(
+        &self,
+        at: Instant,
+        velocity: f64,
+        passage: &ContactPassage<T>,
+    ) -> Matrix2<f64> {
+        saltation(&Crossing {
+            instant: at,
+            kind: passage.kind,
+            position: self.face_position(),
+            velocity,
+            velocity_after: passage.velocity_after,
+            acceleration_before: self.acceleration_at_face(PhaseId::FREE, at, velocity),
+            acceleration_after: passage.acceleration_after,
+        })
     }
 
     /// Follows a mass in contact until it is free: what an observer gathers, when that is, and its velocity in m/s.
@@ -229,22 +171,6 @@ impl ContactFace {
         let _ = motion.watch(self.clock.after(at, longest), &mut contact)?;
         Ok((contact.gathered, contact.found))
     }
-}
-
-/// The impact that begins a contact.
-struct ContactEntry {
-    kind: CrossingKind,
-    /// Velocity in m/s right after it.
-    velocity_after: f64,
-    /// Acceleration in m/s^2 right after it.
-    acceleration: f64,
-}
-
-/// The end of a contact: what was gathered up to there, when the mass is free, and its free motion from there on.
-struct ContactExit<T> {
-    gathered: T,
-    instant: Instant,
-    course: ArcSolution,
 }
 
 /// An observer of a contact that gathers until the mass is free again.

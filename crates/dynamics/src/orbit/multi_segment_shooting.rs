@@ -184,14 +184,12 @@ impl<'a> MultiSegmentShooting<'a> {
     pub(super) fn return_gap(&self, time: f64, velocity: f64) -> Option<[f64; 2]> {
         let clock = &self.face.clock;
         let from = clock.instant(time);
-        let (free_from, course) = self
-            .face
-            .leave_contact(from, velocity, self.span())
-            .ok()??;
+        let passage: ContactPassage<()> =
+            self.face.pass_contact(from, velocity, self.span()).ok()??;
         let to = clock.instant(time + self.span());
-        let flight = clock.elapsed(free_from, to);
+        let flight = clock.elapsed(passage.free_from, to);
         let gap = |(position, arriving)| self.scaled_gap((position, arriving), velocity);
-        (flight > 0.0).then(|| gap(course.state_at(flight, clock.drive(to))).into())
+        (flight > 0.0).then(|| gap(passage.course.state_at(flight, clock.drive(to))).into())
     }
 
     /// What a state at the face is off by where an impact of a velocity should be: position and velocity, scaled.
@@ -254,10 +252,8 @@ impl<'a> MultiSegmentShooting<'a> {
             let clock = &self.face.clock;
             let (from, to) = (clock.instant(at[2 * segment]), at[2 * next] + around);
             let longest = to - at[2 * segment];
-            let passing = self
-                .face
-                .pass_contact(from, at[2 * segment + 1], longest)
-                .ok()??;
+            let before = at[2 * segment + 1];
+            let passing: ContactPassage = self.face.pass_contact(from, before, longest).ok()??;
             let to = clock.instant(to);
             let flight = clock.elapsed(passing.free_from, to);
             if flight <= 0.0 {
@@ -277,8 +273,12 @@ impl<'a> MultiSegmentShooting<'a> {
                 evaluation.jacobian[(rows, column)] += by.x;
                 evaluation.jacobian[(rows + 1, column)] += by.y;
             };
-            add(column, through * passing.by_time);
-            add(column + 1, through * passing.by_velocity);
+            let after = passing.velocity_after;
+            add(
+                column,
+                through * -Vector2::new(after, passing.acceleration_after),
+            );
+            add(column + 1, through * Vector2::new(0.0, after / before));
             add(ahead, Vector2::new(velocity, acceleration));
             add(ahead + 1, Vector2::new(0.0, -1.0));
             evaluation.passages.push(passing);

@@ -105,9 +105,31 @@ impl PeriodTrajectory {
         self.arcs.iter().filter_map(|arc| arc.crossing.as_ref())
     }
 
+    /// The trajectory up to an instant.
+    pub fn up_to(&self, end: Instant) -> Self {
+        let begun = self.arcs.partition_point(|arc| arc.start < end);
+        let mut arcs = self.arcs[..begun].to_vec();
+        if let Some(last) = arcs.last_mut() {
+            let elapsed = self.clock.elapsed(last.start, end);
+            if elapsed < last.duration {
+                (last.duration, last.crossing) = (elapsed, None);
+            }
+        }
+        Self {
+            phases: self.phases.clone(),
+            clock: self.clock,
+            arcs,
+            end: self.state_at(end),
+        }
+    }
+
     /// The state of the trajectory when so many drive periods are complete.
     pub fn at_cycle(&self, periods: u64) -> Vector2<f64> {
-        let at = Clock::at_cycle(periods);
+        self.state_at(Clock::at_cycle(periods))
+    }
+
+    /// The state of the trajectory at an instant.
+    fn state_at(&self, at: Instant) -> Vector2<f64> {
         let next = self.arcs.partition_point(|arc| arc.start <= at);
         let state = |kept: &KeptArc| {
             let elapsed = self.clock.elapsed(kept.start, at);
