@@ -39,6 +39,7 @@ pub use motion::Motion;
 pub use observer::{Arc, Crossing, CrossingKind, Observer};
 pub use outputs::{Energy, Sample};
 pub use rates::{Rate, Rates};
+pub use reset::MAX_RESTITUTION;
 pub use simulation::{Begin, Simulation};
 pub use snapshot::Snapshot;
 pub use start::Start;

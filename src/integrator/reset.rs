@@ -8,8 +8,8 @@ use crate::flow::{Chatter, Polynomial, Pressing};
 use crate::phases::{Beyond, Exit, Mode, PhaseId, Phases, Sticking, Surface, SurfaceId, Threshold};
 
 /// Restitution above which bounces shrink by viscous damping rather than by the impacts: they then come
-/// to no end in finite time, as those on a preloaded face.
-const ENDLESS: f64 = 1.0 - 1.0 / (1u64 << 16) as f64;
+/// to no end in finite time, as those on a preloaded face, and in too many impacts for lanes.
+pub const MAX_RESTITUTION: f64 = 1.0 - 1.0 / (1u64 << 16) as f64;
 
 /// State, mode and kind right after a crossing.
 pub(crate) struct Reset {
@@ -40,7 +40,7 @@ impl Phases {
         };
         let endless = match self[surface].beyond {
             Beyond::Phase(_) => true,
-            Beyond::Wall { restitution } => restitution > ENDLESS,
+            Beyond::Wall { restitution } => restitution > MAX_RESTITUTION,
         };
         endless.then_some(surface)
     }
@@ -173,7 +173,8 @@ impl ResetContext<'_> {
         let held = self.phases.mode_from_rest(hold, position, push);
         let rests = matches!(held, Mode::Held(_));
         let faint = || {
-            let endless = restitution > ENDLESS && self.phases.is_faint(at, speed, push, self.fed);
+            let endless =
+                restitution > MAX_RESTITUTION && self.phases.is_faint(at, speed, push, self.fed);
             speed < self.threshold.slowest || endless
         };
         if speed == 0.0 || (rests && faint()) {

@@ -15,7 +15,7 @@ pub use allowed::Allowed;
 pub use parameter::{About, Dimension, Parameter};
 pub(crate) use quantity::Quantity;
 pub use ratios::Ratios;
-pub use scales::Scales;
+pub use scales::{MIN_SCALE_STIFFNESS, Scales};
 pub(crate) use stop::stiffness_from;
 pub use stop::{Below, Release, RigidStop, Slope, Stop, force_of};
 pub(crate) use ties::Tie;

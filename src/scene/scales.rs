@@ -14,8 +14,9 @@ pub struct Scales {
     pub rate: f64,
 }
 
-/// Least stiffness of a suspension that serves as a scale, in units of m w^2.
-const MIN_SCALE_STIFFNESS: f64 = 0.01;
+/// Least stiffness of a suspension that serves as a scale, in units of m w^2: the static deflection of a softer one is so large
+/// that a motion told from it loses its digits.
+pub const MIN_SCALE_STIFFNESS: f64 = 0.01;
 
 impl Scene {
     /// The scales of the machine, the units of [`Ratios`](super::Ratios): the static deflection F0/k1 and Omega =

@@ -11,3 +11,5 @@ pub(crate) const NEAR: f64 = 1e-3;
 pub(crate) const DIFFERENCE_WIDTH: f64 = 1e-6;
 /// What rounding leaves of a scaled test function of a monodromy matrix, and of the place at which one vanishes.
 pub(crate) const TEST_ROUNDING: f64 = 1e-12;
+/// Distance from a face, or velocity at it, in units of those of the motion, up to which the motion nearly grazes the face.
+pub(crate) const NEAR_GRAZING: f64 = 1e-2;

@@ -4,10 +4,8 @@ use std::f64::consts::TAU;
 
 use super::law::Constants;
 use softstop::Excitation;
-use softstop::internals::{Beyond, Exit, Phase, PhaseId, Phases, Surface};
+use softstop::internals::{Beyond, Exit, MAX_RESTITUTION, Phase, PhaseId, Phases, Surface};
 
-/// Largest restitution of a wall whose bounces die out in few enough impacts for lanes.
-const MAX_RESTITUTION: f64 = 1.0 - 1.0 / 65_536.0;
 /// Duration of the shortest bounce that lanes follow at a face with trains of bounces, in drive periods.
 const MIN_BOUNCE_DURATION: f64 = 1e-2;
 /// Largest exponent (damping / mass) times drive period of a machine with trains of bounces: under less damping, bounces

@@ -6,13 +6,12 @@ use nalgebra::{Complex, Vector2};
 
 use super::law::{Constants, FREE_TERMS, WINDOW_ANGLE};
 use softstop::PhaseKind;
-use softstop::internals::{Beyond, Exit, Hertz, Modes, Phase, Phases, SurfaceId};
+use softstop::internals::{
+    Beyond, Exit, Hertz, MIN_SCALE_STIFFNESS, Modes, Phase, Phases, SurfaceId,
+};
 
 /// Most scan windows per drive period with which lanes follow a machine; the safe engine follows stiffer ones.
 const MAX_WINDOWS_PER_PERIOD: f64 = 65_536.0;
-/// Least stiffness per mass, in units of the drive's w^2, with which lanes describe a constant force by a static
-/// deflection: the deflection of a softer spring is so large that the motion loses its digits.
-const MIN_STIFFNESS: f64 = 1e-2;
 /// Exponents of the power laws that lanes follow.
 const POWER_LAW_EXPONENTS: [f64; 3] = [1.5, 2.0, 2.5];
 /// Largest rate of the linear part of a power-law contact, in units of the drive's w, with which lanes follow it: under heavier
@@ -197,7 +196,7 @@ impl Constants {
         let w = flow.frequency;
         let fastest = w.max(flow.modes.fastest_rate());
         let window = WINDOW_ANGLE / fastest;
-        let soft = flow.modes.stiffness.abs() < MIN_STIFFNESS * w * w;
+        let soft = flow.modes.stiffness.abs() < MIN_SCALE_STIFFNESS * w * w;
         if TAU / w > MAX_WINDOWS_PER_PERIOD * window || (soft && phase.law.force != 0.0) {
             return None;
         }

@@ -16,8 +16,6 @@ struct EscapeCount {
     gone: u64,
 }
 
-/// Width to which the logarithm of the escape rate is known.
-const LN_RATE_WIDTH: f64 = 1e-14;
 /// Range of the logarithm of the escape rate per drive period.
 const LN_RATE_RANGE: (f64, f64) = (-40.0, 5.0);
 
@@ -67,7 +65,7 @@ impl EscapeCounts {
         };
         let at = |rate: f64| excess(rate.exp());
         let [low, high] = [LN_RATE_RANGE.0, LN_RATE_RANGE.1].map(|rate| (rate, at(rate)));
-        let found = narrow_root(low, high, LN_RATE_WIDTH, |rate| {
+        let found = narrow_root(low, high, 64.0 * f64::EPSILON, |rate| {
             Ok::<f64, Infallible>(at(rate))
         });
         Some((-found.ok()?.middle()).exp())

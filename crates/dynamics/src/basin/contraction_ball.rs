@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix2, Vector2};
 
 use crate::orbit::{Orbit, StroboscopicMap, multipliers};
+use crate::tolerance::SAME;
 use softstop::{MotionError, Start};
 
 /// Contraction balls about the points of some orbits, by the numbers of these.
@@ -41,8 +42,6 @@ const RING_RADII: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
 const RING_POINTS: usize = 24;
 /// Factor by which a radius of a contraction ball that is too large shrinks.
 const RADIUS_SHRINK: f64 = 0.7;
-/// Least radius of a contraction ball, in units of the orbit's size.
-const MIN_RADIUS: f64 = 1e-5;
 /// Most terms of the series of the contracting norm.
 const MAX_NORM_TERMS: usize = 20_000;
 
@@ -80,7 +79,7 @@ impl ContractionBall {
             return Ok(None);
         };
         let mut radius = size;
-        while radius > MIN_RADIUS * size {
+        while radius > SAME * size {
             let contracts = |point: Vector2<f64>| {
                 map.apply(centre + back * point).is_ok_and(|passage| {
                     let tangent = shape * passage.monodromy.matrix * back;

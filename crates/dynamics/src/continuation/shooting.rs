@@ -12,7 +12,7 @@ use super::arclength::{Equations, Evaluation};
 use super::period_map::PeriodMap;
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
-use crate::tolerance::DIFFERENCE_WIDTH;
+use crate::tolerance::{DIFFERENCE_WIDTH, NEAR_GRAZING};
 use softstop::internals::{ParameterSensitivity, PhaseDerivatives, Phases};
 use softstop::{MotionError, Scene};
 
@@ -145,13 +145,14 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         })
     }
 
-    /// True if small changes of the state grow a hundredfold and more, though the orbit grazes nothing.
+    /// True if small changes of the state grow a hundredfold and more, though the orbit grazes nothing. Near grazing a touch
+    /// is slow by the same share.
     fn is_steep(&self, here: &PeriodMap) -> bool {
         let speed = self.velocity_scale();
         let grazes = here
             .slowest
-            .is_some_and(|touch| touch.amount < SLOW_TOUCH * speed);
-        !grazes && here.monodromy.trace().abs() > UNSTABLE_TRACE
+            .is_some_and(|touch| touch.amount < NEAR_GRAZING * speed);
+        !grazes && NEAR_GRAZING * here.monodromy.trace().abs() > 1.0
     }
 
     fn residual_beside(
@@ -209,11 +210,6 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
         Some(DMatrix::from_fn(2, N, |row, column| slopes[column][row]))
     }
 }
-
-/// Trace of a Jacobian from which on a guess must be very near.
-const UNSTABLE_TRACE: f64 = 100.0;
-/// Scaled speed of a touch up to which an orbit is near grazing.
-const SLOW_TOUCH: f64 = 0.01;
 
 /// What rounding alone may leave of the residual P(s) - s, in units of `sizes`.
 pub(crate) fn round_off(

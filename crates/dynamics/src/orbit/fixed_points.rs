@@ -3,7 +3,6 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::newton::find_new_fixed_point;
-use super::periodic::STEEP_MAP_NORM;
 use super::trials::{
     Candidate, NEAR_RETURN, Trial, least_moved, scaled_distance, settled_candidates,
 };
@@ -154,7 +153,7 @@ impl<'a> FixedPoints<'a> {
         let steepness = |passage: &Passage| self.map.scales().jacobian(&passage.monodromy).norm();
         let orbit = match found {
             Ok(None) => return,
-            Ok(Some((state, passage))) if steepness(&passage) <= STEEP_MAP_NORM => {
+            Ok(Some((state, passage))) if NEAR * steepness(&passage) <= 1.0 => {
                 self.all.push(FixedPoint::new(state, passage.monodromy));
                 if !passage.monodromy.is_stable() {
                     return;

@@ -5,10 +5,8 @@ use nalgebra::Vector2;
 use super::StroboscopicMap;
 use crate::period::PeriodTrajectory;
 use crate::period::turn::turning_points;
+use crate::tolerance::NEAR_GRAZING;
 use softstop::{MotionError, PhaseKind, Scene};
-
-/// Distance from the face, in units of the largest position, within which a mass nearly hits it.
-const NEAR_MISS_SHARE: f64 = 0.01;
 
 /// Time in s and before-impact velocity in m/s of each impact.
 pub(super) type TimedImpacts = Vec<(f64, f64)>;
@@ -26,7 +24,7 @@ pub(super) fn guess_impacts(
         guesses.push(impacts.clone());
     }
     if let Some((depth, miss)) = nearest_miss(&motion, scene.clearance)
-        && depth <= NEAR_MISS_SHARE * (scene.clearance.abs() + depth)
+        && depth <= NEAR_GRAZING * (scene.clearance.abs() + depth)
     {
         let at = impacts.partition_point(|impact| impact.0 < miss.0);
         let mut more = impacts.clone();

@@ -40,8 +40,6 @@ pub struct Orbit {
 
 /// Impacts up to which orbits are sought from impact to impact, which costs their cube: more are chatter.
 const MAX_SHOOTING_IMPACTS: usize = 128;
-/// Norm of the map's Jacobian, in its scales, beyond which an orbit is sought from impact to impact.
-pub(super) const STEEP_MAP_NORM: f64 = 1e3;
 
 impl Orbit {
     /// The z = 1 orbit, stable or not, that Newton's method reaches from a state near it.
@@ -112,10 +110,11 @@ impl Orbit {
         self.impacts.iter().map(timed).collect()
     }
 
-    /// True if a weak impact makes the orbit's map so steep that rounding of the state tells in that impact.
+    /// True if a weak impact makes the orbit's map so steep that it takes states that are near as far apart as the motion is
+    /// wide: then rounding of the state tells in that impact.
     fn has_weak_impact(&self) -> bool {
         let steepness = self.scene.scales().jacobian(&self.monodromy).norm();
-        !self.impacts.is_empty() && self.rests.is_empty() && steepness > STEEP_MAP_NORM
+        !self.impacts.is_empty() && self.rests.is_empty() && NEAR * steepness > 1.0
     }
 
     /// The orbit that Newton's method on the map leads to. Of two orbits that rounding does not tell apart, the stable

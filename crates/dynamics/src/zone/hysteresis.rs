@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::end::ZoneEnd;
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
 use super::loss::Loss;
+use super::stable_ranges::FOLLOWED_RANGE;
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
 use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
@@ -24,8 +25,6 @@ use softstop::internals::budget::SharedBudget;
 const MIN_VELOCITY_SHARE: f64 = 0.2;
 /// 1 - tr + det below which an unstable branch is left: its multiplier grows so far only before grazing.
 const MIN_FOLD_TEST: f64 = -4.0;
-/// Frequency in units of g0 beyond which no fold is looked for.
-const MAX_FOLD_FREQUENCY: f64 = 8.0;
 
 /// Machines whose hysteresis zones are found together.
 const MACHINES_TOGETHER: usize = 8;
@@ -114,7 +113,7 @@ fn zone_from_start(
         frequency: frequency_g0.into(),
     })?;
     let continuation = Continuation::new(&family, 1);
-    let range = (frequency_g0, MAX_FOLD_FREQUENCY * frequency_g0);
+    let range = (frequency_g0, FOLLOWED_RANGE.1 * frequency_g0);
     let mut branch = follow_upward(&continuation, &start, range, monitor)?;
     let high = match (highest_fold(&branch), upper) {
         (Some(fold), _) => fold,
@@ -198,7 +197,7 @@ fn no_fold_error(from: f64, branch: &[BranchPoint]) -> ZoneError {
     }
     let end = match last {
         _ if last < from => BranchEnd::Below,
-        _ if last > MAX_FOLD_FREQUENCY * from => BranchEnd::Range,
+        _ if last > FOLLOWED_RANGE.1 * from => BranchEnd::Range,
         _ if branch.len() >= LONGEST_BRANCH => BranchEnd::Budget,
         _ => BranchEnd::Regime,
     };

@@ -16,8 +16,6 @@ use softstop::internals::budget::SharedBudget;
 
 /// Frequencies beside g0 at which single-impact motions are looked for.
 const START_FREQUENCIES: usize = 6;
-/// Highest frequency, in units of the natural one, at which they are looked for.
-const MAX_START_FREQUENCY: f64 = 4.0;
 
 /// The single-impact zones, ranges of stable z = 1, of some scenes; the frequency of their drives plays no part. Each
 /// reaches both ways from the hardest of the z = 1 motions at g0 and at some frequencies between two, in rad/s, until
@@ -82,7 +80,7 @@ fn start_frequencies(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
     let rate = scene.scales().rate;
     let (low, high) = (
         between.0.max(FOLLOWED_RANGE.0 * rate),
-        between.1.min(MAX_START_FREQUENCY * rate),
+        between.1.min(0.5 * FOLLOWED_RANGE.1 * rate),
     );
     // A range above all that is looked at, or one frequency, is looked at as it is.
     let (low, high) = if low < high {
