@@ -1,8 +1,8 @@
 //! Figures that a motion of a machine is judged by: one list of their names, units, senses and meanings.
 
-use crate::cycle_metrics::CycleMetrics;
+use crate::cycle_metrics::{CycleMetrics, depth_beyond_strip, peak_stop_force};
 use crate::orbit::Orbit;
-use softstop::{Dimension, Scene, Stop};
+use softstop::{Dimension, MotionError, Scene, Stop};
 
 /// The side of a bound on which a figure is good.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -125,6 +125,20 @@ impl Figure {
                 moduli.into_iter().fold(0.0, f64::max)
             }
             _ => return None,
+        })
+    }
+
+    /// The figure's value as of [`Figure::of_motion`], without what other figures take.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn of_orbit(self, orbit: &Orbit) -> Result<Option<f64>, MotionError> {
+        Ok(match self {
+            Self::Velocity => Some(orbit.before_impact_velocity()),
+            Self::MaxPosition => Some(orbit.max_position),
+            Self::CutThrough => Some(depth_beyond_strip(orbit).unwrap_or(f64::NAN)),
+            Self::StopForce => Some(peak_stop_force(&orbit.scene, &orbit.trajectory()?)),
+            _ => self.of_motion(orbit, &CycleMetrics::of(orbit)?),
         })
     }
 

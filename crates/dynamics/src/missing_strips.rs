@@ -121,7 +121,8 @@ pub fn survives_missing_strips(
                     strokes: run.strokes,
                 });
             }
-            let tested = basin_test.follow_motions::<true>(&machines, motions, monitor)?;
+            let tested =
+                basin_test.follow_motions::<true>(&machines, motions, &|_| false, monitor)?;
             let gap = |tested: &TestedMotion| StripGap {
                 angle: tested.angle,
                 comes_back: tested.reaches_orbit(),

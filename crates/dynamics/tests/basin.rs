@@ -3,8 +3,9 @@
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
+use softstop_dynamics::attractors::starting_box;
 use softstop_dynamics::basin::{
-    BasinOptions, BasinsAt, establishing_certainties, find_basins, follow_attractors,
+    BasinOptions, BasinsAt, Establishment, establishing_certainties, find_basins, follow_attractors,
 };
 use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
@@ -197,6 +198,27 @@ fn the_certainty_falls_along_the_zone() {
             .iter()
             .all(|place| place.interval[0] <= place.certainty)
     );
+}
+
+#[test]
+fn whether_a_share_is_enough_is_told_without_counting_all_starts() {
+    let zone = zone::hysteresis(&loaded()).expect("it has one");
+    let orbit = zone.orbit_at(0.8).expect("it is stable");
+    let region = starting_box(&orbit.scene, &unmonitored).expect("there is one");
+    let counted = Establishment::within_region(&orbit, &region, 700, &unmonitored);
+    let share = counted.expect("it is computed").share;
+    assert!(0.1 < share && share < 0.9, "{share}");
+    for (least, expected) in [
+        (0.0, true),
+        (share, true),
+        (share + 1e-3, false),
+        (2.0, false),
+    ] {
+        let is_enough = |it: &Establishment| it.share >= least;
+        let told =
+            Establishment::is_enough_within_region(&orbit, &region, 700, is_enough, &unmonitored);
+        assert_eq!(told.expect("it is computed"), expected, "{least} {share}");
+    }
 }
 
 #[test]

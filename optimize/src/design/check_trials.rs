@@ -8,10 +8,10 @@ use softstop_console::interrupt;
 
 use super::ascent::ascend_from;
 use super::certain::certain;
-use super::coordinates::{Candidate, Coordinates, best_by};
+use super::coordinates::{Candidate, Coordinates, Start, best_by};
 use super::critical::CriticalMachines;
 use super::judge::Met;
-use super::problem::Problem;
+use super::problem::{Objective, Problem};
 use super::robustify::{Robust, look};
 use super::space::Space;
 use super::trial::FULL;
@@ -64,11 +64,16 @@ pub(super) struct Passed {
     pub resolution: Option<Resolution>,
 }
 
-/// The best design that passes its trials: this one if it does, otherwise one that is sought from it.
+/// The best design that passes its trials: this one if it does, otherwise one that is sought from it, unless that was done from
+/// its place before. Takes note of that.
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
-pub(super) fn check_trials(problem: &Problem, mut held: Robust) -> Result<Passed, Infeasible> {
+pub(super) fn check_trials(
+    problem: &Problem,
+    mut held: Robust,
+    sought_from: &mut Vec<Start>,
+) -> Result<Passed, Infeasible> {
     let passed = problem.pass_trials(&held.candidate.design, &mut held.known);
     let lack = match passed {
         Ok(tried) => {
@@ -81,6 +86,13 @@ pub(super) fn check_trials(problem: &Problem, mut held: Robust) -> Result<Passed
         Err(lack) => lack,
     };
     let mut from = held.candidate;
+    if sought_from
+        .iter()
+        .any(|(unit, place)| from.is_at((unit, *place)))
+    {
+        return Err(lack);
+    }
+    sought_from.push(from.start());
     for round in 0..ROUNDS {
         let trials = Trials {
             problem,
@@ -217,7 +229,8 @@ impl Trials<'_> {
         let window = zoned.window().ok()?;
         let design = |place: f64| self.known.design(problem, zoned.at(place)?);
         let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));
-        let sampled: Vec<Option<Design>> = places.map(design).collect();
+        let motions: Vec<Option<Design>> = places.map(|place| zoned.at(place)).collect();
+        let sampled = self.designs_above(least, motions);
         let pairs = sampled.windows(2);
         let pairs = pairs.filter_map(|pair| pair[0].as_ref().zip(pair[1].as_ref()));
         let crossings = pairs.filter_map(|pair| self.just_above(least, pair, design));
@@ -263,6 +276,27 @@ impl Trials<'_> {
             }
         }
         Some(best)
+    }
+
+    /// The designs of the motions along a zone that are better than that by what their own machines have, and of those beside
+    /// them, which tell where a zone comes to be so: within the tolerances none is better than its own machine.
+    fn designs_above(&self, least: f64, motions: Vec<Option<Design>>) -> Vec<Option<Design>> {
+        let Objective { figure, .. } = self.problem.objective;
+        let is_above = |motion: &Option<Design>| {
+            let motion = motion.as_ref();
+            motion.is_some_and(|motion| {
+                let own = self.problem.nominal_of(figure, motion);
+                own.is_none_or(|own| self.problem.objective.score(own) > least)
+            })
+        };
+        let above: Vec<bool> = motions.iter().map(is_above).collect();
+        let is_beside = |index: usize| above[index.saturating_sub(1)..].iter().take(3);
+        let all = motions.into_iter().enumerate();
+        let designs = all.map(|(index, motion)| match is_beside(index).any(|it| *it) {
+            true => self.known.design(self.problem, motion?),
+            false => None,
+        });
+        designs.collect()
     }
 
     /// Between two motions of a zone, one whose score is above a bound by very little; none if both are on one side of it.

@@ -15,6 +15,34 @@ pub struct Candidate {
     pub design: Design,
 }
 
+/// Distance along a coordinate that is none.
+const SAME: f64 = 1e-5;
+
+impl Candidate {
+    /// Its point of the unit cube and its place in the zone, to start from.
+    pub(super) fn start(&self) -> Start {
+        (self.unit.clone(), self.design.place)
+    }
+
+    /// True if it lies where another one does.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self.is_at((&other.unit, other.design.place))
+    }
+
+    /// True if it lies at a point of the unit cube and a place of its zone.
+    pub(super) fn is_at(&self, (unit, place): (&[f64], f64)) -> bool {
+        let mut pairs = self
+            .unit
+            .iter()
+            .zip(unit)
+            .chain([(&self.design.place, &place)]);
+        pairs.all(|(one, other)| (one - other).abs() < SAME)
+    }
+}
+
+/// A point of the unit cube and a place in its zone, from which something is sought.
+pub type Start = (Vec<f64>, f64);
+
 /// The one of the highest score, the last of several.
 pub(super) fn best_by<T>(all: impl IntoIterator<Item = T>, score: impl Fn(&T) -> f64) -> Option<T> {
     let mut all = all.into_iter();

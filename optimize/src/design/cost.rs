@@ -138,6 +138,15 @@ impl Cost {
     }
 }
 
+/// The value as of [`value_of_motion`] of an orbit whose metrics are not known.
+pub fn value_of_orbit((figure, cost): (Figure, Option<&Cost>), orbit: &Orbit) -> Option<f64> {
+    let value = match figure {
+        Figure::Cost => cost?.value(orbit, &CycleMetrics::of(orbit).ok()?),
+        _ => figure.of_orbit(orbit).ok()??,
+    };
+    value.is_finite().then_some(value)
+}
+
 /// The value of a figure that a motion tells by itself, or of what its design costs, in SI units; none if there is none.
 pub fn value_of_motion(
     (figure, cost): (Figure, Option<&Cost>),

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::ascent::ascend_from;
 use super::check_trials::{Passed, Resolution, check_trials};
 use super::constraint::ActiveLimit;
-use super::coordinates::{Candidate, best_by};
+use super::coordinates::{Candidate, Start, best_by};
 use super::critical::CriticalMachines;
 use super::improve_catalogue::improve_catalogue;
 use super::judge::Met;
@@ -41,6 +41,8 @@ pub struct Found {
     pub resolution: Option<Resolution>,
     /// What it took.
     pub ascents: Ascents,
+    /// Where designs lie that keep their box and fail their trials, from which one that passes was sought.
+    pub sought_from: Vec<Start>,
 }
 
 /// The ascents of a search.
@@ -77,6 +79,7 @@ impl Found {
             tried: Vec::new(),
             resolution: None,
             ascents: Ascents::default(),
+            sought_from: Vec::new(),
         }
     }
 
@@ -90,7 +93,7 @@ impl Found {
     }
 
     /// Its place, to start from.
-    pub fn start(&self) -> (Vec<f64>, f64) {
+    pub fn start(&self) -> Start {
         (self.unit.clone(), self.design.place)
     }
 
@@ -130,7 +133,7 @@ impl Found {
             return false;
         };
         let improved = improve_catalogue(problem, &robust);
-        let Ok(passed) = check_trials(problem, improved) else {
+        let Ok(passed) = check_trials(problem, improved, &mut self.sought_from) else {
             return false;
         };
         if !is_better(&passed.robust) {
@@ -146,6 +149,7 @@ impl Found {
         let others: Vec<Candidate> = others.collect();
         *self = Self {
             ascents: self.ascents,
+            sought_from: std::mem::take(&mut self.sought_from),
             ..Self::passed(problem, passed, &others)
         };
         true

@@ -10,7 +10,7 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{find_end_along, find_zones, free_amplitude, loss_of_stability};
 use softstop_dynamics::{CycleMetrics, Orbit, ParameterFamily, Zone};
 
-use super::cost::value_of_motion;
+use super::cost::{value_of_motion, value_of_orbit};
 use super::figure::Figure;
 use super::problem::Problem;
 use super::requirement::Requirement;
@@ -292,11 +292,7 @@ impl Problem {
 
     /// The value of a figure that a motion tells by itself, or of its cost, in SI units; none if there is none.
     pub fn value_of_motion(&self, figure: Figure, orbit: &Orbit) -> Option<f64> {
-        value_of_motion(
-            (figure, self.cost.as_ref()),
-            orbit,
-            &CycleMetrics::of(orbit).ok()?,
-        )
+        value_of_orbit((figure, self.cost.as_ref()), orbit)
     }
 
     /// The requirements that one motion tells, and what it has of them.

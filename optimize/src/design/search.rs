@@ -45,8 +45,6 @@ const EVALUATIONS_PER_START: u64 = 80;
 const DISTANT: f64 = 10.0;
 /// Designs whose catalogues and trials are looked at, at most, until one passes.
 const FINALISTS: usize = 3;
-/// Distance along a coordinate that is none.
-const SAME: f64 = 1e-5;
 
 /// How to search.
 #[derive(Debug, Clone, Copy)]
@@ -235,7 +233,7 @@ impl<'a> Search<'a> {
         let problem = self.survey.problem;
         let score = |it: &Candidate| problem.score(&it.design);
         self.tops.sort_by(|a, b| score(b).total_cmp(&score(a)));
-        self.tops.dedup_by(|it, known| is_same(it, known));
+        self.tops.dedup_by(|it, known| it.is_same(known));
     }
 
     /// The best design with the whole box of tolerances, the neighbours of catalogues and all trials.
@@ -263,13 +261,14 @@ impl<'a> Search<'a> {
             }
         }
         let mut passing: Vec<Passed> = Vec::new();
+        let mut sought_from = Vec::new();
         for finalist in finalists {
             let improved = improve_catalogue(problem, finalist);
             let least = passing.iter().map(|it| self.score(&it.robust.candidate));
             if self.score(&improved.candidate) <= least.fold(0.0, f64::max) {
                 continue;
             }
-            match check_trials(problem, improved) {
+            match check_trials(problem, improved, &mut sought_from) {
                 Ok(found) => passing.push(found),
                 Err(error) => drop(failed.get_or_insert(error)),
             }
@@ -294,6 +293,7 @@ impl<'a> Search<'a> {
         incumbent.update(&best.candidate, Rank::Trials);
         Ok(Found {
             ascents: self.ascents,
+            sought_from,
             ..Found::passed(problem, passed, &others)
         })
     }
@@ -323,7 +323,7 @@ impl<'a> Search<'a> {
         loop {
             let before = self.best_robust();
             for top in self.tops.clone() {
-                let is_new = !done.iter().any(|other| is_same(other, &top));
+                let is_new = !done.iter().any(|other| other.is_same(&top));
                 if is_new && self.score(&top) > RIVAL * self.best_robust() {
                     self.add_robust(&top);
                     done.push(top);
@@ -345,7 +345,7 @@ impl<'a> Search<'a> {
         let score = |it: &Robust| problem.score(&it.candidate.design);
         self.robust.sort_by(|a, b| score(b).total_cmp(&score(a)));
         self.robust
-            .dedup_by(|it, known| is_same(&it.candidate, &known.candidate));
+            .dedup_by(|it, known| it.candidate.is_same(&known.candidate));
     }
 
     fn best_robust(&self) -> f64 {
@@ -382,13 +382,6 @@ impl<'a> Search<'a> {
         };
         SearchError::no_design(problem, Some(self.surveyed), (place, infeasible.reason))
     }
-}
-
-/// True if two candidates are one.
-fn is_same(one: &Candidate, other: &Candidate) -> bool {
-    let near = |(a, b): (&f64, &f64)| (a - b).abs() < SAME;
-    let [a, b] = [one, other].map(|it| it.design.place);
-    one.unit.iter().zip(&other.unit).all(near) && near((&a, &b))
 }
 
 /// True if two points of the cube are not one hill's.

@@ -220,11 +220,23 @@ impl Problem {
             return RunUp::is_possible(orbit, &self.run_up, effort.angles, watcher)
                 .unwrap_or(false);
         }
-        self.tried_of(requirement, orbit, effort)
-            .is_ok_and(|met| match effort.starts < STARTS {
-                true => requirement.margin(met.value) >= 0.0,
-                false => met.is_met(),
-            })
+        let is_met = |met: &Met| match effort.starts < STARTS {
+            true => requirement.is_met(met.value),
+            false => met.is_met(),
+        };
+        if requirement.figure == Figure::Certainty && requirement.most.is_none() {
+            let is_enough = |starts: &Establishment| {
+                is_met(&Met {
+                    value: starts.share,
+                    starts: Some(*starts),
+                    ..Met::of(*requirement)
+                })
+            };
+            let enough = self.is_established(orbit, effort.starts, is_enough);
+            return enough.unwrap_or(false);
+        }
+        let tried = self.tried_of(requirement, orbit, effort);
+        tried.is_ok_and(|met| is_met(&met))
     }
 
     /// The share of starts that lead to a motion.
@@ -240,17 +252,23 @@ impl Problem {
         Establishment::within_region(orbit, &region, starts, &interrupt::watch)
     }
 
+    /// Whether the share of starts that lead to a motion is enough, without counting all of them.
+    fn is_established(
+        &self,
+        orbit: &Orbit,
+        starts: usize,
+        is_enough: impl Fn(&Establishment) -> bool,
+    ) -> Result<bool, OrbitError> {
+        let (region, watcher) = (self.region(orbit)?, &interrupt::watch);
+        Establishment::is_enough_within_region(orbit, &region, starts, is_enough, watcher)
+    }
+
     /// The box of starts: what the task states of it, before a rigid stop, or that of all commands.
     fn region(&self, orbit: &Orbit) -> Result<Region, OrbitError> {
         match &self.starts {
             Some(region) => Ok(region.clipped_at_stops(&orbit.scene)),
             None => starting_box(&orbit.scene, &interrupt::watch),
         }
-    }
-
-    /// True if a motion must be tried.
-    pub fn has_trials(&self) -> bool {
-        self.trials().next().is_some()
     }
 }
 

@@ -37,7 +37,7 @@ use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
-use crate::design::cost::{Cost, value_of_motion};
+use crate::design::cost::{Cost, value_of_motion, value_of_orbit};
 
 /// How far a parameter may lie from its design value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,7 +90,7 @@ impl Tolerances {
 
     /// The value of a figure of a motion of one of the machines; none if it has none, or not by itself.
     pub(crate) fn value(&self, figure: Figure, orbit: &Orbit) -> Option<f64> {
-        self.value_of_stroke(figure, orbit, &CycleMetrics::of(orbit).ok()?)
+        value_of_orbit((figure, self.cost.as_ref()), orbit)
     }
 
     /// [`Tolerances::value`] of a motion whose stroke is known.

@@ -1,5 +1,7 @@
 //! Smooth functions of the coordinates, fitted to some of their values.
 
+use std::slice;
+
 use nalgebra::{DMatrix, DVector};
 
 /// Most terms of a model.
@@ -53,7 +55,7 @@ impl PolynomialModel {
 
     /// Its values at some coordinates.
     pub fn at(&self, place: &[f64]) -> [f64; 2] {
-        sum(&self.powers(place), self.degree, &mut &self.factors[..])
+        sum(&self.powers(place), self.degree, &mut self.factors.iter())
     }
 
     fn powers(&self, place: &[f64]) -> Vec<[f64; HIGHEST + 1]> {
@@ -75,26 +77,37 @@ fn each_term(powers: &[[f64; HIGHEST + 1]], left: usize, product: f64, tell: &mu
 }
 
 /// The sum of all products that [`each_term`] tells, each times its factors, which are taken in that order.
-fn sum(powers: &[[f64; HIGHEST + 1]], left: usize, factors: &mut &[[f64; 2]]) -> [f64; 2] {
+fn sum(
+    powers: &[[f64; HIGHEST + 1]],
+    left: usize,
+    factors: &mut slice::Iter<'_, [f64; 2]>,
+) -> [f64; 2] {
     let mut sums = [0.0; 2];
-    let mut add = |power: f64, [first, second]: [f64; 2]| {
+    let add = |sums: &mut [f64; 2], power: f64, [first, second]: [f64; 2]| {
         sums[0] += power * first;
         sums[1] += power * second;
     };
+    let of_last = |last: &[f64], factors: &mut slice::Iter<'_, [f64; 2]>| {
+        let mut sums = [0.0; 2];
+        for (power, it) in last.iter().zip(factors) {
+            add(&mut sums, *power, *it);
+        }
+        sums
+    };
     match powers {
         [] => factors
-            .split_off_first()
+            .next()
             .iter()
-            .for_each(|it| add(1.0, **it)),
-        [own] => {
-            let terms = factors.split_off(..=left).unwrap_or_default();
-            own.iter()
-                .zip(terms)
-                .for_each(|(power, it)| add(*power, *it));
+            .for_each(|it| add(&mut sums, 1.0, **it)),
+        [last] => return of_last(&last[..=left], factors),
+        [own, last] => {
+            for (degree, power) in own[..=left].iter().enumerate() {
+                add(&mut sums, *power, of_last(&last[..=left - degree], factors));
+            }
         }
         [own, others @ ..] => {
             for (degree, power) in own[..=left].iter().enumerate() {
-                add(*power, sum(others, left - degree, factors));
+                add(&mut sums, *power, sum(others, left - degree, factors));
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::slice::from_ref;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use rayon::prelude::*;
 
@@ -132,6 +133,41 @@ impl BasinTest {
         starts: &[Start],
         monitor: Monitor<'_>,
     ) -> Result<Vec<bool>, OrbitError> {
+        self.follow_starts(starts, &|_| false, monitor)
+    }
+
+    /// Whether at least so many of the motions from these states come to the orbit of the basin test. They are followed until
+    /// that is known.
+    ///
+    /// # Errors
+    /// As [`BasinTest::test_starts`].
+    pub fn is_reached_from(
+        &self,
+        starts: &[Start],
+        needed: usize,
+        monitor: Monitor<'_>,
+    ) -> Result<bool, OrbitError> {
+        let Some(spare) = starts.len().checked_sub(needed) else {
+            return Ok(false);
+        };
+        let (reached, missed) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let is_decided = |reaches: bool| {
+            let count = if reaches { &reached } else { &missed };
+            count.fetch_add(1, Relaxed);
+            reached.load(Relaxed) >= needed || missed.load(Relaxed) > spare
+        };
+        self.follow_starts(starts, &is_decided, monitor)?;
+        Ok(missed.into_inner() <= spare)
+    }
+
+    /// Follows motions from states at drive angle phi until each has ended or what is told of those that have, whether they
+    /// reach the orbit, decides: which of them have reached it.
+    fn follow_starts(
+        &self,
+        starts: &[Start],
+        is_decided: &(dyn Fn(bool) -> bool + Sync),
+        monitor: Monitor<'_>,
+    ) -> Result<Vec<bool>, OrbitError> {
         let motion = |state: &Start| TestedMotion {
             member: Member::new(0, *state),
             angle: self.drive.phase,
@@ -141,7 +177,8 @@ impl BasinTest {
         };
         let follow_motions = |starts: &[Start]| {
             let motions = starts.iter().map(motion).collect();
-            let ended = self.follow_motions::<false>(from_ref(&self.machine), motions, monitor)?;
+            let machines = from_ref(&self.machine);
+            let ended = self.follow_motions::<false>(machines, motions, is_decided, monitor)?;
             Ok(ended.iter().map(TestedMotion::reaches_orbit).collect())
         };
         let (fork, chunks) = (SharedBudget::default(), starts.par_chunks(MOTIONS_TOGETHER));
@@ -151,19 +188,20 @@ impl BasinTest {
         Ok(chunks?.concat())
     }
 
-    /// Follows motions until they have reached the orbit or are given up, with or without counting their strokes. The
-    /// machines differ from the orbit's in the drive angle alone with which they start.
+    /// Follows motions until they have reached the orbit or are given up, or one that has ended decides, with or without
+    /// counting their strokes. The machines differ from the orbit's in the drive angle alone with which they start.
     pub(crate) fn follow_motions<const COUNTS: bool>(
         &self,
         machines: &[Machine],
         mut motions: Vec<TestedMotion>,
+        is_decided: &(dyn Fn(bool) -> bool + Sync),
         monitor: Monitor<'_>,
     ) -> Result<Vec<TestedMotion>, OrbitError> {
         let quiet = |_, _| monitor(0, 0);
         let ensemble = Ensemble::new(machines, &quiet);
         let mut left: Vec<&mut TestedMotion> = motions.iter_mut().collect();
-        let mut periods = 0;
-        while !left.is_empty() && periods < self.patience {
+        let (mut periods, mut is_over) = (0, false);
+        while !left.is_empty() && !is_over && periods < self.patience {
             ensemble.count_work(0)?;
             ensemble.advance_batch::<COUNTS, false, _>(&mut left, PERIODS_BETWEEN_CHECKS)?;
             periods += PERIODS_BETWEEN_CHECKS;
@@ -173,7 +211,11 @@ impl BasinTest {
                     motion.member.status = self.classify_motion(motion, periods >= self.patience);
                 }
             }
-            left.retain(|motion| motion.member.status == MemberStatus::Open);
+            left.retain(|motion| {
+                let is_open = motion.member.status == MemberStatus::Open;
+                is_over |= !is_open && is_decided(motion.reaches_orbit());
+                is_open
+            });
         }
         Ok(motions)
     }

@@ -52,6 +52,26 @@ impl Establishment {
         Ok(Self::from_reached(&reached, region))
     }
 
+    /// Whether the establishment of a stable motion in a region, as of [`Establishment::within_region`], is such that a
+    /// condition on it holds, which holds of more starts that lead to the motion if it holds of fewer.
+    ///
+    /// # Errors
+    /// As [`Establishment::of`].
+    pub fn is_enough_within_region(
+        orbit: &Orbit,
+        region: &Region,
+        starts: usize,
+        is_enough: impl Fn(&Self) -> bool,
+        monitor: Monitor<'_>,
+    ) -> Result<bool, OrbitError> {
+        let with = |own: usize| Self::of_count(own, starts, region);
+        let Some(needed) = (0..=starts).find(|own| is_enough(&with(*own))) else {
+            return Ok(false);
+        };
+        let states = region.starts(starts, START_SEED);
+        BasinTest::of(orbit)?.is_reached_from(&states, needed, monitor)
+    }
+
     /// The establishment of a stable motion in a region as by [`Establishment::within_region`], and the radius of the
     /// largest ball of starts about the motion that leads to it alone ([`Integrity::radius`]).
     ///
@@ -69,10 +89,15 @@ impl Establishment {
     /// The establishment of a motion from which of the starts in a region have reached it.
     fn from_reached(reached: &[bool], region: &Region) -> Self {
         let own = reached.iter().filter(|reached| **reached).count();
+        Self::of_count(own, reached.len(), region)
+    }
+
+    /// The establishment of a motion that so many of the starts in a region have reached.
+    fn of_count(own: usize, starts: usize, region: &Region) -> Self {
         Self {
-            share: own as f64 / reached.len().max(1) as f64,
-            interval: wilson_interval(own, reached.len()),
-            starts: reached.len(),
+            share: own as f64 / starts.max(1) as f64,
+            interval: wilson_interval(own, starts),
+            starts,
             region: *region,
         }
     }

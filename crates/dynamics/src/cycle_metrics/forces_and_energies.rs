@@ -9,8 +9,7 @@ use softstop::{Arc, PhaseKind, Scene, Start};
 pub(super) const STRIP_PHASES: &[PhaseKind] =
     &[PhaseKind::Pierce, PhaseKind::Cut, PhaseKind::Stuck];
 /// Phases in which the mass touches the stop.
-pub(crate) const STOP_PHASES: &[PhaseKind] =
-    &[PhaseKind::Stop, PhaseKind::Released, PhaseKind::Resting];
+const STOP_PHASES: &[PhaseKind] = &[PhaseKind::Stop, PhaseKind::Released, PhaseKind::Resting];
 
 /// The peak on an arc of a quantity, given by the time in s since the arc's start.
 fn peak_on_arc(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64), value: impl Fn(f64) -> f64) -> f64 {
@@ -37,11 +36,16 @@ pub fn peak_contact_force(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64)) -> f64
 }
 
 /// Largest contact force in N of a motion in phases of these kinds; 0 if it is pressed in none.
-pub(crate) fn largest_force(scene: &Scene, motion: &PeriodTrajectory, kinds: &[PhaseKind]) -> f64 {
+pub(super) fn largest_force(scene: &Scene, motion: &PeriodTrajectory, kinds: &[PhaseKind]) -> f64 {
     let arcs = motion.arcs();
     let arcs = arcs.filter(|(arc, _)| kinds.contains(&arc.kind));
     let peaks = arcs.map(|(arc, elapsed)| peak_contact_force(scene, (&arc, elapsed)));
     peaks.fold(0.0, f64::max)
+}
+
+/// Largest contact force in N of a motion while the stop is touched.
+pub(crate) fn peak_stop_force(scene: &Scene, motion: &PeriodTrajectory) -> f64 {
+    largest_force(scene, motion, STOP_PHASES)
 }
 
 /// Peak power of the drive in W over a motion.

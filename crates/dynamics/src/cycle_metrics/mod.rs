@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::orbit::Orbit;
 pub use forces_and_energies::peak_contact_force;
-pub(crate) use forces_and_energies::{STOP_PHASES, largest_force};
-use forces_and_energies::{STRIP_PHASES, peak_drive_power, supplied_and_lost_energy};
+pub(crate) use forces_and_energies::peak_stop_force;
+use forces_and_energies::{
+    STRIP_PHASES, largest_force, peak_drive_power, supplied_and_lost_energy,
+};
 use softstop::{CrossingKind, MotionError, PhaseKind, Stop};
 
 /// Figures of one period of a periodic motion, in SI units; of z = 1 it is one drive period, one stroke.
@@ -81,6 +83,13 @@ impl Losses {
     }
 }
 
+/// The largest position in m less that of the strip's far side; none without a strip.
+pub(crate) fn depth_beyond_strip(orbit: &Orbit) -> Option<f64> {
+    let scene = &orbit.scene;
+    let strip = scene.piercing.as_ref()?;
+    Some(orbit.max_position - (scene.clearance + strip.thickness))
+}
+
 impl CycleMetrics {
     /// The figures of one period of an orbit.
     ///
@@ -103,7 +112,7 @@ impl CycleMetrics {
             .filter(|_| !matches!(scene.stop, Stop::Rigid { .. }));
         let lowest = motion.min_position();
         let force = |kinds: &[PhaseKind]| largest_force(scene, &motion, kinds);
-        let (stop_force, strip_force) = (force(STOP_PHASES), force(STRIP_PHASES));
+        let (stop_force, strip_force) = (peak_stop_force(scene, &motion), force(STRIP_PHASES));
         let blows = motion.crossings();
         let blows = blows.filter(|it| matches!(it.kind, CrossingKind::Rebound { .. }));
         let impulses = blows.map(|it| scene.mass * (it.velocity - it.velocity_after));
@@ -115,9 +124,7 @@ impl CycleMetrics {
             highest,
             lowest,
             length: highest - lowest,
-            beyond_strip: scene
-                .piercing
-                .map(|strip| highest - (scene.clearance + strip.thickness)),
+            beyond_strip: depth_beyond_strip(orbit),
             strips: motion.crossings().filter(|it| it.pierces()).count() as u64,
             before_wall: behind.map(|wall| wall.position - highest),
             contact_force: stop_force.max(strip_force).max(force(&[PhaseKind::Gap])),

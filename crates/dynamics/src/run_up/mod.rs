@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::basin::{BasinTest, bring_to_section};
-use crate::cycle_metrics::{STOP_PHASES, largest_force};
+use crate::cycle_metrics::peak_stop_force;
 use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap};
@@ -110,7 +110,7 @@ impl RunUpPeaks {
         periods: u64,
     ) -> Result<Start, MotionError> {
         let motion = StroboscopicMap::new(scene, periods)?.trajectory(start.into())?;
-        let force = largest_force(scene, &motion, STOP_PHASES);
+        let force = peak_stop_force(scene, &motion);
         self.stop_force = self.stop_force.max(force);
         self.highest = self.highest.max(motion.max_position());
         Ok(motion.end.into())
