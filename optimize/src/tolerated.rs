@@ -12,7 +12,7 @@ use softstop_explore::zone::lost_by;
 
 use crate::design::figure::Figure;
 use crate::design::{Design, Problem};
-use crate::optimize::study::{Statistics, Study, Without};
+use crate::optimize::study::{Study, Without};
 use crate::page::capital;
 use crate::robust::{Index, Manifold, Nearest, Tolerance};
 
@@ -44,7 +44,7 @@ fn machines<'a>() -> [Column<&'a Study>; 6] {
     }
 }
 
-type Counted<'a> = (&'a Study, &'a Statistics);
+type Counted<'a> = (&'a Study, &'a Problem);
 
 /// Of machines with normal tolerances.
 fn counted<'a>() -> [Column<Counted<'a>>; 6] {
@@ -53,7 +53,7 @@ fn counted<'a>() -> [Column<Counted<'a>>; 6] {
         "share_rejected" [None] Six, "their share" => it.0.verdict.rejected_share();
         "interval_low" [None] Six, "lower end of its 95 % interval" => it.0.verdict.share_rejected()[0];
         "interval_high" [None] Six, "upper end" => it.0.verdict.share_rejected()[1];
-        "share_allowed" [None] Six, "share that may" => it.1.allowed;
+        "share_allowed" [None] Six, "share that may" => it.1.violating;
         "deviations" [None] Six, "standard deviations of normal tolerances within which none does" => it.1.deviations;
     }
 }
@@ -165,16 +165,17 @@ impl Tolerated {
     pub(crate) fn of(problem: &Problem, design: &Design, study: &Study) -> Self {
         let all = 0..study.tolerances.len();
         let without = study.without.as_ref();
-        let statistics = study.statistics.as_ref();
-        let statistics = statistics.map(|it| Record::of(&counted(), &(study, it)));
-        let statistics = statistics.or_else(|| {
-            let rejected = study.verdict.rejected;
-            let words = "machines that lose the motion or violate a requirement in any case";
-            let record = || Record::default().with("rejected", words, rejected);
-            (!problem.cases.is_empty()).then(record)
-        });
+        let rejected = match problem.has_normal_tolerances() {
+            true => Record::of(&counted(), &(study, problem)),
+            false if problem.cases.is_empty() => Record::default(),
+            false => Record::default().with(
+                "rejected",
+                "machines that lose the motion or violate a requirement in any case",
+                study.verdict.rejected,
+            ),
+        };
         Self {
-            machines: Record::of(&machines(), &study).and(statistics.unwrap_or_default()),
+            machines: Record::of(&machines(), &study).and(rejected),
             manifolds: study
                 .nearest_box
                 .iter()

@@ -63,16 +63,12 @@ static NONE: CriticalMachines = CriticalMachines {
 /// Distance between coordinates of the box that is none.
 const SAME: f64 = 1e-6;
 
-/// True if two places of the box are one.
-pub(super) fn is_same_place(one: &[f64], other: &[f64]) -> bool {
-    one.iter().zip(other).all(|(a, b)| (a - b).abs() < SAME)
-}
-
 impl CriticalMachines {
     /// Takes note of an extreme machine; false if it is known.
     pub(super) fn note(&mut self, target: Target, at: &[f64]) -> bool {
+        let is_there = |it: &Extreme| it.at.iter().zip(at).all(|(a, b)| (a - b).abs() < SAME);
         let mut known = self.extremes.iter();
-        let is_new = known.all(|it| it.target != target || !is_same_place(&it.at, at));
+        let is_new = known.all(|it| it.target != target || !is_there(it));
         if is_new {
             let at = at.to_vec();
             self.extremes.push(Extreme { target, at });

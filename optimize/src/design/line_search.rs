@@ -125,17 +125,8 @@ impl Line<'_> {
             cases,
         } = self.zoned;
         let orbit = zone.orbit_of(point).map_err(Infeasible::unknown)?;
-        let frequency = zone.frequency_at(place);
-        let mut machine = machine.clone();
-        machine.set_frequency(frequency);
-        let own = Design {
-            machine,
-            place,
-            zone: zone.clone(),
-            orbit,
-            value: f64::NAN,
-            cases: Vec::new(),
-        };
+        let own = Design::of_orbit(machine.clone(), (zone, place), orbit);
+        let frequency = own.drive_frequency();
         let own = as_required(problem, own)?;
         let in_case = |(case, stated): (&Zoned<'_>, _)| {
             let place = case.place_of(frequency);

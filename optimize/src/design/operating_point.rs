@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use softstop::Machine;
-use softstop_dynamics::Zone;
+use softstop_dynamics::{Orbit, Zone};
 
 use super::Design;
 use super::box_window::BoxWindow;
@@ -53,21 +53,27 @@ impl Problem {
 
 impl Design {
     /// The stable motion at a place of a machine's zone, without cases and without the value of what is sought.
-    pub(super) fn on_zone(mut machine: Machine, zone: &Zone, place: f64) -> Option<Self> {
-        let point = zone.point_at(place).ok()?;
-        let orbit = zone.orbit_of(&point).ok()?;
-        if !(orbit.is_stable() || place >= 1.0) {
-            return None;
-        }
+    pub(super) fn on_zone(machine: Machine, zone: &Zone, place: f64) -> Option<Self> {
+        let orbit = zone.orbit_of(&zone.point_at(place).ok()?).ok()?;
+        let is_stable = orbit.is_stable() || place >= 1.0;
+        is_stable.then(|| Self::of_orbit(machine, (zone, place), orbit))
+    }
+
+    /// A motion at a place of a machine's zone, without cases and without the value of what is sought.
+    pub(super) fn of_orbit(
+        mut machine: Machine,
+        (zone, place): (&Zone, f64),
+        orbit: Orbit,
+    ) -> Self {
         machine.set_frequency(zone.frequency_at(place));
-        Some(Self {
+        Self {
             machine,
             zone: zone.clone(),
             place,
             orbit,
             value: f64::NAN,
             cases: Vec::new(),
-        })
+        }
     }
 
     /// The frequency of its drive in rad/s.
@@ -102,14 +108,9 @@ impl Design {
 
     /// The design without its cases, with this value of what is sought.
     pub(super) fn without_cases(&self, value: f64) -> Self {
-        Self {
-            machine: self.machine.clone(),
-            place: self.place,
-            zone: self.zone.clone(),
-            orbit: self.orbit.clone(),
-            value,
-            cases: Vec::new(),
-        }
+        let (machine, orbit) = (self.machine.clone(), self.orbit.clone());
+        let design = Self::of_orbit(machine, (&self.zone, self.place), orbit);
+        Self { value, ..design }
     }
 
     /// The design with a value of what is sought in each operating point; none if one has none.

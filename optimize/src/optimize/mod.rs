@@ -209,7 +209,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         None => Looked::new(&job, &outcome, false)?,
     };
     if let Some(study) = &looked.study {
-        study.note_violating(&mut outcome.met);
+        study.note_violating(&job.problem, &mut outcome.met);
     }
     let state = outcome.design().orbit.state();
     let start = Start::from(state);

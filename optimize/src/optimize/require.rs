@@ -4,14 +4,14 @@ use serde::Deserialize;
 use softstop::{Dimension, Machine};
 use softstop_console::failure::Failure;
 use softstop_dynamics::attractors::Region;
-use softstop_dynamics::run_up::{self, Way};
+use softstop_dynamics::run_up::Way;
 use toml::{Table, Value};
 
 use super::objective::{Goal, known, lacks};
 use super::toml_leaves::{number, percent};
 use super::ways::{WAYS, ways};
 use crate::design::figure::{Figure, Sense};
-use crate::design::problem::VIOLATING;
+use crate::design::problem::{Problem, VIOLATING};
 use crate::design::requirement::{Requirement, Scope};
 
 /// `{ least = 10, most = 12, at = "drawing" }`.
@@ -33,23 +33,6 @@ enum Where {
     Tolerances,
 }
 
-/// What `[require]` says, in SI units.
-#[derive(Debug, Clone)]
-pub(super) struct Required {
-    /// Bounds of figures.
-    pub figures: Vec<Requirement>,
-    /// Least distance from both ends of the zone as a share of its width.
-    pub margin: Option<f64>,
-    /// How many times as wide as the tolerances the box is that must hold.
-    pub reserve: f64,
-    /// How the machine may be run up.
-    pub run_up: run_up::RunUpSettings,
-    /// Share of the machines with normal tolerances that may violate a requirement.
-    pub violating: f64,
-    /// The box of starts of which certainty and integrity are told.
-    pub starts: Option<Region>,
-}
-
 /// The key of the reserve.
 pub(super) const RESERVE: &str = "tolerance_reserve";
 /// The key of the share that may violate a requirement, and the least such share.
@@ -60,12 +43,14 @@ const FARTHEST: f64 = 1e24;
 /// The key of the box of starts.
 pub(super) const STARTS: &str = "starts";
 
-/// Reads `[require]`.
-pub(super) fn requirements(
-    machine: &Machine,
+/// Reads what `[require]` says into a problem, but for the margin: that from both ends of the zone as a share of its width, if it is
+/// stated.
+pub(super) fn read_requirements(
+    problem: &mut Problem,
     goal: &Goal,
     table: &Table,
-) -> Result<Required, Failure> {
+) -> Result<Option<f64>, Failure> {
+    let machine = &problem.machine;
     let reserve = match table.get(RESERVE) {
         None => 1.0,
         Some(value) => {
@@ -168,17 +153,14 @@ pub(super) fn requirements(
         Some(share) if share.most.is_some() => Err(Failure::usage(
             "require.margin: can be at least so much, not at most",
         )),
-        share => Ok(Required {
-            figures: all,
-            margin: share.and_then(|it| it.least),
-            reserve,
-            run_up,
-            violating,
-            starts: table
-                .get(STARTS)
-                .map(|it| starts(machine, it))
-                .transpose()?,
-        }),
+        share => {
+            let starts = table.get(STARTS).map(|it| starts(machine, it));
+            problem.starts = starts.transpose()?;
+            problem.requirements = all;
+            (problem.reserve, problem.violating) = (reserve, violating);
+            problem.run_up = run_up;
+            Ok(share.and_then(|it| it.least))
+        }
     }
 }
 

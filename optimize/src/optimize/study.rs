@@ -42,19 +42,8 @@ pub struct Study {
     pub sensitivities: Sensitivities,
     /// Whose scatter it is.
     pub scatter: Option<Scatter>,
-    /// What was asked of the machines with normal tolerances, if there are any.
-    pub statistics: Option<Statistics>,
     /// What the task without tolerances leads to.
     pub without: Option<Without>,
-}
-
-/// What was asked of machines with normal tolerances.
-#[derive(Debug, Clone, Copy)]
-pub struct Statistics {
-    /// Share of them that may lose the motion or violate a requirement.
-    pub allowed: f64,
-    /// Standard deviations over which the design keeps all of them.
-    pub deviations: f64,
 }
 
 /// The best design if nothing has a tolerance and nothing is tried, and what becomes of it with them.
@@ -73,8 +62,9 @@ pub struct Without {
 
 impl Study {
     /// Takes note of the share of the machines that violate each requirement, and of its interval.
-    pub(super) fn note_violating(&self, all: &mut [Met]) {
+    pub(super) fn note_violating(&self, problem: &Problem, all: &mut [Met]) {
         let machines = self.verdict.machines;
+        let is_normal = problem.has_normal_tolerances();
         for met in all {
             let violating = match met.case {
                 None => &self.verdict.violating,
@@ -83,7 +73,7 @@ impl Study {
             let mut counts = self.required.iter().zip(violating);
             if let Some((_, count)) = counts.find(|(it, _)| **it == met.requirement) {
                 met.violating = Some(*count as f64 / machines as f64);
-                met.interval = self.statistics.map(|_| wilson_interval(*count, machines));
+                met.interval = is_normal.then(|| wilson_interval(*count, machines));
             }
         }
     }
@@ -166,10 +156,6 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
             .map_err(stopped)?
             .flatten(),
         tolerances: spread.all().to_vec(),
-        statistics: problem.has_normal_tolerances().then_some(Statistics {
-            allowed: problem.violating,
-            deviations: problem.deviations,
-        }),
     };
     match interrupt::requested() {
         true => Err(Failure::Interrupted),

@@ -21,15 +21,13 @@ use super::OptimizeArguments;
 use super::cases::{self, cases};
 use super::cost::cost;
 use super::objective::objectives;
-use super::require::{RESERVE, Required, SHARE, requirements};
+use super::require::{RESERVE, SHARE, read_requirements};
 use super::task_spec::{Motions, Search, TaskSpec};
 use super::title::{Source, Title};
 use super::tolerance::tolerances;
 use super::vary::{Searched, held, searched, variables};
 use crate::design::Problem;
-use crate::design::case::Case;
 use crate::design::conflict::short;
-use crate::design::cost::Cost;
 use crate::design::figure::Figure;
 use crate::design::problem::{Objective, Tolerance, Width};
 use crate::design::requirement::Scope;
@@ -72,23 +70,9 @@ impl Job {
         let place = place(arguments, &task);
         let machine = machine(arguments, &task, place.clone())?;
         let sources = Source::all(arguments, place.as_deref())?;
-        let TaskParts {
-            tolerances,
-            required,
-            objectives,
-            cost,
-            cases,
-        } = TaskParts::new(&machine, &task).map_err(located)?;
-        let Required {
-            figures: requirements,
-            margin: share,
-            reserve,
-            run_up,
-            violating,
-            starts,
-        } = required;
+        let (mut problem, share) = stated(&machine, &task).map_err(located)?;
         refuse_without_zone(&machine).map_err(located)?;
-        let (objective, traded) = (objectives[0], objectives[1..].to_vec());
+        let tolerances = &problem.tolerances;
         let is_exact = tolerances.iter().all(Tolerance::is_exact);
         if let (Some(tolerance), false) = (tolerances.first(), machine.scene.followers.is_empty()) {
             return Err(Failure::usage(format!(
@@ -97,9 +81,10 @@ impl Job {
                 machine.name(Parameter::Frequency)
             )));
         }
-        has_tolerances(is_exact, &objective, &task.require).map_err(located)?;
-        let deviations = deviations(&tolerances, &task.require, (violating, arguments.samples))?;
-        let says_where = !is_exact || requirements.iter().any(|it| it.figure.is_margin());
+        has_tolerances(is_exact, &problem.objective, &task.require).map_err(located)?;
+        let deviations = deviations(&problem, &task.require, arguments.samples)?;
+        let mut figures = problem.requirements.iter().map(|it| it.figure);
+        let says_where = !is_exact || figures.any(Figure::is_margin);
         let usual = if says_where { 0.0 } else { MARGIN };
         let margin = arguments.margin.or(share).unwrap_or(usual);
         require(
@@ -109,19 +94,19 @@ impl Job {
             "in [0, 0.5]",
         )?;
         let searched = searched_by(arguments, &task, &machine)?;
-        cases::check((&machine, &cases), &searched, &tolerances).map_err(located)?;
+        cases::check((&machine, &problem.cases), &searched, tolerances).map_err(located)?;
         let Searched {
             axes,
             frequency,
             links,
         } = searched;
-        for tolerance in &tolerances {
+        for tolerance in tolerances {
             let axis = axes.iter().find(|it| it.parameter == tolerance.parameter);
             let highest = axis.map(|it| it.range.high);
             let (_, factor) = tolerance.distribution.over(deviations);
-            let widened = (tolerance, reserve * factor);
+            let widened = (tolerance, problem.reserve * factor);
             leaves_machines(&machine, widened, highest).map_err(located)?;
-            for case in &cases {
+            for case in &problem.cases {
                 let Some(value) = case.value(tolerance.parameter) else {
                     continue;
                 };
@@ -154,28 +139,17 @@ impl Job {
                 between: (si(frequency.low), si(frequency.high)),
             },
         };
+        problem = Problem {
+            zone,
+            margin,
+            axes,
+            frequency,
+            links,
+            deviations,
+            ..problem
+        };
         Ok(Self {
-            problem: Problem {
-                machine,
-                zone,
-                margin,
-                axes,
-                frequency,
-                links,
-                tolerances,
-                reserve,
-                deviations,
-                violating,
-                objective,
-                traded,
-                requirements,
-                cost,
-                starts,
-                run_up,
-                cases,
-                changes: Vec::new(),
-                drawing: None,
-            },
+            problem,
             settings: Settings { evaluations },
             samples: arguments.samples,
             budget: arguments.budget,
@@ -211,12 +185,8 @@ fn has_tolerances(is_exact: bool, objective: &Objective, require: &Table) -> Res
 ///
 /// # Errors
 /// [`Failure::Usage`] where a share is stated and nothing has a normal tolerance, or the machines are too few to show it.
-fn deviations(
-    tolerances: &[Tolerance],
-    require: &Table,
-    (violating, samples): (f64, usize),
-) -> Result<f64, Failure> {
-    let is_normal = tolerances.iter().any(Tolerance::is_normal);
+fn deviations(problem: &Problem, require: &Table, samples: usize) -> Result<f64, Failure> {
+    let (is_normal, violating) = (problem.has_normal_tolerances(), problem.violating);
     if !is_normal && require.contains_key(SHARE) {
         return Err(Failure::usage(format!(
             "require.{SHARE}: plays no part without a normal tolerance; within boxes all machines are as required"
@@ -253,55 +223,47 @@ impl Job {
 /// [`Failure::Usage`] naming file, line, column, the key, its value and what is allowed.
 pub(super) fn check(machine: &Machine, path: &Path, text: &str) -> Result<(), Failure> {
     let task = TaskSpec::beside_machine(path, text)?.unwrap_or_default();
-    let stated = TaskParts::new(machine, &task);
+    let stated = stated(machine, &task);
     stated
         .map(drop)
         .map_err(|failure| failure.in_text(path, text))
 }
 
-/// What a task states of a machine, each part checked by itself.
-struct TaskParts {
-    tolerances: Vec<Tolerance>,
-    required: Required,
-    objectives: Vec<Objective>,
-    cost: Option<Cost>,
-    cases: Vec<Case>,
-}
-
-impl TaskParts {
-    /// Reads a task.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] if no search of the machine could take it up.
-    fn new(machine: &Machine, task: &TaskSpec) -> Result<Self, Failure> {
-        let formula = task.objective.cost.as_ref();
-        let stated = Self {
-            tolerances: tolerances(machine, &task.tolerance)?,
-            required: requirements(machine, &task.objective, &task.require)?,
-            objectives: objectives(machine, &task.objective)?,
-            cost: formula.map(|text| cost(machine, text)).transpose()?,
-            cases: cases(machine, &task.case)?,
-        };
-        if !task.case.is_empty() && stated.objectives.len() > 1 {
-            return Err(Failure::usage(
-                "case: cannot be combined with a front of designs (lists under [objective])",
-            ));
-        }
-        let may_lack =
-            |it: &&Objective| matches!(it.figure, Figure::FrequencyG0 | Figure::FrequencySn);
-        if task.search.zone == Motions::SingleImpact
-            && let Some(it) = stated.objectives.iter().find(may_lack)
-        {
-            return Err(Failure::usage(format!(
-                "objective: {}: cannot be traded with search.zone = \"z = 1\": not all motions have a value; it goes to [require]",
-                it.figure.name()
-            )));
-        }
-        let searched = searched(machine, &[variables(&task.vary)?], false)?;
-        let mut axes = searched.axes.iter();
-        axes.try_for_each(|axis| has_effect(machine, axis))?;
-        Ok(stated)
+/// The problem that a task states of a machine, each part checked by itself, without what the command line may say, and the margin
+/// from both ends of the zone, if it states one.
+///
+/// # Errors
+/// [`Failure::Usage`] if no search of the machine could take it up.
+fn stated(machine: &Machine, task: &TaskSpec) -> Result<(Problem, Option<f64>), Failure> {
+    let mut problem = Problem {
+        tolerances: tolerances(machine, &task.tolerance)?,
+        ..Problem::of(machine.clone(), Vec::new())
+    };
+    let margin = read_requirements(&mut problem, &task.objective, &task.require)?;
+    let mut objectives = objectives(machine, &task.objective)?;
+    let formula = task.objective.cost.as_ref();
+    problem.cost = formula.map(|text| cost(machine, text)).transpose()?;
+    problem.cases = cases(machine, &task.case)?;
+    if !task.case.is_empty() && objectives.len() > 1 {
+        return Err(Failure::usage(
+            "case: cannot be combined with a front of designs (lists under [objective])",
+        ));
     }
+    let may_lack = |it: &&Objective| matches!(it.figure, Figure::FrequencyG0 | Figure::FrequencySn);
+    if task.search.zone == Motions::SingleImpact
+        && let Some(it) = objectives.iter().find(may_lack)
+    {
+        return Err(Failure::usage(format!(
+            "objective: {}: cannot be traded with search.zone = \"z = 1\": not all motions have a value; it goes to [require]",
+            it.figure.name()
+        )));
+    }
+    problem.traded = objectives.split_off(1);
+    problem.objective = objectives.remove(0);
+    let searched = searched(machine, &[variables(&task.vary)?], false)?;
+    let mut axes = searched.axes.iter();
+    axes.try_for_each(|axis| has_effect(machine, axis))?;
+    Ok((problem, margin))
 }
 
 /// What the command line says of searched values, over what the task says.

@@ -94,8 +94,6 @@ pub struct Verdict {
     pub cases: Vec<CaseVerdict>,
     /// Where the slowest impact was, if all are not lost.
     pub slowest: Option<(Vec<f64>, Settled)>,
-    /// Where the largest multiplier was.
-    pub least_stable: Option<(Vec<f64>, Settled)>,
     /// Before-impact velocities in m/s of all that are not lost, in rising order.
     velocities: Vec<f64>,
     /// The same of each sequence of points.
@@ -230,7 +228,6 @@ pub fn verify_in_cases(
         rejected: 0,
         cases: vec![case; points.len() - 1],
         slowest: None,
-        least_stable: None,
         velocities: Vec::new(),
         sequences: Vec::new(),
     };
@@ -301,16 +298,9 @@ impl Verdict {
                 }
             }
             MotionOutcome::Kept(settled) => {
-                let is_least = |known: &Option<(Vec<f64>, Settled)>, less: fn(&Settled) -> f64| {
-                    known
-                        .as_ref()
-                        .is_none_or(|(_, known)| less(&settled) < less(known))
-                };
-                if is_least(&self.slowest, |motion| motion.velocity) {
+                let slowest = self.slowest.as_ref();
+                if slowest.is_none_or(|(_, slowest)| settled.velocity < slowest.velocity) {
                     self.slowest = Some((here(), settled));
-                }
-                if is_least(&self.least_stable, |motion| -motion.multiplier) {
-                    self.least_stable = Some((here(), settled));
                 }
                 if let Some(sequence) = self.sequences.last_mut() {
                     sequence.push(settled.velocity);

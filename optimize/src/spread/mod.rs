@@ -37,18 +37,3 @@ pub trait ToleranceBox: Debug + Sync {
         even.to_vec()
     }
 }
-
-/// A tolerance box with bounds so many times as wide.
-#[derive(Debug, Clone, Copy)]
-pub struct Scaled<'a>(pub &'a dyn ToleranceBox, pub f64);
-
-impl ToleranceBox for Scaled<'_> {
-    fn dimensions(&self) -> usize {
-        self.0.dimensions()
-    }
-
-    fn scene(&self, at: &[f64]) -> Scene {
-        let at: Vec<f64> = at.iter().map(|at| self.1 * at).collect();
-        self.0.scene(&at)
-    }
-}
