@@ -4,7 +4,7 @@
 //! m x'' + b1 x' + k1 x + F(x, x') = F0 cos(w t + phi) + f(t)        (Peterka 2003, eq. 8)
 //! ```
 //!
-//! - A machine: [`Scene`] is plain data in SI units, [`Ratios`] the paper's dimensionless figures, [`Machine`] a scene
+//! - A machine: [`Scene`] is plain data in SI units, [`CheckedScene`] one that is valid and stays so, [`Ratios`] the paper's dimensionless figures, [`Machine`] a scene
 //!   as a file or a command line states it, in its own units. [`Parameter`] names every number of them.
 //! - A motion: [`Scene::trajectory`] keeps it whole ([`Trajectory`]); a [`Simulation`] runs on, takes inputs and
 //!   new parameters, and can be kept as a [`Snapshot`]. Both are exact: a closed form in each phase, and a proof
@@ -31,6 +31,7 @@
 
 #[doc(hidden)]
 pub mod budget;
+mod checked_scene;
 mod error;
 mod events;
 mod expression;
@@ -46,6 +47,7 @@ mod scene;
 mod tangent;
 mod trajectory;
 
+pub use checked_scene::CheckedScene;
 pub use error::{MachineError, MotionError, SceneError};
 pub use flow::{Drive, HIGHEST_ORDER};
 pub use integrator::{

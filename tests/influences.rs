@@ -28,8 +28,9 @@ fn after(scene: &Scene, start: Start, periods: u64) -> Option<(Vector3<f64>, Vec
 
 /// The exact derivative of the same by a parameter.
 fn exact(scene: &Scene, start: Start, periods: u64, parameter: Parameter) -> Option<Vector3<f64>> {
+    let scene = scene.check().ok()?;
     let phases = scene.phases();
-    let by = [PhaseDerivatives::new(parameter, scene, &phases).ok()?];
+    let by = [PhaseDerivatives::new(parameter, &scene).ok()?];
     let mut influence = ParameterSensitivity::new(&phases, &by);
     let mut motion = scene.motion(start).ok()?;
     motion

@@ -55,9 +55,12 @@ fn a_motion_does_not_depend_on_the_epoch() {
             ..base.clone()
         };
         let run = |from: u64| {
-            let clock = Clock::new(scene.excitation.frequency, 0.0);
-            let mut motion =
-                Motion::new(scene.phases(), clock, Clock::at_cycle(from), start()).expect("valid");
+            let mut motion = Motion::new(
+                &scene.check().expect("valid"),
+                Clock::at_cycle(from),
+                start(),
+            )
+            .expect("valid");
             motion
                 .advance(Clock::at_cycle(from + 50), &mut ())
                 .expect("bounded");
@@ -100,8 +103,12 @@ fn late_communication_points_are_taken_as_they_are() {
     let begin = 1e8 * scene.period();
     let mut machine = Simulation::new(&scene, Begin::from(start()).at_time(begin)).expect("valid");
     let clock = Clock::new(scene.excitation.frequency, 0.0);
-    let mut motion =
-        Motion::new(scene.phases(), clock, clock.instant(begin), start()).expect("valid");
+    let mut motion = Motion::new(
+        &scene.check().expect("valid"),
+        clock.instant(begin),
+        start(),
+    )
+    .expect("valid");
     for step in 1..=100 {
         let time = begin + 0.37 * f64::from(step);
         machine.advance(time).expect("bounded");

@@ -7,6 +7,7 @@ use super::clock::Clock;
 use super::force::force_from_derivatives;
 use super::simulation::Simulation;
 use crate::error::MotionError;
+use crate::scene::Scene;
 
 impl Simulation {
     /// The drive angle in rad; it begins anew below 2 pi where frequency or phase are set.
@@ -37,15 +38,15 @@ impl Simulation {
                 value: angle,
             });
         }
-        let mut scene = self.scene.clone();
+        let mut scene = Scene::clone(&self.scene);
         (scene.excitation.amplitude, scene.excitation.frequency) = (amplitude, frequency);
-        scene.validate()?;
-        let phases = self.motion.phases().with_drive(amplitude, frequency);
+        let scene = self.scene.recheck(scene)?;
         let clock = Clock::new(frequency, angle.rem_euclid(TAU));
         let work = self.tallies.work_under_way(&self.motion);
         self.restart_clock();
         let now = Clock::at_cycle(0);
-        if self.motion.set_drive(phases, clock, now, force) {
+        let through = (scene.phases().clone(), clock);
+        if self.motion.set_drive(through, now, force) {
             self.tallies.counts.work += work;
         }
         self.scene = scene;

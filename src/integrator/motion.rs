@@ -7,6 +7,7 @@ use super::clock::{Clock, Instant};
 use super::force::Force;
 use super::observer::Arc;
 use super::start::Start;
+use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::events::{NextEvent, is_clear_near_start};
 use crate::flow::{ArcSolution, Chatter, Departure, Drive, FinePlace, Polynomial};
@@ -35,32 +36,28 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A motion of `phases` from `start` at time `at`, with a strip fed.
+    /// A motion of `scene` from `start` at time `at`, with a strip fed.
     ///
     /// # Errors
     /// [`MotionError::BeyondStop`] if it would start beyond a rigid stop.
-    pub fn new(
-        phases: impl Into<Shared<Phases>>,
-        clock: Clock,
-        at: Instant,
-        start: Start,
-    ) -> Result<Self, MotionError> {
-        Self::with_force(phases, clock, at, start, Polynomial::default(), true)
+    pub fn new(scene: &CheckedScene, at: Instant, start: Start) -> Result<Self, MotionError> {
+        let through = (scene.phases().clone(), scene.clock());
+        Self::with_force(through, at, start, Polynomial::default(), true)
     }
 
-    /// A motion under an external force in N that begins with the motion, with or without a strip.
+    /// A motion through phases under an external force in N that begins with the motion, with or without a strip.
     ///
     /// # Errors
     /// As [`Motion::new`].
-    pub fn with_force(
-        phases: impl Into<Shared<Phases>>,
-        clock: Clock,
+    // In a call of its own the motion would be copied once more.
+    #[inline(always)]
+    pub(super) fn with_force(
+        (phases, clock): (Shared<Phases>, Clock),
         at: Instant,
         start: Start,
         force: Polynomial,
         fed: bool,
     ) -> Result<Self, MotionError> {
-        let phases = phases.into();
         let position = start.position;
         let is_passed = |wall: &&Surface| position != wall.position && wall.is_reached(position);
         if let Some(&Surface { position: wall, .. }) = phases.walls().find(is_passed) {
@@ -147,11 +144,6 @@ impl Motion {
     /// The phases it moves through.
     pub fn phases(&self) -> &Phases {
         &self.phases
-    }
-
-    /// The phases it moves through, shared.
-    pub fn shared_phases(&self) -> Shared<Phases> {
-        self.phases.clone()
     }
 
     /// What the mass does now.

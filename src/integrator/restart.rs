@@ -14,12 +14,12 @@ impl Motion {
     /// This motion, taken up in a state through phases under a clock, which says that it is now `at`.
     pub(super) fn restarted_through(
         &self,
-        (phases, clock): (impl Into<Shared<Phases>>, Clock),
+        through: (Shared<Phases>, Clock),
         at: Instant,
         state: Start,
     ) -> Result<Self, MotionError> {
         let latched = self.is_latched();
-        let motion = Self::with_force(phases, clock, at, state, self.force(), latched)?;
+        let motion = Self::with_force(through, at, state, self.force(), latched)?;
         Ok(Self {
             fed: self.fed,
             pierced: self.pierced,
@@ -37,13 +37,12 @@ impl Motion {
     /// `at`.
     pub(super) fn set_drive(
         &mut self,
-        phases: Phases,
-        clock: Clock,
+        (phases, clock): (Shared<Phases>, Clock),
         at: Instant,
         force: Polynomial,
     ) -> bool {
         let (state, elapsed) = (self.state(), self.elapsed());
-        (self.phases, self.clock, self.now) = (phases.into(), clock, at);
+        (self.phases, self.clock, self.now) = (phases, clock, at);
         self.start = clock.after(at, -elapsed);
         self.restart_under(force, state)
     }

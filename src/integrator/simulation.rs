@@ -10,6 +10,7 @@ use super::motion::Motion;
 use super::start::Start;
 use super::tallies::{Counts, Tallies};
 use super::{Observer, mechanical_energy};
+use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::flow::Polynomial;
 use crate::scene::Scene;
@@ -17,7 +18,7 @@ use crate::scene::Scene;
 /// A running machine, SI units, absolute time in s.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    pub(super) scene: Scene,
+    pub(super) scene: CheckedScene,
     pub(super) motion: Motion,
     /// Absolute time of the clock's time 0.
     pub(super) epoch: f64,
@@ -76,7 +77,7 @@ impl Simulation {
     /// [`MotionError`] if the scene is invalid, the start or the time not finite, or the start beyond a rigid stop.
     pub fn new(scene: &Scene, begin: impl Into<Begin>) -> Result<Self, MotionError> {
         let Begin { start, time, fed } = begin.into();
-        scene.validate()?;
+        let scene = scene.check()?;
         start.validate()?;
         if !time.is_finite() {
             return Err(MotionError::NotFinite {
@@ -91,10 +92,10 @@ impl Simulation {
             counts: Counts::default(),
         };
         let at = clock.instant(time);
-        let motion =
-            Motion::with_force(scene.phases(), clock, at, start, Polynomial::default(), fed)?;
+        let through = (scene.phases().clone(), clock);
+        let motion = Motion::with_force(through, at, start, Polynomial::default(), fed)?;
         Ok(Self {
-            scene: scene.clone(),
+            scene,
             motion,
             epoch: 0.0,
             now: time,
@@ -244,8 +245,8 @@ impl Simulation {
     /// [`MotionError::Scene`] if the scene is invalid, [`MotionError::BeyondStop`] if its rigid stop
     /// would stand before the mass; nothing is changed then.
     pub fn tune(&mut self, scene: &Scene) -> Result<(), MotionError> {
-        scene.validate()?;
-        if *scene == self.scene {
+        let scene = self.scene.recheck(scene.clone())?;
+        if scene == self.scene {
             return Ok(());
         }
         let before = self.energy().mechanical;
@@ -259,16 +260,16 @@ impl Simulation {
             at = Clock::at_cycle(0);
         }
         let state = self.motion.state();
-        let through = (scene.phases(), clock);
+        let through = (scene.phases().clone(), clock);
         let motion = self.motion.restarted_through(through, at, state)?;
         self.tallies.counts.work += self.tallies.work_under_way(&self.motion);
         if retimed {
             self.restart_clock();
         }
-        (self.motion, self.scene) = (motion, scene.clone());
+        (self.motion, self.scene) = (motion, scene);
         self.mark = Checkpoint::OnArc(self.motion.now());
-        self.tallies.mass = scene.mass;
-        let mechanical = mechanical_energy(scene, &self.motion);
+        self.tallies.mass = self.scene.mass;
+        let mechanical = mechanical_energy(&self.scene, &self.motion);
         self.tallies.counts.work.supplied += mechanical - before;
         Ok(())
     }

@@ -4,7 +4,6 @@
 //! computed anew, which gives the same numbers bit for bit.
 
 use std::convert::Infallible;
-use std::sync::Arc as Shared;
 
 use serde::{Deserialize, Serialize};
 
@@ -17,17 +16,17 @@ use super::motion::Motion;
 use super::simulation::Simulation;
 use super::start::Start;
 use super::tallies::{Counts, Tallies};
+use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::events::NextEvent;
 use crate::flow::{Chatter, Departure, FinePlace, Polynomial, TaylorStep};
 use crate::phases::{Mode, Phases, Sticking};
-use crate::scene::Scene;
 
 /// A running machine at one time. Written to bytes and read back, in this process or another, it goes
 /// on bit for bit (on the same kind of machine).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    scene: Scene,
+    scene: CheckedScene,
     epoch: f64,
     now: f64,
     begin: f64,
@@ -78,7 +77,8 @@ impl MotionData {
     }
 
     /// The motion, which goes on bit for bit.
-    fn to_motion(&self, scene: &Scene, phases: &Shared<Phases>) -> Result<Motion, MotionError> {
+    fn to_motion(&self, scene: &CheckedScene) -> Result<Motion, MotionError> {
+        let phases = scene.phases();
         self.validate(phases)?;
         let clock = Clock::new(scene.excitation.frequency, self.angle);
         let given = Start::new(self.departure.position, self.departure.velocity);
@@ -89,7 +89,8 @@ impl MotionData {
             None => given,
         };
         let force = Polynomial::default();
-        let fresh = Motion::with_force(phases.clone(), clock, self.start, start, force, self.fed)?;
+        let fresh =
+            Motion::with_force((phases.clone(), clock), self.start, start, force, self.fed)?;
         let mut motion = Motion {
             pierced: self.pierced,
             force: self.force,
@@ -152,19 +153,15 @@ impl Simulation {
     /// The machine that a snapshot was taken of.
     ///
     /// # Errors
-    /// [`MotionError::Scene`] or [`MotionError::Snapshot`] if no machine can have left it behind.
+    /// [`MotionError::Snapshot`] if no machine can have left it behind.
     pub fn restored(snapshot: &Snapshot) -> Result<Self, MotionError> {
-        let scene = &snapshot.scene;
-        scene.validate()?;
+        let scene = snapshot.scene.clone();
         let times = [snapshot.epoch, snapshot.now, snapshot.begin];
         if times.iter().any(|time| !time.is_finite()) {
             return Err(invalid("times that are not finite"));
         }
-        let phases: Shared<Phases> = scene.phases().into();
-        let motion = snapshot.motion.to_motion(scene, &phases)?;
         Ok(Self {
-            scene: scene.clone(),
-            motion,
+            motion: snapshot.motion.to_motion(&scene)?,
             epoch: snapshot.epoch,
             now: snapshot.now,
             tallies: Tallies {
@@ -172,8 +169,9 @@ impl Simulation {
                 counts: snapshot.counts,
             },
             begin: snapshot.begin,
-            mark: snapshot.mark.map(|it| it.to_motion(scene, &phases))?,
+            mark: snapshot.mark.map(|it| it.to_motion(&scene))?,
             earlier: snapshot.earlier,
+            scene,
         })
     }
 }

@@ -1,15 +1,13 @@
 //! A motion from phase to phase, for methods that find the guards' crossings themselves.
 
-use std::borrow::Cow;
-
 use super::bounce_train::BounceTrain;
 use super::reset::ResetContext;
 use super::{Impact, Start};
+use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::events::{Found, Guard};
 use crate::flow::Polynomial;
-use crate::phases::{Mode, Phase, PhaseId, Phases};
-use crate::scene::Scene;
+use crate::phases::{Mode, Phase, PhaseId};
 
 /// Crossings within one instant after which a method does not get on.
 const MOST_AT_ONCE: u32 = 1000;
@@ -20,9 +18,8 @@ const MOST_AT_ONCE: u32 = 1000;
 /// Bounces on a rigid stop whose sum the exact method would take are rest at once: it would come within
 /// 2^-26 of a drive period.
 #[derive(Debug, Clone)]
-pub struct Walk<'a> {
-    scene: &'a Scene,
-    phases: Cow<'a, Phases>,
+pub struct Walk {
+    scene: CheckedScene,
     mode: Mode,
     /// Guards that let go a mass that is held.
     releases: Vec<Guard>,
@@ -33,21 +30,15 @@ pub struct Walk<'a> {
     impacts: Vec<Impact>,
 }
 
-impl<'a> Walk<'a> {
+impl Walk {
     /// A motion of this machine from this state at time 0.
     ///
     /// # Errors
-    /// [`MotionError`] if the scene or the start make no sense.
-    pub fn new(scene: &'a Scene, start: Start) -> Result<Self, MotionError> {
+    /// [`MotionError`] if the start makes no sense.
+    pub fn new(scene: &CheckedScene, start: Start) -> Result<Self, MotionError> {
         scene.motion(start)?;
-        Ok(Self::on_phases(scene, start, Cow::Owned(scene.phases())))
-    }
-
-    /// A walk for a scene and a start that make sense, through the scene's phases.
-    pub fn on_phases(scene: &'a Scene, start: Start, phases: Cow<'a, Phases>) -> Self {
         let mut walk = Self {
-            scene,
-            phases,
+            scene: scene.clone(),
             mode: Mode::Moving(PhaseId::FREE),
             releases: Vec::new(),
             time: 0.0,
@@ -58,8 +49,9 @@ impl<'a> Walk<'a> {
         };
         let Start { position, velocity } = start;
         let push = walk.push();
-        walk.enter_mode(walk.phases.mode_at(position, velocity, push, true), push);
-        walk
+        let mode = scene.phases().mode_at(position, velocity, push, true);
+        walk.enter_mode(mode, push);
+        Ok(walk)
     }
 
     /// Time in s of the last crossing, or 0.
@@ -74,7 +66,7 @@ impl<'a> Walk<'a> {
 
     /// The phase whose law holds after the last crossing; none while the mass is held.
     pub fn phase(&self) -> Option<&Phase> {
-        self.phase_id().map(|phase| &self.phases[phase])
+        self.phase_id().map(|phase| &self.scene.phases()[phase])
     }
 
     /// The id of the phase.
@@ -125,13 +117,13 @@ impl<'a> Walk<'a> {
 
     /// State and mode after a crossing out of a phase, by the rules of [`ResetContext`].
     fn reset(&mut self, phase: PhaseId, found: &Found, push: f64) -> (Start, Mode) {
-        if let Some(surface) = self.phases.endless_surface(phase, found.guard) {
+        if let Some(surface) = self.scene.phases().endless_surface(phase, found.guard) {
             self.hum.count_crossing(surface, found.velocity);
         }
         let moved = self.state.velocity != 0.0 || found.elapsed > 0.0;
         let force = Polynomial::default();
         let ground = ResetContext {
-            phases: &self.phases,
+            phases: self.scene.phases(),
             fed: true,
             pierced: false,
             threshold: self.hum.rest_threshold(),
@@ -146,7 +138,7 @@ impl<'a> Walk<'a> {
         match landing.mode {
             Mode::Chattering(hold) => {
                 let position = landing.state.position;
-                let mode = self.phases.mode_from_rest(hold, position, push);
+                let mode = self.scene.phases().mode_from_rest(hold, position, push);
                 (Start::new(position, 0.0), mode)
             }
             mode => (landing.state, mode),
@@ -154,7 +146,11 @@ impl<'a> Walk<'a> {
     }
 
     fn enter_mode(&mut self, mode: Mode, push: f64) {
-        let releases = |hold| self.phases.release_guards(hold, self.state.position, push);
+        let releases = |hold| {
+            self.scene
+                .phases()
+                .release_guards(hold, self.state.position, push)
+        };
         self.releases = mode.sticking().map(releases).unwrap_or_default();
         self.mode = mode;
     }
@@ -187,10 +183,10 @@ mod tests {
 
     const START: Start = Start::new(9.0, 2.0);
 
-    fn scene() -> Scene {
+    fn scene() -> CheckedScene {
         let mut scene = Ratios::unloaded().scene().expect("a machine");
         scene.stop = Stop::Rigid { restitution: 0.6 };
-        scene
+        scene.check().expect("valid")
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod write_file;
 
 pub use keys::nearest_name;
 
+use crate::checked_scene::CheckedScene;
 use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
 use crate::scene::{Allowed, Dimension, Parameter, Ratios, Scene, Ties};
@@ -179,6 +180,16 @@ impl Machine {
         Allowed::Finite.check(keys::POSITION, self.start.position)?;
         Allowed::Finite.check(keys::VELOCITY, self.start.velocity)?;
         self.scene.validate().map_err(|error| self.own_error(error))
+    }
+
+    /// Checks the machine as [`Machine::validate`]; its scene takes the phases of one that is known where only the drive
+    /// differs.
+    ///
+    /// # Errors
+    /// As [`Machine::validate`].
+    pub fn check(&self, known: Option<&CheckedScene>) -> Result<CheckedScene, SceneError> {
+        self.validate()?;
+        Ok(CheckedScene::of_valid(self.scene.clone(), known))
     }
 
     /// Checks its name and its description: a name has no control characters and none that XML refuses, a description

@@ -10,41 +10,43 @@ use crate::events::Guard;
 use crate::flow::{Hertz, LinearLaw};
 use crate::scene::Scene;
 
-/// The phases of a scene.
-pub(super) fn lower_scene(scene: &Scene) -> Phases {
-    let free = Law {
-        damping: scene.damping,
-        stiffness: scene.stiffness,
-        force: 0.0,
-    };
-    let drive = scene.excitation;
-    let mut lowering = Lowering {
-        scene: Cow::Borrowed(scene),
-        side: 1.0,
-        phases: Vec::with_capacity(8),
-        surfaces: Vec::new(),
-    };
-    lowering.add_phase(PhaseKind::Free, free, None, Store::default());
-    let unfed = lowering.add_stack(&plan_layers(scene, free, false));
-    let fed = match scene.piercing {
-        Some(_) => lowering.add_stack(&plan_layers(scene, free, true)),
-        None => unfed.clone(),
-    };
-    lowering.join_to_free(&fed, &unfed);
-    let below = match scene.mirrored() {
-        Some(mirrored) => lowering.add_stack_below(mirrored, free),
-        None => Stack::default(),
-    };
-    Phases {
-        phases: lowering.phases,
-        surfaces: lowering.surfaces,
-        amplitude: drive.amplitude / scene.mass,
-        frequency: drive.frequency,
-        mass: scene.mass,
-        held: LinearLaw::new(scene.mass, 0.0, 0.0, drive.amplitude, drive.frequency),
-        fed,
-        unfed,
-        below,
+impl Phases {
+    /// Lowers a valid scene to its phases.
+    pub(crate) fn of_scene(scene: &Scene) -> Self {
+        let free = Law {
+            damping: scene.damping,
+            stiffness: scene.stiffness,
+            force: 0.0,
+        };
+        let drive = scene.excitation;
+        let mut lowering = Lowering {
+            scene: Cow::Borrowed(scene),
+            side: 1.0,
+            phases: Vec::with_capacity(8),
+            surfaces: Vec::new(),
+        };
+        lowering.add_phase(PhaseKind::Free, free, None, Store::default());
+        let unfed = lowering.add_stack(&plan_layers(scene, free, false));
+        let fed = match scene.piercing {
+            Some(_) => lowering.add_stack(&plan_layers(scene, free, true)),
+            None => unfed.clone(),
+        };
+        lowering.join_to_free(&fed, &unfed);
+        let below = match scene.mirrored() {
+            Some(mirrored) => lowering.add_stack_below(mirrored, free),
+            None => Stack::default(),
+        };
+        Phases {
+            phases: lowering.phases,
+            surfaces: lowering.surfaces,
+            amplitude: drive.amplitude / scene.mass,
+            frequency: drive.frequency,
+            mass: scene.mass,
+            held: LinearLaw::new(scene.mass, 0.0, 0.0, drive.amplitude, drive.frequency),
+            fed,
+            unfed,
+            below,
+        }
     }
 }
 

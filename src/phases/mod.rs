@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::events::Guard;
 use crate::flow::{Drive, Hertz, LinearLaw, Polynomial};
-use crate::scene::Scene;
+use crate::scene::Excitation;
 
 /// What a phase is in the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -175,33 +175,16 @@ struct Layer {
     surface: SurfaceId,
 }
 
-impl Scene {
-    /// Lowers the scene to its phases. The scene must have passed [`Scene::validate`].
-    #[doc(hidden)]
-    pub fn phases(&self) -> Phases {
-        lower::lower_scene(self)
-    }
-}
-
 impl Phases {
-    /// Changes the frequency in rad/s of the drive, and with it no law.
-    pub fn set_frequency(&mut self, frequency: f64) {
-        self.set_drive(self.amplitude, frequency);
-    }
-
-    /// These laws under another drive, of this amplitude in N and frequency in rad/s.
-    pub(crate) fn with_drive(&self, amplitude: f64, frequency: f64) -> Self {
+    /// These laws under another drive.
+    pub(crate) fn with_drive(&self, drive: &Excitation) -> Self {
         let mut phases = self.clone();
-        phases.set_drive(amplitude / self.mass, frequency);
-        phases
-    }
-
-    fn set_drive(&mut self, amplitude: f64, frequency: f64) {
-        (self.amplitude, self.frequency) = (amplitude, frequency);
-        let flows = self.phases.iter_mut().map(|phase| &mut phase.flow);
-        for flow in flows.chain([&mut self.held]) {
-            *flow = flow.with_drive(amplitude, frequency);
+        (phases.amplitude, phases.frequency) = (drive.amplitude / self.mass, drive.frequency);
+        let flows = phases.phases.iter_mut().map(|phase| &mut phase.flow);
+        for flow in flows.chain([&mut phases.held]) {
+            *flow = flow.with_drive(phases.amplitude, drive.frequency);
         }
+        phases
     }
 }
 

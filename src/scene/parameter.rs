@@ -105,6 +105,9 @@ macro_rules! table {
         impl Parameter {
             /// All, in the order of the table.
             pub const ALL: [Self; TABLE.len()] = [$(Self::$parameter),*];
+
+            /// Those of the drive alone.
+            pub(crate) const OF_DRIVE: [Self; 3] = [Self::Amplitude, Self::Frequency, Self::Phase];
         }
     };
 }

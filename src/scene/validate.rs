@@ -57,7 +57,12 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] naming the first parameter that is out of range.
     pub fn validate(&self) -> Result<(), SceneError> {
-        for parameter in Parameter::ALL {
+        self.validate_parameters(&Parameter::ALL)
+    }
+
+    /// Checks a scene whose other parameters are known to be in their ranges.
+    pub(crate) fn validate_parameters(&self, changed: &[Parameter]) -> Result<(), SceneError> {
+        for parameter in changed {
             if let Some(value) = parameter.get(self) {
                 parameter.check(value)?;
             }

@@ -1,5 +1,6 @@
 //! Derivatives of a scene's phases by its parameters.
 
+use crate::checked_scene::CheckedScene;
 use crate::error::{MotionError, SceneError};
 use crate::flow::{Forces, Source};
 use crate::phases::{Beyond, Law, Phase, PhaseId, PhaseKind, Phases};
@@ -31,30 +32,27 @@ struct LawChange {
 }
 
 impl PhaseDerivatives {
-    /// The derivatives by a parameter of a valid scene with its phases.
+    /// The derivatives by a parameter of a scene.
     ///
     /// # Errors
     /// [`SceneError::Lacks`] of a parameter that the scene does not have, [`MotionError::NoDerivative`] where the scene
     /// turns into another kind of machine with it.
-    pub fn new(parameter: Parameter, scene: &Scene, phases: &Phases) -> Result<Self, MotionError> {
+    pub fn new(parameter: Parameter, scene: &CheckedScene) -> Result<Self, MotionError> {
         let name = parameter.name();
         let value = parameter.get(scene).ok_or(SceneError::Lacks(name))?;
-        let mut moved = scene.clone();
+        let mut moved = Scene::clone(scene);
         let step = STEP * value.abs().max(typical_size(parameter, scene));
         parameter.set(&mut moved, value + step);
         let step = (value + step) - value;
-        let found = Self::between((scene, phases), (&moved, &moved.phases()), step);
+        let found = Self::between(scene, &CheckedScene::of_valid(moved, None), step);
         found.ok_or(MotionError::NoDerivative { name })
     }
 
-    /// The derivatives of a valid scene with its phases towards another one, by a parameter that is `step` larger there: where
+    /// The derivatives of a scene towards another one, by a parameter that is `step` larger there: where
     /// every coefficient is linear in it, as in any parameter that no other follows, their difference is exact. None where the other is another kind of
     /// machine.
-    pub fn between(
-        (scene, phases): (&Scene, &Phases),
-        (moved, moved_phases): (&Scene, &Phases),
-        step: f64,
-    ) -> Option<Self> {
+    pub fn between(scene: &CheckedScene, moved: &CheckedScene, step: f64) -> Option<Self> {
+        let (phases, moved_phases) = (scene.phases(), moved.phases());
         let slope = |from: f64, to: f64| (to - from) / step;
         let (drive, moved_drive) = (&scene.excitation, &moved.excitation);
         let frequency = slope(drive.frequency, moved_drive.frequency) / drive.frequency;

@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
+use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::integrator::{
     Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, force_from_derivatives,
@@ -152,10 +153,20 @@ impl Scene {
     /// [`MotionError`] if the scene is invalid or the start not finite.
     #[doc(hidden)]
     pub fn motion(&self, start: Start) -> Result<Motion, MotionError> {
-        self.validate()?;
+        self.check()?.motion(start)
+    }
+}
+
+impl CheckedScene {
+    /// The motion from `start` at time 0, ready to be advanced.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the start is not finite, or beyond a rigid stop.
+    #[doc(hidden)]
+    #[inline]
+    pub fn motion(&self, start: Start) -> Result<Motion, MotionError> {
         start.validate()?;
-        let clock = self.clock();
-        Motion::new(self.phases(), clock, Clock::at_cycle(0), start)
+        Motion::new(self, Clock::at_cycle(0), start)
     }
 }
 

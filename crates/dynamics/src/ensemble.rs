@@ -11,7 +11,7 @@ use crate::member::{HasMember, RECORD_COST};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::OrbitError;
 use softstop::internals::budget::{self, SharedBudget};
-use softstop::{Instant, Scene, Start};
+use softstop::{Instant, Start};
 use softstop_lanes::{BatchObserver, Machine};
 
 /// Members of an ensemble that one thread advances at a time: several times as many as there are lanes.
@@ -38,14 +38,6 @@ impl<'a> Ensemble<'a> {
             done: AtomicU64::new(0),
             planned: 0,
         }
-    }
-
-    /// An ensemble of motions of one scene.
-    ///
-    /// # Errors
-    /// [`OrbitError::Motion`] if it is invalid.
-    pub fn of_scene(scene: &Scene, monitor: Monitor<'a>) -> Result<Self, OrbitError> {
-        Ok(Self::new(vec![Machine::new(scene)?], monitor))
     }
 
     /// True if the motions run in the SIMD lanes, so that many cost little.

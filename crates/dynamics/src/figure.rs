@@ -137,7 +137,7 @@ impl Figure {
             Self::Velocity => Some(orbit.before_impact_velocity()),
             Self::MaxPosition => Some(orbit.max_position),
             Self::CutThrough => Some(depth_beyond_strip(orbit).unwrap_or(f64::NAN)),
-            Self::StopForce => Some(peak_stop_force(&orbit.scene, &orbit.trajectory()?)),
+            Self::StopForce => Some(peak_stop_force(&orbit.trajectory()?)),
             _ => self.of_motion(orbit, &CycleMetrics::of(orbit)?),
         })
     }

@@ -1,11 +1,9 @@
 //! The motion of a loaded machine through a gap of missing strips.
 
-use std::sync::Arc as Shared;
-
 use crate::stroke_count::StrokeCount;
 use crate::stroke_observer::StrokeObserver;
-use softstop::internals::{Motion, Phases};
-use softstop::{Instant, MotionError};
+use softstop::internals::Motion;
+use softstop::{CheckedScene, Instant, MotionError};
 
 /// Drive periods for which the mass may stay beyond the clearance before strips change all the same.
 const MAX_PERIODS_BEYOND: u64 = 16;
@@ -23,16 +21,15 @@ pub(crate) struct InterruptedMotion {
 }
 
 impl InterruptedMotion {
-    /// Goes on with the phases with or without strips, from where the mass is clear of them.
-    pub fn switch_strips(&mut self, to: &Shared<Phases>) -> Result<(), MotionError> {
+    /// Goes on with the scene with or without strips, from where the mass is clear of them.
+    pub fn switch_strips(&mut self, to: &CheckedScene) -> Result<(), MotionError> {
         let last = self.periods + MAX_PERIODS_BEYOND;
         while self.motion.state().position >= self.clearance && self.periods < last {
             if self.advance_period(true)? {
                 break;
             }
         }
-        let (clock, now, state) = (*self.motion.clock(), self.motion.now(), self.motion.state());
-        self.motion = Motion::new(to.clone(), clock, now, state)?;
+        self.motion = Motion::new(to, self.motion.now(), self.motion.state())?;
         Ok(())
     }
 

@@ -1,7 +1,6 @@
 //! Missing strips: what becomes of the z = 1 motion of a loaded machine while strips fail to come, and after.
 
 use std::f64::consts::TAU;
-use std::sync::Arc as Shared;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -12,8 +11,7 @@ use crate::member::Member;
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
 pub use crate::stroke_count::StrokeCount;
-use softstop::internals::{Motion, Phases};
-use softstop::{Clock, MotionError, Piercing, Scene};
+use softstop::{CheckedScene, MotionError, Piercing, Scene};
 use softstop_lanes::Machine;
 
 /// Position of the stop while there is no strip.
@@ -97,7 +95,7 @@ pub fn survives_missing_strips(
     monitor: Monitor<'_>,
 ) -> Result<StripSurvival, OrbitError> {
     let basin_test = BasinTest::of(orbit)?;
-    let line = StripPhases::new(&orbit.scene, reading)?;
+    let without = reading.scene_without_strip(&orbit.scene).check()?;
     let (turn, angles) = (TAU * orbit.periods as f64, angles.max(1));
     let angles: Vec<f64> = (0..angles)
         .map(|index| turn * index as f64 / angles as f64)
@@ -107,12 +105,9 @@ pub fn survives_missing_strips(
         .map(|angles| -> Result<_, OrbitError> {
             let (mut machines, mut motions) = (Vec::new(), Vec::new());
             for (machine, turned) in angles.iter().enumerate() {
-                let run = line.run_through_gap(orbit, *turned, missing)?;
-                let mut turned_by = orbit.scene.clone();
-                turned_by.excitation.phase =
-                    (orbit.scene.excitation.phase + turned).rem_euclid(TAU);
-                let angle = turned_by.excitation.phase;
-                machines.push(Machine::new(&turned_by)?);
+                let run = run_through_gap(orbit, &without, *turned, missing)?;
+                let angle = (orbit.scene.excitation.phase + turned).rem_euclid(TAU);
+                machines.push(Machine::new(&orbit.scene.clone().at_phase(angle)?));
                 motions.push(TestedMotion {
                     member: Member::new(machine, run.motion.state()),
                     angle,
@@ -138,54 +133,33 @@ pub fn survives_missing_strips(
     })
 }
 
-/// The phases of a machine with and without its strip.
-struct StripPhases<'a> {
-    scene: &'a Scene,
-    with: Shared<Phases>,
-    without: Shared<Phases>,
-}
-
-impl<'a> StripPhases<'a> {
-    /// The phases of a scene with its strip and without it.
-    fn new(scene: &'a Scene, reading: StopWithoutStrip) -> Result<Self, MotionError> {
-        let without = reading.scene_without_strip(scene);
-        without.validate()?;
-        Ok(Self {
-            scene,
-            with: scene.phases().into(),
-            without: without.phases().into(),
-        })
-    }
-
-    /// The motion through a gap of missing strips that begins when the drive has turned by `turned` rad since the
-    /// orbit's time 0, to the end of the drive period in which strips are there again.
-    fn run_through_gap(
-        &self,
-        orbit: &Orbit,
-        turned: f64,
-        missing: u32,
-    ) -> Result<InterruptedMotion, MotionError> {
-        let clock = self.scene.clock();
-        let start = orbit.state().into();
-        let motion = Motion::new(self.with.clone(), clock, Clock::at_cycle(0), start)?;
-        let before = orbit
-            .timed_impacts()
-            .last()
-            .map_or(0.0, |last| last.0 / clock.period());
-        let mut run = InterruptedMotion {
-            motion,
-            clearance: self.scene.clearance,
-            begin: clock.instant(turned / self.scene.excitation.frequency),
-            periods: 0,
-            strokes: StrokeCount::after_impact(before - orbit.periods as f64),
-        };
-        run.count_strokes(run.begin, false)?;
-        run.switch_strips(&self.without)?;
-        while run.periods < u64::from(missing) {
-            run.advance_period(false)?;
-        }
-        run.switch_strips(&self.with)?;
+/// The motion of an orbit through a gap of missing strips that begins when the drive has turned by `turned` rad since the
+/// orbit's time 0, to the end of the drive period in which strips are there again.
+fn run_through_gap(
+    orbit: &Orbit,
+    without: &CheckedScene,
+    turned: f64,
+    missing: u32,
+) -> Result<InterruptedMotion, MotionError> {
+    let scene = &orbit.scene;
+    let clock = scene.clock();
+    let before = orbit
+        .timed_impacts()
+        .last()
+        .map_or(0.0, |last| last.0 / clock.period());
+    let mut run = InterruptedMotion {
+        motion: scene.motion(orbit.state().into())?,
+        clearance: scene.clearance,
+        begin: clock.instant(turned / scene.excitation.frequency),
+        periods: 0,
+        strokes: StrokeCount::after_impact(before - orbit.periods as f64),
+    };
+    run.count_strokes(run.begin, false)?;
+    run.switch_strips(without)?;
+    while run.periods < u64::from(missing) {
         run.advance_period(false)?;
-        Ok(run)
     }
+    run.switch_strips(scene)?;
+    run.advance_period(false)?;
+    Ok(run)
 }

@@ -152,7 +152,7 @@ fn cells_in_a_basin_go_to_its_orbit_and_the_largest_ball_is_inside() {
     let scene = unloaded(1.15);
     let found = on(&scene, &states(60));
     let ball = found.largest_ball(1).expect("there is one");
-    let map = StroboscopicMap::new(&scene, 250).expect("there is one");
+    let map = StroboscopicMap::new(&scene.check().expect("there is one"), 250);
     let orbit = orbits(&found)[1];
     for k in 0..12 {
         let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_6).sin_cos();

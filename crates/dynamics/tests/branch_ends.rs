@@ -41,7 +41,7 @@ fn orbit(scene: &Scene) -> Option<Orbit> {
     if let Ok(orbit) = find(scene) {
         return Some(orbit);
     }
-    let map = StroboscopicMap::new(scene, 1).ok()?;
+    let map = StroboscopicMap::new(&scene.check().ok()?, 1);
     let start = Vector2::new(scene.clearance - 1.0, 0.0);
     let state = (0..200).try_fold(start, |state, _| map.image(state)).ok()?;
     (1..=4).find_map(|periods| Orbit::find_periodic(scene, state, periods).ok())

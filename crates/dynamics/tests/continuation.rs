@@ -177,7 +177,7 @@ fn inner_surfaces_end_a_branch_too() {
         let mut ratios = Ratios::loaded();
         ratios.frequency = end.point.parameter;
         let scene = ratios.scene().expect("a scene");
-        let map = StroboscopicMap::new(&scene, 1).expect("a map");
+        let map = StroboscopicMap::new(&scene.check().expect("a map"), 1);
         let highest = map.max_position(end.point.state()).expect("a motion");
         assert_near(highest, scene.stop_position(), 10.0 * SOLVED);
     }
@@ -200,7 +200,10 @@ fn a_branch_from_an_end_of_its_range() {
         for point in &found.points {
             assert!((low..=high).contains(&point.parameter), "{point:?}");
             let machine = Ratios::unloaded().at_frequency(point.parameter);
-            let map = StroboscopicMap::new(&machine.scene().expect("a scene"), 1).expect("a map");
+            let map = StroboscopicMap::new(
+                &machine.scene().expect("a scene").check().expect("valid"),
+                1,
+            );
             let image = map.image(point.state()).expect("a passage");
             assert_near(image, point.state(), SOLVED);
         }
@@ -261,7 +264,8 @@ fn finite_differences_confirm_fold_and_flip() {
         let point = of_kind(&branch, symbol).remove(0).point;
         let mut ratios = Ratios::unloaded();
         ratios.frequency = point.parameter;
-        let map = StroboscopicMap::new(&ratios.scene().expect("a scene"), 1).expect("a map");
+        let map =
+            StroboscopicMap::new(&ratios.scene().expect("a scene").check().expect("valid"), 1);
         let matrix = differences(|state| map.image(state).expect("an image"), point.state());
         let test = 1.0 + sign * matrix.trace() + matrix.determinant();
         assert_near(test, 0.0, DIFFERENCED);

@@ -117,8 +117,8 @@ fn turning_points_pass_kinks() -> Outcome {
     let deepest = |point: &&BranchPoint| {
         let mut scene = scene.clone();
         scene.excitation.frequency = point.parameter;
-        StroboscopicMap::new(&scene, 1)
-            .and_then(|map| map.max_position(point.state()))
+        StroboscopicMap::new(&scene.check().expect("valid"), 1)
+            .max_position(point.state())
             .is_ok_and(|position| position > 10.4)
     };
     let stable = branch.points.iter().filter(|point| point.is_stable());

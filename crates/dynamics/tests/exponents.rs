@@ -11,7 +11,7 @@ use softstop_testing::{assert_near, is_near, unloaded};
 /// Periodic motions: z = 1, z = 2/3, (2/4)B, the impact-less one; soft and rigid stops.
 fn orbits() -> Vec<Orbit> {
     let settle = |scene: &Scene, from: Vector2<f64>, periods: u64| {
-        let map = StroboscopicMap::new(scene, 600).expect("valid");
+        let map = StroboscopicMap::new(&scene.check().expect("valid"), 600);
         let state = map.image(from).expect("bounded");
         Orbit::find_periodic(scene, state, periods).expect("an orbit")
     };
@@ -53,7 +53,7 @@ fn their_sum_is_the_mean_divergence_in_chaos_too() {
     for (scene, restitution) in [(unloaded(0.9875), 1.0f64), (rigid, 0.8)] {
         let state = Vector2::new(9.258_494_864, 3.539_666_112);
         let (exponents, _) = Exponents::along_motion(&scene, state, 20).expect("bounded");
-        let map = StroboscopicMap::new(&scene, 1).expect("valid");
+        let map = StroboscopicMap::new(&scene.check().expect("valid"), 1);
         let (mut state, mut divergence, mut impacts) = (state, 0.0, 0);
         for _ in 0..exponents.periods {
             let passage = map.apply(state).expect("bounded");
@@ -116,7 +116,7 @@ fn the_kaplan_yorke_dimension_is_the_information_dimension() {
     let scene = unloaded(0.9875);
     let state = Vector2::new(9.258_494_864, 3.539_666_112);
     let (exponents, state) = Exponents::along_motion(&scene, state, 1000).expect("bounded");
-    let map = StroboscopicMap::new(&scene, 1).expect("valid");
+    let map = StroboscopicMap::new(&scene.check().expect("valid"), 1);
     let next = |state: &Vector2<f64>| map.image(*state).ok();
     let states = std::iter::successors(Some(state), next).take(400_000);
     let states: Vec<Vector2<f64>> = states.collect();

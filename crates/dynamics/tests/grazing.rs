@@ -72,7 +72,7 @@ fn newton_settles_down_to_a_distance_of_1e_9_from_grazing() {
 #[test]
 fn on_the_map_newton_does_not_settle_there() {
     let scene = beside(false, 1e-7);
-    let map = StroboscopicMap::new(&scene, 1).expect("valid");
+    let map = StroboscopicMap::new(&scene.check().expect("valid"), 1);
     let found = find_fixed_point(&map, steady(&scene) + Vector2::new(1e-3, -1e-3));
     assert!(
         matches!(found, Err(OrbitError::Diverged { .. })),
@@ -90,13 +90,18 @@ fn above_resonance_an_unstable_motion_ends_in_grazing() {
     let eta = scene.excitation.frequency;
     // Its largest position lies where the drive has turned by the phase lag.
     let time = (state.y / eta).atan2(state.x) / eta;
-    let orbit = Orbit::find_by_impacts(&scene, 1, &[(time, 1e-3)]).expect("an orbit");
+    let orbit = Orbit::find_by_impacts(&scene.check().expect("valid"), 1, &[(time, 1e-3)])
+        .expect("an orbit");
     assert!(!orbit.is_stable());
     let velocity = orbit.before_impact_velocity();
     assert!(velocity > 0.0 && velocity < 1e-6, "{velocity:e}");
     // Twice over the same motion is found as what it is.
     let period = scene.period();
-    let twice = Orbit::find_by_impacts(&scene, 2, &[(time, 1e-3), (time + period, 1e-3)]);
+    let twice = Orbit::find_by_impacts(
+        &scene.check().expect("valid"),
+        2,
+        &[(time, 1e-3), (time + period, 1e-3)],
+    );
     assert_eq!(twice.expect("an orbit").periods, 1);
 }
 
@@ -111,7 +116,8 @@ fn from_impact_to_impact_strong_motions_are_the_same() {
             touch.instant.offset + 1e-2,
             touch.before_impact_velocity - 1e-2,
         );
-        let again = Orbit::find_by_impacts(&scene, 1, &[guess]).expect("an orbit");
+        let again =
+            Orbit::find_by_impacts(&scene.check().expect("valid"), 1, &[guess]).expect("an orbit");
         assert_near((again.state() - orbit.state()).norm(), 0.0, 10.0 * MOTION);
         assert_near(
             (again.monodromy.matrix - orbit.monodromy.matrix).norm(),

@@ -20,7 +20,7 @@ fn rigid(restitution: f64) -> Scene {
 }
 
 fn map(scene: &Scene, periods: u64) -> StroboscopicMap {
-    StroboscopicMap::new(scene, periods).expect("a map")
+    StroboscopicMap::new(&scene.check().expect("a map"), periods)
 }
 
 proptest! {

@@ -49,7 +49,7 @@ fn beside(
     along: Vector2<f64>,
     kinds: &Meets,
 ) -> Option<Vec<f64>> {
-    let mut scene = orbit.scene.clone();
+    let mut scene = Scene::clone(&orbit.scene);
     let value = parameter.get(&scene)? + shift;
     parameter.set(&mut scene, value);
     scene.validate().ok()?;

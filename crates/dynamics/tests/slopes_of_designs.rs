@@ -133,7 +133,7 @@ fn judged(scene: &Scene, share: f64) -> Option<Tally> {
         let value = parameter.get(&orbit.scene)?;
         let along = Vector2::new(slopes.position.by[index], slopes.velocity.by[index]);
         let beside = |shift: f64| {
-            let mut scene = orbit.scene.clone();
+            let mut scene = Scene::clone(&orbit.scene);
             parameter.set(&mut scene, value + shift);
             let other = Orbit::find_near(&scene, orbit.state() + shift * along).ok()?;
             let found = figures(&other, &[])?;

@@ -83,7 +83,7 @@ proptest! {
         let meets = Meets::until(&scene, start, Clock::at_cycle(2));
         // A graze makes the entries of the product huge against its determinant.
         prop_assume!(!meets.held && meets.slowest > 0.03 && meets.crossings.len() < 40);
-        let map = StroboscopicMap::new(&scene, 2).expect("valid");
+        let map = StroboscopicMap::new(&scene.check().expect("valid"), 2);
         let passage = map.apply(Vector2::new(start.position, start.velocity)).expect("bounded");
         let expected = (meets.contraction - passage.damping_integral).exp();
         let size = passage.monodromy.norm_squared();
@@ -99,7 +99,7 @@ proptest! {
         let start = start_below(&scene, depth, velocity);
         let meets = Meets::until(&scene, start, Clock::at_cycle(1));
         prop_assume!(meets.slowest > 0.3 && meets.crossings.len() < 20);
-        let map = StroboscopicMap::new(&scene, 1).expect("valid");
+        let map = StroboscopicMap::new(&scene.check().expect("valid"), 1);
         let state = Vector2::new(start.position, start.velocity);
         let passage = map.apply(state).expect("bounded");
         let differences = differences(|state| map.image(state).expect("bounded"), state);
@@ -232,7 +232,7 @@ fn the_tangent_of_a_plastic_impact() {
         clearance: 0.5,
         ..softstop::Ratios::unloaded().scene().expect("valid")
     };
-    let map = StroboscopicMap::new(&scene, 1).expect("valid");
+    let map = StroboscopicMap::new(&scene.check().expect("valid"), 1);
     let state = Vector2::new(-1.0, 0.0);
     let passage = map.apply(state).expect("bounded");
     assert_eq!(passage.impacts.len(), 1);

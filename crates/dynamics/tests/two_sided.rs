@@ -265,8 +265,8 @@ fn asymmetric_branches_do_not_depend_on_the_drive_angle() {
     let ends = (0..16).map(|index| {
         let mut scene = scene.clone();
         scene.excitation.phase = f64::from(index) * std::f64::consts::TAU / 16.0;
-        let settled =
-            StroboscopicMap::new(&scene, 500).and_then(|it| it.apply(Vector2::new(0.0, 1.0)));
+        let map = StroboscopicMap::new(&scene.check().expect("valid"), 500);
+        let settled = map.apply(Vector2::new(0.0, 1.0));
         let state = settled.expect("a motion").end;
         let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a parameter");
         let continuation = Continuation::new(&family, 1);

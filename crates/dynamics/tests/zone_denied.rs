@@ -38,7 +38,7 @@ pub fn scene(machine: &toml::Table) -> Scene {
 
 /// True of the stable z = 1 motion near a start if it lies on a stretch of its machine.
 fn is_told(machine: &toml::Table, [position, velocity]: [f64; 2]) -> bool {
-    let scene = scene(machine);
+    let scene = scene(machine).check().expect("valid");
     let orbit = Orbit::find_near(&scene, Start::new(position, velocity).into()).expect("a motion");
     assert!(orbit.is_stable());
     let point = BranchPoint {

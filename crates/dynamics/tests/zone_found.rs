@@ -51,7 +51,8 @@ fn wrong(scene: &Scene, all: &[StableRange], stable_range: &StableRange) -> Opti
         Ok(orbit) => orbit,
         Err(error) => return Some(error.to_string()),
     };
-    let on = stable_range.point_at(scene, scene.excitation.frequency);
+    let checked = scene.check().expect("valid");
+    let on = stable_range.point_at(&checked, scene.excitation.frequency);
     let least = on
         .ok()
         .flatten()

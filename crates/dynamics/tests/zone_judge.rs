@@ -154,7 +154,7 @@ fn settled(scene: &Scene, starts: &[(f64, f64)]) -> (Vec<BranchPoint>, usize) {
     };
     let jobs: Vec<Job> = starts.iter().map(job).collect();
     let mut ends = Ends(vec![[Start::REST; 2]; jobs.len()]);
-    let machine = Machine::new(scene).expect("valid");
+    let machine = Machine::new(&scene.check().expect("valid"));
     softstop_lanes::run(&[machine], &jobs, &mut ends);
     let apart =
         |a: Start, b: Start| (a.position - b.position).hypot(a.velocity - b.velocity) / size;
@@ -204,8 +204,9 @@ fn judge((scene, shares, starts): &Case) -> Tally {
         let (points, undecided) = settled(&scene, starts);
         tally.motions += points.len();
         tally.undecided += undecided;
+        let checked = scene.check().expect("valid");
         let denied = points.iter().filter(|point| {
-            let on = |one: &StableRange| one.contains_point(&scene, point).unwrap_or(false);
+            let on = |one: &StableRange| one.contains_point(&checked, point).unwrap_or(false);
             !all.iter().any(on)
         });
         let told = denied.map(|point| format!("{point:?} lies on no stable_range of {scene:?}"));

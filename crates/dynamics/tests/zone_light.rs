@@ -156,7 +156,7 @@ fn without_a_grazing_boundary_there_are_stretches() -> Outcome {
         assert!(!found.is_empty(), "{clearance}");
         for one in &found {
             let middle = 0.5 * (one.low.frequency + one.high.frequency);
-            let point = one.point_at(&scene, middle)?.ok_or("no motion")?;
+            let point = one.point_at(&scene.check()?, middle)?.ok_or("no motion")?;
             assert!(point.is_stable() && point.impacts.len() == 1);
         }
     }
@@ -195,7 +195,7 @@ fn a_branch_does_not_run_off() {
 
 fn assert_none_missed(all: &[Settled]) {
     for one in all {
-        let scene = scene(&one.machine);
+        let scene = scene(&one.machine).check().expect("valid");
         let on = |stable_range: &StableRange| {
             let there = stable_range.point_at(&scene, one.frequency).ok().flatten();
             there.is_some_and(|point| is_near(point.impacts[0], one.velocity, 1e-6))
@@ -208,7 +208,7 @@ fn assert_none_missed(all: &[Settled]) {
 /// Branches that are lost near the same motion may have parts in common.
 #[test]
 fn no_part_is_listed_twice() -> Outcome {
-    let scene = scene(&light().narrow[1].machine);
+    let scene = scene(&light().narrow[1].machine).check()?;
     let found = stable_ranges(&scene)?;
     for (index, one) in found.iter().enumerate() {
         for other in &found[..index] {

@@ -83,8 +83,8 @@ fn what_has_not_settled_is_no_chaos_in_any_units() {
         let start = Start::new(0.5 * units.length(), 0.0);
         let seen = settling.follow_motions(&[(&scene, start)], &unmonitored);
         let seen = seen.expect("followed").remove(0).expect("a motion");
-        let map = seen.watched_map(&scene).expect("valid");
-        let (motion, growth) = seen.motion_kind(&scene, &map).expect("a motion");
+        let map = seen.watched_map(&scene.check().expect("valid"));
+        let (motion, growth) = seen.motion_kind(&map).expect("a motion");
         assert_eq!(motion, MotionKind::Unsettled, "{growth:?}");
     }
 }

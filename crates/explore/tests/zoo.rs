@@ -19,8 +19,13 @@ fn scene(name: &str) -> Result<Scene, Box<dyn std::error::Error>> {
 }
 
 fn kinds(scene: &Scene) -> Vec<&'static str> {
-    let phases = scene.phases().phases;
-    phases.iter().map(|phase| name(phase.kind)).collect()
+    let scene = scene.check().expect("valid");
+    scene
+        .phases()
+        .phases
+        .iter()
+        .map(|phase| name(phase.kind))
+        .collect()
 }
 
 /// The file of a line `Scene: [..](scenes/FILE)`.
@@ -196,7 +201,8 @@ fn limits_of_the_laws_lower_to_one_another() -> Outcome {
             stop,
             ..base.clone()
         }
-        .phases()
+        .check()
+        .map(|scene| scene.phases().clone())
     };
     let spring = with(kelvin_voigt(50.0, Release::Clearance));
     let preloaded = with(preloaded(50.0, 0.0));

@@ -56,7 +56,7 @@ impl Patience {
 pub(crate) fn motion_of(scene: &Scene, seen: &Result<SettledMotion, MotionError>) -> MotionKind {
     let motion = |seen: &SettledMotion| {
         Some(
-            seen.motion_kind(scene, &seen.watched_map(scene).ok()?)
+            seen.motion_kind(&seen.watched_map(&scene.check().ok()?))
                 .ok()?
                 .0,
         )

@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 use rayon::prelude::*;
-use softstop::{Ratios, Scene, Start};
+use softstop::{CheckedScene, Ratios, Start};
 use softstop_lanes::{Instructions, Job, Machine, run_parallel};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -17,13 +17,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let step = (1.4 - 0.95) / (motions.max(2) - 1) as f64;
     let scene = |number| {
         let frequency = 0.95 + step * number as f64;
-        Ratios::unloaded().at_frequency(frequency).scene()
+        Ratios::unloaded().at_frequency(frequency).scene()?.check()
     };
-    let scenes: Vec<Scene> = (0..motions).map(scene).collect::<Result<_, _>>()?;
+    let scenes: Vec<CheckedScene> = (0..motions).map(scene).collect::<Result<_, _>>()?;
     for repeat in 0..=repeats {
         let begin = Instant::now();
-        let machines = scenes.par_iter().map(Machine::new);
-        let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
+        let machines: Vec<Machine> = scenes.par_iter().map(Machine::new).collect();
         let job = |machine| Job {
             machine,
             start: Start::new(0.0, 14.0),

@@ -1,57 +1,39 @@
 //! A machine made ready for the lanes.
 
-use std::f64::consts::TAU;
-use std::sync::{Arc, OnceLock};
-
 use super::bounce_trains::BounceTrains;
 use super::law::Constants;
 use super::phase_graph::{MAX_PHASES, PhaseGraph};
-use softstop::internals::Phases;
-use softstop::{Clock, Scene, SceneError};
+use softstop::CheckedScene;
 
 /// A machine, lowered once for any number of motions.
 #[derive(Debug, Clone)]
 pub struct Machine {
-    scene: Scene,
-    phases: OnceLock<Arc<Phases>>,
-    pub(super) clock: Clock,
+    scene: CheckedScene,
     pub(super) laws: Option<Vec<Constants>>,
     pub(super) outline: Option<PhaseGraph>,
-    /// The drive: frequency in rad/s, cos and sin of its angle at time 0.
-    pub(super) frequency: f64,
+    /// Cos and sin of the drive angle at time 0.
     pub(super) angle: (f64, f64),
 }
 
 impl Machine {
-    /// Lowers a scene.
-    ///
-    /// # Errors
-    /// [`SceneError`] if the scene is invalid.
-    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
-        scene.validate()?;
-        let phases = scene.phases();
-        let count = phases.phases.len();
-        let drive = scene.excitation;
-        let trains = BounceTrains {
-            phases: &phases,
-            drive,
-        };
-        let for_lanes = count <= MAX_PHASES && trains.ends_before_rest();
+    /// Lowers a scene to the laws of the lanes.
+    pub fn new(scene: &CheckedScene) -> Self {
+        let (phases, drive) = (scene.phases(), scene.excitation);
+        let trains = BounceTrains { phases, drive };
+        let for_lanes = phases.phases.len() <= MAX_PHASES && trains.ends_before_rest();
         let laws = if for_lanes { trains.lane_laws() } else { None };
-        let kept = OnceLock::new();
-        if laws.is_none() {
-            let _ = kept.set(Arc::new(phases));
-        }
         let (sin, cos) = drive.phase.sin_cos();
-        Ok(Self {
+        Self {
             outline: laws.as_deref().map(PhaseGraph::from_laws),
             laws,
-            clock: scene.clock(),
             scene: scene.clone(),
-            phases: kept,
-            frequency: drive.frequency,
             angle: (cos, sin),
-        })
+        }
+    }
+
+    /// The scene of the machine.
+    pub fn scene(&self) -> &CheckedScene {
+        &self.scene
     }
 
     /// True if its motions can be followed in lanes: all its laws are linear but for a power law at the end,
@@ -66,22 +48,11 @@ impl Machine {
         laws.is_some_and(|laws| !laws.iter().any(Constants::has_power_law))
     }
 
-    /// The phases of the machine, shared; lowered anew when they are first asked for, as few motions in lanes do.
-    pub fn shared_phases(&self) -> Arc<Phases> {
-        let lowered = || Arc::new(self.scene.phases());
-        self.phases.get_or_init(lowered).clone()
-    }
-
     /// True if a position lies clearly in the free phase, the first, and lanes can follow the machine.
     pub(super) fn is_free_at(&self, position: f64) -> bool {
         let free = self.laws.iter().flatten().next();
         free.is_some_and(|free| {
             free.low + free.ambiguity < position && position < free.high - free.ambiguity
         })
-    }
-
-    /// A drive period in s.
-    pub(super) fn drive_period(&self) -> f64 {
-        TAU / self.frequency
     }
 }

@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn the_order_is_that_of_a_stroke() {
         let order = |ratios: Ratios| {
-            let machine = Machine::new(&ratios.scene().expect("valid")).expect("valid");
+            let machine = Machine::new(&ratios.scene().expect("valid").check().expect("valid"));
             let outline = machine.outline.expect("for lanes");
             phase_order(&[outline], outline.count)
         };

@@ -50,8 +50,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             {
                 let now = self.state.return_of(lane);
                 let drive = Drive {
-                    frequency: machine.frequency,
-                    period: machine.drive_period(),
+                    frequency: machine.scene().excitation.frequency,
+                    period: machine.scene().period(),
                     begin: Complex::new(machine.angle.0, machine.angle.1),
                 };
                 let laws = machine.laws.as_deref().unwrap_or_default();

@@ -39,7 +39,7 @@ pub(super) fn start_phase(machine: &Machine, start: Start) -> Result<Option<usiz
         return Ok(Some(0));
     }
     let at = Clock::at_cycle(0);
-    let motion = Motion::new(machine.shared_phases(), machine.clock, at, start)?;
+    let motion = Motion::new(machine.scene(), at, start)?;
     Ok(lane_phase(machine, &motion))
 }
 
@@ -64,7 +64,7 @@ pub(super) fn follow_safely(
         cycles: place.cycle as f64,
         offset: place.offset,
     };
-    let mut motion = Motion::new(machine.shared_phases(), machine.clock, at, place.state)?;
+    let mut motion = Motion::new(machine.scene(), at, place.state)?;
     if let Some(phase) = place.phase {
         motion.go_by_phase(phase);
     }

@@ -80,9 +80,13 @@ impl<S: Simd, const N: usize> State<S, N> {
     #[inline(always)]
     pub fn set_drive(&mut self, lane: usize, machine: &Machine) {
         let drive = &mut self.drive;
-        drive.frequency.set(lane, machine.frequency);
-        drive.period.set(lane, machine.drive_period());
-        drive.per_period.set(lane, 1.0 / machine.drive_period());
+        let (frequency, period) = (
+            machine.scene().excitation.frequency,
+            machine.scene().period(),
+        );
+        drive.frequency.set(lane, frequency);
+        drive.period.set(lane, period);
+        drive.per_period.set(lane, 1.0 / period);
         drive.begin.0.set(lane, machine.angle.0);
         drive.begin.1.set(lane, machine.angle.1);
     }

@@ -134,7 +134,7 @@ fn batch(count: usize) -> Batch {
 fn batch_of(scenes: Vec<Scene>) -> Batch {
     let machines = scenes
         .iter()
-        .map(|scene| Machine::new(scene).expect("valid"));
+        .map(|scene| Machine::new(&scene.check().expect("valid")));
     let jobs = scenes.iter().enumerate().map(|(machine, scene)| Job {
         machine,
         start: start(machine, scene),
@@ -267,7 +267,7 @@ fn compare_told(scene: &Scene, starts: Vec<Start>) {
             self.periods.entry(job).or_default().push((cycle, state));
         }
     }
-    let machines = [Machine::new(scene).expect("valid")];
+    let machines = [Machine::new(&scene.check().expect("valid"))];
     let job = |start| Job {
         machine: 0,
         start,

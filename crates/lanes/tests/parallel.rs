@@ -18,7 +18,7 @@ fn fleet() -> (Vec<Machine>, Vec<Job>) {
             frequency,
             ..Ratios::unloaded()
         };
-        Machine::new(&ratios.scene().expect("valid")).expect("valid")
+        Machine::new(&ratios.scene().expect("valid").check().expect("valid"))
     };
     let job = |number: usize| Job {
         machine: number % 9,
@@ -73,7 +73,7 @@ fn a_batch_ends_where_its_watcher_says_so() {
         stop: hertz(30.0, 1.2, 0.0),
         ..Ratios::unloaded().scene().expect("valid")
     };
-    let slow = Machine::new(&rough).expect("valid");
+    let slow = Machine::new(&rough.check().expect("valid"));
     assert!(linear.is_for_lanes() && !slow.is_for_lanes());
     for machine in [linear, slow] {
         machines.fill(machine);

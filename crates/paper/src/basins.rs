@@ -134,7 +134,7 @@ fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
         return Ok(Vec::new());
     };
     let (start, _) = basins.grid.start_of_cell(cell);
-    let map = StroboscopicMap::new(scene, 1)?;
+    let map = StroboscopicMap::new(&scene.check()?, 1);
     let mut states = Section::of(&map, start, STATES.0 + STATES.1, usize::MAX)?.states;
     Ok(states.split_off(STATES.1 as usize))
 }

@@ -153,7 +153,7 @@ impl Motion {
         };
         let machine = Ratios::unloaded();
         let scene = |eta: f64| machine.at_frequency(eta).scene();
-        let at_end = StroboscopicMap::new(&scene(transition.value)?, 1)?;
+        let at_end = StroboscopicMap::new(&scene(transition.value)?.check()?, 1);
         let (mut old, mut order) = (start.into(), Vec::new());
         for _ in 0..regime.periods {
             let passage = at_end.apply(old)?;
@@ -174,7 +174,7 @@ impl Motion {
             lengths: Vec::new(),
             calm: CALM * regime.periods,
         };
-        Ok(Some((motion, Machine::new(&scene(eta)?)?)))
+        Ok(Some((motion, Machine::new(&scene(eta)?.check()?))))
     }
 
     /// True if its stretches are known well enough.

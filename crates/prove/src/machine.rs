@@ -1,11 +1,11 @@
 //! A machine as the laws that its motion obeys, each with what ends it.
 //!
-//! They are the phases of the engine (`Scene::phases`), whose coefficients are doubles: what is proven is proven of these
+//! They are the phases of the engine (`CheckedScene::phases`), whose coefficients are doubles: what is proven is proven of these
 //! numbers.
 
 use serde::Serialize;
-use softstop::Scene;
 use softstop::internals::{Beyond, Exit, PhaseId, Phases};
+use softstop::{CheckedScene, MotionError, Scene};
 
 use crate::ProofError;
 use crate::interval::Interval;
@@ -60,7 +60,7 @@ pub struct Machine {
     /// Its phases, the free flight first.
     pub phases: Vec<Phase>,
     #[serde(skip)]
-    engine: Phases,
+    engine: CheckedScene,
 }
 
 impl Guard {
@@ -83,6 +83,7 @@ impl Machine {
     /// # Errors
     /// [`ProofError::Unsupported`] for a law without a closed form.
     pub fn new(scene: &Scene) -> Result<Self, ProofError> {
+        let scene = scene.check().map_err(MotionError::from)?;
         let engine = scene.phases();
         if engine.phases.iter().any(|phase| phase.hertz.is_some()) {
             return Err(ProofError::Unsupported(
@@ -103,14 +104,14 @@ impl Machine {
         Ok(Self {
             mass: scene.mass,
             amplitude: scene.excitation.amplitude,
-            phases: ids.map(|id| phase(&engine, id)).collect(),
-            engine,
+            phases: ids.map(|id| phase(engine, id)).collect(),
+            engine: scene.clone(),
         })
     }
 
     /// The phase at a state that lies on no surface.
     pub fn phase_at(&self, position: f64, velocity: f64) -> usize {
-        let [_, backward] = self.engine.laws_at(position, velocity, true);
+        let [_, backward] = self.engine.phases().laws_at(position, velocity, true);
         backward.index()
     }
 

@@ -85,10 +85,7 @@ impl<'a> Rows<'a> {
             true => self.len().min(1),
             false => self.len(),
         };
-        let lowered = |row| {
-            let own = self.machine(row);
-            Lowered::new(&own.scene).map_err(|error| own.validate().err().unwrap_or(error))
-        };
+        let lowered = |row| Ok(Lowered::new(&self.machine(row).check(None)?));
         (0..machines).into_par_iter().map(lowered).collect()
     }
 

@@ -2,7 +2,7 @@
 
 use std::slice;
 
-use softstop::{Machine, MotionError, Parameter};
+use softstop::{Machine, MotionError, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::continuation::{Direction, Test};
@@ -110,7 +110,7 @@ impl<'a> Judged<'a> {
     fn below_fold(&self, frequency: f64) -> f64 {
         let from = self.orbit.scene.clearance;
         let above = |clearance: f64| {
-            let mut scene = self.orbit.scene.clone();
+            let mut scene = Scene::clone(&self.orbit.scene);
             scene.clearance = clearance;
             let scenes = slice::from_ref(&scene);
             let zone = find_zones(self.zone.kind, scenes, &interrupt::watch).remove(0);
@@ -160,7 +160,8 @@ impl<'a> Judged<'a> {
         let Some(from) = parameter.get(scene) else {
             return f64::NAN;
         };
-        let family = ParameterFamily::new(scene.clone(), [parameter]).map_err(OrbitError::from);
+        let family =
+            ParameterFamily::new(Scene::clone(scene), [parameter]).map_err(OrbitError::from);
         let end =
             family.and_then(|family| find_end_along(&family, from, self.orbit, direction, test));
         match end {

@@ -125,7 +125,7 @@ fn is_shown(point: &BranchPoint) -> bool {
 /// The stable motions from g0 down, and where their period doubles.
 fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
     let start: Orbit = zone.orbit_of(zone.branch.first()?).ok()?;
-    let family = ParameterFamily::new(start.scene.clone(), [Parameter::Frequency]).ok()?;
+    let family = ParameterFamily::new(Scene::clone(&start.scene), [Parameter::Frequency]).ok()?;
     let follower = Continuation::new(&family, 1);
     let from = start.scene.excitation.frequency;
     let mut points = follower

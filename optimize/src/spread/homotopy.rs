@@ -1,6 +1,6 @@
 //! The z = 1 motion on a straight way out from the nominal machine.
 
-use softstop::{MotionError, Scene};
+use softstop::{CheckedScene, MotionError};
 use softstop_dynamics::continuation::{BranchPoint, Continuation, Direction, Family};
 use softstop_dynamics::internals::{Frequencies, LONGEST_BRANCH, find_end};
 use softstop_dynamics::monitor::stop_if;
@@ -61,11 +61,9 @@ struct Homotopy<'a> {
 }
 
 impl Family for Homotopy<'_> {
-    fn scene(&self, [share]: [f64; 1]) -> Result<Scene, MotionError> {
+    fn scene(&self, [share]: [f64; 1]) -> Result<CheckedScene, MotionError> {
         let at: Vec<f64> = self.to.iter().map(|to| share * to).collect();
-        let scene = self.spread.scene(&at);
-        scene.validate()?;
-        Ok(scene)
+        Ok(self.spread.scene(&at).check()?)
     }
 
     fn state_scales(&self) -> [f64; 2] {

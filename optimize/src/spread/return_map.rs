@@ -1,11 +1,8 @@
 //! One machine, one period: where a state goes, and where the z = 1 motion near it is.
 
-use std::sync::Arc as Shared;
-
 use nalgebra::{RowVector2, Vector2};
 
-use softstop::internals::{Motion, Phases};
-use softstop::{Arc, Clock, Crossing, MotionError, Observer, Scene, Start, Tangent};
+use softstop::{Arc, CheckedScene, Clock, Crossing, MotionError, Observer, Scene, Tangent};
 use softstop_dynamics::continuation::{BranchPoint, Test};
 use softstop_dynamics::internals::carry_on;
 use softstop_dynamics::orbit::Monodromy;
@@ -33,17 +30,12 @@ struct ReturnMap {
 }
 
 impl ReturnMap {
-    /// The period of a machine, with its phases, from a state on.
+    /// The period of a machine from a state on.
     ///
     /// # Errors
     /// [`MotionError`] for a motion that cannot be computed.
-    fn at(
-        (scene, phases): (&Scene, &Shared<Phases>),
-        state: Vector2<f64>,
-    ) -> Result<Self, MotionError> {
-        let start = Start::from(state);
-        start.validate()?;
-        let mut motion = Motion::new(phases.clone(), scene.clock(), Clock::at_cycle(0), start)?;
+    fn at(scene: &CheckedScene, state: Vector2<f64>) -> Result<Self, MotionError> {
+        let mut motion = scene.motion(state.into())?;
         let mut once = Self::default();
         carry_on(&mut motion, Clock::at_cycle(1), &mut once)?;
         motion.tell_arc(&mut once);
@@ -100,11 +92,11 @@ impl Settled {
     /// The stable z = 1 motion of a machine to which a few steps of Newton's method lead from a state near it, no farther
     /// than `reach` in the scales of the motion; none where that is in any doubt.
     pub fn near(scene: &Scene, guess: Vector2<f64>, reach: f64) -> Option<Self> {
-        scene.validate().ok()?;
-        let (phases, scales) = (Shared::new(scene.phases()), scene.motion_scales());
+        let scene = &scene.check().ok()?;
+        let scales = scene.motion_scales();
         let mut state = guess;
         for _ in 0..LOOKS {
-            let once = ReturnMap::at((scene, &phases), state).ok()?;
+            let once = ReturnMap::at(scene, state).ok()?;
             let step = once.step(state).filter(|_| once.impacts == 1)?;
             state += step;
             if scales.state(&(state - guess)).norm() > reach {

@@ -8,23 +8,23 @@ use crate::member::MemberStatus;
 use crate::orbit::recurrence::{find_return, motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::{NEAR, SAME};
-use softstop::{Scene, Start};
+use softstop::{CheckedScene, Start};
 
 /// Two orbits of the same period are one if two of their states are as near as the first of these, and the
 /// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows.
 const SAME_ORBIT: (f64, f64) = (1e-7, 1e-3);
 
 /// The stable orbits of a scene that are known.
-pub(crate) struct AttractorCatalogue<'a> {
-    scene: &'a Scene,
+pub(crate) struct AttractorCatalogue {
+    scene: CheckedScene,
     pub orbits: Vec<KnownOrbit>,
 }
 
-impl<'a> AttractorCatalogue<'a> {
+impl AttractorCatalogue {
     /// An empty catalogue of a scene's stable orbits.
-    pub(crate) fn new(scene: &'a Scene) -> Self {
+    pub(crate) fn new(scene: &CheckedScene) -> Self {
         Self {
-            scene,
+            scene: scene.clone(),
             orbits: Vec::new(),
         }
     }
@@ -64,7 +64,7 @@ impl<'a> AttractorCatalogue<'a> {
         if self.is_at_rest(last)? {
             return Ok(MemberStatus::AtRest);
         }
-        let orbit = match Orbit::find_periodic(self.scene, (*last).into(), found.periods as u64) {
+        let orbit = match Orbit::find_periodic(&self.scene, (*last).into(), found.periods as u64) {
             Ok(orbit) if orbit.is_stable() => orbit,
             _ => return Ok(MemberStatus::Wandering),
         };
@@ -84,7 +84,7 @@ impl<'a> AttractorCatalogue<'a> {
     /// True if a mass is held where it is for all of a drive period, or creeps there ever more slowly: not one
     /// orbit among others, but any place where dry friction holds it.
     fn is_at_rest(&self, state: &Start) -> Result<bool, OrbitError> {
-        let map = StroboscopicMap::new(self.scene, 1)?;
+        let map = StroboscopicMap::new(&self.scene, 1);
         let passage = map.apply((*state).into())?;
         let held = Matrix2::new(1.0, 0.0, 0.0, 0.0);
         let gap = Start::new(state.position - passage.end.x, state.velocity);

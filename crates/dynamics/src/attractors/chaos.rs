@@ -3,7 +3,7 @@
 use crate::ensemble::Ensemble;
 use crate::extremes::extremes;
 use crate::orbit::{Exponents, OrbitError, StroboscopicMap};
-use softstop::{Crossing, Observer, Scene, Start};
+use softstop::{CheckedScene, Crossing, Observer, Start};
 
 /// A chaotic motion, one that never repeats as far as it was watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,13 +42,13 @@ const MAX_COUNTED_PERIODS: u64 = 4096;
 impl Chaos {
     /// The chaos that a motion from a state is, which still wanders at the end of its exponents.
     pub(super) fn of_motion(
-        scene: &Scene,
+        scene: &CheckedScene,
         ensemble: &Ensemble<'_>,
         (begin, state): (Start, Start),
         exponents: Exponents,
     ) -> Result<Self, OrbitError> {
         let counted = MAX_COUNTED_PERIODS.min(exponents.periods);
-        let map = StroboscopicMap::new(scene, counted)?;
+        let map = StroboscopicMap::new(scene, counted);
         let mut impacts = ImpactVelocities::default();
         map.image_with_observer(begin.into(), &mut impacts)?;
         let ImpactVelocities(velocities) = impacts;

@@ -1,6 +1,5 @@
 //! The basin test: which motions come to one stable orbit; it costs far less than a survey of all attractors.
 
-use std::f64::consts::TAU;
 use std::slice::from_ref;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -18,7 +17,7 @@ use crate::tolerance::SAME;
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
 use softstop::internals::budget::SharedBudget;
-use softstop::{Excitation, Instant, MotionError, Scene, Start};
+use softstop::{Instant, MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
 /// Motions of a basin test that go together, enough for all lanes, whatever the number of threads.
@@ -41,7 +40,6 @@ const BORDER_ARRIVAL_DISTANCE: f64 = 2e-2;
 /// A test of which motions come to a stable orbit, by balls about its points in which its map contracts.
 pub struct BasinTest {
     machine: Machine,
-    drive: Excitation,
     states: Vec<Start>,
     /// Contraction balls of the orbit, and of the motion without impacts if it is another one: what lies there is lost.
     balls: ContractionBalls,
@@ -114,8 +112,7 @@ impl BasinTest {
             balls.add_orbit(IMPACTLESS_ORBIT, &other)?;
         }
         Ok(Self {
-            machine: Machine::new(scene)?,
-            drive: scene.excitation,
+            machine: Machine::new(scene),
             states,
             balls,
             patience,
@@ -168,11 +165,12 @@ impl BasinTest {
         is_decided: &(dyn Fn(bool) -> bool + Sync),
         monitor: Monitor<'_>,
     ) -> Result<Vec<bool>, OrbitError> {
+        let scene = self.machine.scene();
         let motion = |state: &Start| TestedMotion {
             member: Member::new(0, *state),
-            angle: self.drive.phase,
+            angle: scene.excitation.phase,
             time: 0.0,
-            period: TAU / self.drive.frequency,
+            period: scene.period(),
             strokes: StrokeCount::after_impact(0.0),
         };
         let follow_motions = |starts: &[Start]| {
@@ -222,13 +220,13 @@ impl BasinTest {
 
     /// What a motion of the basin test has come to.
     fn classify_motion(&self, motion: &TestedMotion, is_last: bool) -> MemberStatus {
-        let phases = self.machine.shared_phases();
-        let state = bring_to_section(&phases, self.drive, motion.member.state, motion.angle);
+        let scene = self.machine.scene();
+        let frequency = scene.excitation.frequency;
+        let state = bring_to_section(scene, motion.member.state, motion.angle);
         let Ok(state) = state else {
             return MemberStatus::Lost;
         };
-        let is_near =
-            |own: &Start| state_distance(self.drive.frequency, own, &state) <= self.arrived;
+        let is_near = |own: &Start| state_distance(frequency, own, &state) <= self.arrived;
         match self.balls.orbit_holding(state) {
             Some(orbit) => MemberStatus::Arrived(orbit),
             None if !is_last => MemberStatus::Open,

@@ -56,7 +56,7 @@ impl BasinSurvey<'_> {
         };
         let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
         let (exponents, _) =
-            Exponents::along_motion_with_monitor(self.scene, state, BATCH_PERIODS.0, ask)?;
+            Exponents::along_motion_with_monitor(&self.scene, state, BATCH_PERIODS.0, ask)?;
         let motion = match exponents.is_positive() {
             true => MotionKind::Chaos,
             false => MotionKind::Unsettled,

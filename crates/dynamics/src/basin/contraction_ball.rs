@@ -54,7 +54,7 @@ impl ContractionBall {
 
     /// The contraction balls about all points of an orbit.
     fn about_orbit(orbit: &Orbit) -> Result<Vec<Self>, MotionError> {
-        let map = StroboscopicMap::new(&orbit.scene, orbit.periods)?;
+        let map = StroboscopicMap::new(&orbit.scene, orbit.periods);
         let states = orbit.states()?;
         let w = orbit.scene.excitation.frequency;
         let lengths = states.iter().map(|state| (w * state.x).hypot(state.y));

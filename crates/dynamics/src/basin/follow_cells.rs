@@ -58,7 +58,7 @@ impl BasinSurvey<'_> {
         &self,
         tile: &[usize],
     ) -> Result<(Vec<FollowedCell>, Option<LostCell>), OrbitError> {
-        let of = ("tile", self.scene, self.grid, self.options, tile[0]);
+        let of = ("tile", &*self.scene, self.grid, self.options, tile[0]);
         let open = |cell: &usize| (*cell, self.states[*cell], MemberStatus::Open);
         let mut left: Vec<FollowedCell> = tile.iter().map(open).collect();
         let (mut ended, mut lost) = (Vec::new(), None);

@@ -12,7 +12,8 @@ use crate::member::{Member, MemberStatus};
 use crate::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
 use crate::orbit::OrbitError;
 use softstop::internals::budget::SharedBudget;
-use softstop::{MotionError, Scene, Start};
+use softstop::{CheckedScene, MotionError, Scene, Start};
+use softstop_lanes::Machine;
 
 /// Cells of a tile, which go together: enough for all lanes, whatever the number of threads.
 pub(super) const TILE_CELLS: usize = 4096;
@@ -29,12 +30,12 @@ pub(super) type LostCell = (usize, String);
 
 /// A survey of the basins of a scene on a grid, under way.
 pub(super) struct BasinSurvey<'a> {
-    pub scene: &'a Scene,
+    pub scene: CheckedScene,
     pub grid: &'a Grid,
     pub options: BasinOptions,
     /// The ensemble of the cells' motions, which counts cells.
     pub ensemble: Ensemble<'a>,
-    pub catalogue: AttractorCatalogue<'a>,
+    pub catalogue: AttractorCatalogue,
     /// Contraction balls of the orbits in the catalogue.
     pub balls: ContractionBalls,
     pub states: Vec<Start>,
@@ -68,19 +69,20 @@ pub fn find_basins(
     monitor: Monitor<'_>,
     kept: OptionalMemory<'_>,
 ) -> Result<Basins, OrbitError> {
-    let mut ensemble = Ensemble::of_scene(scene, monitor)?;
+    let scene = scene.check()?;
+    let mut ensemble = Ensemble::new(vec![Machine::new(&scene)], monitor);
     ensemble.planned = grid.cell_count() as u64;
     let mut survey = BasinSurvey {
-        scene,
         grid,
         options: *options,
         ensemble,
-        catalogue: AttractorCatalogue::new(scene),
+        catalogue: AttractorCatalogue::new(&scene),
         balls: ContractionBalls::default(),
         states: Vec::new(),
         outcomes: Vec::new(),
         lost: None,
         kept,
+        scene,
     };
     survey.bring_cells_to_section()?;
     survey.scout_grid()?;
@@ -141,8 +143,7 @@ impl BasinSurvey<'_> {
     /// The state of a cell's motion when the drive angle next is phi.
     fn cell_at_section(&self, cell: usize) -> Result<Start, MotionError> {
         let (start, angle) = self.grid.start_of_cell(cell);
-        let phases = self.ensemble.machines[0].shared_phases();
-        bring_to_section(&phases, self.scene.excitation, start, angle)
+        bring_to_section(&self.scene, start, angle)
     }
 
     /// Judges a few cells, spread over the grid, which fill the catalogue.
@@ -183,7 +184,7 @@ impl BasinSurvey<'_> {
     fn judge_cells(&mut self, cells: &[usize], periods: u64) -> Result<(), OrbitError> {
         let of = (
             "look",
-            self.scene,
+            self.scene.clone(),
             self.grid,
             self.options,
             cells.first(),
@@ -236,7 +237,7 @@ impl BasinSurvey<'_> {
             return self.log_together(cells, periods);
         }
         let one = |cell: &usize| {
-            let of = ("cell", self.scene, self.grid, self.options, cell, periods);
+            let of = ("cell", &*self.scene, self.grid, self.options, cell, periods);
             recall_or_compute(self.kept, &of, || self.log_together(&[*cell], periods))
         };
         let fork = SharedBudget::default();

@@ -161,7 +161,7 @@ pub(super) trait Codimension: Equations {
             return None;
         }
         let scene = machines.scene(point.parameters).ok()?;
-        let map = StroboscopicMap::new(&scene, periods / 2).ok()?;
+        let map = StroboscopicMap::new(&scene, periods / 2);
         let gap = map.apply(point.state()).ok()?.end - point.state();
         let scales = scene.motion_scales();
         Some(Vector2::new(gap.x / scales.length, gap.y / scales.speed()))

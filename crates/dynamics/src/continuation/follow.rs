@@ -203,14 +203,9 @@ impl<'a, F: Family> Continuation<'a, F> {
     /// [`OrbitError`] if the point is not on a z = 1 orbit.
     pub fn orbit_at(&self, point: &BranchPoint) -> Result<Orbit, OrbitError> {
         let scene = self.shooting.family.scene([point.parameter])?;
-        let map = StroboscopicMap::new(&scene, self.shooting.periods)?;
+        let map = StroboscopicMap::new(&scene, self.shooting.periods);
         let passage = map.apply(point.state())?;
-        Ok(Orbit::from_map(
-            &scene,
-            map.periods(),
-            point.state(),
-            passage,
-        ))
+        Ok(Orbit::from_map(map.periods(), point.state(), passage))
     }
 
     /// The point of a branch at a node, as it is seen at drive angle phi.

@@ -42,9 +42,9 @@ impl GrazingTest {
     /// The grazing test of the orbit at a node.
     pub fn of_node<F: Family>(shooting: &Shooting<'_, F, 1>, node: &Node<PeriodMap>) -> Self {
         let round = &node.here.point;
-        let scene = &round.scene;
         let total = round.sequence.crossing_count();
         let motion = &round.trajectory;
+        let scene = &motion.scene;
         let taken = round
             .slowest
             .map_or(0, |touch| crossings_with(motion, touch.time));

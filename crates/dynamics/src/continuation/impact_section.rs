@@ -14,7 +14,7 @@ use crate::monitor::stop_if;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::period::PeriodTrajectory;
 use crate::tolerance::SAME;
-use softstop::{Arc, Clock, Crossing, Instant, Observer, Scene};
+use softstop::{Arc, CheckedScene, Clock, Crossing, Instant, Observer};
 
 /// An impact section of a family: the surface at which its orbits begin and end.
 #[derive(Debug, Clone, Copy)]
@@ -79,9 +79,12 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
     }
 
     /// The scene with time 0 at the section, where the drive has this angle, and the position of the surface.
-    pub fn scene_at(&self, angle: f64, parameters: [f64; N]) -> Result<(Scene, f64), OrbitError> {
-        let mut scene = self.family.scene(parameters)?;
-        scene.excitation.phase = angle;
+    pub fn scene_at(
+        &self,
+        angle: f64,
+        parameters: [f64; N],
+    ) -> Result<(CheckedScene, f64), OrbitError> {
+        let scene = self.family.scene(parameters)?.at_phase(angle)?;
         let position = self.face.face_position(&scene).ok_or(NO_CROSSING)?;
         Ok((scene, position))
     }
@@ -89,7 +92,7 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
     /// Carries a motion around from the section: how far it is off after its periods, scaled, and the motion.
     pub fn carry_around(
         &self,
-        scene: &Scene,
+        scene: &CheckedScene,
         start: Vector2<f64>,
     ) -> Result<(Vector2<f64>, LastArc), OrbitError> {
         let around = LastArc::carry_past(scene, start, (self.crossings, self.periods))?;
@@ -104,9 +107,8 @@ impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
         let phase = self.family.scene(parameters)?.excitation.phase;
         let (scene, position) = self.scene_at(angle, parameters)?;
         let gone = ((angle - phase) / TAU).rem_euclid(self.periods as f64);
-        let machine = (&scene, scene.phases().into());
         let begin = Vector2::new(position, velocity);
-        Ok(state_after(machine, begin, self.periods as f64 - gone)?)
+        Ok(state_after(&scene, begin, self.periods as f64 - gone)?)
     }
 }
 
@@ -127,14 +129,14 @@ impl LastArc {
     /// # Errors
     /// [`OrbitError`] if it does not cross as often, or cannot be computed.
     pub fn carry_past(
-        scene: &Scene,
+        scene: &CheckedScene,
         start: Vector2<f64>,
         (crossings, periods): (usize, u64),
     ) -> Result<Self, OrbitError> {
         let mut motion = scene.motion(start.into())?;
         let until = Clock::at_cycle(periods);
         let mut around = Self {
-            motion: PeriodTrajectory::empty(motion.shared_phases(), *motion.clock()),
+            motion: PeriodTrajectory::empty(scene),
             is_cut: false,
             left: crossings,
             until,

@@ -73,7 +73,7 @@ pub use special_curve::follow_special;
 pub use switching::switch_curves;
 pub use test::Test;
 
-use softstop::{MotionError, Scene};
+use softstop::{CheckedScene, MotionError};
 
 /// A family of scenes along one or more parameters. To add one, implement the first three methods.
 pub trait Family<const PARAMETERS: usize = 1> {
@@ -81,7 +81,7 @@ pub trait Family<const PARAMETERS: usize = 1> {
     ///
     /// # Errors
     /// [`MotionError`] if there is no such scene.
-    fn scene(&self, parameters: [f64; PARAMETERS]) -> Result<Scene, MotionError>;
+    fn scene(&self, parameters: [f64; PARAMETERS]) -> Result<CheckedScene, MotionError>;
 
     /// Typical sizes of position in m and velocity in m/s in the family.
     fn state_scales(&self) -> [f64; 2];

@@ -30,7 +30,7 @@ pub fn normal_form_coefficient(
         Test::Flip => -1.0,
         Test::NeimarkSacker => return Ok(None),
     };
-    let map = StroboscopicMap::new(scene, periods)?;
+    let map = StroboscopicMap::new(&scene.check()?, periods);
     let scales = scene.scales();
     let units = Matrix2::from_diagonal(&Vector2::new(scales.length, scales.speed()));
     let bare = Matrix2::from_diagonal(&Vector2::new(scales.length, scales.speed()).map(f64::recip));

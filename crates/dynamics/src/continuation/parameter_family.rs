@@ -1,12 +1,13 @@
 //! The family of a machine along its own parameters.
 
 use super::Family;
-use softstop::{Dimension, Machine, MotionError, Parameter, Scene, SceneError};
+use softstop::{CheckedScene, Dimension, Machine, MotionError, Parameter, SceneError};
 
 /// A machine as a family along some of its parameters.
 #[derive(Debug, Clone)]
 pub struct ParameterFamily<const N: usize> {
     machine: Machine,
+    scene: CheckedScene,
     parameters: [Parameter; N],
     state_scales: [f64; 2],
     parameter_scales: [f64; N],
@@ -25,8 +26,8 @@ impl<const N: usize> ParameterFamily<N> {
         parameters: [Parameter; N],
     ) -> Result<Self, SceneError> {
         let machine = machine.into();
-        machine.validate()?;
-        let scales = machine.scene.motion_scales();
+        let scene = machine.check(None)?;
+        let scales = scene.motion_scales();
         let mut parameter_scales = [TYPICAL_CHANGE; N];
         for (scale, parameter) in parameter_scales.iter_mut().zip(parameters) {
             let value = machine
@@ -38,6 +39,7 @@ impl<const N: usize> ParameterFamily<N> {
         }
         Ok(Self {
             machine,
+            scene,
             parameters,
             state_scales: [scales.length, scales.speed()],
             parameter_scales,
@@ -52,13 +54,12 @@ impl<const N: usize> ParameterFamily<N> {
 }
 
 impl<const N: usize> Family<N> for ParameterFamily<N> {
-    fn scene(&self, parameters: [f64; N]) -> Result<Scene, MotionError> {
+    fn scene(&self, parameters: [f64; N]) -> Result<CheckedScene, MotionError> {
         let mut machine = self.machine.clone();
         for (parameter, value) in self.parameters.into_iter().zip(parameters) {
             machine.set(parameter, value);
         }
-        machine.validate()?;
-        Ok(machine.scene)
+        Ok(machine.check(Some(&self.scene))?)
     }
 
     fn state_scales(&self) -> [f64; 2] {

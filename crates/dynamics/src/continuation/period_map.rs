@@ -9,16 +9,14 @@ use super::sequence::{CountedCrossings, Sequence};
 use crate::orbit::Monodromy;
 use crate::period::PeriodTrajectory;
 use crate::tolerance::ROUNDING;
-use softstop::internals::{FrequencySensitivity, Motion, Phases};
-use softstop::{Arc, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scene};
+use softstop::internals::{FrequencySensitivity, Motion};
+use softstop::{Arc, CheckedScene, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scene};
 
 /// The period map of a state: its image after some drive periods from time 0, derivatives, and what happens on the way.
 #[derive(Debug, Clone)]
 pub(crate) struct PeriodMap {
     /// The unknowns that it belongs to.
     pub place: DVector<f64>,
-    /// Its machine.
-    pub scene: Shared<Scene>,
     /// Where the map begins: the state, or the face of a rigid stop for a state beyond it.
     pub start: Vector2<f64>,
     /// Exact Jacobian of the map.
@@ -38,10 +36,10 @@ pub(crate) struct PeriodMap {
 }
 
 impl PeriodMap {
-    /// The period map of a valid scene, with its phases, from unknowns and the state that they are; with its derivative by
+    /// The period map of a scene from unknowns and the state that they are; with its derivative by
     /// the drive's frequency if that is wanted.
     pub fn from_state(
-        (scene, phases): (Scene, Shared<Phases>),
+        scene: CheckedScene,
         periods: u64,
         (place, state): (&DVector<f64>, Vector2<f64>),
         by_frequency: bool,
@@ -50,7 +48,7 @@ impl PeriodMap {
         let over = |motion: &mut Motion, kept: &mut PeriodTrajectory| {
             carry_through(motion, Clock::at_cycle(periods), kept)
         };
-        let trajectory = PeriodTrajectory::record((phases, scene.clock()), start, over)?;
+        let trajectory = PeriodTrajectory::record(&scene, start, over)?;
         let mut sensitivity = FrequencySensitivity::default();
         if by_frequency {
             trajectory.replay(&mut sensitivity);
@@ -79,7 +77,6 @@ impl PeriodMap {
             sequence: crossings.count_crossings(&scene),
             slowest: crossings.slowest_crossing(),
             margin,
-            scene: scene.into(),
             trajectory: trajectory.into(),
         })
     }
@@ -100,14 +97,14 @@ fn crossing_margin(trajectory: &PeriodTrajectory, periods: u64) -> f64 {
     })
 }
 
-/// The state of a valid scene, with its phases, so many drive periods after one at time 0.
+/// The state of a motion of a scene so many drive periods after one at time 0.
 pub(super) fn state_after(
-    (scene, phases): (&Scene, Shared<Phases>),
+    scene: &CheckedScene,
     state: Vector2<f64>,
     periods: f64,
 ) -> Result<Vector2<f64>, MotionError> {
     let clock = scene.clock();
-    let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), state.into())?;
+    let mut motion = scene.motion(state.into())?;
     let end = clock.instant(periods * clock.period());
     carry_through(&mut motion, end, &mut ())?;
     Ok(motion.state().into())

@@ -65,9 +65,8 @@ impl<'a, F: Family> Continuation<'a, F> {
     ) -> Result<DVector<f64>, MotionError> {
         let whole = self.shooting.periods as f64;
         let scene = self.shooting.scene_at(at)?;
-        let machine = (&scene, self.shooting.lower_phases(&scene));
         let begin = before_wall(&scene, self.shooting.state_at(at));
-        let state = state_after(machine, begin, periods.rem_euclid(whole))?;
+        let state = state_after(&scene, begin, periods.rem_euclid(whole))?;
         Ok(self.shooting.scaled(state, self.shooting.parameters(at)))
     }
 

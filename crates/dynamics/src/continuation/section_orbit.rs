@@ -21,7 +21,7 @@ use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::period::PeriodTrajectory;
 use softstop::internals::Phase;
-use softstop::{Clock, CrossingKind, MotionError, Scene};
+use softstop::{CheckedScene, Clock, CrossingKind, MotionError, Scene};
 
 /// What an orbit does at its impact section, and what vanishes on it besides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,11 +61,9 @@ impl<'a, F: Family<N>, const N: usize> SectionOrbit<'a, F, N> {
         parameters: [f64; N],
     ) -> Result<Option<(Self, DVector<f64>)>, MotionError> {
         let scene = family.scene(parameters)?;
-        scene.validate()?;
-        let machine = (scene.phases().into(), scene.clock());
         let end = Clock::at_cycle(periods);
         let over = |motion: &mut _, kept: &mut PeriodTrajectory| carry_through(motion, end, kept);
-        let motion = PeriodTrajectory::record(machine, state, over)?;
+        let motion = PeriodTrajectory::record(&scene, state, over)?;
         let entries = motion.crossings().filter(|it| {
             let enters = matches!(it.kind, CrossingKind::Surface { forward: true, .. });
             enters || matches!(it.kind, CrossingKind::Rebound { .. })
@@ -163,7 +161,7 @@ impl<'a, F: Family<N>, const N: usize> SectionOrbit<'a, F, N> {
     fn carry_around(
         &self,
         at: &DVector<f64>,
-    ) -> Result<(Vector2<f64>, LastArc, Scene, Vector2<f64>), OrbitError> {
+    ) -> Result<(Vector2<f64>, LastArc, CheckedScene, Vector2<f64>), OrbitError> {
         let (scene, position) = self.section.scene_at(at[0], self.section.parameters(at))?;
         let begin = Vector2::new(position, self.velocity(at));
         let (drift, around) = self.section.carry_around(&scene, begin)?;

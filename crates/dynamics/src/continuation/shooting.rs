@@ -1,9 +1,6 @@
 //! Stroboscopic shooting: the equations P(s) = s of a periodic orbit over a number of drive periods.
 
-use std::cell::RefCell;
 use std::f64::consts::TAU;
-use std::rc::Rc;
-use std::sync::Arc as Shared;
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -13,8 +10,8 @@ use super::period_map::PeriodMap;
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR_GRAZING};
-use softstop::internals::{ParameterSensitivity, PhaseDerivatives, Phases};
-use softstop::{MotionError, Scene};
+use softstop::internals::{ParameterSensitivity, PhaseDerivatives};
+use softstop::{CheckedScene, MotionError, Scene};
 
 /// The shooting for orbits of a family over drive periods, in scaled unknowns: position, velocity, parameters.
 #[derive(Debug)]
@@ -24,8 +21,6 @@ pub(crate) struct Shooting<'a, F, const N: usize> {
     /// Drive periods from drive angle phi to the section.
     pub turn: f64,
     scales: DVector<f64>,
-    /// The phases of the scene at the last place.
-    lowered: Rc<RefCell<Option<Shared<Phases>>>>,
 }
 
 impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
@@ -38,7 +33,6 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
             periods,
             turn: 0.0,
             scales: DVector::from_iterator(2 + N, scales),
-            lowered: Rc::default(),
         }
     }
 
@@ -49,7 +43,6 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
             periods,
             turn: turn.rem_euclid(periods as f64),
             scales: self.scales.clone(),
-            lowered: self.lowered.clone(),
         }
     }
 
@@ -70,26 +63,10 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
     }
 
     /// The scene of these unknowns, with time 0 at the section.
-    pub fn scene_at(&self, at: &DVector<f64>) -> Result<Scene, MotionError> {
-        let mut scene = self.family.scene(self.parameters(at))?;
-        scene.excitation.phase += TAU * self.turn;
-        Ok(scene)
-    }
-
-    /// The phases of a scene of the family, lowered anew only where more than the frequency differs.
-    pub fn lower_phases(&self, scene: &Scene) -> Shared<Phases> {
-        let known = self.lowered.take().filter(|_| self.is_by_frequency());
-        let phases = known.map_or_else(
-            || scene.phases().into(),
-            |mut phases| {
-                if phases.frequency != scene.excitation.frequency {
-                    Shared::make_mut(&mut phases).set_frequency(scene.excitation.frequency);
-                }
-                phases
-            },
-        );
-        self.lowered.replace(Some(phases.clone()));
-        phases
+    pub fn scene_at(&self, at: &DVector<f64>) -> Result<CheckedScene, MotionError> {
+        let scene = self.family.scene(self.parameters(at))?;
+        let phase = scene.excitation.phase + TAU * self.turn;
+        Ok(scene.at_phase(phase)?)
     }
 
     /// True if all machines of the family differ by the drive's frequency alone.
@@ -122,15 +99,13 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<PeriodMap>, OrbitError> {
         let state = self.state_at(at);
         let scene = self.scene_at(at)?;
-        let phases = self.lower_phases(&scene);
         let start = (at, state);
-        let round =
-            PeriodMap::from_state((scene, phases), self.periods, start, self.is_by_frequency())?;
+        let round = PeriodMap::from_state(scene, self.periods, start, self.is_by_frequency())?;
         let gap = round.trajectory.end - state;
         let sizes = self.family.state_scales();
         Ok(Evaluation {
             residual: DVector::from_column_slice(self.scaled_change(gap).as_slice()),
-            tolerance: round_off(&round.scene, &state, &round.monodromy, sizes),
+            tolerance: round_off(&round.trajectory.scene, &state, &round.monodromy, sizes),
             point: round,
         })
     }
@@ -175,23 +150,20 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
 
     fn slopes_along(&self, here: &Evaluation<PeriodMap>) -> Option<DMatrix<f64>> {
         let PeriodMap {
-            scene,
-            trajectory,
-            start,
-            ..
+            trajectory, start, ..
         } = &here.point;
+        let scene = &trajectory.scene;
         let by = (2..2 + N).map(|unknown| {
             let towards = |step: f64| {
                 let mut moved_place = here.point.place.clone();
                 moved_place[unknown] += step;
                 let moved = self.scene_at(&moved_place).ok()?;
-                let machine = (&**scene, &*trajectory.phases);
-                PhaseDerivatives::between(machine, (&moved, &moved.phases()), step)
+                PhaseDerivatives::between(scene, &moved, step)
             };
             towards(DIFFERENCE_WIDTH).or_else(|| towards(-DIFFERENCE_WIDTH))
         });
         let by = by.collect::<Option<Vec<_>>>()?;
-        let mut sensitivity = ParameterSensitivity::new(&trajectory.phases, &by);
+        let mut sensitivity = ParameterSensitivity::new(scene.phases(), &by);
         trajectory.replay(&mut sensitivity);
         let [from_position, from_velocity, forced @ ..] = sensitivity.columns()? else {
             return None;
@@ -201,7 +173,7 @@ impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
             let faster = by.frequency * Vector2::new(0.0, trajectory.end.y)
                 - by.frequency * start.y * from_velocity.xy();
             let moved = match here.point.monodromy == Monodromy::ZERO {
-                true => by.surface_derivative(&trajectory.phases, start.x) * from_position.xy(),
+                true => by.surface_derivative(scene.phases(), start.x) * from_position.xy(),
                 false => Vector2::zeros(),
             };
             self.scaled_change(forced.xy() + faster + moved)

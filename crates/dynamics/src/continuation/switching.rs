@@ -14,7 +14,7 @@ use super::section_orbit::SectionOrbit;
 use super::special_curve::{end_in_flips, follow_special};
 use super::test::Test;
 use crate::monitor::stop_if;
-use softstop::{MotionError, Scene};
+use softstop::{CheckedScene, MotionError};
 
 /// Scaled velocities of the weak impact at which folds and flips beside resonant grazing are looked for.
 const WEAK_VELOCITIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -148,7 +148,7 @@ struct FixedSecond<'a, F> {
 }
 
 impl<F: Family<2>> Family for FixedSecond<'_, F> {
-    fn scene(&self, [first]: [f64; 1]) -> Result<Scene, MotionError> {
+    fn scene(&self, [first]: [f64; 1]) -> Result<CheckedScene, MotionError> {
         self.family.scene([first, self.second])
     }
 

@@ -44,7 +44,7 @@ struct HalfPeriod {
 impl<F: Family> Shooting<'_, F, 1> {
     /// Half the period of a motion; none if the machine is not its own mirror image, or periods are even in number.
     fn half_period(&self, map: &PeriodMap) -> Option<HalfPeriod> {
-        let scene = &*map.scene;
+        let scene = &*map.trajectory.scene;
         if self.periods.is_multiple_of(2) || !is_symmetric(scene) {
             return None;
         }

@@ -98,7 +98,7 @@ impl CycleMetrics {
     pub fn of(orbit: &Orbit) -> Result<Self, MotionError> {
         let scene = &orbit.scene;
         let motion = orbit.trajectory()?;
-        let (supplied, losses) = supplied_and_lost_energy(scene, &motion);
+        let (supplied, losses) = supplied_and_lost_energy(&motion);
         let duration = scene.period() * orbit.periods as f64;
         let energy = |velocity: f64| 0.5 * scene.mass * velocity * velocity;
         let hardest = orbit.before_impact_velocity();
@@ -111,8 +111,8 @@ impl CycleMetrics {
             .wall()
             .filter(|_| !matches!(scene.stop, Stop::Rigid { .. }));
         let lowest = motion.min_position();
-        let force = |kinds: &[PhaseKind]| largest_force(scene, &motion, kinds);
-        let (stop_force, strip_force) = (peak_stop_force(scene, &motion), force(STRIP_PHASES));
+        let force = |kinds: &[PhaseKind]| largest_force(&motion, kinds);
+        let (stop_force, strip_force) = (peak_stop_force(&motion), force(STRIP_PHASES));
         let blows = motion.crossings();
         let blows = blows.filter(|it| matches!(it.kind, CrossingKind::Rebound { .. }));
         let impulses = blows.map(|it| scene.mass * (it.velocity - it.velocity_after));
@@ -135,7 +135,7 @@ impl CycleMetrics {
             supplied,
             losses,
             mean_power: supplied / duration,
-            peak_power: peak_drive_power(scene, &motion),
+            peak_power: peak_drive_power(&motion),
         })
     }
 }

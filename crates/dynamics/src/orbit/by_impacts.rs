@@ -1,6 +1,6 @@
 //! Periodic orbits from their impacts, and the shortest period that repeats.
 
-use softstop::Scene;
+use softstop::CheckedScene;
 
 use super::multi_segment_shooting::MultiSegmentShooting;
 use super::{Orbit, OrbitError};
@@ -14,11 +14,10 @@ impl Orbit {
     /// # Errors
     /// [`OrbitError`] if it does not settle, or on impacts between which there are others.
     pub fn find_by_impacts(
-        scene: &Scene,
+        scene: &CheckedScene,
         periods: u64,
         impacts: &[(f64, f64)],
     ) -> Result<Self, OrbitError> {
-        scene.validate()?;
         let none = OrbitError::OtherRegime { impacts: 0 };
         if impacts.is_empty() {
             return Err(none);

@@ -9,7 +9,7 @@ use crate::tolerance::SAME;
 use softstop::internals::{LinearLaw, Motion, NextEvent, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Tangent, Touch};
 
-impl MultiSegmentShooting<'_> {
+impl MultiSegmentShooting {
     /// The periodic orbit through impacts between which the segments of the shooting fit.
     pub(super) fn close_orbit(
         &self,
@@ -63,9 +63,9 @@ impl MultiSegmentShooting<'_> {
             instant: clock.instant(time),
             before_impact_velocity: velocity,
         };
-        let map = StroboscopicMap::new(self.scene, self.periods)?;
+        let map = StroboscopicMap::new(&self.face.scene, self.periods);
         Ok(Orbit {
-            scene: self.scene.clone(),
+            scene: self.face.scene.clone(),
             periods: self.periods,
             position: state.x,
             velocity: state.y,
@@ -123,11 +123,10 @@ impl MultiSegmentShooting<'_> {
         if free >= 0.0 {
             return Ok(flight_factor(&flow, time));
         }
-        let (phases, clock) = (self.face.phases.clone(), self.face.clock);
-        let mut motion = Motion::new(phases, clock, Clock::at_cycle(0), state.into())?;
+        let mut motion = self.face.scene.motion(state.into())?;
         // The mass may leave a little later than it did by the contact that began before.
         let between = 0.5 * (time - free);
-        let tangent = advance_with_tangent(&mut motion, clock.instant(between))?;
+        let tangent = advance_with_tangent(&mut motion, self.face.clock.instant(between))?;
         let (transition, kept) = flight_factor(&flow, time - between);
         Ok((transition * tangent.matrix, kept * tangent.determinant))
     }

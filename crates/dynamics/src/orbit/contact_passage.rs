@@ -9,15 +9,17 @@ use softstop::internals::{
     ArcSolution, Beyond, Departure, Mode, Motion, PhaseId, Phases, Polynomial, Surface, saltation,
 };
 use softstop::{
-    Arc, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer, Start, Tangent,
+    Arc, CheckedScene, Clock, Crossing, CrossingKind, Effort, Instant, MotionError, Observer,
+    Start, Tangent,
 };
 
 /// Work that a passage through contact may cost, in scan windows, 4096 crossings: then the mass stays.
 const MAX_CONTACT_WORK: u64 = 1 << 18;
 
-/// The face at the clearance, with the phases of its scene: where a passage through contact begins and ends.
+/// The face at the clearance, with its scene: where a passage through contact begins and ends.
 #[derive(Debug, Clone)]
 pub(super) struct ContactFace {
+    pub scene: CheckedScene,
     pub phases: Shared<Phases>,
     pub clock: Clock,
     surface: Surface,
@@ -42,17 +44,18 @@ pub(super) struct ContactPassage<T = Tangent> {
 }
 
 impl ContactFace {
-    /// The face of a scene's phases; none without a surface at the clearance, or with one below that the mass may meet.
-    pub(super) fn new(phases: Shared<Phases>, clock: Clock) -> Option<Self> {
-        let surfaces = phases.surfaces.iter();
+    /// The face of a scene; none without a surface at the clearance, or with one below that the mass may meet.
+    pub(super) fn new(scene: &CheckedScene) -> Option<Self> {
+        let surfaces = scene.phases().surfaces.iter();
         let mut clearances = surfaces.filter(|surface| surface.is_clearance);
         let surface = *clearances.next().filter(|surface| surface.side > 0.0)?;
         if clearances.any(|surface| surface.side < 0.0) {
             return None;
         }
         Some(Self {
-            phases,
-            clock,
+            scene: scene.clone(),
+            phases: scene.phases().clone(),
+            clock: scene.clock(),
             surface,
         })
     }
@@ -85,7 +88,7 @@ impl ContactFace {
     /// A motion that begins at the face, at an instant with a velocity in m/s.
     pub(super) fn release(&self, at: Instant, velocity: f64) -> Result<Motion, MotionError> {
         let start = Start::new(self.face_position(), velocity);
-        Motion::new(self.phases.clone(), self.clock, at, start)
+        Motion::new(&self.scene, at, start)
     }
 
     /// The passage through contact from an impact; none if the mass rests in it or stays longer than `longest` s.

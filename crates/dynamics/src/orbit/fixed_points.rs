@@ -9,16 +9,15 @@ use super::trials::{
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::monitor::Monitor;
 use crate::tolerance::{NEAR, SAME};
+use softstop::CheckedScene;
 use softstop::internals::Scales;
-use softstop::{MotionError, Scene};
 
 /// Distance, in scales of the motion, within which a state stands for a stable fixed point.
 const STABLE_REACH: f64 = 0.02;
 
 /// The fixed points of a scene's map over one drive period that the search has met.
-pub(super) struct FixedPoints<'a> {
-    pub scene: &'a Scene,
-    map: StroboscopicMap,
+pub(super) struct FixedPoints {
+    pub map: StroboscopicMap,
     scales: Scales,
     /// All of them.
     all: Vec<FixedPoint>,
@@ -50,17 +49,16 @@ impl FixedPoint {
     }
 }
 
-impl<'a> FixedPoints<'a> {
+impl FixedPoints {
     /// A search of a scene's fixed points that has met none.
-    pub fn new(scene: &'a Scene) -> Result<Self, MotionError> {
-        Ok(Self {
-            scene,
-            map: StroboscopicMap::new(scene, 1)?,
+    pub fn new(scene: &CheckedScene) -> Self {
+        Self {
+            map: StroboscopicMap::new(scene, 1),
             scales: scene.motion_scales(),
             all: Vec::new(),
             stable: Vec::new(),
             tried: Vec::new(),
-        })
+        }
     }
 
     /// Searches fixed points from where trial motions have moved least, and then from where they are after some numbers
@@ -150,7 +148,8 @@ impl<'a> FixedPoints<'a> {
     /// Searches a fixed point by Newton's method from a state, unless it comes near one that was met.
     fn search_from_state(&mut self, state: Vector2<f64>) {
         let found = find_new_fixed_point(&self.map, state, |state| self.is_known(state));
-        let steepness = |passage: &Passage| self.map.scales().jacobian(&passage.monodromy).norm();
+        let scales = self.map.scene().scales();
+        let steepness = |passage: &Passage| scales.jacobian(&passage.monodromy).norm();
         let orbit = match found {
             Ok(None) => return,
             Ok(Some((state, passage))) if NEAR * steepness(&passage) <= 1.0 => {
@@ -158,12 +157,11 @@ impl<'a> FixedPoints<'a> {
                 if !passage.monodromy.is_stable() {
                     return;
                 }
-                self.stable
-                    .push(Orbit::from_map(self.scene, 1, state, passage));
+                self.stable.push(Orbit::from_map(1, state, passage));
                 return;
             }
-            Ok(_) => Orbit::find_near(self.scene, state).ok(),
-            Err(_) => Orbit::find_by_guesses(self.scene, state, 1, 1),
+            Ok(_) => Orbit::find_near(self.map.scene(), state).ok(),
+            Err(_) => Orbit::find_by_guesses(self.map.scene(), state, 1, 1),
         };
         if let Some(orbit) = orbit.filter(|orbit| orbit.periods == 1) {
             self.all

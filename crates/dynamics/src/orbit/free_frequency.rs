@@ -5,7 +5,7 @@ use nalgebra::{Matrix2x3, Vector2, Vector3};
 use super::multi_segment_shooting::MultiSegmentShooting;
 use super::{Orbit, OrbitError};
 use crate::tolerance::DIFFERENCE_WIDTH;
-use softstop::Scene;
+use softstop::{CheckedScene, SceneError};
 
 /// Newton steps for an orbit with free frequency before giving up.
 const MAX_STEPS: usize = 20;
@@ -16,7 +16,7 @@ const MAX_STEP: [f64; 3] = [0.1, 0.3, 0.02];
 /// (Gauss and Newton) in the time of the impact in drive periods and the logarithms of its velocity and of the frequency.
 /// Where they settle, in a fold as well, the system is regular. None beyond a share of the scene's frequency.
 pub(super) fn find_beside_frequency(
-    scene: &Scene,
+    scene: &CheckedScene,
     (time, velocity): (f64, f64),
     share: f64,
 ) -> Option<Orbit> {
@@ -46,18 +46,18 @@ pub(super) fn find_beside_frequency(
 }
 
 /// A scene with its frequency free: unknowns are impact time (periods), ln velocity, ln frequency ratio.
-struct FreeFrequency<'a>(&'a Scene);
+struct FreeFrequency<'a>(&'a CheckedScene);
 
 impl FreeFrequency<'_> {
     /// The scene at the frequency of these unknowns.
-    fn scene_at(&self, at: Vector3<f64>) -> Scene {
-        self.0
-            .at_frequency(self.0.excitation.frequency * at.z.exp())
+    fn scene_at(&self, at: Vector3<f64>) -> Result<CheckedScene, SceneError> {
+        let frequency = self.0.excitation.frequency * at.z.exp();
+        self.0.recheck(self.0.at_frequency(frequency))
     }
 
     /// What the next impact is off by for these unknowns: position and velocity, scaled.
     fn impact_residual(&self, at: Vector3<f64>) -> Option<Vector2<f64>> {
-        let scene = self.scene_at(at);
+        let scene = self.scene_at(at).ok()?;
         let shooting = MultiSegmentShooting::new(&scene, 1)?;
         shooting
             .return_gap(at.x * shooting.span(), at.y.exp())
@@ -77,7 +77,7 @@ impl FreeFrequency<'_> {
 
     /// The z = 1 orbit at the frequency and from the impact of these unknowns.
     fn orbit_at(&self, at: Vector3<f64>) -> Result<Orbit, OrbitError> {
-        let scene = self.scene_at(at);
+        let scene = self.scene_at(at)?;
         let period = scene.clock().period();
         Orbit::find_by_impacts(
             &scene,

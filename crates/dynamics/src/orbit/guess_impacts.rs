@@ -6,18 +6,18 @@ use super::StroboscopicMap;
 use crate::period::PeriodTrajectory;
 use crate::period::turn::turning_points;
 use crate::tolerance::NEAR_GRAZING;
-use softstop::{MotionError, PhaseKind, Scene};
+use softstop::{CheckedScene, MotionError, PhaseKind};
 
 /// Time in s and before-impact velocity in m/s of each impact.
 pub(super) type TimedImpacts = Vec<(f64, f64)>;
 
 /// Guesses of the impacts of an orbit: those of the motion from a state, with its nearest miss, less the weakest.
 pub(super) fn guess_impacts(
-    scene: &Scene,
+    scene: &CheckedScene,
     state: Vector2<f64>,
     periods: u64,
 ) -> Result<Vec<TimedImpacts>, MotionError> {
-    let motion = StroboscopicMap::new(scene, periods)?.trajectory(state)?;
+    let motion = StroboscopicMap::new(scene, periods).trajectory(state)?;
     let impacts: TimedImpacts = motion.timed_impacts().collect();
     let mut guesses = Vec::new();
     if !impacts.is_empty() {

@@ -9,7 +9,7 @@ use super::impact_lattice::{
 use super::{Orbit, OrbitError};
 use crate::monitor::Monitor;
 use crate::tolerance::NEAR;
-use softstop::Scene;
+use softstop::CheckedScene;
 
 /// Difference of times, in units of the period, and ratio of velocities, up to which Newton's method is followed from a
 /// cell to the hardest motion: some cells, each of which is searched from its own middle.
@@ -21,11 +21,10 @@ const NEWTON_REACH: (f64, f64) = (4.0 / LATTICE_TIMES as f64, 4.0);
 /// # Errors
 /// As [`all_single`](super::impact_lattice::all_single).
 pub(crate) fn hardest_single(
-    scene: &Scene,
+    scene: &CheckedScene,
     least: f64,
     monitor: Monitor<'_>,
 ) -> Result<Option<Orbit>, OrbitError> {
-    scene.validate()?;
     let Some(mut singles) = SingleImpactSearch::new(scene) else {
         return Ok(None);
     };
@@ -48,7 +47,7 @@ pub(crate) fn hardest_single(
     Ok(hardest.filter(|orbit| orbit.before_impact_velocity() > least))
 }
 
-impl SingleImpactSearch<'_> {
+impl SingleImpactSearch {
     /// Searches an orbit by Newton's method as long as it stays near a guess, and another one beside what it finds.
     fn search_near(&mut self, guess: (f64, f64), monitor: Monitor<'_>) -> Result<(), OrbitError> {
         OrbitError::ask_monitor(monitor)?;
@@ -100,6 +99,7 @@ mod tests {
             machine.set(Parameter::Clearance, clearance);
             for step in 0..40 {
                 let scene = machine.scene.at_frequency(0.4 * 1.06_f64.powi(step));
+                let scene = scene.check().expect("a scene");
                 let mut all = all_single(&scene, &unmonitored).expect("a scene");
                 all.retain(Orbit::is_stable);
                 let hardest = all.last().map(Orbit::before_impact_velocity);

@@ -12,7 +12,7 @@ use super::{Orbit, OrbitError};
 use crate::extremes::extremes;
 use crate::monitor::{Monitor, unmonitored};
 use crate::tolerance::{NEAR, SAME};
-use softstop::Scene;
+use softstop::{CheckedScene, Scene};
 
 /// Times of the impact lattice in a drive period.
 pub(super) const LATTICE_TIMES: usize = 20;
@@ -37,7 +37,7 @@ const MAX_SINGLE_IMPACT_ORBITS: usize = 100;
 /// # Errors
 /// [`OrbitError::Motion`] if the scene is none; [`OrbitError::Stopped`].
 pub(crate) fn all_single(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Orbit>, OrbitError> {
-    Ok(scan_lattice(scene, monitor)?.map_or(Vec::new(), |singles| singles.found))
+    Ok(scan_lattice(&scene.check()?, monitor)?.map_or(Vec::new(), |singles| singles.found))
 }
 
 /// All z = 1 orbits of a scene, after those that near misses lead to within a share of its frequency.
@@ -45,7 +45,7 @@ pub(crate) fn all_single(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Orbi
 /// # Errors
 /// As [`all_single`].
 pub(crate) fn singles_about(
-    scene: &Scene,
+    scene: &CheckedScene,
     share: f64,
     monitor: Monitor<'_>,
 ) -> Result<Vec<Orbit>, OrbitError> {
@@ -60,7 +60,7 @@ pub(crate) fn singles_about(
 }
 
 /// The z = 1 orbits that Newton's method leads to from an impact (s, m/s), first to one, then, deflated, to others.
-pub(crate) fn singles_near(scene: &Scene, impact: (f64, f64)) -> Vec<Orbit> {
+pub(crate) fn singles_near(scene: &CheckedScene, impact: (f64, f64)) -> Vec<Orbit> {
     SingleImpactSearch::new(scene).map_or(Vec::new(), |mut singles| {
         singles
             .search_from(impact, &unmonitored)
@@ -70,11 +70,10 @@ pub(crate) fn singles_near(scene: &Scene, impact: (f64, f64)) -> Vec<Orbit> {
 }
 
 /// Scans the impact lattice of a scene for z = 1 orbits; none if the scene has no stop.
-fn scan_lattice<'a>(
-    scene: &'a Scene,
+fn scan_lattice(
+    scene: &CheckedScene,
     monitor: Monitor<'_>,
-) -> Result<Option<SingleImpactSearch<'a>>, OrbitError> {
-    scene.validate()?;
+) -> Result<Option<SingleImpactSearch>, OrbitError> {
     OrbitError::ask_monitor(monitor)?;
     let Some(mut singles) = SingleImpactSearch::new(scene) else {
         return Ok(None);
@@ -88,8 +87,8 @@ fn scan_lattice<'a>(
 }
 
 /// A search for z = 1 orbits, and what its guesses led to.
-pub(super) struct SingleImpactSearch<'a> {
-    pub(super) shooting: MultiSegmentShooting<'a>,
+pub(super) struct SingleImpactSearch {
+    pub(super) shooting: MultiSegmentShooting,
     pub(super) period: f64,
     /// The motion's speed in m/s.
     unit: f64,
@@ -99,9 +98,9 @@ pub(super) struct SingleImpactSearch<'a> {
     missed: Vec<(f64, f64)>,
 }
 
-impl<'a> SingleImpactSearch<'a> {
+impl SingleImpactSearch {
     /// A search for z = 1 orbits of a scene; none if the scene has no stop.
-    pub(super) fn new(scene: &'a Scene) -> Option<Self> {
+    pub(super) fn new(scene: &CheckedScene) -> Option<Self> {
         Some(Self {
             shooting: MultiSegmentShooting::new(scene, 1)?,
             period: scene.clock().period(),
@@ -190,7 +189,7 @@ pub(super) fn time_distance(one: f64, other: f64, period: f64) -> f64 {
 
 /// Guesses of impacts: middles of fine lattice cells in which the residual may vanish, within coarse ones.
 pub(super) fn guess_from_lattice(
-    shooting: &MultiSegmentShooting<'_>,
+    shooting: &MultiSegmentShooting,
     (period, speeds): (f64, &[f64]),
     monitor: Monitor<'_>,
 ) -> Result<Vec<(f64, f64)>, OrbitError> {
@@ -227,7 +226,7 @@ pub(super) fn guess_from_lattice(
 
 /// The lattice of impacts at times and velocities, with the residual of each, computed where it is asked for.
 struct ImpactLattice<'a> {
-    shooting: &'a MultiSegmentShooting<'a>,
+    shooting: &'a MultiSegmentShooting,
     /// Between two times of the lattice, in s.
     width: f64,
     speeds: &'a [f64],

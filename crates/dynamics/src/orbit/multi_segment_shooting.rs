@@ -10,15 +10,13 @@
 //! lasts about 2 v / |a|, and its own tangent takes the factor 1/v of the saltation away again. Nothing is
 //! linearised about the face, so no saltation is wrong for a weak impact (Chawla et al., arXiv 2506.18379).
 
-use std::sync::Arc as Shared;
-
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::contact_passage::{ContactFace, ContactPassage};
 use super::deflation::deflation_factor;
 use super::{Orbit, OrbitError, ROUNDING_SHARE};
 use softstop::internals::Scales;
-use softstop::{Clock, Scene};
+use softstop::{CheckedScene, Clock};
 
 /// Newton steps of the shooting before giving up.
 const MAX_SHOOTING_STEPS: usize = 60;
@@ -34,8 +32,7 @@ const STEP_SHARE: f64 = 0.1;
 pub(super) type Unknowns = DVector<f64>;
 
 /// Shooting from impact to impact for a periodic orbit of a scene over a number of drive periods.
-pub(super) struct MultiSegmentShooting<'a> {
-    pub(super) scene: &'a Scene,
+pub(super) struct MultiSegmentShooting {
     scales: Scales,
     pub(super) face: ContactFace,
     pub(super) periods: u64,
@@ -82,12 +79,11 @@ impl From<ShootingFailure> for OrbitError {
     }
 }
 
-impl<'a> MultiSegmentShooting<'a> {
+impl MultiSegmentShooting {
     /// The shooting for orbits of a scene; none if the scene has no stop.
-    pub(super) fn new(scene: &'a Scene, periods: u64) -> Option<Self> {
-        let face = ContactFace::new(Shared::new(scene.phases()), scene.clock())?;
+    pub(super) fn new(scene: &CheckedScene, periods: u64) -> Option<Self> {
+        let face = ContactFace::new(scene)?;
         Some(Self {
-            scene,
             scales: scene.scales(),
             face,
             periods,

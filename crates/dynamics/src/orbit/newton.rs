@@ -33,7 +33,7 @@ pub(super) fn find_new_fixed_point(
 ) -> Result<Option<(Vector2<f64>, Passage)>, OrbitError> {
     let mut state = start;
     let mut passage = map.apply(state)?;
-    let scales = map.scales();
+    let scales = map.scene().scales();
     let size = |residual: &Vector2<f64>| scales.state(residual).norm();
     let mut residual = passage.end - state;
     let (mut least, mut idle) = (f64::INFINITY, 0);

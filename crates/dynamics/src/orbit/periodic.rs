@@ -10,14 +10,14 @@ use super::newton::find_fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
 use crate::period::PeriodTrajectory;
 use crate::tolerance::{NEAR, ROUNDING};
-use softstop::{Instant, MotionError, Scene, Touch};
+use softstop::{CheckedScene, Instant, MotionError, Scene, Touch};
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Orbit {
     /// The scene it belongs to.
-    pub scene: Scene,
+    pub scene: CheckedScene,
     /// Drive periods after which it repeats: the n of z = p/n.
     pub periods: u64,
     /// Position in m at time 0, that is at drive angle phi.
@@ -79,6 +79,7 @@ impl Orbit {
         periods: u64,
         most: usize,
     ) -> Result<Self, OrbitError> {
+        let scene = &scene.check()?;
         match Self::find_on_map(scene, state, periods) {
             Ok(orbit) if orbit.has_weak_impact() && orbit.impacts.len() <= MAX_SHOOTING_IMPACTS => {
                 let impacts: Vec<(f64, f64)> = orbit.timed_impacts();
@@ -91,7 +92,7 @@ impl Orbit {
 
     /// The periodic orbit near a state, from impact to impact, from guesses of its impacts.
     pub(super) fn find_by_guesses(
-        scene: &Scene,
+        scene: &CheckedScene,
         state: Vector2<f64>,
         periods: u64,
         most: usize,
@@ -119,16 +120,20 @@ impl Orbit {
 
     /// The orbit that Newton's method on the map leads to. Of two orbits that rounding does not tell apart, the stable
     /// one: near a flip the fixed point of twice the period is known far less well than that of the period.
-    fn find_on_map(scene: &Scene, state: Vector2<f64>, periods: u64) -> Result<Self, OrbitError> {
-        let map = StroboscopicMap::new(scene, periods)?;
+    fn find_on_map(
+        scene: &CheckedScene,
+        state: Vector2<f64>,
+        periods: u64,
+    ) -> Result<Self, OrbitError> {
+        let (map, scales) = (StroboscopicMap::new(scene, periods), scene.scales());
         let (state, passage) = find_fixed_point(&map, state)?;
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
-            let size = |state: &Vector2<f64>| map.scales().state(state).norm();
+            let size = |state: &Vector2<f64>| scales.state(state).norm();
             let unit = 1.0 + size(&state);
             if size(&(passage.trajectory.at_cycle(part) - state)) > NEAR * unit {
                 continue;
             }
-            let shorter = StroboscopicMap::new(scene, part)?;
+            let shorter = StroboscopicMap::new(scene, part);
             let Ok((own, once)) = find_fixed_point(&shorter, state) else {
                 continue;
             };
@@ -136,25 +141,20 @@ impl Orbit {
             let stays = once.monodromy.is_stable() || !passage.monodromy.is_stable();
             if apart <= ROUNDING * unit || apart <= map.fixed_point_error(state, &passage) && stays
             {
-                return Ok(Self::from_map(scene, part, own, once));
+                return Ok(Self::from_map(part, own, once));
             }
         }
-        Ok(Self::from_map(scene, periods, state, passage))
+        Ok(Self::from_map(periods, state, passage))
     }
 
     /// The orbit through a fixed point of the map over its own period that is already known.
-    pub(crate) fn from_map(
-        scene: &Scene,
-        periods: u64,
-        state: Vector2<f64>,
-        passage: Passage,
-    ) -> Self {
+    pub(crate) fn from_map(periods: u64, state: Vector2<f64>, passage: Passage) -> Self {
         Self {
-            scene: scene.clone(),
             periods,
             position: state.x,
             velocity: state.y,
             max_position: passage.trajectory.max_position(),
+            scene: passage.trajectory.scene,
             impacts: passage.impacts,
             rests: passage.rests,
             monodromy: passage.monodromy,
@@ -167,7 +167,7 @@ impl Orbit {
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
     pub(crate) fn trajectory(&self) -> Result<PeriodTrajectory, MotionError> {
-        StroboscopicMap::new(&self.scene, self.periods)?.trajectory(self.state())
+        StroboscopicMap::new(&self.scene, self.periods).trajectory(self.state())
     }
 
     /// The regime z = p/n of the orbit. Of complete chatter only the impacts before the summed ones count.
@@ -231,9 +231,9 @@ impl Orbit {
     /// # Errors
     /// [`MotionError`] if the motion cannot be computed.
     pub fn residual(&self) -> Result<(f64, f64), MotionError> {
-        let map = StroboscopicMap::new(&self.scene, self.periods)?;
+        let map = StroboscopicMap::new(&self.scene, self.periods);
         let passage = map.apply(self.state())?;
-        let scales = map.scales();
+        let scales = self.scene.scales();
         let gap = scales.state(&(passage.end - self.state())).norm();
         Ok((gap, scales.map_rounding(&self.state(), &passage.monodromy)))
     }

@@ -61,16 +61,17 @@ fn search_all(
     let mut found: Vec<_> = scenes.iter().map(|scene| Err(none(scene))).collect();
     let (mut machines, mut searches) = (Vec::new(), Vec::new());
     for (index, scene) in scenes.iter().enumerate() {
-        let machine = Machine::new(scene).map_err(OrbitError::from);
-        match machine.and_then(|machine| Ok((machine, FixedPoints::new(scene)?))) {
-            Ok((machine, fixed_points)) => {
-                machines.push(machine);
-                searches.push((index, fixed_points));
+        match scene.check() {
+            Ok(scene) => {
+                machines.push(Machine::new(&scene));
+                searches.push((index, FixedPoints::new(&scene)));
             }
-            Err(error) => found[index] = Err(error),
+            Err(error) => found[index] = Err(error.into()),
         }
     }
-    let scenes = searches.iter().map(|(_, fixed_points)| fixed_points.scene);
+    let scenes = searches
+        .iter()
+        .map(|(_, fixed_points)| &**fixed_points.map.scene());
     let kept = SEARCH_STAGES.iter().flat_map(|(_, after)| *after).copied();
     let mut trials = Trials::new(scenes, kept.collect());
     for (until, after) in SEARCH_STAGES {

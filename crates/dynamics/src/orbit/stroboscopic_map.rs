@@ -1,21 +1,16 @@
 //! The stroboscopic map: from drive angle to the same drive angle, whole periods later.
 
-use std::sync::Arc as Shared;
-
 use nalgebra::Vector2;
 
 use super::{Monodromy, ROUNDING_SHARE};
 use crate::period::PeriodTrajectory;
-use softstop::internals::{Phases, Scales};
-use softstop::{Clock, Instant, MotionError, Observer, Scene, Touch};
+use softstop::{CheckedScene, Clock, Instant, MotionError, Observer, Touch};
 
 /// The stroboscopic map of a scene: from a state at time 0 to the state some drive periods later.
 #[derive(Debug, Clone)]
 pub struct StroboscopicMap {
-    phases: Shared<Phases>,
-    clock: Clock,
+    scene: CheckedScene,
     periods: u64,
-    scales: Scales,
 }
 
 /// One application of the map.
@@ -39,17 +34,11 @@ pub struct Passage {
 
 impl StroboscopicMap {
     /// The map of `scene` over `periods` drive periods.
-    ///
-    /// # Errors
-    /// [`MotionError::Scene`] if the scene is invalid.
-    pub fn new(scene: &Scene, periods: u64) -> Result<Self, MotionError> {
-        scene.validate()?;
-        Ok(Self {
-            phases: scene.phases().into(),
-            clock: scene.clock(),
+    pub fn new(scene: &CheckedScene, periods: u64) -> Self {
+        Self {
+            scene: scene.clone(),
             periods,
-            scales: scene.scales(),
-        })
+        }
     }
 
     /// Drive periods of one application of the map.
@@ -57,14 +46,9 @@ impl StroboscopicMap {
         self.periods
     }
 
-    /// The scales in which states of the map are measured.
-    pub(crate) fn scales(&self) -> &Scales {
-        &self.scales
-    }
-
-    /// The clock of the drive, which instants refer to.
-    pub fn clock(&self) -> &Clock {
-        &self.clock
+    /// The scene of the map.
+    pub fn scene(&self) -> &CheckedScene {
+        &self.scene
     }
 
     /// The image of a state under the map, with the Jacobian and the impacts on the way.
@@ -86,9 +70,10 @@ impl StroboscopicMap {
 
     /// Error of a fixed point of the map, as Newton's method finds it, by rounding, in the map's scales.
     pub(super) fn fixed_point_error(&self, state: Vector2<f64>, passage: &Passage) -> f64 {
+        let scales = self.scene.scales();
         let response = passage.monodromy.resolvent();
-        let response = response.map_or(f64::INFINITY, |it| self.scales.jacobian(&it).norm());
-        self.scales.map_rounding(&state, &passage.monodromy) * response / ROUNDING_SHARE
+        let response = response.map_or(f64::INFINITY, |it| scales.jacobian(&it).norm());
+        scales.map_rounding(&state, &passage.monodromy) * response / ROUNDING_SHARE
     }
 
     /// The image of a state under the map, without the Jacobian.
@@ -105,10 +90,10 @@ impl StroboscopicMap {
         state: Vector2<f64>,
         observer: &mut dyn Observer,
     ) -> Result<Vector2<f64>, MotionError> {
-        let machine = (self.phases.clone(), self.clock);
         let end = Clock::at_cycle(self.periods);
-        let last =
-            PeriodTrajectory::record(machine, state, |motion, _| motion.advance(end, observer));
+        let last = PeriodTrajectory::record(&self.scene, state, |motion, _| {
+            motion.advance(end, observer)
+        });
         Ok(last?.end)
     }
 
@@ -125,8 +110,7 @@ impl StroboscopicMap {
     /// # Errors
     /// As [`StroboscopicMap::apply`].
     pub fn trajectory(&self, state: Vector2<f64>) -> Result<PeriodTrajectory, MotionError> {
-        let machine = (self.phases.clone(), self.clock);
         let end = Clock::at_cycle(self.periods);
-        PeriodTrajectory::record(machine, state, |motion, kept| motion.advance(end, kept))
+        PeriodTrajectory::record(&self.scene, state, |motion, kept| motion.advance(end, kept))
     }
 }

@@ -20,7 +20,7 @@ impl TangentMotion {
     /// A motion of a scene from a state, with a fresh frame of differences.
     pub fn new(scene: &Scene, state: Vector2<f64>) -> Result<Self, MotionError> {
         Ok(Self {
-            map: StroboscopicMap::new(scene, 1)?,
+            map: StroboscopicMap::new(&scene.check()?, 1),
             state,
             frame: Matrix2::identity(),
         })

@@ -3,15 +3,14 @@
 pub mod turn;
 
 use std::ops::ControlFlow;
-use std::sync::Arc as Shared;
 
 use nalgebra::Vector2;
 
 use crate::monitor::stop_if;
-use softstop::internals::{Motion, Phases};
+use softstop::internals::Motion;
 use softstop::{
-    Arc, Clock, Crossing, CrossingKind, Instant, KeptArc, MotionError, Observer, Start, Tangent,
-    Touch,
+    Arc, CheckedScene, Clock, Crossing, CrossingKind, Instant, KeptArc, MotionError, Observer,
+    Tangent, Touch,
 };
 use turn::turning_points;
 
@@ -24,8 +23,8 @@ const MAX_KEPT_ARCS: usize = 1 << 18;
 /// The kept trajectory of a motion: its arcs and crossings from time 0 on, in order of time.
 #[derive(Debug, Clone)]
 pub struct PeriodTrajectory {
-    /// The phases that the motion moves through.
-    pub phases: Shared<Phases>,
+    /// The scene that the motion is of.
+    pub scene: CheckedScene,
     /// The clock that its instants refer to.
     pub clock: Clock,
     /// The arcs of the trajectory, each with the crossing at its end.
@@ -35,34 +34,32 @@ pub struct PeriodTrajectory {
 }
 
 impl PeriodTrajectory {
-    /// An empty trajectory of a motion through phases.
-    pub fn empty(phases: Shared<Phases>, clock: Clock) -> Self {
+    /// An empty trajectory of a motion of a scene.
+    pub fn empty(scene: &CheckedScene) -> Self {
         Self {
-            phases,
-            clock,
+            scene: scene.clone(),
+            clock: scene.clock(),
             arcs: Vec::with_capacity(FIRST_ARC_ROOM),
             end: Vector2::zeros(),
         }
     }
 
-    /// Records the trajectory of the motion through phases from a state at time 0, as far as it is advanced.
+    /// Records the trajectory of the motion of a scene from a state at time 0, as far as it is advanced.
     ///
     /// # Errors
     /// [`MotionError`] if the state is not finite or beyond a rigid stop, and that of advancing;
     /// [`MotionError::Endless`] if it has more arcs than are kept.
     pub fn record(
-        (phases, clock): (Shared<Phases>, Clock),
+        scene: &CheckedScene,
         state: Vector2<f64>,
         advance: impl FnOnce(&mut Motion, &mut Self) -> Result<(), MotionError>,
     ) -> Result<Self, MotionError> {
-        let start = Start::from(state);
-        start.validate()?;
-        let mut motion = Motion::new(phases.clone(), clock, Clock::at_cycle(0), start)?;
-        let mut kept = Self::empty(phases, clock);
+        let mut motion = scene.motion(state.into())?;
+        let mut kept = Self::empty(scene);
         advance(&mut motion, &mut kept)?;
         if kept.arcs.len() > MAX_KEPT_ARCS {
             return Err(MotionError::Endless {
-                time: clock.time(motion.now()),
+                time: kept.clock.time(motion.now()),
                 position: motion.state().position,
             });
         }
@@ -90,7 +87,7 @@ impl PeriodTrajectory {
 
     /// One arc of the trajectory as observers see it.
     pub fn observed_arc<'a>(&'a self, kept: &'a KeptArc) -> Arc<'a> {
-        kept.seen(&self.clock, &self.phases)
+        kept.seen(&self.clock, self.scene.phases())
     }
 
     /// The arcs of the trajectory as observers see them, and how long each lasts, in s.
@@ -116,7 +113,7 @@ impl PeriodTrajectory {
             }
         }
         Self {
-            phases: self.phases.clone(),
+            scene: self.scene.clone(),
             clock: self.clock,
             arcs,
             end: self.state_at(end),
@@ -134,7 +131,7 @@ impl PeriodTrajectory {
         let state = |kept: &KeptArc| {
             let elapsed = self.clock.elapsed(kept.start, at);
             let (position, velocity) = kept.course.state_at(elapsed, self.clock.drive(at));
-            let phase = kept.phase.map(|phase| &self.phases[phase]);
+            let phase = kept.phase.map(|phase| &self.scene.phases()[phase]);
             let inside = phase.map_or(position, |phase| phase.confine_position(position));
             Vector2::new(inside, velocity)
         };

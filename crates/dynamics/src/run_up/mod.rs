@@ -15,7 +15,7 @@ use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap};
 use crate::sweep::{Chain, Plan};
-use softstop::{Machine, MotionError, Parameter, Scene, Start};
+use softstop::{CheckedScene, Machine, MotionError, Parameter, Scene, Start};
 
 pub use way::Way;
 
@@ -105,12 +105,12 @@ impl RunUpPeaks {
     /// Advances a motion on a way to run up by some drive periods and takes its peaks; the state after them.
     fn take_peaks(
         &mut self,
-        scene: &Scene,
+        scene: &CheckedScene,
         start: Start,
         periods: u64,
     ) -> Result<Start, MotionError> {
-        let motion = StroboscopicMap::new(scene, periods)?.trajectory(start.into())?;
-        let force = peak_stop_force(scene, &motion);
+        let motion = StroboscopicMap::new(scene, periods).trajectory(start.into())?;
+        let force = peak_stop_force(&motion);
         self.stop_force = self.stop_force.max(force);
         self.highest = self.highest.max(motion.max_position());
         Ok(motion.end.into())
@@ -251,12 +251,12 @@ fn try_switching_on(
     monitor: Monitor<'_>,
 ) -> Result<Attempt, OrbitError> {
     let (scene, rest) = (&orbit.scene, rest_state(&orbit.scene));
-    let (phases, angles) = (scene.phases().into(), angles.max(1));
+    let angles = angles.max(1);
     let angles: Vec<f64> = (0..angles)
         .map(|index| TAU * index as f64 / angles as f64)
         .collect();
     let states = angles.iter();
-    let states = states.map(|angle| bring_to_section(&phases, scene.excitation, rest, *angle));
+    let states = states.map(|angle| bring_to_section(scene, rest, *angle));
     let states = states.collect::<Result<Vec<Start>, _>>()?;
     let reached = basin_test.test_starts(&states, monitor)?;
     let peaks = || {
@@ -323,7 +323,7 @@ fn try_slow_change(
         start: rest_state(scene),
         ..plan
     };
-    let mut chains = [Chain::new(scene.clone(), direction)];
+    let mut chains = [Chain::new(Scene::clone(scene), direction)];
     if !plan.run_chains(&mut chains, &|_, _| stop_if(monitor(0, 0).is_break())) {
         return Err(OrbitError::Stopped);
     }
@@ -336,9 +336,9 @@ fn try_slow_change(
     let peaks = || {
         let (mut peaks, mut state) = (RunUpPeaks::default(), plan.start);
         for step in 0..steps {
-            let mut machine = Machine::from(scene.clone());
+            let mut machine = Machine::from(Scene::clone(scene));
             machine.set(parameter, plan.value_at(step, direction));
-            state = peaks.take_peaks(&machine.scene, state, periods)?;
+            state = peaks.take_peaks(&machine.scene.check()?, state, periods)?;
             OrbitError::ask_monitor(monitor)?;
         }
         peaks.take_peaks(scene, state, STEP_PERIODS)?;

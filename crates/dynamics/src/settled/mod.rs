@@ -14,23 +14,40 @@
 //! # Ok::<(), softstop::SceneError>(())
 //! ```
 
-mod followed_motion;
 mod settled_motion;
 
 pub use settled_motion::{SettledMotion, classify_wandering};
 
 use serde::{Deserialize, Serialize};
 
-use followed_motion::FollowedMotion;
-
 use crate::attractors::Region;
 use crate::ensemble::Ensemble;
-use crate::member::MemberStatus;
+use crate::member::{HasMember, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::Regime;
 use crate::orbit::recurrence::RETURN_DISTANCE;
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
+
+/// A motion that is followed until it settles, and what it was seen to have come to last.
+struct FollowedMotion {
+    member: Member,
+    seen: Option<SettledMotion>,
+}
+
+impl HasMember for FollowedMotion {
+    fn member_mut(&mut self) -> &mut Member {
+        &mut self.member
+    }
+}
+
+impl FollowedMotion {
+    /// A motion of the machine with this number from a start.
+    fn new(machine: usize, start: Start) -> Self {
+        let (member, seen) = (Member::new(machine, start), None);
+        Self { member, seen }
+    }
+}
 
 /// How long motions are followed until they have settled, and how they are watched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -66,8 +83,10 @@ impl Settling {
     ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
         let mut machines = Vec::new();
         let motions = motions.iter().map(|(scene, start)| {
-            let mut motion = FollowedMotion::new(scene, machines.len(), *start);
-            let lowered = start.validate().and_then(|()| Ok(Machine::new(scene)?));
+            let mut motion = FollowedMotion::new(machines.len(), *start);
+            let lowered = start
+                .validate()
+                .and_then(|()| Ok(Machine::new(&scene.check()?)));
             match lowered {
                 Ok(machine) => machines.push(machine),
                 Err(error) => motion.member.mark_lost(error),
@@ -82,7 +101,7 @@ impl Settling {
     fn settle_members(
         &self,
         machines: Vec<Machine>,
-        mut motions: Vec<FollowedMotion<'_>>,
+        mut motions: Vec<FollowedMotion>,
         monitor: Monitor<'_>,
     ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
         let quiet = |_, _| monitor(0, 0);
@@ -96,15 +115,11 @@ impl Settling {
             }
             ensemble.record_run(&mut open, next, self.watched).ok()?;
             followed += next;
-            for FollowedMotion {
-                scene,
-                member,
-                seen,
-            } in open
-            {
+            for FollowedMotion { member, seen } in open {
                 if member.error.is_some() {
                     continue;
                 }
+                let scene = ensemble.machines[member.machine].scene();
                 let now = SettledMotion::of(scene, member, self.tolerance, followed);
                 if now.periods.is_some() {
                     member.status = MemberStatus::Arrived(0);
@@ -129,10 +144,10 @@ impl Settling {
         region: Option<Region>,
         monitor: Monitor<'_>,
     ) -> Option<f64> {
-        let machine = vec![Machine::new(scene).ok()?];
+        let machine = vec![Machine::new(&scene.check().ok()?)];
         let region = region.unwrap_or_else(|| Region::start_box(scene, []));
         let starts = region.starts(starts, 0).into_iter();
-        let motions = starts.map(|start| FollowedMotion::new(scene, 0, start));
+        let motions = starts.map(|start| FollowedMotion::new(0, start));
         let seen = self.settle_members(machine, motions.collect(), monitor)?;
         let regimes = seen.iter().flatten().map(SettledMotion::regime);
         let come = regimes.filter(|regime| *regime == Some(Regime::ONE));

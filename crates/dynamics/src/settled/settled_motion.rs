@@ -6,7 +6,7 @@ use crate::member::Member;
 use crate::motion::MotionKind;
 use crate::orbit::recurrence::find_settled_period;
 use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};
-use softstop::{Instant, MotionError, Scene, Start};
+use softstop::{CheckedScene, Instant, MotionError, Scene, Start};
 
 /// What a motion that was followed has settled on.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,10 +81,7 @@ impl SettledMotion {
     }
 
     /// The stroboscopic map over the drive periods in which the settled motion was watched.
-    ///
-    /// # Errors
-    /// [`MotionError::Scene`] if the scene is invalid.
-    pub fn watched_map(&self, scene: &Scene) -> Result<StroboscopicMap, MotionError> {
+    pub fn watched_map(&self, scene: &CheckedScene) -> StroboscopicMap {
         StroboscopicMap::new(scene, self.length)
     }
 
@@ -92,15 +89,12 @@ impl SettledMotion {
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
-    pub fn returning_kind(
-        &self,
-        scene: &Scene,
-        map: &StroboscopicMap,
-    ) -> Result<Option<MotionKind>, MotionError> {
+    pub fn returning_kind(&self, map: &StroboscopicMap) -> Result<Option<MotionKind>, MotionError> {
         let Some(regime) = self.regime() else {
             return Ok(None);
         };
         // Nothing chatters where nothing rebounds from a face.
+        let scene = map.scene();
         let (lowest, highest) = scene.reach();
         let rests = match lowest.is_finite() || highest.is_finite() {
             true => map.apply(self.from.into())?.rests,
@@ -117,10 +111,9 @@ impl SettledMotion {
     /// [`MotionError`] if it cannot be computed.
     pub fn motion_kind(
         &self,
-        scene: &Scene,
         map: &StroboscopicMap,
     ) -> Result<(MotionKind, Option<f64>), MotionError> {
-        if let Some(motion) = self.returning_kind(scene, map)? {
+        if let Some(motion) = self.returning_kind(map)? {
             return Ok((motion, None));
         }
         let (motion, growth) = classify_wandering(map, self.from)?;
@@ -146,7 +139,7 @@ pub fn classify_wandering(
     from: Start,
 ) -> Result<(MotionKind, f64), MotionError> {
     let tangent = map.apply(from.into())?.monodromy;
-    let growth = map.scales().jacobian(&tangent).norm().ln();
+    let growth = map.scene().scales().jacobian(&tangent).norm().ln();
     // A hundredfold growth.
     let motion = match growth > 2.0 * LN_10 {
         true => MotionKind::Chaos,

@@ -8,7 +8,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use softstop::internals::ParameterSensitivity;
-use softstop::{Parameter, Scene, SceneError};
+use softstop::{CheckedScene, Parameter, Scene, SceneError};
 
 use super::variation::{Variation, phase_derivatives};
 use crate::continuation::{
@@ -170,6 +170,7 @@ impl Border {
             }
             _ => return Self::at_g0(scene, true, parameters),
         };
+        let scene = &scene.check()?;
         let family = Frequencies(scene);
         let guess = BranchPoint {
             parameter: self.predicted_frequency(scene),
@@ -209,7 +210,7 @@ impl Border {
         (kind, point): (SpecialKind, &BranchPoint),
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
-        let scene = scene.at_frequency(point.parameter);
+        let scene = scene.at_frequency(point.parameter).check()?;
         // The frequency, and what follows it.
         let mut along = vec![(Parameter::Frequency, 1.0)];
         along.extend(scene.rates_of_followers());
@@ -231,7 +232,7 @@ impl Border {
         }
         Ok(Self {
             kind: BorderKind::Motion(kind),
-            scene,
+            scene: scene.into(),
             point: Some((point.clone(), periods)),
             parameters: parameters.to_vec(),
             normal,
@@ -247,7 +248,7 @@ fn total_rate(along: &[(Parameter, f64)], rates: &[f64]) -> f64 {
 
 /// The normal of a border at a fold, up to a factor: w . dP/dp with w the left null vector of M - 1.
 fn fold_rates(
-    scene: &Scene,
+    scene: &CheckedScene,
     periods: u64,
     point: &BranchPoint,
     parameters: &[Parameter],
@@ -269,7 +270,7 @@ fn fold_rates(
 
 /// The normal of a border at a flip, up to a factor: derivatives of 1 + tr + det or of det along the orbit.
 fn test_rates(
-    scene: &Scene,
+    scene: &CheckedScene,
     periods: u64,
     (test, point): (Test, &BranchPoint),
     parameters: &[Parameter],
@@ -286,20 +287,19 @@ fn test_rates(
 /// The normal of a border at a grazing orbit, up to a factor: -dw/dp from rest at the surface to rest there; angle of
 /// the touch and frequency are unknown. What moves along the frequency stands last among the parameters.
 fn grazing_rates(
-    scene: &Scene,
+    scene: &CheckedScene,
     periods: u64,
     graze: &Graze,
     (parameters, along): (&[Parameter], &[(Parameter, f64)]),
 ) -> Result<Vec<f64>, OrbitError> {
     let missing = || OrbitError::no_derivative(parameters);
-    let mut scene = scene.clone();
-    scene.excitation.phase = graze.angle;
+    let scene = scene.clone().at_phase(graze.angle)?;
     let place = graze.face.face_position(&scene).ok_or_else(missing)?;
     let start = Vector2::new(place, 0.0);
     let motion = LastArc::carry_past(&scene, start, (graze.crossings, periods))?.motion;
-    let phases = &motion.phases;
+    let phases = scene.phases();
     let all = [parameters, &[Parameter::Phase]].concat();
-    let by = phase_derivatives(&scene, phases, &all)?;
+    let by = phase_derivatives(&scene, &all)?;
     let mut sensitivity = ParameterSensitivity::new(phases, &by);
     motion.replay(&mut sensitivity);
     let columns = sensitivity.columns().ok_or_else(missing)?;

@@ -86,7 +86,7 @@ impl Variation {
                 let beside = |width: f64| {
                     let mut scene = scene.clone();
                     parameter.set(&mut scene, value + width);
-                    let map = StroboscopicMap::new(&scene, periods).ok()?;
+                    let map = StroboscopicMap::new(&scene.check().ok()?, periods);
                     let passage = map.apply(self.start + width * along).ok()?;
                     let same = passage.impacts.len() == impacts;
                     same.then(|| trace_and_determinant(&passage.monodromy))

@@ -2,8 +2,8 @@
 
 use nalgebra::{Vector2, Vector3};
 
-use softstop::internals::{PhaseDerivatives, Phases};
-use softstop::{MotionError, Parameter, Scene};
+use softstop::internals::PhaseDerivatives;
+use softstop::{CheckedScene, MotionError, Parameter};
 
 use super::differentiated_figure::DifferentiatedFigure;
 use super::figure_recorder::{FigureRecorder, RecordedFigures};
@@ -26,26 +26,25 @@ pub(super) struct Variation {
 
 /// The derivatives of a scene's phases by each parameter.
 pub(super) fn phase_derivatives(
-    scene: &Scene,
-    phases: &Phases,
+    scene: &CheckedScene,
     parameters: &[Parameter],
 ) -> Result<Vec<PhaseDerivatives>, MotionError> {
     let each = parameters.iter();
-    each.map(|parameter| PhaseDerivatives::new(*parameter, scene, phases))
+    each.map(|parameter| PhaseDerivatives::new(*parameter, scene))
         .collect()
 }
 
 impl Variation {
     /// The variation of the motion of a scene from a state over some drive periods, by parameters.
     pub fn of_motion(
-        scene: &Scene,
+        scene: &CheckedScene,
         start: Vector2<f64>,
         periods: u64,
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
-        let motion = StroboscopicMap::new(scene, periods)?.trajectory(start)?;
-        let by = phase_derivatives(scene, &motion.phases, parameters)?;
-        let mut recorder = FigureRecorder::new(&motion.phases, &by, motion.clock);
+        let motion = StroboscopicMap::new(scene, periods).trajectory(start)?;
+        let by = phase_derivatives(scene, parameters)?;
+        let mut recorder = FigureRecorder::new(scene.phases(), &by, motion.clock);
         motion.replay(&mut recorder);
         let columns = recorder
             .influence

@@ -14,7 +14,7 @@ use crate::member::Member;
 use crate::monitor::{Monitor, OptionalMemory, PIECE_DURATION, recall_or_compute};
 use crate::settled::SettledMotion;
 use softstop::internals::budget::{self, SharedBudget};
-use softstop::{MotionError, Parameter, Scene};
+use softstop::{Parameter, SceneError};
 use softstop_lanes::Machine;
 
 /// The steps that a sweep makes in one stored piece of work.
@@ -138,11 +138,11 @@ impl Plan {
                 continue;
             }
             match self.lower_next_step(chain) {
-                Ok((scene, machine)) => {
+                Ok(machine) => {
                     let state = chain.steps.last().map_or(self.start, |step| step.end);
                     members.push(Member::new(machines.len(), state));
                     machines.push(machine);
-                    moved.push((index, scene));
+                    moved.push(index);
                 }
                 Err(error) => chain.error = Some(error.to_string()),
             }
@@ -152,14 +152,15 @@ impl Plan {
         let mut open: Vec<&mut Member> = members.iter_mut().collect();
         let observed = ensemble.record_run(&mut open, self.periods, self.watched_periods());
         observed.ok()?;
-        for ((index, scene), member) in moved.into_iter().zip(members) {
+        for (index, member) in moved.into_iter().zip(members) {
+            let scene = ensemble.machines[member.machine].scene();
             let chain = &mut group[index];
             let value = self.value_at(step, chain.direction);
             let made = match member.error {
                 Some(error) => Err(error),
                 None => {
-                    let seen = SettledMotion::of(&scene, &member, self.tolerance, self.periods);
-                    Step::new(value, &scene, seen, self.heights)
+                    let seen = SettledMotion::of(scene, &member, self.tolerance, self.periods);
+                    Step::new(value, scene, seen, self.heights)
                 }
             };
             match made {
@@ -171,13 +172,11 @@ impl Plan {
         Some(count.max(1))
     }
 
-    /// The scene and the lowered machine at the next step of a sweep.
-    fn lower_next_step(&self, chain: &Chain) -> Result<(Scene, Machine), MotionError> {
+    /// The lowered machine at the next step of a sweep.
+    fn lower_next_step(&self, chain: &Chain) -> Result<Machine, SceneError> {
         let mut machine = chain.machine.clone();
         let value = self.value_at(chain.steps.len(), chain.direction);
         machine.set(self.parameter, value);
-        machine.validate()?;
-        let lowered = Machine::new(&machine.scene)?;
-        Ok((machine.scene, lowered))
+        Ok(Machine::new(&machine.check(None)?))
     }
 }

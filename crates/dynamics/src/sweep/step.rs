@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::motion::MotionKind;
 use crate::settled::SettledMotion;
-use softstop::{MotionError, Scene, Start};
+use softstop::{CheckedScene, MotionError, Start};
 
 /// One step of a sweep: the motion at one value of the parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,12 +30,12 @@ impl Step {
     /// The step of a sweep at a value, from what its motion was seen to settle on.
     pub(super) fn new(
         value: f64,
-        scene: &Scene,
+        scene: &CheckedScene,
         seen: SettledMotion,
         heights: bool,
     ) -> Result<Self, MotionError> {
-        let map = seen.watched_map(scene)?;
-        let (motion, growth) = seen.motion_kind(scene, &map)?;
+        let map = seen.watched_map(scene);
+        let (motion, growth) = seen.motion_kind(&map)?;
         Ok(Self {
             value,
             motion,

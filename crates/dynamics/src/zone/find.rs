@@ -68,10 +68,11 @@ pub fn find_zones(
 
 /// The z = 1 motion of a stable range at the frequency of the scene's drive.
 fn on_stable_range(scene: &Scene, stable_range: &StableRange) -> Option<Orbit> {
+    let scene = scene.check().ok()?;
     let point = stable_range
-        .point_at(scene, scene.excitation.frequency)
+        .point_at(&scene, scene.excitation.frequency)
         .ok()??;
-    let family = Frequencies(scene);
+    let family = Frequencies(&scene);
     let orbit = Continuation::new(&family, 1).orbit_at(&point).ok()?;
     (orbit.is_stable() && orbit.impacts.len() == 1).then_some(orbit)
 }

@@ -2,18 +2,16 @@
 
 use crate::continuation::Family;
 use softstop::internals::Scales;
-use softstop::{MotionError, Scene};
+use softstop::{CheckedScene, MotionError};
 
 /// The family of one scene at all frequencies of its drive.
 #[doc(hidden)]
 #[derive(Debug)]
-pub struct Frequencies<'a>(pub &'a Scene);
+pub struct Frequencies<'a>(pub &'a CheckedScene);
 
 impl Family for Frequencies<'_> {
-    fn scene(&self, [frequency]: [f64; 1]) -> Result<Scene, MotionError> {
-        let scene = self.0.at_frequency(frequency);
-        scene.validate()?;
-        Ok(scene)
+    fn scene(&self, [frequency]: [f64; 1]) -> Result<CheckedScene, MotionError> {
+        Ok(self.0.recheck(self.0.at_frequency(frequency))?)
     }
 
     fn state_scales(&self) -> [f64; 2] {

@@ -108,6 +108,7 @@ fn zone_from_start(
     monitor: Monitor<'_>,
 ) -> Result<Zone, ZoneError> {
     OrbitError::ask_monitor(monitor)?;
+    let scene = &scene.check()?;
     let family = Frequencies(scene);
     let start = start.ok_or(ZoneError::NoOrbit {
         frequency: frequency_g0.into(),

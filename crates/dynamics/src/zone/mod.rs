@@ -32,7 +32,7 @@ pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
 use crate::continuation::{BranchPoint, Continuation};
 use crate::orbit::{Orbit, OrbitError};
 use crate::tolerance::SAME;
-use softstop::Scene;
+use softstop::{CheckedScene, Scene};
 
 /// The kind of a zone: which motions it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -55,7 +55,7 @@ pub struct Zone {
     /// Which motions it holds.
     pub kind: ZoneKind,
     /// The machine; the frequency of its drive plays no part.
-    pub scene: Scene,
+    pub scene: CheckedScene,
     /// Lower grazing frequency in rad/s, below resonance; none if the static deflection reaches the stop.
     pub frequency_g0_below: Option<f64>,
     /// Grazing frequency g0 in rad/s, above resonance: above it the motion without impacts does not reach the clearance.

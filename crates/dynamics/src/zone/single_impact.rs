@@ -11,8 +11,8 @@ use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError, hardest_single};
 use crate::tolerance::SAME;
-use softstop::Scene;
 use softstop::internals::budget::SharedBudget;
+use softstop::{CheckedScene, Scene};
 
 /// Frequencies beside g0 at which single-impact motions are looked for.
 const START_FREQUENCIES: usize = 6;
@@ -38,7 +38,7 @@ pub fn single_impact(
 
 /// The single-impact zone of one scene.
 fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<Zone, ZoneError> {
-    scene.validate()?;
+    let scene = &scene.check()?;
     refuse_below(scene)?;
     let mut zones: Vec<Zone> = Vec::new();
     for frequency in start_frequencies(scene, between) {
@@ -47,7 +47,11 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
             .filter_map(|zone| zone.point_at(zone.place_of(frequency)).ok());
         let known = known.map(|point| point.before_impact_velocity());
         let least = (1.0 + SAME) * known.fold(0.0, f64::max);
-        if let Some(start) = hardest_single(&scene.at_frequency(frequency), least, monitor)? {
+        if let Some(start) = hardest_single(
+            &scene.recheck(scene.at_frequency(frequency))?,
+            least,
+            monitor,
+        )? {
             zones.extend(zone_about(scene, &start, between, monitor).ok().flatten());
         }
         OrbitError::ask_monitor(monitor)?;
@@ -97,7 +101,7 @@ fn start_frequencies(scene: &Scene, between: (f64, f64)) -> Vec<f64> {
 
 /// The single-impact zone about a motion; none if it has no width.
 fn zone_about(
-    scene: &Scene,
+    scene: &CheckedScene,
     start: &Orbit,
     between: (f64, f64),
     monitor: Monitor<'_>,

@@ -8,8 +8,8 @@ use super::{Frequencies, Zone};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Family, OFF_CHORD, SpecialKind};
 use crate::orbit::OrbitError;
 use crate::tolerance::SAME;
-use softstop::Scene;
 use softstop::internals::highest_point;
+use softstop::{CheckedScene, Scene};
 
 /// A range of frequencies with a stable z = 1 motion that changes continuously.
 #[derive(Debug, Clone)]
@@ -32,7 +32,7 @@ impl StableRange {
     /// [`OrbitError`] if it is lost.
     pub fn point_at(
         &self,
-        scene: &Scene,
+        scene: &CheckedScene,
         frequency: f64,
     ) -> Result<Option<BranchPoint>, OrbitError> {
         let family = Frequencies(scene);
@@ -52,7 +52,7 @@ impl StableRange {
     }
 
     /// True if the stable range is a part of another one, or the same.
-    pub(super) fn is_within(&self, other: &Self, scene: &Scene) -> bool {
+    pub(super) fn is_within(&self, other: &Self, scene: &CheckedScene) -> bool {
         let middle = &self.points[self.points.len() / 2];
         let near = |frequency: f64| SAME * frequency.abs();
         self.low.frequency >= other.low.frequency - near(self.low.frequency)
@@ -64,7 +64,11 @@ impl StableRange {
     ///
     /// # Errors
     /// [`OrbitError`] if the stable range is lost.
-    pub fn contains_point(&self, scene: &Scene, point: &BranchPoint) -> Result<bool, OrbitError> {
+    pub fn contains_point(
+        &self,
+        scene: &CheckedScene,
+        point: &BranchPoint,
+    ) -> Result<bool, OrbitError> {
         let own = self.point_at(scene, point.parameter)?;
         Ok(own.is_some_and(|own| is_same_state(&own, point.state(), scene)))
     }
@@ -87,7 +91,7 @@ pub(super) fn is_same_state(one: &BranchPoint, other: Vector2<f64>, scene: &Scen
 }
 
 /// Scales of positions, velocities and frequencies of a scene.
-pub(super) fn unknown_scales(scene: &Scene) -> [f64; 3] {
+pub(super) fn unknown_scales(scene: &CheckedScene) -> [f64; 3] {
     let family = Frequencies(scene);
     let ([length, speed], [rate]) = (family.state_scales(), family.parameter_scales());
     [length, speed, rate]

@@ -10,7 +10,7 @@ use crate::continuation::{Branch, BranchPoint, Continuation, End, Limits};
 use crate::monitor::{Monitor, unmonitored};
 use crate::orbit::{Orbit, OrbitError, singles_about, singles_near};
 use crate::tolerance::NEAR;
-use softstop::Scene;
+use softstop::{CheckedScene, Scene};
 
 /// Frequencies in units of the natural one between which z = 1 motions are searched, and how many of them in a row:
 /// closely below, where a drive period holds several free ones and stable ranges are narrow.
@@ -56,7 +56,7 @@ pub(super) fn find_stable_ranges(
     scene: &Scene,
     monitor: Monitor<'_>,
 ) -> Result<Vec<StableRange>, OrbitError> {
-    scene.validate()?;
+    let scene = &scene.check()?;
     let family = Frequencies(scene);
     let continuation = Continuation::new(&family, 1);
     let limits = branch_limits(scene);
@@ -67,7 +67,7 @@ pub(super) fn find_stable_ranges(
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MAX_BRANCHES) {
         next += 1;
         let mut met = VecDeque::from(singles_about(
-            &scene.at_frequency(frequency),
+            &scene.recheck(scene.at_frequency(frequency))?,
             FREE_SHARE,
             monitor,
         )?);
@@ -121,7 +121,7 @@ pub(super) fn find_stable_ranges(
 fn is_off_branch(
     continuation: &Continuation<'_, Frequencies<'_>>,
     pair: &[BranchPoint],
-    (point, scene): (&BranchPoint, &Scene),
+    (point, scene): (&BranchPoint, &CheckedScene),
 ) -> bool {
     let [from, to] = [&pair[0], &pair[1]];
     let is_inside = (from.parameter < point.parameter) != (to.parameter < point.parameter);
@@ -171,12 +171,12 @@ fn border_points(branch: &Branch) -> Vec<&BranchPoint> {
 }
 
 /// The orbits beside a border with nearly the impact of the motion there.
-fn orbits_beyond(scene: &Scene, border: &Orbit) -> Vec<Orbit> {
+fn orbits_beyond(scene: &CheckedScene, border: &Orbit) -> Vec<Orbit> {
     let impacts = border.timed_impacts();
     let shares = BEYOND_SHARES.into_iter().flat_map(|share| [-share, share]);
     let near = |share: f64| {
         let there = scene.at_frequency(border.scene.excitation.frequency * (1.0 + share));
-        impacts.first().map(|impact| singles_near(&there, *impact))
+        Some(singles_near(&scene.recheck(there).ok()?, *impacts.first()?))
     };
     shares.filter_map(near).flatten().collect()
 }

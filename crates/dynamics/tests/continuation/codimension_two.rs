@@ -117,7 +117,7 @@ fn curves_from_impact_to_impact_are_those_of_the_stroboscopic_map() {
                 let [frequency, clearance] = point.parameters;
                 let mut scene = scene.at_frequency(frequency);
                 scene.clearance = clearance;
-                let map = StroboscopicMap::new(&scene, 1).expect("a map");
+                let map = StroboscopicMap::new(&scene.check().expect("a map"), 1);
                 let state = Vector2::new(point.position, point.velocity);
                 let passage = map.apply(state).expect("an image");
                 assert_near((passage.end - state).norm() / clearance, 0.0, GROWN);
@@ -160,7 +160,7 @@ fn the_papers_machines_have_resonant_grazings() {
         let state = Vector2::new(point.position, point.velocity);
         let coefficient = normal_form_coefficient(&scene, 1, Test::Flip, state);
         let coefficient = coefficient.expect("a motion").expect("a coefficient");
-        let map = StroboscopicMap::new(&scene, 1).expect("a map");
+        let map = StroboscopicMap::new(&scene.check().expect("a map"), 1);
         let flip = BranchPoint {
             parameter: frequency,
             position: point.position,

@@ -97,7 +97,7 @@ fn coefficients_are_those_of_the_orbits_beside() {
     let scales = at_flip.scales();
     let length = |way: Vector2<f64>| (way.x / scales.length).hypot(way.y / scales.speed());
     let measured = |point: &BranchPoint| {
-        let map = StroboscopicMap::new(&scene(point.parameter), 1).expect("a map");
+        let map = StroboscopicMap::new(&scene(point.parameter).check().expect("a map"), 1);
         let half = 0.5 * length(map.image(point.state()).expect("a motion") - point.state());
         let multipliers = point.monodromy.multipliers();
         (half, (1.0 - multipliers[0].re) / (4.0 * half * half))

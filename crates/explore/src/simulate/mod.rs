@@ -114,7 +114,9 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     crossings.close()?;
     let machine = &begun.machine;
     let title = report::chart_title(machine, plan.periods, plan.drawn);
-    let chart = outcome.drawing.svg(machine, &title, &faces(&machine.scene));
+    let chart = outcome
+        .drawing
+        .svg(machine, &title, &faces(&machine.check(None)?));
     export.file("svg", chart.as_bytes())?;
     let (result, text) = report(&plan, &outcome);
     export.finish(&result, text, arguments.format)

@@ -2,7 +2,7 @@
 
 use anyhow::anyhow;
 use softstop::internals::{Motion, mechanical_energy};
-use softstop::{Instant, Scene, Start};
+use softstop::{CheckedScene, Instant, Start};
 
 use super::begin::Begun;
 use super::name;
@@ -152,9 +152,13 @@ pub(super) fn columns() -> [Column<Sample>; 5] {
 }
 
 /// The positions in m at which the law of force changes.
-pub(crate) fn faces(scene: &Scene) -> Vec<f64> {
-    let surfaces = scene.phases().surfaces;
-    let mut faces: Vec<f64> = surfaces.iter().map(|it| it.position).collect();
+pub(crate) fn faces(scene: &CheckedScene) -> Vec<f64> {
+    let mut faces: Vec<f64> = scene
+        .phases()
+        .surfaces
+        .iter()
+        .map(|it| it.position)
+        .collect();
     faces.sort_by(f64::total_cmp);
     faces.dedup();
     faces

@@ -221,17 +221,12 @@ impl Look<'_> {
     }
 
     fn map(&self) -> Option<&StroboscopicMap> {
-        let map = || self.seen.as_ref()?.watched_map(self.scene()).ok();
+        let map = || Some(self.seen.as_ref()?.watched_map(&self.scene().check().ok()?));
         self.map.get_or_init(map).as_ref()
     }
 
     fn motion(&self) -> Option<&(MotionKind, Option<f64>)> {
-        let motion = || {
-            self.seen
-                .as_ref()?
-                .motion_kind(self.scene(), self.map()?)
-                .ok()
-        };
+        let motion = || self.seen.as_ref()?.motion_kind(self.map()?).ok();
         self.motion.get_or_init(motion).as_ref()
     }
 

@@ -85,7 +85,7 @@ impl Integrator for FixedStep {
                 let places = Places::of(task, &machine);
                 ignored::run(&mut machine, places, start)?
             }
-            Events::Located => Located::new(&mut machine, task, start).run()?,
+            Events::Located => Located::new(&mut machine, task, start)?.run()?,
         };
         Ok(machine.finish(end))
     }

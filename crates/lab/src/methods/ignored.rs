@@ -17,7 +17,7 @@ pub(super) struct Places {
 
 impl Places {
     pub fn of(task: &Task, machine: &Machine) -> Self {
-        let any = !machine.phases.surfaces.is_empty();
+        let any = !machine.phases().surfaces.is_empty();
         Self {
             clearance: any.then_some(task.scene.clearance),
             wall: task.scene.wall(),

@@ -1,7 +1,5 @@
 //! Steps that end where the law changes.
 
-use std::borrow::Cow;
-
 use super::machine::{Laws, Machine, State};
 use super::rise::{Fineness, Probe, rise};
 use super::step::Step;
@@ -13,9 +11,9 @@ use softstop::internals::{Guard, Walk};
 const HALVINGS: u32 = 60;
 
 /// A motion under way, from crossing to crossing.
-pub(super) struct Located<'a, 'b> {
+pub(super) struct Located<'a> {
     machine: &'a mut Machine,
-    walk: Walk<'b>,
+    walk: Walk,
     /// The present step's start.
     at: Step,
 }
@@ -23,16 +21,15 @@ pub(super) struct Located<'a, 'b> {
 /// A guard that has risen, after how long, and the state there.
 type Risen = (usize, f64, State);
 
-impl<'a, 'b> Located<'a, 'b> {
-    pub fn new(machine: &'a mut Machine, task: &'b Task, start: Step) -> Self {
-        let phases = Cow::Owned(machine.phases.clone());
+impl<'a> Located<'a> {
+    pub fn new(machine: &'a mut Machine, task: &Task, start: Step) -> Result<Self, MethodError> {
         let mut motion = Self {
-            walk: Walk::on_phases(&task.scene, task.start, phases),
+            walk: Walk::new(&machine.scene, task.start)?,
             machine,
             at: start,
         };
         motion.depart();
-        motion
+        Ok(motion)
     }
 
     pub fn run(mut self) -> Result<State, MethodError> {
@@ -102,7 +99,7 @@ impl<'a, 'b> Located<'a, 'b> {
     /// What rounding may leave of a guard that begins on zero.
     fn noise(&self, guard: &Guard, (span, to): &(f64, State)) -> f64 {
         let speed = to.velocity.abs().max(self.at.from.velocity.abs());
-        let push = self.machine.phases.amplitude;
+        let push = self.machine.phases().amplitude;
         let gained = span * (push + to.acceleration.abs());
         let position = (guard.position * to.position).abs() + guard.level.abs();
         let velocity = guard.velocity.abs() * (speed.min(gained));

@@ -2,7 +2,7 @@
 
 use super::{MethodError, Solution, Task, Work};
 use softstop::internals::{PhaseId, Phases};
-use softstop::{Impact, MotionError, SceneError, Start};
+use softstop::{CheckedScene, Impact, MotionError, SceneError, Start};
 
 /// Which law of force a step goes by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,11 +53,10 @@ impl State {
 
 /// Forces and steps, and counts of what was asked.
 pub(super) struct Machine {
-    pub phases: Phases,
+    pub scene: CheckedScene,
     pub steps: Steps,
     pub work: Work,
     pub impacts: Vec<Impact>,
-    angle: f64,
     most_steps: u64,
 }
 
@@ -120,28 +119,33 @@ impl Machine {
             in_range(name, below.clearance, false, allowed)?;
         }
         // A motion refuses all that is wrong with a scene and a start.
-        task.scene.motion(task.start)?;
+        let scene = task.scene.check().map_err(MotionError::from)?;
+        scene.motion(task.start)?;
         Ok(Self {
-            phases: task.scene.phases(),
+            scene,
             steps: Steps::new(task, step)?,
             work: Work::default(),
             impacts: Vec::new(),
-            angle: task.scene.excitation.phase,
             most_steps: task.most_steps,
         })
     }
 
+    /// The phases of its scene.
+    pub fn phases(&self) -> &Phases {
+        self.scene.phases()
+    }
+
     /// Push of the drive per mass in m/s^2.
     pub fn push(&self, time: f64) -> f64 {
-        let drive = &self.phases;
-        drive.amplitude * (drive.frequency * time + self.angle).cos()
+        let (drive, amplitude) = (self.scene.excitation, self.phases().amplitude);
+        amplitude * (drive.frequency * time + drive.phase).cos()
     }
 
     /// Acceleration in m/s^2; counted.
     pub fn acceleration(&mut self, laws: Laws, time: f64, position: f64, velocity: f64) -> f64 {
         self.work.evaluations += 1;
         let push = self.push(time);
-        let of = |phase| self.phases.acceleration(phase, position, velocity, push);
+        let of = |phase| self.phases().acceleration(phase, position, velocity, push);
         match self.laws(laws, position, velocity) {
             [one, other] if one == other => of(one),
             [one, other] => 0.5 * (of(one) + of(other)),
@@ -151,16 +155,16 @@ impl Machine {
     /// -d(acceleration)/d(position) in 1/s^2 and -d(acceleration)/d(velocity) in 1/s. They come with an
     /// evaluation.
     pub fn slopes(&self, laws: Laws, position: f64, velocity: f64) -> (f64, f64) {
-        let of = |phase: PhaseId| self.phases[phase].slopes(position, velocity);
+        let of = |phase: PhaseId| self.phases()[phase].slopes(position, velocity);
         let [one, other] = self.laws(laws, position, velocity).map(of);
-        let per_mass = 0.5 / self.phases.mass;
+        let per_mass = 0.5 / self.scene.mass;
         ((one.0 + other.0) * per_mass, (one.1 + other.1) * per_mass)
     }
 
     fn laws(&self, laws: Laws, position: f64, velocity: f64) -> [PhaseId; 2] {
         match laws {
             Laws::One(phase) => [phase; 2],
-            Laws::All => self.phases.laws_at(position, velocity, true),
+            Laws::All => self.phases().laws_at(position, velocity, true),
         }
     }
 

@@ -28,8 +28,8 @@ mod diffsol;
 mod leg;
 
 use crate::methods::{Integrator, MethodError, Solution, Task, Work, in_range};
-use softstop::Start;
 use softstop::internals::Walk;
+use softstop::{MotionError, Start};
 
 use leg::{Leg, Outcome, Span, drive, out_of_steps};
 
@@ -110,7 +110,7 @@ impl Integrator for Adaptive {
         positive("absolute tolerance", self.absolute)?;
         let until = task.until()?;
         let (_, follow) = self.scheme.solver();
-        let mut walk = Walk::new(&task.scene, task.start)?;
+        let mut walk = Walk::new(&task.scene.check().map_err(MotionError::from)?, task.start)?;
         let mut work = Work::default();
         let mut end = walk.state();
         // Within rounding of the end no solver can make a step.
@@ -146,7 +146,7 @@ impl Integrator for Adaptive {
 }
 
 /// What a solver is given of a walk's next leg.
-fn span(task: &Task, walk: &Walk<'_>, until: f64, most_steps: u64) -> Span {
+fn span(task: &Task, walk: &Walk, until: f64, most_steps: u64) -> Span {
     let (from, start) = (walk.time(), walk.state());
     let (push, rate) = drive(&task.scene, from);
     let state = match walk.phase() {

@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::Context;
 use rayon::prelude::*;
 use serde::Serialize;
-use softstop::MotionError;
+use softstop::{MotionError, SceneError};
 use softstop_console::failure::Failure;
 use softstop_console::median::median;
 use softstop_console::progress::Progress;
@@ -95,8 +95,10 @@ fn lanes(study: &Measured) -> Result<f64, MotionError> {
             periods: study.periods(),
         });
         let jobs: Vec<Job> = jobs.collect();
-        let lowered = machines.par_iter().map(|it| Machine::new(&it.scene));
-        let lowered: Vec<Machine> = lowered.collect::<Result<_, _>>()?;
+        let lowered = machines
+            .par_iter()
+            .map(|it| Ok(Machine::new(&it.check(None)?)));
+        let lowered: Vec<Machine> = lowered.collect::<Result<_, SceneError>>()?;
         run_parallel(Instructions::Widest, &lowered, &jobs, |_| ());
         seconds += begin.elapsed().as_secs_f64();
     }

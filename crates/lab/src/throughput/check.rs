@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use serde::Serialize;
-use softstop::{Scene, Start};
+use softstop::{Scene, SceneError, Start};
 use softstop_lanes::{Instructions, Job, Machine, Outcome, run_with};
 
 use super::doubt::{self, Verdict};
@@ -161,8 +161,9 @@ fn draw(draw: &mut Draw, count: u64, aimed: bool) -> Result<Vec<Motion>> {
 /// # Errors
 /// [`Failure::Run`] if one cannot be computed.
 pub fn compare(motions: Vec<Motion>, periods: u64) -> Result<Tally, Failure> {
-    let machines = motions.iter().map(|(_, scene, _)| Machine::new(scene));
-    let machines = machines.collect::<Result<Vec<_>, _>>();
+    let machines = motions.iter();
+    let machines = machines.map(|(_, scene, _)| Ok(Machine::new(&scene.check()?)));
+    let machines = machines.collect::<Result<Vec<_>, SceneError>>();
     let machines = machines.context("a random machine")?;
     let outcomes = in_lanes(&machines, &motions, |_| periods)?;
     let until_leap = |index: usize| match &outcomes[index] {

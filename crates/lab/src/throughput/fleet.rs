@@ -130,8 +130,8 @@ impl Fleet {
     ) -> Result<Count, MotionError> {
         let mut all = Vec::new();
         for (scenes, jobs) in self.scenes.chunks(PART).zip(self.jobs.chunks(PART)) {
-            let machines = scenes.iter().map(Machine::new);
-            let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
+            let machines = scenes.iter().map(|scene| Ok(Machine::new(&scene.check()?)));
+            let machines: Vec<Machine> = machines.collect::<Result<_, SceneError>>()?;
             let own = |(machine, job): (usize, &Job)| Job { machine, ..*job };
             let jobs: Vec<Job> = jobs.iter().enumerate().map(own).collect();
             all.extend(run(&machines, &jobs));
@@ -144,8 +144,9 @@ impl Fleet {
     /// # Errors
     /// As [`Fleet::safe`].
     pub fn parallel(&self, rounds: usize) -> Result<Count, MotionError> {
-        let machines = self.scenes.par_iter().map(Machine::new);
-        let machines: Vec<Machine> = machines.collect::<Result<_, _>>()?;
+        let machines = self.scenes.par_iter();
+        let machines = machines.map(|scene| Ok(Machine::new(&scene.check()?)));
+        let machines: Vec<Machine> = machines.collect::<Result<_, SceneError>>()?;
         let jobs = self.jobs.repeat(rounds);
         let (outcomes, _) = run_parallel(Instructions::Widest, &machines, &jobs, |_| ());
         Count::of(&outcomes)

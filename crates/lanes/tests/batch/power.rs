@@ -23,7 +23,7 @@ fn power(index: usize) -> Scene {
 }
 
 fn is_for_lanes(scene: &Scene) -> bool {
-    Machine::new(scene).expect("valid").is_for_lanes()
+    Machine::new(&scene.check().expect("valid")).is_for_lanes()
 }
 
 #[test]

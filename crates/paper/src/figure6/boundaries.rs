@@ -80,7 +80,7 @@ pub(super) fn figures(orbit: &Orbit) -> Figures {
 
 /// Those of z = 1 at a frequency, by a state and the impacts of it.
 fn describe(machine: &Ratios, eta: f64, state: Vector2<f64>, impacts: &[f64]) -> Result<Figures> {
-    let map = StroboscopicMap::new(&machine.at_frequency(eta).scene()?, 1)?;
+    let map = StroboscopicMap::new(&machine.at_frequency(eta).scene()?.check()?, 1);
     let velocity = impacts.iter().copied().fold(0.0, f64::max);
     Ok([eta, map.max_position(state)?, velocity])
 }

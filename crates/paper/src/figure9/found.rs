@@ -60,7 +60,7 @@ impl Found {
         let Some(attractor) = survey.attractors.iter().find(fits).cloned() else {
             return Ok(None);
         };
-        let map = StroboscopicMap::new(&scene(asked)?, 1)?;
+        let map = StroboscopicMap::new(&scene(asked)?.check()?, 1);
         let section = match attractor.motion.periods() {
             Some(periods) => Section::of(&map, attractor.state, periods, usize::MAX)?,
             None => Section::lasting(&map, attractor.state, most)?,

@@ -86,7 +86,7 @@ fn starts(clearance: f64) -> Vec<Start> {
 /// Chaos, if small differences grow along a motion that has not settled.
 fn wandering(scene: &Scene, arrivals: &[Arrival]) -> Option<MotionKind> {
     let mut restless = arrivals.iter().filter(|arrival| arrival.orbit.is_none());
-    let map = StroboscopicMap::new(scene, WATCHED).ok()?;
+    let map = StroboscopicMap::new(&scene.check().ok()?, WATCHED);
     let grows = |arrival: &Arrival| {
         let motion = classify_wandering(&map, arrival.state);
         motion.is_ok_and(|(motion, _)| motion == MotionKind::Chaos)

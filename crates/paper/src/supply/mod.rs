@@ -144,7 +144,10 @@ impl Press {
         let orbit = find(&scenes[usize::from(is_supplied)])?;
         Ok(Self {
             clearance: machine.clearance,
-            machines: [Machine::new(&scenes[0])?, Machine::new(&scenes[1])?],
+            machines: [
+                Machine::new(&scenes[0].check()?),
+                Machine::new(&scenes[1].check()?),
+            ],
             start: orbit.state().into(),
             period: orbit.scene.period(),
             impact: orbit.impact_angles().next().unwrap_or(0.0) / TAU,

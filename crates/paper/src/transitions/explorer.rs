@@ -111,7 +111,8 @@ impl<'a, F: Family + Sync> Explorer<'a, F> {
             .collect();
         let is_chaos = match gone.first() {
             Some(state) if 2 * gone.len() >= wandering.len() => {
-                Exponents::differences_grow(&self.family.scene([value])?, (*state).into())?
+                let scene = self.family.scene([value])?;
+                Exponents::differences_grow(&scene, (*state).into())?
             }
             _ => false,
         };

@@ -7,6 +7,7 @@ use softstop_dynamics::continuation::Family;
 use softstop_dynamics::internals::{Ensemble, HasMember, Member};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Exponents, Orbit, OrbitError};
+use softstop_lanes::Machine;
 
 /// Drive periods for which a motion is followed, and those between two looks at whether it has settled.
 const ENDURANCE: u64 = 400_000;
@@ -36,7 +37,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
         if !leaves_in_time {
             return Ok(false);
         }
-        let ensemble = Ensemble::of_scene(&scene, self.monitor)?;
+        let ensemble = Ensemble::new(vec![Machine::new(&scene)], self.monitor);
         let mut calm = BurstCounter::new(*start, periods as usize);
         for _ in 0..ENDURANCE / PERIODS_BETWEEN_LOOKS {
             ensemble.advance_batch::<true, true, _>(&mut [&mut calm], PERIODS_BETWEEN_LOOKS)?;

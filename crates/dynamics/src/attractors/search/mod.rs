@@ -15,7 +15,8 @@ use crate::member::{Member, MemberStatus};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::find_return;
 use crate::orbit::{self, Exponents, Orbit, OrbitError};
-use softstop::{Scene, Start};
+use softstop::{CheckedScene, Scene, Start};
+use softstop_lanes::Machine;
 
 /// Starts of the pilot, which shows where motions stay.
 const PILOTS: usize = 64;
@@ -48,10 +49,10 @@ struct Group {
 
 /// A search of the attractors of a scene.
 struct Search<'a> {
-    scene: &'a Scene,
+    scene: CheckedScene,
     options: SearchOptions,
     ensemble: Ensemble<'a>,
-    catalogue: AttractorCatalogue<'a>,
+    catalogue: AttractorCatalogue,
     members: Vec<SearchMember>,
     groups: BTreeMap<usize, Group>,
 }
@@ -185,15 +186,16 @@ pub fn settle_starts(
 impl<'a> Search<'a> {
     /// A search of the attractors of a scene that has no motions yet.
     fn new(
-        scene: &'a Scene,
+        scene: &Scene,
         options: &SearchOptions,
         monitor: Monitor<'a>,
     ) -> Result<Self, OrbitError> {
+        let scene = scene.check()?;
         Ok(Self {
-            scene,
             options: *options,
-            ensemble: Ensemble::of_scene(scene, monitor)?,
-            catalogue: AttractorCatalogue::new(scene),
+            ensemble: Ensemble::new(vec![Machine::new(&scene)], monitor),
+            catalogue: AttractorCatalogue::new(&scene),
+            scene,
             members: Vec::new(),
             groups: BTreeMap::new(),
         })

@@ -53,7 +53,7 @@ impl Search<'_> {
                 group.exponents = Some(exponents);
             }
             if wanders && exponents.is_positive() {
-                let chaos = Chaos::of_motion(self.scene, &self.ensemble, (state, end), exponents)?;
+                let chaos = Chaos::of_motion(&self.scene, &self.ensemble, (state, end), exponents)?;
                 // Without impacts the motion is linear and damped: it settles, if slowly.
                 if chaos.velocities.is_some() {
                     group.chaos = Some(chaos);
@@ -71,7 +71,7 @@ impl Search<'_> {
         let mut best = None;
         loop {
             let ask = || self.ensemble.count_work(0);
-            let along = Exponents::along_motion_with_monitor(self.scene, state.into(), batch, ask);
+            let along = Exponents::along_motion_with_monitor(&self.scene, state.into(), batch, ask);
             let (exponents, end) = along?;
             self.ensemble.count_work(exponents.periods)?;
             let mut after = Member::new(0, end.into());

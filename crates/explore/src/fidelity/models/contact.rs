@@ -39,7 +39,7 @@ impl Contact {
         let start = Start::new(bare.clearance, velocity);
         let mut cycles = 1;
         let (motion, exit) = loop {
-            let motion = StroboscopicMap::new(&bare, cycles)?.trajectory(start.into())?;
+            let motion = StroboscopicMap::new(&bare.check()?, cycles).trajectory(start.into())?;
             let is_exit = |it: &&Crossing| comes_back(it, bare.clearance);
             let exit = motion.crossings().find(is_exit).copied();
             if exit.is_some() || cycles >= MAX_CONTACT_PERIODS {

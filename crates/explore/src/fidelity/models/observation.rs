@@ -76,7 +76,7 @@ impl Observation {
     /// A settled motion, observed over the periods in which it repeats.
     fn over(scene: &Scene, start: Start, regime: Option<Regime>) -> Result<Self, MotionError> {
         let periods = regime.map_or(LONG, |regime| regime.periods);
-        let motion = StroboscopicMap::new(scene, periods)?.trajectory(start.into())?;
+        let motion = StroboscopicMap::new(&scene.check()?, periods).trajectory(start.into())?;
         let (mut supplied, mut lost, mut contact_time) = (0.0, 0.0, 0.0);
         let mut peak: Option<f64> = None;
         for kept in &motion.arcs {
