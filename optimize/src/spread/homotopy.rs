@@ -54,6 +54,7 @@ pub fn along(
 }
 
 /// The machines on a way.
+#[derive(Debug)]
 struct Homotopy<'a> {
     spread: &'a dyn ToleranceBox,
     to: &'a [f64],

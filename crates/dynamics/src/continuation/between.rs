@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use super::Family;
 use super::arclength::Node;
 use super::follow::Continuation;
 use super::half_branch::Limits;
@@ -16,7 +15,7 @@ use crate::tolerance::ROUNDING;
 /// Most points that a branch is followed through between two neighbours.
 const MAX_WALK_POINTS: usize = 200;
 
-impl<F: Family> Continuation<'_, F> {
+impl Continuation<'_> {
     /// The point between two neighbours of a branch at which a test of the monodromy matrix vanishes.
     ///
     /// # Errors

@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DVector, Vector2};
 
-use super::Family;
 use super::arclength::Node;
 use super::curve::MIN_LOOP_POINTS;
 use super::follow::{Continuation, SectionChange};
@@ -47,7 +46,7 @@ impl Branch {
     }
 }
 
-impl<'a, F: Family> Continuation<'a, F> {
+impl<'a> Continuation<'a> {
     /// The branch through the orbit near a state, towards falling and rising parameters, with every
     /// fold, flip, Neimark-Sacker point, pitchfork and grazing on it. `watch` sees each point as it comes, and the last
     /// one again whenever the next one was not reached by a step.
@@ -108,7 +107,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         start: Node<PeriodMap>,
         along: &DVector<f64>,
         limits: &Limits,
-        watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
+        watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let way = self.follow_half(start.clone(), along, limits, watch)?;
         self.join_halves(&start, HalfBranch::empty(), way)
@@ -140,7 +139,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         start: Node<PeriodMap>,
         along: &DVector<f64>,
         limits: &Limits,
-        watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
+        watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<HalfBranch, OrbitError> {
         let mut way = HalfBranch::empty();
         let origin = self.point_at(&start)?;
@@ -163,8 +162,8 @@ impl<'a, F: Family> Continuation<'a, F> {
         (start, along): (Node<PeriodMap>, &DVector<f64>),
         origin: &BranchPoint,
         limits: &Limits,
-        watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
-    ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
+        watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Option<SectionChange<'a>>, OrbitError> {
         let origin = self.place_of(origin)?;
         let mut grazing_test = GrazingTest::of_node(&self.shooting, &start);
         let mut stepper = Stepper::new(&self.shooting, start, along, &self.settings)?;

@@ -82,11 +82,8 @@ pub(super) fn along_parameters(direction: &DVector<f64>) -> DVector<f64> {
 
 /// A system whose solutions are special points in two parameters, its last two unknowns: it makes a curve.
 pub(super) trait Codimension: Equations {
-    /// The machines.
-    type Machines: Family<2>;
-
     /// The machines of the curve, and the drive periods of its orbits.
-    fn family_and_periods(&self) -> (&Self::Machines, u64);
+    fn family_and_periods(&self) -> (&dyn Family<2>, u64);
     /// The test that vanishes on the curve; none on one of grazing.
     fn critical_test(&self) -> Option<Test>;
     /// The state of the orbit at time 0 for these unknowns.
@@ -168,10 +165,8 @@ pub(super) trait Codimension: Equations {
     }
 }
 
-impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
-    type Machines = F;
-
-    fn family_and_periods(&self) -> (&F, u64) {
+impl Codimension for Critical<'_, 2> {
+    fn family_and_periods(&self) -> (&dyn Family<2>, u64) {
         (self.shooting.family, self.shooting.periods)
     }
 
@@ -188,10 +183,8 @@ impl<F: Family<2>> Codimension for Critical<'_, F, 2> {
     }
 }
 
-impl<F: Family<2>> Codimension for SectionOrbit<'_, F, 2> {
-    type Machines = F;
-
-    fn family_and_periods(&self) -> (&F, u64) {
+impl Codimension for SectionOrbit<'_, 2> {
+    fn family_and_periods(&self) -> (&dyn Family<2>, u64) {
         (self.section.family, self.section.periods)
     }
 

@@ -4,7 +4,6 @@
 
 use nalgebra::DVector;
 
-use super::Family;
 use super::arclength::{Equations, Node, correct, curve_tangent};
 use super::follow::{Continuation, keeps_sense};
 use super::period_map::PeriodMap;
@@ -19,13 +18,13 @@ const CORNER_DISTANCES: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
 /// How many times as far the branch beyond a corner, and the touch, may lie as they are looked for.
 const CORNER_REACH: f64 = 10.0;
 
-impl<F: Family> Continuation<'_, F> {
+impl Continuation<'_> {
     /// A node beyond the corner just ahead, and the direction in which the branch goes on from it. Whether the force jumps
     /// at the touch plays no part: the map is continuous there, so that fixed points go on from it one way alone, which
     /// their index tells, and no other branch comes as near.
     pub(super) fn beyond_corner(
         &self,
-        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        stepper: &Stepper<'_, Shooting<'_, 1>>,
     ) -> Option<(Node<PeriodMap>, DVector<f64>)> {
         let node = &stepper.node;
         CORNER_DISTANCES.into_iter().find_map(|reach| {

@@ -65,7 +65,7 @@ pub(super) fn follow_curve<E: Codimension>(
     kind: SpecialKind,
     guess: &DVector<f64>,
     region: &CurveLimits,
-    watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Curve, OrbitError> {
     let unknowns = guess.len();
     let mut second = DVector::zeros(unknowns);
@@ -106,7 +106,7 @@ fn follow_half_curve<E: Codimension>(
     start: Node<E::Point>,
     along: &DVector<f64>,
     region: &CurveLimits,
-    watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<HalfCurve, OrbitError> {
     let origin = start.at.clone();
     let sequence = E::orbit_of(&start.here.point).2;

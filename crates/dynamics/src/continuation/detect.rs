@@ -4,7 +4,6 @@ use std::cell::RefCell;
 
 use nalgebra::DVector;
 
-use super::Family;
 use super::arclength::{Equations, Node};
 use super::follow::Continuation;
 use super::grazing_test::GrazingTest;
@@ -20,7 +19,7 @@ use softstop::internals::highest_point;
 /// Share of a step over which a test is taken to be straight.
 const STRAIGHT_SHARE: f64 = 0.02;
 
-impl<F: Family> Continuation<'_, F> {
+impl Continuation<'_> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
     pub(super) fn bound_passed(
         &self,

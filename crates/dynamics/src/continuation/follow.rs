@@ -18,21 +18,21 @@ use crate::tolerance::ROUNDING;
 
 /// A continuation: follows the orbits of a family over a number of drive periods.
 #[derive(Debug)]
-pub struct Continuation<'a, F> {
-    pub(super) shooting: Shooting<'a, F, 1>,
+pub struct Continuation<'a> {
+    pub(super) shooting: Shooting<'a, 1>,
     pub(super) settings: ContinuationSettings,
 }
 
 /// A branch seen at another section: a node of it, and the direction in which it goes on.
-pub(super) struct SectionChange<'a, F> {
-    pub continuation: Continuation<'a, F>,
+pub(super) struct SectionChange<'a> {
+    pub continuation: Continuation<'a>,
     pub node: Node<PeriodMap>,
     pub along: DVector<f64>,
 }
 
-impl<'a, F: Family> Continuation<'a, F> {
+impl<'a> Continuation<'a> {
     /// A continuation of the orbits of `family` over `periods` drive periods.
-    pub fn new(family: &'a F, periods: u64) -> Self {
+    pub fn new(family: &'a dyn Family, periods: u64) -> Self {
         Self {
             shooting: Shooting::new(family, periods),
             settings: ContinuationSettings::default(),
@@ -137,7 +137,7 @@ impl<'a, F: Family> Continuation<'a, F> {
         &self,
         node: Node<PeriodMap>,
         along: DVector<f64>,
-    ) -> SectionChange<'a, F> {
+    ) -> SectionChange<'a> {
         SectionChange {
             continuation: self.with_turn(self.shooting.turn),
             node,
@@ -151,8 +151,8 @@ impl<'a, F: Family> Continuation<'a, F> {
         (node, along): (Node<PeriodMap>, &DVector<f64>),
         limit: usize,
         (points, turned_at): (&mut Vec<BranchPoint>, &mut usize),
-        watch: &mut impl FnMut(&BranchPoint) -> ControlFlow<()>,
-    ) -> Result<Option<SectionChange<'a, F>>, OrbitError> {
+        watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Option<SectionChange<'a>>, OrbitError> {
         let sequence = node.here.point.sequence;
         let mut stepper =
             Stepper::new(&self.shooting, node, along, &self.settings)?.with_long_steps();
@@ -242,10 +242,7 @@ impl<'a, F: Family> Continuation<'a, F> {
 }
 
 /// True if a step has not leapt to another piece of the branch: no test changes much, the sense does not change.
-fn is_same_piece<F: Family>(
-    stepper: &Stepper<'_, Shooting<'_, F, 1>>,
-    step: &CurveStep<PeriodMap>,
-) -> bool {
+fn is_same_piece(stepper: &Stepper<'_, Shooting<'_, 1>>, step: &CurveStep<PeriodMap>) -> bool {
     let [from, to] = [&stepper.node, &step.node].map(|node| &node.here.point.monodromy);
     Test::change_little(from, to, stepper.settings.max_test_change)
         && keeps_sense((&stepper.direction, from), (&step.direction, to))

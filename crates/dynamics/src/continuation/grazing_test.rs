@@ -40,7 +40,7 @@ pub(crate) struct GrazingTest {
 
 impl GrazingTest {
     /// The grazing test of the orbit at a node.
-    pub fn of_node<F: Family>(shooting: &Shooting<'_, F, 1>, node: &Node<PeriodMap>) -> Self {
+    pub fn of_node(shooting: &Shooting<'_, 1>, node: &Node<PeriodMap>) -> Self {
         let round = &node.here.point;
         let total = round.sequence.crossing_count();
         let motion = &round.trajectory;
@@ -111,12 +111,12 @@ impl GrazingTest {
     }
 
     /// The grazing orbits that Newton's method reaches from the tested one, computed once.
-    pub fn grazing_orbits<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> &[Special] {
+    pub fn grazing_orbits(&self, shooting: &Shooting<'_, 1>) -> &[Special] {
         self.grazes.get_or_init(|| self.find_grazings(shooting))
     }
 
     /// Finds the grazing orbits that Newton's method reaches from both touches.
-    fn find_grazings<F: Family>(&self, shooting: &Shooting<'_, F, 1>) -> Vec<Special> {
+    fn find_grazings(&self, shooting: &Shooting<'_, 1>) -> Vec<Special> {
         let (total, taken) = self.crossings;
         let dying = self.dying.zip(total.checked_sub(taken));
         // Where the force jumps down, the mass goes on from rest at the surface.
@@ -134,9 +134,9 @@ impl GrazingTest {
     }
 
     /// The grazing orbit that Newton's method reaches from a near touch.
-    fn grazing_at<F: Family>(
+    fn grazing_at(
         &self,
-        shooting: &Shooting<'_, F, 1>,
+        shooting: &Shooting<'_, 1>,
         touch: &NearTouch,
         crossings: usize,
         dies: bool,
@@ -156,8 +156,8 @@ impl GrazingTest {
 
 /// The grazing orbit of a family, over a number of drive periods, that Newton's method reaches from the drive angle of
 /// another one's touch and from a parameter; its own angle is counted on from `phase`.
-pub(crate) fn find_grazing<F: Family>(
-    (family, periods): (&F, u64),
+pub(crate) fn find_grazing(
+    (family, periods): (&dyn Family, u64),
     near: &Graze,
     phase: f64,
     parameter: f64,

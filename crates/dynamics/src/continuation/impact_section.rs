@@ -18,8 +18,8 @@ use softstop::{Arc, CheckedScene, Clock, Crossing, Instant, Observer};
 
 /// An impact section of a family: the surface at which its orbits begin and end.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct ImpactSection<'a, F, const N: usize> {
-    pub family: &'a F,
+pub(crate) struct ImpactSection<'a, const N: usize> {
+    pub family: &'a dyn Family<N>,
     pub periods: u64,
     /// Crossings of an orbit between its begin and its last arc.
     pub crossings: usize,
@@ -54,9 +54,9 @@ const NO_CROSSING: OrbitError = OrbitError::Diverged {
     residual: f64::INFINITY,
 };
 
-impl<'a, F: Family<N>, const N: usize> ImpactSection<'a, F, N> {
+impl<'a, const N: usize> ImpactSection<'a, N> {
     /// The section at the surface that an orbit grazes.
-    pub fn of_graze(graze: &Graze, (family, periods): (&'a F, u64)) -> Self {
+    pub fn of_graze(graze: &Graze, (family, periods): (&'a dyn Family<N>, u64)) -> Self {
         Self {
             family,
             periods,

@@ -73,10 +73,12 @@ pub use special_curve::follow_special;
 pub use switching::switch_curves;
 pub use test::Test;
 
+use std::fmt::Debug;
+
 use softstop::{CheckedScene, MotionError};
 
 /// A family of scenes along one or more parameters. To add one, implement the first three methods.
-pub trait Family<const PARAMETERS: usize = 1> {
+pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
     /// The scene of the family at values of the parameters.
     ///
     /// # Errors

@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DVector, Matrix2};
 
-use super::Family;
 use super::arclength::{Node, correct};
 use super::branch::Branch;
 use super::follow::Continuation;
@@ -19,7 +18,7 @@ use crate::orbit::OrbitError;
 /// Scaled distances from a flip or a pitchfork at which the branch that comes out of it is looked for.
 const BRANCHING_DISTANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-impl<F: Family> Continuation<'_, F> {
+impl Continuation<'_> {
     /// Follows the branch of orbits of twice the period from a flip of these orbits on, along the critical eigenvector.
     ///
     /// # Errors

@@ -7,7 +7,6 @@
 
 use nalgebra::DVector;
 
-use super::Family;
 use super::arclength::{Node, correct, curve_tangent};
 use super::follow::{Continuation, SectionChange, keeps_sense};
 use super::period_map::{PeriodMap, before_wall, state_after};
@@ -16,13 +15,13 @@ use crate::period::PeriodTrajectory;
 use crate::tolerance::DIFFERENCE_WIDTH;
 use softstop::MotionError;
 
-impl<'a, F: Family> Continuation<'a, F> {
+impl<'a> Continuation<'a> {
     /// Turns the section of a branch to where no crossing stands in the way; none if this section is as good as any.
     pub(super) fn turn_section(
         &self,
         node: &Node<PeriodMap>,
         direction: &DVector<f64>,
-    ) -> Option<SectionChange<'a, F>> {
+    ) -> Option<SectionChange<'a>> {
         let continuation = self.clear_of(node)?;
         let by = continuation.shooting.turn - self.shooting.turn;
         let carried = |at: &DVector<f64>| self.carry_place(at, by);

@@ -38,15 +38,15 @@ pub(crate) enum SectionCondition {
 /// Orbits of a family that fulfil a condition at an impact section, in unknowns: drive angle there, scaled velocity of an
 /// impact, scaled parameters.
 #[derive(Debug)]
-pub(crate) struct SectionOrbit<'a, F, const N: usize> {
+pub(crate) struct SectionOrbit<'a, const N: usize> {
     /// The surface, and the crossings of the orbit, a touch left out.
-    pub section: ImpactSection<'a, F, N>,
+    pub section: ImpactSection<'a, N>,
     pub condition: SectionCondition,
 }
 
-impl<'a, F: Family<N>, const N: usize> SectionOrbit<'a, F, N> {
+impl<'a, const N: usize> SectionOrbit<'a, N> {
     /// The grazing orbits of a family over a number of drive periods that touch as another one does.
-    pub fn of_graze(graze: &Graze, orbits: (&'a F, u64)) -> Self {
+    pub fn of_graze(graze: &Graze, orbits: (&'a dyn Family<N>, u64)) -> Self {
         Self {
             section: ImpactSection::of_graze(graze, orbits),
             condition: SectionCondition::Touch,
@@ -55,7 +55,7 @@ impl<'a, F: Family<N>, const N: usize> SectionOrbit<'a, F, N> {
 
     /// The system of a test and its unknowns at an orbit; none if its slowest entry is none into a rigid or preloaded stop.
     pub fn at_orbit(
-        (family, periods): (&'a F, u64),
+        (family, periods): (&'a dyn Family<N>, u64),
         test: Test,
         state: Vector2<f64>,
         parameters: [f64; N],
@@ -169,7 +169,7 @@ impl<'a, F: Family<N>, const N: usize> SectionOrbit<'a, F, N> {
     }
 }
 
-impl<F: Family<N>, const N: usize> Equations for SectionOrbit<'_, F, N> {
+impl<const N: usize> Equations for SectionOrbit<'_, N> {
     type Point = SectionPoint;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {

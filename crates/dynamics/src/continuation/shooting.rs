@@ -15,17 +15,17 @@ use softstop::{CheckedScene, MotionError, Scene};
 
 /// The shooting for orbits of a family over drive periods, in scaled unknowns: position, velocity, parameters.
 #[derive(Debug)]
-pub(crate) struct Shooting<'a, F, const N: usize> {
-    pub family: &'a F,
+pub(crate) struct Shooting<'a, const N: usize> {
+    pub family: &'a dyn Family<N>,
     pub periods: u64,
     /// Drive periods from drive angle phi to the section.
     pub turn: f64,
     scales: DVector<f64>,
 }
 
-impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
+impl<'a, const N: usize> Shooting<'a, N> {
     /// The shooting for orbits of a family over some drive periods, with the section at drive angle phi.
-    pub fn new(family: &'a F, periods: u64) -> Self {
+    pub fn new(family: &'a dyn Family<N>, periods: u64) -> Self {
         let scales = family.state_scales().into_iter();
         let scales = scales.chain(family.parameter_scales());
         Self {
@@ -92,7 +92,7 @@ impl<'a, F: Family<N>, const N: usize> Shooting<'a, F, N> {
     }
 }
 
-impl<F: Family<N>, const N: usize> Equations for Shooting<'_, F, N> {
+impl<const N: usize> Equations for Shooting<'_, N> {
     type Point = PeriodMap;
     const EXACT: usize = 2;
 
@@ -197,12 +197,12 @@ pub(crate) fn round_off(
 
 /// The shooting for periodic orbits on which a test function vanishes besides.
 #[derive(Debug)]
-pub(crate) struct Critical<'a, F, const N: usize> {
-    pub shooting: Shooting<'a, F, N>,
+pub(crate) struct Critical<'a, const N: usize> {
+    pub shooting: Shooting<'a, N>,
     pub test: Test,
 }
 
-impl<F: Family<N>, const N: usize> Equations for Critical<'_, F, N> {
+impl<const N: usize> Equations for Critical<'_, N> {
     type Point = PeriodMap;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<PeriodMap>, OrbitError> {

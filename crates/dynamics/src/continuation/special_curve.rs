@@ -18,8 +18,8 @@ use crate::orbit::OrbitError;
 ///
 /// # Errors
 /// [`OrbitError`] if the point is not a special one of this family.
-pub fn follow_special<F: Family<2>>(
-    family: &F,
+pub fn follow_special(
+    family: &dyn Family<2>,
     periods: u64,
     special: (SpecialKind, Vector2<f64>),
     parameters: [f64; 2],
@@ -32,13 +32,13 @@ pub fn follow_special<F: Family<2>>(
 }
 
 /// Follows a special point as [`follow_special`] does, without the last point of folds that end in flips.
-fn follow_raw<F: Family<2>>(
-    family: &F,
+fn follow_raw(
+    family: &dyn Family<2>,
     periods: u64,
     (kind, state): (SpecialKind, Vector2<f64>),
     parameters: [f64; 2],
     region: &CurveLimits,
-    watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Curve, OrbitError> {
     match kind {
         SpecialKind::Critical(test) => {
@@ -64,7 +64,7 @@ fn follow_raw<F: Family<2>>(
 const FLIP_SEARCH: (usize, f64) = (5, 0.1);
 
 /// Gives curves of folds that end near a generalised flip, singular there, their last point by that of flips.
-pub(super) fn end_in_flips<F: Family<2>>(family: &F, folds: &mut Curve, region: &CurveLimits) {
+pub(super) fn end_in_flips(family: &dyn Family<2>, folds: &mut Curve, region: &CurveLimits) {
     let is_fold = folds.kind == SpecialKind::Critical(Test::Fold);
     if !is_fold || !folds.periods.is_multiple_of(2) {
         return;
@@ -89,8 +89,8 @@ pub(super) fn end_in_flips<F: Family<2>>(family: &F, folds: &mut Curve, region: 
 }
 
 /// The generalised flip near a point of a curve of folds of twice the period, if there is one.
-fn flip_near<F: Family<2>>(
-    family: &F,
+fn flip_near(
+    family: &dyn Family<2>,
     periods: u64,
     point: &CurvePoint,
     region: &CurveLimits,

@@ -1,6 +1,5 @@
 //! Step control of a branch: what keeps a step from missing anything, and what ends a branch that no step can follow.
 
-use super::Family;
 use super::arclength::{Equations, Node, correct};
 use super::follow::{Continuation, keeps_sense};
 use super::grazing_test::GrazingTest;
@@ -20,13 +19,13 @@ const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Scaled distances ahead at which a rest is looked for, where the orbits of a branch come to lie side by side.
 const REST_DISTANCES: [f64; 3] = [1e-4, 1e-3, 1e-2];
 
-impl<F: Family> Continuation<'_, F> {
+impl Continuation<'_> {
     /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just ahead
     /// (of values that no machine can have beyond), at an orbit that is too unstable, or lost.
     pub(super) fn end_branch(
         &self,
         way: &mut HalfBranch,
-        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        stepper: &Stepper<'_, Shooting<'_, 1>>,
         grazing_test: &GrazingTest,
         limits: &Limits,
         error: OrbitError,
@@ -63,7 +62,7 @@ impl<F: Family> Continuation<'_, F> {
     /// goes on. A mass that slips ever less along the branch comes to be held for good.
     fn border_ahead(
         &self,
-        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        stepper: &Stepper<'_, Shooting<'_, 1>>,
         error: &OrbitError,
     ) -> Option<BorderCollision> {
         let node = &stepper.node;
@@ -88,7 +87,7 @@ impl<F: Family> Continuation<'_, F> {
     /// True if nothing can be missed on a step of a branch.
     pub(super) fn may_take_step(
         &self,
-        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        stepper: &Stepper<'_, Shooting<'_, 1>>,
         step: &CurveStep<PeriodMap>,
         (now, ahead): (&GrazingTest, &GrazingTest),
     ) -> bool {
@@ -140,7 +139,7 @@ impl<F: Family> Continuation<'_, F> {
     /// a multiplier grows without bounds: from a stable orbit on, the branch folds or flips before, on shorter steps.
     pub(super) fn graze_ahead(
         &self,
-        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        stepper: &Stepper<'_, Shooting<'_, 1>>,
         grazing_test: &GrazingTest,
     ) -> Option<Special> {
         if stepper.step > self.settings.doubtful_step {
@@ -163,7 +162,7 @@ impl<F: Family> Continuation<'_, F> {
     }
 
     /// True if the branch turns back between a node and a grazing: right before it multipliers grow without bounds.
-    fn folds_before(&self, special: &Special, stepper: &Stepper<'_, Shooting<'_, F, 1>>) -> bool {
+    fn folds_before(&self, special: &Special, stepper: &Stepper<'_, Shooting<'_, 1>>) -> bool {
         let Ok(at) = self.place_of(&special.point) else {
             return false;
         };
@@ -183,7 +182,7 @@ impl<F: Family> Continuation<'_, F> {
     fn graze_within(
         &self,
         reach: f64,
-        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        stepper: &Stepper<'_, Shooting<'_, 1>>,
         grazing_test: &GrazingTest,
     ) -> Option<Special> {
         let is_ahead = |special: &&Special| {

@@ -22,8 +22,8 @@ const WEAK_VELOCITIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 /// The curves that begin in the points of codimension two of a curve: those of grazing, folds and flips in resonant grazing, and
 /// in a generalised flip that of flips and that of folds of orbits of twice the period. `is_known` says of a kind of curve with
 /// its drive periods whether one through the point is known already; what cannot be found is left out.
-pub fn switch_curves<F: Family<2>>(
-    family: &F,
+pub fn switch_curves(
+    family: &dyn Family<2>,
     from: &Curve,
     region: &CurveLimits,
     mut is_known: impl FnMut(&SpecialKind, u64, &CurvePoint) -> bool,
@@ -69,12 +69,12 @@ pub fn switch_curves<F: Family<2>>(
 }
 
 /// The curve of folds or flips that begins in resonant grazing.
-fn from_grazing<F: Family<2>>(
-    family: &F,
+fn from_grazing(
+    family: &dyn Family<2>,
     (periods, graze, parameters): (u64, &Graze, [f64; 2]),
     test: Test,
     region: &CurveLimits,
-    watch: &mut impl FnMut(&CurvePoint) -> ControlFlow<()>,
+    watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Option<Curve> {
     let touching = SectionOrbit::of_graze(graze, (family, periods));
     let touch = touching.section.scaled_unknowns(&[graze.angle], parameters);
@@ -87,8 +87,8 @@ fn from_grazing<F: Family<2>>(
 }
 
 /// State and parameters of a fold of orbits of twice the period beside a generalised flip on a curve of flips.
-fn fold_beside<F: Family<2>>(
-    family: &F,
+fn fold_beside(
+    family: &dyn Family<2>,
     flips: &Curve,
     generalised: &CurvePoint,
     region: &CurveLimits,
@@ -116,8 +116,8 @@ fn fold_beside<F: Family<2>>(
 
 /// The first fold of the doubled orbits of a flip along the first parameter, so near to it at most. A generalised flip is
 /// farther from the flip than such a fold is: that one only by the square of its distance.
-fn fold_of_doubled<F: Family<2>>(
-    family: &F,
+fn fold_of_doubled(
+    family: &dyn Family<2>,
     periods: u64,
     flip: &CurvePoint,
     within: f64,
@@ -142,12 +142,13 @@ fn fold_of_doubled<F: Family<2>>(
 }
 
 /// A family at one value of its second parameter.
-struct FixedSecond<'a, F> {
-    family: &'a F,
+#[derive(Debug)]
+struct FixedSecond<'a> {
+    family: &'a dyn Family<2>,
     second: f64,
 }
 
-impl<F: Family<2>> Family for FixedSecond<'_, F> {
+impl Family for FixedSecond<'_> {
     fn scene(&self, [first]: [f64; 1]) -> Result<CheckedScene, MotionError> {
         self.family.scene([first, self.second])
     }

@@ -8,7 +8,6 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::Family;
 use super::arclength::{Equations, Evaluation, Node, correct};
 use super::branch::Branch;
 use super::follow::{Continuation, is_one_sense};
@@ -41,7 +40,7 @@ struct HalfPeriod {
     tolerance: f64,
 }
 
-impl<F: Family> Shooting<'_, F, 1> {
+impl Shooting<'_, 1> {
     /// Half the period of a motion; none if the machine is not its own mirror image, or periods are even in number.
     fn half_period(&self, map: &PeriodMap) -> Option<HalfPeriod> {
         let scene = &*map.trajectory.scene;
@@ -69,9 +68,9 @@ impl<F: Family> Shooting<'_, F, 1> {
 }
 
 /// The equations of a pitchfork: symmetric orbits with a multiplier -1 of the mirrored half period.
-struct Pitchfork<'a, 'b, F>(&'b Shooting<'a, F, 1>);
+struct Pitchfork<'a, 'b>(&'b Shooting<'a, 1>);
 
-impl<F: Family> Equations for Pitchfork<'_, '_, F> {
+impl Equations for Pitchfork<'_, '_> {
     type Point = Monodromy;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<Monodromy>, OrbitError> {
@@ -86,7 +85,7 @@ impl<F: Family> Equations for Pitchfork<'_, '_, F> {
     }
 }
 
-impl<F: Family> Continuation<'_, F> {
+impl Continuation<'_> {
     /// Scaled distance of half an orbit's period from the mirror image of its start; none if it cannot be symmetric.
     pub(super) fn mirror_gap(&self, node: &Node<PeriodMap>) -> Option<DVector<f64>> {
         let half = self.shooting.half_period(&node.here.point)?;
@@ -96,7 +95,7 @@ impl<F: Family> Continuation<'_, F> {
     /// True if directions at both ends of a step between symmetric orbits, which turn at no pitchfork, may be one.
     pub(super) fn keeps_symmetric_sense(
         &self,
-        stepper: &Stepper<'_, Shooting<'_, F, 1>>,
+        stepper: &Stepper<'_, Shooting<'_, 1>>,
         step: &CurveStep<PeriodMap>,
     ) -> bool {
         let half = |node| self.shooting.symmetric_half_period(node);

@@ -2,9 +2,7 @@
 
 use super::end::{ZoneEnd, first_end};
 use super::loss::Loss;
-use crate::continuation::{
-    BranchPoint, Continuation, Direction, Family, Limits, SpecialKind, Test,
-};
+use crate::continuation::{BranchPoint, Continuation, Direction, Limits, SpecialKind, Test};
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
@@ -16,8 +14,8 @@ pub const LONGEST_BRANCH: usize = 2000;
 ///
 /// # Errors
 /// [`OrbitError`] if the branch cannot be followed.
-pub fn find_end<F: Family>(
-    continuation: &Continuation<'_, F>,
+pub fn find_end(
+    continuation: &Continuation<'_>,
     points: &mut Vec<BranchPoint>,
     direction: Direction,
     range: (f64, f64),
@@ -36,8 +34,8 @@ pub fn find_end<F: Family>(
 }
 
 /// The end of stable motions between a point before it and one beyond: at a test's zero, or the range's bound.
-fn end_between<F: Family>(
-    continuation: &Continuation<'_, F>,
+fn end_between(
+    continuation: &Continuation<'_>,
     before: &BranchPoint,
     mut beyond: BranchPoint,
     (low, high): (f64, f64),
@@ -57,8 +55,8 @@ fn end_between<F: Family>(
 }
 
 /// Follows stable motions to their end by every special point, from the last point on, or from the first.
-pub(super) fn follow_to_end<F: Family>(
-    continuation: &Continuation<'_, F>,
+pub(super) fn follow_to_end(
+    continuation: &Continuation<'_>,
     points: &mut Vec<BranchPoint>,
     direction: Direction,
     range: (f64, f64),

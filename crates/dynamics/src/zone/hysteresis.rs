@@ -142,7 +142,7 @@ fn zone_from_start(
 
 /// Follows the branch from a z = 1 motion at the lower of two frequencies upward, through all its folds.
 pub(super) fn follow_upward(
-    continuation: &Continuation<'_, Frequencies<'_>>,
+    continuation: &Continuation<'_>,
     start: &Orbit,
     (lowest, highest): (f64, f64),
     monitor: Monitor<'_>,
@@ -176,7 +176,7 @@ pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
 }
 
 /// Adds the folds to a branch, between neighbours where 1 - tr + det passes zero, but for border collisions.
-fn insert_folds(continuation: &Continuation<'_, Frequencies<'_>>, branch: &mut Vec<BranchPoint>) {
+fn insert_folds(continuation: &Continuation<'_>, branch: &mut Vec<BranchPoint>) {
     for index in (1..branch.len()).rev() {
         let (from, to) = (&branch[index - 1], &branch[index]);
         if from.fold_test() * to.fold_test() < 0.0

@@ -36,8 +36,8 @@ pub fn loss_of_stability(
 ///
 /// # Errors
 /// As [`loss_of_stability`].
-pub fn find_end_along<F: Family>(
-    family: &F,
+pub fn find_end_along(
+    family: &dyn Family,
     from: f64,
     orbit: &Orbit,
     direction: Direction,
@@ -58,8 +58,8 @@ fn is_in_reach(point: &BranchPoint, from: f64) -> bool {
 }
 
 /// Follows a branch as long as it is stable.
-fn follow_stable<F: Family>(
-    continuation: &Continuation<'_, F>,
+fn follow_stable(
+    continuation: &Continuation<'_>,
     from: f64,
     orbit: &Orbit,
     direction: Direction,
@@ -70,8 +70,8 @@ fn follow_stable<F: Family>(
 }
 
 /// Locates where a test passes zero at the end of a branch.
-fn locate_loss<F: Family>(
-    continuation: &Continuation<'_, F>,
+fn locate_loss(
+    continuation: &Continuation<'_>,
     branch: &[BranchPoint],
     test: Test,
 ) -> Result<Option<BranchPoint>, OrbitError> {

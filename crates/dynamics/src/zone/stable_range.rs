@@ -121,10 +121,7 @@ pub(super) fn lies_on_chord(
 }
 
 /// The stable ranges of a branch.
-pub(super) fn stable_parts(
-    continuation: &Continuation<'_, Frequencies<'_>>,
-    branch: &Branch,
-) -> Vec<StableRange> {
+pub(super) fn stable_parts(continuation: &Continuation<'_>, branch: &Branch) -> Vec<StableRange> {
     let mut found = Vec::new();
     let mut part = RangeCandidate::new((Loss::of_branch_end(&branch.ends.0), None));
     for point in in_order(branch) {
@@ -184,11 +181,7 @@ impl RangeCandidate {
     }
 
     /// The stable range, if the motions between the ends of the part are stable and have one impact.
-    fn into_range(
-        self,
-        continuation: &Continuation<'_, Frequencies<'_>>,
-        ends: RangeEnd,
-    ) -> Option<StableRange> {
+    fn into_range(self, continuation: &Continuation<'_>, ends: RangeEnd) -> Option<StableRange> {
         let Self { begins, mut points } = self;
         // Both ends may lie on one step.
         if let [from, to] = points.as_slice() {
@@ -219,10 +212,7 @@ impl RangeCandidate {
 const TOP_WIDTH: f64 = 1e-5;
 
 /// The point with the hardest impact along points in rising order: by golden section about the hardest of them.
-fn hardest_point(
-    continuation: &Continuation<'_, Frequencies<'_>>,
-    points: &[BranchPoint],
-) -> Option<BranchPoint> {
+fn hardest_point(continuation: &Continuation<'_>, points: &[BranchPoint]) -> Option<BranchPoint> {
     let velocity = BranchPoint::before_impact_velocity;
     let harder = |a: usize, b: usize| velocity(&points[a]).total_cmp(&velocity(&points[b]));
     let best = (0..points.len()).max_by(|a, b| harder(*a, *b))?;

@@ -119,7 +119,7 @@ pub(super) fn find_stable_ranges(
 
 /// True if a point near the chord between two neighbours is not the one between them on their branch.
 fn is_off_branch(
-    continuation: &Continuation<'_, Frequencies<'_>>,
+    continuation: &Continuation<'_>,
     pair: &[BranchPoint],
     (point, scene): (&BranchPoint, &CheckedScene),
 ) -> bool {

@@ -4,7 +4,6 @@ use super::explorer::{Explorer, FIRST_MOTIONS, Gathering, is_clear, most};
 use serde::{Deserialize, Serialize};
 use softstop::Start;
 use softstop_dynamics::attractors::Arrival;
-use softstop_dynamics::continuation::Family;
 use softstop_dynamics::monitor::recall_or_compute;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
@@ -37,7 +36,7 @@ pub(super) struct Lasting {
     is_clear: bool,
 }
 
-impl<F: Family + Sync> Explorer<'_, F> {
+impl Explorer<'_> {
     /// What motions on chaos do at a value in the time given: some of them go first.
     pub(super) fn lasting(&self, value: f64, states: &[Start]) -> Result<Lasting, OrbitError> {
         let of = ("lasting", self.family.scene([value])?, states);

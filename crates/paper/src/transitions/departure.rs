@@ -5,7 +5,7 @@ use super::cause::TransitionContext;
 use super::departure_path::DeparturePath;
 use super::explorer::{Explorer, Gathering};
 use super::window::{Window, WindowEnd};
-use softstop_dynamics::continuation::{Continuation, Family, Limits, SpecialKind, Test};
+use softstop_dynamics::continuation::{Continuation, Limits, SpecialKind, Test};
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::OrbitError;
@@ -23,7 +23,7 @@ pub(super) struct Departure {
     pub gathering: Gathering,
 }
 
-impl<F: Family + Sync> Explorer<'_, F> {
+impl Explorer<'_> {
     /// What follows beyond an end of a window: held at ever larger distances from it.
     pub(super) fn depart(
         &self,
@@ -121,7 +121,7 @@ impl<F: Family + Sync> Explorer<'_, F> {
     }
 
     /// Distances beyond an end, each twice the one before.
-    fn distances(&self, value: f64) -> impl Iterator<Item = f64> + use<F> {
+    fn distances(&self, value: f64) -> impl Iterator<Item = f64> + use<> {
         let (first, largest) = self.rules.beyond;
         let unit = value.abs();
         std::iter::successors(Some(first * unit), |distance| Some(2.0 * distance))

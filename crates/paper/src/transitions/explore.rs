@@ -10,7 +10,6 @@ use super::explorer::Explorer;
 use super::window::Window;
 use softstop::Start;
 use softstop_dynamics::attractors::find_attractors;
-use softstop_dynamics::continuation::Family;
 use softstop_dynamics::monitor::recall_or_compute;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
@@ -34,7 +33,7 @@ const MAX_ROUNDS: usize = 6;
 /// Distance of an end of chaos from that of a window, as a share of the parameter, at which they are one.
 const SAME_CHAOS_END: f64 = 1e-4;
 
-impl<F: Family + Sync> Explorer<'_, F> {
+impl Explorer<'_> {
     /// All transitions of the motions found at `values`, and of those to which they lead, in rising order
     /// of the parameter.
     ///

@@ -16,8 +16,8 @@ const SPREAD: f64 = 1e-9;
 pub(super) const FIRST_MOTIONS: usize = 16;
 
 /// Finds transitions of a family's motions.
-pub struct Explorer<'a, F> {
-    pub(super) family: &'a F,
+pub struct Explorer<'a> {
+    pub(super) family: &'a dyn Family,
     pub(super) range: (f64, f64),
     pub(super) rules: Rules,
     pub(super) monitor: Monitor<'a>,
@@ -47,11 +47,11 @@ pub(super) fn is_clear(those: usize, all: usize) -> bool {
     lead >= (CLEAR_DEVIATIONS * (all as f64).sqrt()).min(all as f64)
 }
 
-impl<'a, F: Family + Sync> Explorer<'a, F> {
+impl<'a> Explorer<'a> {
     /// A search in a range of the parameter. The monitor is told of the drive periods of one look at
     /// motions after the other; what is known is recalled.
     pub fn new(
-        family: &'a F,
+        family: &'a dyn Family,
         range: (f64, f64),
         rules: Rules,
         monitor: Monitor<'a>,

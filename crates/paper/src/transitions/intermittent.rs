@@ -3,7 +3,6 @@
 use super::ImpactOrder;
 use super::explorer::Explorer;
 use softstop::{Instant, Start};
-use softstop_dynamics::continuation::Family;
 use softstop_dynamics::internals::{Ensemble, HasMember, Member};
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::{Exponents, Orbit, OrbitError};
@@ -19,7 +18,7 @@ const LEAST_DIFFERENCE: f64 = 1e-9;
 /// Periods of the old motion in a row that tell it from chance.
 const CALM: u64 = 5;
 
-impl<F: Family + Sync> Explorer<'_, F> {
+impl Explorer<'_> {
     /// True if a motion near an orbit that has lost stability leaves it, is thrown back to it and leaves it
     /// again, several times over: Pomeau and Manneville's intermittency (1980), which the paper's ISN names.
     pub(super) fn is_intermittent(

@@ -32,8 +32,8 @@ impl Window {
     ///
     /// # Errors
     /// [`OrbitError`] if the orbit is none of the family.
-    pub fn of<F: Family>(
-        family: &F,
+    pub fn of(
+        family: &dyn Family,
         value: f64,
         orbit: &Orbit,
         range: (f64, f64),
