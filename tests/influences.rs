@@ -31,7 +31,7 @@ fn exact(scene: &Scene, start: Start, periods: u64, parameter: Parameter) -> Opt
     let scene = scene.check().ok()?;
     let phases = scene.phases();
     let by = [PhaseDerivatives::new(parameter, &scene).ok()?];
-    let mut influence = ParameterSensitivity::new(&phases, &by);
+    let mut influence = ParameterSensitivity::new(phases, &by);
     let mut motion = scene.motion(start).ok()?;
     motion
         .advance(Clock::at_cycle(periods), &mut influence)
