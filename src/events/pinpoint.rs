@@ -113,21 +113,19 @@ fn zero_by_reversion(c: &[f64; 6]) -> Option<f64> {
     let size = (a * s)
         .abs()
         .max((b * s * s).abs().max((d * s * s * s).abs()));
-    if !(c[1] > 0.0 && size <= MODEST) {
+    if !(c[1] > 0.0 && size.powi(8) <= ROUNDING) {
         return None;
     }
     let rest = s - s * s * (a - s * (second + s * third));
-    if size <= SMALL {
+    if size.powi(4) <= ROUNDING {
         return Some(rest);
     }
     let (value, rate) = value_and_rate(c, rest);
     Some(rest - value / rate)
 }
 
-/// Relative size of the terms of a series whose fourth power is below rounding.
-const SMALL: f64 = 1.0 / (1u64 << 14) as f64;
-/// Relative size of the terms of a series whose eighth power is below rounding.
-const MODEST: f64 = 1.0 / (1u64 << 7) as f64;
+/// Relative size of a term of a series that is lost in rounding.
+const ROUNDING: f64 = f64::EPSILON / 16.0;
 
 /// Newton's method from `at` to a zero through which the series rises, until a next step, foreseen from the
 /// last two as for quadratic convergence, would be below `grain`.

@@ -13,3 +13,9 @@ pub(crate) const DIFFERENCE_WIDTH: f64 = 1e-6;
 pub(crate) const TEST_ROUNDING: f64 = 1e-12;
 /// Distance from a face, or velocity at it, in units of those of the motion, up to which the motion nearly grazes the face.
 pub(crate) const NEAR_GRAZING: f64 = 1e-2;
+/// Distance from a stable orbit, in units of the motion, within which a state stands for it.
+pub(crate) const STABLE_REACH: f64 = 0.02;
+/// Distance of two motions, in units of the larger, up to which they may be one, or one continue the other.
+pub(crate) const NEIGHBOUR: f64 = 0.1;
+/// Difference of two motions that are seen, not solved for, in units of the larger, up to which they are one.
+pub(crate) const SIMILAR: f64 = 1e-2;

@@ -3,6 +3,7 @@
 use pulp::Simd;
 
 use super::contact::AMBIGUOUS_TIME;
+use super::cycle::MIN_WINDOW_SHARE;
 use super::engine::Engine;
 use super::guard::Guard;
 use super::guard_search::Found;
@@ -12,9 +13,6 @@ use super::move_lanes::LaneEnd;
 use super::parts::Parts;
 use super::scan::ScanResult;
 use super::window_ahead::WindowAhead;
-
-/// Least share of a window that lanes decide, after halvings; below it the safe engine decides. So a cycle is divided.
-pub(super) const MIN_WINDOW_SHARE: f64 = 1.0 / 512.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Decides the window ahead of the lanes that the scan has stopped, and moves all `active` ones on, none longer

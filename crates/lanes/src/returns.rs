@@ -26,7 +26,6 @@ use super::cycle_state::{Drive, Passage};
 use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
 use super::law::Constants;
 use super::nearby_zero::MAX_LAST_STEP;
-use super::skip_calm::UNSKIPPED_PERIODS;
 
 /// Largest difference between the time of a return and a whole number of drive periods, in drive periods.
 const MAX_TIME_OFFSET: f64 = 0.25;
@@ -41,6 +40,8 @@ const PERIODS_BEFORE_RECORDING: f64 = 28.0;
 const FIRST_PAUSE_PERIODS: f64 = 6.0;
 /// Ratio of the length of each pause to that of the one before.
 const PAUSE_GROWTH: f64 = 1.5;
+/// Drive periods at the end of a job that are never skipped or extrapolated: more than one scan covers.
+pub(super) const UNSKIPPED_PERIODS: f64 = 4.0;
 /// Fewest drive periods left, per period of the cycle, with which their extrapolation is worth a trial.
 const MIN_PERIODS_LEFT: f64 = 24.0;
 /// Largest distance between two returns from which the number of returns until they are close is predicted; velocities

@@ -13,7 +13,7 @@ use crate::monitor::Monitor;
 use crate::orbit::recurrence::{motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError};
 use crate::stroke_count::StrokeCount;
-use crate::tolerance::SAME;
+use crate::tolerance::{SAME, STABLE_REACH};
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
 use softstop::internals::budget::SharedBudget;
@@ -34,8 +34,6 @@ const MAX_SETTLING_PERIODS: f64 = 20_000.0;
 const MIN_DECAY_EXPONENT: f64 = 1e-5;
 /// Drive periods that motions get to come to an orbit at a border.
 const BORDER_PERIODS: u64 = 512;
-/// Distance from an orbit at a border, in units of its size, at which a motion has arrived that no ball holds.
-const BORDER_ARRIVAL_DISTANCE: f64 = 2e-2;
 
 /// A test of which motions come to a stable orbit, by balls about its points in which its map contracts.
 pub struct BasinTest {
@@ -102,7 +100,7 @@ impl BasinTest {
                 (APPROACH_PERIODS + settling as u64, SAME)
             }
             _ if decay > -MIN_DECAY_EXPONENT && !orbit.is_neutral() => {
-                (BORDER_PERIODS, BORDER_ARRIVAL_DISTANCE)
+                (BORDER_PERIODS, STABLE_REACH)
             }
             _ => (0, 0.0),
         };

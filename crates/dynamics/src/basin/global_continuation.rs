@@ -11,12 +11,8 @@ use crate::attractors::{Attractor, SearchOptions, settle_starts};
 use crate::monitor::{Monitor, OptionalMemory};
 use crate::orbit::recurrence::{motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError};
-use crate::tolerance::SAME;
+use crate::tolerance::{NEIGHBOUR, SAME};
 use softstop::{Scene, Start};
-
-/// Distance of two orbits of different regimes, in units of the larger one's size, within which one continues the
-/// other: a soft flip and a soft grazing lead to such, a jump does not.
-const CONTINUES_DISTANCE: f64 = 0.1;
 
 /// The basins at one value of a parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,7 +97,7 @@ fn find_claims(last: &BasinsAt, basins: &Basins) -> Result<Vec<Claim>, OrbitErro
                 (None, None) if is_same_kind => 0.0,
                 _ => continue,
             };
-            if is_same_kind || gap < CONTINUES_DISTANCE {
+            if is_same_kind || gap < NEIGHBOUR {
                 claims.push(Claim {
                     attractor: *attractor,
                     class,

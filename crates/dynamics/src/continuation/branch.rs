@@ -143,15 +143,9 @@ impl<'a> Continuation<'a> {
     ) -> Result<HalfBranch, OrbitError> {
         let mut way = HalfBranch::empty();
         let origin = self.point_at(&start)?;
-        let mut next = Some(self.begin_branch(start, along.clone()));
-        while let Some(SectionChange {
-            continuation,
-            node,
-            along,
-        }) = next
-        {
-            next = continuation.follow_section(&mut way, (node, &along), &origin, limits, watch)?;
-        }
+        self.follow_sections((start, along), |continuation, begin| {
+            continuation.follow_section(&mut way, begin, &origin, limits, watch)
+        })?;
         Ok(way)
     }
 
@@ -169,10 +163,12 @@ impl<'a> Continuation<'a> {
         let mut stepper = Stepper::new(&self.shooting, start, along, &self.settings)?;
         // Since the last corner, if one was passed.
         let mut goes_on = true;
-        while way.points.len() < limits.points {
-            if stepper.is_crawling() {
-                self.end_branch(way, &stepper, &grazing_test, limits, OrbitError::LOST);
+        let lost = loop {
+            if way.points.len() >= limits.points {
                 return Ok(None);
+            }
+            if stepper.is_crawling() {
+                break OrbitError::LOST;
             }
             let step = stepper.attempt_step().and_then(|step| {
                 let ahead = GrazingTest::of_node(&self.shooting, &step.node);
@@ -217,8 +213,7 @@ impl<'a> Continuation<'a> {
                     }
                     let Some((node, along)) = self.beyond_corner(&stepper).filter(|_| goes_on)
                     else {
-                        self.end_branch(way, &stepper, &grazing_test, limits, error);
-                        return Ok(None);
+                        break error;
                     };
                     let step = (&stepper.node, &node);
                     let beyond = self
@@ -233,10 +228,7 @@ impl<'a> Continuation<'a> {
                         });
                     let (end, ahead, next) = match beyond {
                         Ok(beyond) => beyond,
-                        Err(error) => {
-                            self.end_branch(way, &stepper, &grazing_test, limits, error);
-                            return Ok(None);
-                        }
+                        Err(error) => break error,
                     };
                     if let Some(end) = end {
                         way.end = end;
@@ -245,7 +237,8 @@ impl<'a> Continuation<'a> {
                     (grazing_test, stepper, goes_on) = (ahead, next, false);
                 }
             }
-        }
+        };
+        self.end_branch(way, &stepper, &grazing_test, limits, lost);
         Ok(None)
     }
 

@@ -74,12 +74,13 @@ pub(super) fn follow_curve<E: Codimension>(
     first[unknowns - 2] = 1.0;
     let start = correct(equations, guess, Some(&second))
         .or_else(|_| correct(equations, guess, Some(&first)))?;
-    let up = follow_half_curve(equations, start.clone(), &second, region, watch)?;
-    let down = match up.2 {
-        CurveEnd::Closed => (Vec::new(), Vec::new(), CurveEnd::Closed),
-        _ => follow_half_curve(equations, start.clone(), &-second, region, watch)?,
+    let (mut up, mut down) = (HalfCurve::default(), HalfCurve::default());
+    let last = follow_half_curve(equations, start.clone(), &second, region, &mut up, watch)?;
+    let first = match last {
+        CurveEnd::Closed => CurveEnd::Closed,
+        _ => follow_half_curve(equations, start.clone(), &-second, region, &mut down, watch)?,
     };
-    let (mut points, mut specials, first) = down;
+    let (mut points, mut specials) = down;
     points.reverse();
     specials.reverse();
     points.push(equations.curve_point(&start)?);
@@ -90,24 +91,25 @@ pub(super) fn follow_curve<E: Codimension>(
         periods: equations.family_and_periods().1,
         points,
         specials,
-        ends: (first, up.2),
+        ends: (first, last),
     })
 }
 
 /// Points after which a curve or a branch may be found closed.
 pub(super) const MIN_LOOP_POINTS: usize = 8;
 
-/// Points of a curve in one direction, those of codimension two among them, and why it ends.
-type HalfCurve = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>, CurveEnd);
+/// Points of a curve in one direction, and those of codimension two among them.
+type HalfCurve = (Vec<CurvePoint>, Vec<(CodimensionTwo, CurvePoint)>);
 
-/// Follows a curve in one direction from a node.
+/// Follows a curve in one direction from a node: why it ends.
 fn follow_half_curve<E: Codimension>(
     equations: &E,
     start: Node<E::Point>,
     along: &DVector<f64>,
     region: &CurveLimits,
+    (points, specials): &mut HalfCurve,
     watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
-) -> Result<HalfCurve, OrbitError> {
+) -> Result<CurveEnd, OrbitError> {
     let origin = start.at.clone();
     let sequence = E::orbit_of(&start.here.point).2;
     let settings = ContinuationSettings {
@@ -115,7 +117,6 @@ fn follow_half_curve<E: Codimension>(
         ..ContinuationSettings::default()
     };
     let mut stepper = Stepper::new(equations, start, along, &settings)?;
-    let (mut points, mut specials) = (Vec::new(), Vec::new());
     while points.len() < region.points {
         let last = stepper.node.clone();
         let ahead = stepper.step * &stepper.direction;
@@ -123,7 +124,7 @@ fn follow_half_curve<E: Codimension>(
             let _ = watch(&point);
             points.push(point.clone());
             specials.push((kind, point));
-            return Ok((points, specials, CurveEnd::CodimensionTwo(kind)));
+            return Ok(CurveEnd::CodimensionTwo(kind));
         }
         let next = stepper.attempt_step().map_err(CurveEnd::Lost);
         let next = next.and_then(|step| {
@@ -136,10 +137,10 @@ fn follow_half_curve<E: Codimension>(
         let (step, (node, leaves)) = match next {
             Ok(next) => next,
             Err(_) if stepper.shorten_step() => continue,
-            Err(cause) => return Ok((points, specials, cause)),
+            Err(cause) => return Ok(cause),
         };
         if is_merging(equations, (&last, &node)) {
-            return Ok((points, specials, CurveEnd::Lost(OrbitError::LOST)));
+            return Ok(CurveEnd::Lost(OrbitError::LOST));
         }
         let directions = [&stepper.direction, &step.direction];
         let special = special_between(equations, (&last, &node), directions);
@@ -151,19 +152,19 @@ fn follow_half_curve<E: Codimension>(
         let stopped = watch(&point).is_break();
         points.push(point);
         if leaves {
-            return Ok((points, specials, CurveEnd::Range));
+            return Ok(CurveEnd::Range);
         }
         if stepper.is_crawling() {
-            return Ok((points, specials, CurveEnd::Lost(OrbitError::LOST)));
+            return Ok(CurveEnd::Lost(OrbitError::LOST));
         }
         if closed {
-            return Ok((points, specials, CurveEnd::Closed));
+            return Ok(CurveEnd::Closed);
         }
         if stopped {
-            return Ok((points, specials, CurveEnd::Stopped));
+            return Ok(CurveEnd::Stopped);
         }
     }
-    Ok((points, specials, CurveEnd::Points))
+    Ok(CurveEnd::Points)
 }
 
 /// The point of codimension two between two nodes, if there is one; with the directions of the curve there.

@@ -115,34 +115,32 @@ impl<'a> Continuation<'a> {
         let node = self.correct_start(parameter, start.state())?;
         let mut points = vec![self.point_at(&node)?];
         let mut turned_at = 0;
-        let mut next = Some(self.begin_branch(node, Self::direction_vector(direction)));
+        let along = Self::direction_vector(direction);
+        self.follow_sections((node, &along), |continuation, begin| {
+            continuation.follow_here(begin, limit, (&mut points, &mut turned_at), &mut watch)
+        })?;
+        Ok(points)
+    }
+
+    /// Follows a branch from section to section, as far as `follow` says at each how it goes on.
+    pub(super) fn follow_sections(
+        &self,
+        begin: (Node<PeriodMap>, &DVector<f64>),
+        mut follow: impl FnMut(
+            &Self,
+            (Node<PeriodMap>, &DVector<f64>),
+        ) -> Result<Option<SectionChange<'a>>, OrbitError>,
+    ) -> Result<(), OrbitError> {
+        let mut next = follow(self, begin)?;
         while let Some(SectionChange {
             continuation,
             node,
             along,
         }) = next
         {
-            next = continuation.follow_here(
-                (node, &along),
-                limit,
-                (&mut points, &mut turned_at),
-                &mut watch,
-            )?;
+            next = follow(&continuation, (node, &along))?;
         }
-        Ok(points)
-    }
-
-    /// The beginning of a branch, seen at this section.
-    pub(super) fn begin_branch(
-        &self,
-        node: Node<PeriodMap>,
-        along: DVector<f64>,
-    ) -> SectionChange<'a> {
-        SectionChange {
-            continuation: self.with_turn(self.shooting.turn),
-            node,
-            along,
-        }
+        Ok(())
     }
 
     /// Follows a branch as long as this section serves; then how it goes on, if it does.

@@ -127,18 +127,22 @@ pub(super) fn passes_place<E: Equations>(
             .is_ok_and(|node| (place - &node.at).norm() < NEAR * way.norm())
 }
 
+/// Weights of the values at some places in their interpolation (Lagrange) at another one.
+fn lagrange_weights(places: &[f64], at: f64) -> impl Iterator<Item = f64> {
+    places.iter().enumerate().map(move |(index, own)| {
+        let others = places.iter().enumerate();
+        let others = others.filter(move |(other, _)| *other != index);
+        others
+            .map(|(_, place)| (at - place) / (own - place))
+            .product()
+    })
+}
+
 /// Where a function with these values vanishes, by inverse interpolation.
 fn interpolated_zero(values: &[(f64, f64)]) -> f64 {
-    let weight = |index: usize| -> f64 {
-        let others = values
-            .iter()
-            .enumerate()
-            .filter(|(other, _)| *other != index);
-        let factors = others.map(|(_, (_, value))| value / (value - values[index].1));
-        factors.product()
-    };
-    let parts = values.iter().enumerate();
-    parts.map(|(index, (place, _))| place * weight(index)).sum()
+    let (places, heights): (Vec<f64>, Vec<f64>) = values.iter().copied().unzip();
+    let parts = places.iter().zip(lagrange_weights(&heights, 0.0));
+    parts.map(|(place, weight)| place * weight).sum()
 }
 
 /// The cubic between two nodes along the tangents of their curve.
@@ -197,14 +201,9 @@ fn interpolate_nodes<P>(known: &[(f64, f64, Node<P>)], share: f64) -> DVector<f6
     near.sort_by(|a, b| (a.0 - share).abs().total_cmp(&(b.0 - share).abs()));
     near.dedup_by(|a, b| (a.0 - b.0).abs() < DIFFERENCE_WIDTH);
     near.truncate(SUPPORT_NODES);
-    let weight = |index: usize| -> f64 {
-        let others = near.iter().enumerate().filter(|(other, _)| *other != index);
-        let factors = others.map(|(_, (at, _))| (share - at) / (near[index].0 - at));
-        factors.product()
-    };
-    let parts = near
-        .iter()
-        .enumerate()
-        .map(|(index, (_, at))| *at * weight(index));
-    parts.fold(DVector::zeros(known[0].2.at.len()), |sum, part| sum + part)
+    let (places, nodes): (Vec<f64>, Vec<&DVector<f64>>) = near.into_iter().unzip();
+    let parts = nodes.into_iter().zip(lagrange_weights(&places, share));
+    parts.fold(DVector::zeros(known[0].2.at.len()), |sum, (at, weight)| {
+        sum + at * weight
+    })
 }

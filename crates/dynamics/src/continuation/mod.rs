@@ -6,6 +6,7 @@
 //! stable or not, through folds; [`Continuation::branch`] finds every fold, flip and grazing on the way,
 //! [`Continuation::double_period`] goes on to the orbits of twice the period, [`Continuation::branch_asymmetric`] to those that come
 //! out of symmetric ones at a pitchfork, and [`follow_special`] follows a special point in two parameters.
+//! [`ContinuationSettings`] holds the steps, angles and distances by which it does so.
 //!
 //! ```
 //! use std::ops::ControlFlow;

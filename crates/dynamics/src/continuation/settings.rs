@@ -2,9 +2,20 @@
 
 /// Settings of a continuation: how it steps along a curve, and what it takes for a border. Lengths and distances are those
 /// of scaled unknowns: position, velocity and parameters in units of the family's scales.
+///
+/// ```
+/// use softstop::{Parameter, Ratios};
+/// use softstop_dynamics::continuation::ContinuationSettings;
+/// use softstop_dynamics::{Continuation, ParameterFamily};
+///
+/// let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
+/// let settings = ContinuationSettings { largest_step: 0.05, ..Default::default() };
+/// let continuation = Continuation::new(&family, 1).with_settings(settings);
+/// # Ok::<(), softstop::SceneError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContinuationSettings {
-    /// First step along a curve.
+    /// First step along a curve; an orbit that is as near to one of half its period, or to a symmetric one, merges with it.
     pub first_step: f64,
     /// Smallest step: a curve that asks for a smaller one ends.
     pub smallest_step: f64,

@@ -8,12 +8,9 @@ use super::trials::{
 };
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::monitor::Monitor;
-use crate::tolerance::{NEAR, SAME};
+use crate::tolerance::{NEAR, SAME, STABLE_REACH};
 use softstop::CheckedScene;
 use softstop::internals::Scales;
-
-/// Distance, in scales of the motion, within which a state stands for a stable fixed point.
-const STABLE_REACH: f64 = 0.02;
 
 /// The fixed points of a scene's map over one drive period that the search has met.
 pub(super) struct FixedPoints {

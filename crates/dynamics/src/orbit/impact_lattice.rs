@@ -7,7 +7,7 @@
 
 use super::deflation::DEFLATION_WIDTH;
 use super::free_frequency::find_beside_frequency;
-use super::multi_segment_shooting::{MultiSegmentShooting, NearestMiss};
+use super::multi_segment_shooting::{MultiSegmentShooting, ShootingFailure};
 use super::{Orbit, OrbitError};
 use crate::extremes::extremes;
 use crate::monitor::{Monitor, unmonitored};
@@ -119,7 +119,7 @@ impl SingleImpactSearch {
             impacts.iter().copied().any(near)
         };
         let settled = self.shooting.solve_unless_known(&[guess], known);
-        let mut next = settled.map_err(|failed| self.keep_miss(failed.nearest));
+        let mut next = settled.map_err(|failed| self.keep_miss(failed));
         while let Ok(orbit) = next {
             OrbitError::ask_monitor(monitor)?;
             if orbit.is_some_and(|orbit| !self.keep_new(orbit)) {
@@ -157,7 +157,10 @@ impl SingleImpactSearch {
 
     /// Keeps the impact of a search that settled nowhere, if it is a near miss, by less than the velocity and the motion's
     /// speed, and a new one.
-    fn keep_miss(&mut self, NearestMiss { impact, residual }: NearestMiss) {
+    fn keep_miss(&mut self, failed: ShootingFailure) {
+        let ShootingFailure {
+            impact, residual, ..
+        } = failed;
         let told =
             |other: &(f64, f64)| impact_distance(*other, impact, self.period) < DEFLATION_WIDTH;
         if residual < (impact.1 / self.unit).max(1.0) && !self.missed.iter().any(told) {

@@ -45,31 +45,21 @@ pub(super) struct ShootingEvaluation {
     jacobian: DMatrix<f64>,
 }
 
-/// Why the shooting settled on no orbit, and where it came nearest to one.
+/// Why the shooting settled on no orbit, with its nearest miss: the first impact, time in s and velocity in m/s, where the
+/// residual was least.
 pub(super) struct ShootingFailure {
     error: OrbitError,
-    pub nearest: NearestMiss,
-}
-
-/// The first impact of the unknowns at which the residual was least.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct NearestMiss {
     pub impact: (f64, f64),
     pub residual: f64,
 }
 
-impl NearestMiss {
-    /// No miss yet.
-    const NONE: Self = Self {
-        impact: (0.0, 0.0),
-        residual: f64::INFINITY,
-    };
-}
-
 impl From<OrbitError> for ShootingFailure {
     fn from(error: OrbitError) -> Self {
-        let nearest = NearestMiss::NONE;
-        Self { error, nearest }
+        Self {
+            error,
+            impact: (0.0, 0.0),
+            residual: f64::INFINITY,
+        }
     }
 }
 
@@ -134,12 +124,11 @@ impl MultiSegmentShooting {
         let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
         let mut evaluation = self.evaluate_segments(&at).ok_or(OrbitError::LOST)?;
         let (mut least, mut idle) = (f64::INFINITY, 0);
-        let mut nearest = NearestMiss::NONE;
+        let mut nearest = ShootingFailure::from(OrbitError::LOST);
         for _ in 0..MAX_SHOOTING_STEPS {
             let residual = evaluation.residual.norm();
             if residual < nearest.residual {
-                let impact = (at[0], at[1]);
-                nearest = NearestMiss { impact, residual };
+                (nearest.impact, nearest.residual) = ((at[0], at[1]), residual);
             }
             (least, idle) = match residual < 0.5 * least {
                 true => (residual, 0),
@@ -171,9 +160,10 @@ impl MultiSegmentShooting {
                 return Ok(Some(self.close_orbit(&at, &evaluation)?));
             }
         }
-        let residual = evaluation.residual.norm();
-        let error = OrbitError::Diverged { residual };
-        Err(ShootingFailure { error, nearest })
+        nearest.error = OrbitError::Diverged {
+            residual: evaluation.residual.norm(),
+        };
+        Err(nearest)
     }
 
     /// What a motion with this impact alone is off by at the next one: position and velocity, scaled.

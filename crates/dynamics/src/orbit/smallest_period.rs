@@ -2,18 +2,15 @@
 
 use super::Orbit;
 use super::recurrence::{motion_size, state_distance};
+use crate::tolerance::NEIGHBOUR;
 use softstop::{Scene, Start};
-
-/// Distance between states, in units of the motion's size, up to which Newton's method decides whether they are one,
-/// and up to which the orbit that it leads to is what the row comes to.
-const NEAR_STATES: f64 = 0.1;
 
 /// The period in drive periods of what a row of states comes to that returns after some. Near a flip a motion comes
 /// back after twice its orbit's period long before it does after that period: where states a part of the period apart
 /// are near to each other, the orbit that Newton's method reaches from the last one decides.
 pub(crate) fn smallest_period(scene: &Scene, states: &[Start], periods: usize) -> usize {
     let frequency = scene.excitation.frequency;
-    let near = NEAR_STATES * motion_size(frequency, states);
+    let near = NEIGHBOUR * motion_size(frequency, states);
     let last = states.len() - 1;
     let is_near = |state: &Start| state_distance(frequency, &states[last], state) <= near;
     let mut parts = (1..periods).filter(|part| periods.is_multiple_of(*part));

@@ -15,6 +15,7 @@ use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap};
 use crate::sweep::{Chain, Plan};
+use crate::tolerance::SIMILAR;
 use softstop::{CheckedScene, Machine, MotionError, Parameter, Scene, Start};
 
 pub use way::Way;
@@ -23,8 +24,6 @@ pub use way::Way;
 const RUN_UP_STEPS: usize = 256;
 /// Drive periods of each step of a slow way to run up.
 const STEP_PERIODS: u64 = 64;
-/// Distance within which a state has returned in a step of a slow way, in units of the motion's size.
-const SLOW_RETURN: f64 = 1e-2;
 
 /// Settings of running up: which ways are tried, and what is asked of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -318,7 +317,7 @@ fn try_slow_change(
         return Ok(None);
     };
     let plan = Plan {
-        tolerance: SLOW_RETURN,
+        tolerance: SIMILAR,
         heights: false,
         start: rest_state(scene),
         ..plan

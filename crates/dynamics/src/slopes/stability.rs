@@ -7,6 +7,7 @@ use softstop::{Parameter, Scene};
 use super::differentiated_figure::DifferentiatedFigure;
 use super::variation::Variation;
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
+use crate::tolerance::SAME;
 
 /// Shares of a parameter over which the monodromy matrix is differenced, each where the ones before fail.
 const DIFFERENCE_SHARES: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
@@ -94,8 +95,8 @@ impl Variation {
                 let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
                 let (wide, narrow) = (central(2.0 * width)?, central(width)?);
                 let found = (4.0 * narrow - wide) / 3.0;
-                let settled = (wide - narrow).norm()
-                    <= DIFFERENCE_AGREEMENT * found.norm() + VANISHING_DERIVATIVE / size;
+                let settled =
+                    (wide - narrow).norm() <= DIFFERENCE_AGREEMENT * found.norm() + SAME / size;
                 settled.then_some([found.x, found.y])
             })
         });
@@ -103,9 +104,6 @@ impl Variation {
         rates.ok_or_else(|| OrbitError::no_derivative(&self.parameters))
     }
 }
-
-/// What rounding may leave of a derivative that vanishes, times the parameter.
-const VANISHING_DERIVATIVE: f64 = 1e-7;
 
 /// Trace and determinant of a monodromy matrix.
 fn trace_and_determinant(monodromy: &Monodromy) -> Vector2<f64> {

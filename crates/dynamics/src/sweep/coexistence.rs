@@ -3,9 +3,7 @@
 use super::chain::Chain;
 use super::step::Step;
 use crate::motion::MotionKind;
-
-/// Difference of largest velocities, in units of the larger, from which motions of one regime are two.
-const COEXISTENCE_SHARE: f64 = 0.01;
+use crate::tolerance::SIMILAR;
 
 /// A range of the parameter in which the motions of the sweeps up and down differ.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +33,7 @@ pub fn find_coexistences(up: &Chain, down: &Chain) -> Vec<Coexistence> {
     let mut zones: Vec<Coexistence> = Vec::new();
     let mut open = false;
     for (a, b) in pair_steps(up, down) {
-        let apart = a.is_settled() && b.is_settled() && a.differs_from(b, COEXISTENCE_SHARE);
+        let apart = a.is_settled() && b.is_settled() && a.differs_from(b, SIMILAR);
         let last = zones
             .last_mut()
             .filter(|zone| open && apart && zone.up == a.motion && zone.down == b.motion);
