@@ -11,6 +11,8 @@ pub(crate) const NEAR: f64 = 1e-3;
 pub(crate) const DIFFERENCE_WIDTH: f64 = 1e-6;
 /// What rounding leaves of a scaled test function of a monodromy matrix, and of the place at which one vanishes.
 pub(crate) const TEST_ROUNDING: f64 = 1e-12;
+/// Share of the residual that rounding may leave below which no step of Newton's method makes it smaller.
+pub(crate) const ROUNDING_SHARE: f64 = 0.01;
 /// Distance from a face, or velocity at it, in units of those of the motion, up to which the motion nearly grazes the face.
 pub(crate) const NEAR_GRAZING: f64 = 1e-2;
 /// Distance from a stable orbit, in units of the motion, within which a state stands for it.

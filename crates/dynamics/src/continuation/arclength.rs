@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::orbit::{OrbitError, ROUNDING_SHARE};
-use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, ROUNDING, TEST_ROUNDING};
+use crate::orbit::OrbitError;
+use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, ROUNDING, ROUNDING_SHARE, TEST_ROUNDING};
 
 /// A system of equations in scaled unknowns; what is known exactly besides the evaluation spares differences.
 pub(crate) trait Equations {

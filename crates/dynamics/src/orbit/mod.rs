@@ -31,7 +31,6 @@ pub use exponents::Exponents;
 pub(crate) use hardest_single::hardest_single;
 pub(crate) use impact_lattice::{singles_about, singles_near};
 pub use monodromy::Monodromy;
-pub(crate) use newton::ROUNDING_SHARE;
 pub use newton::find_fixed_point;
 pub use pattern::{ImpactCount, ImpactPattern};
 pub use periodic::Orbit;

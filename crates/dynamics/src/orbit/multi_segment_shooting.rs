@@ -14,7 +14,8 @@ use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::contact_passage::{ContactFace, ContactPassage};
 use super::deflation::deflation_factor;
-use super::{Orbit, OrbitError, ROUNDING_SHARE};
+use super::{Orbit, OrbitError};
+use crate::tolerance::ROUNDING_SHARE;
 use softstop::internals::Scales;
 use softstop::{CheckedScene, Clock};
 

@@ -3,14 +3,13 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::{OrbitError, Passage, StroboscopicMap};
+use crate::tolerance::ROUNDING_SHARE;
 use softstop::MotionError;
 
 /// Newton steps for a fixed point before giving up.
 const MAX_NEWTON_STEPS: usize = 30;
 /// Newton steps in a row that may fail to halve the least residual so far; those that lead to an orbit take fewer.
 const MAX_IDLE_STEPS: usize = 12;
-/// Share of the residual that rounding may leave below which no Newton step makes it smaller.
-pub(crate) const ROUNDING_SHARE: f64 = 0.01;
 
 /// The fixed point P(s) = s of a stroboscopic map, by Newton's method with the exact Jacobian. It ends when a step no
 /// longer makes the residual smaller, or none could, and the residual is at round-off.

@@ -2,8 +2,9 @@
 
 use nalgebra::Vector2;
 
-use super::{Monodromy, ROUNDING_SHARE};
+use super::Monodromy;
 use crate::period::PeriodTrajectory;
+use crate::tolerance::ROUNDING_SHARE;
 use softstop::{CheckedScene, Clock, Instant, MotionError, Observer, Touch};
 
 /// The stroboscopic map of a scene: from a state at time 0 to the state some drive periods later.
