@@ -238,7 +238,6 @@ fn machine(file: &File, folder: &Path) -> Result<Machine, Failure> {
     let arguments = MachineArguments {
         machine: named,
         set: file.set.clone(),
-        ..MachineArguments::default()
     };
     arguments.machine()
 }
