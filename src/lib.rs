@@ -4,8 +4,9 @@
 //! m x'' + b1 x' + k1 x + F(x, x') = F0 cos(w t + phi) + f(t)        (Peterka 2003, eq. 8)
 //! ```
 //!
-//! - A machine: [`Scene`] is plain data in SI units, [`CheckedScene`] one that is valid and stays so, [`Ratios`] the paper's dimensionless figures, [`Machine`] a scene
-//!   as a file or a command line states it, in its own units. [`Parameter`] names every number of them.
+//! - A machine: [`Scene`] is plain data in SI units, [`CheckedScene`] one that is valid and stays so, [`Ratios`] the
+//!   paper's dimensionless figures, [`Machine`] a scene as a file or a command line states it, in its own units.
+//!   [`Parameter`] names every number of them.
 //! - A motion: [`Scene::trajectory`] keeps it whole ([`Trajectory`]); a [`Simulation`] runs on, takes inputs and
 //!   new parameters, and can be kept as a [`Snapshot`]. Both are exact: a closed form in each phase, and a proof
 //!   that no crossing is missed.

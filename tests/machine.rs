@@ -5,7 +5,8 @@ use std::path::Path;
 
 use approx::assert_relative_eq;
 use softstop::{
-    Allowed, Dimension, Machine, MachineError, Parameter, Ratios, Scene, Stop, UnitSystem,
+    Allowed, CheckedScene, Clock, Dimension, Machine, MachineError, MotionError, Parameter, Ratios,
+    Scene, Start, Stop, UnitSystem,
 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -45,6 +46,55 @@ const STOPS: [&str; 11] = [
     "{ model = \"preloaded\", stiffness = 7, preload = 70, below = { clearance = 3, model = \"piecewiseLinear\", \
      loading = [{ from = 0, stiffness = 20 }] } }",
 ];
+
+/// A checked scene that takes the laws of another one over moves as one that is lowered anew, to the last bit.
+#[test]
+fn checked_scenes_lend_their_phases() -> Outcome {
+    let end = |scene: &CheckedScene| -> Result<Start, MotionError> {
+        let mut motion = scene.motion(Start::new(0.0, 14.0))?;
+        motion.advance(Clock::at_cycle(20), &mut ())?;
+        Ok(motion.state())
+    };
+    for stop in STOPS {
+        let scene = ratios(stop)?.scene;
+        let known = scene.check()?;
+        end(&known)?;
+        let mut changed = Vec::new();
+        for frequency in [0.9, 1.6] {
+            let mut driven = scene.at_frequency(frequency);
+            driven.excitation.amplitude = 1.3;
+            driven.excitation.phase = 0.7;
+            changed.push(driven);
+        }
+        let mass = 1.1 * scene.mass;
+        changed.push(Scene {
+            mass,
+            ..scene.clone()
+        });
+        for other in changed {
+            let (lent, anew) = (known.recheck(other.clone())?, other.check()?);
+            assert_eq!(end(&lent)?, end(&anew)?, "{stop}");
+            let turned = end(&lent.at_phase(0.2)?)?;
+            let mut other = other;
+            other.excitation.phase = 0.2;
+            assert_eq!(turned, end(&other.check()?)?, "{stop}");
+        }
+        for frequency in [f64::NAN, -1.0, 0.0] {
+            let mut driven = scene.clone();
+            driven.excitation.frequency = frequency;
+            assert!(known.recheck(driven).is_err(), "{stop} {frequency}");
+        }
+        assert!(known.clone().at_phase(f64::NAN).is_err());
+        let mut written = serde_json::to_value(&known)?;
+        assert_eq!(
+            serde_json::from_value::<CheckedScene>(written.clone())?,
+            known
+        );
+        written["mass"] = (-1.0).into();
+        assert!(serde_json::from_value::<CheckedScene>(written).is_err());
+    }
+    Ok(())
+}
 
 #[test]
 fn every_parameter_is_set_by_its_name_its_letter_and_its_older_names() -> Outcome {

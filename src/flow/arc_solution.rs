@@ -243,7 +243,7 @@ impl ArcSolution {
             } => {
                 let steady = of.offset.abs() + of.cosine.abs() + of.sine.abs();
                 let size = steady + free.x.abs() + free.y.abs();
-                of.slope == 0.0 && self.flow.modes.stiffness > 0.0 && size < f64::MAX.sqrt()
+                of.slope == 0.0 && self.flow.modes.stiffness > 0.0 && size < MODEST
             }
             Form::Held | Form::Chatter(_) => true,
             Form::Responses | Form::TaylorStep(_) => false,
@@ -290,6 +290,9 @@ impl ArcSolution {
         self.departure.drive.turned(turn)
     }
 }
+
+/// A size that is far from the range of floating-point numbers, whatever it is multiplied with.
+const MODEST: f64 = 1e100;
 
 /// An interval, widened by more than the rounding of its ends.
 fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {

@@ -44,13 +44,14 @@ impl PhaseDerivatives {
         let step = STEP * value.abs().max(typical_size(parameter, scene));
         parameter.set(&mut moved, value + step);
         let step = (value + step) - value;
+        // Its phases alone are asked for, and a step beyond the range of the parameter changes no kind of law.
         let found = Self::between(scene, &CheckedScene::of_valid(moved, None), step);
         found.ok_or(MotionError::NoDerivative { name })
     }
 
-    /// The derivatives of a scene towards another one, by a parameter that is `step` larger there: where
-    /// every coefficient is linear in it, as in any parameter that no other follows, their difference is exact. None where the other is another kind of
-    /// machine.
+    /// The derivatives of a scene towards another one, by a parameter that is `step` larger there: where every coefficient is
+    /// linear in it, as in any parameter that no other follows, their difference is exact. None where the other is another
+    /// kind of machine.
     pub fn between(scene: &CheckedScene, moved: &CheckedScene, step: f64) -> Option<Self> {
         let (phases, moved_phases) = (scene.phases(), moved.phases());
         let slope = |from: f64, to: f64| (to - from) / step;

@@ -38,7 +38,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use failure::Failure;
 
@@ -55,9 +55,15 @@ pub fn main_of<C: Parser>(
     interrupt::install();
     let outcome = match C::try_parse_from(line) {
         Ok(command) => run(command),
-        Err(told) => match told.kind() {
+        Err(mut told) => match told.kind() {
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => output::written(told.print()),
-            _ => {
+            kind => {
+                if kind == ErrorKind::UnknownArgument {
+                    told.insert(
+                        ContextKind::Suggested,
+                        ContextValue::StyledStrs(vec![SET_TIP.into()]),
+                    );
+                }
                 say(&told.render().to_string());
                 return Failure::usage("").exit_code();
             }
@@ -73,6 +79,9 @@ pub fn main_of<C: Parser>(
         }
     }
 }
+
+/// What an unknown argument may have been meant for.
+const SET_TIP: &str = "where a command takes a machine, --set KEY=VALUE changes a value of it";
 
 /// Writes to the standard error. A reader that has gone away (`2>&1 | head`) is no reason to panic.
 fn say(text: &str) {

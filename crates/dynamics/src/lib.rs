@@ -1,7 +1,8 @@
 //! Periodic motions of impact oscillators and what becomes of them: [`orbit`] (z = p/n, Floquet
 //! multipliers, exponents) → [`continuation`] (branches, folds, flips, grazings) → [`zone`] (where
 //! impacts and rest coexist) → [`settled`], [`attractors`], [`basin`], [`sweep`] (what is seen from many starts),
-//! told in one vocabulary ([`motion`]). What a machine does in service: [`figure`] (their names), [`cycle_metrics`] (figures of a period), [`missing_strips`] (strips that fail to come), [`run_up`] (from rest to work).
+//! told in one vocabulary ([`motion`]). What a machine does in service: [`figure`] (their names), [`cycle_metrics`]
+//! (figures of a period), [`missing_strips`] (strips that fail to come), [`run_up`] (from rest to work).
 //!
 //! Records and errors that will grow are `non_exhaustive`; options, which a user fills in, and the enumerations that say
 //! what a motion or an end is, are not, so that a match says what a new one asks for.

@@ -34,8 +34,8 @@ pub fn parallel_blocks(
 pub fn sobol_coordinate(seed: u32, index: u64, dimension: u32) -> f64 {
     let sequence = (index / SEQUENCE_LENGTH as u64) as u32 ^ seed.wrapping_mul(SEED_STEP);
     let within = (index % SEQUENCE_LENGTH as u64) as u32;
-    let centring = 0.25 * f64::from(f32::EPSILON);
     // Half the distance between numbers of 24 bits in [0, 1): coordinates lie in the middle of their cells.
+    let centring = 0.25 * f64::from(f32::EPSILON);
     f64::from(sobol_burley::sample(within, dimension, sequence)) + centring
 }
 

@@ -8,7 +8,7 @@ use softstop_dynamics::basin::{
     BasinOptions, BasinsAt, Establishment, establishing_certainties, find_basins, follow_attractors,
 };
 use softstop_dynamics::monitor::{stop_if, unmonitored};
-use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::orbit::{OrbitError, find};
 use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{assert_near, is_near, loaded, rigid_stop, unloaded, with_changes};
@@ -219,6 +219,23 @@ fn whether_a_share_is_enough_is_told_without_counting_all_starts() {
             Establishment::is_enough_within_region(&orbit, &region, 700, is_enough, &unmonitored);
         assert_eq!(told.expect("it is computed"), expected, "{least} {share}");
     }
+}
+
+/// The orbit of a machine without damping neither attracts nor repels: what is told at once is what counting all starts gives.
+#[test]
+fn nothing_comes_to_a_neutral_orbit() {
+    let scene = Scene {
+        damping: 0.0,
+        contact_damping: 0.0,
+        ..unloaded(1.15)
+    };
+    let orbit = find(&scene).expect("there is one");
+    let region = starting_box(&orbit.scene, &unmonitored).expect("there is one");
+    let counted = Establishment::within_region(&orbit, &region, 64, &unmonitored);
+    assert_eq!(counted.expect("it is computed").share, 0.0);
+    let is_half = |it: &Establishment| it.share >= 0.5;
+    let told = Establishment::is_enough_within_region(&orbit, &region, 64, is_half, &unmonitored);
+    assert_eq!(told, Ok(false));
 }
 
 #[test]

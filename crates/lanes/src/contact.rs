@@ -28,9 +28,8 @@ const MAX_ROUNDS_WAITED: usize = 6;
 const MAX_STEPS: usize = 64;
 /// Least time that [`MAX_STEPS`] have to cover, in drive periods: slower contacts are left to the safe engine.
 const MIN_TIME_COVERED: f64 = 1.0 / 16.0;
-/// Time between a release and the end of a period, in drive periods, below which rounding decides which comes first, and the
-/// shortest time that is decided at once, in windows: less that is left of a period is taken for this long.
-pub(super) const AMBIGUOUS_TIME: f64 = 1e-12;
+/// Time between a release and the end of a period, in drive periods, below which rounding decides which comes first.
+const AMBIGUOUS_TIME: f64 = 1e-12;
 
 /// The way of the lanes through one contact: where each has come to, and whether it still goes on, has left contact,
 /// has arrived at the end of its time, or is to be decided by the safe engine.

@@ -17,9 +17,8 @@ use softstop::internals::Modes;
 const MAX_WINDOWS: usize = 4096;
 /// Longest window of an arc whose spring draws the mass back, in windows of the scan.
 const MAX_WINDOW_LENGTH: f64 = 2.0;
-/// Shortest window of an arc, as a share of the longest one of that arc; least share of a window that lanes decide, after
-/// halvings: below it the safe engine decides.
-pub(super) const MIN_WINDOW_SHARE: f64 = 1.0 / 512.0;
+/// Shortest window of an arc, as a share of the longest one of that arc.
+const MIN_WINDOW_SHARE: f64 = 1.0 / 256.0;
 /// Largest difference between the state at the end of an arc by its linear law and the one that was recorded there,
 /// relative to the size of the motion, with which the arc is used.
 const MAX_ARC_MISMATCH: f64 = 1e-9;

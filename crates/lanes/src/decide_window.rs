@@ -2,8 +2,6 @@
 
 use pulp::Simd;
 
-use super::contact::AMBIGUOUS_TIME;
-use super::cycle::MIN_WINDOW_SHARE;
 use super::engine::Engine;
 use super::guard::Guard;
 use super::guard_search::Found;
@@ -13,6 +11,11 @@ use super::move_lanes::LaneEnd;
 use super::parts::Parts;
 use super::scan::ScanResult;
 use super::window_ahead::WindowAhead;
+
+/// Shortest time that is decided at once, in windows: less that is left of a period is taken for this long.
+const MIN_DECIDED_SPAN: f64 = 1e-12;
+/// Least share of a window that lanes decide, after halvings; below it the safe engine decides.
+const MIN_WINDOW_SHARE: f64 = 1.0 / 512.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Decides the window ahead of the lanes that the scan has stopped, and moves all `active` ones on, none longer
@@ -29,7 +32,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let pending = active.and_not(reached.go);
         let scanned = reached.count * law.window;
         let remaining = due - scanned;
-        let least = law.window * due.like(AMBIGUOUS_TIME);
+        let least = law.window * due.like(MIN_DECIDED_SPAN);
         let span = (self.state.share * law.window).min(remaining).max(least);
         let ahead = self.window_ahead(law, reached, pending, span);
         let guard = Guard::of_window::<GUARDED>(law, &ahead, reached.error_bound);

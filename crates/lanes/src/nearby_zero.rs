@@ -8,8 +8,8 @@ use super::local_taylor::{TERMS, Taylor, curvature_at};
 
 /// Longest time from the centre to a zero that is used, times the fastest rate, in rad.
 const MAX_ZERO_ANGLE: f64 = 0.02;
-/// Longest step of Newton's method that may be the last, in windows, or in units of returns.
-pub(super) const MAX_LAST_STEP: f64 = 1e-7;
+/// Longest step of Newton's method that may be the last, in windows.
+const MAX_LAST_STEP: f64 = 1e-7;
 /// Longest step of Newton's method that is lost in rounding and so need not be made, in windows.
 const MAX_OMITTED_STEP: f64 = 4e-16;
 

@@ -25,14 +25,13 @@ use super::cycle::Cycle;
 use super::cycle_state::{Drive, Passage};
 use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
 use super::law::Constants;
-use super::nearby_zero::MAX_LAST_STEP;
 
 /// Largest difference between the time of a return and a whole number of drive periods, in drive periods.
 const MAX_TIME_OFFSET: f64 = 0.25;
 /// Most drive periods between two returns.
 const MAX_PERIODS: f64 = 4.0;
 /// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return
-/// next to the first, and largest ratio of a step of Newton's method to the one before with which a trial goes on.
+/// next to the first.
 const MAX_RECURRENCE_RATIO: f64 = 0.3;
 /// Drive periods from the beginning of a job to the first recording of returns.
 const PERIODS_BEFORE_RECORDING: f64 = 28.0;
@@ -40,8 +39,8 @@ const PERIODS_BEFORE_RECORDING: f64 = 28.0;
 const FIRST_PAUSE_PERIODS: f64 = 6.0;
 /// Ratio of the length of each pause to that of the one before.
 const PAUSE_GROWTH: f64 = 1.5;
-/// Drive periods at the end of a job that are never skipped or extrapolated: more than one scan covers.
-pub(super) const UNSKIPPED_PERIODS: f64 = 4.0;
+/// Drive periods at the end of a job that are never extrapolated.
+const FOLLOWED_LAST_PERIODS: f64 = 2.0;
 /// Fewest drive periods left, per period of the cycle, with which their extrapolation is worth a trial.
 const MIN_PERIODS_LEFT: f64 = 24.0;
 /// Largest distance between two returns from which the number of returns until they are close is predicted; velocities
@@ -49,6 +48,10 @@ const MIN_PERIODS_LEFT: f64 = 24.0;
 const MAX_PREDICTION_DISTANCE: f64 = 0.3;
 /// Largest distance between two returns, in these units, from which their limit is extrapolated.
 const MAX_EXTRAPOLATION_DISTANCE: f64 = 0.02;
+/// Largest last step of Newton's method, in these units.
+const MAX_LAST_STEP: f64 = 1e-7;
+/// Largest ratio of a step of Newton's method to the one before with which the trial goes on.
+const MAX_STEP_RATIO: f64 = 0.3;
 /// Largest error of the limit, in units of the distance of returns.
 const MAX_LIMIT_ERROR: f64 = 4e-12;
 /// Largest error of the extrapolated last return, in these units: it adds up what is left out in all returns, as if each bent
@@ -341,7 +344,7 @@ impl Returns {
         let limit = tried + step;
         let length = step.norm();
         if length > MAX_LAST_STEP || length.is_nan() {
-            let goes_on = length < MAX_RECURRENCE_RATIO * before && limit.x > 0.0;
+            let goes_on = length < MAX_STEP_RATIO * before && limit.x > 0.0;
             return goes_on.then(|| self.begin_trial(limit, length));
         }
         if spectral_radius(map.trace(), map.determinant()) > 1.0 - MIN_DECAY {
@@ -355,8 +358,7 @@ impl Returns {
         let (radius, curvature) = self.find_ball(&norm, &inverse, most.max(MAX_LAST_STEP))?;
         let rate = norm.rate.max(MIN_RATE);
         if curvature * aside * aside / (1.0 - rate) * norm.largest_length() > MAX_LIMIT_ERROR {
-            return (length < MAX_RECURRENCE_RATIO * before)
-                .then(|| self.begin_trial(limit, length));
+            return (length < MAX_STEP_RATIO * before).then(|| self.begin_trial(limit, length));
         }
         let certificate = Certificate {
             limit,
@@ -429,7 +431,7 @@ impl Returns {
         let own = self.own[RETURNS_PER_GUESS - 1];
         let off = self.return_point(&own).1 - certificate.limit;
         let rate = norm.rate.max(MIN_RATE);
-        let times = ((own.left - UNSKIPPED_PERIODS) / self.every).floor();
+        let times = ((own.left - FOLLOWED_LAST_PERIODS) / self.every).floor();
         let back = |decision| ReturnDecision {
             to: Some(own),
             ..decision

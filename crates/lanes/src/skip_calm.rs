@@ -5,8 +5,10 @@ use pulp::Simd;
 use super::engine::Engine;
 use super::lanes::{Lanes, Mask};
 use super::parts::Parts;
-use super::returns::UNSKIPPED_PERIODS;
 use super::scan::ScanResult;
+
+/// Drive periods at the end of a job that are never skipped: more than one scan covers.
+const UNSKIPPED_PERIODS: f64 = 4.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Moves the active lanes that stand before nothing, or only before the end of a period, on to the last periods of

@@ -8,7 +8,7 @@ use softstop_console::interrupt;
 
 use super::ascent::ascend_from;
 use super::certain::certain;
-use super::coordinates::{Candidate, Coordinates, Start, best_by};
+use super::coordinates::{Candidate, Coordinates, SearchStart, best_by};
 use super::critical::CriticalMachines;
 use super::judge::Met;
 use super::problem::{Objective, Problem};
@@ -65,14 +65,14 @@ pub(super) struct Passed {
 }
 
 /// The best design that passes its trials: this one if it does, otherwise one that is sought from it, unless that was done from
-/// its place before. Takes note of that.
+/// its place before. Adds its place to those from which one was sought.
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
 pub(super) fn check_trials(
     problem: &Problem,
     mut held: Robust,
-    sought_from: &mut Vec<Start>,
+    sought_from: &mut Vec<SearchStart>,
 ) -> Result<Passed, Infeasible> {
     let passed = problem.pass_trials(&held.candidate.design, &mut held.known);
     let lack = match passed {
@@ -278,8 +278,8 @@ impl Trials<'_> {
         Some(best)
     }
 
-    /// The designs of the motions along a zone that are better than that by what their own machines have, and of those beside
-    /// them, which tell where a zone comes to be so: within the tolerances none is better than its own machine.
+    /// The designs of the motions along a zone whose own machine scores above `least`, and of those beside them, between which
+    /// the zone crosses `least`. No other one can: a tolerance never raises a score.
     fn designs_above(&self, least: f64, motions: Vec<Option<Design>>) -> Vec<Option<Design>> {
         let Objective { figure, .. } = self.problem.objective;
         let is_above = |motion: &Option<Design>| {

@@ -15,12 +15,12 @@ pub struct Candidate {
     pub design: Design,
 }
 
-/// Distance along a coordinate that is none.
+/// Largest distance along each coordinate at which two places are one.
 const SAME: f64 = 1e-5;
 
 impl Candidate {
     /// Its point of the unit cube and its place in the zone, to start from.
-    pub(super) fn start(&self) -> Start {
+    pub(super) fn start(&self) -> SearchStart {
         (self.unit.clone(), self.design.place)
     }
 
@@ -41,7 +41,7 @@ impl Candidate {
 }
 
 /// A point of the unit cube and a place in its zone, from which something is sought.
-pub type Start = (Vec<f64>, f64);
+pub type SearchStart = (Vec<f64>, f64);
 
 /// The one of the highest score, the last of several.
 pub(super) fn best_by<T>(all: impl IntoIterator<Item = T>, score: impl Fn(&T) -> f64) -> Option<T> {

@@ -60,7 +60,7 @@ static NONE: CriticalMachines = CriticalMachines {
     cases: Vec::new(),
 };
 
-/// Distance between coordinates of the box that is none.
+/// Largest distance along each coordinate of the box at which two machines are one.
 const SAME: f64 = 1e-6;
 
 impl CriticalMachines {

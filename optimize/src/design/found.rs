@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::ascent::ascend_from;
 use super::check_trials::{Passed, Resolution, check_trials};
 use super::constraint::ActiveLimit;
-use super::coordinates::{Candidate, Start, best_by};
+use super::coordinates::{Candidate, SearchStart, best_by};
 use super::critical::CriticalMachines;
 use super::improve_catalogue::improve_catalogue;
 use super::judge::Met;
@@ -42,7 +42,7 @@ pub struct Found {
     /// What it took.
     pub ascents: Ascents,
     /// Where designs lie that keep their box and fail their trials, from which one that passes was sought.
-    pub sought_from: Vec<Start>,
+    pub sought_from: Vec<SearchStart>,
 }
 
 /// The ascents of a search.
@@ -93,7 +93,7 @@ impl Found {
     }
 
     /// Its place, to start from.
-    pub fn start(&self) -> Start {
+    pub fn start(&self) -> SearchStart {
         (self.unit.clone(), self.design.place)
     }
 
@@ -111,6 +111,7 @@ impl Found {
             limits,
             residue,
             rivals: std::mem::take(&mut self.rivals),
+            sought_from: std::mem::take(&mut self.sought_from),
             ascents: self.ascents,
             ..other.clone()
         };

@@ -132,7 +132,7 @@ impl BasinTest {
     }
 
     /// Whether at least so many of the motions from these states come to the orbit of the basin test. They are followed until
-    /// that is known.
+    /// that is known. The answer is the same for any number of threads, what it costs is not.
     ///
     /// # Errors
     /// As [`BasinTest::test_starts`].
@@ -152,7 +152,7 @@ impl BasinTest {
             reached.load(Relaxed) >= needed || missed.load(Relaxed) > spare
         };
         self.follow_starts(starts, &is_decided, monitor)?;
-        Ok(missed.into_inner() <= spare)
+        Ok(reached.into_inner() >= needed)
     }
 
     /// Follows motions from states at drive angle phi until each has ended or what is told of those that have, whether they

@@ -52,8 +52,8 @@ impl Establishment {
         Ok(Self::from_reached(&reached, region))
     }
 
-    /// Whether the establishment of a stable motion in a region, as of [`Establishment::within_region`], is such that a
-    /// condition on it holds, which holds of more starts that lead to the motion if it holds of fewer.
+    /// Whether a condition holds of the establishment of a stable motion in a region, as of
+    /// [`Establishment::within_region`]. The condition must go on to hold as more starts lead to the motion.
     ///
     /// # Errors
     /// As [`Establishment::of`].

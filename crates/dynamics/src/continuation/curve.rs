@@ -114,6 +114,7 @@ fn follow_half_curve<E: Codimension>(
     let sequence = E::orbit_of(&start.here.point).2;
     let settings = ContinuationSettings {
         largest_step: region.step,
+        crawling_step: 1e-4 * region.step,
         ..ContinuationSettings::default()
     };
     let mut stepper = Stepper::new(equations, start, along, &settings)?;

@@ -141,7 +141,7 @@ impl Continuation<'_> {
         };
         if found.as_ref().is_some_and(|(_, special)| is_whole(special))
             || before == after
-            || (&to.at - &from.at).norm() < DIFFERENCE_WIDTH
+            || (&to.at - &from.at).norm() < 0.1 * DIFFERENCE_WIDTH
         {
             return Ok(found.into_iter().collect());
         }

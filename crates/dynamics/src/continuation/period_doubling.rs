@@ -54,7 +54,7 @@ impl Continuation<'_> {
             let along: DVector<f64> = &node.at - &at;
             let fold = Test::Fold.scaled_value(&node.here.point.monodromy);
             // Beyond, the new branch may have flipped itself.
-            let near = along.norm() < 2.0 * distance && fold.abs() < self.settings.max_test_change;
+            let near = along.norm() < 2.0 * distance && fold.abs() < 0.5;
             let gap = self.merging_gap(&node);
             let leads_away = gap.is_some_and(|gap| gap.norm() > 0.5 * distance);
             if near && leads_away && node.here.point.impacts.len() == times * from.impacts.len() {

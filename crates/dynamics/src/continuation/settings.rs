@@ -1,7 +1,9 @@
 //! Settings of a continuation.
 
-/// Settings of a continuation: how it steps along a curve, and what it takes for a border. Lengths and distances are those
-/// of scaled unknowns: position, velocity and parameters in units of the family's scales.
+/// Settings of a continuation: how it steps along a branch, and what it takes for a border. Lengths and distances are those
+/// of scaled unknowns, position, velocity and parameters in units of the family's scales; all values are > 0.
+/// [`Continuation::follow_points`](super::Continuation::follow_points), which looks for no special points, takes longer steps
+/// and has values of its own for `first_step`, `largest_step`, `step_growth` and `min_turn_cosine`.
 ///
 /// ```
 /// use softstop::{Parameter, Ratios};
@@ -15,7 +17,7 @@
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContinuationSettings {
-    /// First step along a curve; an orbit that is as near to one of half its period, or to a symmetric one, merges with it.
+    /// First step along a curve.
     pub first_step: f64,
     /// Smallest step: a curve that asks for a smaller one ends.
     pub smallest_step: f64,

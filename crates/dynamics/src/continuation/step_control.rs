@@ -19,6 +19,9 @@ const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Scaled distances ahead at which a rest is looked for, where the orbits of a branch come to lie side by side.
 const REST_DISTANCES: [f64; 3] = [1e-4, 1e-3, 1e-2];
 
+/// Scaled gap between the halves of an orbit below which it merges with one of half its period.
+const MERGING_GAP: f64 = 0.05;
+
 impl Continuation<'_> {
     /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just ahead
     /// (of values that no machine can have beyond), at an orbit that is too unstable, or lost.
@@ -127,7 +130,7 @@ impl Continuation<'_> {
         let fold = Test::Fold.scaled_value(&map.monodromy).abs();
         let merges = || {
             let gap = self.merging_gap(node);
-            gap.is_some_and(|gap| gap.norm() < self.settings.first_step)
+            gap.is_some_and(|gap| gap.norm() < MERGING_GAP)
         };
         match map.sequence.holds > 0 && fold < 2.0 * self.settings.border_distance && !merges() {
             true => fold,

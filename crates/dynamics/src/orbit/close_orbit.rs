@@ -5,9 +5,12 @@ use nalgebra::{Matrix2, Vector2};
 use super::contact_passage::ContactPassage;
 use super::multi_segment_shooting::{MultiSegmentShooting, ShootingEvaluation, Unknowns};
 use super::{Monodromy, Orbit, OrbitError, StroboscopicMap};
-use crate::tolerance::SAME;
 use softstop::internals::{LinearLaw, Motion, NextEvent, PhaseId, first_crossing};
 use softstop::{Clock, Instant, Tangent, Touch};
+
+/// Share of the drive period by which an impact found by its crossing may precede the one that segments were shot to: by the
+/// square root of what Newton's method leaves, where the impact is weak.
+const IMPACT_TIME_TOLERANCE: f64 = 1e-4;
 
 impl MultiSegmentShooting {
     /// The periodic orbit through impacts between which the segments of the shooting fit.
@@ -89,7 +92,7 @@ impl MultiSegmentShooting {
             let around = if next <= segment { self.span() } else { 0.0 };
             let flight = at[2 * next] + around - at[2 * segment] - passing.lasting;
             let (course, guards) = (&passing.course, &self.face.phases[PhaseId::FREE].guards);
-            let early = flight - SAME * self.face.clock.period();
+            let early = flight - IMPACT_TIME_TOLERANCE * self.face.clock.period();
             if let NextEvent::Crossing(found) =
                 first_crossing(course, guards, course.start_node(), flight)
                 && found.elapsed < early

@@ -102,7 +102,7 @@ impl PeriodTrajectory {
         self.arcs.iter().filter_map(|arc| arc.crossing.as_ref())
     }
 
-    /// The trajectory up to an instant.
+    /// The trajectory up to an instant within it.
     pub fn up_to(&self, end: Instant) -> Self {
         let begun = self.arcs.partition_point(|arc| arc.start < end);
         let mut arcs = self.arcs[..begun].to_vec();

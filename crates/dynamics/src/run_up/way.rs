@@ -76,7 +76,7 @@ impl Way {
             Self::SwitchedOn => None,
             Self::FrequencyRaised => {
                 let slow = if own > 0.0 { own.min(w) } else { w };
-                Some((Parameter::Frequency, slow / HIGH_FACTOR, Direction::Up))
+                Some((Parameter::Frequency, LOW_FREQUENCY * slow, Direction::Up))
             }
             Self::FrequencyLowered => Some((
                 Parameter::Frequency,
@@ -106,8 +106,9 @@ impl Way {
     }
 }
 
-/// Frequency at which a falling one begins, in units of the higher one of the drive's and the mass's own, and the lower one
-/// in units of that at which a rising one begins; least such factor of an amplitude.
+/// Frequency at which a rising one begins, in units of the lower one of the drive's and the mass's own.
+const LOW_FREQUENCY: f64 = 0.5;
+/// Frequency at which a falling one begins, in units of the higher one; least such factor of an amplitude.
 const HIGH_FACTOR: f64 = 2.0;
 /// Clearance at which an opening one begins, in units of that at work.
 const START_CLEARANCE: f64 = 0.05;

@@ -69,7 +69,7 @@ impl Variation {
     pub fn start_rates(&self) -> Result<Vec<Vector2<f64>>, OrbitError> {
         let monodromy = &self.monodromy;
         let size = 1.0 + monodromy.trace().abs() + monodromy.determinant().abs();
-        let inverse = (monodromy.fold_test().abs() > TEST_ROUNDING * size)
+        let inverse = (monodromy.fold_test().abs() > 10.0 * TEST_ROUNDING * size)
             .then(|| monodromy.resolvent())
             .flatten()
             .ok_or(OrbitError::NotIsolated)?;

@@ -15,7 +15,7 @@ use softstop::{CheckedScene, Scene};
 /// Frequencies in units of the natural one between which z = 1 motions are searched, and how many of them in a row:
 /// closely below, where a drive period holds several free ones and stable ranges are narrow.
 const SEARCH_ROWS: [(f64, f64, usize); 2] = [(0.25, 0.7, 70), (0.7, 4.0, 23)];
-/// Frequencies in units of the natural one up to which branches are followed; below, they wind.
+/// Frequencies in units of the natural one, or of g0, up to which branches are followed; below, they wind.
 pub(super) const FOLLOWED_RANGE: (f64, f64) = (0.25, 8.0);
 /// Points of a branch in each direction.
 const MAX_RANGE_POINTS: usize = 20_000;

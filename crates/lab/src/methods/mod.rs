@@ -149,8 +149,8 @@ impl MethodError {
     }
 }
 
-/// A way to compute motions, with all its settings. To add one, implement the two methods: `integrate` asks
-/// [`CheckedScene::phases`](softstop::CheckedScene::phases) for the laws, ends at the task's duration exactly, and counts its work honestly.
+/// A way to compute motions, with all its settings. To add one, implement the two methods: `integrate` asks the phases of
+/// the checked scene for the laws, ends at the task's duration exactly, and counts its work honestly.
 pub trait Integrator: Sync {
     /// What it is, with its settings, for a table or a legend.
     fn name(&self) -> String;
