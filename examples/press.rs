@@ -34,6 +34,6 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The paper's point A in other units: its X'- = 6.494627 times F0 / sqrt(k1 m).
     let last = motion.impacts().last().ok_or("it strikes")?;
     assert!((last.before_impact_velocity - 0.375 * 6.494_627_429_363).abs() < 1e-9);
-    assert!(motion.energy_defect().abs() < 1e-11 * motion.work.supplied);
+    assert!(motion.energy_defect().abs() < 1e-11 * motion.work().supplied);
     Ok(())
 }

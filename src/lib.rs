@@ -25,7 +25,7 @@
 //! let motion = scene.trajectory(Start::new(0.0, 14.0), 1000)?;
 //! let last = motion.impacts().last().expect("it strikes in every period");
 //! assert!((last.before_impact_velocity - 6.494_627_429_363).abs() < 1e-10);
-//! assert!(motion.energy_defect().abs() < 1e-11 * motion.work.supplied);
+//! assert!(motion.energy_defect().abs() < 1e-11 * motion.work().supplied);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]

@@ -140,7 +140,7 @@ fn a_kept_trajectory_is_the_run_under_the_same_forces() {
         assert_relative_eq!(kept.end.velocity, sample.velocity, epsilon = MOTION);
         assert_eq!(kept.impacts().count() as u64, run.impact_count());
         assert!(run.impact_count() > 1);
-        assert!(kept.energy_defect().abs() < 1e-11 * kept.work.dissipated);
+        assert!(kept.energy_defect().abs() < 1e-11 * kept.work().dissipated);
     }
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use softstop::internals::{ParameterSensitivity, PhaseDerivatives};
-use softstop::{Below, Clock, CrossingKind, Parameter, Scene, Start, Stop, Trajectory};
+use softstop::{Below, Clock, CrossingKind, Parameter, Scene, Start, Stop};
 use softstop_testing::tolerance::DIFFERENCED;
 use softstop_testing::{Meets, cases, machines, start_below};
 
@@ -13,17 +13,11 @@ const WIDTH: f64 = 2e-4;
 /// State and energy supplied after some drive periods, and what happened.
 fn after(scene: &Scene, start: Start, periods: u64) -> Option<(Vector3<f64>, Vec<CrossingKind>)> {
     scene.validate().ok()?;
-    let Trajectory {
-        end,
-        work,
-        crossings,
-        ..
-    } = scene.trajectory(start, periods).ok()?;
-    let kinds = crossings.iter().map(|crossing| crossing.kind).collect();
-    Some((
-        Vector3::new(end.position, end.velocity, work.supplied),
-        kinds,
-    ))
+    let motion = scene.trajectory(start, periods).ok()?;
+    let kinds = motion.crossings().map(|crossing| crossing.kind).collect();
+    let Start { position, velocity } = motion.end;
+    let supplied = motion.work().supplied;
+    Some((Vector3::new(position, velocity, supplied), kinds))
 }
 
 /// The exact derivative of the same by a parameter.

@@ -118,8 +118,8 @@ proptest! {
             .expect("bounded");
         // The oracle stops at a whole step; nothing is asked of the last ones.
         let first = trajectory
-            .crossings
-            .first()
+            .crossings()
+            .next()
             .map(|crossing| crossing.instant)
             .filter(|instant| trajectory.clock.time(*instant) < end * 0.997);
         let touch = touch.filter(|time| first.is_some() || *time < end * 0.997);
@@ -129,7 +129,7 @@ proptest! {
                 prop_assert!(exact <= oracle + 1e-9 && oracle - exact < 1e-3, "{exact} {oracle}");
             }
             (None, None) => prop_assert!(highest < scene.clearance),
-            (oracle, exact) => prop_assert!(false, "{oracle:?} {exact:?} {:?}, highest {highest}, clearance {}", trajectory.crossings.first(), scene.clearance),
+            (oracle, exact) => prop_assert!(false, "{oracle:?} {exact:?} {:?}, highest {highest}, clearance {}", trajectory.crossings().next(), scene.clearance),
         }
     }
 }
@@ -248,7 +248,7 @@ proptest! {
         prop_assume!(meets.crossings.len() < 2000);
         let trajectory = scene.trajectory(start, 3).expect("bounded");
         assert_arcs_stay_in_their_layers(&scene, &trajectory)?;
-        let in_order = trajectory.crossings.is_sorted_by(|a, b| a.instant <= b.instant);
+        let in_order = trajectory.crossings().is_sorted_by(|a, b| a.instant <= b.instant);
         prop_assert!(in_order);
     }
 }

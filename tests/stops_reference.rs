@@ -75,7 +75,7 @@ fn motions_agree_with_forty_digits() {
         failures.extend(compare_impacts(case, &trajectory));
         failures.extend(compare_rests(case, &trajectory));
         let balance = trajectory.energy_defect().abs()
-            / (trajectory.work.supplied.abs() + trajectory.work.dissipated + scene.mass);
+            / (trajectory.work().supplied.abs() + trajectory.work().dissipated + scene.mass);
         if balance > 1e-11 {
             failures.push(format!("{name}: energy defect {balance:e}"));
         }

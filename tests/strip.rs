@@ -22,7 +22,7 @@ fn passes(trajectory: &Trajectory, position: f64) -> Vec<&Crossing> {
         matches!(crossing.kind, CrossingKind::Surface { forward: true, .. })
             && crossing.position == position
     };
-    trajectory.crossings.iter().filter(rises).collect()
+    trajectory.crossings().filter(rises).collect()
 }
 
 /// A weak stroke turns back in phase I; the next one meets the same force from the clearance on.
@@ -33,12 +33,7 @@ fn a_half_pierced_strip_is_met_again() {
     let trajectory = scene.trajectory(start, 6).expect("bounded");
     let strokes = passes(&trajectory, scene.clearance);
     assert!(strokes.len() >= 2, "only {} strokes", strokes.len());
-    assert!(
-        trajectory
-            .crossings
-            .iter()
-            .all(|crossing| !crossing.pierces())
-    );
+    assert!(trajectory.crossings().all(|crossing| !crossing.pierces()));
     let mut machine = Simulation::new(&scene, start).expect("valid");
     for stroke in strokes {
         let time = trajectory.clock.time(stroke.instant) + 1e-3;

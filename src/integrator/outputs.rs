@@ -1,7 +1,6 @@
 //! What a running machine shows.
 
 use super::impact::Impact;
-use super::mechanical_energy;
 use super::simulation::Simulation;
 use super::start::Start;
 use crate::flow::Drive;
@@ -110,7 +109,7 @@ impl Simulation {
         let mut work = self.tallies.counts.work;
         work += self.tallies.work_under_way(&self.motion);
         Energy {
-            mechanical: mechanical_energy(&self.scene, &self.motion),
+            mechanical: self.motion.mechanical_energy(&self.scene),
             supplied: work.supplied,
             dissipated: work.dissipated,
         }

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::Observer;
 use super::checkpoint::{Checkpoint, CheckpointState};
 use super::clock::{Clock, Instant};
 use super::force::force_from_derivatives;
@@ -9,7 +10,6 @@ use super::impact::Impact;
 use super::motion::Motion;
 use super::start::Start;
 use super::tallies::{Counts, Tallies};
-use super::{Observer, mechanical_energy};
 use crate::checked_scene::CheckedScene;
 use crate::error::MotionError;
 use crate::flow::Polynomial;
@@ -269,7 +269,7 @@ impl Simulation {
         (self.motion, self.scene) = (motion, scene);
         self.mark = Checkpoint::OnArc(self.motion.now());
         self.tallies.mass = self.scene.mass;
-        let mechanical = mechanical_energy(&self.scene, &self.motion);
+        let mechanical = self.motion.mechanical_energy(&self.scene);
         self.tallies.counts.work.supplied += mechanical - before;
         Ok(())
     }

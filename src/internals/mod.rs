@@ -8,12 +8,11 @@ pub use crate::error::{did_you_mean, plain_number};
 pub use crate::events::{Guard, NextEvent, first_crossing};
 pub use crate::expression::{Differentiated, Expression, chained};
 pub use crate::flow::{ArcSolution, Departure, Hertz, LinearLaw, Modes, Polynomial};
-pub use crate::integrator::{
-    Evaluations, MAX_RESTITUTION, Motion, Shares, Walk, mechanical_energy, shares, work,
-};
+pub use crate::integrator::{Evaluations, MAX_RESTITUTION, Motion, Shares, Walk, shares, work};
 pub use crate::machine::nearest_name;
 pub use crate::peak::{highest_point, largest_value};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow_root;
 pub use crate::scene::{MAX_DAMPER_RATE, MAX_SPRING_RATE, MIN_SCALE_STIFFNESS, Scales, force_of};
 pub use crate::tangent::{FrequencySensitivity, ParameterSensitivity, PhaseDerivatives, saltation};
+pub use crate::trajectory::turning_points;

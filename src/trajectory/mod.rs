@@ -1,20 +1,25 @@
-//! A motion kept: its arcs, its crossings, its energies.
+//! A motion kept: its arcs and crossings, and what follows from them without running it again.
 
 mod kept_arc;
+mod record;
+mod turning_points;
 
 pub use kept_arc::KeptArc;
+pub use record::AppliedForce;
+pub use turning_points::turning_points;
 
-use std::ops::ControlFlow;
-
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use crate::checked_scene::CheckedScene;
-use crate::error::MotionError;
 use crate::integrator::{
-    Arc, Clock, Crossing, Instant, Motion, Observer, Start, Work, force_from_derivatives,
-    mechanical_energy, work,
+    Arc, Clock, Crossing, CrossingKind, Instant, Observer, Start, Work, mechanical_energy, work,
 };
-use crate::scene::Scene;
+use crate::phases::PhaseId;
+use crate::tangent::Tangent;
+
+/// Arcs of a trajectory for which there is room at first: as many as most drive periods have.
+const FIRST_ARC_ROOM: usize = 8;
 
 /// A mass that touches: when, and how fast.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -25,46 +30,60 @@ pub struct Touch {
     pub before_impact_velocity: f64,
 }
 
-/// An external force that acts from a time on, until the next one does.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AppliedForce {
-    /// When it begins, in s.
-    pub from: f64,
-    /// Derivatives of the force then, as in [`Simulation::set_force`](crate::Simulation::set_force): value in N, rate in N/s, and so on.
-    pub derivatives: Vec<f64>,
-}
-
-/// An exact motion over a span of time.
+/// An exact motion over a span of time: an observer that keeps the motion's arcs and crossings.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Trajectory {
+    /// The scene that the motion is of.
+    pub scene: CheckedScene,
     /// The clock of its instants.
     pub clock: Clock,
-    /// Arcs in order of time, without gaps.
+    /// Arcs in order of time, without gaps, each with the crossing at its end.
     pub arcs: Vec<KeptArc>,
-    /// Crossings in order of time.
-    pub crossings: Vec<Crossing>,
-    /// Energies supplied and dissipated, in J.
-    pub work: Work,
-    /// Mechanical energy at the end less that at the start, in J.
-    pub stored: f64,
     /// State at the end.
     pub end: Start,
 }
 
 impl Trajectory {
+    /// A trajectory without arcs, which keeps a motion of a scene as its observer.
+    #[doc(hidden)]
+    pub fn empty(scene: &CheckedScene) -> Self {
+        Self {
+            scene: scene.clone(),
+            clock: scene.clock(),
+            arcs: Vec::with_capacity(FIRST_ARC_ROOM),
+            end: Start::REST,
+        }
+    }
+
+    /// Crossings in order of time.
+    pub fn crossings(&self) -> impl Iterator<Item = &Crossing> + Clone {
+        self.arcs.iter().filter_map(|arc| arc.crossing.as_ref())
+    }
+
     /// The impacts in order of time.
-    pub fn impacts(&self) -> impl Iterator<Item = Touch> + '_ {
-        self.crossings.iter().filter_map(|crossing| {
-            let before_impact_velocity = crossing.impact_velocity()?;
+    pub fn impacts(&self) -> impl Iterator<Item = Touch> {
+        self.crossings().filter_map(|crossing| {
             Some(Touch {
                 instant: crossing.instant,
-                before_impact_velocity,
+                before_impact_velocity: crossing.impact_velocity()?,
             })
         })
     }
 
-    /// Position in m and velocity in m/s at any time within the trajectory.
+    /// Times in s and before-impact velocities in m/s of the impacts, in order of time.
+    pub fn timed_impacts(&self) -> impl Iterator<Item = (f64, f64)> {
+        let timed = |touch: Touch| (self.clock.time(touch.instant), touch.before_impact_velocity);
+        self.impacts().map(timed)
+    }
+
+    /// Instants at which complete chatter ends in rest, in order of time.
+    pub fn rests(&self) -> impl Iterator<Item = Instant> {
+        let rests = self.crossings().filter(|it| it.kind == CrossingKind::Rest);
+        rests.map(|crossing| crossing.instant)
+    }
+
+    /// Position in m and velocity in m/s at any instant within the trajectory.
     pub fn at(&self, instant: Instant) -> Option<Start> {
         let next = self.arcs.partition_point(|arc| arc.start <= instant);
         let arc = self.arcs.get(next.checked_sub(1)?)?;
@@ -73,123 +92,133 @@ impl Trajectory {
             return None;
         }
         let (position, velocity) = arc.course.state_at(elapsed, self.clock.drive(instant));
-        Some(Start::new(position, velocity))
+        let phase = arc.phase.map(|phase| &self.scene.phases()[phase]);
+        let inside = phase.map_or(position, |phase| phase.confine_position(position));
+        Some(Start::new(inside, velocity))
+    }
+
+    /// The state after so many whole drive periods; that at the end if there are fewer.
+    #[doc(hidden)]
+    pub fn at_cycle(&self, periods: u64) -> Vector2<f64> {
+        let state = self.at(Clock::at_cycle(periods));
+        state.unwrap_or(self.end).into()
+    }
+
+    /// The trajectory up to an instant; the whole of it if it ends before.
+    #[doc(hidden)]
+    pub fn up_to(&self, end: Instant) -> Self {
+        let begun = self.arcs.partition_point(|arc| arc.start < end);
+        let mut arcs = self.arcs[..begun].to_vec();
+        if let Some(last) = arcs.last_mut() {
+            let elapsed = self.clock.elapsed(last.start, end);
+            if elapsed < last.duration {
+                (last.duration, last.crossing) = (elapsed, None);
+            }
+        }
+        Self {
+            scene: self.scene.clone(),
+            clock: self.clock,
+            arcs,
+            end: self.at(end).unwrap_or(self.end),
+        }
+    }
+
+    /// The arcs as observers see them, and how long each lasts, in s.
+    #[doc(hidden)]
+    pub fn observed_arcs(&self) -> impl Iterator<Item = (Arc<'_>, f64)> {
+        let seen = |kept| (self.observed_arc(kept), kept.duration);
+        self.arcs.iter().map(seen)
+    }
+
+    /// One arc of the trajectory as observers see it.
+    #[doc(hidden)]
+    pub fn observed_arc<'a>(&'a self, kept: &'a KeptArc) -> Arc<'a> {
+        kept.seen(&self.clock, self.scene.phases())
+    }
+
+    /// Tells an observer of all arcs and crossings, as the motion did.
+    pub fn replay(&self, observer: &mut dyn Observer) {
+        for kept in &self.arcs {
+            observer.arc(&self.observed_arc(kept), kept.duration);
+            if let Some(crossing) = &kept.crossing {
+                observer.crossing(crossing);
+            }
+        }
+    }
+
+    /// The tangent of the whole trajectory: its exact Jacobian.
+    pub fn tangent(&self) -> Tangent {
+        let mut tangent = Tangent::default();
+        self.replay(&mut tangent);
+        tangent
+    }
+
+    /// Largest position in m.
+    pub fn max_position(&self) -> f64 {
+        self.farthest_position(true, f64::max)
+    }
+
+    /// Lowest position in m.
+    pub fn min_position(&self) -> f64 {
+        self.farthest_position(false, f64::min)
+    }
+
+    /// The farthest position in m, of turning points, crossings and ends.
+    fn farthest_position(&self, back: bool, farther: impl Fn(f64, f64) -> f64) -> f64 {
+        let end = self.end.position;
+        let begin = self.arcs.first();
+        let begin = begin.map_or(end, |arc| arc.course.departure.position);
+        let arcs = self.arcs.iter();
+        let turns = arcs.flat_map(|arc| turning_points(&arc.course, arc.duration, back));
+        let positions = turns.map(|turn| turn.position);
+        let positions = positions.chain(self.crossings().map(|crossing| crossing.position));
+        positions.fold(farther(begin, end), farther)
+    }
+
+    /// Energies supplied and dissipated, in J.
+    pub fn work(&self) -> Work {
+        let mass = self.scene.mass;
+        let mut sum = Work::default();
+        for kept in &self.arcs {
+            sum += work(&self.observed_arc(kept), mass, kept.duration);
+            let lost = kept.crossing.map(|it| it.lost_energy(mass));
+            sum.dissipated += lost.unwrap_or_default();
+        }
+        sum
+    }
+
+    /// Mechanical energy at the end less that at the start, in J.
+    pub fn stored(&self) -> f64 {
+        let Some(first) = self.arcs.first() else {
+            return 0.0;
+        };
+        let phases = self.scene.phases();
+        // A mass that is held stays where it is: the store at its position is that of the moving arc beside.
+        let mut stores = self.arcs.iter().filter_map(|arc| arc.phase);
+        let first_store = stores.next();
+        let energy = |state: Start, phase: Option<PhaseId>| {
+            mechanical_energy(&self.scene, state, phase.map(|it| &phases[it].store))
+        };
+        let departure = first.course.departure;
+        let start = Start::new(departure.position, departure.velocity);
+        energy(self.end, stores.next_back().or(first_store)) - energy(start, first_store)
     }
 
     /// supplied - dissipated - stored, in J: zero but for rounding.
     pub fn energy_defect(&self) -> f64 {
-        self.work.supplied - self.work.dissipated - self.stored
+        let work = self.work();
+        work.supplied - work.dissipated - self.stored()
     }
 }
 
-impl Scene {
-    /// The exact motion from `start` at time 0 over `periods` whole drive periods.
-    ///
-    /// # Errors
-    /// [`MotionError`] if the scene is invalid or the motion grows beyond all bounds.
-    pub fn trajectory(&self, start: Start, periods: u64) -> Result<Trajectory, MotionError> {
-        self.trajectory_until(start, Clock::at_cycle(periods))
-    }
-
-    /// The exact motion from `start` at time 0 to any later instant.
-    ///
-    /// # Errors
-    /// As [`Scene::trajectory`].
-    pub fn trajectory_until(&self, start: Start, end: Instant) -> Result<Trajectory, MotionError> {
-        self.trajectory_under(start, end, &[], &mut ())
-    }
-
-    /// The exact motion from `start` at time 0 under external forces, in order of time, to any later instant, or until
-    /// the observer stops it.
-    ///
-    /// # Errors
-    /// As [`Scene::trajectory`]; [`MotionError::TimeBackwards`] if a force begins before the one ahead of it, and those of
-    /// [`Simulation::set_force`](crate::Simulation::set_force).
-    pub fn trajectory_under(
-        &self,
-        start: Start,
-        end: Instant,
-        forces: &[AppliedForce],
-        observer: &mut dyn Observer,
-    ) -> Result<Trajectory, MotionError> {
-        let mut motion = self.motion(start)?;
-        let energy_before = mechanical_energy(self, &motion);
-        let mut recorder = TrajectoryRecorder {
-            mass: self.mass,
-            ..TrajectoryRecorder::default()
-        };
-        let mut flow = ControlFlow::Continue(());
-        for force in forces {
-            let from = motion.clock().instant(force.from);
-            if from >= end {
-                break;
-            }
-            flow = motion.watch(from, &mut (&mut recorder, &mut *observer))?;
-            if flow.is_break() {
-                break;
-            }
-            let before = motion.clone();
-            if motion.set_force(force_from_derivatives(&force.derivatives)?) {
-                before.tell_arc(&mut recorder);
-            }
-        }
-        if flow.is_continue() {
-            motion.advance(end, &mut (&mut recorder, observer))?;
-        }
-        motion.tell_arc(&mut recorder);
-        Ok(Trajectory {
-            clock: *motion.clock(),
-            arcs: recorder.arcs,
-            crossings: recorder.crossings,
-            work: recorder.work,
-            stored: mechanical_energy(self, &motion) - energy_before,
-            end: motion.state(),
-        })
-    }
-
-    /// The motion from `start` at time 0, ready to be advanced.
-    ///
-    /// # Errors
-    /// [`MotionError`] if the scene is invalid or the start not finite.
-    #[doc(hidden)]
-    pub fn motion(&self, start: Start) -> Result<Motion, MotionError> {
-        self.check()?.motion(start)
-    }
-}
-
-impl CheckedScene {
-    /// The motion from `start` at time 0, ready to be advanced.
-    ///
-    /// # Errors
-    /// [`MotionError`] if the start is not finite, or beyond a rigid stop.
-    #[doc(hidden)]
-    #[inline]
-    pub fn motion(&self, start: Start) -> Result<Motion, MotionError> {
-        start.validate()?;
-        Motion::new(self, Clock::at_cycle(0), start)
-    }
-}
-
-/// Keeps the arcs and crossings of a motion.
-#[derive(Default)]
-struct TrajectoryRecorder {
-    mass: f64,
-    arcs: Vec<KeptArc>,
-    crossings: Vec<Crossing>,
-    work: Work,
-}
-
-impl Observer for TrajectoryRecorder {
+impl Observer for Trajectory {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        self.work += work(arc, self.mass, elapsed);
         self.arcs.push(KeptArc::new(arc, elapsed));
     }
 
     fn crossing(&mut self, crossing: &Crossing) {
-        self.work.dissipated += crossing.lost_energy(self.mass);
-        if let Some(arc) = self.arcs.last_mut() {
-            arc.crossing = Some(*crossing);
+        if let Some(last) = self.arcs.last_mut() {
+            last.crossing = Some(*crossing);
         }
-        self.crossings.push(*crossing);
     }
 }

@@ -21,6 +21,6 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         6.494_627_429_363,
         epsilon = 1e-10
     );
-    assert!(motion.energy_defect().abs() < 1e-11 * motion.work.supplied);
+    assert!(motion.energy_defect().abs() < 1e-11 * motion.work().supplied);
     Ok(())
 }

@@ -38,8 +38,9 @@ pub mod missing_strips;
 pub mod monitor;
 pub mod motion;
 pub mod orbit;
-mod period;
+
 pub mod points;
+mod record_trajectory;
 pub mod run_up;
 pub mod settled;
 pub mod slopes;
@@ -70,8 +71,6 @@ pub mod internals {
     pub use crate::ensemble::Ensemble;
     pub use crate::member::{HasMember, Member};
     pub use crate::orbit::impact_counter::ImpactCounter;
-    pub use crate::period::PeriodTrajectory;
-    pub use crate::period::turn::turning_points;
     pub use crate::zone::Frequencies;
     pub use crate::zone::followed_end::{LONGEST_BRANCH, find_end};
 }

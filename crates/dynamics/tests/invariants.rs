@@ -39,9 +39,9 @@ fn energy_balances_over_a_thousand_periods() {
         let scene = ratios.scene().expect("valid");
         let start = Start::new(0.0, 14.0);
         let trajectory = scene.trajectory(start, 1000).expect("bounded");
-        let relative = trajectory.energy_defect() / trajectory.work.supplied;
+        let relative = trajectory.energy_defect() / trajectory.work().supplied;
         assert_near(relative, 0.0, 10.0 * MOTION);
-        assert!(trajectory.work.dissipated > 10_000.0);
+        assert!(trajectory.work().dissipated > 10_000.0);
     }
 }
 

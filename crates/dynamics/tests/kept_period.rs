@@ -2,10 +2,10 @@
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use softstop::{Clock, MotionError, PhaseKind, Ratios, Scene, Stop};
+use softstop::{Clock, MotionError, PhaseKind, Ratios, Scene, Simulation, Start, Stop};
 use softstop_dynamics::StroboscopicMap;
 use softstop_testing::tolerance::MOTION;
-use softstop_testing::{assert_near, cases, machines, start_below};
+use softstop_testing::{Meets, assert_near, cases, machines, start_below};
 
 /// Drive periods of the random motions.
 const PERIODS: u64 = 5;
@@ -41,10 +41,30 @@ proptest! {
             assert_near((after - run).norm(), 0.0, MOTION * (1.0 + run.norm()));
             prop_assert!((lowest..=highest).contains(&after.x), "{after}");
         }
-        let trajectory = scene.trajectory(state.into(), PERIODS).expect("bounded");
-        let crossings: Vec<_> = trajectory.crossings.iter().map(|it| it.instant).collect();
-        let of_kept: Vec<_> = kept.crossings().map(|it| it.instant).collect();
-        prop_assert_eq!(of_kept, crossings);
+        let end = Clock::at_cycle(PERIODS);
+        let of_kept: Vec<_> = kept.crossings().map(|it| it.kind).collect();
+        prop_assert_eq!(of_kept, Meets::until(&scene, state.into(), end).crossings);
+        let whole = kept.up_to(Clock::at_cycle(PERIODS + 1));
+        prop_assert_eq!((whole.end, whole.arcs.len()), (kept.end, kept.arcs.len()));
+    }
+
+    #[test]
+    fn energies_of_a_kept_motion_are_those_of_a_simulation(
+        scene in machines(),
+        depth in 0.0..6.0f64,
+        velocity in -6.0..6.0f64,
+    ) {
+        let start = start_below(&scene, depth, velocity);
+        let kept = scene.trajectory(start, PERIODS).expect("bounded");
+        let mut run = Simulation::new(&scene, start).expect("valid");
+        let before = run.energy().mechanical;
+        run.advance(kept.clock.time(Clock::at_cycle(PERIODS))).expect("bounded");
+        let after = run.energy();
+        let size = before.abs() + after.mechanical.abs() + after.supplied.abs() + after.dissipated;
+        assert_near(kept.stored(), after.mechanical - before, MOTION * (1.0 + size));
+        let work = kept.work();
+        assert_near(work.supplied, after.supplied, MOTION * (1.0 + size));
+        assert_near(work.dissipated, after.dissipated, MOTION * (1.0 + size));
     }
 }
 
@@ -58,14 +78,13 @@ fn a_period_that_begins_and_ends_at_rest_keeps_the_crossings_of_its_held_arcs() 
         scene.excitation.phase = phase;
         let settled = map(&scene, 40).image(Vector2::zeros()).expect("bounded");
         let kept = map(&scene, 2).trajectory(settled).expect("bounded");
-        let trajectory = scene.trajectory(settled.into(), 2).expect("bounded");
         let kinds: Vec<_> = kept.crossings().map(|it| it.kind).collect();
-        let of_trajectory: Vec<_> = trajectory.crossings.iter().map(|it| it.kind).collect();
-        assert_eq!(kinds, of_trajectory, "at phase {phase}");
+        let met = Meets::until(&scene, settled.into(), Clock::at_cycle(2));
+        assert_eq!(kinds, met.crossings, "at phase {phase}");
         let last = kept.arcs.last().expect("an arc");
         if last.kind == PhaseKind::Resting && last.start < Clock::at_cycle(2) {
-            assert_eq!(kept.end, Vector2::new(scene.clearance, 0.0));
-            assert_eq!(kept.at_cycle(2), kept.end, "at phase {phase}");
+            assert_eq!(kept.end, Start::new(scene.clearance, 0.0));
+            assert_eq!(kept.at_cycle(2), kept.end.into(), "at phase {phase}");
             held += 1;
         }
     }

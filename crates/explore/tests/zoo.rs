@@ -127,7 +127,7 @@ fn every_example_scene_runs() -> Outcome {
         let motion = file.scene.trajectory(file.start, 20)?;
         let defect = motion.energy_defect().abs();
         assert!(
-            defect < 1e-9 * motion.work.supplied.abs(),
+            defect < 1e-9 * motion.work().supplied.abs(),
             "{}",
             path.display()
         );

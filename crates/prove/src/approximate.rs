@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, Vector2};
-use softstop::{CrossingKind, Scene, Start, Trajectory};
+use softstop::{Crossing, CrossingKind, Scene, Start, Trajectory};
 
 use crate::ProofError;
 use crate::interval::Interval;
@@ -45,9 +45,10 @@ pub(crate) fn motion(
     let span = TAU * periods as f64;
     let mut guesses = Vec::new();
     let reach = drive.frequency * state.x.abs();
-    let speeds = trajectory.crossings.iter().map(|it| it.velocity.abs());
+    let crossings: Vec<&Crossing> = trajectory.crossings().collect();
+    let speeds = crossings.iter().map(|it| it.velocity.abs());
     let fastest = speeds.fold(reach.max(state.y.abs()), f64::max);
-    for (index, crossing) in trajectory.crossings.iter().enumerate() {
+    for (index, crossing) in crossings.iter().enumerate() {
         if matches!(crossing.kind, CrossingKind::Rest | CrossingKind::Release) {
             return Err(ProofError::Unsupported(
                 "the motion rests for a while (dry friction, chatter, or a force below the preload)",
@@ -63,7 +64,7 @@ pub(crate) fn motion(
         if !is_of_touch {
             guesses.push(Guess {
                 kind: Kind::Crossing,
-                phase: phase_after(&machine, &trajectory, index),
+                phase: phase_after(&machine, &trajectory, &crossings[index..]),
                 unknowns: [angle, crossing.position, crossing.velocity],
             });
         }
@@ -114,10 +115,10 @@ pub(crate) fn motion(
     Ok((motion, guesses.iter().flat_map(|it| it.unknowns).collect()))
 }
 
-/// The phase of the arc after a crossing, by the state in its middle.
-fn phase_after(machine: &Machine, trajectory: &Trajectory, index: usize) -> usize {
-    let begin = trajectory.crossings[index].instant;
-    let next = trajectory.crossings.get(index + 1).map(|it| it.instant);
+/// The phase of the arc after the first of some crossings, by the state in its middle.
+fn phase_after(machine: &Machine, trajectory: &Trajectory, crossings: &[&Crossing]) -> usize {
+    let begin = crossings[0].instant;
+    let next = crossings.get(1).map(|it| it.instant);
     let last = trajectory
         .arcs
         .last()

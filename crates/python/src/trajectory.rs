@@ -112,9 +112,9 @@ impl Trajectory {
     /// Times in s, positions in m, velocities in m/s before and after, and kinds of all crossings.
     fn crossings(&self, py: Python<'_>) -> (Array, Array, Array, Array, Vec<String>) {
         let clock = &self.motion.clock;
-        let all = &self.motion.crossings;
+        let all = || self.motion.crossings();
         let column = |value: &dyn Fn(&softstop::Crossing) -> f64| {
-            all.iter()
+            all()
                 .map(value)
                 .collect::<Vec<f64>>()
                 .into_pyarray(py)
@@ -125,15 +125,15 @@ impl Trajectory {
             column(&|it| it.position),
             column(&|it| it.velocity),
             column(&|it| it.velocity_after),
-            all.iter().map(|it| name(it.kind).to_owned()).collect(),
+            all().map(|it| name(it.kind).to_owned()).collect(),
         )
     }
 
     /// Energies in J: supplied by the drive, dissipated, and stored at the end less at the start.
     #[getter]
     fn energies(&self) -> (f64, f64, f64) {
-        let work = &self.motion.work;
-        (work.supplied, work.dissipated, self.motion.stored)
+        let work = self.motion.work();
+        (work.supplied, work.dissipated, self.motion.stored())
     }
 
     /// Position in m and velocity in m/s at the end.

@@ -12,9 +12,8 @@ use super::point::{BranchPoint, Graze, Special, SpecialKind};
 use super::section_orbit::SectionOrbit;
 use super::shooting::Shooting;
 use crate::orbit::OrbitError;
-use crate::period::PeriodTrajectory;
-use crate::period::turn::turning_points;
-use softstop::{Crossing, CrossingKind, Scene};
+use softstop::internals::turning_points;
+use softstop::{Crossing, CrossingKind, Scene, Trajectory};
 
 /// A grazing test of an orbit: its slowest crossing and its nearest turning point.
 #[derive(Debug, Clone)]
@@ -188,11 +187,11 @@ pub(crate) fn find_grazing(
 }
 
 /// The turning point of a motion that comes nearest to a surface of the scene ahead of it, if any turns before one.
-fn nearest_turn(motion: &PeriodTrajectory, scene: &Scene) -> Option<NearTouch> {
+fn nearest_turn(motion: &Trajectory, scene: &Scene) -> Option<NearTouch> {
     let faces = Face::ALL.into_iter();
     let faces = faces.filter_map(|face| Some((face, face.face_position(scene)?)));
     let faces: Vec<(Face, f64)> = faces.collect();
-    let on_arcs = motion.arcs().flat_map(|(arc, elapsed)| {
+    let on_arcs = motion.observed_arcs().flat_map(|(arc, elapsed)| {
         let back = arc.course.departure.velocity > 0.0;
         let turns = turning_points(arc.course, elapsed, back);
         turns.map(move |turn| (turn.back, arc.begin() + turn.elapsed, turn.position, false))
@@ -224,7 +223,7 @@ fn nearest_turn(motion: &PeriodTrajectory, scene: &Scene) -> Option<NearTouch> {
 }
 
 /// How many crossings die with one at a time in s: a rebound with the rest after it, or all up to the way back.
-fn crossings_with(motion: &PeriodTrajectory, time: f64) -> usize {
+fn crossings_with(motion: &Trajectory, time: f64) -> usize {
     let all: Vec<&Crossing> = motion.crossings().collect();
     let is_it = |one: &&Crossing| motion.clock.time(one.instant) == time;
     let Some(index) = all.iter().position(is_it) else {

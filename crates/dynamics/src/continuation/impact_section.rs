@@ -12,9 +12,8 @@ use super::point::Graze;
 use super::sequence::Sequence;
 use crate::monitor::stop_if;
 use crate::orbit::{Monodromy, OrbitError};
-use crate::period::PeriodTrajectory;
 use crate::tolerance::SAME;
-use softstop::{Arc, CheckedScene, Clock, Crossing, Instant, Observer};
+use softstop::{Arc, CheckedScene, Clock, Crossing, Instant, Observer, Start, Trajectory};
 
 /// An impact section of a family: the surface at which its orbits begin and end.
 #[derive(Debug, Clone, Copy)]
@@ -96,7 +95,7 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
         start: Vector2<f64>,
     ) -> Result<(Vector2<f64>, LastArc), OrbitError> {
         let around = LastArc::carry_past(scene, start, (self.crossings, self.periods))?;
-        let drift = around.motion.end - start;
+        let drift = Vector2::from(around.motion.end) - start;
         let [length, speed] = self.family.state_scales();
         Ok((Vector2::new(drift.x / length, drift.y / speed), around))
     }
@@ -115,7 +114,7 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
 /// A motion whose arc after a number of crossings is carried to the end, whether or not something comes in between.
 pub(crate) struct LastArc {
     /// The motion, which ends with that arc.
-    pub motion: PeriodTrajectory,
+    pub motion: Trajectory,
     /// True if something comes in between, more than rounding before the end.
     pub is_cut: bool,
     left: usize,
@@ -136,7 +135,7 @@ impl LastArc {
         let mut motion = scene.motion(start.into())?;
         let until = Clock::at_cycle(periods);
         let mut around = Self {
-            motion: PeriodTrajectory::empty(scene),
+            motion: Trajectory::empty(scene),
             is_cut: false,
             left: crossings,
             until,
@@ -157,7 +156,7 @@ impl LastArc {
         }
         self.motion.arc(arc, elapsed);
         let (position, velocity) = arc.course.state_at(elapsed, arc.clock.drive(self.until));
-        self.motion.end = Vector2::new(position, velocity);
+        self.motion.end = Start::new(position, velocity);
         self.is_cut = lasts < (1.0 - SAME) * elapsed;
         self.is_found = true;
     }

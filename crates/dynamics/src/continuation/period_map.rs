@@ -7,10 +7,12 @@ use nalgebra::{DVector, Vector2};
 use super::face::NearTouch;
 use super::sequence::{CountedCrossings, Sequence};
 use crate::orbit::Monodromy;
-use crate::period::PeriodTrajectory;
+use crate::record_trajectory::record_trajectory;
 use crate::tolerance::ROUNDING;
 use softstop::internals::{FrequencySensitivity, Motion};
-use softstop::{Arc, CheckedScene, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scene};
+use softstop::{
+    Arc, CheckedScene, Clock, Effort, Instant, KeptArc, MotionError, Observer, Scene, Trajectory,
+};
 
 /// The period map of a state: its image after some drive periods from time 0, derivatives, and what happens on the way.
 #[derive(Debug, Clone)]
@@ -32,7 +34,7 @@ pub(crate) struct PeriodMap {
     /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
     pub margin: f64,
     /// Arcs and crossings of the motion.
-    pub trajectory: Shared<PeriodTrajectory>,
+    pub trajectory: Shared<Trajectory>,
 }
 
 impl PeriodMap {
@@ -45,21 +47,21 @@ impl PeriodMap {
         by_frequency: bool,
     ) -> Result<Self, MotionError> {
         let start = before_wall(&scene, state);
-        let over = |motion: &mut Motion, kept: &mut PeriodTrajectory| {
-            carry_through(motion, Clock::at_cycle(periods), kept)
-        };
-        let trajectory = PeriodTrajectory::record(&scene, start, over)?;
+        let end = Clock::at_cycle(periods);
+        let trajectory = record_trajectory(&scene, start, |motion, kept| {
+            carry_through(motion, end, kept)
+        })?;
         let mut sensitivity = FrequencySensitivity::default();
         if by_frequency {
             trajectory.replay(&mut sensitivity);
         } else {
             trajectory.replay(&mut sensitivity.tangent);
         }
-        let time = trajectory.clock.time(Clock::at_cycle(periods));
+        let time = trajectory.clock.time(end);
         let change = |(arc, elapsed): (Arc<'_>, f64)| {
-            sensitivity.at_drive_angle((&arc, elapsed), trajectory.end.into(), time)
+            sensitivity.at_drive_angle((&arc, elapsed), trajectory.end, time)
         };
-        let by_frequency = by_frequency.then(|| change(trajectory.arcs().last()?));
+        let by_frequency = by_frequency.then(|| change(trajectory.observed_arcs().last()?));
         let (lowest, highest) = scene.reach();
         let at_wall = start.x == lowest || start.x == highest;
         let margin = crossing_margin(&trajectory, periods);
@@ -83,7 +85,7 @@ impl PeriodMap {
 }
 
 /// Drive periods between time 0 and the nearest crossing before or after it; 0 if the mass is held at time 0.
-fn crossing_margin(trajectory: &PeriodTrajectory, periods: u64) -> f64 {
+fn crossing_margin(trajectory: &Trajectory, periods: u64) -> f64 {
     let begins = |arc: &&KeptArc| arc.start == Clock::at_cycle(0);
     let mut first = trajectory.arcs.iter().take_while(begins);
     if first.any(|arc| arc.course.is_held()) {

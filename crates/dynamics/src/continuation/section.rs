@@ -11,9 +11,8 @@ use super::arclength::{Node, correct, curve_tangent};
 use super::follow::{Continuation, SectionChange, keeps_sense};
 use super::period_map::{PeriodMap, before_wall, state_after};
 use super::point::BranchPoint;
-use crate::period::PeriodTrajectory;
 use crate::tolerance::DIFFERENCE_WIDTH;
-use softstop::MotionError;
+use softstop::{MotionError, Trajectory};
 
 impl<'a> Continuation<'a> {
     /// Turns the section of a branch to where no crossing stands in the way; none if this section is as good as any.
@@ -81,7 +80,7 @@ impl<'a> Continuation<'a> {
 }
 
 /// Middle and length in drive periods of the longest flight of a motion: it crosses nothing and is not held.
-fn longest_flight(motion: &PeriodTrajectory, periods: u64) -> (f64, f64) {
+fn longest_flight(motion: &Trajectory, periods: u64) -> (f64, f64) {
     let ended = motion.arcs.iter();
     let all = ended.filter_map(|arc| {
         let time = motion.clock.time(arc.crossing?.instant);

@@ -19,9 +19,9 @@ use super::point::Graze;
 use super::shooting::round_off;
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
-use crate::period::PeriodTrajectory;
+use crate::record_trajectory::record_trajectory;
 use softstop::internals::Phase;
-use softstop::{CheckedScene, Clock, CrossingKind, MotionError, Scene};
+use softstop::{CheckedScene, Clock, CrossingKind, MotionError, Scene, Trajectory};
 
 /// What an orbit does at its impact section, and what vanishes on it besides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,8 +62,9 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
     ) -> Result<Option<(Self, DVector<f64>)>, MotionError> {
         let scene = family.scene(parameters)?;
         let end = Clock::at_cycle(periods);
-        let over = |motion: &mut _, kept: &mut PeriodTrajectory| carry_through(motion, end, kept);
-        let motion = PeriodTrajectory::record(&scene, state, over)?;
+        let motion = record_trajectory(&scene, state, |motion, kept| {
+            carry_through(motion, end, kept)
+        })?;
         let entries = motion.crossings().filter(|it| {
             let enters = matches!(it.kind, CrossingKind::Surface { forward: true, .. });
             enters || matches!(it.kind, CrossingKind::Rebound { .. })
@@ -221,18 +222,14 @@ impl<const N: usize> Equations for SectionOrbit<'_, N> {
 /// The saltation matrix of the entry from the last law of a motion that is taken on to where it began into the first,
 /// which the motion does not tell; none at a rigid stop, whose rebound it tells. Both have the drive's force, so that
 /// plays no part in the jump.
-fn entry_jump(
-    motion: &PeriodTrajectory,
-    scene: &Scene,
-    begin: Vector2<f64>,
-) -> Option<Matrix2<f64>> {
+fn entry_jump(motion: &Trajectory, scene: &Scene, begin: Vector2<f64>) -> Option<Matrix2<f64>> {
     let (lowest, highest) = scene.reach();
     if begin.x == lowest || begin.x == highest {
         return None;
     }
     let acceleration = |phase: &Phase| phase.acceleration(begin.x, begin.y, 0.0, scene.mass);
-    let first = motion.arcs().find_map(|(arc, _)| arc.phase)?;
-    let last = motion.arcs().last()?.0.phase?;
+    let first = motion.observed_arcs().find_map(|(arc, _)| arc.phase)?;
+    let last = motion.observed_arcs().last()?.0.phase?;
     let jump = acceleration(first) - acceleration(last);
     Some(Matrix2::new(1.0, 0.0, jump / begin.y, 1.0))
 }

@@ -2,8 +2,7 @@
 
 use super::face::{Face, NearTouch};
 use super::half_branch::BorderCollision;
-use crate::period::PeriodTrajectory;
-use softstop::{Crossing, CrossingKind, Scene};
+use softstop::{Crossing, CrossingKind, Scene, Trajectory};
 
 /// Counts of what an orbit crosses; they change only where it grazes something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -71,13 +70,13 @@ impl Sequence {
 /// The crossings of a motion that count, each with the face that it passes: of a row of ever weaker bounces that ends in
 /// rest the first alone, as how many of them are told one by one is the simulation's choice.
 pub(crate) struct CountedCrossings<'a> {
-    trajectory: &'a PeriodTrajectory,
+    trajectory: &'a Trajectory,
     all: Vec<(&'a Crossing, Option<Face>)>,
 }
 
 impl<'a> CountedCrossings<'a> {
     /// The counted crossings of a motion of a scene.
-    pub fn of_motion(scene: &Scene, trajectory: &'a PeriodTrajectory) -> Self {
+    pub fn of_motion(scene: &Scene, trajectory: &'a Trajectory) -> Self {
         let mut all: Vec<(&Crossing, Option<Face>)> = Vec::new();
         // Which one is the first of the present row of bounces, and how fast the last is.
         let mut row: Option<(usize, f64)> = None;

@@ -101,7 +101,7 @@ impl<const N: usize> Equations for Shooting<'_, N> {
         let scene = self.scene_at(at)?;
         let start = (at, state);
         let round = PeriodMap::from_state(scene, self.periods, start, self.is_by_frequency())?;
-        let gap = round.trajectory.end - state;
+        let gap = Vector2::from(round.trajectory.end) - state;
         let sizes = self.family.state_scales();
         Ok(Evaluation {
             residual: DVector::from_column_slice(self.scaled_change(gap).as_slice()),
@@ -170,7 +170,7 @@ impl<const N: usize> Equations for Shooting<'_, N> {
         };
         let slopes = forced.iter().zip(&by).map(|(forced, by)| {
             // Velocities are per radian there; a mass at rest at a wall begins where that stands.
-            let faster = by.frequency * Vector2::new(0.0, trajectory.end.y)
+            let faster = by.frequency * Vector2::new(0.0, trajectory.end.velocity)
                 - by.frequency * start.y * from_velocity.xy();
             let moved = match here.point.monodromy == Monodromy::ZERO {
                 true => by.surface_derivative(scene.phases(), start.x) * from_position.xy(),

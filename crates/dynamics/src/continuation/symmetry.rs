@@ -6,7 +6,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::DVector;
+use nalgebra::{DVector, Vector2};
 
 use super::arclength::{Equations, Evaluation, Node, correct};
 use super::branch::Branch;
@@ -54,7 +54,10 @@ impl Shooting<'_, 1> {
         let monodromy = Monodromy::from(&motion.tangent());
         let scales = self.family.state_scales();
         Some(HalfPeriod {
-            asymmetry: self.scaled(-motion.end - self.state_at(&map.place), [0.0]),
+            asymmetry: self.scaled(
+                -Vector2::from(motion.end) - self.state_at(&map.place),
+                [0.0],
+            ),
             tolerance: round_off(scene, &map.start, &monodromy, scales),
             monodromy,
         })

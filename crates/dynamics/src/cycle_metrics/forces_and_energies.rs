@@ -1,9 +1,8 @@
 //! Forces, powers and energies along the arcs of a motion.
 
 use super::Losses;
-use crate::period::PeriodTrajectory;
 use softstop::internals::{Phase, largest_value, shares};
-use softstop::{Arc, PhaseKind, Scene, Start};
+use softstop::{Arc, PhaseKind, Scene, Start, Trajectory};
 
 /// Phases in which the mass touches the strip.
 pub(super) const STRIP_PHASES: &[PhaseKind] =
@@ -36,22 +35,22 @@ pub fn peak_contact_force(scene: &Scene, (arc, elapsed): (&Arc<'_>, f64)) -> f64
 }
 
 /// Largest contact force in N of a motion in phases of these kinds; 0 if it is pressed in none.
-pub(super) fn largest_force(motion: &PeriodTrajectory, kinds: &[PhaseKind]) -> f64 {
-    let arcs = motion.arcs();
+pub(super) fn largest_force(motion: &Trajectory, kinds: &[PhaseKind]) -> f64 {
+    let arcs = motion.observed_arcs();
     let arcs = arcs.filter(|(arc, _)| kinds.contains(&arc.kind));
     let peaks = arcs.map(|(arc, elapsed)| peak_contact_force(&motion.scene, (&arc, elapsed)));
     peaks.fold(0.0, f64::max)
 }
 
 /// Largest contact force in N of a motion while the stop is touched.
-pub(crate) fn peak_stop_force(motion: &PeriodTrajectory) -> f64 {
+pub(crate) fn peak_stop_force(motion: &Trajectory) -> f64 {
     largest_force(motion, STOP_PHASES)
 }
 
 /// Peak power of the drive in W over a motion.
-pub(super) fn peak_drive_power(motion: &PeriodTrajectory) -> f64 {
+pub(super) fn peak_drive_power(motion: &Trajectory) -> f64 {
     let scene = &motion.scene;
-    let peaks = motion.arcs().map(|(arc, elapsed)| {
+    let peaks = motion.observed_arcs().map(|(arc, elapsed)| {
         peak_on_arc(scene, (&arc, elapsed), |elapsed| {
             drive_force(scene, &arc, elapsed) * arc.at(elapsed).velocity
         })
@@ -60,7 +59,7 @@ pub(super) fn peak_drive_power(motion: &PeriodTrajectory) -> f64 {
 }
 
 /// Work of the drive in J over a motion, and where that energy is lost.
-pub(super) fn supplied_and_lost_energy(motion: &PeriodTrajectory) -> (f64, Losses) {
+pub(super) fn supplied_and_lost_energy(motion: &Trajectory) -> (f64, Losses) {
     let scene = &motion.scene;
     let (mut supplied, mut losses) = (0.0, Losses::default());
     let is_undamped = |phase: &Phase| phase.law.damping == scene.damping;

@@ -3,10 +3,9 @@
 use nalgebra::Vector2;
 
 use super::StroboscopicMap;
-use crate::period::PeriodTrajectory;
-use crate::period::turn::turning_points;
 use crate::tolerance::NEAR_GRAZING;
-use softstop::{CheckedScene, MotionError, PhaseKind};
+use softstop::internals::turning_points;
+use softstop::{CheckedScene, MotionError, PhaseKind, Trajectory};
 
 /// Time in s and before-impact velocity in m/s of each impact.
 pub(super) type TimedImpacts = Vec<(f64, f64)>;
@@ -41,8 +40,10 @@ pub(super) fn guess_impacts(
 }
 
 /// The nearest miss of the face: distance in m, time, and speed of an impact if the face stood as much nearer.
-fn nearest_miss(motion: &PeriodTrajectory, face: f64) -> Option<(f64, (f64, f64))> {
-    let free = motion.arcs().filter(|(arc, _)| arc.kind == PhaseKind::Free);
+fn nearest_miss(motion: &Trajectory, face: f64) -> Option<(f64, (f64, f64))> {
+    let free = motion
+        .observed_arcs()
+        .filter(|(arc, _)| arc.kind == PhaseKind::Free);
     let misses = free.flat_map(|(arc, elapsed)| {
         let back = turning_points(arc.course, elapsed, true).filter(|turn| turn.back);
         back.map(move |turn| {

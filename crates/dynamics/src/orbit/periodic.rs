@@ -8,9 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::guess_impacts::guess_impacts;
 use super::newton::find_fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
-use crate::period::PeriodTrajectory;
 use crate::tolerance::{NEAR, ROUNDING};
-use softstop::{CheckedScene, Instant, MotionError, Scene, Touch};
+use softstop::{CheckedScene, Instant, MotionError, Scene, Touch, Trajectory};
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -166,7 +165,7 @@ impl Orbit {
     ///
     /// # Errors
     /// [`MotionError`] if it cannot be computed.
-    pub(crate) fn trajectory(&self) -> Result<PeriodTrajectory, MotionError> {
+    pub(crate) fn trajectory(&self) -> Result<Trajectory, MotionError> {
         StroboscopicMap::new(&self.scene, self.periods).trajectory(self.state())
     }
 

@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 
 use super::Monodromy;
-use crate::period::PeriodTrajectory;
+use crate::record_trajectory::record_trajectory;
 use crate::tolerance::ROUNDING_SHARE;
-use softstop::{CheckedScene, Clock, Instant, MotionError, Observer, Touch};
+use softstop::{CheckedScene, Clock, Instant, MotionError, Observer, Touch, Trajectory};
 
 /// The stroboscopic map of a scene: from a state at time 0 to the state some drive periods later.
 #[derive(Debug, Clone)]
@@ -30,7 +30,7 @@ pub struct Passage {
     /// holds only those before the summed ones.
     pub rests: Vec<Instant>,
     /// All arcs and crossings of the way.
-    pub(crate) trajectory: PeriodTrajectory,
+    pub(crate) trajectory: Trajectory,
 }
 
 impl StroboscopicMap {
@@ -60,7 +60,7 @@ impl StroboscopicMap {
         let trajectory = self.trajectory(state)?;
         let tangent = trajectory.tangent();
         Ok(Passage {
-            end: trajectory.end,
+            end: trajectory.end.into(),
             monodromy: Monodromy::from(&tangent),
             damping_integral: tangent.damping_integral,
             impacts: trajectory.impacts().collect(),
@@ -92,10 +92,9 @@ impl StroboscopicMap {
         observer: &mut dyn Observer,
     ) -> Result<Vector2<f64>, MotionError> {
         let end = Clock::at_cycle(self.periods);
-        let last = PeriodTrajectory::record(&self.scene, state, |motion, _| {
-            motion.advance(end, observer)
-        });
-        Ok(last?.end)
+        let mut motion = self.scene.motion(state.into())?;
+        motion.advance(end, observer)?;
+        Ok(motion.state().into())
     }
 
     /// The largest position in m on the way of the map from a state.
@@ -110,8 +109,8 @@ impl StroboscopicMap {
     ///
     /// # Errors
     /// As [`StroboscopicMap::apply`].
-    pub fn trajectory(&self, state: Vector2<f64>) -> Result<PeriodTrajectory, MotionError> {
+    pub fn trajectory(&self, state: Vector2<f64>) -> Result<Trajectory, MotionError> {
         let end = Clock::at_cycle(self.periods);
-        PeriodTrajectory::record(&self.scene, state, |motion, kept| motion.advance(end, kept))
+        record_trajectory(&self.scene, state, |motion, kept| motion.advance(end, kept))
     }
 }

@@ -112,7 +112,7 @@ impl RunUpPeaks {
         let force = peak_stop_force(&motion);
         self.stop_force = self.stop_force.max(force);
         self.highest = self.highest.max(motion.max_position());
-        Ok(motion.end.into())
+        Ok(motion.end)
     }
 }
 

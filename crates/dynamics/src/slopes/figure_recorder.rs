@@ -2,12 +2,13 @@
 
 use nalgebra::Vector3;
 
-use softstop::internals::{ParameterSensitivity, Phase, PhaseDerivatives, PhaseId, Phases};
+use softstop::internals::{
+    ParameterSensitivity, Phase, PhaseDerivatives, PhaseId, Phases, turning_points,
+};
 use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, PhaseKind};
 
 use super::differentiated_figure::DifferentiatedFigure;
 use super::force_peaks::force_peaks;
-use crate::period::turn::turning_points;
 
 /// The figures that were recorded, with derivatives by position and velocity at time 0, then by the parameters.
 #[derive(Debug, Clone, Default)]

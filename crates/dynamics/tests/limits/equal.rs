@@ -55,7 +55,7 @@ fn slow_contacts_creep_alike() {
                 assert_near(
                     found.energy_defect(),
                     0.0,
-                    MOTION * (1.0 + found.work.dissipated),
+                    MOTION * (1.0 + found.work().dissipated),
                 );
                 // Not one step for each lifetime of the damped mode.
                 assert!(found.arcs.len() < 20_000, "{} arcs", found.arcs.len());

@@ -1,7 +1,7 @@
 //! The run itself: from sample to sample, exactly.
 
 use anyhow::anyhow;
-use softstop::internals::{Motion, mechanical_energy};
+use softstop::internals::Motion;
 use softstop::{CheckedScene, Instant, Start};
 
 use super::begin::Begun;
@@ -81,7 +81,7 @@ impl Plan<'_> {
         let scene = &self.begun.machine.scene;
         let mut motion = self.begun.motion()?;
         let period = motion.clock().period();
-        let before = mechanical_energy(scene, &motion);
+        let before = motion.mechanical_energy(scene);
         let mut recorder = Recorder::new(scene, &motion, crossed, self.drawn_from());
         let progress = Progress::new(self.periods, "periods");
         for sample in 0..=self.periods * self.samples {
@@ -111,7 +111,7 @@ impl Plan<'_> {
         let outcome = Outcome {
             tally,
             drawing,
-            stored: mechanical_energy(scene, &motion) - before,
+            stored: motion.mechanical_energy(scene) - before,
             end: motion.state(),
             duration: motion.clock().time(motion.now()),
         };

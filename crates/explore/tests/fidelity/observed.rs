@@ -13,11 +13,11 @@ fn what_is_observed_balances() -> Outcome {
     let trajectory = truth.trajectory(observed.start, 1)?;
     assert_relative(
         observed.mean_power * period,
-        trajectory.work.dissipated,
+        trajectory.work().dissipated,
         SOLVED,
     );
     let contact = observed.energy_per_impact.ok_or("it strikes")?;
-    assert!(contact < trajectory.work.dissipated);
+    assert!(contact < trajectory.work().dissipated);
     let rigid = machine(Stop::Rigid { restitution: 0.6 }, 0.08);
     let observed = Observation::settled(&rigid, None, FLUNG)?;
     let velocity = from_truth(&observed)?;

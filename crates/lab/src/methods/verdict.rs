@@ -1,7 +1,6 @@
 //! What became of a motion under a method: one of a few classes, told by a reference.
 
 use super::{MethodError, Solution, Task};
-use softstop::internals::mechanical_energy;
 use softstop::{Impact, Scene, Start};
 use softstop_draw::style::verdict;
 
@@ -176,7 +175,7 @@ fn worth(scene: &Scene, state: Start) -> f64 {
         false => state.position,
     };
     match scene.motion(Start { position, ..state }) {
-        Ok(motion) => (2.0 * mechanical_energy(scene, &motion).max(0.0) / scene.mass).sqrt(),
+        Ok(motion) => (2.0 * motion.mechanical_energy(scene).max(0.0) / scene.mass).sqrt(),
         Err(_) => f64::INFINITY,
     }
 }

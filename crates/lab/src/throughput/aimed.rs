@@ -2,8 +2,8 @@
 //! settled motion changes.
 
 use anyhow::Result;
+use softstop::internals::turning_points;
 use softstop::{Arc, Clock, Crossing, Observer, Scene, Slope, Start, Stop};
-use softstop_dynamics::internals::turning_points;
 
 use super::random_machines::{Draw, Kind, Motion};
 

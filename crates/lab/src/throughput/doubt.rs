@@ -8,10 +8,10 @@
 
 use nalgebra::Matrix2;
 use softstop::internals::ArcSolution;
+use softstop::internals::turning_points;
 use softstop::{
     Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start, Stop, Tangent,
 };
-use softstop_dynamics::internals::turning_points;
 
 /// Errors of position (m) and velocity (m/s) made on one arc. An arc has some ten windows and the motions are
 /// up to 20 m and 30 m/s large: rounding makes at most some 10 * 4e-15, the 4th differences of both

@@ -1,6 +1,8 @@
 //! The turning points of an arc.
 
-use softstop::internals::{ArcSolution, Guard, NextEvent, budget, first_crossing};
+use crate::budget;
+use crate::events::{Guard, NextEvent, first_crossing};
+use crate::flow::ArcSolution;
 
 /// A turning point of an arc, where its velocity is zero.
 #[derive(Debug, Clone, Copy)]
