@@ -11,8 +11,8 @@ use std::ops::ControlFlow;
 use nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{
-    Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Family, Special, SpecialKind, Test,
-    follow_special, normal_form_coefficient,
+    ContinuationSettings, Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Family, Special,
+    SpecialKind, Test, follow_special, normal_form_coefficient,
 };
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{
@@ -288,4 +288,53 @@ fn two_orbits_before_a_fold_and_none_beyond() {
     let stable = [1.0, -1.0].map(|sign| beside(eta, sign, 0.02).expect("an orbit").is_stable());
     assert_eq!(stable.iter().filter(|stable| **stable).count(), 1);
     assert!(beside(fold.parameter + 1e-6, 1.0, 0.02).is_err());
+}
+
+/// Smaller steps lead to the same special points; settings with which nothing can be followed are refused by name.
+#[test]
+fn settings_change_the_points_of_a_branch_but_not_what_is_found_on_it() {
+    let family = frequencies(0.95);
+    let start = branch(0.95, 1, (0.0, 14.0), (0.9, 1.1)).points[0].clone();
+    let with = |settings| Continuation::new(&family, 1).with_settings(settings);
+    let limits = Limits {
+        range: (0.9, 1.1),
+        points: 2000,
+    };
+    let found = |largest_step| {
+        let settings = ContinuationSettings {
+            largest_step,
+            ..ContinuationSettings::default()
+        };
+        let go_on = |_: &_| ControlFlow::Continue(());
+        with(settings)
+            .expect("valid")
+            .branch(start.parameter, start.state(), &limits, go_on)
+            .expect("a branch")
+    };
+    let (coarse, fine) = (found(0.25), found(0.01));
+    assert!(fine.points.len() > 2 * coarse.points.len());
+    assert_eq!(fine.specials.len(), coarse.specials.len());
+    assert!(!fine.specials.is_empty());
+    for (one, other) in fine.specials.iter().zip(&coarse.specials) {
+        assert_near(one.point.parameter, other.point.parameter, SOLVED);
+    }
+    for (wrong, named) in [
+        (0.0, "0"),
+        (-1.0, "-1"),
+        (f64::NAN, "NaN"),
+        (f64::INFINITY, "inf"),
+    ] {
+        let settings = ContinuationSettings {
+            smallest_step: wrong,
+            ..ContinuationSettings::default()
+        };
+        let refusal = with(settings).err().map(|error| error.to_string());
+        let expected = format!("smallest_step = {named}: must be finite and > 0");
+        assert_eq!(refusal, Some(expected));
+    }
+    let settings = ContinuationSettings {
+        step_growth: 1.0,
+        ..ContinuationSettings::default()
+    };
+    assert!(with(settings).is_err());
 }

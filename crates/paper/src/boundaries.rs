@@ -4,7 +4,7 @@
 use anyhow::{Context, Result};
 use softstop::{Parameter, Ratios};
 use softstop_dynamics::continuation::{
-    Curve, CurveLimits, CurvePoint, SpecialKind, Test, follow_special,
+    ContinuationSettings, Curve, CurveLimits, CurvePoint, SpecialKind, Test, follow_special,
 };
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::free_amplitude;
@@ -53,7 +53,7 @@ impl Boundaries {
         let region = CurveLimits {
             ranges: RANGES,
             points: MOST,
-            step: STEP,
+            settings: ContinuationSettings::of_curves(STEP),
         };
         let of = |test| {
             let special = SpecialKind::Critical(test);

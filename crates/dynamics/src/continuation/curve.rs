@@ -20,8 +20,8 @@ pub struct CurveLimits {
     pub ranges: [(f64, f64); 2],
     /// Points in each direction.
     pub points: usize,
-    /// Largest step, in units of the family's scales.
-    pub step: f64,
+    /// Settings of the continuation, as of [`ContinuationSettings::of_curves`].
+    pub settings: ContinuationSettings,
 }
 
 /// Why a curve of special points ends.
@@ -112,12 +112,7 @@ fn follow_half_curve<E: Codimension>(
 ) -> Result<CurveEnd, OrbitError> {
     let origin = start.at.clone();
     let sequence = E::orbit_of(&start.here.point).2;
-    let settings = ContinuationSettings {
-        largest_step: region.step,
-        crawling_step: 1e-4 * region.step,
-        ..ContinuationSettings::default()
-    };
-    let mut stepper = Stepper::new(equations, start, along, &settings)?;
+    let mut stepper = Stepper::new(equations, start, along, &region.settings)?;
     while points.len() < region.points {
         let last = stepper.node.clone();
         let ahead = stepper.step * &stepper.direction;

@@ -15,6 +15,7 @@ use super::test::Test;
 use crate::direction::Direction;
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::ROUNDING;
+use softstop::SceneError;
 
 /// A continuation: follows the orbits of a family over a number of drive periods.
 #[derive(Debug)]
@@ -47,9 +48,12 @@ impl<'a> Continuation<'a> {
     }
 
     /// This continuation with other settings.
-    #[must_use]
-    pub fn with_settings(self, settings: ContinuationSettings) -> Self {
-        Self { settings, ..self }
+    ///
+    /// # Errors
+    /// Those of [`ContinuationSettings::validate`].
+    pub fn with_settings(self, settings: ContinuationSettings) -> Result<Self, SceneError> {
+        settings.validate()?;
+        Ok(Self { settings, ..self })
     }
 
     /// This continuation over another number of drive periods.

@@ -1,6 +1,8 @@
 //! Settings of a continuation.
 
-/// Settings of a continuation: how it steps along a branch, and what it takes for a border. Lengths and distances are those
+use softstop::SceneError;
+
+/// Settings of a continuation: how it steps along a branch or a curve, and what it takes for a border. Lengths and distances are those
 /// of scaled unknowns, position, velocity and parameters in units of the family's scales; all values are > 0.
 /// [`Continuation::follow_points`](super::Continuation::follow_points), which looks for no special points, takes longer steps
 /// and has values of its own for `first_step`, `largest_step`, `step_growth` and `min_turn_cosine`.
@@ -12,7 +14,7 @@
 ///
 /// let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
 /// let settings = ContinuationSettings { largest_step: 0.05, ..Default::default() };
-/// let continuation = Continuation::new(&family, 1).with_settings(settings);
+/// let continuation = Continuation::new(&family, 1).with_settings(settings)?;
 /// # Ok::<(), softstop::SceneError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +67,52 @@ impl Default for ContinuationSettings {
 }
 
 impl ContinuationSettings {
+    /// Settings of curves in two parameters with steps of at most `largest`, in units of the family's scales.
+    #[must_use]
+    pub fn of_curves(largest: f64) -> Self {
+        Self {
+            largest_step: largest,
+            crawling_step: 1e-4 * largest,
+            ..Self::default()
+        }
+    }
+
+    /// Refuses settings with which no curve can be followed.
+    ///
+    /// # Errors
+    /// [`SceneError::OutOfRange`] that names the setting.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        const POSITIVE: (f64, f64, &str) = (0.0, f64::INFINITY, "finite and > 0");
+        const SHARE: (f64, f64, &str) = (0.0, 1.0, "in (0, 1)");
+        const GROWTH: (f64, f64, &str) = (1.0, f64::INFINITY, "finite and > 1");
+        let mut all = [
+            ("first_step", self.first_step, POSITIVE),
+            ("smallest_step", self.smallest_step, POSITIVE),
+            ("largest_step", self.largest_step, POSITIVE),
+            ("step_growth", self.step_growth, GROWTH),
+            ("min_turn_cosine", self.min_turn_cosine, SHARE),
+            ("doubtful_step", self.doubtful_step, POSITIVE),
+            ("crawling_step", self.crawling_step, POSITIVE),
+            ("max_test_change", self.max_test_change, POSITIVE),
+            ("min_distance_left", self.min_distance_left, SHARE),
+            ("border_distance", self.border_distance, POSITIVE),
+            ("newton_reach", self.newton_reach, POSITIVE),
+            ("section_margin", self.section_margin, POSITIVE),
+        ]
+        .into_iter();
+        let refused = |(_, value, (low, high, _)): &(_, f64, (f64, f64, _))| {
+            value.is_nan() || value <= low || value >= high
+        };
+        match all.find(refused) {
+            Some((name, value, (.., allowed))) => Err(SceneError::OutOfRange {
+                name,
+                value,
+                allowed,
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// These settings with few long steps, for smooth curves of which special points alone matter.
     pub(super) fn with_long_steps(self) -> Self {
         Self {

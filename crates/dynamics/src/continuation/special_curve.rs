@@ -9,6 +9,7 @@ use super::codimension_two::{CodimensionTwo, CurvePoint};
 use super::curve::{Curve, CurveEnd, CurveLimits, follow_curve};
 use super::point::SpecialKind;
 use super::section_orbit::SectionOrbit;
+use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
 use super::test::Test;
 use crate::orbit::OrbitError;
@@ -96,10 +97,14 @@ fn flip_near(
     region: &CurveLimits,
 ) -> Option<CurvePoint> {
     let (points, share) = FLIP_SEARCH;
-    let step = share * region.step;
+    let step = share * region.settings.largest_step;
     let region = CurveLimits {
         points,
-        step,
+        settings: ContinuationSettings {
+            largest_step: step,
+            crawling_step: share * region.settings.crawling_step,
+            ..region.settings
+        },
         ..*region
     };
     let flip = (SpecialKind::Critical(Test::Flip), point.state());

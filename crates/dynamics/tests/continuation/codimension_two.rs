@@ -246,7 +246,7 @@ fn curves_begin_in_points_of_codimension_two() {
     let region = CurveLimits {
         ranges,
         points: 500,
-        step: 0.02,
+        settings: ContinuationSettings::of_curves(0.02),
     };
     let go_on = |_: &_| ControlFlow::Continue(());
     let flips = followed(&flip, 1, &family, 10.0, ranges);

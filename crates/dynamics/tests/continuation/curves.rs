@@ -30,7 +30,7 @@ fn followed_by_steps(
     let region = CurveLimits {
         ranges,
         points: 500,
-        step,
+        settings: ContinuationSettings::of_curves(step),
     };
     let start = [special.point.parameter, second];
     follow_special(

@@ -4,7 +4,8 @@ use anyhow::anyhow;
 use softstop::Machine;
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    Curve, CurveLimits, CurvePoint, Family, SpecialKind, follow_special, switch_curves,
+    ContinuationSettings, Curve, CurveLimits, CurvePoint, Family, SpecialKind, follow_special,
+    switch_curves,
 };
 
 use super::branches::{STEP, count};
@@ -24,7 +25,7 @@ pub(super) fn curves(
     let region = CurveLimits {
         ranges: both.map(|one| one.range),
         points: arguments.points,
-        step: STEP,
+        settings: ContinuationSettings::of_curves(STEP),
     };
     let bar = Progress::open("points of curves");
     let mut found: Vec<Curve> = Vec::new();
