@@ -43,6 +43,7 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) ->
     let window = course.flow.window;
     let watches_position = guards.iter().all(Guard::asks_for_position);
     let mut node = node;
+    let mut reached: Option<Jets> = None;
     let mut looked = node.elapsed;
     while node.elapsed < until {
         if node.elapsed > looked + f64::from(WINDOWS_PER_LOOK) * window {
@@ -71,7 +72,8 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) ->
             }
         }
         budget::charge(budget::JETS);
-        let left = Jets::new(course, node);
+        let known = reached.filter(|jets| jets.node.elapsed == node.elapsed);
+        let left = known.unwrap_or_else(|| Jets::new(course, node));
         let right = Jets::new(
             course,
             ahead.unwrap_or_else(|| course.next_node(&left.node)),
@@ -91,6 +93,7 @@ fn search_arc(course: &ArcSolution, guards: &[Guard], node: Node, until: f64) ->
             return NextEvent::Crossing(found);
         }
         node = right.node;
+        reached = Some(right);
     }
     NextEvent::ClearUntil(node)
 }
@@ -179,11 +182,23 @@ impl Scan<'_> {
 
     /// True if the guard cannot rise through zero between two nodes.
     fn cannot_rise(&self, guard: &Guard, left: &Jets, right: &Jets, bounds: (f64, f64)) -> bool {
-        let flow = &self.course.flow;
         let span = right.node.elapsed - left.node.elapsed;
         let ends = GuardEnds::new(guard, left, right);
-        ends.stay_below(span, left.bound_g4(flow, guard, span, bounds)) || {
-            let bound = left.bound_g2(flow, guard, span, bounds);
+        let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
+        self.stays_low((guard, left), (&ends, bound), (span, bounds))
+    }
+
+    /// True if the guard cannot rise through zero within `span` from a node, with its values at both ends and the bound on
+    /// its fourth derivative.
+    #[inline(always)]
+    fn stays_low(
+        &self,
+        (guard, left): (&Guard, &Jets),
+        (ends, bound): (&GuardEnds, f64),
+        (span, bounds): (f64, (f64, f64)),
+    ) -> bool {
+        ends.stay_below(span, bound) || {
+            let bound = left.bound_g2(&self.course.flow, guard, span, bounds);
             ends.stay_below_chord(span, bound)
                 || ends.stay_at_zero(span, bound, left.guard_rounding(guard))
         }
@@ -211,31 +226,35 @@ impl Scan<'_> {
             .or_else(|| self.search_by_halving(&middle, right, bounds))
     }
 
-    /// The first crossing within the reach of a Taylor polynomial. A single rise, as the nodes prove it, needs none.
+    /// The first crossing within the reach of a Taylor polynomial. Single rises, as the nodes prove them, need none.
     fn search_window(&self, left: &Jets, right: &Jets, bounds: (f64, f64)) -> Option<Found> {
-        let can_rise = |(_, guard): &(usize, &Guard)| !self.cannot_rise(guard, left, right, bounds);
-        let alone = match self.guards {
-            [guard] => Some((0, guard)),
-            guards => {
-                let mut open = guards.iter().enumerate().filter(can_rise);
-                let first = open.next()?;
-                open.next().is_none().then_some(first)
-            }
-        };
-        if let Some((index, guard)) = alone
-            && guard.push == 0.0
-            && self.course.is_closed_form()
-        {
-            let span = right.node.elapsed - left.node.elapsed;
-            let ends = GuardEnds::new(guard, left, right).points(span);
+        let span = right.node.elapsed - left.node.elapsed;
+        let mut first: Option<Found> = None;
+        for (index, guard) in self.guards.iter().enumerate() {
+            let ends = GuardEnds::new(guard, left, right);
             let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
-            let nodes = (&left.node, &right.node);
-            let doubt = (bound, left.guard_rounding(guard));
-            if let Some(found) = self.single_rise((index, guard), nodes, ends, doubt) {
-                return found;
+            if self.guards.len() > 1
+                && self.stays_low((guard, left), (&ends, bound), (span, bounds))
+            {
+                continue;
             }
+            let is_simple = guard.push == 0.0 && self.course.is_closed_form();
+            let single = is_simple.then(|| {
+                let (nodes, doubt) = (
+                    (&left.node, &right.node),
+                    (bound, left.guard_rounding(guard)),
+                );
+                self.single_rise((index, guard), nodes, ends.points(span), doubt)
+            });
+            let Some(rise) = single.flatten() else {
+                return self.search_polynomial(left, right, bounds);
+            };
+            first = match (first, rise) {
+                (Some(first), Some(rise)) if first.elapsed <= rise.elapsed => Some(first),
+                (first, rise) => rise.or(first),
+            };
         }
-        self.search_polynomial(left, right, bounds)
+        first
     }
 
     /// The first crossing between two nodes on the Taylor polynomial about the left one.

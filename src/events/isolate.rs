@@ -87,6 +87,17 @@ impl Candidate<'_> {
 
     /// The zero through which g rises between two points.
     fn refine_rise(&self, low: Point, high: Point) -> f64 {
+        let mut terms = self.coefficients.iter().enumerate();
+        if low.at == 0.0
+            && let Some((order, leading)) = terms.find(|(_, c)| **c != 0.0)
+            && order > 0
+            && *leading > 0.0
+        {
+            // At once, or the least time at which g is not zero: halving would take a thousand steps there.
+            let share = 1.0 / order as f64;
+            let leaves = f64::from_bits(1).powf(share) * leading.powf(-share);
+            return if order == 1 { 0.0 } else { leaves.min(high.at) };
+        }
         let guess = guess_rise(low, high);
         bracketed_newton((low.at, low.value), (high.at, high.value), guess, |s| {
             evaluate(self.coefficients, s)
@@ -275,5 +286,29 @@ fn bracketed_newton(
         }
         last_step = converges.then_some(step);
         at = target;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Candidate;
+    use crate::flow::DEGREE;
+
+    #[test]
+    fn a_rise_may_begin_at_a_zero() {
+        let rise = |first: [f64; 3]| {
+            let mut coefficients = [0.0; DEGREE + 1];
+            coefficients[..3].copy_from_slice(&first);
+            let candidate = Candidate {
+                coefficients: &coefficients,
+                bound: 0.0,
+                rounding: 0.0,
+            };
+            candidate.first_rise(candidate.point_at(0.0), candidate.point_at(1.0))
+        };
+        assert_eq!(rise([0.0, 1.0, 0.0]), Some(0.0));
+        assert!(rise([0.0, 0.0, 2.0]).is_some_and(|leaves| leaves > 0.0 && leaves < 1e-160));
+        assert!(rise([0.0, -1.0, 2.0]).is_some_and(|later| (later - 0.5).abs() < 1e-15));
+        assert_eq!(rise([0.0, -1.0, 0.0]), None);
     }
 }

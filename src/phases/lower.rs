@@ -1,6 +1,7 @@
 //! Lowering: from the scene's data to phases, layer by layer.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use super::layer_plan::{LayerPlan, plan_layers};
 use super::{
@@ -38,7 +39,7 @@ impl Phases {
         };
         Phases {
             phases: lowering.phases,
-            surfaces: lowering.surfaces,
+            surfaces: lowering.surfaces.into(),
             amplitude: drive.amplitude / scene.mass,
             frequency: drive.frequency,
             mass: scene.mass,
@@ -90,8 +91,8 @@ impl Lowering<'_> {
                 drive.frequency,
             ),
             hertz: hertz.map(|hertz| hertz.on_side(self.side)),
-            guards: Vec::with_capacity(3),
-            exits: Vec::with_capacity(3),
+            guards: Arc::default(),
+            exits: Arc::default(),
             store: store.on_side(self.side),
             released: None,
             side: self.side,
@@ -111,8 +112,8 @@ impl Lowering<'_> {
     fn add_exit(&mut self, phase: PhaseId, guard: Guard, exit: Exit) {
         let guard = self.planned_guard(guard);
         let phase = &mut self.phases[phase.index()];
-        phase.guards.push(guard);
-        phase.exits.push(exit);
+        Arc::make_mut(&mut phase.guards).push(guard);
+        Arc::make_mut(&mut phase.exits).push(exit);
     }
 
     /// Adds the stack of a stop below, of the machine that is mirrored.
@@ -142,7 +143,10 @@ impl Lowering<'_> {
                 .any(|plan| plan.is_far_side && plan.from == position);
             self.add_surface(position, before, beyond, is_far_side)
         });
-        Stack { layers, wall }
+        Stack {
+            layers: layers.into(),
+            wall,
+        }
     }
 
     fn add_layer(&mut self, plan: &LayerPlan, before: Option<Layer>) -> Layer {

@@ -17,6 +17,7 @@ pub use spring::Spring;
 pub use store::Store;
 
 use std::ops::Index;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -75,9 +76,9 @@ pub struct Phase {
     /// The nonlinear part of the law.
     pub hertz: Option<Hertz>,
     /// The guards that end the phase.
-    pub guards: Vec<Guard>,
+    pub guards: Arc<Vec<Guard>>,
     /// What each guard leads to.
-    pub exits: Vec<Exit>,
+    pub exits: Arc<Vec<Exit>>,
     /// The energy that the stop stores.
     pub store: Store,
     /// The phase that holds instead while this guard is above zero: contact does not pull.
@@ -141,7 +142,7 @@ pub struct Phases {
     /// The phases; the first is the free one.
     pub phases: Vec<Phase>,
     /// The surfaces between them.
-    pub surfaces: Vec<Surface>,
+    pub surfaces: Arc<[Surface]>,
     /// Amplitude of the drive per mass, F0/m, in m/s^2.
     pub amplitude: f64,
     /// Frequency w of the drive in rad/s.
@@ -158,7 +159,7 @@ pub struct Phases {
 /// The layers beyond a clearance, and the rigid stop that ends them.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Stack {
-    layers: Vec<Layer>,
+    layers: Arc<[Layer]>,
     /// The surface of that rigid stop.
     wall: Option<SurfaceId>,
 }
@@ -180,9 +181,13 @@ impl Phases {
     pub(crate) fn with_drive(&self, drive: &Excitation) -> Self {
         let mut phases = self.clone();
         (phases.amplitude, phases.frequency) = (drive.amplitude / self.mass, drive.frequency);
-        let flows = phases.phases.iter_mut().map(|phase| &mut phase.flow);
-        for flow in flows.chain([&mut phases.held]) {
-            *flow = flow.with_drive(phases.amplitude, drive.frequency);
+        let under_drive = |flow: &LinearLaw| flow.with_drive(phases.amplitude, drive.frequency);
+        phases.held = under_drive(&phases.held);
+        for index in 0..phases.phases.len() {
+            let (before, after) = phases.phases.split_at_mut(index);
+            let flow = &mut after[0].flow;
+            let like = before.iter().find(|other| other.flow.modes == flow.modes);
+            *flow = like.map_or_else(|| under_drive(flow), |like| like.flow);
         }
         phases
     }

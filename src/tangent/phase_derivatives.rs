@@ -92,7 +92,7 @@ impl PhaseDerivatives {
             Beyond::Wall { restitution } => restitution,
             Beyond::Phase(_) => 0.0,
         };
-        let pairs = phases.surfaces.iter().zip(&moved_phases.surfaces);
+        let pairs = phases.surfaces.iter().zip(moved_phases.surfaces.iter());
         let surfaces = pairs.map(|(a, b)| {
             let kept = slope(restitution(a.beyond), restitution(b.beyond));
             (slope(a.position, b.position), kept)

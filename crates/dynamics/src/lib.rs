@@ -33,6 +33,7 @@ mod ensemble;
 mod extremes;
 pub mod figure;
 mod interrupted_motion;
+mod linear;
 mod member;
 pub mod missing_strips;
 pub mod monitor;

@@ -17,8 +17,7 @@ use softstop_console::table::heading;
 use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::Face;
 use softstop_dynamics::zone::{
-    Loss, StableRange, ZoneError, grazing_frequencies, hysteresis_with_monitor,
-    stable_ranges_with_monitor,
+    Loss, StableRange, ZoneError, grazing_frequencies, hysteresis_and_stable_ranges,
 };
 
 const EXAMPLES: &str = "\
@@ -56,8 +55,7 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
         .machine
         .refuse(&machine, Parameter::Frequency, why)?;
     let (zone, all) = arguments.common.limit.budget.limit(|| {
-        let zone = hysteresis_with_monitor(&machine.scene, &interrupt::watch);
-        let all = stable_ranges_with_monitor(&machine.scene, &interrupt::watch);
+        let (zone, all) = hysteresis_and_stable_ranges(&machine.scene, &interrupt::watch);
         Ok((zone, all.map_err(|error| anyhow!(error))?))
     })?;
     let zone = zone.map_err(|error| error.in_units_of(&machine));

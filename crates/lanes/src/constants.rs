@@ -32,7 +32,7 @@ impl Constants {
         let constants = self;
         constants.set_linear_law(phases, phase)?;
         let mut guarded = false;
-        for (guard, exit) in phase.guards.iter().zip(&phase.exits) {
+        for (guard, exit) in phase.guards.iter().zip(phase.exits.iter()) {
             match *exit {
                 Exit::Forward(surface) => constants.end_at(phases, surface, true),
                 Exit::Backward(surface) => constants.end_at(phases, surface, false),
@@ -83,7 +83,7 @@ impl Constants {
     /// Sets the constants of a phase under a power law; none if only the safe engine can follow it.
     fn set_to_power_law(&mut self, phases: &Phases, phase: &Phase, hertz: &Hertz) -> Option<()> {
         let constants = self;
-        for exit in &phase.exits {
+        for exit in phase.exits.iter() {
             match *exit {
                 Exit::Backward(surface) => constants.end_at(phases, surface, false),
                 Exit::Switch(_) => {}

@@ -143,7 +143,7 @@ fn phase(engine: &Phases, id: PhaseId) -> Phase {
     } else {
         ""
     };
-    let guards = phase.guards.iter().zip(&phase.exits);
+    let guards = phase.guards.iter().zip(phase.exits.iter());
     Phase {
         name: name + back,
         law: Law {

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::linear::solve_linear;
 use crate::orbit::OrbitError;
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, ROUNDING, ROUNDING_SHARE, TEST_ROUNDING};
 
@@ -169,7 +170,7 @@ pub(super) fn correct_with_slopes<E: Equations>(
             right = right.push(normal.dot(&(guess - &at)));
             matrix = border_matrix(&matrix, normal);
         }
-        match solve_linear(matrix, &right) {
+        match solve_linear(&matrix, &right) {
             Some(step) if step.iter().all(|part| part.is_finite()) => at += step,
             _ if fits => return Err(OrbitError::NotIsolated),
             _ => return Err(OrbitError::Diverged { residual: size }),
@@ -202,16 +203,6 @@ pub(super) fn border_matrix(matrix: &DMatrix<f64>, normal: &DVector<f64>) -> DMa
     })
 }
 
-/// The solution of a linear system; most have three unknowns.
-pub(super) fn solve_linear(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
-    if right.len() != 3 {
-        return matrix.lu().solve(right);
-    }
-    let (matrix, right) = (matrix.fixed_view::<3, 3>(0, 0), right.fixed_rows::<3>(0));
-    let found = matrix.into_owned().lu().solve(&right)?;
-    Some(DVector::from_column_slice(found.as_slice()))
-}
-
 /// Unit tangent of a solution curve at a node, on the side of `along`, and the slopes there.
 pub(crate) fn curve_tangent<E: Equations>(
     equations: &E,
@@ -222,7 +213,7 @@ pub(crate) fn curve_tangent<E: Equations>(
     let matrix = border_matrix(&equations.jacobian(&node.here, &slopes), along);
     let mut right = DVector::zeros(node.at.len());
     right[node.at.len() - 1] = 1.0;
-    match solve_linear(matrix, &right).map(|found| found.normalize()) {
+    match solve_linear(&matrix, &right).map(|found| found.normalize()) {
         Some(direction) if direction.iter().all(|part| part.is_finite()) => Ok((direction, slopes)),
         _ => Err(OrbitError::NotIsolated),
     }

@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::arclength::{
     Accuracy, Equations, Node, border_matrix, correct_with_slopes, curve_tangent, slopes_at,
-    solve_linear,
 };
+use crate::linear::solve_linear;
 use crate::orbit::OrbitError;
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR, TEST_ROUNDING};
 use softstop::internals::narrow_root;
@@ -88,7 +88,7 @@ pub(crate) fn solve_zero<E: Equations>(
         }
         let slopes = slopes_at(equations, &at, &here)?;
         let matrix = border_matrix(&equations.jacobian(&here, &slopes), &chord);
-        let step = solve_linear(matrix, &(-here.residual).push(onward));
+        let step = solve_linear(&matrix, &(-here.residual).push(onward));
         at += step.ok_or(lost(size))?;
     }
     Err(lost(f64::NAN))

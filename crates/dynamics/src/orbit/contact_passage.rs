@@ -31,8 +31,8 @@ pub(super) struct ContactPassage<T = Tangent> {
     kind: CrossingKind,
     /// Velocity in m/s right after the impact.
     pub velocity_after: f64,
-    /// Acceleration in m/s^2 right after the impact.
-    pub acceleration_after: f64,
+    /// The phase in which it moves right after the impact.
+    phase: PhaseId,
     /// What an observer gathers from right after the impact to the free motion: the tangent.
     pub tangent: T,
     /// Time in s from the impact until the mass is free again.
@@ -97,47 +97,58 @@ impl ContactFace {
         at: Instant,
         velocity: f64,
         longest: f64,
-    ) -> Result<Option<ContactPassage<T>>, MotionError> {
-        let mut contact = match self.surface.beyond {
-            Beyond::Wall { .. } => None,
-            Beyond::Phase(_) => Some(self.release(at, velocity)?),
-        };
-        let (kind, phase, velocity_after) =
-            match (self.surface.beyond, contact.as_ref().map(Motion::mode)) {
-                (Beyond::Wall { restitution }, _) => {
-                    let (impact, pierces) = (true, false);
-                    let kind = CrossingKind::Rebound { impact, pierces };
-                    (kind, PhaseId::FREE, -restitution * velocity)
-                }
-                (Beyond::Phase(_), Some(Mode::Moving(phase))) => {
-                    let (forward, impact, pierces) = (true, true, false);
-                    let kind = CrossingKind::Surface {
-                        forward,
-                        impact,
-                        pierces,
-                    };
-                    (kind, phase, velocity)
-                }
-                _ => return Ok(None),
-            };
-        if velocity_after == 0.0 {
-            return Ok(None);
+    ) -> Option<ContactPassage<T>> {
+        if let Beyond::Wall { restitution } = self.surface.beyond {
+            let velocity_after = -restitution * velocity;
+            (velocity_after < 0.0).then_some(())?;
+            return Some(ContactPassage {
+                kind: CrossingKind::Rebound {
+                    impact: true,
+                    pierces: false,
+                },
+                velocity_after,
+                phase: PhaseId::FREE,
+                tangent: T::default(),
+                lasting: 0.0,
+                free_from: at,
+                course: self.free_course(at, velocity_after),
+            });
         }
-        let acceleration_after = self.acceleration_at_face(phase, at, velocity_after);
-        let (tangent, end) = match &mut contact {
-            None => (T::default(), Some((at, velocity_after))),
-            Some(motion) => self.follow_contact(motion, longest)?,
+        let mut motion = self.release(at, velocity).ok()?;
+        let Mode::Moving(phase) = motion.mode() else {
+            return None;
         };
-        let end = end.filter(|(_, velocity)| *velocity < 0.0);
-        Ok(end.map(|(free_from, velocity)| ContactPassage {
-            kind,
-            velocity_after,
-            acceleration_after,
-            tangent,
+        if velocity == 0.0 {
+            return None;
+        }
+        let mut contact = ContactRecorder {
+            position: self.face_position(),
+            gathered: T::default(),
+            found: None,
+            effort: Effort::windows(MAX_CONTACT_WORK),
+        };
+        let until = self.clock.after(at, longest);
+        let _ = motion.watch(until, &mut contact).ok()?;
+        let (free_from, velocity_free) = contact.found?;
+        (velocity_free < 0.0).then_some(())?;
+        Some(ContactPassage {
+            kind: CrossingKind::Surface {
+                forward: true,
+                impact: true,
+                pierces: false,
+            },
+            velocity_after: velocity,
+            phase,
+            tangent: contact.gathered,
             lasting: self.clock.elapsed(at, free_from),
             free_from,
-            course: self.free_course(free_from, velocity),
-        }))
+            course: motion.arc().course.clone(),
+        })
+    }
+
+    /// Acceleration in m/s^2 right after the impact, at an instant, that a passage begins with.
+    pub(super) fn acceleration_after<T>(&self, at: Instant, passage: &ContactPassage<T>) -> f64 {
+        self.acceleration_at_face(passage.phase, at, passage.velocity_after)
     }
 
     /// The saltation matrix of the impact, at an instant with a velocity in m/s, that a passage begins with.
@@ -154,25 +165,8 @@ impl ContactFace {
             velocity,
             velocity_after: passage.velocity_after,
             acceleration_before: self.acceleration_at_face(PhaseId::FREE, at, velocity),
-            acceleration_after: passage.acceleration_after,
+            acceleration_after: self.acceleration_after(at, passage),
         })
-    }
-
-    /// Follows a mass in contact until it is free: what an observer gathers, when that is, and its velocity in m/s.
-    fn follow_contact<T: Observer + Default>(
-        &self,
-        motion: &mut Motion,
-        longest: f64,
-    ) -> Result<(T, Option<(Instant, f64)>), MotionError> {
-        let at = motion.now();
-        let mut contact = ContactRecorder {
-            position: self.face_position(),
-            gathered: T::default(),
-            found: None,
-            effort: Effort::windows(MAX_CONTACT_WORK),
-        };
-        let _ = motion.watch(self.clock.after(at, longest), &mut contact)?;
-        Ok((contact.gathered, contact.found))
     }
 }
 

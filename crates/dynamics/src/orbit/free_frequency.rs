@@ -22,9 +22,10 @@ pub(super) fn find_beside_frequency(
 ) -> Option<Orbit> {
     let beside = FreeFrequency(scene);
     let mut at = Vector3::new(time / scene.clock().period(), velocity.ln(), 0.0);
-    let mut residual = beside.impact_residual(at)?;
+    let mut here = beside.shooting_at(at)?;
+    let mut residual = impact_residual(&here, at)?;
     for _ in 0..MAX_STEPS {
-        let jacobian = beside.impact_jacobian(at)?;
+        let jacobian = beside.impact_jacobian(&here, at)?;
         let square = jacobian * jacobian.transpose();
         let step = -(jacobian.transpose() * square.lu().solve(&residual)?);
         let excess = step
@@ -32,10 +33,11 @@ pub(super) fn find_beside_frequency(
             .zip(MAX_STEP)
             .map(|(part, most)| part.abs() / most);
         let next = at + step / excess.fold(1.0, f64::max);
-        let left = beside.impact_residual(next)?;
         if next.z.abs() > share {
             return None;
         }
+        here = beside.shooting_at(next)?;
+        let left = impact_residual(&here, next)?;
         let settles = left.norm() >= 0.1 * residual.norm() && residual.norm() < DIFFERENCE_WIDTH;
         (at, residual) = (next, left);
         if settles {
@@ -55,22 +57,25 @@ impl FreeFrequency<'_> {
         self.0.recheck(self.0.at_frequency(frequency))
     }
 
-    /// What the next impact is off by for these unknowns: position and velocity, scaled.
-    fn impact_residual(&self, at: Vector3<f64>) -> Option<Vector2<f64>> {
-        let scene = self.scene_at(at).ok()?;
-        let shooting = MultiSegmentShooting::new(&scene, 1)?;
-        shooting
-            .return_gap(at.x * shooting.span(), at.y.exp())
-            .map(Vector2::from)
+    /// The shooting at the frequency of these unknowns.
+    fn shooting_at(&self, at: Vector3<f64>) -> Option<MultiSegmentShooting> {
+        MultiSegmentShooting::new(&self.scene_at(at).ok()?, 1)
     }
 
-    /// The derivatives of that residual by the unknowns, by central differences.
-    fn impact_jacobian(&self, at: Vector3<f64>) -> Option<Matrix2x3<f64>> {
+    /// The derivatives of the impact's residual by the unknowns, by central differences; `here`: the shooting at these.
+    fn impact_jacobian(
+        &self,
+        here: &MultiSegmentShooting,
+        at: Vector3<f64>,
+    ) -> Option<Matrix2x3<f64>> {
         let mut columns = [Vector2::zeros(); 3];
         for (index, column) in columns.iter_mut().enumerate() {
             let shift = Vector3::ith(index, DIFFERENCE_WIDTH);
-            let [ahead, behind] = [at + shift, at - shift].map(|at| self.impact_residual(at));
-            *column = (ahead? - behind?) / (2.0 * DIFFERENCE_WIDTH);
+            let residual = |at: Vector3<f64>| match index {
+                2 => impact_residual(&self.shooting_at(at)?, at),
+                _ => impact_residual(here, at),
+            };
+            *column = (residual(at + shift)? - residual(at - shift)?) / (2.0 * DIFFERENCE_WIDTH);
         }
         Some(Matrix2x3::from_columns(&columns))
     }
@@ -85,4 +90,10 @@ impl FreeFrequency<'_> {
             &[((at.x * period).rem_euclid(period), at.y.exp())],
         )
     }
+}
+
+/// What the next impact is off by for these unknowns, by the shooting at their frequency: position and velocity, scaled.
+fn impact_residual(shooting: &MultiSegmentShooting, at: Vector3<f64>) -> Option<Vector2<f64>> {
+    let gap = shooting.return_gap(at.x * shooting.span(), at.y.exp());
+    gap.map(Vector2::from)
 }

@@ -67,13 +67,16 @@ impl SingleImpactSearch {
             has_left.set(leaves(at));
             has_left.get() || is_near(at)
         };
-        let settled = self.shooting.solve_unless_known(&[guess], ends);
+        let Some(begin) = self.shooting.evaluate_guess(&[guess]) else {
+            return Ok(());
+        };
+        let settled = self.shooting.solve_unless_known(begin.clone(), ends);
         let is_new = match settled {
             Err(_) => return Ok(()),
             Ok(None) => !has_left.get(),
             Ok(Some(orbit)) => self.keep_new(orbit),
         };
-        if is_new && let Ok(orbit) = self.shooting.solve_deflated(guess, &self.found_impacts()) {
+        if is_new && let Ok(orbit) = self.shooting.solve_deflated(begin, &self.found_impacts()) {
             self.keep_new(orbit);
         }
         Ok(())

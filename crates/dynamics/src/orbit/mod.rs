@@ -35,8 +35,8 @@ pub use newton::find_fixed_point;
 pub use pattern::{ImpactCount, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
-pub(crate) use search::find_batch;
 pub use search::{find, find_with_monitor};
+pub(crate) use search::{find_batch, find_with_singles};
 pub(crate) use smallest_period::smallest_period;
 pub use stroboscopic_map::{Passage, StroboscopicMap};
 

@@ -15,6 +15,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use super::contact_passage::{ContactFace, ContactPassage};
 use super::deflation::deflation_factor;
 use super::{Orbit, OrbitError};
+use crate::linear::solve_linear;
 use crate::tolerance::ROUNDING_SHARE;
 use softstop::internals::Scales;
 use softstop::{CheckedScene, Clock};
@@ -40,11 +41,15 @@ pub(super) struct MultiSegmentShooting {
 }
 
 /// The segments from impact to impact at some unknowns, with residual and Jacobian.
+#[derive(Clone)]
 pub(super) struct ShootingEvaluation {
     pub passages: Vec<ContactPassage>,
     residual: DVector<f64>,
     jacobian: DMatrix<f64>,
 }
+
+/// A guess of the shooting's unknowns, evaluated.
+pub(super) type Guess = (Unknowns, ShootingEvaluation);
 
 /// Why the shooting settled on no orbit, with its nearest miss: the first impact, time in s and velocity in m/s, where the
 /// residual was least.
@@ -91,6 +96,7 @@ impl MultiSegmentShooting {
     /// # Errors
     /// [`OrbitError`] if it does not settle, or settles on impacts between which there are others.
     pub(super) fn solve(&self, guess: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
+        let guess = self.evaluate_guess(guess).ok_or(OrbitError::LOST)?;
         let found = self.run_newton(guess, |_| false, &[])?;
         found.ok_or(OrbitError::LOST)
     }
@@ -98,32 +104,37 @@ impl MultiSegmentShooting {
     /// The orbit with one impact to which the shooting leads when deflated from those that are known.
     pub(super) fn solve_deflated(
         &self,
-        guess: (f64, f64),
+        guess: Guess,
         known: &[(f64, f64)],
     ) -> Result<Orbit, OrbitError> {
-        let found = self.run_newton(&[guess], |_| false, known)?;
+        let found = self.run_newton(guess, |_| false, known)?;
         found.ok_or(OrbitError::LOST)
     }
 
     /// The orbit that the shooting settles on; none as soon as a whole step leads to impacts that are known.
     pub(super) fn solve_unless_known(
         &self,
-        guess: &[(f64, f64)],
+        guess: Guess,
         known: impl Fn(&[f64]) -> bool,
     ) -> Result<Option<Orbit>, ShootingFailure> {
         self.run_newton(guess, known, &[])
     }
 
+    /// The shooting's unknowns for guessed impacts, evaluated; none where there is no such motion.
+    pub(super) fn evaluate_guess(&self, guess: &[(f64, f64)]) -> Option<Guess> {
+        let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
+        let at = Unknowns::from_iterator(2 * guess.len(), flat);
+        let evaluation = self.evaluate_segments(&at)?;
+        Some((at, evaluation))
+    }
+
     /// Newton's method for impacts from a guess, away from `deflated` ones; none if a step leads to known impacts.
     fn run_newton(
         &self,
-        guess: &[(f64, f64)],
+        (mut at, mut evaluation): Guess,
         known: impl Fn(&[f64]) -> bool,
         deflated: &[(f64, f64)],
     ) -> Result<Option<Orbit>, ShootingFailure> {
-        let flat = guess.iter().flat_map(|&(time, velocity)| [time, velocity]);
-        let mut at = Unknowns::from_iterator(2 * guess.len(), flat);
-        let mut evaluation = self.evaluate_segments(&at).ok_or(OrbitError::LOST)?;
         let (mut least, mut idle) = (f64::INFINITY, 0);
         let mut nearest = ShootingFailure::from(OrbitError::LOST);
         for _ in 0..MAX_SHOOTING_STEPS {
@@ -138,13 +149,12 @@ impl MultiSegmentShooting {
             if idle > MAX_IDLE_STEPS {
                 break;
             }
-            let step = evaluation.jacobian.clone().lu().solve(&evaluation.residual);
-            let Some(step) = step.map(|step| -step) else {
+            let Some(mut step) = solve_linear(&evaluation.jacobian, &evaluation.residual) else {
                 break;
             };
+            step.neg_mut();
             let period = self.face.clock.period();
-            let step =
-                &step * deflation_factor((at[0], at[1]), (step[0], step[1]), deflated, period);
+            step *= deflation_factor((at[0], at[1]), (step[0], step[1]), deflated, period);
             let Some((share, next, tried)) = self.take_step(&at, &step) else {
                 break;
             };
@@ -171,8 +181,7 @@ impl MultiSegmentShooting {
     pub(super) fn return_gap(&self, time: f64, velocity: f64) -> Option<[f64; 2]> {
         let clock = &self.face.clock;
         let from = clock.instant(time);
-        let passage: ContactPassage<()> =
-            self.face.pass_contact(from, velocity, self.span()).ok()??;
+        let passage: ContactPassage<()> = self.face.pass_contact(from, velocity, self.span())?;
         let to = clock.instant(time + self.span());
         let flight = clock.elapsed(passage.free_from, to);
         let gap = |(position, arriving)| self.scaled_gap((position, arriving), velocity);
@@ -191,12 +200,12 @@ impl MultiSegmentShooting {
         let fastest = velocities.fold(0.0, |fastest: f64, velocity| fastest.max(*velocity));
         let scales = &self.scales;
         let state = self.face.face_position().abs() / scales.length + fastest / scales.speed();
-        let mut jacobian = evaluation.jacobian.clone();
         let units = [1.0 / scales.rate, scales.speed()].into_iter().cycle();
-        for (mut column, unit) in jacobian.column_iter_mut().zip(units) {
-            column *= unit;
-        }
-        let rounding = 1e-14 * (1.0 + state) * (1.0 + jacobian.norm());
+        let columns = evaluation.jacobian.column_iter().zip(units);
+        let entries =
+            columns.flat_map(|(column, unit)| column.into_iter().map(move |it| it * unit));
+        let norm = entries.map(|entry| entry * entry).sum::<f64>().sqrt();
+        let rounding = 1e-14 * (1.0 + state) * (1.0 + norm);
         evaluation.residual.norm() <= share * rounding
     }
 
@@ -219,7 +228,11 @@ impl MultiSegmentShooting {
         }
         (0..MAX_HALVINGS).find_map(|halvings| {
             let share = share / f64::from(1 << halvings);
-            let next = at + share * step;
+            let moved = at
+                .iter()
+                .zip(step)
+                .map(|(value, change)| value + share * change);
+            let next = Unknowns::from_iterator(at.len(), moved);
             let evaluation = self.evaluate_segments(&next)?;
             Some((share, next, evaluation))
         })
@@ -240,7 +253,7 @@ impl MultiSegmentShooting {
             let (from, to) = (clock.instant(at[2 * segment]), at[2 * next] + around);
             let longest = to - at[2 * segment];
             let before = at[2 * segment + 1];
-            let passing: ContactPassage = self.face.pass_contact(from, before, longest).ok()??;
+            let passing: ContactPassage = self.face.pass_contact(from, before, longest)?;
             let to = clock.instant(to);
             let flight = clock.elapsed(passing.free_from, to);
             if flight <= 0.0 {
@@ -263,7 +276,7 @@ impl MultiSegmentShooting {
             let after = passing.velocity_after;
             add(
                 column,
-                through * -Vector2::new(after, passing.acceleration_after),
+                through * -Vector2::new(after, self.face.acceleration_after(from, &passing)),
             );
             add(column + 1, through * Vector2::new(0.0, after / before));
             add(ahead, Vector2::new(velocity, acceleration));

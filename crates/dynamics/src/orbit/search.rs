@@ -29,8 +29,21 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
 pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, OrbitError> {
+    find_with_singles(scene, None, monitor)
+}
+
+/// The motion that [`find_with_monitor`] finds, with the z = 1 orbits that a lattice shows, those with the hardest impacts
+/// last, searched unless they are known.
+pub(crate) fn find_with_singles(
+    scene: &Scene,
+    known: Option<Vec<Orbit>>,
+    monitor: Monitor<'_>,
+) -> Result<Orbit, OrbitError> {
     let settled = search_all(from_ref(scene), usize::MAX, monitor).remove(0);
-    let mut all = all_single(scene, monitor)?;
+    let mut all = match known {
+        Some(known) => known,
+        None => all_single(scene, monitor)?,
+    };
     all.retain(Orbit::is_stable);
     match (settled, all.pop()) {
         (Ok(settled), Some(other)) if other.is_harder(&settled) => Ok(other),

@@ -11,12 +11,13 @@ use rayon::prelude::*;
 use super::end::ZoneEnd;
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
 use super::loss::Loss;
-use super::stable_ranges::FOLLOWED_RANGE;
-use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies};
+use super::stable_range::StableRange;
+use super::stable_ranges::{FOLLOWED_RANGE, find_stable_ranges};
+use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
 use crate::monitor::{Monitor, stop_if, unmonitored};
-use crate::orbit::{Orbit, OrbitError, find_batch, find_with_monitor};
+use crate::orbit::{Orbit, OrbitError, find_batch, find_with_singles};
 use crate::tolerance::SAME;
 use softstop::Scene;
 use softstop::internals::budget::SharedBudget;
@@ -42,8 +43,33 @@ pub fn hysteresis(scene: &Scene) -> Result<Zone, ZoneError> {
 /// # Errors
 /// As [`hysteresis`]; [`OrbitError::Stopped`].
 pub fn hysteresis_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Zone, ZoneError> {
+    zone_with_singles(scene, None, monitor)
+}
+
+/// The hysteresis zone of a scene and all its stable ranges: the z = 1 motions at g0 are searched once for both.
+///
+/// # Errors
+/// As [`hysteresis_with_monitor`] and [`stable_ranges_with_monitor`](super::stable_ranges_with_monitor).
+pub fn hysteresis_and_stable_ranges(
+    scene: &Scene,
+    monitor: Monitor<'_>,
+) -> (Result<Zone, ZoneError>, Result<Vec<StableRange>, ZoneError>) {
+    let all = refuse_below(scene).and_then(|()| Ok(find_stable_ranges(scene, monitor)?));
+    let (stable_ranges, singles) = match all {
+        Ok((stable_ranges, singles)) => (Ok(stable_ranges), singles),
+        Err(error) => (Err(error), None),
+    };
+    (zone_with_singles(scene, singles, monitor), stable_ranges)
+}
+
+/// The hysteresis zone of a scene, with its z = 1 orbits at g0 searched unless they are known.
+fn zone_with_singles(
+    scene: &Scene,
+    singles: Option<Vec<Orbit>>,
+    monitor: Monitor<'_>,
+) -> Result<Zone, ZoneError> {
     let grazing = grazing_frequencies(scene)?;
-    let start = find_with_monitor(&scene.at_frequency(grazing.1), monitor);
+    let start = find_with_singles(&scene.at_frequency(grazing.1), singles, monitor);
     zone_from_start(scene, grazing, (start.ok(), UpperEnd::Fold), monitor)
 }
 

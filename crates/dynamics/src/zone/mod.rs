@@ -22,7 +22,9 @@ pub use error::{BranchEnd, StatedFrequency, ZoneError};
 pub use find::{find, find_among, find_with_monitor, find_zones};
 pub use frequencies::Frequencies;
 pub use grazing::{free_amplitude, grazing_frequencies};
-pub use hysteresis::{hysteresis, hysteresis_batch, hysteresis_with_monitor};
+pub use hysteresis::{
+    hysteresis, hysteresis_and_stable_ranges, hysteresis_batch, hysteresis_with_monitor,
+};
 pub use loss::Loss;
 pub use loss_of_stability::{find_end_along, loss_of_stability};
 pub use single_impact::single_impact;

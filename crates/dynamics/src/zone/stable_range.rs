@@ -1,5 +1,7 @@
 //! A stable range: a range of frequencies with a stable z = 1 motion, and what ends it.
 
+use std::cell::RefCell;
+
 use nalgebra::{Vector2, Vector4};
 
 use super::end::ZoneEnd;
@@ -217,15 +219,18 @@ fn hardest_point(continuation: &Continuation<'_>, points: &[BranchPoint]) -> Opt
     let harder = |a: usize, b: usize| velocity(&points[a]).total_cmp(&velocity(&points[b]));
     let best = (0..points.len()).max_by(|a, b| harder(*a, *b))?;
     let (below, above) = (best.saturating_sub(1), (best + 1).min(points.len() - 1));
+    let known = RefCell::new(points[below..=above].to_vec());
     let between = |frequency: f64| {
-        let near = if frequency < points[best].parameter {
-            below
-        } else {
-            best
-        };
-        continuation
-            .point_between(&points[near], points.get(near + 1)?, frequency)
-            .ok()
+        let mut known = known.borrow_mut();
+        let next = known.partition_point(|point| point.parameter < frequency);
+        let after = known.get(next)?;
+        if after.parameter == frequency {
+            return Some(after.clone());
+        }
+        let before = known.get(next.checked_sub(1)?)?;
+        let found = continuation.point_between(before, after, frequency).ok()?;
+        known.insert(next, found.clone());
+        Some(found)
     };
     let [low, high] = [below, above].map(|at| points[at].parameter);
     let height = |frequency: f64| between(frequency).map_or(f64::NEG_INFINITY, |it| velocity(&it));

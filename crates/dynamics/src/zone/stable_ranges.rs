@@ -48,21 +48,26 @@ pub fn stable_ranges_with_monitor(
     monitor: Monitor<'_>,
 ) -> Result<Vec<StableRange>, ZoneError> {
     refuse_below(scene)?;
-    Ok(find_stable_ranges(scene, monitor)?)
+    Ok(find_stable_ranges(scene, monitor)?.0)
 }
+
+/// Stable ranges, and the z = 1 orbits at g0, those with the hardest impacts last, if they were searched.
+type StableRangesAndSingles = (Vec<StableRange>, Option<Vec<Orbit>>);
 
 /// Finds all stable ranges of a scene.
 pub(super) fn find_stable_ranges(
     scene: &Scene,
     monitor: Monitor<'_>,
-) -> Result<Vec<StableRange>, OrbitError> {
+) -> Result<StableRangesAndSingles, OrbitError> {
     let scene = &scene.check()?;
     let family = Frequencies(scene);
     let continuation = Continuation::new(&family, 1);
     let limits = branch_limits(scene);
     let sizes = unknown_scales(scene);
     let mut branches: Vec<Branch> = Vec::new();
-    let mut frequencies = search_frequencies(scene);
+    let grazing = grazing_frequencies(scene).ok();
+    let mut at_grazing = None;
+    let mut frequencies = search_frequencies(scene, grazing);
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MAX_BRANCHES) {
         next += 1;
@@ -71,6 +76,10 @@ pub(super) fn find_stable_ranges(
             FREE_SHARE,
             monitor,
         )?);
+        if grazing.is_some_and(|(_, above)| above == frequency) {
+            let is_here = |orbit: &&Orbit| orbit.scene.excitation.frequency == frequency;
+            at_grazing = Some(met.iter().filter(is_here).cloned().collect());
+        }
         while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MAX_BRANCHES) {
             let frequency = orbit.scene.excitation.frequency;
             let point = BranchPoint {
@@ -114,7 +123,7 @@ pub(super) fn find_stable_ranges(
             distinct.push(one);
         }
     }
-    Ok(distinct)
+    Ok((distinct, at_grazing))
 }
 
 /// True if a point near the chord between two neighbours is not the one between them on their branch.
@@ -139,14 +148,13 @@ fn branch_limits(scene: &Scene) -> Limits {
 }
 
 /// The frequencies at which motions are searched: g0, those beside both grazings, the rows, and beside their end.
-fn search_frequencies(scene: &Scene) -> Vec<f64> {
+fn search_frequencies(scene: &Scene, grazing: Option<(Option<f64>, f64)>) -> Vec<f64> {
     let natural = scene.scales().rate;
     let row = SEARCH_ROWS.into_iter().flat_map(|(low, high, count)| {
         let ratio: f64 = (high / low).powf(1.0 / count as f64);
         (0..count).map(move |index| natural * low * ratio.powi(index as i32))
     });
-    let (below, above) =
-        grazing_frequencies(scene).map_or((None, None), |(below, above)| (below, Some(above)));
+    let (below, above) = grazing.map_or((None, None), |(below, above)| (below, Some(above)));
     let grazing = below.into_iter().chain(above).flat_map(frequencies_beside);
     let lowest = FOLLOWED_RANGE.0 * natural;
     let all = above
