@@ -43,7 +43,7 @@ impl<U: Unit> Instance<U> {
         }
         self.pass_event(report)?;
         let (begin, end) = (self.time(), self.intended_end(point + step, step));
-        let outcome = match handling {
+        let mut outcome = match handling {
             Handling { early: true, .. } => {
                 self.carry_on(point, step, report, |unit, _, events| {
                     unit.approach(end, begin, events)
@@ -56,13 +56,16 @@ impl<U: Unit> Instance<U> {
             }
             Handling { .. } => self.carry_on(point, step, report, U::advance),
         };
-        let is_discarded = matches!(outcome, Err(Fault::Discarded { .. }));
-        if !(is_discarded && handling.early && self.time() > begin) {
-            if is_discarded {
+        let reaches_on = handling.early && self.time() > begin;
+        match &mut outcome {
+            Err(Fault::Discarded { .. }) if reaches_on => outcome = Ok(()),
+            Err(Fault::Discarded { is_taken_back, .. }) => {
                 self.take_back()?;
+                *is_taken_back = true;
             }
-            outcome?;
+            _ => {}
         }
+        outcome?;
         self.fell_short = false;
         if self.awaits && !handling.in_event_mode {
             self.pass_event(report)?;

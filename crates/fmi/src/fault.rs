@@ -40,6 +40,8 @@ pub(crate) enum Fault {
         "{0} is a fixed parameter: it cannot be set after initialisation (fmi2Reset leads back before it)"
     )]
     Fixed(&'static str),
+    #[error("{0} can change at events only, not in continuous-time mode: enter event mode first")]
+    OnlyAtEvents(&'static str),
     #[error("{name}: derivatives of order {order} are not available, {available}")]
     DerivativeOrder {
         name: &'static str,
@@ -61,13 +63,18 @@ pub(crate) enum Fault {
     #[error("the step ends at {end} s, after the stop time {stop} s of fmi2SetupExperiment")]
     BeyondStop { end: f64, stop: f64 },
     #[error(
-        "the step to {end} s was carried out up to {reached} s only ({reason}): go on from there, or \
-         repeat a shorter one"
+        "the step to {end} s was carried out up to {reached} s only ({reason}){}",
+        if *.is_taken_back {
+            ", and taken back: repeat a shorter one"
+        } else {
+            ": go on from there, or repeat a shorter one"
+        }
     )]
     Discarded {
         end: f64,
         reached: f64,
         reason: String,
+        is_taken_back: bool,
     },
     #[error("{0} is no real output: it has no derivative")]
     NoUnknown(&'static str),
@@ -127,7 +134,9 @@ impl Fault {
     /// What FMI 3.0 makes of a fault that has left the instance as it was: the importer may go on with another value.
     pub(crate) fn refused(self) -> Self {
         match self {
-            Self::OutOfRange { .. } | Self::Unit(_) => Self::Refused(self.into()),
+            Self::OutOfRange { .. } | Self::OnlyAtEvents(_) | Self::Unit(_) => {
+                Self::Refused(self.into())
+            }
             other => other,
         }
     }

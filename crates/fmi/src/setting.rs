@@ -34,12 +34,14 @@ impl<U: Unit> Instance<U> {
                     allowed: variable.kind.range(),
                 });
             }
-            changes |= variable
-                .slot()
-                .is_some_and(|slot| self.values[slot.0] != value);
+            let held = variable.slot().map(|slot| self.values[slot.0]);
+            let is_new = held.is_some_and(|held| held != value);
+            if is_new && self.lifecycle == Lifecycle::Continuous {
+                return Err(Fault::OnlyAtEvents(variable.name));
+            }
+            changes |= is_new;
         }
-        // Between events discrete variables stay as they are.
-        if changes && self.lifecycle != Lifecycle::Continuous {
+        if changes {
             let mut after = self.values.clone();
             for (&reference, value) in all() {
                 if let Some(slot) = find::<U>(reference, wanted)?.slot() {

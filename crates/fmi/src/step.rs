@@ -104,6 +104,7 @@ impl<U: Unit> Instance<U> {
             end,
             reached,
             reason,
+            is_taken_back: false,
         })
     }
 

@@ -5,7 +5,7 @@ use softstop_fmu::Options;
 
 use super::events::MACHINES;
 use super::unit::Unit;
-use crate::common::OK;
+use crate::common::{DISCARD, OK};
 
 const PERIOD: f64 = std::f64::consts::TAU / 1.15;
 
@@ -340,9 +340,16 @@ fn discrete_inputs_and_parameters_wait_for_event_mode() {
     let mut importer = Integrator::begun(&[]);
     importer.run(1.0, 0.01);
     let before = importer.unit.everything();
+    for (name, value) in [("clearance", 9.5), ("material", 0.0)] {
+        let held = importer.unit.get(name);
+        assert_eq!(importer.unit.set(name, held), OK, "{name}");
+        assert_eq!(importer.unit.set(name, value), DISCARD, "{name}");
+        assert_eq!(importer.unit.everything(), before, "{name}");
+    }
+    importer.enter_event_mode();
     assert_eq!(importer.unit.set("clearance", 9.5), OK);
-    assert_eq!(importer.unit.set("material", 0.0), OK);
-    assert_eq!(importer.unit.everything(), before);
+    importer.leave_event_mode();
+    assert_eq!(importer.unit.get("clearance"), 9.5);
 }
 
 #[test]

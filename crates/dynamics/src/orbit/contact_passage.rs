@@ -32,7 +32,7 @@ pub(super) struct ContactPassage<T = Tangent> {
     /// Velocity in m/s right after the impact.
     pub velocity_after: f64,
     /// The phase in which it moves right after the impact.
-    phase: PhaseId,
+    phase: Option<PhaseId>,
     /// What an observer gathers from right after the impact to the free motion: the tangent.
     pub tangent: T,
     /// Time in s from the impact until the mass is free again.
@@ -98,28 +98,48 @@ impl ContactFace {
         velocity: f64,
         longest: f64,
     ) -> Option<ContactPassage<T>> {
-        if let Beyond::Wall { restitution } = self.surface.beyond {
-            let velocity_after = -restitution * velocity;
-            (velocity_after < 0.0).then_some(())?;
-            return Some(ContactPassage {
-                kind: CrossingKind::Rebound {
-                    impact: true,
-                    pierces: false,
-                },
-                velocity_after,
-                phase: PhaseId::FREE,
-                tangent: T::default(),
-                lasting: 0.0,
-                free_from: at,
-                course: self.free_course(at, velocity_after),
-            });
-        }
-        let mut motion = self.release(at, velocity).ok()?;
-        let Mode::Moving(phase) = motion.mode() else {
-            return None;
+        let (kind, velocity_after) = match self.surface.beyond {
+            Beyond::Wall { restitution } => {
+                let (impact, pierces) = (true, false);
+                let kind = CrossingKind::Rebound { impact, pierces };
+                (kind, -restitution * velocity)
+            }
+            Beyond::Phase(_) => {
+                let (forward, impact, pierces) = (true, true, false);
+                let kind = CrossingKind::Surface {
+                    forward,
+                    impact,
+                    pierces,
+                };
+                (kind, velocity)
+            }
         };
-        if velocity == 0.0 {
+        let passage = |phase, tangent, free_from, course| ContactPassage {
+            kind,
+            velocity_after,
+            phase,
+            tangent,
+            lasting: self.clock.elapsed(at, free_from),
+            free_from,
+            course,
+        };
+        if velocity <= 0.0 {
             return None;
+        }
+        if velocity_after < 0.0 {
+            let course = self.free_course(at, velocity_after);
+            return Some(passage(Some(PhaseId::FREE), T::default(), at, course));
+        }
+        let mut motion = self.release(at, velocity_after).ok()?;
+        let is_wall = matches!(self.surface.beyond, Beyond::Wall { .. });
+        let phase = match motion.mode() {
+            Mode::Moving(phase) => Some(phase),
+            _ if is_wall => None,
+            _ => return None,
+        };
+        if is_wall && phase.is_some() {
+            let course = motion.arc().course.clone();
+            return Some(passage(phase, T::default(), at, course));
         }
         let mut contact = ContactRecorder {
             position: self.face_position(),
@@ -130,25 +150,16 @@ impl ContactFace {
         let until = self.clock.after(at, longest);
         let _ = motion.watch(until, &mut contact).ok()?;
         let (free_from, velocity_free) = contact.found?;
-        (velocity_free < 0.0).then_some(())?;
-        Some(ContactPassage {
-            kind: CrossingKind::Surface {
-                forward: true,
-                impact: true,
-                pierces: false,
-            },
-            velocity_after: velocity,
-            phase,
-            tangent: contact.gathered,
-            lasting: self.clock.elapsed(at, free_from),
-            free_from,
-            course: motion.arc().course.clone(),
-        })
+        // A wall that takes all velocity lets the mass go from rest.
+        let is_free = velocity_free < 0.0 || is_wall;
+        let course = motion.arc().course.clone();
+        is_free.then(|| passage(phase, contact.gathered, free_from, course))
     }
 
     /// Acceleration in m/s^2 right after the impact, at an instant, that a passage begins with.
     pub(super) fn acceleration_after<T>(&self, at: Instant, passage: &ContactPassage<T>) -> f64 {
-        self.acceleration_at_face(passage.phase, at, passage.velocity_after)
+        let at_face = |phase| self.acceleration_at_face(phase, at, passage.velocity_after);
+        passage.phase.map_or(0.0, at_face)
     }
 
     /// The saltation matrix of the impact, at an instant with a velocity in m/s, that a passage begins with.

@@ -18,7 +18,6 @@ use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_singles};
-use crate::tolerance::SAME;
 use softstop::Scene;
 use softstop::internals::budget::SharedBudget;
 
@@ -141,8 +140,8 @@ fn zone_from_start(
     })?;
     let continuation = Continuation::new(&family, 1);
     let range = (frequency_g0, FOLLOWED_RANGE.1 * frequency_g0);
-    let mut branch = follow_upward(&continuation, &start, range, monitor)?;
-    let high = match (highest_fold(&branch), upper) {
+    let (mut branch, fold) = follow_upward(&continuation, &start, range, monitor)?;
+    let high = match (fold, upper) {
         (Some(fold), _) => fold,
         (None, UpperEnd::Fold) => return Err(no_fold_error(frequency_g0, &branch)),
         (None, UpperEnd::FoldOrGrazing) => {
@@ -166,13 +165,14 @@ fn zone_from_start(
     })
 }
 
-/// Follows the branch from a z = 1 motion at the lower of two frequencies upward, through all its folds.
+/// Follows the branch from a z = 1 motion at the lower of two frequencies upward, through all its folds: its points, and the
+/// fold at the highest frequency.
 pub(super) fn follow_upward(
     continuation: &Continuation<'_>,
     start: &Orbit,
     (lowest, highest): (f64, f64),
     monitor: Monitor<'_>,
-) -> Result<Vec<BranchPoint>, OrbitError> {
+) -> Result<(Vec<BranchPoint>, Option<ZoneEnd>), OrbitError> {
     let mut branch =
         continuation.follow_points(start, lowest, Direction::Up, LONGEST_BRANCH, |point| {
             let flipped = !point.is_stable() && point.fold_test() > 0.0;
@@ -184,8 +184,12 @@ pub(super) fn follow_upward(
             stop_if(flipped || outside || ends_in_grazing || monitor(0, 0).is_break())
         })?;
     OrbitError::ask_monitor(monitor)?;
-    insert_folds(continuation, &mut branch);
-    Ok(branch)
+    let folds = insert_folds(continuation, &mut branch);
+    let highest = folds
+        .iter()
+        .max_by(|a, b| a.parameter.total_cmp(&b.parameter));
+    let end = highest.map(|fold| ZoneEnd::at_special(fold, SpecialKind::Critical(Test::Fold)));
+    Ok((branch, end))
 }
 
 /// True if a surface is grazed at the end of a zone.
@@ -193,24 +197,22 @@ fn ends_in_grazing(end: &ZoneEnd) -> bool {
     matches!(end.special, Some(SpecialKind::Grazing(_)))
 }
 
-/// The fold of a branch at the highest frequency; none if it has none.
-pub(super) fn highest_fold(branch: &[BranchPoint]) -> Option<ZoneEnd> {
-    let folds = branch.iter().filter(|point| point.fold_test().abs() < SAME);
-    let highest = folds.max_by(|a, b| a.parameter.total_cmp(&b.parameter))?;
-    let kind = SpecialKind::Critical(Test::Fold);
-    Some(ZoneEnd::at_special(highest, kind))
-}
-
-/// Adds the folds to a branch, between neighbours where 1 - tr + det passes zero, but for border collisions.
-fn insert_folds(continuation: &Continuation<'_>, branch: &mut Vec<BranchPoint>) {
+/// Adds the folds to a branch, between neighbours where 1 - tr + det passes zero, but for border collisions, and returns them.
+fn insert_folds(
+    continuation: &Continuation<'_>,
+    branch: &mut Vec<BranchPoint>,
+) -> Vec<BranchPoint> {
+    let mut folds = Vec::new();
     for index in (1..branch.len()).rev() {
         let (from, to) = (&branch[index - 1], &branch[index]);
         if from.fold_test() * to.fold_test() < 0.0
             && let Ok(fold) = continuation.critical_between(from, to, Test::Fold)
         {
-            branch.insert(index, fold);
+            branch.insert(index, fold.clone());
+            folds.push(fold);
         }
     }
+    folds
 }
 
 /// The error of a branch from a frequency on that has no fold.

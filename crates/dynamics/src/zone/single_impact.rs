@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::followed_end::{LONGEST_BRANCH, find_end};
-use super::hysteresis::{follow_upward, highest_fold};
+use super::hysteresis::follow_upward;
 use super::stable_ranges::FOLLOWED_RANGE;
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use super::{Zone, ZoneKind};
@@ -111,8 +111,8 @@ fn zone_about(
     let range = (FOLLOWED_RANGE.0 * rate, FOLLOWED_RANGE.1 * rate);
     let family = Frequencies(scene);
     let continuation = Continuation::new(&family, 1);
-    let mut above = follow_upward(&continuation, start, (frequency, range.1), monitor)?;
-    let high = match highest_fold(&above) {
+    let (mut above, fold) = follow_upward(&continuation, start, (frequency, range.1), monitor)?;
+    let high = match fold {
         Some(fold) => fold,
         None => find_end(&continuation, &mut above, Direction::Up, range)?,
     };

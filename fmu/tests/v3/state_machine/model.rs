@@ -136,8 +136,12 @@ impl Model {
                 _ if !self.is_settable() => &[ERROR],
                 "position" if self.life != Continuous => &[ERROR],
                 "mass" if self.is(&[Event, Step, Continuous]) => &[ERROR],
-                _ if value.is_finite() && value.abs() < 1e12 => &[OK],
-                _ => &[DISCARD],
+                _ if !(value.is_finite() && value.abs() < 1e12) => &[DISCARD],
+                // Another value waits for an event; the one that holds may be set.
+                _ if self.life == Continuous && !["force", "position"].contains(&name) => {
+                    &[OK, DISCARD]
+                }
+                _ => &[OK],
             },
             Call::DoStep(at, size) => if_all(&[
                 self.life == Step,
