@@ -26,6 +26,7 @@ mod study;
 mod sweep;
 mod ties;
 mod tolerated;
+mod trials;
 mod watch;
 
 use softstop_testing::Program;

@@ -10,6 +10,7 @@ use super::ascent::ascend_from;
 use super::certain::certain;
 use super::coordinates::{Candidate, Coordinates, SearchStart, best_by};
 use super::critical::CriticalMachines;
+use super::improve_catalogue::CatalogueSearch;
 use super::judge::Met;
 use super::problem::{Objective, Problem};
 use super::robustify::{Robust, look};
@@ -38,6 +39,8 @@ const FEW_TRIES: usize = 3;
 const GAIN: f64 = 1e-9;
 /// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
 const MARGINS: [f64; 2] = [0.2, 0.4];
+/// Designs with different values of catalogues whose trials are made for each finalist, at most.
+const ENTRIES: usize = 16;
 /// How often what is lost within the tolerances of what was found, or fails there, is taken note of.
 const ROUNDS: usize = 8;
 
@@ -69,7 +72,7 @@ pub(super) struct Passed {
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
-pub(super) fn check_trials(
+fn check_trials(
     problem: &Problem,
     mut held: Robust,
     sought_from: &mut Vec<SearchStart>,
@@ -103,7 +106,7 @@ pub(super) fn check_trials(
             _ => trials.best_near(&from),
         };
         let Some(mut candidate) = found else {
-            break;
+            return Err(lack);
         };
         from = candidate.clone();
         let seen = look(problem, &mut candidate.design, &mut held.known);
@@ -120,6 +123,46 @@ pub(super) fn check_trials(
         }
     }
     Err(lack)
+}
+
+/// The best designs that pass their trials, in falling order, from designs that keep their box of tolerances and from those with
+/// other values of catalogues. What cannot be better than a bound, or than one that passes, is left out.
+///
+/// # Errors
+/// [`Infeasible`] if none passes: what the first one fails.
+pub(super) fn check_finalists(
+    problem: &Problem,
+    finalists: impl IntoIterator<Item = Robust>,
+    bound: f64,
+    sought_from: &mut Vec<SearchStart>,
+) -> Result<Vec<Passed>, Infeasible> {
+    let score = |it: &Robust| problem.score(&it.candidate.design);
+    let mut passing: Vec<Passed> = Vec::new();
+    let mut failed = None;
+    for finalist in finalists {
+        let mut catalogues = CatalogueSearch::new(problem, finalist);
+        for _ in 0..ENTRIES {
+            let best = passing.iter().map(|it| score(&it.robust));
+            let Some(next) = catalogues.take_best(best.fold(bound, f64::max)) else {
+                break;
+            };
+            match check_trials(problem, next, sought_from) {
+                Ok(found) => {
+                    let is_unmoved = found.resolution.is_none();
+                    passing.push(found);
+                    if is_unmoved {
+                        break;
+                    }
+                }
+                Err(error) => drop(failed.get_or_insert(error)),
+            }
+        }
+    }
+    passing.sort_by(|a, b| score(&b.robust).total_cmp(&score(&a.robust)));
+    match passing.is_empty() {
+        true => Err(failed.unwrap_or_else(|| Infeasible::unknown("stopped"))),
+        false => Ok(passing),
+    }
 }
 
 /// A design near one that does not pass its trials and passes them: without the search that [`check_trials`] takes, and good

@@ -3,14 +3,13 @@
 use serde::Serialize;
 
 use super::ascent::ascend_from;
-use super::check_trials::{Passed, Resolution, check_trials};
+use super::check_trials::{Passed, Resolution, check_finalists};
 use super::constraint::ActiveLimit;
-use super::coordinates::{Candidate, SearchStart, best_by};
+use super::coordinates::{Candidate, SearchStart};
 use super::critical::CriticalMachines;
-use super::improve_catalogue::improve_catalogue;
 use super::judge::Met;
 use super::multipliers::{Held, held};
-use super::robustify::{Robust, enforce_tolerance_box};
+use super::robustify::{Robust, enforce_tolerance_box, keep_as_is};
 use super::{Design, Problem};
 
 /// Share of the best score from which another design is a rival.
@@ -126,20 +125,22 @@ impl Found {
         let place = (&start.unit[..], start.design.place);
         let top = ascend_from(problem, &CriticalMachines::default(), place);
         let start = Some(start).filter(|it| problem.is_allowed(&it.design));
+        // Where trials hold a design back, its box moves it to one that fails them.
+        let unmoved = start.as_ref().and_then(|it| keep_as_is(problem, it));
         let starts = start.into_iter().chain(top);
         let robust = starts.filter_map(|it| enforce_tolerance_box(problem, &it).ok());
+        let robust = unmoved.into_iter().chain(robust);
         let score = |it: &Robust| problem.score(&it.candidate.design);
-        let is_better = |it: &Robust| score(it) > (1.0 + GAIN) * problem.score(&self.design);
-        let Some(robust) = best_by(robust, score).filter(is_better) else {
+        let least = (1.0 + GAIN) * problem.score(&self.design);
+        let mut finalists: Vec<Robust> = robust.filter(|it| score(it) > least).collect();
+        finalists.reverse();
+        finalists.sort_by(|a, b| score(b).total_cmp(&score(a)));
+        finalists.dedup_by(|it, known| it.candidate.is_same(&known.candidate));
+        let passing = check_finalists(problem, finalists, least, &mut self.sought_from);
+        let passing = passing.ok().and_then(|all| all.into_iter().next());
+        let Some(passed) = passing.filter(|it| score(&it.robust) > least) else {
             return false;
         };
-        let improved = improve_catalogue(problem, &robust);
-        let Ok(passed) = check_trials(problem, improved, &mut self.sought_from) else {
-            return false;
-        };
-        if !is_better(&passed.robust) {
-            return false;
-        }
         let rivals = std::mem::take(&mut self.rivals);
         let others = rivals.into_iter().chain([self.design.clone()]);
         let unit = self.unit.clone();

@@ -1,5 +1,5 @@
 //! Catalogues: from the values that were found, those beside them are tried, each with everything else sought
-//! anew, until none is better.
+//! anew, until none is better. Where the best design fails its trials, the next best is taken, and what stands beside that.
 
 use std::collections::HashSet;
 
@@ -16,29 +16,66 @@ const FAR: usize = 3;
 /// Share of a score that is no gain.
 const GAIN: f64 = 1e-12;
 
-/// The best design by exchange of values of catalogues.
-pub(super) fn improve_catalogue(problem: &Problem, from: &Robust) -> Robust {
-    let catalogues = Catalogues::of(problem);
-    let score = |it: &Robust| problem.score(&it.candidate.design);
-    let mut best = from.clone();
-    let mut tried = HashSet::from([catalogues.places(&best.candidate.unit)]);
-    loop {
-        let beside = catalogues.beside(&best.candidate.unit).into_iter();
-        let new: Vec<_> = beside
-            .filter(|places| tried.insert(places.clone()))
-            .collect();
-        let sought = new.par_iter().filter_map(|places| {
-            let unit = catalogues.unit(&best.candidate.unit, places);
-            let warm = ascend_from(problem, &best.known, (&unit, best.candidate.design.place));
-            let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
-            enforce(problem, &start, best.known.clone()).ok()
-        });
-        let next = best_by(sought.collect::<Vec<_>>().into_iter().rev(), score);
-        let least = (1.0 + GAIN) * score(&best);
-        match next.filter(|next| score(next) > least) {
-            Some(next) if !interrupt::requested() => best = next,
-            _ => return best,
+/// Designs that keep their box of tolerances, each the best of its values of catalogues, from the best one on.
+pub(super) struct CatalogueSearch<'a> {
+    problem: &'a Problem,
+    catalogues: Catalogues,
+    /// The values that were tried.
+    tried: HashSet<Vec<usize>>,
+    /// The designs of these that were not taken.
+    found: Vec<Robust>,
+}
+
+impl<'a> CatalogueSearch<'a> {
+    pub(super) fn new(problem: &'a Problem, from: Robust) -> Self {
+        let catalogues = Catalogues::of(problem);
+        Self {
+            problem,
+            tried: HashSet::from([catalogues.places(&from.candidate.unit)]),
+            catalogues,
+            found: vec![from],
         }
+    }
+
+    fn score(&self, it: &Robust) -> f64 {
+        self.problem.score(&it.candidate.design)
+    }
+
+    /// The best design that was not taken, none of those with values beside its own being better; none where its score is not
+    /// above a bound.
+    pub(super) fn take_best(&mut self, bound: f64) -> Option<Robust> {
+        loop {
+            let places = 0..self.found.len();
+            let best = best_by(places.rev(), |place| self.score(&self.found[*place]))?;
+            let best = self.found.remove(best);
+            let least = (1.0 + GAIN) * self.score(&best);
+            if self.score(&best) <= bound {
+                return None;
+            }
+            let beside = self.seek_beside(&best);
+            let is_better = beside.iter().any(|it| self.score(it) > least);
+            self.found.extend(beside);
+            if !is_better || interrupt::requested() {
+                return Some(best);
+            }
+            self.found.push(best);
+        }
+    }
+
+    /// The best designs with the untried values beside those of a design.
+    fn seek_beside(&mut self, Robust { candidate, known }: &Robust) -> Vec<Robust> {
+        let beside = self.catalogues.beside(&candidate.unit).into_iter();
+        let new: Vec<_> = beside
+            .filter(|places| self.tried.insert(places.clone()))
+            .collect();
+        let problem = self.problem;
+        let sought = new.par_iter().filter_map(|places| {
+            let unit = self.catalogues.unit(&candidate.unit, places);
+            let warm = ascend_from(problem, known, (&unit, candidate.design.place));
+            let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
+            enforce(problem, &start, known.clone()).ok()
+        });
+        sought.collect()
     }
 }
 

@@ -102,6 +102,13 @@ pub(super) fn enforce(
     best.ok_or_else(|| lack.unwrap_or_else(not_computed))
 }
 
+/// A design as it is, if no machine within the tolerances loses the motion or violates a requirement.
+pub(super) fn keep_as_is(problem: &Problem, it: &Candidate) -> Option<Robust> {
+    let (mut candidate, mut known) = (it.clone(), CriticalMachines::default());
+    let seen = look(problem, &mut candidate.design, &mut known);
+    seen.lack.is_none().then_some(Robust { candidate, known })
+}
+
 /// Whether nothing holds a design back: an end of the zone of all stable z = 1 may leap, and the place in it with that, where an
 /// ascent ends.
 fn is_stuck(problem: &Problem, it: &Candidate, known: &CriticalMachines) -> bool {

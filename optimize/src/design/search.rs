@@ -16,13 +16,12 @@ use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};
 pub use super::check_trials::Resolution;
-use super::check_trials::{Passed, check_trials};
+use super::check_trials::check_finalists;
 use super::conflict::stated;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
 use super::found::{APART, GAIN, RIVAL, is_another};
 pub use super::found::{Ascents, Found};
-use super::improve_catalogue::improve_catalogue;
 use super::incumbent::{Incumbent, Rank};
 use super::nearest_miss::nearest_miss;
 use super::robustify::{Robust, enforce_tolerance_box};
@@ -251,7 +250,6 @@ impl<'a> Search<'a> {
             };
             return Err(self.no_design(self.lack.clone().unwrap_or(unknown)));
         }
-        let mut failed = None;
         let mut finalists: Vec<&Robust> = Vec::new();
         for robust in &self.robust {
             let design = &robust.candidate.design;
@@ -260,24 +258,12 @@ impl<'a> Search<'a> {
                 finalists.push(robust);
             }
         }
-        let mut passing: Vec<Passed> = Vec::new();
         let mut sought_from = Vec::new();
-        for finalist in finalists {
-            let improved = improve_catalogue(problem, finalist);
-            let least = passing.iter().map(|it| self.score(&it.robust.candidate));
-            if self.score(&improved.candidate) <= least.fold(0.0, f64::max) {
-                continue;
-            }
-            match check_trials(problem, improved, &mut sought_from) {
-                Ok(found) => passing.push(found),
-                Err(error) => drop(failed.get_or_insert(error)),
-            }
-        }
-        let score = |it: &Passed| self.score(&it.robust.candidate);
-        passing.sort_by(|a, b| score(b).total_cmp(&score(a)));
-        let mut passing = passing.into_iter();
+        let finalists = finalists.into_iter().cloned();
+        let passing = check_finalists(problem, finalists, 0.0, &mut sought_from);
+        let mut passing = passing.map_err(|lack| self.no_design(lack))?.into_iter();
         let Some(passed) = passing.next() else {
-            return Err(self.no_design(failed.unwrap_or_else(|| Infeasible::unknown("stopped"))));
+            return Err(self.no_design(Infeasible::unknown("stopped")));
         };
         let best = &passed.robust;
         let others = passing.map(|it| it.robust.candidate);

@@ -1,0 +1,66 @@
+//! Requirements that take many motions: the answer is the best design that meets them of all that a search has met.
+
+use softstop::{Machine, Parameter};
+use softstop_optimize::design::Problem;
+use softstop_optimize::design::coordinates::Candidate;
+use softstop_optimize::design::figure::Figure;
+use softstop_optimize::design::requirement::Requirement;
+use softstop_optimize::design::search::{Found, SearchError, Settings, Unwatched, search};
+use softstop_optimize::design::space::{Axis, Interval};
+
+use crate::Outcome;
+
+const SETTINGS: Settings = Settings { evaluations: 200 };
+const CLEARANCE: Axis = Axis::new(Parameter::Clearance, Interval::new(5.0, 15.0));
+
+fn problem(axes: Vec<Axis>, certainty: f64) -> Problem {
+    let machine = Machine::named("unloaded").expect("the paper's machine");
+    Problem {
+        margin: 0.25,
+        requirements: vec![Requirement::at_least(Figure::Certainty, certainty)],
+        ..Problem::of(machine, axes)
+    }
+}
+
+fn solve(problem: &Problem) -> Result<Found, SearchError> {
+    search(problem, SETTINGS, &Unwatched, None)
+}
+
+fn candidate(found: &Found) -> Candidate {
+    Candidate {
+        unit: found.unit.clone(),
+        design: found.design.clone(),
+    }
+}
+
+/// The ascent from a design that passes leads to one that fails, from whose place a better one was sought before.
+#[test]
+fn what_passes_is_kept_where_the_top_fails() -> Outcome {
+    let problems = [0.4, 0.5, 0.6].map(|share| problem(vec![CLEARANCE], share));
+    let [best, better, good] = [0, 1, 2].map(|index| solve(&problems[index]));
+    let (best, better, mut found) = (best?, better?, good?);
+    assert!(best.resolution.is_some(), "the best motion fails its trial");
+    let before = found.design.value;
+    assert!(better.design.value > before);
+    found.sought_from.clone_from(&best.sought_from);
+    assert!(found.go_on_from(&problems[0], &candidate(&better)));
+    assert!(found.design.value >= better.design.value);
+    assert!(found.tried.iter().all(|it| it.is_met()));
+    Ok(())
+}
+
+/// Without damping no motion is established, and the mass strikes the hardest.
+#[test]
+fn values_of_catalogues_are_tried() -> Outcome {
+    let designs = [vec![0.0, 0.02], vec![0.02]].map(|damping| {
+        let axis = Axis::of_catalogue(Parameter::Damping, damping);
+        let mut problem = problem(vec![axis, CLEARANCE], 0.2);
+        problem.machine.set(Parameter::ContactDamping, 0.0);
+        solve(&problem).map(|found| found.design)
+    });
+    let [listed, held] = designs;
+    let (listed, held) = (listed?, held?);
+    assert_eq!(listed.machine.value(Parameter::Damping), Some(0.02));
+    assert!(listed.value >= (1.0 - 1e-9) * held.value, "{listed:?}");
+    Ok(())
+}
