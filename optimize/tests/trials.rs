@@ -64,3 +64,27 @@ fn values_of_catalogues_are_tried() -> Outcome {
     assert!(listed.value >= (1.0 - 1e-9) * held.value, "{listed:?}");
     Ok(())
 }
+
+/// A design is sought but once from a place: its first answer is kept, and is no worse than one that is sought anew from within
+/// what counts as that place, as far as counted shares have an accuracy.
+#[test]
+fn seeking_once_from_a_place_loses_nothing() -> Outcome {
+    let problem = problem(vec![CLEARANCE], 0.5);
+    let found = solve(&problem)?;
+    let [(unit, place)] = &found.sought_from[..] else {
+        return Err("sought from one place".into());
+    };
+    for shift in [-9e-6, 0.0, 9e-6] {
+        let mut start = candidate(&found);
+        start.unit = unit.iter().map(|at| (at - shift).clamp(0.0, 1.0)).collect();
+        start.design.place = place - shift;
+        let mut once = found.clone();
+        once.go_on_from(&problem, &start);
+        assert!(once.design.value >= found.design.value);
+        let mut anew = found.clone();
+        anew.sought_from.clear();
+        anew.go_on_from(&problem, &start);
+        assert!(once.design.value >= (1.0 - 1e-3) * anew.design.value);
+    }
+    Ok(())
+}

@@ -68,7 +68,8 @@ pub(super) struct Passed {
 }
 
 /// The best design that passes its trials: this one if it does, otherwise one that is sought from it, unless that was done from
-/// its place before. Adds its place to those from which one was sought.
+/// its place before. Adds its place to those from which one was sought, unless that ended with machines to take note of: with
+/// others known it may end elsewhere.
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
@@ -95,7 +96,7 @@ fn check_trials(
     {
         return Err(lack);
     }
-    sought_from.push(from.start());
+    let start = from.start();
     for round in 0..ROUNDS {
         let trials = Trials {
             problem,
@@ -106,6 +107,7 @@ fn check_trials(
             _ => trials.best_near(&from),
         };
         let Some(mut candidate) = found else {
+            sought_from.push(start);
             return Err(lack);
         };
         from = candidate.clone();
@@ -115,6 +117,7 @@ fn check_trials(
         }
         if let Ok(tried) = problem.pass_trials(&candidate.design, &mut held.known) {
             let known = held.known;
+            sought_from.push(start);
             return Ok(Passed {
                 robust: Robust { candidate, known },
                 tried,
