@@ -75,21 +75,21 @@ pub(super) struct Passed {
 /// [`Infeasible`] if none was met: what this design fails.
 fn check_trials(
     problem: &Problem,
-    mut held: Robust,
+    held: &mut Robust,
     sought_from: &mut Vec<SearchStart>,
 ) -> Result<Passed, Infeasible> {
     let passed = problem.pass_trials(&held.candidate.design, &mut held.known);
     let lack = match passed {
         Ok(tried) => {
             return Ok(Passed {
-                robust: held,
+                robust: held.clone(),
                 tried,
                 resolution: None,
             });
         }
         Err(lack) => lack,
     };
-    let mut from = held.candidate;
+    let mut from = held.candidate.clone();
     if sought_from
         .iter()
         .any(|(unit, place)| from.is_at((unit, *place)))
@@ -116,7 +116,7 @@ fn check_trials(
             continue;
         }
         if let Ok(tried) = problem.pass_trials(&candidate.design, &mut held.known) {
-            let known = held.known;
+            let known = held.known.clone();
             sought_from.push(start);
             return Ok(Passed {
                 robust: Robust { candidate, known },
@@ -141,29 +141,38 @@ pub(super) fn check_finalists(
 ) -> Result<Vec<Passed>, Infeasible> {
     let score = |it: &Robust| problem.score(&it.candidate.design);
     let mut passing: Vec<Passed> = Vec::new();
-    let mut failed = None;
+    let mut failed: Vec<(Robust, Infeasible)> = Vec::new();
     for finalist in finalists {
         let mut catalogues = CatalogueSearch::new(problem, finalist);
         for _ in 0..ENTRIES {
             let best = passing.iter().map(|it| score(&it.robust));
-            let Some(next) = catalogues.take_best(best.fold(bound, f64::max)) else {
+            let Some(mut next) = catalogues.take_best(best.fold(bound, f64::max)) else {
                 break;
             };
-            match check_trials(problem, next, sought_from) {
-                Ok(found) => {
+            match check_trials(problem, &mut next, sought_from) {
+                Ok(mut found) => {
                     let is_unmoved = found.resolution.is_none();
+                    let own = score(&found.robust);
+                    let better = failed.iter().map(|(it, _)| it);
+                    for better in better.filter(|it| score(it) > own) {
+                        found.robust.known.note_failed(&better.known);
+                        found.resolution = Some(RESOLUTION);
+                    }
                     passing.push(found);
                     if is_unmoved {
                         break;
                     }
                 }
-                Err(error) => drop(failed.get_or_insert(error)),
+                Err(lack) => failed.push((next, lack)),
             }
         }
     }
     passing.sort_by(|a, b| score(&b.robust).total_cmp(&score(&a.robust)));
     match passing.is_empty() {
-        true => Err(failed.unwrap_or_else(|| Infeasible::unknown("stopped"))),
+        true => {
+            let first = failed.into_iter().next();
+            Err(first.map_or_else(|| Infeasible::unknown("stopped"), |(_, lack)| lack))
+        }
         false => Ok(passing),
     }
 }

@@ -99,6 +99,13 @@ impl CriticalMachines {
         own.chain(cases)
     }
 
+    /// Takes note of the trials that a better design has failed.
+    pub(super) fn note_failed(&mut self, better: &Self) {
+        for (figure, case) in better.all_failed() {
+            self.for_case_mut(case).failed.push(figure);
+        }
+    }
+
     /// The design of a motion that is as required in the drawing's machine and in all of these, in every case; none if it is
     /// not.
     pub(super) fn design(&self, problem: &Problem, here: Design) -> Option<Design> {

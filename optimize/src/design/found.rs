@@ -16,6 +16,8 @@ use super::{Design, Problem};
 pub(super) const RIVAL: f64 = 0.97;
 /// Relative gain of a score that is none.
 pub(super) const GAIN: f64 = 1e-9;
+/// Relative gain of a score that is none where trials hold the design back: what is counted is not resolved as fine.
+const COUNTED_GAIN: f64 = 1e-6;
 /// Distance along an axis, as a share of its range, from which on two designs are different hills.
 pub(super) const APART: f64 = 0.12;
 
@@ -131,7 +133,12 @@ impl Found {
         let robust = starts.filter_map(|it| enforce_tolerance_box(problem, &it).ok());
         let robust = unmoved.into_iter().chain(robust);
         let score = |it: &Robust| problem.score(&it.candidate.design);
-        let least = (1.0 + GAIN) * problem.score(&self.design);
+        let gain = if self.resolution.is_some() {
+            COUNTED_GAIN
+        } else {
+            GAIN
+        };
+        let least = (1.0 + gain) * problem.score(&self.design);
         let mut finalists: Vec<Robust> = robust.filter(|it| score(it) > least).collect();
         finalists.reverse();
         finalists.sort_by(|a, b| score(b).total_cmp(&score(a)));
