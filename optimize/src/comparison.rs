@@ -48,7 +48,7 @@ impl Table<'_> {
         &mut self,
         [name, symbol, unit]: [&str; 3],
         chosen: String,
-        value: impl Fn(&Machine, &Orbit) -> Option<f64>,
+        value: &dyn Fn(&Machine, &Orbit) -> Option<f64>,
     ) {
         let head = Record::default().with("quantity", "", name);
         let head = match self.machine.unit_system {
@@ -68,13 +68,15 @@ impl Table<'_> {
         [name, symbol]: [&str; 2],
         dimension: Dimension,
         is_sought: bool,
-        value: impl Fn(&Orbit) -> Option<f64>,
+        value: &dyn Fn(&Orbit) -> Option<f64>,
     ) {
         let unit = self.machine.unit(dimension);
         let chosen = if is_sought { "sought" } else { "" };
-        self.add([name, symbol, unit], chosen.to_owned(), |machine, orbit| {
-            Some(machine.to_own(dimension, value(orbit)?))
-        });
+        self.add(
+            [name, symbol, unit],
+            chosen.to_owned(),
+            &|machine, orbit| Some(machine.to_own(dimension, value(orbit)?)),
+        );
     }
 
     /// What is sought, and what the motions do beside a design of this velocity.
@@ -87,32 +89,32 @@ impl Table<'_> {
         for figure in [sought].into_iter().chain(cost) {
             if figure != Figure::Velocity && figure.is_of_motion() {
                 let (name, dimension) = (figure.meaning(), figure.dimension());
-                self.add_figure([name, ""], dimension, figure == sought, |orbit| {
+                self.add_figure([name, ""], dimension, figure == sought, &|orbit| {
                     problem.value_of_motion(figure, orbit)
                 });
             }
         }
         let [number, length, speed] = [Dimension::Number, Dimension::Length, Dimension::Velocity];
         let impact = ["before-impact velocity", "X′₋"];
-        self.add_figure(impact, speed, by_velocity, |orbit| {
+        self.add_figure(impact, speed, by_velocity, &|orbit| {
             Some(orbit.before_impact_velocity())
         });
         let design = self.all[0].2;
         let gain = ["velocity, design over this one", ""];
-        self.add_figure(gain, number, false, |orbit| {
+        self.add_figure(gain, number, false, &|orbit| {
             let is_other = !std::ptr::eq(orbit, design);
             is_other.then(|| velocity / orbit.before_impact_velocity())
         });
-        self.add_figure(["greatest position", ""], length, false, |orbit| {
+        self.add_figure(["greatest position", ""], length, false, &|orbit| {
             Some(orbit.max_position)
         });
-        self.add_figure(["position at drive angle 0", ""], length, false, |orbit| {
+        self.add_figure(["position at drive angle 0", ""], length, false, &|orbit| {
             Some(orbit.position)
         });
-        self.add_figure(["velocity at drive angle 0", ""], speed, false, |orbit| {
+        self.add_figure(["velocity at drive angle 0", ""], speed, false, &|orbit| {
             Some(orbit.velocity)
         });
-        self.add_figure(["largest multiplier |μ|", ""], number, false, |orbit| {
+        self.add_figure(["largest multiplier |μ|", ""], number, false, &|orbit| {
             let moduli = orbit.multipliers().map(|it| it.norm());
             moduli.into_iter().reduce(f64::max)
         });
@@ -124,11 +126,11 @@ impl Table<'_> {
         let (name, symbol) = machine.meaning_of(parameter);
         let chosen = chosen(self.problem, parameter);
         let label = [name, symbol, machine.unit_of(parameter)];
-        self.add(label, chosen, |machine, _| machine.value(parameter));
+        self.add(label, chosen, &|machine, _| machine.value(parameter));
         if parameter == Parameter::Preload && machine.preload_deflection.is_some() {
             let (about, unit) = (parameter.about(), machine.unit(Dimension::Force));
             let label = [about.meaning, about.symbol, unit];
-            self.add(label, String::new(), |machine, _| {
+            self.add(label, String::new(), &|machine, _| {
                 Some(machine.to_own(Dimension::Force, parameter.get(&machine.scene)?))
             });
         }

@@ -13,7 +13,7 @@ use softstop_optimize::design::problem::{Link, Objective, Tolerance, Width};
 use softstop_optimize::design::requirement::{Requirement, Scope};
 use softstop_optimize::design::search::{SearchError, Settings, Unwatched, search};
 use softstop_optimize::design::solution::{Beside, Solution};
-use softstop_optimize::design::space::{Axis, Interval, Space};
+use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::robust::{self, verify};
 
@@ -297,7 +297,7 @@ fn the_best_of_the_worst_machines_is_found() -> Outcome {
 
 /// The best cost of a differential evolution (DE/rand/1/bin, F = 0.6, CR = 0.9) over the unit cube.
 fn differential_evolution(problem: &Problem, seed: u64, evaluations: usize) -> (Vec<f64>, f64) {
-    let dimensions = Space(&problem.axes).dimension();
+    let dimensions = problem.free_axes().count();
     let count = 10 * dimensions.max(2);
     let mut numbers = Numbers(SplitMix64::seed_from_u64(seed));
     let cost = |unit: &Vec<f64>| (&problem).cost(unit).unwrap_or(f64::INFINITY);
@@ -360,10 +360,10 @@ fn no_other_search_finds_better_designs() -> Outcome {
         };
         let (own, more) = (value(1200), value(12_000));
         let (unit, cost) = differential_evolution(&problem, seed, 10_000);
-        let design = problem.at(&Space(&problem.axes).values(&unit));
+        let design = problem.at(&problem.axis_values(&unit));
         let holds = design.is_ok_and(|design| problem.has_box(&design).is_ok());
         let evolved = if holds { -cost } else { 0.0 };
-        let axes = Space(&problem.axes).dimension();
+        let axes = problem.free_axes().count();
         let tolerances = problem.tolerances.len();
         println!(
             "{seed}: {axes} axes, {tolerances} tolerances: {own} ({more} of more, {evolved} evolved)"

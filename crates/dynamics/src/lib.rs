@@ -39,7 +39,7 @@ pub mod missing_strips;
 pub mod monitor;
 pub mod motion;
 pub mod orbit;
-
+pub mod parallel;
 pub mod points;
 mod record_trajectory;
 pub mod run_up;

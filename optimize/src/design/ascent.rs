@@ -14,7 +14,6 @@ use super::problem::Problem;
 use super::requirement::Scope;
 use super::slope::{Slope, unit_row};
 use super::slsqp::Slsqp;
-use super::space::Space;
 
 /// Designs that one run looks at, at most.
 const MAX_EVALUATIONS: usize = 60;
@@ -34,7 +33,7 @@ const NOWHERE: f64 = 1e3;
 
 /// The best design that is met on the way from a point of the unit cube and its best place; none if there is none.
 pub(super) fn ascend(problem: &Problem, unit: &[f64]) -> Option<Candidate> {
-    let values = Space(&problem.axes).values(unit);
+    let values = problem.axis_values(unit);
     let start = problem.at_batch(&[values]).remove(0);
     let place = start.map_or(0.5, |design| design.place);
     ascend_from(problem, &CriticalMachines::default(), (unit, place))

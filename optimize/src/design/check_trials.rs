@@ -2,9 +2,9 @@
 //! search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon 2003),
 //! closer and closer. Of each zone only places that are better than the best so far are tried.
 
-use rayon::prelude::*;
 use serde::Serialize;
 use softstop_console::interrupt;
+use softstop_dynamics::parallel;
 
 use super::ascent::ascend_from;
 use super::certain::certain;
@@ -14,7 +14,7 @@ use super::improve_catalogue::CatalogueSearch;
 use super::judge::Met;
 use super::problem::{Objective, Problem};
 use super::robustify::{Robust, look};
-use super::space::Space;
+use super::space::digits;
 use super::trial::FULL;
 use super::zoned::Zoned;
 use super::{Design, Infeasible};
@@ -229,7 +229,7 @@ impl Trials<'_> {
     /// The best of the zone of a design, of those with wider margins, and of what linear models of the share of starts lead
     /// to from each, if that is required.
     fn first(&self, from: &Candidate) -> Option<Candidate> {
-        let wider = MARGINS.par_iter().filter_map(|margin| {
+        let wider = parallel::filter_map(&MARGINS, |margin| {
             let wider = Problem {
                 margin: margin.max(self.problem.margin),
                 ..self.problem.clone()
@@ -238,11 +238,11 @@ impl Trials<'_> {
             ascend_from(&wider, self.known, place)
         });
         let mut starts = vec![from.clone()];
-        starts.extend(wider.collect::<Vec<_>>());
+        starts.extend(wider);
         let share = self.problem.least_share();
         let led = |start: &Candidate| certain(self.problem, start, (share?, self.known));
-        let passing = starts.par_iter().filter_map(led);
-        let best = self.better_of(passing.filter(|it| self.passes(it)).collect());
+        let passing = parallel::filter_map(&starts, |it| led(it).filter(|it| self.passes(it)));
+        let best = self.better_of(passing);
         let units: Vec<_> = starts.into_iter().map(|it| it.unit).collect();
         let best = self.best_of(&units, best.as_ref()).or(best)?;
         let further = led(&best).filter(|it| self.passes(it));
@@ -262,13 +262,13 @@ impl Trials<'_> {
     /// The best of some zones that is better than one that is known.
     fn best_of(&self, units: &[Vec<f64>], known: Option<&Candidate>) -> Option<Candidate> {
         let least = known.map_or(0.0, |it| (1.0 + GAIN) * self.score(&it.design));
-        let found = units.par_iter().filter_map(|unit| {
+        let found = parallel::filter_map(units, |unit| {
             Some(Candidate {
                 unit: unit.clone(),
                 design: self.along(unit, least)?,
             })
         });
-        self.better_of(found.collect())
+        self.better_of(found)
     }
 
     /// The best of some designs, the first of several.
@@ -280,7 +280,7 @@ impl Trials<'_> {
     fn along(&self, unit: &[f64], least: f64) -> Option<Design> {
         let problem = self.problem;
         let cases = problem.in_cases();
-        let zoned = Zoned::find(problem, &cases, &Space(&problem.axes).values(unit))?;
+        let zoned = Zoned::find(problem, &cases, &problem.axis_values(unit))?;
         let window = zoned.window().ok()?;
         let design = |place: f64| self.known.design(problem, zoned.at(place)?);
         let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));
@@ -389,11 +389,7 @@ impl Trials<'_> {
 fn lattice(dimensions: usize) -> Vec<Vec<f64>> {
     let edge = (LATTICE as f64).powf(1.0 / dimensions.max(1) as f64) as usize;
     let count = edge.checked_pow(dimensions as u32).unwrap_or(0);
-    let digit = |index: usize, axis: usize| index / edge.pow(axis as u32) % edge;
-    (0..count)
-        .map(|index| {
-            let at = (0..dimensions).map(|axis| digit(index, axis) as f64 + 0.5);
-            at.map(|at| at / edge as f64).collect()
-        })
-        .collect()
+    let middle = |digit: usize| (digit as f64 + 0.5) / edge as f64;
+    let point = |index| digits(index, edge, dimensions).map(middle).collect();
+    (0..count).map(point).collect()
 }

@@ -5,7 +5,7 @@ use softstop::Machine;
 use super::Design;
 use super::operating_point::At;
 use super::problem::Problem;
-use super::space::{Axis, Space};
+use super::space::Axis;
 
 /// Central differences of values of the machine by each coordinate of the cube that is moved, one row for each: over a change to
 /// either side, in edges of the cube.
@@ -16,7 +16,7 @@ pub(super) fn machine_differences(
 ) -> Option<Vec<Vec<f64>>> {
     let axes = problem.axes.iter().enumerate();
     let free: Vec<(usize, &Axis)> = axes.filter(|(_, axis)| !axis.range.is_held()).collect();
-    let nominal = Space(&problem.axes).values(at.unit);
+    let nominal = problem.axis_values(at.unit);
     let row = |index: &usize| {
         let (index, axis) = free[*index];
         let aside = |by: f64| {

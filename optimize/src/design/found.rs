@@ -57,8 +57,9 @@ pub struct Ascents {
 
 impl Found {
     /// The best of some designs, and those that are its rivals.
-    pub(super) fn new(problem: &Problem, best: Robust, others: &[Candidate]) -> Self {
+    pub(super) fn new(problem: &Problem, passed: Passed, others: &[Candidate]) -> Self {
         let score = |it: &Design| problem.score(it);
+        let best = passed.robust;
         let Held { limits, residue } = held(problem, &best.candidate, &best.known);
         let mut all = vec![best.candidate.design];
         for other in others {
@@ -77,19 +78,10 @@ impl Found {
             limits,
             residue,
             rivals,
-            tried: Vec::new(),
-            resolution: None,
-            ascents: Ascents::default(),
-            sought_from: Vec::new(),
-        }
-    }
-
-    /// [`Found::new`] of a design that passes its trials.
-    pub(super) fn passed(problem: &Problem, passed: Passed, others: &[Candidate]) -> Self {
-        Self {
             tried: passed.tried,
             resolution: passed.resolution,
-            ..Self::new(problem, passed.robust, others)
+            ascents: Ascents::default(),
+            sought_from: Vec::new(),
         }
     }
 
@@ -159,7 +151,7 @@ impl Found {
         *self = Self {
             ascents: self.ascents,
             sought_from: std::mem::take(&mut self.sought_from),
-            ..Self::passed(problem, passed, &others)
+            ..Self::new(problem, passed, &others)
         };
         true
     }

@@ -1,8 +1,8 @@
 //! Trade-offs: the best designs with a bound of one figure that is moved step by step, each from the one before it
 //! (epsilon-constraint continuation).
 
-use rayon::prelude::*;
 use softstop::Parameter;
+use softstop_dynamics::parallel;
 
 use super::Design;
 use super::ascent::{ascend, ascend_from};
@@ -106,8 +106,7 @@ pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded>
             bounded(problem, figure, bound)
         }),
     };
-    let all = others.par_iter();
-    let tried: Vec<Tried> = all.filter_map(|it| tried(figure, it, known)).collect();
+    let tried: Vec<Tried> = parallel::filter_map(&others, |it| tried(figure, it, known));
     // Another drive amplitude is another problem.
     let score = |it: &Candidate| problem.score(&it.design);
     let is_above = |it: &Tried| {
@@ -117,12 +116,11 @@ pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded>
             && problem.has_box(&it.candidate.design).is_ok()
     };
     let (above, mut tried): (Vec<_>, Vec<_>) = tried.into_iter().partition(is_above);
-    let passing = above.into_par_iter().map(|it| it.candidate);
-    let passing = passing.filter(|it| {
-        let trials = problem.pass_trials(&it.design, &mut CriticalMachines::default());
-        trials.is_ok()
+    let passing = parallel::filter_map(&above, |Tried { candidate, .. }| {
+        let trials = problem.pass_trials(&candidate.design, &mut CriticalMachines::default());
+        trials.is_ok().then(|| candidate.clone())
     });
-    let better = best_by(passing.collect::<Vec<_>>(), score);
+    let better = best_by(passing, score);
     tried.push(Tried {
         place: own,
         is_moved: false,

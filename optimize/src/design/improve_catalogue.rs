@@ -3,8 +3,8 @@
 
 use std::collections::HashSet;
 
-use rayon::prelude::*;
 use softstop_console::interrupt;
+use softstop_dynamics::parallel;
 
 use super::ascent::{ascend, ascend_from};
 use super::coordinates::{Candidate, best_by};
@@ -69,13 +69,12 @@ impl<'a> CatalogueSearch<'a> {
             .filter(|places| self.tried.insert(places.clone()))
             .collect();
         let problem = self.problem;
-        let sought = new.par_iter().filter_map(|places| {
+        parallel::filter_map(&new, |places| {
             let unit = self.catalogues.unit(&candidate.unit, places);
             let warm = ascend_from(problem, known, (&unit, candidate.design.place));
             let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
             enforce(problem, &start, known.clone()).ok()
-        });
-        sought.collect()
+        })
     }
 }
 

@@ -55,12 +55,11 @@ use box_window::BoxWindow;
 use case::Case;
 use judge::{Judged, Met};
 use operating_point::OperatingPoint;
-use rayon::prelude::*;
 use softstop::internals::budget::SharedBudget;
 use softstop::{Dimension, Machine, MotionError, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::zone::{ZoneError, ZoneKind};
-use softstop_dynamics::{Orbit, Zone, zone};
+use softstop_dynamics::{Orbit, Zone, parallel, zone};
 use zoned::Zoned;
 
 pub use problem::Problem;
@@ -186,19 +185,12 @@ impl Problem {
     fn at_batch(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
         let cases = self.in_cases();
         let own = self.zoned(points);
-        let mut others: Vec<_> = cases
-            .iter()
-            .map(|case| case.zoned(points).into_iter())
-            .collect();
-        let with_cases = |own| {
-            let cases = others.iter_mut().filter_map(Iterator::next);
-            (own, cases.collect::<Vec<_>>())
-        };
-        let all: Vec<_> = own.into_iter().map(with_cases).collect();
+        let others: Vec<_> = cases.iter().map(|case| case.zoned(points)).collect();
         let fork = SharedBudget::default();
-        let designs = all.into_par_iter();
-        let designs = designs.map(|(own, cases)| fork.run_part(|| self.best_of(own, cases)));
-        let designs = designs.collect();
+        let designs = parallel::map_indices(points.len(), &|index| {
+            let cases = others.iter().map(|all| all[index].clone());
+            fork.run_part(|| self.best_of(own[index].clone(), cases))
+        });
         fork.charge_parts();
         designs
     }

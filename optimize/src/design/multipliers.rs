@@ -9,7 +9,7 @@ use super::figure::Sense;
 use super::local::{Local, local};
 use super::problem::Problem;
 use super::slope::{Slope, unit_row};
-use super::space::{Axis, End, Space};
+use super::space::{Axis, End};
 
 /// Value of a constraint, in its own unit, and distance from an end of a coordinate, at which a design stands there.
 const AT_LIMIT: f64 = 1e-6;
@@ -59,7 +59,7 @@ pub(super) fn held(problem: &Problem, it: &Candidate, known: &CriticalMachines) 
 
 /// Ends of catalogues at which a point of the unit cube stands.
 fn catalogue_ends(problem: &Problem, unit: &[f64]) -> Vec<Limit> {
-    let values = Space(&problem.axes).values(unit);
+    let values = problem.axis_values(unit);
     let axes = problem.axes.iter().zip(values);
     let axes = axes.filter(|(axis, _)| !axis.catalogue.is_empty());
     let end = |(axis, value): (&Axis, f64)| {

@@ -9,7 +9,7 @@ use super::Design;
 use super::box_window::BoxWindow;
 use super::judge::violation;
 use super::problem::Problem;
-use super::space::ROUNDING;
+use super::space::{Axis, ROUNDING};
 
 /// A point of the search: the cube's coordinates, those of them that are moved, and the place in the zone, if the
 /// frequency is not held.
@@ -34,6 +34,16 @@ pub struct OperatingPoint<'a> {
 }
 
 impl Problem {
+    /// The values of all axes at a point of the unit cube, which has no coordinates for those that are held.
+    pub fn axis_values(&self, unit: &[f64]) -> Vec<f64> {
+        let mut coordinates = unit.iter().copied();
+        let value = |axis: &Axis| match axis.range.is_held() {
+            true => axis.range.low,
+            false => axis.at(coordinates.next().unwrap_or(0.5)),
+        };
+        self.axes.iter().map(value).collect()
+    }
+
     /// The operating points of a design, that of the drawing first.
     pub fn operating_points<'a>(&'a self, design: &'a Design) -> Vec<OperatingPoint<'a>> {
         let own = OperatingPoint {
@@ -137,5 +147,29 @@ impl Design {
         for (own, value) in all.zip(values) {
             *own = value;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use softstop::{Machine, Parameter};
+
+    use super::Problem;
+    use crate::design::space::{Axis, Interval};
+
+    #[test]
+    fn held_axes_take_no_coordinate_and_ends_are_exact() {
+        let machine = Machine::named("unloaded").expect("the paper's machine");
+        let axes = [
+            (Parameter::StopStiffness, Interval::held(7.0)),
+            (Parameter::Clearance, Interval::new(0.1, 0.3)),
+        ]
+        .map(|(parameter, range)| Axis::new(parameter, range));
+        let problem = Problem::of(machine, axes.to_vec());
+        assert_eq!(problem.free_axes().count(), 1);
+        assert_eq!(problem.axis_values(&[0.0]), [7.0, 0.1]);
+        assert_eq!(problem.axis_values(&[1.0]), [7.0, 0.3]);
+        let outside = problem.axis_values(&[1.7]);
+        assert_eq!(outside, [7.0, 0.3], "outside the cube: pulled in");
     }
 }

@@ -3,8 +3,8 @@
 //! between designs, of more all but the first on a lattice. A problem whose solution follows from a looser one is not searched
 //! (Mavrotas 2009).
 
-use rayon::prelude::*;
 use serde::Serialize;
+use softstop_dynamics::parallel;
 
 use super::alternative::Alternative;
 use super::non_dominated::{NonDominated, non_dominated};
@@ -216,8 +216,7 @@ impl ParetoSearch<'_> {
         let (implied, posed): (Vec<_>, Vec<_>) =
             all.into_iter().partition(|it| self.is_implied(it));
         self.tally.implied += implied.len();
-        let found = posed.par_iter().map(|it| self.solve(it));
-        let found: Vec<_> = found.collect();
+        let found = parallel::map(&posed, |it| self.solve(it));
         for (posed, (problem, found)) in posed.into_iter().zip(found) {
             match found {
                 Ok(found) => self.keep(problem, posed, &found),

@@ -1,5 +1,7 @@
 //! The problems of a front: which objective is best within which bounds of the others.
 
+use super::space::digits;
+
 /// Bounds of each objective but the first between its ends, by how many objectives there are from three on: 35, 26 and 15
 /// problems.
 const LEVELS: [usize; 3] = [5, 2, 1];
@@ -73,15 +75,13 @@ impl Ranges {
     pub fn lattice(&self) -> Vec<Vec<Posed>> {
         let (others, levels) = (self.0.len() - 1, levels(self.0.len()));
         let count = (levels + 1).pow(others as u32);
-        let digit =
-            |number: usize, place: usize| number / (levels + 1).pow(place as u32) % (levels + 1);
         let bound = |index: usize, level: usize| {
             let [worst, best] = self.0[index];
             worst + (best - worst) * level as f64 / (levels + 1) as f64
         };
         let mut sums: Vec<Vec<Posed>> = vec![Vec::new(); others * levels + 1];
         for number in 1..count {
-            let own: Vec<usize> = (0..others).map(|place| digit(number, place)).collect();
+            let own: Vec<usize> = digits(number, levels + 1, others).collect();
             let bounds = own.iter().enumerate();
             let bounds =
                 bounds.map(|(place, level)| (*level > 0).then(|| bound(place + 1, *level)));

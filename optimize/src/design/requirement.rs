@@ -1,9 +1,11 @@
 //! What a task asks of a design.
 
+use serde::Deserialize;
 use softstop_dynamics::figure::{Figure, Sense};
 
 /// Which machines something is asked of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Scope {
     /// All within the tolerances.
     #[default]

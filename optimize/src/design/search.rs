@@ -9,14 +9,14 @@
 //! The survey sees the unit cube, whose boundary is part of its lattice: many optima stand there. `&Problem` is the cost
 //! function of every solver of `argmin` that needs no derivatives.
 
-use rayon::prelude::*;
 use softstop::internals::plain_number;
 use softstop_dynamics::monitor::OptionalMemory;
+use softstop_dynamics::parallel;
 use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};
 pub use super::check_trials::Resolution;
-use super::check_trials::check_finalists;
+use super::check_trials::{Passed, check_finalists};
 use super::conflict::stated;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
@@ -25,7 +25,7 @@ pub use super::found::{Ascents, Found};
 use super::incumbent::{Incumbent, Rank};
 use super::nearest_miss::nearest_miss;
 use super::robustify::{Robust, enforce_tolerance_box};
-use super::space::{Axis, Interval, Space};
+use super::space::{Axis, Interval};
 use super::survey::{Point, Survey};
 pub use super::survey::{Quiet, Unwatched, Watch};
 use super::trial::FULL;
@@ -146,11 +146,15 @@ pub fn search_from(
         return Err(SearchError::OverBudget);
     }
     if watch.stop() {
-        let best = incumbent.take();
-        let best = best.map(|candidate| Robust {
-            candidate,
-            known: CriticalMachines::default(),
-        });
+        let untried = |candidate| Passed {
+            robust: Robust {
+                candidate,
+                known: CriticalMachines::default(),
+            },
+            tried: Vec::new(),
+            resolution: None,
+        };
+        let best = incumbent.take().map(untried);
         let best = best.map(|it| Box::new(Found::new(problem, it, &[])));
         return Err(SearchError::Stopped(best));
     }
@@ -178,7 +182,7 @@ impl<'a> Search<'a> {
     /// None if the survey was stopped.
     fn new(survey: &'a Survey<'a>, settings: Settings, starts: &[(Vec<f64>, f64)]) -> Option<Self> {
         let problem = survey.problem;
-        let dimension = Space(&problem.axes).dimension();
+        let dimension = problem.free_axes().count();
         let share = dimension as u64 * settings.evaluations / SURVEY;
         let share = share.min(settings.evaluations / LARGEST_SURVEY);
         let points = survey.points(share as usize)?;
@@ -191,14 +195,14 @@ impl<'a> Search<'a> {
             }
         }
         let known = CriticalMachines::default();
-        let given = starts.par_iter().filter_map(|(unit, place)| {
+        let given = parallel::filter_map(starts, |(unit, place)| {
             survey.charged(|| ascend_from(problem, &known, (unit, *place)))
         });
         let mut search = Self {
             survey,
             surveyed: points.len(),
             nearest: points.into_iter().next()?,
-            tops: given.collect(),
+            tops: given,
             spare: apart,
             robust: Vec::new(),
             lack: None,
@@ -214,11 +218,9 @@ impl<'a> Search<'a> {
         let count = STARTS.min(self.spare.len());
         let points: Vec<Point> = self.spare.drain(..count).collect();
         let survey = self.survey;
-        let tops = points
-            .par_iter()
-            .map(|start| survey.charged(|| ascend(survey.problem, &start.unit)));
-        let tops: Vec<Option<Candidate>> = tops.collect();
-        self.tops.extend(tops.into_iter().flatten());
+        self.tops.extend(parallel::filter_map(&points, |start| {
+            survey.charged(|| ascend(survey.problem, &start.unit))
+        }));
         self.ascents.made += count;
         count > 0
     }
@@ -280,7 +282,7 @@ impl<'a> Search<'a> {
         Ok(Found {
             ascents: self.ascents,
             sought_from,
-            ..Found::passed(problem, passed, &others)
+            ..Found::new(problem, passed, &others)
         })
     }
 
@@ -291,7 +293,7 @@ impl<'a> Search<'a> {
     fn climb_from_nearest(&mut self) -> Result<(), SearchError> {
         let problem = self.survey.problem;
         self.nearest = nearest_miss(self.survey, self.nearest.clone());
-        let values = Space(&problem.axes).values(&self.nearest.unit);
+        let values = problem.axis_values(&self.nearest.unit);
         let design = problem.at(&values);
         let design = design.or_else(|_| problem.at_batch(&[values]).remove(0));
         let design = design.map_err(|it| self.no_design(it))?;
@@ -358,7 +360,7 @@ impl<'a> Search<'a> {
     fn no_design(&self, infeasible: Infeasible) -> SearchError {
         let problem = self.survey.problem;
         let unit = self.tops.first().map_or(&self.nearest.unit, |it| &it.unit);
-        let values = Space(&problem.axes).values(unit);
+        let values = problem.axis_values(unit);
         let values = problem.axes.iter().zip(values);
         let all = values.map(|(axis, value)| stated(&problem.machine, axis.parameter, value));
         let all = all.collect::<Vec<_>>().join(", ");

@@ -81,17 +81,8 @@ impl Verdict {
     }
 }
 
-/// A design with normal tolerances.
-pub(super) struct Shared {
-    pub found: Found,
-    /// Standard deviations that it keeps.
-    pub deviations: f64,
-    /// False if a search for fewer was interrupted.
-    pub is_settled: bool,
-}
-
 /// The design of [`search`], and the standard deviations that it keeps: the fewest with which the share that is counted on so
-/// many machines may be; those of the problem if nothing has a normal tolerance.
+/// many machines may be; those of the problem if nothing has a normal tolerance. False if a search for fewer was interrupted.
 ///
 /// # Errors
 /// As [`search`]; [`SearchError::NoDesign`] with the least share if none may be.
@@ -99,15 +90,11 @@ pub(super) fn search_with_share(
     problem: &Problem,
     (settings, machines): (Settings, usize),
     (watch, kept): (&dyn Watch, OptionalMemory<'_>),
-) -> Result<Shared, SearchError> {
+) -> Result<(Found, f64, bool), SearchError> {
     let mut outcome = search(problem, settings, watch, kept);
     let mut deviations = problem.deviations;
     if !problem.has_normal_tolerances() {
-        return outcome.map(|found| Shared {
-            found,
-            deviations,
-            is_settled: true,
-        });
+        return outcome.map(|found| (found, deviations, true));
     }
     let mut too_few = if problem.is_box_free() {
         0.0
@@ -183,10 +170,6 @@ pub(super) fn search_with_share(
             ),
         ),
     };
-    let best = best.map(|(found, deviations)| Shared {
-        found,
-        deviations,
-        is_settled,
-    });
+    let best = best.map(|(found, deviations)| (found, deviations, is_settled));
     best.ok_or(failure)
 }

@@ -1,9 +1,9 @@
 //! The design of a task with what stands beside it: the task without tolerances, and trade-offs. Each of them may meet a better
 //! design; the search goes on from that until none does. So none of them contradicts the design.
 
-use rayon::prelude::*;
 use softstop_console::interrupt;
 use softstop_dynamics::monitor::OptionalMemory;
+use softstop_dynamics::parallel;
 
 use super::coordinates::{Candidate, best_by};
 use super::figure::Figure;
@@ -11,7 +11,7 @@ use super::front::{Front, Traded, front};
 use super::pareto::Pareto;
 use super::requirement::Scope;
 use super::search::{Found, SearchError, Settings, Unwatched, Watch, search_from};
-use super::share::{Shared, search_with_share};
+use super::share::search_with_share;
 use super::{Design, Problem};
 
 /// What is traded for what is sought.
@@ -79,11 +79,8 @@ impl Solution {
         beside: Beside,
         (watch, kept): (&dyn Watch, OptionalMemory<'_>),
     ) -> Result<Self, SearchError> {
-        let Shared {
-            mut found,
-            deviations,
-            is_settled,
-        } = search_with_share(problem, (settings, beside.machines), (watch, kept))?;
+        let (mut found, deviations, is_settled) =
+            search_with_share(problem, (settings, beside.machines), (watch, kept))?;
         let problem = &problem.with_deviations(deviations);
         let relaxed_problem = problem.relaxed();
         let mut relaxed = None;
@@ -181,9 +178,9 @@ const ROUNDING: f64 = 1e-9;
 
 /// All trade-offs of a design.
 fn traded(problem: &Problem, found: &Found) -> Vec<Traded> {
-    let figures = TRADED.par_iter();
-    let figures = figures.filter(|figure| **figure != problem.objective.figure);
-    figures
-        .filter_map(|figure| front(problem, found, *figure))
-        .collect()
+    let sought = problem.objective.figure;
+    parallel::filter_map(&TRADED, |figure| {
+        let front = || front(problem, found, *figure);
+        (*figure != sought).then(front).flatten()
+    })
 }

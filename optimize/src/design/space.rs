@@ -1,6 +1,6 @@
 //! The box that is searched, and its image, the unit cube that the optimiser sees.
 
-use std::fmt;
+use std::{fmt, iter};
 
 use softstop::Parameter;
 
@@ -150,7 +150,7 @@ impl Axis {
     }
 
     /// The value at a coordinate in [0, 1]: in a catalogue, each has an equal part of it.
-    fn at(&self, unit: f64) -> f64 {
+    pub(super) fn at(&self, unit: f64) -> f64 {
         if let Some(decades) = self.decades().filter(|_| (0.0..1.0).contains(&unit)) {
             return self.range.low * (unit * decades).exp();
         }
@@ -161,25 +161,10 @@ impl Axis {
     }
 }
 
-/// The axes of the outer search, of which those that are held are taken out of the optimiser's sight.
-#[derive(Debug, Clone, Copy)]
-pub struct Space<'a>(pub &'a [Axis]);
-
-impl Space<'_> {
-    /// How many coordinates the optimiser has.
-    pub fn dimension(&self) -> usize {
-        self.0.iter().filter(|axis| !axis.range.is_held()).count()
-    }
-
-    /// The values of all axes at a point of the unit cube.
-    pub fn values(&self, unit: &[f64]) -> Vec<f64> {
-        let mut coordinates = unit.iter().copied();
-        let value = |axis: &Axis| match axis.range.is_held() {
-            true => axis.range.low,
-            false => axis.at(coordinates.next().unwrap_or(0.5)),
-        };
-        self.0.iter().map(value).collect()
-    }
+/// The first digits of a number to some base, the last of them first: its place along each axis of a lattice.
+pub(super) fn digits(number: usize, base: usize, count: usize) -> impl Iterator<Item = usize> {
+    let above = iter::successors(Some(number), move |rest| Some(rest / base));
+    above.take(count).map(move |rest| rest % base)
 }
 
 #[cfg(test)]
@@ -187,25 +172,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn held_axes_take_no_coordinate_and_ends_are_exact() {
-        let range = Interval::new(0.1, 0.3);
-        let axes = [
-            (Parameter::StopStiffness, Interval::held(7.0)),
-            (Parameter::Clearance, range),
-        ]
-        .map(|(parameter, range)| Axis::new(parameter, range));
-        let space = Space(&axes);
-        assert_eq!(space.dimension(), 1);
-        assert_eq!(space.values(&[0.0]), [7.0, 0.1]);
-        assert_eq!(space.values(&[1.0]), [7.0, 0.3]);
-        assert_eq!(
-            space.values(&[1.7]),
-            [7.0, 0.3],
-            "outside the cube: pulled in"
-        );
-        assert_eq!(axes[1].end_at(0.3), Some(End::Upper));
-        assert_eq!(axes[1].end_at(0.2), None);
-        assert_eq!(axes[0].end_at(7.0), None);
+    fn ends_are_exact() {
+        let axis = |range| Axis::new(Parameter::Clearance, range);
+        let searched = axis(Interval::new(0.1, 0.3));
+        assert_eq!(searched.end_at(0.3), Some(End::Upper));
+        assert_eq!(searched.end_at(0.2), None);
+        assert_eq!(axis(Interval::held(7.0)).end_at(7.0), None);
     }
 
     #[test]
@@ -224,12 +196,8 @@ mod tests {
 
     #[test]
     fn catalogues_hold_their_values_alone() {
-        let axes = [Axis::of_catalogue(
-            Parameter::StopStiffness,
-            vec![3.0, 5.0, 9.0],
-        )];
-        let space = Space(&axes);
-        let found = [-0.5, 0.0, 0.33, 0.34, 0.66, 0.67, 1.0].map(|unit| space.values(&[unit])[0]);
+        let axis = Axis::of_catalogue(Parameter::StopStiffness, vec![3.0, 5.0, 9.0]);
+        let found = [-0.5, 0.0, 0.33, 0.34, 0.66, 0.67, 1.0].map(|unit| axis.at(unit));
         assert_eq!(found, [3.0, 3.0, 3.0, 5.0, 5.0, 9.0, 9.0]);
     }
 }

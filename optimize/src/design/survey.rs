@@ -5,15 +5,15 @@ use std::slice::from_ref;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use argmin::core::{CostFunction, Error};
-use rayon::prelude::*;
 use softstop::internals::budget;
 use softstop_dynamics::monitor::{OptionalMemory, recall_or_compute};
+use softstop_dynamics::parallel;
 use softstop_dynamics::points::sobol_point;
 
 use super::coordinates::Candidate;
 use super::incumbent::{Incumbent, Rank};
 use super::problem::Problem;
-use super::space::Space;
+use super::space::digits;
 use super::{Design, Infeasible};
 
 /// Who watches a search, from several threads at once.
@@ -84,7 +84,7 @@ impl CostFunction for &Problem {
     type Output = f64;
 
     fn cost(&self, unit: &Vec<f64>) -> Result<f64, Error> {
-        let values = Space(&self.axes).values(unit);
+        let values = self.axis_values(unit);
         Ok(cost(self, &self.at_batch(&[values])[0]))
     }
 }
@@ -132,10 +132,10 @@ impl<'a> Survey<'a> {
 
     /// At most so many points of the unit cube, the best ones first; none if the survey is stopped.
     pub(super) fn points(&self, evaluations: usize) -> Option<Vec<Point>> {
-        let units = units(Space(&self.problem.axes).dimension(), evaluations);
-        let pieces = units.par_chunks(PIECE).enumerate();
-        let pieces = pieces.map(|(index, units)| self.piece(index, units));
-        let mut points = pieces.collect::<Option<Vec<_>>>()?.concat();
+        let units = units(self.problem.free_axes().count(), evaluations);
+        let pieces: Vec<_> = units.chunks(PIECE).enumerate().collect();
+        let pieces = parallel::map(&pieces, |(index, units)| self.piece(*index, units));
+        let mut points = pieces.into_iter().collect::<Option<Vec<_>>>()?.concat();
         points.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         Some(points)
     }
@@ -165,8 +165,8 @@ impl<'a> Survey<'a> {
 
     /// The cost of each point, and what its best motion has of what is sought.
     fn compute(&self, units: &[Vec<f64>]) -> Vec<(f64, Option<f64>)> {
-        let space = Space(&self.problem.axes);
-        let values: Vec<_> = units.iter().map(|unit| space.values(unit)).collect();
+        let values = units.iter().map(|unit| self.problem.axis_values(unit));
+        let values: Vec<_> = values.collect();
         let outcomes = self.problem.at_batch(&values).into_iter();
         let found = outcomes.zip(units).map(|(outcome, unit)| {
             let cost = cost(self.problem, &outcome);
@@ -209,11 +209,8 @@ fn units(dimension: usize, evaluations: usize) -> Vec<Vec<f64>> {
 
 /// The point of this number in a lattice with `edge` points along each axis.
 fn lattice_point(index: usize, edge: usize, dimension: usize) -> Vec<f64> {
-    let unit = |axis: usize| edge.checked_pow(axis as u32).unwrap_or(usize::MAX);
-    let digit = |axis: usize| index / unit(axis) % edge;
-    (0..dimension)
-        .map(|axis| digit(axis) as f64 / (edge - 1) as f64)
-        .collect()
+    let digits = digits(index, edge, dimension);
+    digits.map(|it| it as f64 / (edge - 1) as f64).collect()
 }
 
 #[cfg(test)]

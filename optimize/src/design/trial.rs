@@ -1,13 +1,13 @@
 //! Requirements that take many simulated motions: establishing certainty, run-up from rest, missing strips. They have
 //! no derivatives: `check_trials` seeks a design that meets them. Within tolerances they are made at the corners of the box.
 
-use rayon::prelude::*;
 use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::missing_strips::{StopWithoutStrip, survives_missing_strips};
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::parallel;
 use softstop_dynamics::run_up::RunUp;
 
 use super::conflict::{conflict, violated_within};
@@ -76,13 +76,9 @@ impl Problem {
         let is_asked = self.trials().any(|it| it.scope == Scope::Tolerances);
         let spread = self.spread(&design.machine).filter(|_| is_asked);
         spread.map_or_else(Vec::new, |spread| {
-            let all = corners(self.tolerances_in_use(), CORNERS).into_par_iter();
+            let all = corners(self.tolerances_in_use(), CORNERS);
             let neighbours = Neighbours::new(&spread, &design.orbit);
-            let all = all.map(|at: Vec<f64>| {
-                let orbit = neighbours.motion(&at);
-                (at, orbit)
-            });
-            all.collect()
+            parallel::map(&all, |at| (at.clone(), neighbours.motion(at)))
         })
     }
 
@@ -95,14 +91,13 @@ impl Problem {
         if requirement.scope == Scope::Drawing {
             return Ok(None);
         }
-        let each = corners.par_iter().map(|(at, orbit)| {
+        let each = parallel::try_map(corners, |(at, orbit)| {
             let orbit = orbit.as_ref();
             let met = orbit.map(|orbit| self.tried_of(requirement, orbit, FULL));
             let worst = met.transpose()?.map_or(f64::NAN, |met| met.judged());
             let at = at.clone();
-            Ok(Within { worst, at })
+            Ok::<_, OrbitError>(Within { worst, at })
         });
-        let each: Result<Vec<Within>, OrbitError> = each.collect();
         let lacking = |it: &Within| -requirement.violation(it.worst);
         let margin = |it: &Within| requirement.margin(it.worst);
         let order = |a: &Within, b: &Within| {

@@ -6,7 +6,6 @@ use softstop_dynamics::slopes::Border;
 
 use super::differences::{difference, machine_differences};
 use super::exact::Linearization;
-use super::space::Space;
 
 /// Changes by which parameters within the tolerances are differenced: of a coordinate of the search and of the frequency,
 /// relative, and of the share of a way. They are products of two of them at most.
@@ -37,7 +36,7 @@ impl Rows {
         let own = |machine| values(machine, frequency, coordinates);
         let mut by = machine_differences((problem, at), CHANGE, own)?;
         by.extend(at.place.map(|_| vec![0.0; Parameter::ALL.len()]));
-        let nominal = || problem.machine_at(&Space(&problem.axes).values(at.unit));
+        let nominal = || problem.machine_at(&problem.axis_values(at.unit));
         let sides = [1.0 - CHANGE, 1.0 + CHANGE];
         let [slower, faster] =
             sides.map(|factor| values(nominal(), factor * frequency, coordinates));

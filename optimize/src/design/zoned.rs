@@ -6,10 +6,11 @@ use softstop_dynamics::zone::ZoneError;
 
 use super::operating_point::At;
 use super::problem::Problem;
-use super::space::{Interval, Space};
+use super::space::Interval;
 use super::{Design, Infeasible, distance_from_zones, finite_or};
 
 /// A machine with its zone.
+#[derive(Clone)]
 pub(super) struct Zoned<'a> {
     pub problem: &'a Problem,
     pub machine: Machine,
@@ -22,7 +23,7 @@ impl Design {
     /// The motion at a point of the search, without the values of what is sought; none if there is no stable one.
     pub(super) fn find(problem: &Problem, at: &At<'_>) -> Option<Self> {
         let cases = problem.in_cases();
-        let zoned = Zoned::find(problem, &cases, &Space(&problem.axes).values(at.unit))?;
+        let zoned = Zoned::find(problem, &cases, &problem.axis_values(at.unit))?;
         let given = match &problem.drawing {
             Some(drawing) => Self::find(drawing, at)?.drive_frequency(),
             None => f64::NAN,

@@ -1,9 +1,9 @@
 //! The designs of a front, each looked at as the design of the report is.
 
-use rayon::prelude::*;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
+use softstop_dynamics::parallel;
 
 use super::met::met;
 use super::task::Job;
@@ -20,17 +20,20 @@ const SHOWING: f64 = 64.0;
 /// Judges the designs of a front anew, and leaves out what is not as required. The first is the design of the report, which
 /// states what is met.
 pub(super) fn judge(problem: &Problem, front: &mut Pareto) {
-    let all = front.points.par_iter_mut().enumerate();
-    let is_kept = all.map(|(index, it)| {
-        let Ok(met) = met(problem, &it.found) else {
-            return false;
-        };
+    let judged = parallel::map(&front.points, |it| {
+        let met = met(problem, &it.found).ok()?;
         let has_box = || problem.has_box(&it.found.design).is_ok();
         let is_whole = met.iter().all(Met::is_met) && has_box();
-        it.met = met;
-        is_whole || index == 0
+        Some((met, is_whole))
     });
-    let is_kept: Vec<bool> = is_kept.collect();
+    let mut is_kept = Vec::new();
+    for (index, (it, judged)) in front.points.iter_mut().zip(judged).enumerate() {
+        let is_whole = judged.map(|(met, is_whole)| {
+            it.met = met;
+            is_whole || index == 0
+        });
+        is_kept.push(is_whole == Some(true));
+    }
     if !interrupt::requested() {
         front.keep(&is_kept);
     }

@@ -20,17 +20,7 @@ use crate::design::requirement::{Requirement, Scope};
 struct Bounds {
     least: Option<f64>,
     most: Option<f64>,
-    at: Option<Where>,
-}
-
-/// Where a bound holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Where {
-    /// In the drawing's machine alone.
-    Drawing,
-    /// In all machines within the tolerances.
-    Tolerances,
+    at: Option<Scope>,
 }
 
 /// The key of the reserve.
@@ -85,7 +75,7 @@ pub(super) fn read_requirements(
             }
             _ => "must be a number, or { least = NUMBER, most = NUMBER, at = \"drawing\" }",
         };
-        let mut scope = Scope::Tolerances;
+        let mut scope = Scope::default();
         let (least, most) = match (value, figure.sense()) {
             (Value::Boolean(true), _) if figure == Figure::RunUp => (Some(1.0), None),
             (Value::Boolean(false), _) if figure == Figure::RunUp => (Some(0.0), None),
@@ -98,9 +88,7 @@ pub(super) fn read_requirements(
                     }
                 }
                 let bounds: Bounds = words.try_into().map_err(|_| wrong(what))?;
-                if bounds.at == Some(Where::Drawing) {
-                    scope = Scope::Drawing;
-                }
+                scope = bounds.at.unwrap_or_default();
                 (bounds.least, bounds.most)
             }
             (value, sense) => match (

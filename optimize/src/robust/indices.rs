@@ -4,9 +4,9 @@
 //! the share of all in which it has a part, by Jansen (1999). Both take points A and B in as many dimensions as there are
 //! inputs, and for each input the points of A with that input as in B.
 
-use rayon::prelude::*;
 use softstop_dynamics::monitor::Monitor;
-use softstop_dynamics::points::{SEQUENCE_LENGTH, parallel_blocks, sobol_point};
+use softstop_dynamics::parallel;
+use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
 
 /// An estimate and its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,9 +57,6 @@ impl Default for Effort {
     }
 }
 
-/// Points that one thread looks at in a row.
-const ROW: u64 = 16;
-
 /// The indices of all inputs, spread evenly between -1 and 1, for each of the outputs; none if one of these is not there,
 /// does not change at all, or if the watcher, told how many points are done, wants to stop.
 pub fn indices<const N: usize>(
@@ -73,17 +70,12 @@ pub fn indices<const N: usize>(
     let sequences = sequences.max(2);
     let mut estimates: [Vec<Vec<[f64; 2]>>; N] = std::array::from_fn(|_| Vec::new());
     for sequence in 0..sequences {
-        let first = (sequence * SEQUENCE_LENGTH) as u64;
-        let rows = parallel_blocks(first..first + points as u64, ROW).map(|indices| {
-            let point = |index| sobol_point(index as usize, 2 * dimensions);
-            let row = |index| Row::new(&point(index), &outputs);
-            indices.map(row).collect::<Option<Vec<_>>>()
+        let first = sequence * SEQUENCE_LENGTH;
+        let rows = parallel::try_map_indices(points, &|index| {
+            let point = sobol_point(first + index, 2 * dimensions);
+            Row::new(&point, &outputs).ok_or(())
         });
-        let rows: Vec<Row<N>> = rows
-            .collect::<Option<Vec<_>>>()?
-            .into_iter()
-            .flatten()
-            .collect();
+        let rows: Vec<Row<N>> = rows.ok()?;
         for (output, estimates) in estimates.iter_mut().enumerate() {
             estimates.push(shares(&rows, output, dimensions)?);
         }

@@ -3,10 +3,10 @@
 use std::mem::{Discriminant, discriminant};
 
 use crate::spread::{Reached, ToleranceBox, along, critical_normal, free_normal};
-use rayon::prelude::*;
 use softstop::MotionError;
 use softstop_dynamics::continuation::{Direction, Test};
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::parallel;
 use softstop_dynamics::points::sobol_point;
 use softstop_dynamics::zone::{Loss, grazing_frequencies, loss_of_stability};
 use softstop_dynamics::{BranchPoint, Orbit};
@@ -216,10 +216,7 @@ impl Search<'_> {
                 (None, None) => 0.0,
             }
         };
-        (0..here.direction.len())
-            .into_par_iter()
-            .map(part)
-            .collect()
+        parallel::map_indices(here.direction.len(), &part)
     }
 }
 

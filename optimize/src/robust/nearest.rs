@@ -7,10 +7,10 @@
 //! it ends where the tangent plane there leaves nothing to gain.
 
 use crate::spread::{ToleranceBox, along};
-use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::parallel;
 use softstop_dynamics::points::sobol_point;
 use softstop_dynamics::zone::Loss;
 
@@ -64,8 +64,8 @@ pub fn nearest(
             .then(|| search.meet(direction))
             .ok_or(OrbitError::Stopped)
     };
-    let met: Result<Vec<_>, _> = directions.par_iter().map(asked).collect();
-    let met = met?.into_iter().flatten().collect();
+    let met = parallel::try_map(&directions, asked)?;
+    let met = met.into_iter().flatten().collect();
     let mut found = search.of_motion(met, watcher)?;
     let free = directions
         .iter()
@@ -91,7 +91,7 @@ pub(crate) fn first_losses(spread: &dyn ToleranceBox, nominal: &Orbit) -> Vec<(V
         let loss = reached.loss.filter(is_loss)?;
         Some((end.iter().map(|part| reached.share * part).collect(), loss))
     };
-    ends.par_iter().filter_map(lost).collect()
+    parallel::filter_map(&ends, lost)
 }
 
 impl Search<'_> {

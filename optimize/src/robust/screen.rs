@@ -1,8 +1,8 @@
 //! Whether machines are as required: by polynomials fitted to some of them where these leave no doubt, else by the motion.
 
 use crate::spread::{MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, is_inside};
-use rayon::prelude::*;
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::parallel;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::Tolerances;
@@ -36,12 +36,11 @@ impl<'a> Screen<'a> {
             models: None,
         };
         if !required.is_empty() {
-            let values = places.par_iter();
-            let values = values.filter_map(|at| {
+            let values = parallel::filter_map(places, |at| {
                 let values = screen.values(at, &screen.guide.fate(at))?;
                 Some((at.clone(), values))
             });
-            let (kept, values): (Vec<Vec<f64>>, Vec<Vec<f64>>) = values.unzip();
+            let (kept, values): (Vec<Vec<f64>>, Vec<Vec<f64>>) = values.into_iter().unzip();
             // Polynomials of a few survivors tell nothing of what lies between them.
             let is_enough = 2 * kept.len() > places.len();
             screen.models = is_enough

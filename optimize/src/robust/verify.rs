@@ -4,11 +4,11 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::spread::{MotionOutcome, PolynomialModel, Settled, ToleranceBox};
-use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
-use softstop_dynamics::points::{SEQUENCE_LENGTH, parallel_blocks, sobol_point};
+use softstop_dynamics::parallel;
+use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
 use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;
@@ -18,7 +18,7 @@ use crate::design::requirement::Requirement;
 
 /// Machines between two looks at how many are lost, and those that one thread looks at in a row.
 const GROUP: usize = 1 << 14;
-const ROW: u64 = 1 << 8;
+const ROW: usize = 1 << 8;
 /// Lost machines that are told of one by one.
 const TOLD: usize = 8;
 
@@ -234,19 +234,20 @@ pub fn verify_in_cases(
     let done = AtomicU64::new(0);
     while verdict.machines < settings.machines && verdict.all_lost() < settings.enough {
         let machines = verdict.machines..(verdict.machines + GROUP).min(settings.machines);
-        let rows = parallel_blocks(machines.start as u64..machines.end as u64, ROW);
-        let fates = rows.map(|row| {
+        let rows: Vec<_> = machines.clone().step_by(ROW).collect();
+        let fates = parallel::try_map(&rows, |first| {
+            let row = *first..(first + ROW).min(machines.end);
             let fate = |index| {
-                let at = drawn(spread, settings.first + index as usize);
+                let at = drawn(spread, settings.first + index);
                 screens.iter().map(|it| it.judge(&at)).collect::<Vec<_>>()
             };
             let fates: Vec<_> = row.clone().map(fate).collect();
-            let looked = row.end - row.start;
+            let looked = row.len() as u64;
             let done = done.fetch_add(looked, Ordering::Relaxed) + looked;
             let go_on = watcher(done, settings.machines as u64);
-            go_on.is_continue().then_some(fates)
+            go_on.is_continue().then_some(fates).ok_or(())
         });
-        let Some(fates) = fates.collect::<Option<Vec<_>>>() else {
+        let Ok(fates) = fates else {
             break;
         };
         for (index, judged) in machines.zip(fates.into_iter().flatten()) {

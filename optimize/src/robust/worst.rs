@@ -1,11 +1,11 @@
 //! The worst machine between the bounds.
 
 use crate::spread::{ToleranceBox, in_coordinates, varied};
-use rayon::prelude::*;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::{Figure, Sense};
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
+use softstop_dynamics::parallel;
 use softstop_dynamics::slopes;
 
 use super::Tolerances;
@@ -52,10 +52,9 @@ pub fn worst(
     watcher: Monitor<'_>,
 ) -> Result<Vec<Worst>, OrbitError> {
     let neighbours = Neighbours::new(spread, nominal);
-    let corners = corners(spread.dimensions(), CORNERS).into_par_iter();
-    let corners = corners.filter_map(|at| Some((neighbours.motion(&at)?, at)));
-    let corners: Vec<(Orbit, Vec<f64>)> = corners.collect();
-    let each = figures.par_iter().map(|(figure, sense)| {
+    let corners = corners(spread.dimensions(), CORNERS);
+    let corners = parallel::filter_map(&corners, |at| Some((neighbours.motion(at)?, at.clone())));
+    parallel::try_map(figures, |(figure, sense)| {
         let search = Search {
             neighbours: &neighbours,
             figure: *figure,
@@ -64,8 +63,7 @@ pub fn worst(
             watcher,
         };
         search.run(&corners)
-    });
-    each.collect()
+    })
 }
 
 /// The derivatives of a figure of a motion by the coordinates; none if it has no exact ones.

@@ -1,10 +1,10 @@
 //! What becomes of any machine between the bounds.
 
 use nalgebra::Vector2;
-use rayon::prelude::*;
 
 use super::{PolynomialModel, Reached, Settled, ToleranceBox, along};
 use softstop_dynamics::orbit::{Orbit, OrbitError};
+use softstop_dynamics::parallel;
 use softstop_dynamics::zone::Loss;
 
 /// How many times farther from where they should be other motions may be than those that are known, and so far anyway, in
@@ -60,7 +60,7 @@ impl<'a> Surrogate<'a> {
             (reached.loss.is_none()).then(|| (place.clone(), state.into()))
         };
         let (first, others) = places.split_at(FIRST_MACHINES.min(places.len()));
-        let mut known: Vec<(Vec<f64>, [f64; 2])> = first.par_iter().filter_map(followed).collect();
+        let mut known: Vec<(Vec<f64>, [f64; 2])> = parallel::filter_map(first, followed);
         known.push((vec![0.0; spread.dimensions()], nominal.state().into()));
         let scales = nominal.scene.motion_scales();
         let guide = |known: &[(Vec<f64>, [f64; 2])]| {
@@ -83,7 +83,7 @@ impl<'a> Surrogate<'a> {
             MotionOutcome::Kept(settled) => Some((place.clone(), settled.state.into())),
             MotionOutcome::Lost { .. } => None,
         };
-        known.par_extend(others.par_iter().filter_map(led));
+        known.extend(parallel::filter_map(others, led));
         guide(&known)
     }
 

@@ -2,7 +2,6 @@
 
 use std::cell::OnceCell;
 
-use rayon::prelude::*;
 use softstop::internals::budget;
 use softstop::{Machine, Scene};
 use softstop_console::column::Unit;
@@ -10,6 +9,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_dynamics::continuation::{Direction, Test};
 use softstop_dynamics::figure::Figure;
+use softstop_dynamics::parallel;
 use softstop_dynamics::settled::SettledMotion;
 use softstop_dynamics::zone::{
     free_amplitude, grazing_frequencies, hysteresis_batch, loss_of_stability,
@@ -31,14 +31,15 @@ impl Study {
     /// [`Failure::Interrupted`].
     pub fn evaluate(&self, block: u64) -> Result<Vec<f64>, Failure> {
         let machines: Vec<Machine> = self.block(block).map(|it| self.machine_at(it)).collect();
-        let told = machines.par_chunks(TOGETHER).map(|machines| {
+        let groups: Vec<&[Machine]> = machines.chunks(TOGETHER).collect();
+        let told = parallel::try_map(&groups, |machines| {
             let mut told = Vec::with_capacity(machines.len() * self.width());
             for look in self.look(machines)? {
                 told.extend(self.row(look.as_ref()));
             }
-            Ok(told)
+            Ok::<_, Failure>(told)
         });
-        let rows = told.collect::<Result<Vec<_>, Failure>>()?.concat();
+        let rows = told?.concat();
         if interrupt::requested() {
             return Err(Failure::Interrupted);
         }

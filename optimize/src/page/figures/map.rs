@@ -1,13 +1,12 @@
 //! The before-impact velocity over the drive's frequency and another parameter.
 
-use rayon::prelude::*;
 use softstop::{Dimension, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::around;
 use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
-use softstop_dynamics::{Zone, zone};
+use softstop_dynamics::{Zone, parallel, zone};
 
 use super::{half_width, velocity};
 use crate::design::{Design, Problem, space};
@@ -67,13 +66,12 @@ fn map(
     };
     let scenes: Vec<Scene> = (0..CELLS.1).map(at).collect();
     let zones = zone::find_zones(problem.zone, &scenes, &interrupt::watch);
-    let rows = zones.into_par_iter().map(|zone| {
-        let zone = zone.ok()?;
-        let motions = Motions::of(&zone);
-        let ends = [placed::grazing(&zone), placed::fold(&zone), motions.flip];
+    let rows = parallel::map(&zones, |zone| {
+        let zone = zone.as_ref().ok()?;
+        let motions = Motions::of(zone);
+        let ends = [placed::grazing(zone), placed::fold(zone), motions.flip];
         Some((ends, motions))
     });
-    let rows: Vec<Option<([Option<f64>; 3], Motions)>> = rows.collect();
     let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
     let boundaries = BOUNDARIES.iter().enumerate();
     let curves = boundaries.flat_map(|(index, (name, stroke))| {

@@ -2,13 +2,12 @@
 
 use std::slice;
 
-use rayon::prelude::*;
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_draw::{Axis, Layer, Mark, Panel, style};
 use softstop_dynamics::continuation::Test;
 use softstop_dynamics::zone::ZoneEnd;
-use softstop_dynamics::{Zone, zone};
+use softstop_dynamics::{Zone, parallel, zone};
 
 use super::{half_width, velocity};
 use crate::design::{Design, Problem};
@@ -163,8 +162,7 @@ fn bands(problem: &Problem, machines: &[Machine]) -> Vec<Vec<[f64; 3]>> {
     let (Ok(zones), Some(machine)) = (zones, machines.first()) else {
         return Vec::new();
     };
-    let all = zones.par_iter().map(|it| Motions::of(it).refined(it));
-    let all: Vec<Motions> = all.collect();
+    let all = parallel::map(&zones, |it| Motions::of(it).refined(it));
     let ends = || all.iter().map(Motions::range);
     let low = ends().map(|it| it[0]).fold(0.0, f64::max);
     let high = ends().map(|it| it[1]).fold(f64::INFINITY, f64::min);

@@ -1,0 +1,96 @@
+//! Work on all threads whose outcome does not depend on them. An iterator of `rayon` is compiled anew wherever it stands, some
+//! 2,000 lines of LLVM each; here the work is a `dyn Fn` and the threads are shared out in one place.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+/// Does work with each number below `count`.
+fn for_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
+    (0..count).into_par_iter().for_each(work);
+}
+
+/// The values of a function of the numbers below `count`, in order.
+pub fn map_indices<T: Send + Sync>(count: usize, of: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+    let mut values: Vec<OnceLock<T>> = Vec::new();
+    values.resize_with(count, OnceLock::new);
+    for_each(count, &|index| {
+        values[index].get_or_init(|| of(index));
+    });
+    let mut found = Vec::with_capacity(count);
+    for value in values {
+        found.extend(value.into_inner());
+    }
+    found
+}
+
+/// The values of a function of some elements, in order.
+pub fn map<A: Sync, T: Send + Sync>(all: &[A], of: impl Fn(&A) -> T + Sync) -> Vec<T> {
+    map_indices(all.len(), &|index| of(&all[index]))
+}
+
+/// The values that a function has of some elements, in order, without those that have none.
+pub fn filter_map<A: Sync, T: Send + Sync>(
+    all: &[A],
+    of: impl Fn(&A) -> Option<T> + Sync,
+) -> Vec<T> {
+    let mut found = Vec::new();
+    for value in map(all, of) {
+        found.extend(value);
+    }
+    found
+}
+
+/// The values of a function of the numbers below `count`, in order; after a failure no others are begun.
+///
+/// # Errors
+/// The failure at the least number that was begun.
+pub fn try_map_indices<T: Send + Sync, E: Send + Sync>(
+    count: usize,
+    of: &(dyn Fn(usize) -> Result<T, E> + Sync),
+) -> Result<Vec<T>, E> {
+    let has_failed = AtomicBool::new(false);
+    let values = map_indices(count, &|index| {
+        if has_failed.load(Ordering::Relaxed) {
+            return None;
+        }
+        let value = of(index);
+        has_failed.fetch_or(value.is_err(), Ordering::Relaxed);
+        Some(value)
+    });
+    let mut found = Vec::with_capacity(count);
+    for value in values.into_iter().flatten() {
+        found.push(value?);
+    }
+    Ok(found)
+}
+
+/// The values of a function of some elements, in order; after a failure no others are begun.
+///
+/// # Errors
+/// The failure at the least element that was begun.
+pub fn try_map<A: Sync, T: Send + Sync, E: Send + Sync>(
+    all: &[A],
+    of: impl Fn(&A) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
+    try_map_indices(all.len(), &|index| of(&all[index]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{filter_map, map, try_map};
+
+    #[test]
+    fn values_come_in_order_and_the_first_failure_ends_it() {
+        let all: Vec<usize> = (0..100).collect();
+        assert_eq!(map(&all, |it| *it), all);
+        let even = filter_map(&all, |it| it.is_multiple_of(2).then_some(*it));
+        assert_eq!(even, all.iter().copied().step_by(2).collect::<Vec<_>>());
+        assert_eq!(try_map(&all, |it| Ok::<_, ()>(*it)), Ok(all.clone()));
+        assert_eq!(
+            try_map(&all, |it| if *it == 50 { Err(50) } else { Ok(()) }),
+            Err(50)
+        );
+    }
+}
