@@ -11,6 +11,7 @@ pub mod design;
 pub mod fmu;
 mod limits;
 pub mod optimize;
+mod order;
 pub mod page;
 mod pareto;
 mod placed;

@@ -2,6 +2,7 @@
 //! the box that brings it nearest, which the signs of its normal name (Moennigmann and Marquardt 2002). What else is lost
 //! within the box, [`robustify`](super::robustify) looks for.
 
+use crate::order::sort_rising;
 use crate::spread::{ToleranceBox, critical_normal, free_normal};
 use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::Test;
@@ -165,7 +166,7 @@ impl Corners<'_> {
             .collect();
         let sum: f64 = small.iter().map(|index| normal[*index].abs()).sum();
         small.retain(|index| normal[*index].abs() < SMALL * sum && normal[*index] != 0.0);
-        small.sort_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs()));
+        sort_rising(&mut small, |index| normal[*index].abs());
         small.truncate(DOUBTFUL);
         small
     }

@@ -18,6 +18,7 @@ use super::space::digits;
 use super::trial::FULL;
 use super::zoned::Zoned;
 use super::{Design, Infeasible};
+use crate::order::{sort_falling, sort_rising};
 
 /// Zones of the lattice, at most.
 const LATTICE: usize = 32;
@@ -167,7 +168,7 @@ pub(super) fn check_finalists(
             }
         }
     }
-    passing.sort_by(|a, b| score(&b.robust).total_cmp(&score(&a.robust)));
+    sort_falling(&mut passing, |it| score(&it.robust));
     match passing.is_empty() {
         true => {
             let first = failed.into_iter().next();
@@ -292,7 +293,7 @@ impl Trials<'_> {
         let mut all: Vec<Design> = crossings.collect();
         let better = sampled.into_iter().flatten();
         all.extend(better.filter(|it| self.score(it) > least));
-        all.sort_by(|a, b| self.score(a).total_cmp(&self.score(b)));
+        sort_rising(&mut all, |it| self.score(it));
         let last = all.len().checked_sub(1)?;
         // The least of them pass most easily, but what is counted scatters; the best ends the search.
         let spread: Vec<usize> = match least > 0.0 {

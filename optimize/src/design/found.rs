@@ -11,6 +11,7 @@ use super::judge::Met;
 use super::multipliers::{Held, held};
 use super::robustify::{Robust, enforce_tolerance_box, keep_as_is};
 use super::{Design, Problem};
+use crate::order::sort_falling;
 
 /// Share of the best score from which another design is a rival.
 pub(super) const RIVAL: f64 = 0.97;
@@ -133,7 +134,7 @@ impl Found {
         let least = (1.0 + gain) * problem.score(&self.design);
         let mut finalists: Vec<Robust> = robust.filter(|it| score(it) > least).collect();
         finalists.reverse();
-        finalists.sort_by(|a, b| score(b).total_cmp(&score(a)));
+        sort_falling(&mut finalists, score);
         finalists.dedup_by(|it, known| it.candidate.is_same(&known.candidate));
         let passing = check_finalists(problem, finalists, least, &mut self.sought_from);
         let passing = passing.ok().and_then(|all| all.into_iter().next());

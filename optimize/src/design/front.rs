@@ -17,6 +17,7 @@ use super::requirement::{Requirement, Scope, sign};
 use super::robustify::enforce;
 use super::search::Found;
 use super::trial::{ROUGH, STARTS};
+use crate::order::sort_rising;
 
 /// What is given up for more of what is sought.
 #[derive(Debug, Clone)]
@@ -153,7 +154,7 @@ fn undominated<'a>(problem: &Problem, figure: Figure, tried: &'a [Tried]) -> Vec
     let goods = places.map(|(value, sought)| vec![sign * value, problem.objective.score(sought)]);
     let members = non_dominated(&Vec::from_iter(goods)).members;
     let mut best: Vec<&Tried> = members.into_iter().map(|index| &tried[index]).collect();
-    best.sort_by(|a, b| a.place.0.total_cmp(&b.place.0));
+    sort_rising(&mut best, |it| it.place.0);
     best
 }
 

@@ -1,5 +1,7 @@
 //! Which of some points no other one dominates.
 
+use crate::order::sort_falling;
+
 /// Difference, in units of the range of each coordinate, below which two points are one.
 const SAME: f64 = 1e-6;
 
@@ -18,7 +20,7 @@ pub(super) fn non_dominated(points: &[Vec<f64>]) -> NonDominated {
     let sum = |index: &usize| scaled[*index].iter().sum::<f64>();
     let mut order: Vec<usize> = (0..points.len()).collect();
     // What dominates a point has the larger sum.
-    order.sort_by(|a, b| sum(b).total_cmp(&sum(a)));
+    sort_falling(&mut order, sum);
     let mut members: Vec<usize> = Vec::new();
     for index in order {
         let covers = |other: &usize| {
@@ -29,7 +31,7 @@ pub(super) fn non_dominated(points: &[Vec<f64>]) -> NonDominated {
             members.push(index);
         }
     }
-    members.sort_by(|a, b| points[*b][0].total_cmp(&points[*a][0]));
+    sort_falling(&mut members, |index| points[*index][0]);
     let own: Vec<Vec<f64>> = members.iter().map(|index| points[*index].clone()).collect();
     let distance = |at: &Vec<f64>| at.iter().map(|it| (1.0 - it).powi(2)).sum::<f64>();
     let distances = self::scaled(&own);

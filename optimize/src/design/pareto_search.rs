@@ -11,6 +11,7 @@ use super::non_dominated::{NonDominated, non_dominated};
 use super::posed::{Posed, Ranges, levels};
 use super::problem::{Objective, Problem};
 use super::search::{Found, LEAST_EVALUATIONS, Quiet, SearchError, Settings, Watch, search_from};
+use crate::order::sort_rising;
 
 /// Problems of two objectives, and those of them that are solved at once.
 const PROBLEMS: usize = 14;
@@ -286,7 +287,7 @@ impl ParetoSearch<'_> {
             parts.map(|part| part * part).sum::<f64>()
         };
         let mut near: Vec<&Solved> = self.solved.iter().collect();
-        near.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        sort_rising(&mut near, |it| distance(it));
         let starts = near.iter().take(NEIGHBOURS);
         let starts: Vec<(Vec<f64>, f64)> = starts.map(|it| it.alternative.found.start()).collect();
         let settings = Settings {

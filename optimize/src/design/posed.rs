@@ -1,6 +1,7 @@
 //! The problems of a front: which objective is best within which bounds of the others.
 
 use super::space::digits;
+use crate::order::{sort_falling, sort_rising};
 
 /// Bounds of each objective but the first between its ends, by how many objectives there are from three on: 35, 26 and 15
 /// problems.
@@ -47,7 +48,7 @@ impl Ranges {
 
     /// Problems in the middle of the gaps between designs of two objectives, the widest first, but for those that were posed.
     pub fn widest_gaps(&self, mut points: Vec<[f64; 2]>, posed: &[Posed]) -> Vec<Posed> {
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        sort_rising(&mut points, |it| it[0]);
         let mut gaps: Vec<(f64, Posed)> = Vec::new();
         for pair in points.windows(2) {
             let widths = [0, 1].map(|index| {
@@ -67,7 +68,7 @@ impl Ranges {
                     .map(|it| (width, it)),
             );
         }
-        gaps.sort_by(|a, b| b.0.total_cmp(&a.0));
+        sort_falling(&mut gaps, |it| it.0);
         gaps.into_iter().map(|(_, it)| it).collect()
     }
 

@@ -14,6 +14,7 @@ use super::figure::{Figure, Sense};
 use super::multipliers::held;
 use super::problem::Problem;
 use super::{Design, Infeasible};
+use crate::order::sort_rising;
 use crate::robust::{Manifold, Norm, Tolerances, Worst, first_losses, nearest, worst};
 
 /// How often a design is moved.
@@ -283,7 +284,7 @@ fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<Lost>, Infeasible> {
     if all.is_empty() {
         all = losses_within(first_losses(spread, &design.orbit));
     }
-    all.sort_by(|a, b| a.share.total_cmp(&b.share));
+    sort_rising(&mut all, |it| it.share);
     all.truncate(MOST);
     Ok(all)
 }

@@ -30,6 +30,7 @@ use super::survey::{Point, Survey};
 pub use super::survey::{Quiet, Unwatched, Watch};
 use super::trial::FULL;
 use super::{Infeasible, Problem};
+use crate::order::sort_falling;
 
 /// Fewest zones a search makes sense with.
 pub const LEAST_EVALUATIONS: u64 = 100;
@@ -105,7 +106,7 @@ fn widest(problem: &Problem) -> Option<String> {
     let axes = problem.axes.iter();
     let wide = axes.filter_map(|axis| Some((axis, axis.decades()?)));
     let mut wide: Vec<(&Axis, f64)> = wide.collect();
-    wide.sort_by(|a, b| b.1.total_cmp(&a.1));
+    sort_falling(&mut wide, |it| it.1);
     let stated = |(axis, _): &(&Axis, f64)| {
         let Interval { low, high } = axis.range;
         let name = problem.machine.name(axis.parameter);
@@ -232,8 +233,7 @@ impl<'a> Search<'a> {
     /// Puts the best tops first, each but once.
     fn sort(&mut self) {
         let problem = self.survey.problem;
-        let score = |it: &Candidate| problem.score(&it.design);
-        self.tops.sort_by(|a, b| score(b).total_cmp(&score(a)));
+        sort_falling(&mut self.tops, |it| problem.score(&it.design));
         self.tops.dedup_by(|it, known| it.is_same(known));
     }
 
@@ -330,8 +330,7 @@ impl<'a> Search<'a> {
             self.sort();
         }
         let problem = self.survey.problem;
-        let score = |it: &Robust| problem.score(&it.candidate.design);
-        self.robust.sort_by(|a, b| score(b).total_cmp(&score(a)));
+        sort_falling(&mut self.robust, |it| problem.score(&it.candidate.design));
         self.robust
             .dedup_by(|it, known| it.candidate.is_same(&known.candidate));
     }

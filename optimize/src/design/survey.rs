@@ -15,6 +15,7 @@ use super::incumbent::{Incumbent, Rank};
 use super::problem::Problem;
 use super::space::digits;
 use super::{Design, Infeasible};
+use crate::order::sort_rising;
 
 /// Who watches a search, from several threads at once.
 pub trait Watch: Sync {
@@ -136,7 +137,7 @@ impl<'a> Survey<'a> {
         let pieces: Vec<_> = units.chunks(PIECE).enumerate().collect();
         let pieces = parallel::map(&pieces, |(index, units)| self.piece(*index, units));
         let mut points = pieces.into_iter().collect::<Option<Vec<_>>>()?.concat();
-        points.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        sort_rising(&mut points, |it| it.cost);
         Some(points)
     }
 

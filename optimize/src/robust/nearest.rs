@@ -6,6 +6,7 @@
 //! corner of the box that lies farthest along n, or n itself in the ball. A step towards it is shortened until t falls;
 //! it ends where the tangent plane there leaves nothing to gain.
 
+use crate::order::sort_rising;
 use crate::spread::{ToleranceBox, along};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
@@ -73,7 +74,7 @@ pub fn nearest(
     if let Some(start) = free.min_by(|a, b| a.share.total_cmp(&b.share)) {
         found.push(search.descend(start, &mut Vec::new(), watcher)?);
     }
-    found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    sort_rising(&mut found, |it| it.distance);
     Ok(found)
 }
 

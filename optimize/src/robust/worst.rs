@@ -1,5 +1,6 @@
 //! The worst machine between the bounds.
 
+use crate::order::sort_rising;
 use crate::spread::{ToleranceBox, in_coordinates, varied};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::{Figure, Sense};
@@ -93,7 +94,7 @@ impl Search<'_> {
             .iter()
             .filter_map(|(orbit, at)| Some((self.signed(orbit)?, orbit, at)));
         let mut starts: Vec<(f64, &Orbit, &Vec<f64>)> = tried.collect();
-        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_rising(&mut starts, |it| it.0);
         for (_, orbit, at) in starts.into_iter().take(STARTS) {
             let Some(start) = self.point(at.clone(), orbit.clone()) else {
                 continue;

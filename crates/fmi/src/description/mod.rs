@@ -106,11 +106,14 @@ pub(crate) fn element<'a, V: Into<Cow<'a, str>>>(
     attributes: impl IntoIterator<Item = (&'static str, V)>,
     content: impl FnOnce(&mut Xml) -> io::Result<()>,
 ) -> io::Result<()> {
-    let attributes = attributes.into_iter();
-    xml.create_element(name)
-        .with_attributes(attributes.map(|(name, value)| (name, value.into())))
-        .write_inner_content(content)?;
-    Ok(())
+    let mut content = Some(content);
+    let mut content = |xml: &mut Xml| content.take().map_or(Ok(()), |content| content(xml));
+    write_element(
+        xml,
+        name,
+        collect_attributes(attributes),
+        Some(&mut content),
+    )
 }
 
 pub(crate) fn empty<'a, V: Into<Cow<'a, str>>>(
@@ -118,10 +121,33 @@ pub(crate) fn empty<'a, V: Into<Cow<'a, str>>>(
     name: &'static str,
     attributes: impl IntoIterator<Item = (&'static str, V)>,
 ) -> io::Result<()> {
+    write_element(xml, name, collect_attributes(attributes), None)
+}
+
+/// Attributes as they are written.
+type Written<'a> = Vec<(&'static str, Cow<'a, str>)>;
+
+fn collect_attributes<'a, V: Into<Cow<'a, str>>>(
+    attributes: impl IntoIterator<Item = (&'static str, V)>,
+) -> Written<'a> {
     let attributes = attributes.into_iter();
-    xml.create_element(name)
-        .with_attributes(attributes.map(|(name, value)| (name, value.into())))
-        .write_empty()?;
+    attributes
+        .map(|(name, value)| (name, value.into()))
+        .collect()
+}
+
+/// Writes an element with its content, or without one. What is generic about it is left to its callers: there are many.
+fn write_element(
+    xml: &mut Xml,
+    name: &'static str,
+    attributes: Written<'_>,
+    content: Option<&mut dyn FnMut(&mut Xml) -> io::Result<()>>,
+) -> io::Result<()> {
+    let element = xml.create_element(name).with_attributes(attributes);
+    match content {
+        Some(content) => element.write_inner_content(content)?,
+        None => element.write_empty()?,
+    };
     Ok(())
 }
 

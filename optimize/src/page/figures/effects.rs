@@ -4,6 +4,7 @@ use softstop::{Dimension, Machine};
 use softstop_draw::{Align, Axis, Layer, Panel, Stroke, style};
 
 use crate::optimize::study::Study;
+use crate::order::sort_falling;
 use crate::page::figure::{Figure, HALF, Section};
 use crate::page::words::quantity;
 
@@ -23,7 +24,7 @@ pub(super) fn effects(machine: &Machine, study: &Study) -> Figure {
         (machine.meaning_of(tolerance.parameter).0, effect)
     });
     let mut effects: Vec<(&str, f64)> = effects.filter(|it| it.1.is_finite()).collect();
-    effects.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+    sort_falling(&mut effects, |it| it.1.abs());
     let largest = effects.first().map_or(1.0, |it| it.1.abs());
     let end = ROOM * largest.max(f64::MIN_POSITIVE);
     let bars = effects
