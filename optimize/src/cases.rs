@@ -7,8 +7,8 @@ use softstop_console::record::Record;
 use crate::design::case::{Case, DRAWING};
 use crate::design::conflict::stated;
 use crate::design::{Design, Problem};
+use crate::limits::end_name;
 use crate::optimize::study::Study;
-use crate::zone_end::end_name;
 
 /// A design in one operating point.
 struct Row<'a> {

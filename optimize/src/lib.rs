@@ -22,7 +22,6 @@ pub mod spread;
 mod started;
 mod tolerated;
 mod verdict;
-mod zone_end;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -1,7 +1,10 @@
-//! What holds a design back.
+//! What holds a design back, and what the ends of zones are called.
 
 use serde::Serialize;
 use softstop::Parameter;
+use softstop_dynamics::continuation::Test;
+use softstop_dynamics::zone::ZoneEnd;
+use softstop_explore::zone::lost_by;
 
 use crate::design::conflict::bound;
 use crate::design::constraint::Limit as Active;
@@ -9,7 +12,6 @@ use crate::design::figure::Figure;
 use crate::design::search::Found;
 use crate::design::space::End;
 use crate::design::{Design, Problem};
-use crate::zone_end::end_name;
 
 /// One thing that does.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -103,4 +105,13 @@ fn at_margin(end: &str) -> Limit {
     let key = format!("margin from {end}");
     let words = format!("the {key}");
     Limit::new(key, words)
+}
+
+/// What ends a zone, in words.
+pub(crate) fn end_name(end: &ZoneEnd) -> String {
+    match &end.loss {
+        _ if end.is_critical(Test::Fold) => "s_SN".to_owned(),
+        _ if end.is_critical(Test::Flip) => "s_PD".to_owned(),
+        loss => lost_by(loss),
+    }
 }

@@ -9,8 +9,7 @@ use softstop_dynamics::continuation::Test;
 use softstop_dynamics::zone::ZoneEnd;
 
 use crate::design::{Design, Problem};
-use crate::limits::Limit;
-use crate::zone_end::end_name;
+use crate::limits::{Limit, end_name};
 
 type Placed<'a> = (&'a Problem, &'a Design, &'a [Limit]);
 

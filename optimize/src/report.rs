@@ -92,7 +92,13 @@ pub struct OptimizeReport {
     /// Where it stands, in sentences.
     #[serde(skip)]
     stands: String,
-    /// Its pictures.
+    /// The picture of the velocity over the drive's frequency.
+    #[serde(skip)]
+    pub response: Option<Figure>,
+    /// That of the designs among which one can choose.
+    #[serde(skip)]
+    pub front: Option<Figure>,
+    /// The other pictures, if there is a page.
     #[serde(skip)]
     pub figures: Vec<Figure>,
     /// The texts that state the task.
@@ -120,7 +126,11 @@ impl OptimizeReport {
         };
         let reference = |it: &Reference| (it.name, one(&it.machine, &it.orbit, gain(design, it)));
         let place = Record::of(&placed::columns(), &(problem, design, &limits));
-        let met = outcome.met.iter();
+        let mut met = outcome.met.clone();
+        if let Some(study) = study {
+            study.note_violating(problem, &mut met);
+        }
+        let met = met.iter();
         let met = met.map(|it| verdict::required(problem, machine, it));
         let rivals = found.rivals.iter().map(|it| verdict::rival(problem, it));
         let fronts = solution
@@ -156,9 +166,17 @@ impl OptimizeReport {
             machine: machine.clone(),
             heading: head(problem),
             stands: placed::sentences(design),
+            response: None,
+            front: None,
             figures: Vec::new(),
             sources: Vec::new(),
         }
+    }
+
+    /// The pictures of the page.
+    pub(crate) fn pictures(&self) -> impl Iterator<Item = &Figure> + Clone {
+        let others = self.figures.iter();
+        others.chain(&self.front).chain(&self.response)
     }
 
     /// The tables of the report and of its pictures.
@@ -172,7 +190,7 @@ impl OptimizeReport {
         ];
         let cases = Sheet::of_records("cases", &self.cases);
         let cases = (!self.cases.is_empty()).then_some(cases);
-        let figures = self.figures.iter().flat_map(|it| it.sheets.clone());
+        let figures = self.pictures().flat_map(|it| it.sheets.clone());
         tables.into_iter().chain(cases).chain(figures).collect()
     }
 

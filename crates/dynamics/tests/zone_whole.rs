@@ -173,3 +173,58 @@ fn a_rigid_stop_behind_the_other_ends_a_zone() -> Result<(), Box<dyn std::error:
     }
     Ok(())
 }
+
+/// A wall that takes all velocity lets the mass go from rest: its zone and stretches are the limit of small restitutions.
+#[test]
+fn a_wall_without_rebound_has_the_stretches_of_one_with_little() {
+    for (frequency, clearance, damping) in [(1.0, 10.0, 0.04), (0.9, 0.5, 0.02), (1.1, 2.0, 0.1)] {
+        let scene = |restitution| {
+            let mut scene = Scene {
+                clearance,
+                damping,
+                ..Scene::of_stop(Stop::Rigid { restitution })
+            };
+            scene.excitation.frequency = frequency;
+            scene
+        };
+        let [dead, lively] = [0.0, 1e-9].map(|restitution| {
+            let scene = scene(restitution);
+            (
+                stable_ranges(&scene).expect("a machine"),
+                hysteresis(&scene),
+            )
+        });
+        assert!(!dead.0.is_empty(), "clearance {clearance}");
+        assert_eq!(dead.0.len(), lively.0.len(), "clearance {clearance}");
+        for (one, other) in dead.0.iter().zip(&lively.0) {
+            assert_eq!(one.low.loss, other.low.loss);
+            assert_eq!(one.high.loss, other.high.loss);
+            assert_near(one.low.frequency, other.low.frequency, 1e-7);
+            assert_near(one.high.frequency, other.high.frequency, 1e-7);
+        }
+        if let (Ok(one), Ok(other)) = (&dead.1, &lively.1) {
+            assert_near(one.high.frequency, other.high.frequency, 1e-7);
+        }
+        assert_eq!(dead.1.is_ok(), lively.1.is_ok());
+    }
+}
+
+/// With little damping 1 - tr + det is small all along the branch: the zone ends at the fold, where a stretch does.
+#[test]
+fn the_zone_of_a_lightly_damped_machine_ends_at_a_fold_of_its_branch() {
+    for damping in [1e-4, 5e-5, 1e-6] {
+        let mut scene = Ratios::unloaded().scene().expect("valid");
+        (scene.damping, scene.contact_damping) = (damping, damping);
+        let all = stable_ranges(&scene).expect("a machine");
+        let folds = all.iter().filter(|it| it.high.is_critical(Test::Fold));
+        let ends: Vec<f64> = folds.map(|it| it.high.frequency).collect();
+        match hysteresis(&scene) {
+            Ok(zone) => {
+                let high = zone.high.frequency;
+                let is_end = ends.iter().any(|end| (end - high).abs() < 1e-9);
+                assert!(is_end, "{damping}: {high} of {ends:?}");
+            }
+            Err(error) => eprintln!("{damping}: {error}; {ends:?}"),
+        }
+    }
+}

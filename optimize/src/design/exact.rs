@@ -13,7 +13,7 @@ use super::figure::Figure;
 use super::judge::Judged;
 use super::operating_point::At;
 use super::problem::Problem;
-use crate::robust::rates;
+use crate::robust::{dot, rates};
 
 /// A motion of the search with its derivatives by the coordinates.
 pub(super) struct Linearization<'a> {
@@ -158,10 +158,6 @@ impl<'a> Linearization<'a> {
             .map(|(row, frequency)| dot(by, row) + frequency * by_frequency)
             .collect()
     }
-}
-
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// By each coordinate of the cube that is moved, the change of some parameters in SI units at a frequency of the drive.

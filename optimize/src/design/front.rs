@@ -12,8 +12,8 @@ use super::coordinates::{Candidate, best_by};
 use super::critical::CriticalMachines;
 use super::figure::{Figure, Sense};
 use super::non_dominated::non_dominated;
-use super::problem::Problem;
-use super::requirement::{Requirement, Scope, sign};
+use super::problem::{Objective, Problem};
+use super::requirement::{Scope, sign};
 use super::robustify::enforce;
 use super::search::Found;
 use super::trial::{ROUGH, STARTS};
@@ -80,20 +80,15 @@ const SHARES: usize = 4;
 const FREE: f64 = 1e-6;
 const GAIN: f64 = 1e-9;
 
-/// A front, and the best design on the way that solves the problem itself better than the design, if there is one: then the
-/// search can go on from there.
-#[derive(Debug)]
-pub struct Traded {
-    /// The front.
-    pub front: Front,
-    /// The better design.
-    pub better: Option<Candidate>,
-}
-
 /// What a figure costs of what is sought, around a design; none if the design has no such figure. The others are sought
 /// without requirements that take many motions; those that fail them give way to ones near them, and are left out if there
-/// is none.
-pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded> {
+/// is none. With the best design on the way that solves the problem itself better than the design, if there is one: then the
+/// search can go on from there.
+pub fn front(
+    problem: &Problem,
+    found: &Found,
+    figure: Figure,
+) -> Option<(Front, Option<Candidate>)> {
     let start = found.candidate();
     let known = &found.known;
     let own = place(problem, figure, &start)?;
@@ -138,7 +133,7 @@ pub fn front(problem: &Problem, found: &Found, figure: Figure) -> Option<Traded>
         moved: best.iter().filter(|it| it.is_moved).count(),
         left_out,
     };
-    Some(Traded { front, better })
+    Some((front, better))
 }
 
 /// Whether a figure and what is sought are both better at one place than at another.
@@ -296,12 +291,11 @@ fn without(problem: &Problem, figure: Figure) -> Problem {
 
 /// The problem with another bound of a figure.
 fn bounded(problem: &Problem, figure: Figure, bound: f64) -> Problem {
-    let mut bounded = without(problem, figure);
     let mut required = problem.requirements.iter();
     let known = required.find(|it| it.figure == figure);
-    bounded.requirements.push(Requirement {
+    let traded = Objective {
         scope: known.map_or(Scope::Drawing, |it| it.scope),
-        ..Requirement::on_side(figure, figure.sense(), bound)
-    });
-    bounded
+        ..Objective::new(figure, figure.sense())
+    };
+    without(problem, figure).bounded(&traded, bound)
 }

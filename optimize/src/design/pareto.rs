@@ -1,11 +1,11 @@
 //! Designs of which none is better in all that is sought.
 
+use serde::Serialize;
+
 pub use super::alternative::Alternative;
 use super::non_dominated::{NonDominated, non_dominated};
-pub use super::pareto_search::Tally;
-use super::pareto_search::search_pareto;
 use super::problem::{Objective, Problem};
-use super::search::{Found, SearchError, Settings, Watch};
+use super::search::Found;
 
 /// Designs of which none is better in all that is sought.
 #[derive(Debug, Clone)]
@@ -22,6 +22,21 @@ pub struct Pareto {
     pub machines: Option<usize>,
 }
 
+/// The problems of a front, and what became of them.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Tally {
+    /// All problems.
+    pub problems: usize,
+    /// Those that led to a design.
+    pub solved: usize,
+    /// Those that a looser one solves, or that have no design because it has none.
+    pub implied: usize,
+    /// Those without a design that is as asked.
+    pub failed: usize,
+    /// Designs that another one dominates, or that are the same.
+    pub dominated: usize,
+}
+
 impl Problem {
     /// All that is sought.
     pub fn objectives(&self) -> Vec<Objective> {
@@ -31,27 +46,17 @@ impl Problem {
 }
 
 impl Pareto {
-    /// Searches the designs of a front from the best one by the first objective on; an interrupted one has those that are
-    /// found by then.
-    ///
-    /// # Errors
-    /// [`SearchError`] if no design has one of the objectives.
-    pub fn search(
-        problem: &Problem,
-        first: &Found,
-        (settings, watch): (Settings, &dyn Watch),
-    ) -> Result<Self, SearchError> {
-        let objectives = problem.objectives();
-        let (points, tally) = search_pareto(problem, &objectives, first, (settings, watch))?;
-        let mut found = Self {
+    /// The designs of a front, without those that others dominate.
+    pub(super) fn new(objectives: Vec<Objective>, points: Vec<Alternative>, tally: Tally) -> Self {
+        let mut front = Self {
             objectives,
             points,
             nearest: 0,
             tally,
             machines: None,
         };
-        found.filter();
-        Ok(found)
+        front.filter();
+        front
     }
 
     /// With another best design by the first objective.
@@ -78,9 +83,7 @@ impl Pareto {
 
     /// Without those that others dominate.
     fn filter(&mut self) {
-        let all = self.points.iter().map(|it| it.graded(&self.objectives));
-        let all: Vec<Vec<f64>> = all.collect();
-        let NonDominated { members, nearest } = non_dominated(&all);
+        let NonDominated { members, nearest } = undominated(&self.points, &self.objectives);
         self.points = members
             .iter()
             .map(|index| self.points[*index].clone())
@@ -88,4 +91,13 @@ impl Pareto {
         self.nearest = nearest;
         self.tally.dominated = self.tally.solved.saturating_sub(self.points.len());
     }
+}
+
+/// Which of some designs no other one dominates.
+pub(super) fn undominated<'a>(
+    all: impl IntoIterator<Item = &'a Alternative>,
+    objectives: &[Objective],
+) -> NonDominated {
+    let all = all.into_iter().map(|it| it.graded(objectives));
+    non_dominated(&all.collect::<Vec<_>>())
 }

@@ -3,11 +3,10 @@
 //! between designs, of more all but the first on a lattice. A problem whose solution follows from a looser one is not searched
 //! (Mavrotas 2009).
 
-use serde::Serialize;
 use softstop_dynamics::parallel;
 
 use super::alternative::Alternative;
-use super::non_dominated::{NonDominated, non_dominated};
+use super::pareto::{Pareto, Tally, undominated};
 use super::posed::{Posed, Ranges, levels};
 use super::problem::{Objective, Problem};
 use super::search::{Found, LEAST_EVALUATIONS, Quiet, SearchError, Settings, Watch, search_from};
@@ -23,21 +22,6 @@ const NEIGHBOURS: usize = 3;
 /// Relative difference of a value that is none.
 const ROUNDING: f64 = 1e-9;
 
-/// The problems of a front, and what became of them.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-pub struct Tally {
-    /// All problems.
-    pub problems: usize,
-    /// Those that led to a design.
-    pub solved: usize,
-    /// Those that a looser one solves, or that have no design because it has none.
-    pub implied: usize,
-    /// Those without a design that is as asked.
-    pub failed: usize,
-    /// Designs that another one dominates, or that are the same.
-    pub dominated: usize,
-}
-
 /// A problem of a front with its solution.
 #[derive(Debug, Clone)]
 struct Solved {
@@ -46,43 +30,40 @@ struct Solved {
     alternative: Alternative,
 }
 
-/// The designs of a front from the best one by the first objective on, some of which others may dominate, and what became of
-/// the problems; an interrupted search has those that are found by then.
-///
-/// # Errors
-/// [`SearchError`] if no design has one of the objectives.
-pub(super) fn search_pareto(
-    problem: &Problem,
-    objectives: &[Objective],
-    first: &Found,
-    (settings, watch): (Settings, &dyn Watch),
-) -> Result<(Vec<Alternative>, Tally), SearchError> {
-    let mut search = ParetoSearch {
-        problem,
-        objectives,
-        settings,
-        watch,
-        ranges: Ranges::default(),
-        solved: Vec::new(),
-        failed: Vec::new(),
-        tally: Tally::default(),
-    };
-    search.find_anchors(first)?;
-    search.refine_anchors();
-    match objectives.len() {
-        2 => search.fill_gaps(),
-        _ => search.solve_lattice(),
+impl Pareto {
+    /// Searches the designs of a front from the best one by the first objective on; an interrupted one has those that are
+    /// found by then.
+    ///
+    /// # Errors
+    /// [`SearchError`] if no design has one of the objectives.
+    pub fn search(
+        problem: &Problem,
+        first: &Found,
+        (settings, watch): (Settings, &dyn Watch),
+    ) -> Result<Self, SearchError> {
+        let objectives = problem.objectives();
+        let mut search = ParetoSearch {
+            problem,
+            objectives: &objectives,
+            settings,
+            watch,
+            ranges: Ranges::default(),
+            solved: Vec::new(),
+            failed: Vec::new(),
+            tally: Tally::default(),
+        };
+        search.find_anchors(first)?;
+        search.refine_anchors();
+        match objectives.len() {
+            2 => search.fill_gaps(),
+            _ => search.solve_lattice(),
+        }
+        search.exchange();
+        let (solved, tally) = (search.solved.into_iter(), search.tally);
+        let points: Vec<Alternative> = solved.map(|it| it.alternative).collect();
+        let solved = points.len();
+        Ok(Self::new(objectives, points, Tally { solved, ..tally }))
     }
-    search.exchange();
-    let points: Vec<Alternative> = search.solved.into_iter().map(|it| it.alternative).collect();
-    let solved = points.len();
-    Ok((
-        points,
-        Tally {
-            solved,
-            ..search.tally
-        },
-    ))
 }
 
 /// The search of a front.
@@ -194,10 +175,9 @@ impl ParetoSearch<'_> {
 
     /// The values of the designs of two objectives that no other one dominates.
     fn undominated(&self) -> Vec<[f64; 2]> {
-        let all: Vec<&Alternative> = self.solved.iter().map(|it| &it.alternative).collect();
-        let grades = all.iter().map(|it| it.graded(self.objectives));
-        let NonDominated { members, .. } = non_dominated(&grades.collect::<Vec<_>>());
-        let values = members.iter().map(|index| &all[*index].values);
+        let all = self.solved.iter().map(|it| &it.alternative);
+        let members = undominated(all, self.objectives).members.into_iter();
+        let values = members.map(|index| &self.solved[index].alternative.values);
         values.map(|it| [it[0], it[1]]).collect()
     }
 

@@ -7,7 +7,7 @@ use softstop_dynamics::parallel;
 
 use super::coordinates::{Candidate, best_by};
 use super::figure::Figure;
-use super::front::{Front, Traded, front};
+use super::front::{Front, front};
 use super::pareto::Pareto;
 use super::requirement::Scope;
 use super::search::{Found, SearchError, Settings, Unwatched, Watch, search_from};
@@ -120,10 +120,10 @@ impl Solution {
             if !beside.fronts || interrupt::requested() {
                 break;
             }
-            let traded = traded(problem, &found);
-            let better = traded.iter().filter_map(|it| it.better.clone());
-            let better = best_by(better, |it| problem.score(&it.design));
-            fronts = traded.into_iter().map(|it| it.front).collect();
+            let (traded, better): (Vec<Front>, Vec<_>) =
+                traded(problem, &found).into_iter().unzip();
+            let better = best_by(better.into_iter().flatten(), |it| problem.score(&it.design));
+            fronts = traded;
             if !better.is_some_and(|better| go_on(&mut found, &better)) {
                 break;
             }
@@ -177,7 +177,7 @@ impl Solution {
 const ROUNDING: f64 = 1e-9;
 
 /// All trade-offs of a design.
-fn traded(problem: &Problem, found: &Found) -> Vec<Traded> {
+fn traded(problem: &Problem, found: &Found) -> Vec<(Front, Option<Candidate>)> {
     let sought = problem.objective.figure;
     parallel::filter_map(&TRADED, |figure| {
         let front = || front(problem, found, *figure);

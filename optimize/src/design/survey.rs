@@ -20,9 +20,11 @@ use crate::order::sort_rising;
 /// Who watches a search, from several threads at once.
 pub trait Watch: Sync {
     /// One more zone is computed; the value is what its best motion, if any, has of what is sought.
-    fn evaluated(&self, value: Option<f64>);
+    fn evaluated(&self, _value: Option<f64>) {}
     /// Whether to give up.
-    fn stop(&self) -> bool;
+    fn stop(&self) -> bool {
+        false
+    }
     /// So many problems of a front are done, of so many.
     fn posed(&self, _done: u64, _all: u64) {}
     /// Work that the survey and the ascents from it may cost, in scan windows.
@@ -35,8 +37,6 @@ pub trait Watch: Sync {
 pub struct Quiet<'a>(pub &'a dyn Watch);
 
 impl Watch for Quiet<'_> {
-    fn evaluated(&self, _: Option<f64>) {}
-
     fn stop(&self) -> bool {
         self.0.stop()
     }
@@ -50,12 +50,7 @@ impl Watch for Quiet<'_> {
 #[derive(Debug, Clone, Copy)]
 pub struct Unwatched;
 
-impl Watch for Unwatched {
-    fn evaluated(&self, _: Option<f64>) {}
-    fn stop(&self) -> bool {
-        false
-    }
-}
+impl Watch for Unwatched {}
 
 /// A point of the unit cube and its cost.
 #[derive(Debug, Clone)]

@@ -59,13 +59,9 @@ impl Problem {
         let mut tried = Vec::new();
         for it in self.operating_points(design) {
             let corners = it.problem.corners(it.design);
-            for requirement in it.problem.trials() {
-                let own = it.problem.tried_of(requirement, &it.design.orbit, FULL)?;
-                tried.push(Met {
-                    case: it.case,
-                    within: it.problem.tried_within(requirement, &corners)?,
-                    ..own
-                });
+            for own in it.tried()? {
+                let within = it.problem.tried_within(&own.requirement, &corners)?;
+                tried.push(Met { within, ..own });
             }
         }
         Ok(tried)
@@ -268,18 +264,20 @@ impl Problem {
 }
 
 impl OperatingPoint<'_> {
+    /// What its own machine has of the requirements that take many motions.
+    fn tried(&self) -> Result<Vec<Met>, OrbitError> {
+        let (case, orbit) = (self.case, &self.design.orbit);
+        let own = self.problem.trials().map(|it| {
+            let met = self.problem.tried_of(it, orbit, FULL)?;
+            Ok(Met { case, ..met })
+        });
+        own.collect()
+    }
+
     /// What it has of the requirements that take many motions, if it meets them.
     fn pass_trials(&self, known: &mut CriticalMachines) -> Result<Vec<Met>, Infeasible> {
         let (problem, design) = (&self.problem, self.design);
-        let own = problem.trials().map(|it| {
-            let met = problem.tried_of(it, &design.orbit, FULL)?;
-            Ok(Met {
-                case: self.case,
-                ..met
-            })
-        });
-        let own: Result<Vec<Met>, OrbitError> = own.collect();
-        let mut own = own.map_err(Infeasible::unknown)?;
+        let mut own = self.tried().map_err(Infeasible::unknown)?;
         let failed = own.iter().filter(|it| !it.is_met());
         known.failed.extend(failed.map(|it| it.requirement.figure));
         if !own.iter().all(Met::is_met) {

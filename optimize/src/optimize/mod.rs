@@ -36,14 +36,11 @@ use softstop_explore::prove::{ProofReport, can_be_proven};
 
 use crate::design::Problem;
 use crate::fmu::{Standard, archive, library, parameters};
-use crate::page::figure::Figure;
 use crate::page::figures::{self, figures, response};
 use crate::page::html;
 use crate::report::OptimizeReport;
 use outcome::Outcome;
-use reference::Reference;
 use solve::solve;
-use study::Study;
 use task::Job;
 use vary::Variable;
 
@@ -204,13 +201,10 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         outcome.go_on(|_| pareto::look_at_machines(&job, &mut front))?;
         outcome.solution.pareto = Some(front);
     }
-    let looked = match outcome.go_on(|outcome| Looked::new(&job, outcome, true))? {
-        Some(looked) => looked,
-        None => Looked::new(&job, &outcome, false)?,
+    let mut report = match outcome.go_on(|outcome| look_at(&job, outcome, true))? {
+        Some(report) => report,
+        None => look_at(&job, &outcome, false)?,
     };
-    if let Some(study) = &looked.study {
-        study.note_violating(&job.problem, &mut outcome.met);
-    }
     let state = outcome.design().orbit.state();
     let start = Start::from(state);
     let machine = Machine {
@@ -221,7 +215,6 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     export.file("toml", text.as_bytes())?;
     // The same machine to the last bit, though no number of Hz may give the frequency that was found.
     let machine = Machine::from_toml(&text).map_err(anyhow::Error::from)?;
-    let mut report = looked.report(&job, &outcome);
     // The files of a design are written even if its motion cannot be proven.
     let mut unproven = None;
     match arguments
@@ -242,8 +235,10 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
         export.sheets([&front.sheet])?;
     }
     let name = job.problem.machine.name.as_deref().unwrap_or_default();
-    export.file("svg", looked.response.document(name).as_bytes())?;
-    match &looked.pareto {
+    if let Some(picture) = &report.response {
+        export.file("svg", picture.document(name).as_bytes())?;
+    }
+    match &report.front {
         Some(picture) => export.file("pareto_svg", picture.document(name).as_bytes())?,
         None => export.forgo("pareto_svg"),
     }
@@ -254,7 +249,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
             let page = html(&report).map_err(anyhow::Error::from)?;
             export.file("html", page.as_bytes())?;
             export.sheets(&report.sheets())?;
-            for figure in &looked.figures {
+            for figure in &report.figures {
                 // What has no data of its own stands in the page alone.
                 if let Some(sheet) = figure.sheets.first() {
                     export.picture(&sheet.name, &figure.document(name))?;
@@ -272,54 +267,26 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     unproven.map_or(Ok(()), Err)
 }
 
-/// What is looked at of a design besides.
-struct Looked {
-    references: Vec<Reference>,
-    study: Option<Study>,
-    response: Figure,
-    /// The designs of a front.
-    pareto: Option<Figure>,
-    /// The other pictures.
-    figures: Vec<Figure>,
-}
-
-impl Looked {
-    /// Of an unfinished run only what takes no time.
-    fn new(job: &Job, outcome: &Outcome, is_whole: bool) -> Result<Self, Failure> {
-        let (problem, design) = (&job.problem, outcome.design());
-        let references = reference::references(&problem.machine)?;
-        let study = match is_whole {
-            true => study::study(job, outcome)?,
-            false => None,
-        };
-        let response = response(problem, design, &references, study.as_ref());
-        let front = outcome.solution.pareto.as_ref();
-        let pareto = front.map(|it| figures::pareto(problem, it));
-        let figures = match is_whole && job.report {
-            true => figures(problem, outcome, study.as_ref()),
-            false => Vec::new(),
-        };
-        Ok(Self {
-            references,
-            study,
-            response,
-            pareto,
-            figures,
-        })
+/// The report of what is looked at of a design; of an unfinished run only what takes no time.
+fn look_at(job: &Job, outcome: &Outcome, is_whole: bool) -> Result<OptimizeReport, Failure> {
+    let (problem, design) = (&job.problem, outcome.design());
+    let references = reference::references(&problem.machine)?;
+    let study = match is_whole {
+        true => study::study(job, outcome)?,
+        false => None,
+    };
+    let study = study.as_ref();
+    let evaluations = job.settings.evaluations;
+    let mut report = OptimizeReport::new(problem, outcome, &references, study, evaluations);
+    report.title = job.title.clone();
+    report.sources = job.sources.clone();
+    report.response = Some(response(problem, design, &references, study));
+    let front = outcome.solution.pareto.as_ref();
+    report.front = front.map(|it| figures::pareto(problem, it));
+    if is_whole && job.report {
+        report.figures = figures(problem, outcome, study);
     }
-
-    fn report(&self, job: &Job, outcome: &Outcome) -> OptimizeReport {
-        let (study, evaluations) = (self.study.as_ref(), job.settings.evaluations);
-        let mut report =
-            OptimizeReport::new(&job.problem, outcome, &self.references, study, evaluations);
-        report.title = job.title.clone();
-        report.sources = job.sources.clone();
-        if !self.figures.is_empty() {
-            let more = self.pareto.iter().chain([&self.response]).cloned();
-            report.figures = self.figures.iter().cloned().chain(more).collect();
-        }
-        report
-    }
+    Ok(report)
 }
 
 /// Refuses a machine whose design no FMU could hold, before it is searched.

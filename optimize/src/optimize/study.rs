@@ -62,7 +62,7 @@ pub struct Without {
 
 impl Study {
     /// Takes note of the share of the machines that violate each requirement, and of its interval.
-    pub(super) fn note_violating(&self, problem: &Problem, all: &mut [Met]) {
+    pub(crate) fn note_violating(&self, problem: &Problem, all: &mut [Met]) {
         let machines = self.verdict.machines;
         let is_normal = problem.has_normal_tolerances();
         for met in all {

@@ -66,7 +66,7 @@ pub fn html(report: &OptimizeReport) -> Result<String, Error> {
     template.render(context! {
         version => env!("CARGO_PKG_VERSION"),
         style => style::PAGE.to_owned() + include_str!("../../assets/report.css"),
-        sections => Serde(sections(&report.figures)),
+        sections => Serde(sections(report.pictures())),
         report => Serde(report),
         header => Serde(&report.title),
         name => report.machine.name.as_deref().unwrap_or("machine"),
@@ -86,7 +86,9 @@ struct Picture {
 }
 
 /// The pictures of each section that has some, under its name in addresses and its heading.
-fn sections(figures: &[Figure]) -> Vec<(&'static str, &'static str, Vec<Picture>)> {
+fn sections<'a>(
+    figures: impl Iterator<Item = &'a Figure> + Clone,
+) -> Vec<(&'static str, &'static str, Vec<Picture>)> {
     let picture = |it: &Figure| Picture {
         title: it.chart.title.clone(),
         svg: it.chart.inline(words::plain),
@@ -95,7 +97,7 @@ fn sections(figures: &[Figure]) -> Vec<(&'static str, &'static str, Vec<Picture>
         is_wide: it.is_wide(),
     };
     let pictures = |section| {
-        let figures = figures.iter().filter(|it| it.section == section);
+        let figures = figures.clone().filter(|it| it.section == section);
         figures.map(picture).collect::<Vec<_>>()
     };
     let all = SECTIONS.map(|(section, id, title)| (id, title, pictures(section)));
@@ -147,7 +149,7 @@ mod tests {
                 ..Panel::default()
             };
             let figure = Figure::new(Section::Place, HALF, "", [panel], "");
-            let pictures = &sections(&[figure])[0].2;
+            let pictures = &sections([figure].iter())[0].2;
             let svg = &pictures[0].svg;
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{layer:?}");
         }

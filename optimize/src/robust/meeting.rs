@@ -239,7 +239,7 @@ pub(super) fn same(one: &Manifold, other: &Manifold) -> bool {
     kind(one) == kind(other)
 }
 
-pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
+pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 

@@ -26,7 +26,7 @@ pub use verify::{Bin, CaseVerdict, LostMachine, Settings, Verdict, verify, verif
 pub use worst::{Worst, worst};
 
 pub(crate) use corners::corners;
-pub(crate) use meeting::is_loss;
+pub(crate) use meeting::{dot, is_loss};
 pub(crate) use nearest::first_losses;
 pub(crate) use neighbours::Neighbours;
 pub use rates::rates;

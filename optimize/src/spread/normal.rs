@@ -18,12 +18,7 @@ const CHANGE: f64 = 0.125;
 pub fn free_normal(spread: &dyn ToleranceBox, at: &[f64]) -> Result<Vec<f64>, ZoneError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
     let border = Border::at_g0(&scene, true, &parameters)?;
-    Ok(in_coordinates(
-        spread,
-        at,
-        &border.parameters,
-        &border.normal,
-    ))
+    Ok(normal(spread, at, &border))
 }
 
 /// The normal of a fold or a flip: d(w - w_b)/d(coordinate) in rad/s, w_b the frequency, in rad/s, of this point of it, on
@@ -38,12 +33,11 @@ pub fn critical_normal(
 ) -> Result<Vec<f64>, OrbitError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
     let border = Border::at_critical(&scene, 1, (test, point), &parameters)?;
-    Ok(in_coordinates(
-        spread,
-        at,
-        &border.parameters,
-        &border.normal,
-    ))
+    Ok(normal(spread, at, &border))
+}
+
+fn normal(spread: &dyn ToleranceBox, at: &[f64], border: &Border) -> Vec<f64> {
+    in_coordinates(spread, at, &border.parameters, &border.normal)
 }
 
 /// The machines on both sides of one along a coordinate.

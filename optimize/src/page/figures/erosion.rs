@@ -9,9 +9,9 @@ use softstop_dynamics::basin::ErosionProfile;
 use crate::design::figure::Figure as Quantity;
 use crate::design::trial::STARTS;
 use crate::design::{Design, Problem};
+use crate::limits::end_name;
 use crate::page::figure::{AT, BESIDE, DESIGN, Figure, HALF, Section};
 use crate::page::words::quantity;
-use crate::zone_end::end_name;
 
 const REQUIRED: Stroke = Stroke::dashed(style::ASIDE, 1.6, (3.0, 3.0));
 
