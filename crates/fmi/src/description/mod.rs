@@ -124,6 +124,8 @@ pub(crate) fn empty<'a, V: Into<Cow<'a, str>>>(
     write_element(xml, name, collect_attributes(attributes), None)
 }
 
+/// What writes the content of an element.
+type Content<'a> = &'a mut dyn FnMut(&mut Xml) -> io::Result<()>;
 /// Attributes as they are written.
 type Written<'a> = Vec<(&'static str, Cow<'a, str>)>;
 
@@ -141,7 +143,7 @@ fn write_element(
     xml: &mut Xml,
     name: &'static str,
     attributes: Written<'_>,
-    content: Option<&mut dyn FnMut(&mut Xml) -> io::Result<()>>,
+    content: Option<Content<'_>>,
 ) -> io::Result<()> {
     let element = xml.create_element(name).with_attributes(attributes);
     match content {
