@@ -2,6 +2,8 @@
 //! search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon 2003),
 //! closer and closer. Of each zone only places that are better than the best so far are tried.
 
+use std::iter;
+
 use serde::Serialize;
 use softstop_console::interrupt;
 use softstop_dynamics::parallel;
@@ -40,8 +42,8 @@ const FEW_TRIES: usize = 3;
 const GAIN: f64 = 1e-9;
 /// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
 const MARGINS: [f64; 2] = [0.2, 0.4];
-/// Designs with different values of catalogues whose trials are made for each finalist, at most.
-const ENTRIES: usize = 16;
+/// Designs with other values of catalogues than those of finalists whose trials are made, at most.
+const OTHERS: usize = 16;
 /// How often what is lost within the tolerances of what was found, or fails there, is taken note of.
 const ROUNDS: usize = 8;
 
@@ -143,9 +145,10 @@ pub(super) fn check_finalists(
     let score = |it: &Robust| problem.score(&it.candidate.design);
     let mut passing: Vec<Passed> = Vec::new();
     let mut failed: Vec<(Robust, Infeasible)> = Vec::new();
+    let mut others = 0..OTHERS;
     for finalist in finalists {
         let mut catalogues = CatalogueSearch::new(problem, finalist);
-        for _ in 0..ENTRIES {
+        for _ in iter::once(0).chain(others.by_ref()) {
             let best = passing.iter().map(|it| score(&it.robust));
             let Some(mut next) = catalogues.take_best(best.fold(bound, f64::max)) else {
                 break;
