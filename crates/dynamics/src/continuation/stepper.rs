@@ -8,6 +8,9 @@ use crate::orbit::OrbitError;
 
 /// Crawling steps in a row after which a curve is given up.
 const MAX_CRAWL_STEPS: usize = 60;
+/// Share of a motion's size, in units of the family's scales, by which the largest step grows where the motion is that large:
+/// at resonance with hardly any damping.
+const HUGE_SHARE: f64 = 0.01;
 
 /// A stepper along a solution curve, with adaptive steps.
 pub(crate) struct Stepper<'a, E: Equations> {
@@ -138,7 +141,8 @@ impl<'a, E: Equations> Stepper<'a, E> {
             true => self.crawled + 1,
             false => 0,
         };
-        self.step = (step.growth * self.step).min(self.settings.largest_step);
+        let size = (HUGE_SHARE * self.node.at.norm()).max(1.0);
+        self.step = (step.growth * self.step).min(size * self.settings.largest_step);
     }
 
     /// True if the steps have been crawling for so long that the curve is given up.

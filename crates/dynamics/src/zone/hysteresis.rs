@@ -18,6 +18,7 @@ use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_singles};
+use crate::tolerance::TEST_ROUNDING;
 use softstop::Scene;
 use softstop::internals::budget::SharedBudget;
 
@@ -205,7 +206,10 @@ fn insert_folds(
     let mut folds = Vec::new();
     for index in (1..branch.len()).rev() {
         let (from, to) = (&branch[index - 1], &branch[index]);
-        if from.fold_test() * to.fold_test() < 0.0
+        let tests = [from, to].map(|point| Test::Fold.scaled_value(&point.monodromy));
+        let passes_zero = tests[0] * tests[1] < 0.0;
+        if passes_zero
+            && tests.iter().any(|value| value.abs() > TEST_ROUNDING)
             && let Ok(fold) = continuation.critical_between(from, to, Test::Fold)
         {
             branch.insert(index, fold.clone());
