@@ -202,6 +202,29 @@ fn curves_switch_in_points_of_codimension_two() {
     report.shows("curves.svg", &["generalised flip (GPD)", "cusp (CP)"]);
 }
 
+/// Beside the upper graze of this machine lies a fold, and no curve of folds begins there: that costs none of the others.
+#[test]
+fn a_special_point_without_a_curve_is_told_beside_the_others() {
+    let line = "continue SCENES/kelvin-voigt-zero-force.toml --parameter excitation.frequency --from 0.6 --to 1.6 \
+                --second clearance --second-from 2 --second-to 18";
+    let report = SOFTSTOP.report(line);
+    let curves = report.list("curves/curves").iter();
+    let kinds: Vec<_> = curves.map(|it| it["symbol"].as_str()).collect();
+    assert_eq!(kinds, [Some("G"), Some("SN"), Some("G")]);
+    let failures = report.list("curves/not_followed");
+    assert_eq!(failures.len(), 1);
+    assert_eq!(
+        [&failures[0]["symbol"], &failures[0]["name"]],
+        ["SN", "fold"]
+    );
+    has_near(&failures[0], &[("value", 1.044_440_044, 1e-8)]);
+    assert!(
+        failures[0]["reason"]
+            .as_str()
+            .is_some_and(|it| it.contains("Newton"))
+    );
+}
+
 fn points(curve: &serde_json::Value) -> usize {
     softstop_testing::number(curve, "points") as usize
 }

@@ -4,9 +4,10 @@ use anyhow::anyhow;
 use softstop::Machine;
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    ContinuationSettings, Curve, CurveLimits, CurvePoint, Family, SpecialKind, follow_special,
-    switch_curves,
+    ContinuationSettings, Curve, CurveLimits, CurvePoint, Family, Special, SpecialKind,
+    follow_special, switch_curves,
 };
+use softstop_dynamics::orbit::OrbitError;
 
 use super::branches::{STEP, count};
 use super::{ContinueArguments, Followed, family};
@@ -14,13 +15,24 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
+/// The curves of special points of a branch in two parameters.
+pub(super) struct Curves<'a> {
+    /// The curves.
+    pub found: Vec<Curve>,
+    /// The special points that lie on none, and why no curve begins there.
+    pub failures: Vec<(&'a Special, OrbitError)>,
+}
+
 /// Follows the special points of a branch in both parameters.
-pub(super) fn curves(
+///
+/// # Errors
+/// [`Failure::Run`] if none of them could be followed.
+pub(super) fn curves<'a>(
     machine: &Machine,
     arguments: &ContinueArguments,
     both: [&Followed; 2],
-    branch: &Branch,
-) -> Result<Vec<Curve>, Failure> {
+    branch: &'a Branch,
+) -> Result<Curves<'a>, Failure> {
     let family = family(machine, both.map(|one| one.parameter))?;
     let region = CurveLimits {
         ranges: both.map(|one| one.range),
@@ -28,21 +40,26 @@ pub(super) fn curves(
         settings: ContinuationSettings::of_curves(STEP),
     };
     let bar = Progress::open("points of curves");
-    let mut found: Vec<Curve> = Vec::new();
+    let (mut found, mut failures) = (Vec::<Curve>::new(), Vec::new());
+    let start = |special: &Special| [special.point.parameter, both[1].start];
+    let is_on = |special: &Special, curves: &[Curve]| {
+        let mut curves = curves.iter();
+        curves.any(|curve| passes(curve, special.kind, start(special)))
+    };
     let followed = branch.specials.iter();
     for special in followed.filter(|it| it.kind != SpecialKind::Pitchfork) {
-        let start = [special.point.parameter, both[1].start];
-        let known = found.iter().any(|curve| passes(curve, special.kind, start));
-        if known {
+        if is_on(special, &found) {
             continue;
         }
         let kind = (special.kind, special.point.state());
+        let start = start(special);
         let curve = follow_special(&family, branch.periods, kind, start, &region, |_| {
             count(&bar)
         });
-        found.push(curve.map_err(|error| {
-            anyhow!(error).context(format!("no curve of the {}", special.kind.name()))
-        })?);
+        match curve {
+            Ok(curve) => found.push(curve),
+            Err(error) => failures.push((special, error)),
+        }
     }
     let scales = family.parameter_scales();
     let mut done = 0;
@@ -71,7 +88,17 @@ pub(super) fn curves(
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }
-    Ok(found)
+    failures.retain(|(special, _)| !is_on(special, &found));
+    if found.is_empty() && !failures.is_empty() {
+        let name = machine.name(both[0].parameter);
+        let failed = failures.iter().map(|(special, error)| {
+            let (kind, place) = (special.kind.name(), special.point.parameter);
+            format!("no curve of the {kind} at {name} = {place}: {error}")
+        });
+        let failed: Vec<_> = failed.collect();
+        return Err(Failure::Run(anyhow!(failed.join("\n       "))));
+    }
+    Ok(Curves { found, failures })
 }
 
 /// True if a curve is of this kind, with so many drive periods.

@@ -8,6 +8,7 @@ use softstop_dynamics::continuation::{
 };
 use softstop_dynamics::orbit::OrbitError;
 
+use super::curves::Curves;
 use super::tables::{branch_columns, curve_columns, rows_of_branch, rows_of_curve};
 use softstop_console::column::{Column, Told, Unit, Units, arrays};
 use softstop_console::columns;
@@ -68,6 +69,18 @@ fn codimension_two<'a>() -> [Column<OnCurve<'a>>; 6] {
         "values" [None] Fixed(12), "of both parameters" => it.1.1.parameters;
         "position" [Length], "at drive angle 0 of the scene" => it.1.1.position;
         "velocity" [Velocity], "there" => it.1.1.velocity;
+    }
+}
+
+/// A special point that no curve in two parameters could be followed from, and why.
+type Failed<'a> = &'a (&'a Special, OrbitError);
+
+fn failures<'a>() -> [Column<Failed<'a>>; 4] {
+    columns! { Failed<'a>, it;
+        "symbol" [None] Plain, "SN, PD, NS or G" => it.0.kind.symbol();
+        "name" [None] Plain, "what it is" => describe(&it.0.kind);
+        "value" [None] Fixed(12), "of the first parameter" => it.0.point.parameter;
+        "reason" [None] Plain, "why no curve begins there" => it.1.to_string();
     }
 }
 
@@ -170,7 +183,7 @@ pub(super) fn report(
     parameter: Parameter,
     most: usize,
     branches: &[Branch],
-    curves: Option<&(Parameter, Vec<Curve>)>,
+    curves: Option<&(Parameter, Curves<'_>)>,
 ) -> serde_json::Result<(Record, String)> {
     let units = Units::of(machine);
     let unit = |parameter| units::of_parameter(machine, parameter);
@@ -194,13 +207,19 @@ pub(super) fn report(
             label(parameter),
             label(*second)
         ));
-        let (found, told) = curves_found(curves, most, &units)?;
+        let (found, told) = curves_found(&curves.found, most, &units)?;
         text += &told;
+        let failures: Vec<_> = curves.failures.iter().collect();
+        let failures = Record::all(&self::failures(), &failures);
+        if !failures.is_empty() {
+            text += &format!("\nNot followed:\n{}", below(&failures, &units));
+        }
         serde_json::Result::Ok(
             Record::default()
                 .hidden("parameter", machine.name(*second))
                 .hidden("unit", unit(*second))
-                .hidden("curves", found),
+                .hidden("curves", found)
+                .hidden("not_followed", failures),
         )
     });
     let result = Record::default()
