@@ -108,10 +108,10 @@ impl Table<'_> {
         self.add_figure(["greatest position", ""], length, false, &|orbit| {
             Some(orbit.max_position)
         });
-        self.add_figure(["position at drive angle 0", ""], length, false, &|orbit| {
+        self.add_figure(["position at time 0", ""], length, false, &|orbit| {
             Some(orbit.position)
         });
-        self.add_figure(["velocity at drive angle 0", ""], speed, false, &|orbit| {
+        self.add_figure(["velocity at time 0", ""], speed, false, &|orbit| {
             Some(orbit.velocity)
         });
         self.add_figure(["largest multiplier |μ|", ""], number, false, &|orbit| {

@@ -163,8 +163,8 @@ fn states<'a>() -> [Column<Found<'a>>; 5] {
         "frequency" [Frequency], "drive frequency" => it.0.value(Parameter::Frequency);
         "before_impact_velocity" [Velocity] Six, "before-impact velocity" => it.1.before_impact_velocity();
         "max_position" [Length] Six, "greatest position" => it.1.max_position;
-        "position" [Length] Six, "position at drive angle 0" => it.1.position;
-        "velocity" [Velocity] Six, "velocity at drive angle 0" => it.1.velocity;
+        "position" [Length] Six, "position at time 0" => it.1.position;
+        "velocity" [Velocity] Six, "velocity at time 0" => it.1.velocity;
     }
 }
 

@@ -29,9 +29,9 @@ Examples:
 It is the motion with the hardest impact, of those on all stretches that `softstop zone` lists
 and of those that a search at this frequency finds.
 
-Position and velocity are those at drive angle 0 (a multiple of the drive's period). The
-motion is stable if both Floquet multipliers lie inside the unit circle, and neutral if they lie on it,
-as they do without any damping.";
+Position and velocity are those at time 0, that is at drive angle phi (excitation.phase), and
+whole periods later. The motion is stable if both Floquet multipliers lie inside the unit circle,
+and neutral if they lie on it, as they do without any damping.";
 
 /// Arguments of `softstop orbit`.
 #[derive(Debug, Args)]

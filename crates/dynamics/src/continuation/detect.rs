@@ -198,7 +198,7 @@ impl Continuation<'_> {
         let share = a.norm() / (a.norm() + b.norm());
         let way = &to.at - &from.at;
         let at = &from.at + share * &way;
-        // Where an impact passes drive angle 0 the gaps change their sides, too: what is found then lies elsewhere.
+        // Where an impact passes drive angle phi the gaps change their sides, too: what is found then lies elsewhere.
         let is_near = |place: &DVector<f64>| (place - &at).norm() <= way.norm();
         if !is_even {
             let node = self.pitchfork(&at).ok().filter(|it| is_near(&it.at))?;

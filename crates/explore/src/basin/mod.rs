@@ -57,7 +57,7 @@ Along a parameter the plane is the same at all values. An attractor goes on as t
 regime at the next value, or as one of another regime that lies near by, as after a soft flip. The basin entropy (Daza et al. 2016) is that of boxes of 5 by 5 cells; where that of the
 boxes with several basins exceeds ln 2, their boundary is fractal.
 
-Files, whole or not at all: basin.png (white spots: the motions at drive angle 0), basin.csv with
+Files, whole or not at all: basin.png (white spots: the motions at drive angle phi), basin.csv with
 a row for each basin, basin.json; with --along-zone certainty.svg, certainty.csv, certainty.json;
 along a parameter attractors.svg, attractors.csv, attractors.json.";
 

@@ -70,8 +70,8 @@ pub struct ContinueArguments {
     /// Motion to start from: p impacts in n drive periods, stable, found from scratch
     #[arg(long, value_name = "p/n", default_value = "1/1", value_parser = seed::regime)]
     pub orbit: Regime,
-    /// Start from the orbit of n drive periods (--orbit p/n) nearest to this state at drive angle
-    /// 0, stable or not
+    /// Start from the orbit of n drive periods (--orbit p/n) nearest to this state at time 0,
+    /// that is at drive angle phi, stable or not
     #[arg(long, value_name = "X,V", value_parser = seed::state)]
     pub state: Option<Vector2<f64>>,
     /// Start from a point of an earlier run, stable or not: FILE is its --format json, POINT a special point (SN, or PD2

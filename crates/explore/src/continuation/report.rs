@@ -38,7 +38,7 @@ fn specials<'a>() -> [Column<Classified<'a>>; 9] {
         "symbol" [None] Plain, "SN, PD, NS, G or PF" => it.0.kind.symbol();
         "name" [None] Plain, "what it is" => describe(&it.0.kind);
         "value" [None] Fixed(12), "of the parameter" => it.0.point.parameter;
-        "position" [Length], "at drive angle 0 of the scene" => it.0.point.position;
+        "position" [Length], "at time 0, that is at drive angle phi" => it.0.point.position;
         "velocity" [Velocity], "there" => it.0.point.velocity;
         "before_impact_velocities" [Velocity] Fixed(6), "of all impacts" => it.0.point.impacts.clone();
         "trace" [None], "of the monodromy matrix" => it.0.point.monodromy.trace();
@@ -67,7 +67,7 @@ fn codimension_two<'a>() -> [Column<OnCurve<'a>>; 6] {
         "name" [None] Plain, "what it is" => it.1.0.name();
         "on" [None] Plain, "kind of the curve" => it.0.symbol();
         "values" [None] Fixed(12), "of both parameters" => it.1.1.parameters;
-        "position" [Length], "at drive angle 0 of the scene" => it.1.1.position;
+        "position" [Length], "at time 0, that is at drive angle phi" => it.1.1.position;
         "velocity" [Velocity], "there" => it.1.1.velocity;
     }
 }

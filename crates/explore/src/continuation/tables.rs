@@ -20,7 +20,7 @@ pub(super) fn branch_columns<'a>() -> [Column<BranchRow<'a>>; 13] {
         "branch" [None], "its number, that of the start first" => row.number;
         "periods" [None], "drive periods n of its orbits" => row.branch.periods;
         "value" [Of("own")], "of the parameter, in its own unit" => row.point.parameter;
-        "position" [Length], "at drive angle 0" => row.point.position;
+        "position" [Length], "at time 0, that is at drive angle phi" => row.point.position;
         "velocity" [Velocity], "there" => row.point.velocity;
         "impacts" [None], "in n drive periods" => row.point.impacts.len();
         "before_impact_velocity" [Velocity], "of the hardest impact" => row.point.before_impact_velocity();
@@ -74,7 +74,7 @@ pub(super) fn curve_columns<'a>() -> [Column<CurveRow<'a>>; 10] {
         "special" [None], "SN, PD, NS or G" => row.curve.kind.symbol();
         "value" [Of("own")], "of the parameter, in its own unit" => row.point.parameters[0];
         "second_value" [Of("own")], "of the second parameter" => row.point.parameters[1];
-        "position" [Length], "at drive angle 0" => row.point.position;
+        "position" [Length], "at time 0, that is at drive angle phi" => row.point.position;
         "velocity" [Velocity], "there" => row.point.velocity;
         "before_impact_velocity" [Velocity], "of the hardest impact" => row.point.before_impact_velocity();
         "trace" [None], "of the monodromy matrix" => row.point.monodromy.trace();

@@ -85,7 +85,7 @@ pub(super) fn basin(design: &Design) -> Result<Figure, OrbitError> {
         format!(" The ring is the largest ball inside the basin of the design: {radius:.3} of half of each axis.")
     });
     let caption = format!(
-        "Shares of the initial states, with 95 % intervals: {}. The spot is the design at drive angle 0.{ball}",
+        "Shares of the initial states, with 95 % intervals: {}. The spot is the design at drive angle φ.{ball}",
         shares.collect::<Vec<String>>().join("; ")
     );
     let [across, up] = ends.map(|ends| middles(ends, CELLS));

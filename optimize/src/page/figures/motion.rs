@@ -72,7 +72,7 @@ pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
         None => "",
     };
     let caption = format!(
-        "The position of the mass, with lines where it meets something. Time 0 is drive angle 0.{of_forces}{wall}"
+        "The position of the mass, with lines where it meets something. Time 0 is drive angle φ.{of_forces}{wall}"
     );
     let panels = [position].into_iter().chain(forces);
     let title = "Position and force of contact over two periods of the drive";
