@@ -1,6 +1,7 @@
 //! `softstop sweep` as users and scripts meet it.
 
 use softstop_testing::tolerance::MOTION;
+use softstop_testing::words;
 
 use crate::SOFTSTOP;
 
@@ -42,10 +43,33 @@ fn a_machine_is_swept_downwards_along_its_mass() {
     report.shows("sweep.svg", &["mass (kg)", "before-impact velocity (m/s)"]);
 }
 
+/// With the stop at -0.5 m the place of rest of the spring lies beyond it; a stop that moves pushes the mass.
+#[test]
+fn a_sweep_beyond_a_rigid_stop_begins_at_rest_on_it() {
+    let line =
+        "sweep SCENES/rigid.toml --set clearance=-0.5 --from 1 --to 1.2 --steps 3 --periods 50";
+    let report = SOFTSTOP.report(line);
+    for sweep in ["sweeps/0", "sweeps/1"] {
+        assert_eq!(report.number(&format!("{sweep}/steps")), 3.0);
+        assert_eq!(report.number(&format!("{sweep}/put_on_stop")), 1.0);
+    }
+    assert_eq!(report.text("sweep.csv").lines().count(), 7);
+    let line =
+        "sweep SCENES/rigid.toml --parameter clearance --from 1 --to -1 --steps 5 --periods 20";
+    let report = SOFTSTOP.report(line);
+    assert_eq!(report.number("sweeps/0/steps"), 5.0);
+    assert!(report.number("sweeps/0/put_on_stop") >= 1.0);
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = folder.path().display().to_string();
+    let line = "sweep ../docs/scenes/rigid.toml --set clearance=-0.5 --from 1 --to 1.2 --steps 2 --periods 5";
+    let text = SOFTSTOP.text(&[&words(line)[..], &["--output", &output]].concat());
+    assert!(text.contains("at rest on a rigid stop"), "{text}");
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_sweep_goes_on_to_the_same_result() -> crate::Outcome {
-    use softstop_testing::words;
     use std::fs;
     use std::process::Stdio;
     use std::time::{Duration, Instant};

@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 use rayon::ThreadPoolBuilder;
-use softstop::{Parameter, Ratios, Start, Stop};
+use softstop::{Below, Parameter, Ratios, Release, Start, Stop};
 use softstop_dynamics::monitor::{Memory, unmonitored};
 use softstop_dynamics::sweep::{PlanError, find_coexistences};
 use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Regime, Step, orbit};
 use softstop_testing::tolerance::{GROWN, MOTION};
-use softstop_testing::{assert_near, is_near, unloaded};
+use softstop_testing::{assert_near, is_near, kelvin_voigt, rigid_stop, unloaded};
 
 /// Frequency at which the impact-less motion grazes, rho = 10.
 const G0: f64 = 1.04444;
@@ -305,4 +305,24 @@ fn chatter_is_called_chatter() {
         assert_eq!(name, "complete chatter every drive period");
     }
     assert_eq!(chains[0].find_jumps(), []);
+}
+
+/// A state beyond a rigid stop, above or below or behind a spring, is put at rest on it, whatever its position rounds to.
+#[test]
+fn what_lies_beyond_a_rigid_stop_begins_at_rest_on_it() {
+    let mut scene = unloaded(1.0);
+    scene.stop = kelvin_voigt(3.0, Release::default());
+    scene.rigid = Some(rigid_stop(0.7, 0.6));
+    scene.below = Some(Box::new(Below {
+        clearance: 1.1,
+        stop: Stop::Rigid { restitution: 0.6 },
+    }));
+    let mut plan = Plan::new(Parameter::Clearance, (-0.7, 0.3), 7, 3).expect("there is one");
+    for (start, is_beyond) in [(5.0, true), (-5.0, true), (-1.0, false)] {
+        plan.start = Start::new(start, 0.1);
+        let ways = [Direction::Up, Direction::Down];
+        let chains = run(&plan, ways.map(|way| Chain::new(scene.clone(), way)).into());
+        let begins = chains.iter().map(|chain| chain.steps[0].is_put_on_wall);
+        assert_eq!(begins.collect::<Vec<_>>(), [is_beyond; 2]);
+    }
 }

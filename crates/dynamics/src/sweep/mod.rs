@@ -2,7 +2,8 @@
 //!
 //! The rule: each value of the parameter holds for a whole number of drive periods. The state at the end of a
 //! step, at drive angle phi, is the start of the next one. So position, velocity and drive angle are continuous;
-//! the parameter alone jumps, each time at drive angle phi. A sweep loses a motion later than the motion itself
+//! the parameter alone jumps, each time at drive angle phi. Where that puts a rigid stop before the mass, or the sweep
+//! would start beyond one, the step begins at rest on the stop. A sweep loses a motion later than the motion itself
 //! ends, by so much the more as it goes faster: where it does is told with the rate ([`Plan::sweep_rate`]).
 //!
 //! Many sweeps, of several machines and both directions, go side by side in the lanes of the batch engine.

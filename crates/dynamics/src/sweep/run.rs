@@ -14,7 +14,7 @@ use crate::member::Member;
 use crate::monitor::{Monitor, OptionalMemory, PIECE_DURATION, recall_or_compute};
 use crate::settled::SettledMotion;
 use softstop::internals::budget::{self, SharedBudget};
-use softstop::{Parameter, SceneError};
+use softstop::{Parameter, Scene, SceneError, Start};
 use softstop_lanes::Machine;
 
 /// The steps that a sweep makes in one stored piece of work.
@@ -140,9 +140,10 @@ impl Plan {
             match self.lower_next_step(chain) {
                 Ok(machine) => {
                     let state = chain.steps.last().map_or(self.start, |step| step.end);
-                    members.push(Member::new(machines.len(), state));
+                    let (start, is_put) = put_within_walls(machine.scene(), state);
+                    members.push(Member::new(machines.len(), start));
                     machines.push(machine);
-                    moved.push(index);
+                    moved.push((index, is_put));
                 }
                 Err(error) => chain.error = Some(error.to_string()),
             }
@@ -152,7 +153,7 @@ impl Plan {
         let mut open: Vec<&mut Member> = members.iter_mut().collect();
         let observed = ensemble.record_run(&mut open, self.periods, self.watched_periods());
         observed.ok()?;
-        for (index, member) in moved.into_iter().zip(members) {
+        for ((index, is_put), member) in moved.into_iter().zip(members) {
             let scene = ensemble.machines[member.machine].scene();
             let chain = &mut group[index];
             let value = self.value_at(step, chain.direction);
@@ -164,7 +165,10 @@ impl Plan {
                 }
             };
             match made {
-                Ok(step) => chain.steps.push(step),
+                Ok(step) => chain.steps.push(Step {
+                    is_put_on_wall: is_put,
+                    ..step
+                }),
                 Err(error) => chain.error = Some(error.to_string()),
             }
         }
@@ -178,5 +182,14 @@ impl Plan {
         let value = self.value_at(chain.steps.len(), chain.direction);
         machine.set(self.parameter, value);
         Ok(Machine::new(&machine.check(None)?))
+    }
+}
+
+/// The state of rest on the rigid stop beyond which a state of a scene lies, and true; otherwise the state itself.
+fn put_within_walls(scene: &Scene, state: Start) -> (Start, bool) {
+    let (low, high) = scene.reach();
+    match state.position.max(low).min(high) {
+        position if position == state.position => (state, false),
+        position => (Start::new(position, 0.0), true),
     }
 }

@@ -24,6 +24,8 @@ pub struct Step {
     pub max_position: f64,
     /// State at its end, at drive angle phi: the start of the next step.
     pub end: Start,
+    /// True if it began at rest on a rigid stop, since the state before it lay beyond that.
+    pub is_put_on_wall: bool,
 }
 
 impl Step {
@@ -46,6 +48,7 @@ impl Step {
                 false => f64::NAN,
             },
             end: seen.end,
+            is_put_on_wall: false,
             velocities: seen.velocities,
         })
     }

@@ -6,6 +6,7 @@ mod steps;
 
 use std::path::PathBuf;
 
+use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use softstop::{Machine, Parameter};
 use softstop_dynamics::{Chain, Direction, Plan};
@@ -40,7 +41,8 @@ Examples:
 
 The rule: each value holds for --periods drive periods; the state at their end, at drive angle 0,
 is where the next value begins. So the faster the sweep, the later it loses a motion; the rate is
-part of the result. The first value begins at rest.
+part of the result. The first value begins at rest. Where a state lies beyond a rigid stop, as at
+clearances below zero, the next value begins at rest on the stop.
 
 z = p/n: p impacts in n drive periods, after which the state returns (within --tolerance of its
 size) all along the second half of the step. What does not return is chaos if small differences
@@ -170,6 +172,10 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     };
     arguments.common.limit.budget.limit_many(steps, run)?;
     drop(progress);
+    if let Some(error) = failure(&chains) {
+        keep.forget();
+        return Err(Failure::Run(anyhow!("no sweep has a step: {error}")));
+    }
     let chart = SweepChart::new(&machine, &plan, &chains).svg();
     let rows = steps::rows(&plan, &chains);
     export.sheet(["csv", "svg"], &steps::columns(), rows, &chart)?;
@@ -177,6 +183,13 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     export.finish(&result, text, arguments.common.format)?;
     keep.forget();
     Ok(())
+}
+
+/// Why no sweep has made any step; none if one has.
+fn failure(chains: &[Chain]) -> Option<&str> {
+    let all = chains.iter().all(|chain| chain.steps.is_empty());
+    let first = chains.iter().filter(|_| all);
+    first.filter_map(|chain| chain.error.as_deref()).next()
 }
 
 fn plan(

@@ -113,17 +113,24 @@ pub(super) fn report(machine: &Machine, plan: &Plan, all: &[Chain]) -> (Record, 
         below(&figures, &units),
     );
     let sweep = |(chain, figures): (&Chain, Record)| {
+        let clearance = clearance(plan, chain).map(|it| format!("clearance {it}, "));
+        let name = clearance.unwrap_or_default() + chain.direction.name();
+        let put = chain.steps.iter().filter(|step| step.is_put_on_wall);
+        let put = put.count();
+        if put > 0 {
+            text += &format!(
+                "\nBegun at rest on a rigid stop, as the state before lay beyond it: {put} of the values, {name}\n"
+            );
+        }
         let jumps = Record::all(&jumps(digits), &chain.find_jumps());
         if !jumps.is_empty() {
-            let clearance = clearance(plan, chain).map(|it| format!("clearance {it}, "));
-            let name = clearance.unwrap_or_default() + chain.direction.name();
             let told = below(&jumps[..jumps.len().min(MOST)], &units);
             text += &format!("\nJumps, {name}\n{told}");
         }
         if jumps.len() > MOST {
             text += &format!("and {} more\n", jumps.len() - MOST);
         }
-        figures.hidden("jumps", jumps)
+        figures.hidden("put_on_stop", put).hidden("jumps", jumps)
     };
     let sweeps: Vec<Record> = all.iter().zip(figures).map(sweep).collect();
     text += &sections([("Hysteresis", below(&zones, &units))]);
