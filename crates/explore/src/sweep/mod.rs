@@ -140,6 +140,8 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     for (flag, value) in [("--from", arguments.from), ("--to", arguments.to)] {
         require(value.is_finite(), flag, value, "finite")?;
     }
+    let differs = arguments.from != arguments.to;
+    require(differs, "--to", arguments.to, "another value than --from")?;
     let ends = [arguments.from * unit, arguments.to * unit];
     let why = "is not used, for it is swept: --from and --to have its values";
     arguments.common.machine.refuse(&machine, parameter, why)?;
