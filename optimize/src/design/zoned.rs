@@ -42,7 +42,7 @@ impl<'a> Zoned<'a> {
     ) -> Result<Self, Infeasible> {
         let zone = zone.map_err(|error| Infeasible {
             gap: distance_from_zones(&machine.scene, &error),
-            reason: error.to_string(),
+            reason: error.in_units_of(&machine).to_string(),
         })?;
         Ok(Self {
             problem,
