@@ -63,7 +63,7 @@ pub struct MotionsArguments {
     #[arg(long, value_name = "N", default_value_t = SearchOptions::default().longest)]
     pub longest: usize,
     /// Drive periods for which motions that do not repeat are watched, all together; 20 times
-    /// fewer for stops with power laws
+    /// fewer where motions take longer, as with a pressed rigid stop or a power law other than n = 3/2, 2 and 5/2
     #[arg(long, value_name = "N", default_value_t = SearchOptions::default().patience)]
     pub patience: u64,
     /// Folder for motions.json and motions.svg, a picture of all motions; none without it
