@@ -24,6 +24,8 @@ use crate::order::{sort_falling, sort_rising};
 
 /// Zones of the lattice, at most.
 const LATTICE: usize = 32;
+/// Distances of the zones beside the design that fails, in edges of the cube: its hill may be narrower than the lattice.
+const BESIDE: [f64; 2] = [0.05, 0.1];
 /// Distance of the zones around the best, in edges of the cube: the first and the last.
 const FIRST: f64 = 0.08;
 const LAST: f64 = 6e-4;
@@ -201,14 +203,16 @@ impl Trials<'_> {
         self.problem.score(design)
     }
 
-    /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice, then by
-    /// a compass search.
+    /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice and
+    /// those beside the design, then by a compass search.
     fn best(&self, from: &Candidate) -> Option<Candidate> {
         let coordinates = Coordinates::new(self.problem, &from.unit);
         let lattice = lattice(coordinates.axes().len());
-        let lattice: Vec<_> = lattice.iter().map(|at| coordinates.unit(at)).collect();
+        let lattice = lattice.iter().map(|at| coordinates.unit(at));
+        let beside = BESIDE.into_iter().flat_map(|step| coordinates.around(step));
+        let zones: Vec<_> = lattice.chain(beside).collect();
         let first = self.first(from);
-        let best = self.best_of(&lattice, first.as_ref()).or(first)?;
+        let best = self.best_of(&zones, first.as_ref()).or(first)?;
         self.compass(best)
     }
 
