@@ -197,6 +197,30 @@ impl Motion {
         }
     }
 
+    /// True if all that this motion goes by is, to the last bit, what one of the same scene went by some whole drive periods
+    /// before: then what follows repeats, to the last bit, what followed there.
+    pub fn repeats(&self, before: &Self) -> bool {
+        let since_arc = |it: &Self| {
+            (
+                it.now.cycles - it.start.cycles,
+                it.now.offset,
+                it.start.offset,
+            )
+        };
+        let held = |it: &Self| (it.mode, it.fed, it.pierced, it.is_put, it.hum, it.outlook);
+        let force = *self.force.on_arc();
+        since_arc(self) == since_arc(before)
+            && held(self) == held(before)
+            && (force, force.is_linear()) == (*before.force.on_arc(), true)
+            && self.course == before.course
+    }
+
+    /// Carries a motion that repeats what it went by on by whole drive periods.
+    pub fn skip_periods(&mut self, periods: u64) {
+        self.start.cycles += periods as f64;
+        self.now.cycles += periods as f64;
+    }
+
     /// Whether the strip's phases hold now, or would at the next crossing of the clearance.
     pub(super) fn is_latched(&self) -> bool {
         match self.mode {

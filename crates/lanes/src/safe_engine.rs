@@ -75,7 +75,10 @@ pub(super) fn follow_safely(
         crossings: 0,
     };
     let mut followed = Ok(None);
-    for cycle in place.cycle + 1..=periods {
+    let mut kept: Option<KeptPeriod> = None;
+    let mut cycle = place.cycle;
+    while cycle < periods {
+        cycle += 1;
         if let Err(error) = motion.advance(Clock::at_cycle(cycle), &mut counter) {
             followed = Err(error);
             break;
@@ -99,10 +102,38 @@ pub(super) fn follow_safely(
             }));
             break;
         }
+        if counter.watch.impacts || counter.watch.periods {
+            continue;
+        }
+        let counts = [cycle, counter.impacts, counter.crossings];
+        match &kept {
+            Some(kept) if motion.repeats(&kept.motion) => {
+                let [lasts, impacts, crossings] = [0, 1, 2].map(|it| counts[it] - kept.counts[it]);
+                let times = (periods - cycle) / lasts;
+                motion.skip_periods(times * lasts);
+                cycle += times * lasts;
+                outcome.handed_over += times * lasts;
+                counter.impacts += times * impacts;
+                counter.crossings += times * crossings;
+            }
+            Some(kept) if cycle < 2 * kept.counts[0] - place.cycle => {}
+            _ => {
+                let motion = motion.clone();
+                kept = Some(KeptPeriod { motion, counts });
+            }
+        }
     }
     outcome.impacts += counter.impacts;
     outcome.crossings += counter.crossings;
     followed
+}
+
+/// A motion at the end of a drive period, with which later ones are compared: it is renewed when twice as many have gone by,
+/// so that it comes to lie on what the motion settles on (Brent, BIT 20, 1980).
+struct KeptPeriod {
+    motion: Motion,
+    /// Drive periods, impacts and crossings by then.
+    counts: [u64; 3],
 }
 
 /// Work of a drive period besides its crossings, in scan windows.

@@ -218,3 +218,32 @@ fn a_contact_that_would_pull_at_first_is_handed_over_as_released() {
     assert_eq!((outcome.impacts, outcome.crossings), (impacts, crossings));
     assert!(distance(outcome.end, end) < 1e-11 && outcome.handed_over > 0);
 }
+
+/// Where a mass comes to rest in each period, its motion repeats to the last bit: what is skipped then is what a run counts.
+#[test]
+fn motions_that_come_to_rest_are_counted_as_by_a_run_of_all_periods() {
+    let mut skipped = 0;
+    for index in 0..60 {
+        let share = f64::from(index) / 60.0;
+        let mut scene = Scene {
+            clearance: 0.5 * (share * 7.0).sin(),
+            ..Scene::of_stop(Stop::Rigid {
+                restitution: 0.8 * (share * 11.0).fract(),
+            })
+        };
+        scene.excitation.frequency = 0.11 + 0.6 * (share * 3.0).fract();
+        let start = Start::new(scene.clearance - 0.2, 1.0);
+        for periods in [40, 977] {
+            let outcome = in_a_lane(&scene, start, periods, &mut ());
+            let (end, impacts, crossings) = safely(&scene, start, periods);
+            assert_eq!(
+                (outcome.impacts, outcome.crossings),
+                (impacts, crossings),
+                "{scene:?}"
+            );
+            assert!(distance(outcome.end, end) < 1e-11, "{scene:?}");
+            skipped += usize::from(outcome.handed_over == periods);
+        }
+    }
+    assert!(skipped > 60, "{skipped}");
+}
