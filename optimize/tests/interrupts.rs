@@ -74,7 +74,7 @@ fn orbit() {
 #[test]
 fn continuation() {
     ends(
-        "continue SCENES/chatter.toml --orbit 5/7 --parameter w --from 0.1 --to 1.8",
+        "continue --set rho=-3 --orbit 5/7 --parameter eta --from 0.1 --to 3",
         &[],
     );
 }

@@ -2,8 +2,6 @@
 //! search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon 2003),
 //! closer and closer. Of each zone only places that are better than the best so far are tried.
 
-use std::iter;
-
 use serde::Serialize;
 use softstop_console::interrupt;
 use softstop_dynamics::parallel;
@@ -45,7 +43,7 @@ const GAIN: f64 = 1e-9;
 /// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
 const MARGINS: [f64; 2] = [0.2, 0.4];
 /// Designs with other values of catalogues than those of finalists whose trials are made, at most.
-const OTHERS: usize = 16;
+const OTHERS: usize = 2;
 /// How often what is lost within the tolerances of what was found, or fails there, is taken note of.
 const ROUNDS: usize = 8;
 
@@ -133,8 +131,9 @@ fn check_trials(
     Err(lack)
 }
 
-/// The best designs that pass their trials, in falling order, from designs that keep their box of tolerances and from those with
-/// other values of catalogues. What cannot be better than a bound, or than one that passes, is left out.
+/// The best designs that pass their trials, in falling order, from designs that keep their box of tolerances, each bettered by
+/// exchange of values of catalogues. What is then not better than a bound, or than one that passes, is left out. Where one fails,
+/// designs with other values are tried as they are.
 ///
 /// # Errors
 /// [`Infeasible`] if none passes: what the first one fails.
@@ -144,42 +143,90 @@ pub(super) fn check_finalists(
     bound: f64,
     sought_from: &mut Vec<SearchStart>,
 ) -> Result<Vec<Passed>, Infeasible> {
-    let score = |it: &Robust| problem.score(&it.candidate.design);
-    let mut passing: Vec<Passed> = Vec::new();
-    let mut failed: Vec<(Robust, Infeasible)> = Vec::new();
+    let mut checked = Checked {
+        problem,
+        bound,
+        passing: Vec::new(),
+        failed: Vec::new(),
+    };
     let mut others = 0..OTHERS;
     for finalist in finalists {
         let mut catalogues = CatalogueSearch::new(problem, finalist);
-        for _ in iter::once(0).chain(others.by_ref()) {
-            let best = passing.iter().map(|it| score(&it.robust));
-            let Some(mut next) = catalogues.take_best(best.fold(bound, f64::max)) else {
+        let best = catalogues.take_best(0.0);
+        let Some(mut best) = best.filter(|it| checked.score(it) > checked.least()) else {
+            continue;
+        };
+        let passed = check_trials(problem, &mut best, sought_from);
+        if checked.note(best, passed) {
+            continue;
+        }
+        for _ in others.by_ref() {
+            let Some(mut next) = catalogues.take_best(checked.least()) else {
                 break;
             };
-            match check_trials(problem, &mut next, sought_from) {
-                Ok(mut found) => {
-                    let is_unmoved = found.resolution.is_none();
-                    let own = score(&found.robust);
-                    let better = failed.iter().map(|(it, _)| it);
-                    for better in better.filter(|it| score(it) > own) {
-                        found.robust.known.note_failed(&better.known);
-                        found.resolution = Some(RESOLUTION);
-                    }
-                    passing.push(found);
-                    if is_unmoved {
-                        break;
-                    }
-                }
-                Err(lack) => failed.push((next, lack)),
+            let passed = problem.pass_trials(&next.candidate.design, &mut next.known);
+            let passed = passed.map(|tried| Passed {
+                robust: next.clone(),
+                tried,
+                resolution: None,
+            });
+            if checked.note(next, passed) {
+                break;
             }
         }
     }
-    sort_falling(&mut passing, |it| score(&it.robust));
-    match passing.is_empty() {
-        true => {
-            let first = failed.into_iter().next();
-            Err(first.map_or_else(|| Infeasible::unknown("stopped"), |(_, lack)| lack))
+    checked.into_passing()
+}
+
+/// Designs whose trials were made.
+struct Checked<'a> {
+    problem: &'a Problem,
+    bound: f64,
+    passing: Vec<Passed>,
+    failed: Vec<(Robust, Infeasible)>,
+}
+
+impl Checked<'_> {
+    fn score(&self, it: &Robust) -> f64 {
+        self.problem.score(&it.candidate.design)
+    }
+
+    /// The score that another design must exceed.
+    fn least(&self) -> f64 {
+        let passing = self.passing.iter().map(|it| self.score(&it.robust));
+        passing.fold(self.bound, f64::max)
+    }
+
+    /// Takes note of a design's trials; true if it passes as it is.
+    fn note(&mut self, design: Robust, passed: Result<Passed, Infeasible>) -> bool {
+        let mut passed = match passed {
+            Ok(passed) => passed,
+            Err(lack) => {
+                self.failed.push((design, lack));
+                return false;
+            }
+        };
+        let is_unmoved = passed.resolution.is_none();
+        let own = self.score(&passed.robust);
+        for (better, _) in self.failed.iter().filter(|(it, _)| self.score(it) > own) {
+            passed.robust.known.note_failed(&better.known);
+            passed.resolution = Some(RESOLUTION);
         }
-        false => Ok(passing),
+        self.passing.push(passed);
+        is_unmoved
+    }
+
+    /// The designs that pass, in falling order.
+    fn into_passing(mut self) -> Result<Vec<Passed>, Infeasible> {
+        let problem = self.problem;
+        sort_falling(&mut self.passing, |it| {
+            problem.score(&it.robust.candidate.design)
+        });
+        if self.passing.is_empty() {
+            let first = self.failed.into_iter().next();
+            return Err(first.map_or_else(|| Infeasible::unknown("stopped"), |(_, lack)| lack));
+        }
+        Ok(self.passing)
     }
 }
 

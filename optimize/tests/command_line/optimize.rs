@@ -98,3 +98,40 @@ fn a_certain_design_is_found_far_from_the_hardest_one() -> Outcome {
     assert!(velocity > 8.0, "{velocity}");
     Ok(())
 }
+
+/// Of three catalogues the best values lie on another hill than those of the best start: each start is bettered by exchange.
+#[test]
+fn catalogues_are_exchanged_from_each_of_the_best_starts() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let task = r#"
+mass = 1.0
+stiffness = 1.0
+damping = 0.04
+clearance = 10.0
+contact.damping = 0.04
+[excitation]
+amplitude = 1.0
+frequency = 1.15
+[stop]
+model = "preloaded"
+stiffness = 7
+preload = 70
+[vary]
+stop.stiffness = { values = [1.5368, 7.584, 7.5956, 12.5018, 14.3996, 16.7063, 18.3142, 19.4148, 20.3945, 21.1222, 26.6487, 28.4976] }
+clearance = { values = [3.4345, 3.6236, 6.8476, 7.3591, 7.8085, 9.7731, 10.2335, 11.5863, 13.0628, 13.1163, 14.6459, 14.8299] }
+stiffness = { values = [0.5289, 0.7726, 0.8666, 0.9687, 1.3109, 1.3122, 1.3835, 1.5015, 1.9027, 2.1578, 2.2004, 2.6762] }
+[require]
+stroke = 20.0196
+"#;
+    let file = folder.path().join("task.toml");
+    fs::write(&file, task)?;
+    let line = format!(
+        "optimize {} --no-report --evaluations 200 --samples 0",
+        file.display()
+    );
+    let velocity = SOFTSTOP
+        .report(&line)
+        .number("design/before_impact_velocity");
+    assert!(velocity > 13.346, "{velocity}");
+    Ok(())
+}

@@ -13,12 +13,13 @@ use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
 use super::test::Test;
 use crate::orbit::OrbitError;
+use softstop::MotionError;
 
 /// Follows a special point, of this kind and with this state at time 0, in both directions of two parameters.
 /// `parameters` are its own: that of the branch and the value of the second; `watch` sees each point as it comes.
 ///
 /// # Errors
-/// [`OrbitError`] if the point is not a special one of this family.
+/// [`OrbitError`] if the point is not a special one of this family, or by settings with which no curve can be followed.
 pub fn follow_special(
     family: &dyn Family<2>,
     periods: u64,
@@ -27,6 +28,7 @@ pub fn follow_special(
     region: &CurveLimits,
     mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Result<Curve, OrbitError> {
+    region.settings.validate().map_err(MotionError::from)?;
     let mut found = follow_raw(family, periods, special, parameters, region, &mut watch)?;
     end_in_flips(family, &mut found, region);
     Ok(found)

@@ -123,9 +123,7 @@ impl ContactFace {
             free_from,
             course,
         };
-        if velocity <= 0.0 {
-            return None;
-        }
+        (velocity > 0.0).then_some(())?;
         if velocity_after < 0.0 {
             let course = self.free_course(at, velocity_after);
             return Some(passage(Some(PhaseId::FREE), T::default(), at, course));

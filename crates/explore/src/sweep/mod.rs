@@ -39,7 +39,7 @@ Examples:
   softstop sweep --from 0.8 --to 1.8 --steps 100000 --periods 1000
       long: after Ctrl-C, or a kill, the same line with --resume goes on, with the same result
 
-The rule: each value holds for --periods drive periods; the state at their end, at drive angle 0,
+The rule: each value holds for --periods drive periods; the state at their end, at drive angle phi,
 is where the next value begins. So the faster the sweep, the later it loses a motion; the rate is
 part of the result. The first value begins at rest. Where a state lies beyond a rigid stop, as at
 clearances below zero, the next value begins at rest on the stop.
