@@ -2,8 +2,8 @@
 
 use softstop::SceneError;
 
-/// Settings of a continuation: how it steps along a branch or a curve, and what it takes for a border. Lengths and distances are those
-/// of scaled unknowns, position, velocity and parameters in units of the family's scales; all values are > 0.
+/// Settings of a continuation: how it steps along a branch or a curve, and what it takes for a border. Lengths and distances
+/// are those of scaled unknowns, position, velocity and parameters in units of the family's scales; all values are > 0.
 /// [`Continuation::follow_points`](super::Continuation::follow_points), which looks for no special points, takes longer steps
 /// and has values of its own for `first_step`, `largest_step`, `step_growth` and `min_turn_cosine`.
 ///
@@ -23,7 +23,7 @@ pub struct ContinuationSettings {
     pub first_step: f64,
     /// Smallest step: a curve that asks for a smaller one ends.
     pub smallest_step: f64,
-    /// Largest step.
+    /// Largest step; where the unknowns are more than a hundred in size, a hundredth of it times as long.
     pub largest_step: f64,
     /// Factor by which steps grow at most.
     pub step_growth: f64,
