@@ -80,16 +80,15 @@ pub struct SharedBudget {
     spent: AtomicU64,
 }
 
-impl Default for SharedBudget {
-    fn default() -> Self {
+impl SharedBudget {
+    /// Shares what is left of the budget of this thread.
+    pub fn of_this_thread() -> Self {
         Self {
             left: LEFT.get(),
             spent: AtomicU64::new(0),
         }
     }
-}
 
-impl SharedBudget {
     /// Does a part, on any thread. Where the others have spent all, it has nothing: it is discarded with them.
     pub fn run_part<T>(&self, work: impl FnOnce() -> T) -> T {
         let is_open = self.spent.load(Ordering::Relaxed) < self.left;
@@ -128,7 +127,7 @@ mod tests {
     fn parts_are_charged_together_whatever_their_order() {
         let cost = |parts: [u64; 3]| {
             let all = || {
-                let fork = SharedBudget::default();
+                let fork = SharedBudget::of_this_thread();
                 let part = |cost| fork.run_part(|| charge(cost));
                 let ends = parts.map(part);
                 fork.charge_parts();

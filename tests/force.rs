@@ -122,7 +122,7 @@ fn a_kept_trajectory_is_the_run_under_the_same_forces() {
         };
         let forces: Vec<AppliedForce> = (0..30).map(force).collect();
         let end = Clock::at_cycle(8);
-        let kept = scene.trajectory_under(start, end, &forces, &mut ());
+        let kept = scene.trajectory_with_forces(start, end, &forces, &mut ());
         let kept = kept.expect("bounded");
         let mut run = Simulation::new(&scene, start).expect("valid");
         let until = kept.clock.time(end);
@@ -152,7 +152,7 @@ fn forces_of_a_kept_trajectory_come_in_order() {
     };
     for times in [[2.0, 1.0], [-1.0, 1.0], [f64::NAN, 1.0]] {
         let forces = times.map(force);
-        let kept = loaded().trajectory_under(AT_REST, Clock::at_cycle(2), &forces, &mut ());
+        let kept = loaded().trajectory_with_forces(AT_REST, Clock::at_cycle(2), &forces, &mut ());
         assert!(matches!(kept, Err(MotionError::TimeBackwards { .. })));
     }
 }

@@ -98,7 +98,7 @@ fn a_snapshot_of_another_kind_is_refused() {
         .expect("plain data");
     value["scene"] = serde_json::from_str(&text).expect("JSON");
     // JSON knows no infinity; any speed will do.
-    value["motion"]["hum"]["slowest"] = 0.5.into();
+    value["motion"]["bounce_train"]["slowest"] = 0.5.into();
     let bytes = rmp_serde::to_vec_named(&value).expect("plain data");
     let read: Snapshot = rmp_serde::from_slice(&bytes).expect("a snapshot");
     let refused = Simulation::restored(&read).expect_err("the phase is not there");

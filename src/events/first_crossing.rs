@@ -185,13 +185,13 @@ impl Scan<'_> {
         let span = right.node.elapsed - left.node.elapsed;
         let ends = GuardEnds::new(guard, left, right);
         let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
-        self.stays_low((guard, left), (&ends, bound), (span, bounds))
+        self.guard_stays_below((guard, left), (&ends, bound), (span, bounds))
     }
 
     /// True if the guard cannot rise through zero within `span` from a node, with its values at both ends and the bound on
     /// its fourth derivative.
     #[inline(always)]
-    fn stays_low(
+    fn guard_stays_below(
         &self,
         (guard, left): (&Guard, &Jets),
         (ends, bound): (&GuardEnds, f64),
@@ -234,7 +234,7 @@ impl Scan<'_> {
             let ends = GuardEnds::new(guard, left, right);
             let bound = left.bound_g4(&self.course.flow, guard, span, bounds);
             if self.guards.len() > 1
-                && self.stays_low((guard, left), (&ends, bound), (span, bounds))
+                && self.guard_stays_below((guard, left), (&ends, bound), (span, bounds))
             {
                 continue;
             }

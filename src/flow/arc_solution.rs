@@ -10,7 +10,7 @@ use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
 use super::taylor::linear_push_series;
 use super::zero_state_responses::ZeroStateResponses;
-use super::{Chatter, Departure, Drive, Hertz, LinearLaw, Taylor, TaylorStep};
+use super::{Chatter, Departure, Drive, LinearLaw, PowerLaw, Taylor, TaylorStep};
 
 /// The exact motion that follows from a departure.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +46,7 @@ impl Form {
             _ if !departure.push.is_linear() => {
                 Self::TaylorStep(Arc::new(TaylorStep::of_linear_law(flow, departure, 0.0)))
             }
-            Some(steady) if is_well_conditioned(flow, departure) => {
+            Some(steady) if closed_form_is_accurate(flow, departure) => {
                 let particular = ParticularSolution::new(flow, departure, steady);
                 let (x, v) = particular.state_at(0.0, departure.drive);
                 let deviation = Vector2::new(departure.position - x, departure.velocity - v);
@@ -91,7 +91,7 @@ impl ArcSolution {
     pub(crate) fn restart_nonlinear(
         &mut self,
         flow: &LinearLaw,
-        hertz: &Hertz,
+        hertz: &PowerLaw,
         departure: Departure,
         deflection: f64,
     ) {
@@ -300,8 +300,8 @@ fn widened_interval(centre: f64, radius: f64) -> (f64, f64) {
     (centre - radius - slack, centre + radius + slack)
 }
 
-/// The static deflection must not dwarf the motion it has to describe.
-fn is_well_conditioned(flow: &LinearLaw, from: &Departure) -> bool {
+/// True if the closed form about the static deflection keeps its digits: that deflection does not dwarf the motion.
+fn closed_form_is_accurate(flow: &LinearLaw, from: &Departure) -> bool {
     let (b, w) = (flow.modes.stiffness.abs(), flow.frequency);
     let stiff = w * w <= LARGEST_LOSS * b;
     let (constant, ramp) = (from.push.value(), from.push.rate());

@@ -1,4 +1,4 @@
-//! A polynomial force along a stretched time.
+//! A polynomial force as series in regularised time sigma.
 
 use super::Polynomial;
 use super::polynomial::HIGHEST_ORDER;
@@ -21,7 +21,7 @@ impl ForcingSeries {
         })
     }
 
-    /// The force's k-th coefficient, from those of dt/dsigma before the k-th. To be asked for in order.
+    /// The k-th Taylor coefficient in sigma of the force, from those of dt/dsigma below k. Coefficients are computed in order of k.
     pub fn coefficient(&mut self, rate: &ReversedSeries, k: usize) -> f64 {
         if let Some(before) = k.checked_sub(1) {
             for j in 0..HIGHEST_ORDER {

@@ -6,7 +6,7 @@
 //! one reach of the flow (see [`Taylor`]).
 
 use super::convergence::{TRUNCATION, first_span};
-use super::hertz::Hertz;
+use super::power_law::PowerLaw;
 use super::series::{Series, ZERO};
 use super::taylor::{DEGREE, Taylor, push_series};
 use super::taylor_step::TaylorStep;
@@ -17,7 +17,7 @@ impl TaylorStep {
     pub fn of_linear_law(flow: &LinearLaw, from: &Departure, low: f64) -> Self {
         let mut segment = Self::linear_in_time(
             flow,
-            &Hertz::default(),
+            &PowerLaw::default(),
             from,
             (from.position, from.velocity),
         );
@@ -28,7 +28,7 @@ impl TaylorStep {
 
     /// The step of a mass that is held while the push changes.
     pub fn of_held_mass(flow: &LinearLaw, from: &Departure) -> Self {
-        let mut segment = Self::without_motion(flow, &Hertz::default());
+        let mut segment = Self::without_motion(flow, &PowerLaw::default());
         segment.depth[0] = from.position;
         segment.push = push_series(flow, from);
         segment.end_at(flow.reach.min(first_span(&segment.push)));
@@ -38,7 +38,7 @@ impl TaylorStep {
     /// The linear law's motion from `start`, in time itself.
     pub(super) fn linear_in_time(
         flow: &LinearLaw,
-        hertz: &Hertz,
+        hertz: &PowerLaw,
         from: &Departure,
         start: (f64, f64),
     ) -> Self {

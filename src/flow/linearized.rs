@@ -1,6 +1,6 @@
 //! The variational equation along a Taylor step.
 
-use super::products::Products;
+use super::paired_products::Products;
 use super::series::{Series, ZERO, integral, power_series, product};
 use super::taylor::{DEGREE, RECIPROCALS};
 use super::taylor_step::TaylorStep;
@@ -30,10 +30,10 @@ impl Linearized {
         if step.is_pressed {
             let (kappa, n) = (hertz.factor(), hertz.exponent);
             // d^(n-1) r
-            let mut steepness = match &step.stretch {
+            let mut steepness = match &step.regularized {
                 // Of a sphere it is the deflection.
-                Some(stretch) if stretch.index * n - 1.0 == stretch.index => step.depth,
-                Some(stretch) => power_series(&stretch.root, stretch.index * n - 1.0),
+                Some(regularized) if regularized.index * n - 1.0 == regularized.index => step.depth,
+                Some(regularized) => power_series(&regularized.root, regularized.index * n - 1.0),
                 None => power_series(&step.depth, n - 1.0),
             };
             if hertz.dissipation > 0.0 {

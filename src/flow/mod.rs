@@ -4,7 +4,7 @@
 //! can be computed once; a [`ArcSolution`] is one motion along it. Three evaluations share the work, each where it is
 //! free of cancellation: a Taylor series for short times, the particular solution plus the free modes for ordinary
 //! ones, and zero-state responses by doubling where the particular solution blows up. They answer a push p = c + r t.
-//! Under a [`Polynomial`] of higher degree, and in a phase with a power law ([`Hertz`]), the motion is followed in
+//! Under a [`Polynomial`] of higher degree, and in a phase with a power law ([`PowerLaw`]), the motion is followed in
 //! Taylor steps, each a course of its own.
 
 mod arc_solution;
@@ -15,19 +15,19 @@ mod doubled_response;
 mod drive;
 mod forcing_series;
 mod gauss;
-mod hertz;
 mod linear_in_time;
 mod linear_law;
 mod linearized;
 mod modes;
 mod near_start;
 mod node;
+mod paired_products;
 mod parameter_response;
 mod particular_solution;
 mod polynomial;
+mod power_law;
 mod power_law_in_time;
 mod power_law_step;
-mod products;
 mod regularized_time;
 mod series;
 mod slow_manifold;
@@ -43,12 +43,12 @@ pub(crate) use chatter::{Chatter, Pressing};
 pub use departure::{Departure, Node};
 pub use drive::Drive;
 pub(crate) use gauss::integrate;
-pub use hertz::Hertz;
 pub use linear_law::LinearLaw;
 pub use modes::Modes;
 pub(crate) use node::Window;
 pub(crate) use parameter_response::{Answer, Forces, Source};
 pub use polynomial::{HIGHEST_ORDER, Polynomial};
+pub use power_law::PowerLaw;
 pub(crate) use taylor::{DEGREE, Taylor, evaluate, value};
 pub(crate) use taylor_step::{FinePlace, TaylorStep};
 pub(crate) use variation::{Transition, Variation};

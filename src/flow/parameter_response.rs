@@ -75,7 +75,7 @@ impl ArcSolution {
                 Some(self.flow.response(&self.departure, elapsed))
             }
             Form::TaylorStep(segment)
-                if segment.creep.is_none() && segment.hertz.stiffness > 0.0 =>
+                if segment.slow_manifold.is_none() && segment.hertz.stiffness > 0.0 =>
             {
                 Some(self.response_of_step(segment, segment.sigma_after(elapsed), logarithm))
             }
@@ -162,7 +162,7 @@ impl ArcSolution {
 impl TaylorStep {
     /// Nodes and weights of Gauss's rule from 0 to `to`; at a face, if asked for, in pieces halved towards both ends.
     fn quadrature_nodes(&self, to: f64, halved: bool) -> Vec<(f64, f64)> {
-        if !halved || self.stretch.is_none() {
+        if !halved || self.regularized.is_none() {
             return gauss_nodes(to).to_vec();
         }
         let mut nodes = Vec::new();

@@ -3,8 +3,8 @@
 //! With w = d^n, d w' = n d' w; the product d' w in it is the one that the dissipation needs, too.
 
 use super::convergence::{dense_convergence_reach, first_span};
-use super::hertz::Hertz;
-use super::products::Products;
+use super::paired_products::Products;
+use super::power_law::PowerLaw;
 use super::series::{Series, ZERO};
 use super::taylor::{DEGREE, RECIPROCALS, push_series};
 use super::taylor_step::TaylorStep;
@@ -18,7 +18,7 @@ impl TaylorStep {
     /// face that the coefficients of a fast mass overflow.
     pub(super) fn in_time_under_power_law(
         flow: &LinearLaw,
-        hertz: &Hertz,
+        hertz: &PowerLaw,
         from: &Departure,
         (deflection, raised): (f64, f64),
     ) -> Option<Self> {
@@ -38,7 +38,7 @@ impl TaylorStep {
     /// The step under a square law, n = 2, which is regular at the face, too.
     pub(super) fn in_time_under_square_law(
         flow: &LinearLaw,
-        hertz: &Hertz,
+        hertz: &PowerLaw,
         from: &Departure,
         deflection: f64,
     ) -> Self {

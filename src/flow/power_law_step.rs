@@ -2,7 +2,7 @@
 //! the power law.
 
 use super::convergence::{convergence_reach, first_span};
-use super::hertz::Hertz;
+use super::power_law::PowerLaw;
 use super::series::{majorant, value};
 use super::slow_manifold::SlowEquation;
 use super::sphere::is_sphere;
@@ -19,7 +19,12 @@ const LONGER: f64 = 20.0;
 
 impl TaylorStep {
     /// The step from a departure that lies `deflection` m beyond the face.
-    pub fn of_contact(flow: &LinearLaw, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+    pub fn of_contact(
+        flow: &LinearLaw,
+        hertz: &PowerLaw,
+        from: &Departure,
+        deflection: f64,
+    ) -> Self {
         if hertz.side < 0.0 {
             return Self {
                 is_mirrored: true,
@@ -51,7 +56,7 @@ impl TaylorStep {
     /// A step on the slow manifold, where one is possible and much longer than the step `usual`.
     fn on_slow_manifold(
         flow: &LinearLaw,
-        hertz: &Hertz,
+        hertz: &PowerLaw,
         from: &Departure,
         deflection: f64,
         usual: f64,
@@ -75,12 +80,12 @@ impl TaylorStep {
             hertz,
             push: &load,
         };
-        let creep = equation.slow_motion((deflection, from.velocity), span)?;
+        let slow_manifold = equation.slow_motion((deflection, from.velocity), span)?;
         let mut segment = Self::without_motion(flow, hertz);
-        segment.depth = creep.depth;
+        segment.depth = slow_manifold.depth;
         segment.push = push;
         segment.is_pressed = true;
-        segment.creep = Some(Box::new(creep));
+        segment.slow_manifold = Some(Box::new(slow_manifold));
         let holds =
             convergence_reach(&segment.depth).min(convergence_reach(&segment.velocity_series()));
         segment.end_at(holds.min(span));
@@ -89,7 +94,12 @@ impl TaylorStep {
 
     /// The linear law's motion from a deflection next to nothing, in time itself, as long as the power law's part of it
     /// is below rounding.
-    fn without_contact(flow: &LinearLaw, hertz: &Hertz, from: &Departure, deflection: f64) -> Self {
+    fn without_contact(
+        flow: &LinearLaw,
+        hertz: &PowerLaw,
+        from: &Departure,
+        deflection: f64,
+    ) -> Self {
         let start = (hertz.origin + deflection, from.velocity);
         let mut segment = Self::linear_in_time(flow, hertz, from, start);
         segment.depth[0] = deflection;
@@ -111,7 +121,11 @@ const MOST_HALVINGS: i32 = 2200;
 
 /// Sigma within which the power law's part of the motion, at most kappa d^n (1 + lambda v) t^2 / 2, stays below
 /// rounding, found by halving `reach`. `bounds` are those on depth, speed and time, which grow with sigma.
-pub(super) fn linear_span(law: &Hertz, reach: f64, bounds: impl Fn(f64) -> (f64, f64, f64)) -> f64 {
+pub(super) fn linear_span(
+    law: &PowerLaw,
+    reach: f64,
+    bounds: impl Fn(f64) -> (f64, f64, f64),
+) -> f64 {
     let half = |halvings: i32| 0.5f64.powi(halvings);
     let span = |halvings: i32| reach * half(halvings / 2) * half(halvings - halvings / 2);
     let is_within = |halvings: i32| {
@@ -140,7 +154,7 @@ pub(super) fn linear_span(law: &Hertz, reach: f64, bounds: impl Fn(f64) -> (f64,
 /// True where a step in time reaches further than one in regularised time: the energy that the power law takes on the
 /// way to the face, deflection times kappa d^n (`raised`: d^n), is more than a small share of the kinetic energy, or
 /// the law is not regular at the face in regularised time either.
-fn prefers_time(hertz: &Hertz, (deflection, raised): (f64, f64), velocity: f64) -> bool {
+fn prefers_time(hertz: &PowerLaw, (deflection, raised): (f64, f64), velocity: f64) -> bool {
     if deflection <= 0.0 {
         return false;
     }

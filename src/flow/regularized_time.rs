@@ -2,7 +2,7 @@
 
 use super::convergence::{convergence_reach, first_span, sphere_convergence_reach};
 use super::forcing_series::ForcingSeries;
-use super::hertz::Hertz;
+use super::power_law::PowerLaw;
 use super::power_law_step::linear_span;
 use super::series::{PowerRecurrence, ReversedSeries, ZERO, convolve, majorant, value};
 use super::sphere::is_sphere;
@@ -14,36 +14,37 @@ impl TaylorStep {
     /// The step in regularised time, by series in sigma of the root of the deflection.
     pub(super) fn in_regularized_time(
         flow: &LinearLaw,
-        hertz: &Hertz,
+        hertz: &PowerLaw,
         from: &Departure,
         deflection: f64,
     ) -> Self {
         let mut segment = Self::without_motion(flow, hertz);
         let deflection = deflection.max(0.0);
-        let (stretch, holds) = if is_sphere(hertz, from) {
-            let stretch = match hertz.dissipation > 0.0 {
+        let (regularized, holds) = if is_sphere(hertz, from) {
+            let regularized = match hertz.dissipation > 0.0 {
                 true => segment.expand_sphere::<true>(flow, from, deflection),
                 false => segment.expand_sphere::<false>(flow, from, deflection),
             };
-            let holds = sphere_convergence_reach(&stretch.velocity);
-            (stretch, holds)
+            let holds = sphere_convergence_reach(&regularized.velocity);
+            (regularized, holds)
         } else {
-            let stretch = segment.expand_root(flow, from, deflection);
-            let holds = convergence_reach(&stretch.velocity);
-            (stretch, holds)
+            let regularized = segment.expand_root(flow, from, deflection);
+            let holds = convergence_reach(&regularized.velocity);
+            (regularized, holds)
         };
         // What is below rounding of the velocity is so of the root.
-        segment.reach = holds.min(stretch.reach_within(flow.reach, from.push.is_linear()));
+        segment.reach = holds.min(regularized.reach_within(flow.reach, from.push.is_linear()));
         if !segment.is_pressed && hertz.stiffness > 0.0 {
-            let bounds = [segment.depth, stretch.velocity, stretch.time].map(|s| majorant(&s));
+            let bounds =
+                [segment.depth, regularized.velocity, regularized.time].map(|s| majorant(&s));
             segment.reach = linear_span(hertz, segment.reach, |span| {
                 let [depth, speed, time] = [0, 1, 2].map(|index| value(&bounds[index], span));
                 (depth, speed, time)
             });
         }
-        segment.contact = stretch.last_contact(segment.reach);
-        segment.end = value(&stretch.time, segment.contact);
-        segment.stretch = Some(stretch);
+        segment.contact = regularized.last_contact(segment.reach);
+        segment.end = value(&regularized.time, segment.contact);
+        segment.regularized = Some(regularized);
         segment.last = segment.place_at(segment.contact);
         segment
     }
@@ -60,14 +61,14 @@ impl TaylorStep {
         let root = deflection.powf(1.0 / index);
         let (twice_decay, b, w) = (flow.damping(), flow.modes.stiffness, flow.frequency);
         let (kappa, lambda) = (hertz.factor(), hertz.dissipation);
-        let mut stretch = Box::<RegularizedTime>::default();
-        stretch.index = index;
+        let mut regularized = Box::<RegularizedTime>::default();
+        regularized.index = index;
         let RegularizedTime {
             root: s,
             velocity: v,
             time: t,
             ..
-        } = &mut *stretch;
+        } = &mut *regularized;
         (s[0], v[0]) = (root, from.velocity);
         let (mut cos, mut sin) = (ZERO, ZERO);
         let (mut power, mut acceleration) = (ZERO, ZERO);
@@ -115,7 +116,7 @@ impl TaylorStep {
             sin[k + 1] = w * next * rate.times(&cos, k);
         }
         self.is_pressed = power != ZERO;
-        stretch
+        regularized
     }
 }
 

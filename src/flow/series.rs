@@ -36,13 +36,13 @@ impl ReversedSeries {
         if k == 0 {
             return a[0] * b[0];
         }
-        inner_sum(&a[1..k], &b[1..k]) + (a[0] * b[0] + a[k] * b[k])
+        dot_product(&a[1..k], &b[1..k]) + (a[0] * b[0] + a[k] * b[k])
     }
 }
 
-/// A sum of products, several of them side by side.
+/// The dot product of two slices of one length, as four partial sums.
 #[inline(always)]
-fn inner_sum(a: &[f64], b: &[f64]) -> f64 {
+fn dot_product(a: &[f64], b: &[f64]) -> f64 {
     let (rows_a, rows_b) = (a.chunks_exact(4), b.chunks_exact(4));
     let rest = rows_a.remainder().iter().zip(rows_b.remainder());
     let rest: f64 = rest.map(|(a, b)| a * b).sum();

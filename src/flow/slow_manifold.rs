@@ -10,8 +10,8 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::budget;
 
-use super::hertz::Hertz;
 use super::modes::Modes;
+use super::power_law::PowerLaw;
 use super::series::{Series, convolve, derivative, power_series};
 use super::taylor::DEGREE;
 
@@ -30,7 +30,7 @@ const ALLOWED: f64 = 64.0 * f64::EPSILON;
 pub(super) struct SlowEquation<'a> {
     pub twice_decay: f64,
     pub stiffness: f64,
-    pub hertz: &'a Hertz,
+    pub hertz: &'a PowerLaw,
     /// The push less the pull of the suspension at the face.
     pub push: &'a Series,
 }

@@ -6,14 +6,14 @@
 //! 2 s'' = s A cos(angle) + (p - b x0) s - 2 a D' - D (b s + kappa D) - kappa lambda D^2 v
 //! ```
 
-use super::hertz::Hertz;
-use super::products::Products;
+use super::paired_products::Products;
+use super::power_law::PowerLaw;
 use super::taylor::{DEGREE, RECIPROCALS};
 use super::taylor_step::{RegularizedTime, TaylorStep};
 use super::{Departure, LinearLaw};
 
 /// True if the law is Hertz's own, n = 3/2, under a constant push beside the drive.
-pub(super) fn is_sphere(hertz: &Hertz, from: &Departure) -> bool {
+pub(super) fn is_sphere(hertz: &PowerLaw, from: &Departure) -> bool {
     hertz.exponent == 1.5 && from.push.is_linear() && from.push.rate() == 0.0
 }
 
@@ -28,8 +28,8 @@ impl TaylorStep {
         let (kappa, b, w) = (self.hertz.factor(), flow.modes.stiffness, flow.frequency);
         let grip = kappa * self.hertz.dissipation;
         let constant = from.push.value() - b * self.hertz.origin;
-        let mut stretch = Box::<RegularizedTime>::default();
-        stretch.index = 2.0;
+        let mut regularized = Box::<RegularizedTime>::default();
+        regularized.index = 2.0;
         let start = deflection.sqrt();
         let (mut cos, mut sin) = (
             flow.amplitude * from.drive.cos,
@@ -42,12 +42,12 @@ impl TaylorStep {
         for k in 0..=DEGREE {
             let (rate, after) = (RECIPROCALS[k + 1], RECIPROCALS[k + 2]);
             let v = 2.0 * (k + 1) as f64 * next;
-            (stretch.root[k], stretch.velocity[k]) = (s, v);
+            (regularized.root[k], regularized.velocity[k]) = (s, v);
             (self.depth[k], self.push[k]) = (deep, cos);
             if k == DEGREE {
                 break;
             }
-            stretch.time[k + 1] = rate * s;
+            regularized.time[k + 1] = rate * s;
             let [[by_cos, by_sin], [mut press, squared]] = linear.next_terms(
                 k,
                 [[cos, sin], [b * s + kappa * deep, next]],
@@ -65,6 +65,6 @@ impl TaylorStep {
         }
         self.push[0] += from.push.value();
         self.is_pressed = true;
-        stretch
+        regularized
     }
 }

@@ -18,7 +18,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::LinearLaw;
-use super::hertz::Hertz;
+use super::power_law::PowerLaw;
 use super::series::{Series, ZERO, curved_part, derivative, power_series, product, value};
 use super::slow_manifold::SlowManifold;
 use super::taylor::{evaluate, evaluate_from};
@@ -35,7 +35,7 @@ pub(crate) struct TaylorStep {
     /// Push per mass in m/s^2.
     pub(super) push: Series,
     /// What more there is where sigma is not time itself.
-    pub(super) stretch: Option<Box<RegularizedTime>>,
+    pub(super) regularized: Option<Box<RegularizedTime>>,
     /// The power law acts.
     pub(super) is_pressed: bool,
     /// How far the series hold, in sigma.
@@ -46,13 +46,13 @@ pub(crate) struct TaylorStep {
     pub end: f64,
     /// Where the step ends.
     pub(super) last: StepPlace,
-    pub(super) hertz: Hertz,
+    pub(super) hertz: PowerLaw,
     /// Damping over mass in 1/s, the power law's left out.
     pub(super) damping: f64,
     /// Stiffness over mass in 1/s^2, the power law's left out.
     pub(super) stiffness: f64,
     /// What a slow motion remembers of its start.
-    pub(super) creep: Option<Box<SlowManifold>>,
+    pub(super) slow_manifold: Option<Box<SlowManifold>>,
     /// Positions, velocities and pushes are counted downwards: the face stands below.
     pub(super) is_mirrored: bool,
 }
@@ -93,7 +93,7 @@ pub(crate) struct FinePlace {
 
 impl TaylorStep {
     /// A step under this law without a motion yet.
-    pub(super) fn without_motion(flow: &LinearLaw, hertz: &Hertz) -> Self {
+    pub(super) fn without_motion(flow: &LinearLaw, hertz: &PowerLaw) -> Self {
         Self {
             hertz: *hertz,
             damping: flow.damping(),
@@ -117,21 +117,21 @@ impl TaylorStep {
 
     /// True if nothing moves.
     pub fn is_still(&self) -> bool {
-        self.stretch.is_none() && self.depth[1..] == ZERO[1..]
+        self.regularized.is_none() && self.depth[1..] == ZERO[1..]
     }
 
     /// The series of the velocity in m/s.
     pub(super) fn velocity_series(&self) -> Series {
-        match &self.stretch {
-            Some(stretch) => stretch.velocity,
+        match &self.regularized {
+            Some(regularized) => regularized.velocity,
             None => derivative(&self.depth),
         }
     }
 
     /// The series of the time since departure in s.
     pub(super) fn time_series(&self) -> Series {
-        match &self.stretch {
-            Some(stretch) => stretch.time,
+        match &self.regularized {
+            Some(regularized) => regularized.time,
             None => {
                 let mut sigma = ZERO;
                 sigma[1] = 1.0;
@@ -147,11 +147,11 @@ impl TaylorStep {
 
     /// The series of d^n, where the power law acts.
     pub(super) fn powers(&self) -> Series {
-        match &self.stretch {
+        match &self.regularized {
             _ if !self.is_pressed => ZERO,
-            Some(stretch) => {
-                let steepness = stretch.index * (self.hertz.exponent - 1.0);
-                product(&power_series(&stretch.root, steepness), &self.depth)
+            Some(regularized) => {
+                let steepness = regularized.index * (self.hertz.exponent - 1.0);
+                product(&power_series(&regularized.root, steepness), &self.depth)
             }
             None => power_series(&self.depth, self.hertz.exponent),
         }
@@ -162,7 +162,7 @@ impl TaylorStep {
         if elapsed >= self.end {
             return self.contact;
         }
-        let Some(stretch) = &self.stretch else {
+        let Some(regularized) = &self.regularized else {
             return elapsed;
         };
         if elapsed == 0.0 {
@@ -171,7 +171,7 @@ impl TaylorStep {
         let (mut low, mut high) = (0.0, self.contact);
         let mut at = self.contact * (elapsed / self.end);
         for _ in 0..100 {
-            let (time, rate) = evaluate(&stretch.time, at);
+            let (time, rate) = evaluate(&regularized.time, at);
             if time > elapsed {
                 high = at;
             } else {
@@ -221,11 +221,11 @@ impl TaylorStep {
     }
 
     pub(super) fn place_at(&self, sigma: f64) -> StepPlace {
-        if let Some(stretch) = &self.stretch {
+        if let Some(regularized) = &self.regularized {
             return StepPlace {
-                deflection: value(&stretch.root, sigma).powi(stretch.index as i32),
+                deflection: value(&regularized.root, sigma).powi(regularized.index as i32),
                 low: 0.0,
-                velocity: value(&stretch.velocity, sigma),
+                velocity: value(&regularized.velocity, sigma),
             };
         }
         let start = self.depth[0];
@@ -263,8 +263,8 @@ impl TaylorStep {
 
     /// Time since departure at sigma, in s.
     pub fn time_at_sigma(&self, sigma: f64) -> f64 {
-        match &self.stretch {
-            Some(stretch) => value(&stretch.time, sigma),
+        match &self.regularized {
+            Some(regularized) => value(&regularized.time, sigma),
             None => sigma,
         }
     }
@@ -273,8 +273,8 @@ impl TaylorStep {
     pub fn stays_short(&self, position: f64, level: f64, span: f64) -> bool {
         let position = self.side() * position;
         let level = level - position * self.hertz.origin;
-        let series = match &self.stretch {
-            Some(stretch) if level == 0.0 => &stretch.root,
+        let series = match &self.regularized {
+            Some(regularized) if level == 0.0 => &regularized.root,
             _ => &self.depth,
         };
         let start = position * (series[0] + self.low) - level;
@@ -289,8 +289,8 @@ impl TaylorStep {
         // Seen from the face, a surface at the face is at zero exactly.
         let level = level - position * self.hertz.origin;
         let at_face = level == 0.0 && velocity == 0.0 && push == 0.0;
-        let mut sum = match &self.stretch {
-            Some(stretch) if at_face => stretch.root,
+        let mut sum = match &self.regularized {
+            Some(regularized) if at_face => regularized.root,
             _ => self.depth,
         };
         for term in &mut sum {

@@ -96,7 +96,7 @@ impl ArcSolution {
     /// push.
     fn detuning_force(&self, step: &TaylorStep, since: f64) -> Option<Series> {
         let push = &self.departure.push;
-        if step.creep.is_some() || !push.is_linear() || push.rate() != 0.0 {
+        if step.slow_manifold.is_some() || !push.is_linear() || push.rate() != 0.0 {
             return None;
         }
         let mut time = step.time_series();
@@ -176,10 +176,12 @@ impl TaylorStep {
     /// Position and velocity, as series in sigma, from (1, 0), from (0, 1), and from (0, 0) under a force, if there is one,
     /// per mass and d(time)/d(sigma): in slow motion a constant push.
     pub(super) fn variations(&self, law: &Linearized, force: Option<&Series>) -> [[Series; 2]; 3] {
-        match &self.creep {
-            Some(creep) => {
-                let echo = creep.memory.map(|memory| creep.echo * memory);
-                [creep.memory, echo, creep.answer].map(|y| [y, derivative(&y)])
+        match &self.slow_manifold {
+            Some(slow_manifold) => {
+                let echo = slow_manifold
+                    .memory
+                    .map(|memory| slow_manifold.echo * memory);
+                [slow_manifold.memory, echo, slow_manifold.answer].map(|y| [y, derivative(&y)])
             }
             None => law.solve_variations(force),
         }

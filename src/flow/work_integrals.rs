@@ -159,7 +159,7 @@ impl TaylorStep {
     /// Work up to `elapsed`; `law` is the part of the constant push that is the phase's own force.
     pub fn work(&self, elapsed: f64, law: f64) -> WorkIntegrals {
         let law = self.side() * law;
-        if self.stretch.is_none() && !self.is_pressed {
+        if self.regularized.is_none() && !self.is_pressed {
             return self.work_in_time(elapsed, law);
         }
         let kappa = self.hertz.factor() * self.hertz.dissipation;

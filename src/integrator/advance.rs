@@ -263,7 +263,7 @@ impl Motion {
             _ => (position, finer),
         };
         let state = Start::new(position, velocity);
-        let departure = self.departure_in(state, drive, self.mode, None);
+        let departure = self.arc_departure(state, drive, self.mode, None);
         self.begin_course(departure, self.mode, finer, None);
     }
 
@@ -278,10 +278,10 @@ impl Motion {
         let before = Start::new(found.position, velocity);
         let drive = self.end_arc(found.elapsed, Some(before), observer);
         if let Some(surface) = self.endless_surface(found.guard) {
-            self.hum.count_crossing(surface, found.velocity);
+            self.bounce_train.count_crossing(surface, found.velocity);
         }
         let landing = self.reset_after(&found, self.push(drive), moved);
-        self.remember_piercing(landing.kind);
+        self.update_pierced(landing.kind);
         self.begin_after_reset(landing, before, drive, observer);
     }
 
@@ -297,7 +297,7 @@ impl Motion {
         let acceleration_before = self.acceleration_in(self.mode, before, push);
         match landing.chatter {
             Some(chatter) => {
-                let departure = self.departure_in(after, drive, landing.mode, None);
+                let departure = self.arc_departure(after, drive, landing.mode, None);
                 self.begin_course(departure, landing.mode, None, Some(chatter));
             }
             None => self.begin_arc(after, drive, landing.mode),

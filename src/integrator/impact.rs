@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// An impact at absolute time.
+/// An impact, its time counted from the start of the simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Impact {
     /// Time in s.

@@ -30,7 +30,7 @@ pub struct Motion {
     pub(super) now: Instant,
     pub(super) course: ArcSolution,
     pub(super) outlook: NextEvent,
-    pub(super) hum: BounceTrain,
+    pub(super) bounce_train: BounceTrain,
     /// The present arc begins where it was put, which may be beyond the surfaces of its phase.
     pub(super) is_put: bool,
 }
@@ -86,7 +86,7 @@ impl Motion {
             now: at,
             course,
             outlook,
-            hum: BounceTrain::default(),
+            bounce_train: BounceTrain::default(),
             is_put: false,
         };
         motion.begin_arc(start, drive, mode);
@@ -207,7 +207,16 @@ impl Motion {
                 it.start.offset,
             )
         };
-        let held = |it: &Self| (it.mode, it.fed, it.pierced, it.is_put, it.hum, it.outlook);
+        let held = |it: &Self| {
+            (
+                it.mode,
+                it.fed,
+                it.pierced,
+                it.is_put,
+                it.bounce_train,
+                it.outlook,
+            )
+        };
         let force = *self.force.on_arc();
         since_arc(self) == since_arc(before)
             && held(self) == held(before)
@@ -242,12 +251,12 @@ impl Motion {
     pub(super) fn begin_arc(&mut self, state: Start, drive: Drive, mode: Mode) {
         let acceleration =
             (state.velocity == 0.0).then(|| self.acceleration_at_rest(state.position, drive, mode));
-        let departure = self.departure_in(state, drive, mode, acceleration);
+        let departure = self.arc_departure(state, drive, mode, acceleration);
         self.begin_course(departure, mode, None, None);
     }
 
-    /// The departure of an arc in this state and mode.
-    pub(super) fn departure_in(
+    /// The initial conditions of an arc in this state and mode: state, drive and external force.
+    pub(super) fn arc_departure(
         &self,
         state: Start,
         drive: Drive,

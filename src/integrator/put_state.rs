@@ -22,7 +22,7 @@ impl Motion {
     /// Begins an arc in a state by the law that holds, wherever that is.
     pub(super) fn put_in_state(&mut self, state: Start) {
         let drive = self.clock.drive(self.now);
-        let departure = self.departure_in(state, drive, self.mode, None);
+        let departure = self.arc_departure(state, drive, self.mode, None);
         let is_before_face = |phase: &&Phase| {
             let hertz = phase.hertz.as_ref();
             hertz.is_some_and(|hertz| hertz.deflection(state.position) < 0.0)

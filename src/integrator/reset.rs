@@ -83,14 +83,14 @@ impl Motion {
             phases: &self.phases,
             fed: self.fed,
             pierced: self.pierced,
-            threshold: self.hum.rest_threshold(),
+            threshold: self.bounce_train.rest_threshold(),
             force: self.force.on_arc(),
             period: self.clock().period(),
         }
     }
 
-    /// Remembers whether the strip of this stroke is pierced.
-    pub(super) fn remember_piercing(&mut self, kind: CrossingKind) {
+    /// Updates whether the sheet-metal strip is cut through in this stroke; a new impact begins a new stroke.
+    pub(super) fn update_pierced(&mut self, kind: CrossingKind) {
         if kind.pierces() {
             self.pierced = true;
         } else if matches!(kind, CrossingKind::Surface { impact: true, .. }) {

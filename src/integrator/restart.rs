@@ -112,7 +112,7 @@ impl Motion {
             let finer = self.course.taylor_step().map(|step| step.fine_at(elapsed));
             motion.force.next_arc(&self.clock, now, elapsed);
             motion.start = now;
-            let departure = motion.departure_in(state, self.clock.drive(now), self.mode, None);
+            let departure = motion.arc_departure(state, self.clock.drive(now), self.mode, None);
             motion.begin_course(departure, self.mode, finer, None);
         }
         motion

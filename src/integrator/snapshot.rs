@@ -52,7 +52,7 @@ struct MotionData {
     finer: Option<FinePlace>,
     chatter: Option<Chatter>,
     outlook: NextEvent,
-    hum: BounceTrain,
+    bounce_train: BounceTrain,
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     is_put: bool,
 }
@@ -71,7 +71,7 @@ impl MotionData {
             finer: motion.course.taylor_step().map(TaylorStep::fine_start),
             chatter: motion.course.chatter().copied(),
             outlook: motion.outlook,
-            hum: motion.hum,
+            bounce_train: motion.bounce_train,
             is_put: motion.is_put,
         }
     }
@@ -95,7 +95,7 @@ impl MotionData {
             pierced: self.pierced,
             force: self.force,
             now: self.now,
-            hum: self.hum,
+            bounce_train: self.bounce_train,
             ..fresh
         };
         if self.is_put {

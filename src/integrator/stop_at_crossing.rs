@@ -75,8 +75,7 @@ impl Motion {
 
 impl Simulation {
     /// Advances as [`Simulation::watch`], but stops right before the first crossing that does not happen before the time
-    /// `halt` in s; [`Simulation::cross`] lets it happen. One that happens at `until` but for rounding is on the way, even
-    /// if that is after `until`.
+    /// `halt` in s; [`Simulation::cross`] lets it happen. One that is after `until` by rounding alone counts as before it.
     ///
     /// # Errors
     /// As [`Simulation::advance`].

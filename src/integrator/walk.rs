@@ -25,7 +25,7 @@ pub struct Walk {
     releases: Vec<Guard>,
     time: f64,
     state: Start,
-    hum: BounceTrain,
+    bounce_train: BounceTrain,
     at_once: u32,
     impacts: Vec<Impact>,
 }
@@ -43,7 +43,7 @@ impl Walk {
             releases: Vec::new(),
             time: 0.0,
             state: start,
-            hum: BounceTrain::default(),
+            bounce_train: BounceTrain::default(),
             at_once: 0,
             impacts: Vec::new(),
         };
@@ -118,7 +118,7 @@ impl Walk {
     /// State and mode after a crossing out of a phase, by the rules of [`ResetContext`].
     fn reset(&mut self, phase: PhaseId, found: &Found, push: f64) -> (Start, Mode) {
         if let Some(surface) = self.scene.phases().endless_surface(phase, found.guard) {
-            self.hum.count_crossing(surface, found.velocity);
+            self.bounce_train.count_crossing(surface, found.velocity);
         }
         let moved = self.state.velocity != 0.0 || found.elapsed > 0.0;
         let force = Polynomial::default();
@@ -126,7 +126,7 @@ impl Walk {
             phases: self.scene.phases(),
             fed: true,
             pierced: false,
-            threshold: self.hum.rest_threshold(),
+            threshold: self.bounce_train.rest_threshold(),
             force: &force,
             period: self.scene.period(),
         };

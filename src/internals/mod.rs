@@ -7,7 +7,7 @@ pub use crate::budget;
 pub use crate::error::{did_you_mean, plain_number};
 pub use crate::events::{Guard, NextEvent, first_crossing};
 pub use crate::expression::{Differentiated, Expression, chained};
-pub use crate::flow::{ArcSolution, Departure, Hertz, LinearLaw, Modes, Polynomial};
+pub use crate::flow::{ArcSolution, Departure, LinearLaw, Modes, Polynomial, PowerLaw};
 pub use crate::integrator::{Evaluations, MAX_RESTITUTION, Motion, Shares, Walk, shares, work};
 pub use crate::machine::nearest_name;
 pub use crate::peak::{highest_point, largest_value};

@@ -2,7 +2,7 @@
 
 use super::{Law, PhaseKind, Spring};
 use crate::events::Guard;
-use crate::flow::Hertz;
+use crate::flow::PowerLaw;
 use crate::scene::{Piercing, Release, Scene, Slope, Stop, force_of, stiffness_from};
 
 /// The plan of one layer of positions.
@@ -14,7 +14,7 @@ pub(super) struct LayerPlan {
     pub backward: Option<Law>,
     /// The linear law that holds while the guard is above zero.
     pub released: Option<(Law, Guard)>,
-    pub hertz: Option<Hertz>,
+    pub hertz: Option<PowerLaw>,
     pub spring: Spring,
     pub is_far_side: bool,
 }
@@ -146,7 +146,7 @@ fn stop_layers(scene: &Scene, free: Law, touching: Law, fed: bool) -> Vec<LayerP
             exponent,
             dissipation,
         } => vec![LayerPlan {
-            hertz: Some(Hertz {
+            hertz: Some(PowerLaw {
                 stiffness: *stiffness,
                 exponent: *exponent,
                 dissipation: *dissipation,

@@ -8,7 +8,7 @@ use super::{
     Beyond, Exit, Law, Layer, Phase, PhaseId, PhaseKind, Phases, Stack, Store, Surface, SurfaceId,
 };
 use crate::events::Guard;
-use crate::flow::{Hertz, LinearLaw};
+use crate::flow::{LinearLaw, PowerLaw};
 use crate::scene::Scene;
 
 impl Phases {
@@ -65,7 +65,7 @@ impl Lowering<'_> {
         &mut self,
         kind: PhaseKind,
         law: Law,
-        hertz: Option<Hertz>,
+        hertz: Option<PowerLaw>,
         store: Store,
     ) -> PhaseId {
         let (scene, drive) = (&self.scene, self.scene.excitation);

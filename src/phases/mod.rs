@@ -22,7 +22,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::events::Guard;
-use crate::flow::{Drive, Hertz, LinearLaw, Polynomial};
+use crate::flow::{Drive, LinearLaw, Polynomial, PowerLaw};
 use crate::scene::Excitation;
 
 /// What a phase is in the machine.
@@ -74,7 +74,7 @@ pub struct Phase {
     /// The exact flow of the linear law.
     pub flow: LinearLaw,
     /// The nonlinear part of the law.
-    pub hertz: Option<Hertz>,
+    pub hertz: Option<PowerLaw>,
     /// The guards that end the phase.
     pub guards: Arc<Vec<Guard>>,
     /// What each guard leads to.
@@ -284,7 +284,7 @@ impl Phase {
 
     /// d(force)/d(position) in N/m and d(force)/d(velocity) in N s/m of spring, damper and stop together.
     pub fn slopes(&self, position: f64, velocity: f64) -> (f64, f64) {
-        let of_hertz = |hertz: Hertz| hertz.slopes(position, velocity);
+        let of_hertz = |hertz: PowerLaw| hertz.slopes(position, velocity);
         let (stiffness, damping) = self.hertz.map_or((0.0, 0.0), of_hertz);
         (self.law.stiffness + stiffness, self.law.damping + damping)
     }
@@ -307,7 +307,7 @@ impl Phase {
     /// another, the suspension left out.
     pub(crate) fn elastic_work(&self, low: f64, high: f64) -> f64 {
         let force = 0.5 * self.contact.stiffness * (high + low) - self.contact.force;
-        let of_hertz = |hertz: Hertz| hertz.energy(high) - hertz.energy(low);
+        let of_hertz = |hertz: PowerLaw| hertz.energy(high) - hertz.energy(low);
         force * (high - low) + self.hertz.map_or(0.0, of_hertz)
     }
 }

@@ -1,7 +1,7 @@
 //! The energy that a stop keeps and gives back.
 
 use super::spring::Spring;
-use crate::flow::Hertz;
+use crate::flow::PowerLaw;
 
 /// What a stop stores: by its linear spring and by its power law. Where contact has ceased to press,
 /// the stop is still deflected; what it then loses on its way back is dissipated.
@@ -10,7 +10,7 @@ pub struct Store {
     /// The linear spring.
     pub spring: Spring,
     /// The power law.
-    pub hertz: Option<Hertz>,
+    pub hertz: Option<PowerLaw>,
 }
 
 impl Store {

@@ -1,11 +1,11 @@
 //! A motion kept: its arcs and crossings, and what follows from them without running it again.
 
+mod from_scene;
 mod kept_arc;
-mod record;
 mod turning_points;
 
+pub use from_scene::AppliedForce;
 pub use kept_arc::KeptArc;
-pub use record::AppliedForce;
 pub use turning_points::turning_points;
 
 use nalgebra::Vector2;

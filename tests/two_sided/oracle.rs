@@ -351,7 +351,7 @@ pub fn compare(scene: &Scene, start: Start, periods: u64) -> Compared {
         ..Impacts::default()
     };
     let end = softstop::Clock::at_cycle(periods);
-    let motion = scene.trajectory_under(start, end, &[], &mut impacts);
+    let motion = scene.trajectory_with_forces(start, end, &[], &mut impacts);
     let motion = motion.expect("a motion");
     let until = periods as f64 * scene.period();
     let mut oracle = Oracle::new(scene, start);

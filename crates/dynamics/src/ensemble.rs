@@ -71,7 +71,7 @@ impl<'a> Ensemble<'a> {
         periods: u64,
         recorded: usize,
     ) -> Result<(), OrbitError> {
-        let fork = SharedBudget::default();
+        let fork = SharedBudget::of_this_thread();
         let chunks = members.par_chunks_mut(MEMBERS_AT_ONCE);
         let advanced = chunks.try_for_each(|chunk| {
             fork.run_part(|| self.advance_together(chunk, periods, recorded))

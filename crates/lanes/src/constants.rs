@@ -7,7 +7,7 @@ use nalgebra::{Complex, Vector2};
 use super::law::{Constants, FREE_TERMS, WINDOW_ANGLE};
 use softstop::PhaseKind;
 use softstop::internals::{
-    Beyond, Exit, Hertz, MIN_SCALE_STIFFNESS, Modes, Phase, Phases, SurfaceId,
+    Beyond, Exit, MIN_SCALE_STIFFNESS, Modes, Phase, Phases, PowerLaw, SurfaceId,
 };
 
 /// Most scan windows per drive period with which lanes follow a machine; the safe engine follows stiffer ones.
@@ -81,7 +81,7 @@ impl Constants {
     }
 
     /// Sets the constants of a phase under a power law; none if only the safe engine can follow it.
-    fn set_to_power_law(&mut self, phases: &Phases, phase: &Phase, hertz: &Hertz) -> Option<()> {
+    fn set_to_power_law(&mut self, phases: &Phases, phase: &Phase, hertz: &PowerLaw) -> Option<()> {
         let constants = self;
         for exit in phase.exits.iter() {
             match *exit {

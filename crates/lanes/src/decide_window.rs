@@ -33,15 +33,17 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let scanned = reached.count * law.window;
         let remaining = due - scanned;
         let least = law.window * due.like(MIN_DECIDED_SPAN);
-        let span = (self.state.share * law.window).min(remaining).max(least);
+        let span = (self.state.window_fraction * law.window)
+            .min(remaining)
+            .max(least);
         let ahead = self.window_ahead(law, reached, pending, span);
         let guard = Guard::of_window::<GUARDED>(law, &ahead, reached.error_bound);
         let found = guard.search_window::<GUARDED>(law, &ahead, pending);
         let (hits, doubtful) =
             self.move_to_decision::<GUARDED>(phase, active, &guard, &found, scanned);
         let arrived = found.clear & remaining.at_most(span);
-        self.state.share = self.next_shares(active, pending.and_not(hits | found.clear));
-        let doubtful = doubtful | self.state.share.below(due.like(MIN_WINDOW_SHARE));
+        self.state.window_fraction = self.next_shares(active, pending.and_not(hits | found.clear));
+        let doubtful = doubtful | self.state.window_fraction.below(due.like(MIN_WINDOW_SHARE));
         (self.end_periods(arrived), doubtful)
     }
 
@@ -130,7 +132,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Shares of a window that the active lanes decide next: half of that which could not be decided.
     #[inline(always)]
     fn next_shares(&self, active: Mask<S, N>, undecided: Mask<S, N>) -> Lanes<S, N> {
-        let share = self.state.share;
+        let share = self.state.window_fraction;
         let halved = share * share.like(0.5);
         undecided.choose(halved, active.choose(share.like(1.0), share))
     }

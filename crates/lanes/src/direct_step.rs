@@ -12,7 +12,7 @@ use super::move_lanes::LaneEnd;
 use super::nearby_zero::nearby_zero;
 use super::parts::Parts;
 use super::scan::LEAVING_MARGIN;
-use super::sine_cosine::MOMENT_DEGREE;
+use super::sine_cosine::SMALL_ANGLE_DEGREE;
 
 /// Least time between a crossing and the end of the period or job, in windows: more than rounding could bridge.
 const MIN_TIME_TO_END: f64 = 1e-4;
@@ -91,9 +91,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             before: end_v,
         };
         let angle = parts
-            .turn_drive::<MOMENT_DEGREE>(frequency, moment)
+            .turn_drive::<SMALL_ANGLE_DEGREE>(frequency, moment)
             .drive_angle(law);
-        self.state.share = hits.choose(one, self.state.share);
+        self.state.window_fraction = hits.choose(one, self.state.window_fraction);
         self.move_lanes((hits, hits), &end, angle, time);
         active.and_not(hits)
     }

@@ -10,7 +10,7 @@ use super::law::Law;
 use super::local_taylor;
 use super::nearby_zero::nearby_zero;
 use super::parts::Parts;
-use super::sine_cosine::MOMENT_DEGREE;
+use super::sine_cosine::SMALL_ANGLE_DEGREE;
 use super::window_ahead::WindowAhead;
 
 /// Most instants besides the first at which a crossing or a maximum is searched for; then the safe engine finds it.
@@ -147,7 +147,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
                     hits,
                     doubtful: goal.doubtful | open,
                     time: goal.at + moment,
-                    parts: parts.turn_drive::<MOMENT_DEGREE>(ahead.frequency, moment),
+                    parts: parts.turn_drive::<SMALL_ANGLE_DEGREE>(ahead.frequency, moment),
                     rate: zeros.slope,
                     position,
                     velocity,

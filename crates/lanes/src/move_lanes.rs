@@ -51,9 +51,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
                 self.tell_impacts(impacts, end.before);
             }
         } else {
-            let noted = impacts & self.state.left.at_most(self.state.noted);
-            if noted.any() {
-                self.record_returns(noted);
+            let recorded = impacts & self.state.left.at_most(self.state.record_from);
+            if recorded.any() {
+                self.record_returns(recorded);
             }
         }
     }

@@ -16,13 +16,13 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             self.state.drive.per_period.get(lane),
             self.state.left.get(lane),
         );
-        let noted = self.returns[lane].begin_job(per_period, left);
+        let record_from = self.returns[lane].begin_job(per_period, left);
         if !self.task.watch.impacts && !self.task.watch.periods {
-            self.state.noted.set(lane, noted);
+            self.state.record_from.set(lane, record_from);
         }
     }
 
-    /// Records the crossings of lanes that follow a trial cycle; `before`: their velocities before the crossing.
+    /// Records the crossings, of any surface, of lanes that are on a trial cycle; `before`: their velocities before the crossing.
     #[cold]
     #[inline(never)]
     pub fn record_trial_crossings(&mut self, crossed: Mask<S, N>, before: Lanes<S, N>) {
@@ -80,9 +80,9 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 
     /// Does what was decided after a return: where the lane goes on, and when its returns are recorded again.
     fn apply_decision(&mut self, lane: usize, decision: ReturnDecision) {
-        self.state.noted.set(lane, decision.again);
-        self.count_skipped(lane, decision.leapt);
-        if let Some(to) = decision.to {
+        self.state.record_from.set(lane, decision.record_again_at);
+        self.count_skipped(lane, decision.extrapolated_periods);
+        if let Some(to) = decision.resume_at {
             self.state.set_return(lane, to);
         }
         self.trials = self

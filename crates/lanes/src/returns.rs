@@ -147,11 +147,11 @@ struct Certificate {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ReturnDecision {
     /// Where it goes on, if not where it is.
-    pub to: Option<Return>,
+    pub resume_at: Option<Return>,
     /// Drive periods left at which its returns are recorded again.
-    pub again: f64,
+    pub record_again_at: f64,
     /// Drive periods that are extrapolated.
-    pub leapt: f64,
+    pub extrapolated_periods: f64,
 }
 
 impl Returns {
@@ -159,7 +159,8 @@ impl Returns {
     pub fn begin_job(&mut self, per_period: f64, left: f64) -> f64 {
         self.per_period = per_period;
         (self.every, self.pause) = (1.0, FIRST_PAUSE_PERIODS);
-        self.forget_returns(left - PERIODS_BEFORE_RECORDING).again
+        self.forget_returns(left - PERIODS_BEFORE_RECORDING)
+            .record_again_at
     }
 
     /// Records a crossing of the trial cycle.
@@ -247,7 +248,7 @@ impl Returns {
     pub fn end_trial(&mut self) -> Option<ReturnDecision> {
         let to = self.own[RETURNS_PER_GUESS - 1];
         self.is_trial().then(|| ReturnDecision {
-            to: Some(to),
+            resume_at: Some(to),
             ..self.pause_recording(to.left)
         })
     }
@@ -259,9 +260,9 @@ impl Returns {
     }
 
     /// Forgets what is known; returns are recorded again when so many periods are left.
-    fn forget_returns(&mut self, again: f64) -> ReturnDecision {
+    fn forget_returns(&mut self, record_again_at: f64) -> ReturnDecision {
         (self.stage, self.count) = (Stage::Open, 0);
-        ReturnDecision::wait(again)
+        ReturnDecision::wait(record_again_at)
     }
 
     /// Whole drive periods up to a return, and the return as a point (velocity, drive angle).
@@ -320,7 +321,7 @@ impl Returns {
         self.passages.clear();
         self.stage = Stage::Trial(step);
         ReturnDecision {
-            to: Some(self.tried),
+            resume_at: Some(self.tried),
             ..ReturnDecision::wait(f64::INFINITY)
         }
     }
@@ -414,7 +415,7 @@ impl Returns {
         self.own[RETURNS_PER_GUESS - 1] = now;
         let decision = self.extrapolate_to_end(certificate);
         Some(ReturnDecision {
-            to: decision.to.filter(|to| *to != now),
+            resume_at: decision.resume_at.filter(|to| *to != now),
             ..decision
         })
     }
@@ -433,7 +434,7 @@ impl Returns {
         let rate = norm.rate.max(MIN_RATE);
         let times = ((own.left - FOLLOWED_LAST_PERIODS) / self.every).floor();
         let back = |decision| ReturnDecision {
-            to: Some(own),
+            resume_at: Some(own),
             ..decision
         };
         if own.left < MIN_PERIODS_LEFT * self.every {
@@ -456,8 +457,8 @@ impl Returns {
         let to = self.return_at(certificate.limit + power * off, times);
         self.forget_returns(f64::NEG_INFINITY);
         ReturnDecision {
-            to: Some(to),
-            leapt: times * self.every,
+            resume_at: Some(to),
+            extrapolated_periods: times * self.every,
             ..ReturnDecision::wait(f64::NEG_INFINITY)
         }
     }
@@ -465,11 +466,11 @@ impl Returns {
 
 impl ReturnDecision {
     /// Goes on as it is; returns are recorded again when so many drive periods are left.
-    fn wait(again: f64) -> Self {
+    fn wait(record_again_at: f64) -> Self {
         Self {
-            to: None,
-            again,
-            leapt: 0.0,
+            resume_at: None,
+            record_again_at,
+            extrapolated_periods: 0.0,
         }
     }
 }

@@ -80,7 +80,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let (ceiling, floor) = law.edges::<GUARDED>();
         let mut apart = (ceiling - law.ambiguity).below(x).not();
         let leaves = v.below(-law.slow);
-        let mut go = active & self.state.share.equals(one) & (apart | leaves);
+        let mut go = active & self.state.window_fraction.equals(one) & (apart | leaves);
         let limit = ceiling - error_bound;
         let mut top = law.third.mul_add(v, x);
         // On the edge the first two Bernstein coefficients need no proof.

@@ -33,9 +33,9 @@ pub(super) struct State<S: Simd, const N: usize> {
     /// Crossings so far.
     pub crossings: Lanes<S, N>,
     /// Drive periods left from which on returns to an impact are recorded; none in a lane whose are not.
-    pub noted: Lanes<S, N>,
-    /// Share of a window that is decided next: 1, or less where a whole one could not be decided.
-    pub share: Lanes<S, N>,
+    pub record_from: Lanes<S, N>,
+    /// Length of the next interval to decide as a fraction of a window: less than 1 where a whole one could not be decided.
+    pub window_fraction: Lanes<S, N>,
     pub drive: DriveLanes<S, N>,
 }
 
@@ -65,8 +65,8 @@ impl<S: Simd, const N: usize> State<S, N> {
             phase: none,
             impacts: none,
             crossings: none,
-            noted: none,
-            share: one,
+            record_from: none,
+            window_fraction: one,
             drive: DriveLanes {
                 frequency: one,
                 period: one,
@@ -101,7 +101,7 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.offset.set(lane, 0.0);
         self.left.set(lane, left as f64);
         self.phase.set(lane, phase as f64);
-        self.share.set(lane, 1.0);
+        self.window_fraction.set(lane, 1.0);
     }
 
     /// Leaves a lane without a job.
@@ -148,7 +148,7 @@ impl<S: Simd, const N: usize> State<S, N> {
         self.impacts.set(lane, to.impacts);
         self.crossings.set(lane, to.crossings);
         self.phase.set(lane, to.phase);
-        self.share.set(lane, 1.0);
+        self.window_fraction.set(lane, 1.0);
         let (cos, sin) = to.angle.unwrap_or_else(|| {
             let (s, c) = (self.drive.frequency.get(lane) * to.offset).sin_cos();
             let (c0, s0) = (self.drive.begin.0.get(lane), self.drive.begin.1.get(lane));

@@ -56,7 +56,7 @@ impl Trajectory {
             .collect();
         let end = Clock::at_cycle(periods);
         let motion = supervise(py, &None, || {
-            let follow = || scene.trajectory_under(start, end, &forces, &mut Interrupt);
+            let follow = || scene.trajectory_with_forces(start, end, &forces, &mut Interrupt);
             Budget::MACHINE.limit(|| Ok(follow()))
         })?;
         let motion = motion

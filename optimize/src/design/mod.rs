@@ -186,7 +186,7 @@ impl Problem {
         let cases = self.in_cases();
         let own = self.zoned(points);
         let others: Vec<_> = cases.iter().map(|case| case.zoned(points)).collect();
-        let fork = SharedBudget::default();
+        let fork = SharedBudget::of_this_thread();
         let designs = parallel::map_indices(points.len(), &|index| {
             let cases = others.iter().map(|all| all[index].clone());
             fork.run_part(|| self.best_of(own[index].clone(), cases))

@@ -177,7 +177,10 @@ impl BasinTest {
             let ended = self.follow_motions::<false>(machines, motions, is_decided, monitor)?;
             Ok(ended.iter().map(TestedMotion::reaches_orbit).collect())
         };
-        let (fork, chunks) = (SharedBudget::default(), starts.par_chunks(MOTIONS_TOGETHER));
+        let (fork, chunks) = (
+            SharedBudget::of_this_thread(),
+            starts.par_chunks(MOTIONS_TOGETHER),
+        );
         let chunks = chunks.map(|starts| fork.run_part(|| follow_motions(starts)));
         let chunks = chunks.collect::<Result<Vec<Vec<bool>>, OrbitError>>();
         fork.charge_parts();

@@ -40,7 +40,7 @@ impl BasinSurvey<'_> {
         } else {
             SMALL_TILE_CELLS
         };
-        let (fork, tiles) = (SharedBudget::default(), open.par_chunks(tile));
+        let (fork, tiles) = (SharedBudget::of_this_thread(), open.par_chunks(tile));
         let followed = tiles.map(|tile| fork.run_part(|| self.follow_tile(tile)));
         let followed: Result<Vec<_>, OrbitError> = followed.collect();
         fork.charge_parts();

@@ -121,7 +121,7 @@ impl BasinSurvey<'_> {
         for from in (0..cells).step_by(CELLS_BROUGHT_TOGETHER) {
             self.ensemble.count_work(0)?;
             let here = from..cells.min(from + CELLS_BROUGHT_TOGETHER);
-            let (fork, brought) = (SharedBudget::default(), here.clone().into_par_iter());
+            let (fork, brought) = (SharedBudget::of_this_thread(), here.clone().into_par_iter());
             let brought = brought.map(|cell| fork.run_part(|| self.cell_at_section(cell)));
             let brought: Vec<_> = brought.collect();
             fork.charge_parts();
@@ -240,7 +240,7 @@ impl BasinSurvey<'_> {
             let of = ("cell", &*self.scene, self.grid, self.options, cell, periods);
             recall_or_compute(self.kept, &of, || self.log_together(&[*cell], periods))
         };
-        let fork = SharedBudget::default();
+        let fork = SharedBudget::of_this_thread();
         let seen = cells.par_iter().map(|cell| fork.run_part(|| one(cell)));
         let seen = seen.collect::<Result<Vec<_>, OrbitError>>();
         fork.charge_parts();

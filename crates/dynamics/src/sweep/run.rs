@@ -40,7 +40,7 @@ impl Plan {
         let stopped = AtomicBool::new(false);
         let done = chains.iter().map(|chain| chain.steps.len() as u64);
         let done = AtomicU64::new(done.sum());
-        let fork = SharedBudget::default();
+        let fork = SharedBudget::of_this_thread();
         let run = |group: &mut [Chain]| {
             while !stopped.load(Ordering::Relaxed) {
                 let ask = |_, _| monitor(done.load(Ordering::Relaxed), all);

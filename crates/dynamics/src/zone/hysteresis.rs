@@ -97,7 +97,7 @@ pub(super) fn zones_of(
     upper: UpperEnd,
     monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
-    let fork = SharedBudget::default();
+    let fork = SharedBudget::of_this_thread();
     let chunks = scenes.par_chunks(MACHINES_TOGETHER);
     let zones =
         chunks.flat_map_iter(|scenes| fork.run_part(|| zones_together(scenes, upper, monitor)));

@@ -28,7 +28,7 @@ pub fn single_impact(
     between: (f64, f64),
     monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
-    let fork = SharedBudget::default();
+    let fork = SharedBudget::of_this_thread();
     let zones = scenes.par_iter();
     let zones = zones.map(|scene| fork.run_part(|| of_scene(scene, between, monitor)));
     let zones = zones.collect();

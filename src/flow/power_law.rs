@@ -1,8 +1,8 @@
 //! The power law of contact, F = k d^n max(0, 1 + lambda v) (Hertz 1882; Hunt and Crossley 1975).
 
-/// A power law that presses a mass back from a face.
+/// Contact force k d^n max(0, 1 + lambda d') of a face, d its deflection.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hertz {
+pub struct PowerLaw {
     /// Stiffness k in N/m^n.
     pub stiffness: f64,
     /// Exponent n >= 1.
@@ -18,7 +18,7 @@ pub struct Hertz {
 }
 
 /// No power law at all.
-impl Default for Hertz {
+impl Default for PowerLaw {
     fn default() -> Self {
         Self {
             stiffness: 0.0,
@@ -31,7 +31,7 @@ impl Default for Hertz {
     }
 }
 
-impl Hertz {
+impl PowerLaw {
     /// Deflection in m, negative before the face.
     pub fn deflection(&self, position: f64) -> f64 {
         self.side * (position - self.origin)

@@ -31,7 +31,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::trajectory`].
     pub fn trajectory_until(&self, start: Start, end: Instant) -> Result<Trajectory, MotionError> {
-        self.trajectory_under(start, end, &[], &mut ())
+        self.trajectory_with_forces(start, end, &[], &mut ())
     }
 
     /// The exact motion from `start` at time 0 under external forces, in order of time, to any later instant, or until
@@ -40,7 +40,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::trajectory`]; [`MotionError::TimeBackwards`] if a force begins before the one ahead of it, and those of
     /// [`Simulation::set_force`](crate::Simulation::set_force).
-    pub fn trajectory_under(
+    pub fn trajectory_with_forces(
         &self,
         start: Start,
         end: Instant,
