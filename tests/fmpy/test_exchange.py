@@ -4,6 +4,8 @@ import fmpy
 import numpy as np
 import pytest
 from conftest import UNLOADED
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Model
 from fmpy.validation import validate_fmu
 from grazing import missed
 from packages import package_3, package_exchange
@@ -104,3 +106,29 @@ def test_input_that_varies(unit):
     expected = simulated(unit, UNLOADED, "CoSimulation", input=force, stop_time=40.0, output_interval=0.01)
     assert exchanged["impact.count"][-1] == expected["impact.count"][-1] > 5
     assert exchanged["impact.time"][-1] == pytest.approx(expected["impact.time"][-1], abs=0.02)
+
+
+def test_parameters_change_at_events_alone(path, tmp_path):
+    archive = package_exchange(path)
+    description = fmpy.read_model_description(archive)
+    clearance = [v.valueReference for v in description.modelVariables if v.name == "clearance"]
+    model = FMU2Model(guid=description.guid, unzipDirectory=fmpy.extract(archive, unzipdir=tmp_path),
+                      modelIdentifier=description.modelExchange.modelIdentifier)
+    model.instantiate()
+    model.setupExperiment(startTime=0.0)
+    model.enterInitializationMode()
+    model.exitInitializationMode()
+    model.newDiscreteStates()
+    model.enterContinuousTimeMode()
+    before = model.getReal(clearance)
+    model.setReal(clearance, before)
+    with pytest.raises(FMICallException):
+        model.setReal(clearance, [before[0] + 0.5])
+    assert model.getReal(clearance) == before
+    model.enterEventMode()
+    model.setReal(clearance, [before[0] + 0.5])
+    model.newDiscreteStates()
+    model.enterContinuousTimeMode()
+    assert model.getReal(clearance) == [before[0] + 0.5]
+    model.terminate()
+    model.freeInstance()
