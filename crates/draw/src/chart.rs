@@ -1,5 +1,7 @@
 //! A chart as data: panels in a grid, and the axes of each.
 
+use serde::{Deserialize, Deserializer};
+
 use crate::layer::{Layer, Shape};
 use crate::scale::around;
 
@@ -8,8 +10,10 @@ const SMALL: (f64, f64) = (320.0, 280.0);
 /// Longest name at an axis of a small picture, in letters.
 const LONG: usize = 28;
 
-/// A picture of one or more panels. Margins follow from the texts at the axes; sizes are pixels.
-#[derive(Debug, Clone)]
+/// A picture of one or more panels. Margins follow from the texts at the axes; sizes are pixels. All but the layers can
+/// stand in a file.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Chart {
     /// Above the panels, in large letters.
     pub title: String,
@@ -32,7 +36,8 @@ pub struct Chart {
 }
 
 /// Where a legend stands: that of a chart about all panels, that of a panel about it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Legend {
     /// At the right, an entry in each line.
     #[default]
@@ -46,7 +51,8 @@ pub enum Legend {
 }
 
 /// A corner of a panel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Corner {
     /// Upper left.
     TopLeft,
@@ -59,7 +65,8 @@ pub enum Corner {
 }
 
 /// Two axes, and the layers between them, the first one at the back.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Panel {
     /// Above the panel.
     pub title: String,
@@ -74,22 +81,30 @@ pub struct Panel {
     /// The axis upwards.
     pub y: Axis,
     /// What is drawn between the axes.
+    #[serde(skip)]
     pub layers: Vec<Layer>,
     /// Where its own layers are explained, if not with those of the other panels.
     pub legend: Option<Legend>,
 }
 
 /// An axis.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Axis {
     /// Name, symbol and unit.
     pub name: String,
     /// Least and greatest value; what is not given follows from the layers.
+    #[serde(rename = "range", deserialize_with = "both_ends")]
     pub ends: [Option<f64>; 2],
     /// Whether it is logarithmic.
+    #[serde(rename = "log")]
     pub is_log: bool,
     /// Values and what is written there; round values, if not given.
     pub ticks: Option<Vec<(f64, String)>>,
+}
+
+fn both_ends<'de, D: Deserializer<'de>>(given: D) -> Result<[Option<f64>; 2], D::Error> {
+    Ok(<[f64; 2]>::deserialize(given)?.map(Some))
 }
 
 impl Default for Chart {
@@ -169,6 +184,20 @@ impl Default for Panel {
 }
 
 impl Panel {
+    /// With these layers on top of those that it has.
+    #[must_use]
+    pub fn with(mut self, layers: impl IntoIterator<Item = Layer>) -> Self {
+        self.layers.extend(layers);
+        self
+    }
+
+    /// At this column and row.
+    #[must_use]
+    pub fn at(self, column: usize, row: usize) -> Self {
+        let at = (column, row);
+        Self { at, ..self }
+    }
+
     /// The bar of shades that stands beside it, if there is one: its range and its axis.
     pub(crate) fn bar(&self) -> Option<((f64, f64), Axis)> {
         self.layers.iter().find_map(|layer| match &layer.shape {

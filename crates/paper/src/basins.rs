@@ -78,10 +78,9 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
             legend: Some(Legend::Right),
             ..chart::panel(machine, basins, wandering)
         });
-    let title = "Basins of attraction: which start leads to which motion";
     let chart = Chart {
-        letters: 17,
-        ..Chart::new(title, panels)
+        panels: panels.collect(),
+        ..figure.chart.clone()
     };
     let png = chart.in_columns(2).png().map_err(Error::msg)?;
     let basins = found.iter().flat_map(|(plane, _, basins, _)| {

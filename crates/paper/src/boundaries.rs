@@ -27,10 +27,8 @@ const STEP: f64 = 0.08;
 pub(super) struct Boundaries {
     /// eta and rho of the grazing of the motion without impacts.
     pub(super) grazing: Vec<(f64, f64)>,
-    /// Period doubling of z = 1.
-    pub(super) flips: Vec<Curve>,
-    /// Folds of z = 1.
-    pub(super) folds: Vec<Curve>,
+    /// Those of z = 1: the paper's name, the number where there are several, and the curve.
+    pub(super) curves: Vec<(&'static str, usize, Curve)>,
 }
 
 impl Boundaries {
@@ -55,23 +53,23 @@ impl Boundaries {
             points: MOST,
             settings: ContinuationSettings::of_curves(STEP),
         };
-        let of = |test| {
+        let mut curves = Vec::new();
+        for (name, test) in [("s_PD", Test::Flip), ("s_SN", Test::Fold)] {
             let special = SpecialKind::Critical(test);
-            let found = branch.critical_points(test).map(|point| {
+            for (number, point) in branch.critical_points(test).enumerate() {
                 let at = [point.parameter, machine.clearance];
                 let found =
                     follow_special(&plane, 1, (special, point.state()), at, &region, |_| {
                         interrupt::go_on()
                     });
-                found.with_context(|| format!("no curve of the {}", special.name()))
-            });
-            found.collect::<Result<Vec<Curve>>>()
-        };
+                let found = found.with_context(|| format!("no curve of the {}", special.name()))?;
+                curves.push((name, number, found));
+            }
+        }
         let etas = (0..=POINTS).map(|k| eta.0 + k as f64 / POINTS as f64 * (eta.1 - eta.0));
         let boundaries = Self {
             grazing: etas.map(|eta| (eta, free_amplitude(&scene, eta))).collect(),
-            flips: of(Test::Flip)?,
-            folds: of(Test::Fold)?,
+            curves,
         };
         if interrupt::requested() {
             return Err(Failure::Interrupted.into());
@@ -79,18 +77,10 @@ impl Boundaries {
         Ok(boundaries)
     }
 
-    /// The curves of flips and folds with the paper's names.
-    pub(super) fn curves(&self) -> impl Iterator<Item = (&'static str, usize, &[CurvePoint])> {
-        let named = [("s_PD", &self.flips), ("s_SN", &self.folds)];
-        named.into_iter().flat_map(|(name, curves)| {
-            let curves = curves.iter().enumerate();
-            curves.map(move |(number, curve)| (name, number, &curve.points[..]))
-        })
-    }
-
     /// The point of s_SN with the hardest impact: the optimum clearance of the paper's section 3.
     pub(super) fn hardest(&self) -> Option<&CurvePoint> {
-        let all = self.folds.iter().flat_map(|curve| &curve.points);
+        let folds = self.curves.iter().filter(|it| it.0 == "s_SN");
+        let all = folds.flat_map(|(.., curve)| &curve.points);
         let velocity = CurvePoint::before_impact_velocity;
         all.max_by(|a, b| velocity(a).total_cmp(&velocity(b)))
     }

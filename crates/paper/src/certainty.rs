@@ -13,10 +13,10 @@ use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::machine::Regime;
 use softstop_console::progress::Progress;
-use softstop_draw::{Axis, Chart, Corner, Layer, Legend, Mark, Panel, Stroke, style};
+use softstop_draw::{Chart, Layer, Mark, Stroke, style};
 use softstop_dynamics::basin::{BasinOptions, CertaintyAtPlace, establishing_certainties};
 use softstop_dynamics::{self as dynamics, Grid, zone};
-use softstop_explore::basin::certainty::{SHARES, layers};
+use softstop_explore::basin::certainty::layers;
 
 /// Clearances.
 const CLEARANCES: [f64; 5] = [2.0, 6.0, 10.0, 14.0, 18.0];
@@ -81,7 +81,7 @@ fn places(steps: usize) -> Vec<f64> {
     near.chain(inner).chain(far).collect()
 }
 
-pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let places = places(studio.detail.pick(STEPS[0], STEPS[1]));
     let cells = studio.detail.pick(CELLS[0], CELLS[1]);
     let usual = |machine| CLEARANCES.map(|clearance| (machine, clearance, REGION));
@@ -118,7 +118,10 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let rows = curves.iter();
     let rows = rows.flat_map(|curve| curve.places.iter().map(move |at| (curve, at)));
     Ok(Drawn {
-        files: vec![chart(&curves).svg().into_bytes(), csv(&columns(), rows)?],
+        files: vec![
+            chart(figure, &curves).svg().into_bytes(),
+            csv(&columns(), rows)?,
+        ],
         findings: findings(&curves),
     })
 }
@@ -198,81 +201,38 @@ fn rise(places: &[CertaintyAtPlace]) -> f64 {
     places.iter().enumerate().map(later).fold(0.0, f64::max)
 }
 
-fn chart(curves: &[Curve]) -> Chart {
+fn chart(figure: &Figure, curves: &[Curve]) -> Chart {
     let count = CLEARANCES.len();
     let color = |index| style::ordered(index, count);
     let by_clearance = |index: usize| {
-        let curve = &curves[index];
-        let name = format!("ρ = {}", curve.clearance);
-        (curve, Stroke::solid(color(index % count), 2.2), name)
+        let name = format!("ρ = {}", curves[index].clearance);
+        let stroke = Stroke::solid(color(index % count), 2.2);
+        (&curves[index], stroke, name)
     };
-    let (unloaded, loaded): (Vec<_>, Vec<_>) = (
-        (0..count).map(by_clearance).collect(),
-        (count..2 * count).map(by_clearance).collect(),
-    );
+    let by_starts = |(index, color): (usize, _)| {
+        let name = curves[index].starts.label();
+        (&curves[index], Stroke::solid(color, 2.2), name)
+    };
     let regions = [
         (2 * count, style::REFERENCE),
         (2 * count + 1, "#8C8C8C"),
         (MIDDLE, color(MIDDLE)),
         (2 * count + 2, style::POINT),
     ];
-    let regions = regions.map(|(index, color)| {
-        let curve: &Curve = &curves[index];
-        (curve, Stroke::solid(color, 2.2), curve.starts.label())
-    });
+    let certainties = |curves: Vec<Named<'_>>| {
+        let claim = Layer::marks([(0.0, 1.0), (1.0, 0.0)], Mark::Circle, style::ASIDE);
+        let claim = claim.named("the paper: one at g₀, zero at s_SN");
+        curves.iter().flat_map(certainty).chain([claim]).collect()
+    };
     let dashed = Stroke::dashed(color(MIDDLE), 2.2, (8.0, 5.0));
-    let mut integrities: Vec<Layer> = unloaded.iter().map(largest_ball).collect();
-    integrities.push(largest_ball(&(
-        &curves[count + MIDDLE],
-        dashed,
-        String::new(),
-    )));
-    let of_one = "certainty of z = 1";
-    let panels = [
-        (
-            "(a) unloaded, starts |X|, |X′| < 2ρ",
-            of_one,
-            unloaded.iter().flat_map(certainty).collect(),
-        ),
-        (
-            "(b) loaded, starts |X|, |X′| < 2ρ",
-            of_one,
-            loaded.iter().flat_map(certainty).collect(),
-        ),
-        (
-            "(c) unloaded, ρ = 10, other starts",
-            of_one,
-            regions.iter().flat_map(certainty).collect(),
-        ),
-        (
-            "(d) integrity factor of z = 1 in (a); dashed: ρ = 10 of (b)",
-            "integrity factor of z = 1",
-            integrities,
-        ),
-    ];
-    let claim = "the paper: one at g₀, zero at s_SN";
-    let panels = panels.map(|(title, name, mut layers)| {
-        if name == of_one {
-            let ends = [(0.0, 1.0), (1.0, 0.0)];
-            layers.push(Layer::marks(ends, Mark::Circle, style::ASIDE).named(claim));
-        }
-        let legend = title.starts_with("(c)");
-        Panel {
-            title: title.to_owned(),
-            size: (540.0, 270.0),
-            x: Axis::new("place in the hysteresis zone: 0 at g₀, 1 at s_SN").range((-0.02, 1.02)),
-            y: Axis::new(name).range(SHARES),
-            legend: legend.then_some(Legend::Inside(Corner::TopRight)),
-            layers,
-            ..Panel::default()
-        }
-    });
-    let title = "How certainly z = 1 establishes itself in its hysteresis zone";
-    Chart {
-        subtitle: "bands: 95 % intervals".to_owned(),
-        legend: Legend::Below,
-        ..Chart::new(title, panels).in_columns(1)
-    }
+    let loaded = (&curves[count + MIDDLE], dashed, String::new());
+    let integrities = (0..count).map(by_clearance).chain([loaded]);
+    figure.picture([
+        certainties((0..count).map(by_clearance).collect()),
+        certainties((count..2 * count).map(by_clearance).collect()),
+        certainties(regions.map(by_starts).into()),
+        integrities.map(|it| largest_ball(&it)).collect(),
+    ])
 }
 
 /// A curve, how it is drawn, and its name.

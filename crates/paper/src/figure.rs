@@ -10,6 +10,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use softstop_console::column::Column;
 use softstop_console::record::Record;
+use softstop_draw::{Chart, Layer};
 use softstop_dynamics::attractors::SearchOptions;
 use softstop_dynamics::monitor::{OptionalMemory, recall_or_compute};
 
@@ -24,6 +25,9 @@ pub(crate) struct Figure {
     pub(crate) title: String,
     /// Names of its files: pictures and tables.
     pub(crate) files: Vec<String>,
+    /// How its pictures look, without what is drawn.
+    #[serde(default)]
+    pub(crate) chart: Chart,
     /// What is computed, by keys of its own.
     #[serde(flatten)]
     what: toml::Table,
@@ -44,6 +48,15 @@ impl Figure {
     pub(crate) fn called(name: &str) -> Result<&'static Self> {
         let figure = FIGURES.iter().find(|it| it.name == name);
         figure.with_context(|| format!("no figure {name} in docs/paper/figures.toml"))
+    }
+
+    /// Its picture, with the layers of its panels in order.
+    pub(crate) fn picture(&self, layers: impl IntoIterator<Item = Vec<Layer>>) -> Chart {
+        let mut chart = self.chart.clone();
+        for (panel, layers) in chart.panels.iter_mut().zip(layers) {
+            panel.layers = layers;
+        }
+        chart
     }
 
     /// What is computed.

@@ -3,15 +3,14 @@
 
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
-use softstop::{Instant, Ratios, Start};
-use softstop_dynamics::StroboscopicMap;
-use softstop_dynamics::internals::{Ensemble, HasMember, Member};
+use softstop::{Ratios, Start};
+use softstop_dynamics::internals::{Ensemble, Member};
 use softstop_dynamics::monitor::recall_or_compute;
 use softstop_lanes::Machine;
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::table1::{matching, paper};
-use crate::transitions::{ImpactOrder, Transition};
+use crate::transitions::{Stretches, Transition};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::csv;
@@ -28,8 +27,6 @@ const ENDURANCE: u64 = 1_000_000;
 const LOOK: u64 = 10_000;
 /// Stretches after which it is known well enough, and fewest from which a mean is told.
 const STRETCHES: (usize, usize) = (400, 100);
-/// Shortest stretch, in periods of the motion, that is not chance.
-const CALM: u64 = 5;
 /// How far from the old motion it starts, as a share of the clearance.
 const APART: f64 = 1e-3;
 
@@ -98,126 +95,54 @@ fn columns() -> [Column<Beside>; 6] {
 /// The stretches at all distances at which there are enough of them: the motions go together.
 fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<Beside>> {
     let progress = Progress::new(cases.len() as u64, "distances");
-    let (mut motions, mut machines) = (Vec::new(), Vec::new());
+    let (mut motions, mut machines, mut places) = (Vec::new(), Vec::new(), Vec::new());
     for ((row, transition), distance) in cases {
-        if let Some((mut motion, machine)) = Motion::beside(*row, transition, *distance)? {
-            motion.member.machine = machines.len();
-            motions.push(motion);
-            machines.push(machine);
-        }
+        let (Some(start), Some(regime)) = (transition.state, transition.from.regime()) else {
+            continue;
+        };
+        let machine = Ratios::unloaded();
+        let direction = if transition.rising { 1.0 } else { -1.0 };
+        let eta = transition.value + direction * distance;
+        let [at_end, beside] = [transition.value, eta].map(|eta| machine.at_frequency(eta));
+        let apart = Start::new(start.position - APART * machine.clearance, start.velocity);
+        motions.push(Stretches::new(
+            Member::new(machines.len(), apart),
+            &at_end.scene()?.check()?,
+            start,
+            regime.periods,
+            |it| it.lengths.len() > STRETCHES.0,
+        )?);
+        machines.push(Machine::new(&beside.scene()?.check()?));
+        places.push((*row, eta, *distance));
     }
     let go_on = |_, _| interrupt::go_on();
     let ensemble = Ensemble::new(machines, &go_on);
-    let mut left: Vec<&mut Motion> = motions.iter_mut().collect();
+    let mut left: Vec<&mut Stretches> = motions.iter_mut().collect();
     for _ in 0..ENDURANCE / LOOK {
         let before = left.len();
         ensemble.advance_batch::<true, true, _>(&mut left, LOOK)?;
         if let Some(error) = left.iter_mut().find_map(|it| it.member.error.take()) {
             return Err(error.into());
         }
-        left.retain(|motion| !motion.is_known());
+        left.retain(|motion| !(motion.is_known)(motion));
         progress.steps((before - left.len()) as u64)?;
         if left.is_empty() {
             break;
         }
     }
-    Ok(motions.iter().filter_map(Motion::found).collect())
-}
-
-/// A motion beside the end of another one.
-struct Motion {
-    row: usize,
-    eta: f64,
-    distance: f64,
-    member: Member,
-    /// Impacts in the present drive period.
-    impacts: usize,
-    order: ImpactOrder,
-    /// Drive periods in a row with the order of the old motion.
-    length: u64,
-    /// Its stretches; the first one begins where the motion was started, not where chaos throws it.
-    lengths: Vec<u64>,
-    /// Shortest stretch that counts, in drive periods.
-    calm: u64,
-}
-
-impl Motion {
-    /// A motion at a distance, and its machine.
-    fn beside(
-        row: usize,
-        transition: &Transition,
-        distance: f64,
-    ) -> Result<Option<(Self, Machine)>> {
-        let (Some(start), Some(regime)) = (transition.state, transition.from.regime()) else {
-            return Ok(None);
-        };
-        let machine = Ratios::unloaded();
-        let scene = |eta: f64| machine.at_frequency(eta).scene();
-        let at_end = StroboscopicMap::new(&scene(transition.value)?.check()?, 1);
-        let (mut old, mut order) = (start.into(), Vec::new());
-        for _ in 0..regime.periods {
-            let passage = at_end.apply(old)?;
-            old = passage.end;
-            order.push(passage.impacts.len());
-        }
-        let direction = if transition.rising { 1.0 } else { -1.0 };
-        let eta = transition.value + direction * distance;
-        let beside = Start::new(start.position - APART * machine.clearance, start.velocity);
-        let motion = Self {
+    let found = places.into_iter().zip(&motions);
+    let found = found.filter_map(|((row, eta, distance), motion)| {
+        let lengths = motion.lengths.get(1..).unwrap_or_default();
+        (lengths.len() >= STRETCHES.1).then(|| Beside {
             row,
             eta,
             distance,
-            member: Member::new(0, beside),
-            impacts: 0,
-            order: ImpactOrder::new(&order),
-            length: 0,
-            lengths: Vec::new(),
-            calm: CALM * regime.periods,
-        };
-        Ok(Some((motion, Machine::new(&scene(eta)?.check()?))))
-    }
-
-    /// True if its stretches are known well enough.
-    fn is_known(&self) -> bool {
-        self.lengths.len() > STRETCHES.0
-    }
-
-    /// What is known of its stretches, if there are enough of them.
-    fn found(&self) -> Option<Beside> {
-        let lengths = self.lengths.get(1..).unwrap_or_default();
-        (lengths.len() >= STRETCHES.1).then(|| Beside {
-            row: self.row,
-            eta: self.eta,
-            distance: self.distance,
             stretches: lengths.len(),
             mean_drive_periods: lengths.iter().sum::<u64>() as f64 / lengths.len() as f64,
             longest_drive_periods: lengths.iter().copied().max().unwrap_or(0),
         })
-    }
-}
-
-impl HasMember for Motion {
-    fn member_mut(&mut self) -> &mut Member {
-        &mut self.member
-    }
-
-    fn record_impact(&mut self, _: Instant, _: f64) {
-        self.impacts += 1;
-    }
-
-    fn record_state(&mut self, _: Start) {
-        let impacts = std::mem::take(&mut self.impacts);
-        if self.is_known() {
-            return;
-        }
-        if self.order.goes_on(impacts) {
-            self.length += 1;
-            return;
-        }
-        let length = std::mem::take(&mut self.length);
-        self.lengths
-            .extend(Some(length).filter(|it| *it >= self.calm));
-    }
+    });
+    Ok(found.collect())
 }
 
 /// The slope of the straight line through points by least squares.

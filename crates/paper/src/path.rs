@@ -1,7 +1,7 @@
 //! A motion arc by arc as points to draw, with the force of contact, its impacts and what it dissipates.
 
 use softstop::internals::{Phase, work};
-use softstop::{Arc, Clock, Crossing, MotionError, Observer, PhaseKind, Scene, Start};
+use softstop::{MotionError, PhaseKind, Scene, Start};
 
 /// A point of a motion, in the paper's ratios.
 #[derive(Debug, Clone, Copy)]
@@ -35,17 +35,34 @@ impl Path {
         periods: u64,
         (fineness, fewest): (u32, u32),
     ) -> Result<Self, MotionError> {
-        let mut motion = scene.motion(start)?;
-        let mut recorder = Recorder {
-            clock: *motion.clock(),
-            mass: scene.mass,
-            fineness: f64::from(fineness),
-            fewest: f64::from(fewest),
-            path: Self::default(),
+        let trajectory = scene.trajectory(start, periods)?;
+        let clock = trajectory.clock;
+        let mut path = Self {
+            impacts: trajectory.timed_impacts().map(|it| it.0).collect(),
+            ..Self::default()
         };
-        motion.advance(Clock::at_cycle(periods), &mut recorder)?;
-        motion.tell_arc(&mut recorder);
-        Ok(recorder.path)
+        for (arc, elapsed) in trajectory.observed_arcs() {
+            let lost = work(&arc, scene.mass, elapsed).dissipated;
+            path.dissipated += lost;
+            if arc.kind != PhaseKind::Free {
+                path.dissipated_in_contact += lost;
+            }
+            let steps = f64::from(fineness) * elapsed / clock.period();
+            let steps = steps.ceil().max(f64::from(fewest)) as u32;
+            path.points.extend((0..=steps).map(|step| {
+                let after = elapsed * f64::from(step) / f64::from(steps);
+                let Start { position, velocity } = arc.at(after);
+                let force = |phase: &Phase| phase.contact_force(position, velocity);
+                Point {
+                    time: clock.time(clock.after(arc.start, after)),
+                    position,
+                    velocity,
+                    force: arc.phase.map_or(0.0, force),
+                    phase: arc.kind,
+                }
+            }));
+        }
+        Ok(path)
     }
 
     /// Velocities over positions.
@@ -54,12 +71,9 @@ impl Path {
         points.map(|at| (at.position, at.velocity)).collect()
     }
 
-    /// Time for which bodies touch.
-    pub(super) fn contact_time(&self) -> f64 {
-        let same = self.points.chunk_by(|a, b| a.phase == b.phase);
-        let touching = same.filter(|arc| arc[0].phase != PhaseKind::Free);
-        let times = touching.map(|arc| arc[arc.len() - 1].time - arc[0].time);
-        times.sum()
+    /// The points of each phase in turn.
+    pub(super) fn phases(&self) -> impl Iterator<Item = &[Point]> {
+        self.points.chunk_by(|a, b| a.phase == b.phase)
     }
 
     /// Where a phase is first entered.
@@ -70,44 +84,5 @@ impl Path {
     /// Where it is last left.
     pub(super) fn last(&self, phase: PhaseKind) -> Option<&Point> {
         self.points.iter().rfind(|point| point.phase == phase)
-    }
-}
-
-struct Recorder {
-    clock: Clock,
-    mass: f64,
-    fineness: f64,
-    fewest: f64,
-    path: Path,
-}
-
-impl Observer for Recorder {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let path = &mut self.path;
-        let lost = work(arc, self.mass, elapsed).dissipated;
-        path.dissipated += lost;
-        if arc.kind != PhaseKind::Free {
-            path.dissipated_in_contact += lost;
-        }
-        let steps = self.fineness * elapsed / self.clock.period();
-        let steps = steps.ceil().max(self.fewest) as u32;
-        path.points.extend((0..=steps).map(|step| {
-            let after = elapsed * f64::from(step) / f64::from(steps);
-            let Start { position, velocity } = arc.at(after);
-            let force = |phase: &Phase| phase.contact_force(position, velocity);
-            Point {
-                time: self.clock.time(self.clock.after(arc.start, after)),
-                position,
-                velocity,
-                force: arc.phase.map_or(0.0, force),
-                phase: arc.kind,
-            }
-        }));
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        let is_impact = crossing.impact_velocity().is_some();
-        let time = is_impact.then(|| self.clock.time(crossing.instant));
-        self.path.impacts.extend(time);
     }
 }

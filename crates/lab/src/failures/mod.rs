@@ -14,8 +14,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::filter::Filter;
-use report::FailuresReport;
+use crate::filter::filter;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::output::Format;
@@ -81,9 +80,8 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     check(arguments)?;
     let views = views(arguments)?;
     let families = families(&arguments.method)?;
-    let pages = views.iter();
-    let pages =
-        pages.map(|View(case)| (format!("{}_svg", case.name), format!("{}.svg", case.name)));
+    let names = views.iter().map(|View(case)| case.name.clone());
+    let pages = names.map(|name| (format!("{name}_svg"), format!("{name}.svg")));
     let pages: Vec<(String, String)> = pages.collect();
     let mut files = vec![("csv", "failures.csv"), ("json", "failures.json")];
     files.extend(pages.iter().map(|(kind, name)| (&kind[..], &name[..])));
@@ -96,19 +94,17 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     for (view, (page, _)) in views.into_iter().zip(&pages) {
         let axes = axes.clone();
         let atlas = Atlas::new(view, axes, &families, arguments.tolerance, &progress)?;
-        let chart = chart::chart(&atlas);
-        let chart = if arguments.small {
-            chart.small()
-        } else {
-            chart
-        };
+        let mut chart = chart::chart(&atlas);
+        if arguments.small {
+            chart = chart.small();
+        }
         export.file(page, chart.svg().as_bytes())?;
         atlases.push(atlas);
     }
     drop(progress);
     export.table("csv", &report::table(), report::runs(&atlases))?;
-    let report = FailuresReport::new(&atlases);
-    export.finish(&report, report.text(), arguments.format)
+    let text = atlases.iter().map(report::text).collect();
+    export.finish(&report::record(&atlases), text, arguments.format)
 }
 
 fn check(arguments: &FailuresArguments) -> Result<(), Failure> {
@@ -122,11 +118,10 @@ fn check(arguments: &FailuresArguments) -> Result<(), Failure> {
 }
 
 fn views(arguments: &FailuresArguments) -> Result<Vec<View>, Failure> {
-    let mut views = if arguments.scene.is_empty() {
-        View::built_in()?
-    } else {
-        let found = arguments.scene.iter().map(|place| View::find(place));
-        found.collect::<Result<Vec<_>, _>>()?
+    let found = arguments.scene.iter().map(|place| View::find(place));
+    let mut views = match arguments.scene.is_empty() {
+        true => View::built_in()?,
+        false => found.collect::<Result<Vec<_>, _>>()?,
     };
     for View(case) in &mut views {
         case.periods = arguments.periods.unwrap_or(case.periods);
@@ -145,7 +140,7 @@ fn views(arguments: &FailuresArguments) -> Result<Vec<View>, Failure> {
 fn families(words: &[String]) -> Result<Vec<Family>, Failure> {
     let all = Family::all();
     let names: Vec<String> = all.iter().map(Family::name).collect();
-    let filter = Filter::new(words, &names)?;
-    let wanted = |family: &Family| filter.wants(&family.name());
+    let is_wanted = filter(words, &names)?;
+    let wanted = |family: &Family| is_wanted(&family.name());
     Ok(all.into_iter().filter(wanted).collect())
 }

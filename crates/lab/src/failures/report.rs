@@ -1,11 +1,12 @@
 //! The report of `chart failures`: a table of all runs, maps for programs, shares for people.
 
 use crate::methods::Verdict;
-use serde::Serialize;
+use serde_json::json;
 
-use super::atlas::{Atlas, Column, Map};
-use softstop_console::column::{self, Units};
+use super::atlas::{Atlas, Cell, Map};
+use softstop_console::column::{self, Column, Units};
 use softstop_console::columns;
+use softstop_console::record::Record;
 
 /// A run: its atlas and map, and the numbers of its stiffness and of its step.
 pub(super) type Run<'a> = (&'a Atlas, &'a Map, usize, usize);
@@ -22,7 +23,7 @@ pub(super) fn runs(atlases: &[Atlas]) -> impl Iterator<Item = Run<'_>> {
 }
 
 /// The columns of the table.
-pub(super) fn table<'a>() -> [column::Column<Run<'a>>; 9] {
+pub(super) fn table<'a>() -> [Column<Run<'a>>; 9] {
     columns! { Run<'a>, it;
         "scene" [None], "" => it.0.view.0.name.as_str();
         "scheme" [None], "" => it.1.family.title();
@@ -36,137 +37,92 @@ pub(super) fn table<'a>() -> [column::Column<Run<'a>>; 9] {
     }
 }
 
-/// The atlas for programs.
-#[derive(Serialize)]
-pub(super) struct FailuresReport<'a> {
-    /// What the letters in the maps stand for.
-    verdicts: Vec<Key>,
-    scenes: Vec<SceneReport<'a>>,
+/// The atlas for programs: what the letters in the maps stand for, and the maps of each machine.
+pub(super) fn record(atlases: &[Atlas]) -> Record {
+    let letters = columns! { Verdict, it;
+        "letter" [None], "in the maps" => it.letter().to_string();
+        "name" [None], "what it stands for" => it.name();
+    };
+    Record::default()
+        .hidden("verdicts", Record::all(&letters, &Verdict::ALL))
+        .hidden("scenes", Record::all(&scene(), atlases))
 }
 
-#[derive(Serialize)]
-struct Key {
-    letter: char,
-    name: &'static str,
-}
-
-#[derive(Serialize)]
-struct SceneReport<'a> {
-    name: &'a str,
-    title: &'a str,
-    periods: f64,
-    tolerance: f64,
-    /// In N/m.
-    stiffness: &'a [f64],
-    /// In drive periods.
-    step: &'a [f64],
-    /// For each stiffness.
-    true_impacts: Vec<usize>,
-    /// For each stiffness, in drive periods.
-    shortest_contact: Vec<Option<f64>>,
-    /// For each stiffness a letter; `-` where nothing else tells the motion.
-    exact: String,
-    exact_largest_error: f64,
-    maps: Vec<MapReport<'a>>,
-}
-
-#[derive(Serialize)]
-struct MapReport<'a> {
-    scheme: &'static str,
-    events: &'static str,
-    /// Of all runs, by verdict.
-    shares: [f64; 8],
-    /// For each stiffness a letter for each step.
-    map: Vec<String>,
-    /// For each stiffness, in drive periods.
-    longest_stable_step: &'a [Option<f64>],
-}
-
-impl<'a> FailuresReport<'a> {
-    pub(super) fn new(atlases: &'a [Atlas]) -> Self {
-        let key = |verdict: Verdict| Key {
-            letter: verdict.letter(),
-            name: verdict.name(),
-        };
-        Self {
-            verdicts: Verdict::ALL.into_iter().map(key).collect(),
-            scenes: atlases.iter().map(SceneReport::new).collect(),
-        }
+fn scene() -> [Column<Atlas>; 11] {
+    columns! { Atlas, it;
+        "name" [None], "" => it.view.0.name.as_str();
+        "title" [None], "" => it.view.0.title.as_str();
+        "periods" [None], "" => it.view.0.periods;
+        "tolerance" [None], "" => it.tolerance;
+        "stiffness" [None], "in N/m" => it.axes.stiffness.clone();
+        "step" [None], "in drive periods" => it.axes.step.clone();
+        "true_impacts" [None], "for each stiffness" => json!(it.columns.iter().map(|it| it.truth.impacts.len()).collect::<Vec<_>>());
+        "shortest_contact" [None], "for each stiffness, in drive periods" => json!(it.columns.iter().map(|it| it.contact).collect::<Vec<_>>());
+        "exact" [None], "for each stiffness a letter; `-` where nothing else tells the motion" => exact(it).0;
+        "exact_largest_error" [None], "" => exact(it).1;
+        "maps" [None], "" => Record::all(&map(), &it.maps);
     }
 }
 
-impl FailuresReport<'_> {
-    /// What people read.
-    pub(super) fn text(&self) -> String {
-        self.scenes.iter().map(SceneReport::text).collect()
+fn map() -> [Column<Map>; 5] {
+    columns! { Map, it;
+        "scheme" [None], "" => it.family.title();
+        "events" [None], "" => it.family.row();
+        "shares" [None], "of all runs, by verdict" => shares(it).to_vec();
+        "map" [None], "for each stiffness a letter for each step" => json!(it.columns.iter().map(|cells| letters(cells)).collect::<Vec<_>>());
+        "longest_stable_step" [None], "for each stiffness, in drive periods" => json!(it.limit);
     }
 }
 
-impl<'a> SceneReport<'a> {
-    fn new(atlas: &'a Atlas) -> Self {
-        let columns = atlas.columns.iter();
-        let exact = columns.clone().map(|column| column.exact);
-        let letters = exact.clone();
-        let letters = letters.map(|cell| cell.map_or('-', |cell| cell.verdict.letter()));
-        let impacts = |column: &Column| column.truth.impacts.len();
-        Self {
-            name: &atlas.view.0.name,
-            title: &atlas.view.0.title,
-            periods: atlas.view.0.periods,
-            tolerance: atlas.tolerance,
-            stiffness: &atlas.axes.stiffness,
-            step: &atlas.axes.step,
-            true_impacts: columns.clone().map(impacts).collect(),
-            shortest_contact: columns.map(|column| column.contact).collect(),
-            exact: letters.collect(),
-            exact_largest_error: exact.filter_map(|cell| cell?.error).fold(0.0, f64::max),
-            maps: atlas.maps.iter().map(MapReport::new).collect(),
-        }
-    }
-
-    /// The shares of all classes in per cent.
-    fn text(&self) -> String {
-        let columns = columns! { MapReport<'_>, it;
-            "method" [None] Plain, "" => format!("{}, {}", it.scheme, it.events);
-            "conv." [None] Fixed(1), "" => 100.0 * it.shares[0];
-            "inacc." [None] Fixed(1), "" => 100.0 * it.shares[1];
-            "count" [None] Fixed(1), "" => 100.0 * it.shares[2];
-            "missed" [None] Fixed(1), "" => 100.0 * it.shares[3];
-            "gain" [None] Fixed(1), "" => 100.0 * it.shares[4];
-            "blow-up" [None] Fixed(1), "" => 100.0 * it.shares[5];
-            "stuck" [None] Fixed(1), "" => 100.0 * it.shares[6];
-            "unsuited" [None] Fixed(1), "" => 100.0 * it.shares[7];
-        };
-        let count = |letter| self.exact.matches(letter).count();
-        let (right, untold) = (count('C'), count('-'));
-        let untold = match untold {
-            0 => String::new(),
-            _ => format!("; {untold} not compared with another method"),
-        };
-        format!(
-            "{} ({}): % of all runs\n{}exact: {right} of {} converged, largest error {:.1e}{untold}\n\n",
-            self.title,
-            self.name,
-            column::text(&columns, &self.maps, &Units::SI),
-            self.exact.len() - count('-'),
-            self.exact_largest_error
-        )
-    }
+fn letters(cells: &[Cell]) -> String {
+    cells.iter().map(|cell| cell.verdict.letter()).collect()
 }
 
-impl<'a> MapReport<'a> {
-    fn new(map: &'a Map) -> Self {
-        let verdicts = || map.columns.iter().flatten().map(|cell| cell.verdict);
-        let all = verdicts().count() as f64;
-        let share = |verdict| verdicts().filter(|other| *other == verdict).count() as f64 / all;
-        let columns = map.columns.iter();
-        let letters = columns.map(|cells| cells.iter().map(|cell| cell.verdict.letter()).collect());
-        Self {
-            scheme: map.family.title(),
-            events: map.family.row(),
-            shares: Verdict::ALL.map(share),
-            map: letters.collect(),
-            longest_stable_step: &map.limit,
-        }
-    }
+/// The letters of the exact method, and its largest error.
+fn exact(atlas: &Atlas) -> (String, f64) {
+    let cells = atlas.columns.iter().map(|column| column.exact);
+    let letters = cells.clone();
+    let letters = letters.map(|cell| cell.map_or('-', |cell| cell.verdict.letter()));
+    let errors = cells.filter_map(|cell| cell?.error);
+    (letters.collect(), errors.fold(0.0, f64::max))
+}
+
+/// The share of each verdict in all runs.
+fn shares(map: &Map) -> [f64; 8] {
+    let verdicts = || map.columns.iter().flatten().map(|cell| cell.verdict);
+    let all = verdicts().count() as f64;
+    Verdict::ALL.map(|own| verdicts().filter(|other| *other == own).count() as f64 / all)
+}
+
+/// For people: the shares of all classes in per cent.
+pub(super) fn text(atlas: &Atlas) -> String {
+    let columns = columns! { (String, [f64; 8]), it;
+        "method" [None] Plain, "" => it.0.as_str();
+        "conv." [None] Fixed(1), "" => 100.0 * it.1[0];
+        "inacc." [None] Fixed(1), "" => 100.0 * it.1[1];
+        "count" [None] Fixed(1), "" => 100.0 * it.1[2];
+        "missed" [None] Fixed(1), "" => 100.0 * it.1[3];
+        "gain" [None] Fixed(1), "" => 100.0 * it.1[4];
+        "blow-up" [None] Fixed(1), "" => 100.0 * it.1[5];
+        "stuck" [None] Fixed(1), "" => 100.0 * it.1[6];
+        "unsuited" [None] Fixed(1), "" => 100.0 * it.1[7];
+    };
+    let maps = atlas
+        .maps
+        .iter()
+        .map(|map| (map.family.name(), shares(map)));
+    let (exact, error) = exact(atlas);
+    let count = |letter| exact.matches(letter).count();
+    let untold = match count('-') {
+        0 => String::new(),
+        untold => format!("; {untold} not compared with another method"),
+    };
+    format!(
+        "{} ({}): % of all runs\n{}exact: {} of {} converged, largest error {error:.1e}{untold}\n\n",
+        atlas.view.0.title,
+        atlas.view.0.name,
+        column::text(&columns, maps, &Units::SI),
+        count('C'),
+        exact.len() - count('-'),
+    )
 }

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::filter::Filter;
+use crate::filter::filter;
 use case::Case;
 use computer::Machine;
 use errors::Scale;
@@ -122,8 +122,8 @@ fn check(arguments: &PrecisionArguments) -> Result<(), Failure> {
 fn chosen(case: &Case, arguments: &PrecisionArguments) -> Result<Vec<Family>, Failure> {
     let all = family::all(&case.machine.scene, arguments.quick);
     let names: Vec<String> = all.iter().map(|family| family.name.clone()).collect();
-    let filter = Filter::new(&arguments.method, &names)?;
-    let is_chosen = |(index, family): &(usize, Family)| *index == 0 || filter.wants(&family.name);
+    let is_wanted = filter(&arguments.method, &names)?;
+    let is_chosen = |(index, family): &(usize, Family)| *index == 0 || is_wanted(&family.name);
     let chosen = all.into_iter().enumerate().filter(is_chosen);
     Ok(chosen.map(|(_, family)| family).collect())
 }

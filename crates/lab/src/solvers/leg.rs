@@ -10,20 +10,12 @@ use std::cell::Cell;
 /// drive per mass in m/s^2 and its rate.
 pub(super) type State = [f64; 2];
 
-/// What a solver is to follow.
-#[derive(Clone, Copy)]
-enum ArcSolution<'a> {
-    /// A phase's law under the drive.
-    Moving(&'a Phase),
-    /// A mass that is held: q'' = -w^2 q, q the drive per mass. So the solver has something to resolve
-    /// until the push lets the mass go.
-    Held,
-}
-
 /// A smooth law and its guards. Counts how often it is asked.
 pub(super) struct Leg<'a> {
     scene: &'a Scene,
-    course: ArcSolution<'a>,
+    /// The phase whose law holds under the drive. Without one the mass is held: q'' = -w^2 q, q the drive per mass, so that
+    /// the solver has something to resolve until the push lets the mass go.
+    phase: Option<&'a Phase>,
     guards: &'a [Guard],
     evaluations: Cell<u64>,
 }
@@ -33,7 +25,7 @@ impl<'a> Leg<'a> {
     pub fn new(scene: &'a Scene, phase: Option<&'a Phase>, guards: &'a [Guard]) -> Self {
         Self {
             scene,
-            course: phase.map_or(ArcSolution::Held, ArcSolution::Moving),
+            phase,
             guards,
             evaluations: Cell::new(0),
         }
@@ -52,12 +44,12 @@ impl<'a> Leg<'a> {
     /// dy/dt.
     pub fn rate(&self, time: f64, [position, velocity]: State) -> State {
         self.count();
-        let acceleration = match self.course {
-            ArcSolution::Moving(phase) => {
+        let acceleration = match self.phase {
+            Some(phase) => {
                 let (push, _) = drive(self.scene, time);
                 phase.acceleration(position, velocity, push, self.scene.mass)
             }
-            ArcSolution::Held => -self.scene.excitation.frequency.powi(2) * position,
+            None => -self.scene.excitation.frequency.powi(2) * position,
         };
         [velocity, acceleration]
     }
@@ -65,12 +57,12 @@ impl<'a> Leg<'a> {
     /// The Jacobian of the rate times a vector.
     pub fn rate_along(&self, [position, velocity]: State, along: State) -> State {
         self.count();
-        let (stiffness, damping) = match self.course {
-            ArcSolution::Moving(phase) => {
+        let (stiffness, damping) = match self.phase {
+            Some(phase) => {
                 let (stiffness, damping) = phase.slopes(position, velocity);
                 (stiffness / self.scene.mass, damping / self.scene.mass)
             }
-            ArcSolution::Held => (self.scene.excitation.frequency.powi(2), 0.0),
+            None => (self.scene.excitation.frequency.powi(2), 0.0),
         };
         [along[1], -stiffness * along[0] - damping * along[1]]
     }
@@ -78,9 +70,9 @@ impl<'a> Leg<'a> {
     /// The value of a guard; it ends the leg where it rises through zero.
     pub fn guard(&self, index: usize, [first, second]: State) -> f64 {
         let guard = &self.guards[index];
-        let weighted = match self.course {
-            ArcSolution::Moving(_) => guard.position * first + guard.velocity * second,
-            ArcSolution::Held => guard.push * first,
+        let weighted = match self.phase {
+            Some(_) => guard.position * first + guard.velocity * second,
+            None => guard.push * first,
         };
         weighted - guard.level
     }

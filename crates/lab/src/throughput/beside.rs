@@ -62,19 +62,13 @@ impl Beside {
 
     /// For people.
     pub fn told(&self) -> String {
-        let Self {
-            study,
-            points,
-            periods,
-            seconds,
-            times,
-        } = self;
+        let ([alone, whole], times) = (self.seconds, &self.times);
         format!(
-            "{}, {points} points of {periods} periods: lanes alone {:.2} s, the study {:.2} s, {:.3} times as long ({:.3} \
+            "{}, {} points of {} periods: lanes alone {alone:.2} s, the study {whole:.2} s, {:.3} times as long ({:.3} \
              to {:.3})\n",
-            study.display(),
-            seconds[0],
-            seconds[1],
+            self.study.display(),
+            self.points,
+            self.periods,
             median(times.clone()),
             times[0],
             times[times.len() - 1]

@@ -43,11 +43,13 @@ pub struct Fleet {
     jobs: Vec<Job>,
 }
 
-/// Impacts of all motions together.
+/// What one way through found.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Impacts.
+    /// Impacts of all motions together.
     pub impacts: u64,
+    /// Zones.
+    pub found: u64,
     /// Drive periods that lanes left to the scalar engine.
     pub handed_over: u64,
     /// Drive periods that lanes leapt over.

@@ -2,15 +2,17 @@
 
 use std::time::Instant;
 
-use anyhow::Context;
+use anyhow::{Context, Result};
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use softstop::MotionError;
 use softstop_lanes::Instructions;
 
-use super::fleet::{Count, Fleet};
+use super::fleet::Count;
 use softstop_console::failure::Failure;
 use softstop_console::median::median;
 use softstop_console::progress::Progress;
+
+/// A way through motions or machines, which says what it found.
+pub type Way<'a> = Box<dyn Fn() -> Result<Count> + 'a>;
 
 /// One way through the motions, with its times.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -30,6 +32,12 @@ impl Timing {
     pub fn median(&self) -> f64 {
         median(self.seconds.clone())
     }
+
+    /// So much work over the longest time and over the shortest.
+    pub fn spread(&self, work: f64) -> (f64, f64) {
+        let rate = |seconds: Option<&f64>| seconds.map_or(f64::NAN, |seconds| work / seconds);
+        (rate(self.seconds.last()), rate(self.seconds.first()))
+    }
 }
 
 /// The instruction sets narrower than the widest that this processor has.
@@ -42,11 +50,6 @@ pub fn narrower() -> Vec<Instructions> {
     sets
 }
 
-/// Measurements that [`measure`] makes in so many repeats, and that of the zones.
-pub fn measurements(sets: &[Instructions], repeats: usize) -> u64 {
-    ((repeats + 1) * (sets.len() + 7)) as u64
-}
-
 /// So many threads; 0 for all cores.
 ///
 /// # Errors
@@ -56,34 +59,17 @@ pub fn pool(threads: usize) -> Result<ThreadPool, Failure> {
     Ok(pool.context("no threads to be had")?)
 }
 
-/// Measures so many rounds after one that is not counted: the safe engine, one lane, all lanes, all lanes with each impact
-/// told, all cores and one of them, each [`ROUNDS`] times over, lanes with the narrower sets. Gives the number of threads of all cores, too.
+/// Measures ways by turns, so many rounds after one that is not counted.
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-pub fn measure(
-    fleet: &Fleet,
-    sets: &[Instructions],
-    repeats: usize,
-    progress: &Progress,
-) -> Result<(Vec<Timing>, usize), Failure> {
-    let (all, one) = (pool(0)?, pool(1)?);
-    type Way<'a> = Box<dyn Fn() -> Result<Count, MotionError> + 'a>;
-    let lanes = |set| -> Way<'_> { Box::new(move || fleet.batch(set)) };
-    let mut ways: Vec<Way<'_>> = vec![
-        Box::new(|| fleet.safe()),
-        Box::new(|| fleet.one_by_one()),
-        lanes(Instructions::Widest),
-        Box::new(|| fleet.each_impact(Instructions::Widest)),
-        Box::new(|| all.install(|| fleet.parallel(ROUNDS))),
-        Box::new(|| one.install(|| fleet.parallel(ROUNDS))),
-    ];
-    ways.extend(sets.iter().map(|set| lanes(*set)));
+pub fn measure(ways: &[Way<'_>], repeats: usize) -> Result<Vec<Timing>, Failure> {
+    let progress = Progress::new(((repeats + 1) * ways.len()) as u64, "measurements");
     let mut timings = vec![Timing::default(); ways.len()];
     for round in 0..=repeats {
         for (way, timing) in ways.iter().zip(&mut timings) {
             let begin = Instant::now();
-            timing.count = way().context("a motion of the measurement")?;
+            timing.count = way()?;
             if round > 0 {
                 timing.seconds.push(begin.elapsed().as_secs_f64());
             }
@@ -93,5 +79,5 @@ pub fn measure(
     for timing in &mut timings {
         timing.seconds.sort_by(f64::total_cmp);
     }
-    Ok((timings, all.current_num_threads()))
+    Ok(timings)
 }

@@ -17,16 +17,18 @@ use std::path::PathBuf;
 
 use anyhow::{Context, anyhow};
 use clap::Args;
+use softstop::MotionError;
+use softstop_lanes::Instructions;
 
 use beside::Beside;
 use check::Plan;
-use fleet::{RANGE, Range};
+use fleet::{Count, RANGE, Range};
+use measure::{ROUNDS, Way};
 use report::ThroughputReport;
 use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
 use softstop_console::output::Format;
-use softstop_console::progress::Progress;
 use softstop_console::range::within;
 use softstop_explore::study::Measured;
 use zones::Grid;
@@ -104,13 +106,25 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
         machine: arguments.machine,
         ..RANGE
     };
-    let fleet = range.fleet().context("the machines of the measurement")?;
+    let fleet = &range.fleet().context("the machines of the measurement")?;
     let sets = measure::narrower();
-    let progress = Progress::new(measure::measurements(&sets, repeats), "measurements");
-    let (timings, threads) = measure::measure(&fleet, &sets, repeats, &progress)?;
-    let zones = Grid::of(arguments.zones).measure(repeats, &measure::pool(1)?, &progress)?;
-    drop(progress);
-    let report = ThroughputReport::new(range, repeats, (&timings, threads), &sets, zones);
+    let (all, one) = (measure::pool(0)?, measure::pool(1)?);
+    let grid = Grid::of(arguments.zones);
+    let machines = grid.scenes().context("the machines of the zones")?;
+    let lanes = |set| way(move || fleet.batch(set));
+    let mut ways = vec![
+        way(|| fleet.safe()),
+        way(|| fleet.one_by_one()),
+        lanes(Instructions::Widest),
+        way(|| fleet.each_impact(Instructions::Widest)),
+        way(|| all.install(|| fleet.parallel(ROUNDS))),
+        way(|| one.install(|| fleet.parallel(ROUNDS))),
+        Box::new(|| zones::count(&machines, &one)),
+    ];
+    ways.extend(sets.iter().map(|set| lanes(*set)));
+    let timings = measure::measure(&ways, repeats)?;
+    let timings = (&timings[..], all.current_num_threads());
+    let report = ThroughputReport::new(range, grid, repeats, timings, &sets);
     let mut report = report.context("a measurement is missing")?;
     if let (Some(path), Some(study)) = (&arguments.study, &study) {
         report.study = Some(Beside::measure(path, study, repeats)?);
@@ -130,4 +144,9 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
             "{different} of {check} random motions differ in lanes from those by the safe engine"
         ))),
     }
+}
+
+/// A way through the motions of the measurement.
+fn way<'a>(run: impl Fn() -> Result<Count, MotionError> + 'a) -> Way<'a> {
+    Box::new(move || run().context("a motion of the measurement"))
 }

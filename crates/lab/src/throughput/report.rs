@@ -7,7 +7,7 @@ use super::beside::Beside;
 use super::check::Check;
 use super::fleet::Range;
 use super::measure::{ROUNDS, Timing};
-use super::zones::Zones;
+use super::zones::{Grid, Zones};
 use crate::precision::computer::Machine;
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
@@ -90,14 +90,14 @@ pub struct Cores {
 }
 
 impl ThroughputReport {
-    /// What was measured, without a check: the timings as [`measure`](super::measure::measure) gives them, and the
-    /// narrower sets.
+    /// What was measured, without study and check: the timings of the safe engine, of one lane, of all, of all with each
+    /// impact told, of all cores, of one of them, of the zones, and of the narrower sets.
     pub fn new(
         scene: Range,
+        grid: Grid,
         repeats: usize,
         (timings, threads): (&[Timing], usize),
         sets: &[Instructions],
-        zones: Zones,
     ) -> Option<Self> {
         let [
             safe,
@@ -106,6 +106,7 @@ impl ThroughputReport {
             each_impact,
             parallel,
             alone,
+            zones,
             narrower @ ..,
         ] = timings
         else {
@@ -144,7 +145,7 @@ impl ThroughputReport {
                 periods_per_second: work * ROUNDS as f64 / parallel.median(),
                 factor: alone.median() / parallel.median(),
             },
-            zones,
+            zones: Zones::new(grid, zones),
             study: None,
             check: None,
         })
@@ -153,10 +154,9 @@ impl ThroughputReport {
 
 impl Engine {
     fn new(timing: &Timing, work: f64) -> Self {
-        let rate = |seconds: Option<&f64>| seconds.map_or(f64::NAN, |seconds| work / seconds);
         Self {
             periods_per_second_per_core: work / timing.median(),
-            spread: (rate(timing.seconds.last()), rate(timing.seconds.first())),
+            spread: timing.spread(work),
             impacts: timing.count.impacts,
         }
     }

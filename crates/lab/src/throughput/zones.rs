@@ -1,16 +1,15 @@
 //! How many hysteresis zones a core computes in a second: the unloaded machine over clearance and stiffness.
 
-use std::time::Instant;
-
-use anyhow::Context;
+use anyhow::Result;
 use rayon::ThreadPool;
 use serde::Serialize;
 use softstop::{Ratios, Scene, SceneError};
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::median::median;
-use softstop_console::progress::Progress;
 use softstop_dynamics::zone::hysteresis_batch;
+
+use super::fleet::Count;
+use super::measure::Timing;
 
 /// Machines between two looks at whether to stop.
 const BLOCK: usize = 256;
@@ -34,7 +33,7 @@ pub struct Zones {
     /// The machines.
     pub grid: Grid,
     /// How many of them have a zone.
-    pub found: usize,
+    pub found: u64,
     /// Machines per second, the median.
     pub zones_per_second_per_core: f64,
     /// Slowest and fastest measurement.
@@ -70,38 +69,33 @@ impl Grid {
         };
         (0..self.edge * self.edge).map(scene).collect()
     }
+}
 
-    /// Measures so many rounds after one that is not counted, on the threads of `one`.
-    ///
-    /// # Errors
-    /// [`Failure::Run`] if a machine is none, [`Failure::Interrupted`] after Ctrl-C.
-    pub fn measure(
-        self,
-        repeats: usize,
-        one: &ThreadPool,
-        progress: &Progress,
-    ) -> Result<Zones, Failure> {
-        let scenes = self.scenes().context("the machines of the zones")?;
-        let (mut rates, mut found) = (Vec::new(), 0);
-        for round in 0..=repeats {
-            let begin = Instant::now();
-            found = 0;
-            for block in scenes.chunks(BLOCK) {
-                let zones = one.install(|| hysteresis_batch(block, &interrupt::watch));
-                found += zones.iter().filter(|zone| zone.is_ok()).count();
-                progress.steps(0)?;
-            }
-            if round > 0 {
-                rates.push(scenes.len() as f64 / begin.elapsed().as_secs_f64());
-            }
-            progress.step()?;
+/// Computes the zones of machines on the threads of `one`, and counts those that there are.
+///
+/// # Errors
+/// [`Failure::Interrupted`] after Ctrl-C.
+pub fn count(scenes: &[Scene], one: &ThreadPool) -> Result<Count> {
+    let mut count = Count::default();
+    for block in scenes.chunks(BLOCK) {
+        let zones = one.install(|| hysteresis_batch(block, &interrupt::watch));
+        count.found += zones.iter().filter(|zone| zone.is_ok()).count() as u64;
+        if interrupt::requested() {
+            return Err(Failure::Interrupted.into());
         }
-        rates.sort_by(f64::total_cmp);
-        Ok(Zones {
-            grid: self,
-            found,
-            zones_per_second_per_core: median(rates.clone()),
-            spread: (rates[0], rates[rates.len() - 1]),
-        })
+    }
+    Ok(count)
+}
+
+impl Zones {
+    /// What was measured on a grid.
+    pub fn new(grid: Grid, timing: &Timing) -> Self {
+        let machines = f64::from(grid.edge * grid.edge);
+        Self {
+            grid,
+            found: timing.count.found,
+            zones_per_second_per_core: machines / timing.median(),
+            spread: timing.spread(machines),
+        }
     }
 }

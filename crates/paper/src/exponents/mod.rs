@@ -17,26 +17,10 @@ use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::progress::Progress;
 
-/// A part of the diagram.
-#[derive(Deserialize)]
-struct Asked {
-    #[serde(flatten)]
-    part: Part,
-    /// Least and largest exponent to be seen.
-    exponents: (f64, f64),
-}
-
 /// A step of a sweep, its largest exponent per unit of tau, and the half-width of the 95 % interval of that.
 struct Point {
     step: Step,
     exponent: (f64, f64),
-}
-
-/// A part as it was swept.
-struct Found<'a> {
-    asked: &'a Asked,
-    /// Up and down, in rising order of eta.
-    ways: [Vec<Point>; 2],
 }
 
 /// eta, X'- and the exponent.
@@ -45,12 +29,12 @@ type Place = [f64; 3];
 /// The whole range and a part of it.
 #[derive(Deserialize)]
 struct What {
-    parts: [Asked; 2],
+    parts: [Part; 2],
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let (detail, asked) = (studio.detail, figure.what::<What>()?.parts);
-    let plans = [asked[0].part.plan(detail)?, asked[1].part.plan(detail)?];
+    let (detail, [whole, zoom]) = (studio.detail, figure.what::<What>()?.parts);
+    let plans = [whole.plan(detail)?, zoom.plan(detail)?];
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
     let mut chains = diagram::sweep(vec![(plans[0], ways)], "steps of the sweeps", studio.kept)?;
     let zoom = chains.iter();
@@ -63,12 +47,8 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let steps: usize = chains.iter().map(|chain| chain.steps.len()).sum();
     let progress = Progress::new(steps as u64, "exponents");
     let batch = detail.pick(40, 4);
-    let mut parts = Vec::new();
-    for (ways, asked) in chains.chunks_exact(2).zip(&asked) {
-        let points = |way: usize| points(&ways[way], batch, &progress);
-        let ways = [points(0)?, points(1)?];
-        parts.push(Found { asked, ways });
-    }
+    let points = |way: usize| points(&chains[way], batch, &progress);
+    let parts = [[points(0)?, points(1)?], [points(2)?, points(3)?]];
     let branch = branch(detail.pick(400, 80))?;
     let none = "z = 1 was not met";
     let machine = Ratios::unloaded();
@@ -76,7 +56,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let hardest = branch.iter().max_by(|a, b| a[1].total_cmp(&b[1]));
     let stable = branch.iter().min_by(|a, b| a[2].total_cmp(&b[2]));
     let (hardest, stable) = (*hardest.context(none)?, *stable.context(none)?);
-    let points = parts.iter().flat_map(|part| &part.ways).flatten();
+    let points = parts.iter().flatten().flatten();
     let places = points.map(|at| [at.step.value, at.step.hardest_impact(), at.exponent.0]);
     let chaotic = places.filter(|it| it[2] > 0.0);
     let chaotic = chaotic.max_by(|a, b| a[2].total_cmp(&b[2]));
@@ -104,14 +84,14 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     }
     let [left, right] =
         plans.map(|it| format!("{} frequencies × {} drive periods", it.steps, it.periods));
-    let explanation = format!(
+    let mut chart = chart::chart(figure, &parts, &branch, &marks);
+    chart.subtitle = format!(
         "Left {left}, right {right}. Periodic motion: λ = ln|μ|/(nT); else the mean over {} drive periods",
         32 * batch
     );
-    let chart = chart::chart(&parts, &branch, &marks, explanation);
     let ways = parts
         .iter()
-        .flat_map(|part| part.ways.iter().zip(["up", "down"]));
+        .flat_map(|ways| ways.iter().zip(["up", "down"]));
     let rows = ways.flat_map(|(points, way)| points.iter().map(move |point| (way, point)));
     Ok(Drawn {
         files: vec![chart.png().map_err(Error::msg)?, csv(&columns(), rows)?],

@@ -98,9 +98,9 @@ pub(super) fn across(machine: &Ratios) -> Result<Vec<(&'static str, Vec<Figures>
         describe(&machine.at_clearance(clearance), eta, state, &at.impacts).ok()
     };
     let boundaries = Boundaries::of(machine)?;
-    for (name, _, points) in boundaries.curves() {
-        let points = points.par_iter().filter_map(described);
-        curves.push((name, points.collect()));
+    for (name, _, curve) in &boundaries.curves {
+        let points = curve.points.par_iter().filter_map(described);
+        curves.push((*name, points.collect()));
     }
     Ok(curves)
 }

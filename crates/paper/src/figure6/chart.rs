@@ -4,22 +4,15 @@
 use super::RANGE;
 use super::boundaries::Figures;
 use crate::diagram::{is_one, steps};
-use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Mark, Panel, Sign, Stroke, style};
+use crate::figure::Figure;
+use softstop_draw::{Align, Chart, Layer, Mark, Panel, Sign, Stroke, style};
 use softstop_dynamics::sweep::Jump;
 use softstop_dynamics::{Chain, MotionKind, Step};
 
-/// Size of the large panels, and height of a couple of lines where the strip is pierced.
-const SIZE: (f64, f64) = (1092.0, 560.0);
-const ROW: f64 = 19.0;
 /// Radius of the dots.
 const DOT: f64 = 0.65;
 /// Height of a jump that has an arrow, as a share of the panel.
 const SEEN: f64 = 0.03;
-/// Names of the axes upwards, and the largest position and velocity that the panels show.
-const UPWARDS: [(&str, f64); 2] = [
-    ("largest position Xₘ", 27.0),
-    ("before-impact velocity X′₋", 20.0),
-];
 
 /// Lines of the boundaries.
 const RESPONSE: Stroke = Stroke::solid(style::INK, 1.5);
@@ -42,22 +35,21 @@ pub(super) struct Picture<'a> {
 type Which = usize;
 
 impl Picture<'_> {
-    pub(super) fn chart(&self, title: &str, explanation: String) -> Chart {
-        let mut upper = self.panel(1);
-        upper.layers.extend(legend());
-        upper.legend = Some(Legend::Inside(Corner::TopRight));
-        let pierced = self.point.0 == "B";
-        let pierced = pierced.then(|| pierced_ranges(self.chains));
-        let panels = [upper].into_iter().chain(pierced).chain([self.panel(2)]);
-        Chart {
-            subtitle: explanation,
-            shares_x: true,
-            ..Chart::new(title, panels).in_columns(1)
+    pub(super) fn chart(&self, figure: &Figure) -> Chart {
+        let mut chart = figure.chart.clone();
+        let lowest = chart.panels.len() - 1;
+        for (index, panel) in chart.panels.iter_mut().enumerate() {
+            panel.layers = match index {
+                0 => [self.layers(1, panel), legend().into()].concat(),
+                _ if index == lowest => self.layers(2, panel),
+                _ => pierced_ranges(self.chains),
+            };
         }
+        chart
     }
 
-    fn panel(&self, which: Which) -> Panel {
-        let (name, highest) = UPWARDS[which - 1];
+    fn layers(&self, which: Which, panel: &Panel) -> Vec<Layer> {
+        let highest = panel.y.ends[1].unwrap_or(0.0);
         let mut layers = Vec::new();
         for (ways, color) in rows(self.chains) {
             layers.extend(diagram(ways, color, which));
@@ -84,13 +76,7 @@ impl Picture<'_> {
         let spot = Layer::marks([at], Mark::Hollow, style::INK).sized(5.0);
         let text = Layer::text(at, Align::Left, name_of_point);
         layers.extend([spot, text.moved(9.0, 18.0).plated()]);
-        Panel {
-            size: SIZE,
-            x: Axis::new("drive frequency η = ω/Ω").range(RANGE),
-            y: Axis::new(name).range((0.0, highest)),
-            layers,
-            ..Panel::default()
-        }
+        layers
     }
 }
 
@@ -197,27 +183,19 @@ pub(super) fn ranges(chain: &Chain) -> Vec<(f64, f64)> {
 }
 
 /// Where the strip is pierced: a couple of arrows in its colour for each clearance, up and down.
-fn pierced_ranges(chains: &[Chain]) -> Panel {
-    let (mut layers, mut names) = (Vec::new(), Vec::new());
+fn pierced_ranges(chains: &[Chain]) -> Vec<Layer> {
+    let mut layers = Vec::new();
     for (index, (ways, color)) in rows(chains).enumerate() {
-        let row = -(index as f64);
-        names.push((row, ways[0].machine.scene.clearance.to_string()));
         for (chain, shift, is_up) in [(&ways[0], 0.2, true), (&ways[1], -0.2, false)] {
+            let row = shift - index as f64;
             layers.extend(ranges(chain).into_iter().map(|(low, high)| {
                 let (tail, head) = if is_up { (low, high) } else { (high, low) };
-                let [tail, head] = [tail, head].map(|eta| (eta, row + shift));
-                Layer::arrow(tail, head, Stroke::solid(color, 1.8))
+                Layer::arrow((tail, row), (head, row), Stroke::solid(color, 1.8))
             }));
         }
     }
-    let last = 1.0 - names.len() as f64;
     let text = "the strip is pierced: Xₘ > ρ + σ";
+    let last = 1.0 - chains.len() as f64 / 2.0;
     layers.push(Layer::text((RANGE.1, last), Align::Right, text).moved(-8.0, 4.0));
-    Panel {
-        size: (SIZE.0, ROW * names.len() as f64),
-        x: Axis::new("").range(RANGE),
-        y: Axis::new("ρ").range((last - 0.6, 0.6)).ticks(names),
-        layers,
-        ..Panel::default()
-    }
+    layers
 }

@@ -21,18 +21,14 @@ use chart::Picture;
 const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
 const RANGE: (f64, f64) = (0.8, 1.8);
 
-/// Which machine, and what stands above the picture.
+/// Which machine.
 #[derive(Deserialize)]
 struct What {
     machine: Regime,
-    heading: String,
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let What {
-        machine: regime,
-        heading,
-    } = figure.what()?;
+    let What { machine: regime } = figure.what()?;
     let machine = regime.ratios();
     let (steps, periods) = studio.detail.pick((1000, 200), (120, 100));
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
@@ -53,12 +49,12 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         boundaries: &across,
         point: (regime.point(), boundaries::figures(&orbit::find(&scene)?)),
     };
-    let explanation = format!(
+    let mut chart = picture.chart(figure);
+    chart.subtitle = format!(
         "Peterka 2003, Fig. 6({}). Sweeps up and down, {periods} drive periods at each of {steps} frequencies; \
          grey arrows: jumps between z = 0 and z = 1",
         &figure.name[1..]
     );
-    let chart = picture.chart(&heading, explanation);
     let sweeps = chains.iter();
     let sweeps = sweeps.map(|it| {
         (

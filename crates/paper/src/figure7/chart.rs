@@ -4,14 +4,13 @@
 use softstop::PhaseKind;
 
 use super::{Cycle, faces};
+use crate::figure::Figure;
 use crate::path::Point;
-use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, Sign, Stroke, around, style};
+use softstop_draw::{Align, Chart, Layer, Mark, Sign, Stroke, around, style};
 use softstop_explore::palette::phase_color;
 
-/// Height of the panels.
-const HEIGHT: f64 = 320.0;
 const CURVE: Stroke = Stroke::solid(style::DESIGN, 2.0);
-const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.2, (6.0, 4.0));
+pub(super) const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.2, (6.0, 4.0));
 const GUIDE: Stroke = Stroke::dashed(style::OPTIMUM, 1.2, (3.0, 3.0));
 const LENGTH: Stroke = Stroke::solid(style::OPTIMUM, 1.3);
 /// Periods of the time series.
@@ -27,56 +26,57 @@ const PHASES: [(PhaseKind, &str); 4] = [
 const ALL: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 /// What a panel shows of a point.
-type Show = fn(&Point) -> (f64, f64);
+pub(super) type Show = fn(&Point) -> (f64, f64);
 const SERIES: Show = |point| (point.time, point.position);
-const STATE: Show = |point| (point.position, point.velocity);
+pub(super) const STATE: Show = |point| (point.position, point.velocity);
 const FORCE: Show = |point| (point.position, point.force);
 
 impl Cycle {
-    pub(super) fn chart(&self, heading: &str) -> Chart {
+    pub(super) fn chart(&self, figure: &Figure) -> Chart {
         let orbit = &self.orbit;
-        let (eta, rho) = (orbit.scene.excitation.frequency, orbit.scene.clearance);
-        let occurs = PHASES
-            .into_iter()
-            .filter(|it| self.path.first(it.0).is_some());
-        let keys = occurs.map(|(kind, name)| {
-            Layer::key(Sign::Patch(phase_color(kind).unwrap_or(style::PAPER)), name)
-        });
-        let mut series = self.series();
-        series.layers.extend(keys);
+        let period = orbit.scene.period();
         let (slow, fast) = self.range(STATE, 0.0);
-        let x = (1.12 * self.range(SERIES, 0.0).0, 1.3 * orbit.max_position);
+        let lowest = 1.12 * self.range(SERIES, 0.0).0;
         let contact: Show = |point| match point.phase {
             PhaseKind::Free => (point.position, 0.0),
             _ => STATE(point),
         };
+        let (begin, end) = self.touching();
+        let room = 0.45 * (end - begin);
+        let [time, all] = [
+            (begin - room, end + room),
+            (lowest, 1.3 * orbit.max_position),
+        ];
         let close = [self.positions(0.6, 0.25), self.range(contact, 0.22)];
         let force = [self.positions(0.3, 0.2), self.range(FORCE, 0.12)];
-        let planes = [
-            (
-                ["position X", "velocity X′"],
-                [x, (1.18 * slow, 1.18 * fast)],
-            ),
-            (["position X beyond the clearance", "velocity X′"], close),
-            (["position X", "contact force F/F₀"], force),
+        let ranges = [
+            [(0.0, SHOWN * period), (lowest, 1.32 * orbit.max_position)],
+            [time, self.positions(0.9, 0.35)],
+            [all, (1.18 * slow, 1.18 * fast)],
+            close,
+            force,
         ];
-        let planes = planes.into_iter().enumerate();
-        let planes = planes.map(|(column, (names, ranges))| self.plane(column, names, ranges));
-        let panels = [series, self.impact()].into_iter().chain(planes);
-        Chart {
-            subtitle: format!(
-                "X_m = {:.5},  X′₋ = {:.6},  Floquet multipliers of modulus {:.4}",
-                orbit.max_position,
-                orbit.before_impact_velocity(),
-                orbit.multipliers()[0].norm(),
-            ),
-            legend: Legend::Above,
-            ..Chart::new(format!("{heading}, η = {eta}, ρ = {rho}, z = 1"), panels)
+        let mut chart = figure.picture([
+            self.series(),
+            self.impact(time.0),
+            self.plane(0, ranges[2]),
+            self.plane(1, close),
+            self.plane(2, force),
+        ]);
+        chart.subtitle = format!(
+            "X_m = {:.5},  X′₋ = {:.6},  Floquet multipliers of modulus {:.4}",
+            orbit.max_position,
+            orbit.before_impact_velocity(),
+            orbit.multipliers()[0].norm(),
+        );
+        for (panel, [x, y]) in chart.panels.iter_mut().zip(ranges) {
+            (panel.x.ends, panel.y.ends) = ([x.0, x.1].map(Some), [y.0, y.1].map(Some));
         }
+        chart
     }
 
-    /// Some periods, with X_m and the period T between the first two impacts.
-    fn series(&self) -> Panel {
+    /// Some periods, with X_m and the period T between the first two impacts, and what the tints mean.
+    fn series(&self) -> Vec<Layer> {
         let (highest, period) = (self.orbit.max_position, self.orbit.scene.period());
         let (begin, end) = self.touching();
         let shifts = || (0..=SHOWN as u32).map(|cycle| f64::from(cycle) * period);
@@ -105,46 +105,32 @@ impl Cycle {
                 .moved(0.0, 5.0)
                 .plated(),
         ]);
-        Panel {
-            span: (2, 1),
-            size: (694.0, HEIGHT),
-            x: Axis::new("time τ").range((0.0, SHOWN * period)),
-            y: Axis::new("position X").range((1.12 * self.range(SERIES, 0.0).0, 1.32 * highest)),
-            layers,
-            ..Panel::default()
-        }
+        let occur = PHASES.into_iter();
+        let occur = occur.filter(|it| self.path.first(it.0).is_some());
+        layers.extend(occur.map(|(kind, name)| {
+            Layer::key(Sign::Patch(phase_color(kind).unwrap_or(style::PAPER)), name)
+        }));
+        layers
     }
 
-    /// The time around the impact.
-    fn impact(&self) -> Panel {
-        let (begin, end) = self.touching();
-        let room = 0.45 * (end - begin);
-        let x = (begin - room, end + room);
+    /// The time around the impact, from the left end of the panel on.
+    fn impact(&self, left: f64) -> Vec<Layer> {
         let mut layers = self.shades(0.0);
         for (face, name) in faces(&self.orbit.scene) {
-            let name = Layer::text((x.0, face), Align::Left, name).moved(8.0, -5.0);
+            let name = Layer::text((left, face), Align::Left, name).moved(8.0, -5.0);
             layers.extend([Layer::horizontal(face, FACE, ""), name]);
         }
         layers.push(Layer::line(self.curve(SERIES), CURVE));
         layers.extend(self.letters(SERIES, [(-11.0, -7.0), (-11.0, -7.0), (-12.0, 18.0)]));
-        Panel {
-            at: (2, 0),
-            size: (330.0, HEIGHT),
-            x: Axis::new("time τ").range(x),
-            y: Axis::new("position X around the impact").range(self.positions(0.9, 0.35)),
-            layers,
-            ..Panel::default()
-        }
+        layers
     }
 
     /// A panel over position: the phase plane, the part of it beyond the clearance, or the force of contact.
-    fn plane(&self, column: usize, [across, up]: [&str; 2], [x, y]: [(f64, f64); 2]) -> Panel {
+    fn plane(&self, column: usize, [x, y]: [(f64, f64); 2]) -> Vec<Layer> {
         let faces = faces(&self.orbit.scene);
         let mut layers = if column > 0 { self.tints() } else { Vec::new() };
-        let lines = faces
-            .iter()
-            .map(|(face, _)| Layer::vertical(*face, FACE, ""));
-        layers.extend(lines);
+        let lines = faces.iter();
+        layers.extend(lines.map(|(face, _)| Layer::vertical(*face, FACE, "")));
         let zero = Layer::horizontal(0.0, Stroke::solid(style::FAINT, 1.0), "");
         let show = if column == 2 { FORCE } else { STATE };
         layers.extend([zero, Layer::line(self.curve(show), CURVE)]);
@@ -159,14 +145,7 @@ impl Cycle {
                 }),
             );
         }
-        Panel {
-            at: (column, 1),
-            size: (330.0, HEIGHT),
-            x: Axis::new(across).range(x),
-            y: Axis::new(up).range(y),
-            layers,
-            ..Panel::default()
-        }
+        layers
     }
 
     /// Marks X'₋ where the mass comes to the clearance.
@@ -198,8 +177,7 @@ impl Cycle {
 
     /// Shades the phases of a period that begins so much later.
     fn shades(&self, later: f64) -> Vec<Layer> {
-        let arcs = self.path.points.chunk_by(|a, b| a.phase == b.phase);
-        let shades = arcs.filter_map(|arc| {
+        let shades = self.path.phases().filter_map(|arc| {
             let ends = (arc[0].time + later, arc[arc.len() - 1].time + later);
             fill(ends, arc[0].phase, 1.0)
         });

@@ -15,11 +15,10 @@ use softstop_dynamics::{Exponents, Orbit};
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::path::{Path, Point};
 
-/// Which machine, and what stands above the picture.
+/// Which machine.
 #[derive(Deserialize)]
 struct What {
     machine: Regime,
-    heading: String,
 }
 
 /// One period of a z = 1 motion.
@@ -48,8 +47,7 @@ fn faces(scene: &Scene) -> Vec<(f64, &'static str)> {
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let What { machine, heading } = figure.what()?;
-    let cycle = Cycle::of(studio, machine)?;
+    let cycle = Cycle::of(studio, figure.what::<What>()?.machine)?;
     let columns = columns! { Point, it;
         "tau" [None], "time" => it.time;
         "position" [None], "X" => it.position;
@@ -59,13 +57,13 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     };
     let table = csv(&columns, &cycle.path.points)?;
     Ok(Drawn {
-        files: vec![cycle.chart(&heading).svg().into_bytes(), table],
+        files: vec![cycle.chart(figure).svg().into_bytes(), table],
         findings: findings(&cycle),
     })
 }
 
 /// Point A over point B.
-pub(super) fn both(studio: &Studio, _: &Figure) -> Result<Drawn> {
+pub(super) fn both(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let a = Cycle::of(studio, Regime::Unloaded)?;
     let b = Cycle::of(studio, Regime::Loaded)?;
     let mut findings = Findings::default();
@@ -74,20 +72,22 @@ pub(super) fn both(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let faster = b.orbit.before_impact_velocity() / a.orbit.before_impact_velocity();
     findings.add("X'_- of B over that of A", faster);
     Ok(Drawn {
-        files: vec![both::chart(&[a, b]).svg().into_bytes()],
+        files: vec![both::chart(figure, &[a, b]).svg().into_bytes()],
         findings,
     })
 }
 
 fn findings(Cycle { orbit, path }: &Cycle) -> Findings {
     let period = orbit.scene.period();
+    let contact = path.phases().filter(|it| it[0].phase != PhaseKind::Free);
+    let contact = contact.map(|it| it[it.len() - 1].time - it[0].time);
     let velocity = |point: Option<&Point>| point.map(|point| point.velocity);
     let mut findings = Findings::default();
     let values = [
         ("X_m", Some(orbit.max_position)),
         ("X'_-", Some(orbit.before_impact_velocity())),
         ("period T", Some(period)),
-        ("contact, share of T", Some(path.contact_time() / period)),
+        ("contact, share of T", Some(contact.sum::<f64>() / period)),
         (
             "largest multiplier, modulus",
             Some(orbit.multipliers()[0].norm()),

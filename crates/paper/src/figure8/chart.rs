@@ -6,12 +6,12 @@ use softstop_dynamics::{Chain, Step};
 
 use super::{Bifurcation, Diagram};
 use crate::diagram::{self, WAYS, by_way, dots, steps};
+use crate::figure::Figure;
 use crate::figure9;
 use crate::table1::report;
-use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, style};
+use softstop_draw::{Align, Chart, Layer, Panel, Stroke, style};
 
-/// Sizes of the overview and of a zoom, and radius of a dot.
-const SIZES: [(f64, f64); 2] = [(1136.0, 300.0), (536.0, 330.0)];
+/// Radius of a dot.
 const DOT: f64 = 0.65;
 /// Above this frequency bifurcations are numbered in the overview.
 const BEYOND: f64 = 1.03;
@@ -24,37 +24,34 @@ const LEAST: f64 = 0.02;
 
 /// The overview first, then the zooms, with steps of motions that no sweep from rest reaches.
 pub(super) fn chart(
+    figure: &Figure,
     diagrams: &[Diagram],
     isolated: &[Step],
     bifurcations: &[Bifurcation<'_>],
-    explanation: String,
 ) -> Result<Chart> {
     let letters = figure9::letters()?;
-    let panels = diagrams.iter().enumerate().map(|(index, diagram)| {
+    let mut chart = figure.chart.clone();
+    for (index, (panel, diagram)) in chart.panels.iter_mut().zip(diagrams).enumerate() {
         let (low, high) = diagram.part.range;
         let is_own = |eta: f64| low <= eta && eta <= high;
         let is_numbered = |eta: f64| is_own(eta) && (index > 0 || eta > BEYOND);
         let inside = isolated.iter().filter(|step| is_own(step.value));
-        let mut panel = diagram.panel(&inside.collect::<Vec<_>>());
+        diagram.draw(&inside.collect::<Vec<_>>(), panel);
         let numbered = bifurcations.iter().filter(|it| is_numbered(it.1.eta));
         panel
             .layers
             .extend(numbered.map(|it| Layer::vertical(it.1.eta, MARK, words(it))));
         if index == 0 {
-            (panel.span, panel.size) = ((2, 1), SIZES[0]);
             for Diagram { part: zoom, .. } in &diagrams[1..] {
                 let stripe = [zoom.range, (f64::NEG_INFINITY, f64::INFINITY)];
-                panel
-                    .layers
-                    .insert(0, Layer::boxes([stripe], style::ALLOWED, 0.22));
+                let stripe = Layer::boxes([stripe], style::ALLOWED, 0.22);
+                panel.layers.insert(0, stripe);
                 let line = Stroke::solid(style::ALLOWED, 0.5);
                 let middle = f64::midpoint(zoom.range.0, zoom.range.1);
-                panel
-                    .layers
-                    .push(Layer::vertical(middle, line, &*zoom.name));
+                let name = Layer::vertical(middle, line, &*zoom.name);
+                panel.layers.push(name);
             }
         } else {
-            panel.at = ((index - 1) % 2, 1 + (index - 1) / 2);
             let letters = letters.iter().filter(|it| is_own(it.1));
             let [low, high] = panel.y.ends.map(|end| end.unwrap_or(0.0));
             let arrow = |eta| {
@@ -66,18 +63,8 @@ pub(super) fn chart(
                 [arrow(*eta), text.moved(0.0, -18.0).plated()]
             }));
         }
-        panel
-    });
-    let title = "Bifurcation diagram for ρ = 10 (unloaded machine) and its zooms (a) to (d)";
-    let notes = "At the bifurcations of Table 1: → on rising η, ← on falling η, both with hysteresis; ↔ reversible; \
-                 G grazing, SN fold, PD period doubling, ISN and IPD fold or doublings interrupted by chaos, \
-                 OCH out of chaos. A, B, …: motions of Fig. 9.";
-    Ok(Chart {
-        subtitle: explanation,
-        legend: Legend::Above,
-        notes: vec![notes.to_owned()],
-        ..Chart::new(title, panels)
-    })
+    }
+    Ok(chart)
 }
 
 /// Number, direction and symbols.
@@ -92,8 +79,8 @@ fn words((number, found): &Bifurcation<'_>) -> String {
 }
 
 impl Diagram<'_> {
-    /// A panel as high as the velocities, with the names of motions beside them.
-    fn panel(&self, isolated: &[&Step]) -> Panel {
+    /// Draws it into a panel as high as the velocities, with the names of motions beside them.
+    fn draw(&self, isolated: &[&Step], panel: &mut Panel) {
         let all = steps(&self.ways).chain(isolated.iter().copied());
         let top = all.map(Step::hardest_impact).fold(0.0, f64::max);
         let top = if top > 0.0 { top } else { 1.0 };
@@ -123,17 +110,10 @@ impl Diagram<'_> {
             Layer::text(at, align, name).moved(0.0, -7.0).plated()
         });
         let layers = [fleeting].into_iter().chain(ways);
-        Panel {
-            title: self.part.name.clone(),
-            size: SIZES[1],
-            x: Axis::new("drive frequency η").range(self.part.range),
-            y: Axis::new("X′₋").range((-0.16 * top, 1.12 * top)),
-            layers: layers
-                .chain([settled.named(ISOLATED.0)])
-                .chain(names)
-                .collect(),
-            ..Panel::default()
-        }
+        panel.x.ends = [low, high].map(Some);
+        panel.y.ends = [-0.16 * top, 1.12 * top].map(Some);
+        let layers = layers.chain([settled.named(ISOLATED.0)]).chain(names);
+        panel.layers = layers.collect();
     }
 
     /// Each motion once: eta, X'- and its name, in the middle of its longest stretch.

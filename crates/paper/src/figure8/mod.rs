@@ -52,12 +52,8 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let rows = paper::ROWS.iter();
     let matches = rows.filter_map(|row| Some((row.number, matching::find(row, transitions)?)));
     let bifurcations: Vec<Bifurcation<'_>> = matches.collect();
-    let chart = chart::chart(
-        &diagrams,
-        &isolated,
-        &bifurcations,
-        explanation(&what, detail),
-    )?;
+    let mut chart = chart::chart(figure, &diagrams, &isolated, &bifurcations)?;
+    chart.subtitle = explanation(&what, detail);
     let mut findings = Findings::default();
     findings.add("bifurcations found", bifurcations.len() as f64);
     for (number, it) in &bifurcations {

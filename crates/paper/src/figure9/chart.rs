@@ -4,13 +4,11 @@ use anyhow::Result;
 
 use super::found::Found;
 use super::{CLEARANCE, SHALLOW};
+use crate::figure::Figure;
 use crate::path::Path;
-use softstop_draw::{Align, Axis, Chart, Layer, Panel, Stroke, around, style};
+use softstop_draw::{Align, Chart, Layer, Panel, Stroke, around, style};
 use softstop_explore::palette::line_color;
 
-/// Widths of the panels, and their height.
-const WIDTHS: [f64; 4] = [560.0, 200.0, 200.0, 200.0];
-const HEIGHT: f64 = 166.0;
 const FACE: Stroke = Stroke::dashed(style::ASIDE, 1.1, (6.0, 4.0));
 /// Every other drive period, and the states of other motions.
 const BAND: &str = style::GRID;
@@ -27,43 +25,41 @@ const DOTS: (f64, f64) = (4.2, 1.0);
 type Sample = (char, [f64; 3]);
 
 /// A page of motions, their time series over so many drive periods; and the points of these.
-pub(super) fn page(motions: &[Found], all: &[Found], shown: u64) -> Result<(Chart, Vec<Sample>)> {
+pub(super) fn page(
+    figure: &Figure,
+    motions: &[Found],
+    all: &[Found],
+    shown: u64,
+) -> Result<(Chart, Vec<Sample>)> {
     let (mut panels, mut points) = (Vec::new(), Vec::new());
     for (row, motion) in motions.iter().enumerate() {
         let path = motion.path(Some(shown), FINENESS[0])?;
         let plane = motion.path(None, FINENESS[0])?.states();
         let near = motion.path(None, FINENESS[1])?.states();
-        let period = motion.scene()?.period();
-        let own = [
-            series(motion, &path, shown, period),
-            phase_plane(motion, plane),
-            near_stop(motion, near),
-            section(motion, all),
-        ];
-        // The names of axes across stand in the last row only.
-        let names = ["time τ/T", "X", "X near the stop", "X at drive angle 0"];
-        panels.extend(
-            own.into_iter()
-                .zip(names)
-                .enumerate()
-                .map(|(column, (mut panel, name))| {
-                    (panel.at, panel.size) = ((column, row), (WIDTHS[column], HEIGHT));
-                    panel.x.name = if row + 1 == motions.len() { name } else { "" }.to_owned();
-                    panel
-                }),
-        );
+        let period = motion.scene.period();
+        let mut own = figure.chart.panels.clone();
+        series(motion, &path, shown, period, &mut own[0]);
+        phase_plane(motion, plane, &mut own[1]);
+        near_stop(motion, near, &mut own[2]);
+        own[3].layers = section(motion, all);
+        for panel in &mut own {
+            panel.at.1 = row;
+            // The names of axes across stand in the last row only.
+            if row + 1 < motions.len() {
+                panel.x.name.clear();
+            }
+        }
+        panels.extend(own);
         let letter = motion.asked.letter;
         let path = path.points.iter();
         points.extend(path.map(|at| (letter, [at.time / period, at.position, at.velocity])));
     }
     let letter = |motion: Option<&Found>| motion.map_or(' ', |it| it.asked.letter);
     let (first, last) = (letter(motions.first()), letter(motions.last()));
-    let explanation = "▼ impacts · right: states at drive angle 0, in grey those of the motions above or below \
-                       that coexist at the same η";
-    let title = format!("Fig. 9({first})–({last}): motions of the unloaded machine, ρ = 10");
     let chart = Chart {
-        subtitle: explanation.to_owned(),
-        ..Chart::new(title, panels)
+        title: format!("Fig. 9({first})–({last}): motions of the unloaded machine, ρ = 10"),
+        panels,
+        ..figure.chart.clone()
     };
     Ok((chart, points))
 }
@@ -73,7 +69,7 @@ fn color(motion: &Found) -> &'static str {
 }
 
 /// The time series, its impacts, and how long it takes to repeat.
-fn series(motion: &Found, path: &Path, shown: u64, period: f64) -> Panel {
+fn series(motion: &Found, path: &Path, shown: u64, period: f64, panel: &mut Panel) {
     let (low, high) = around(path.points.iter().map(|at| at.position), 0.0);
     let y = (1.1 * low, 1.42 * high.max(CLEARANCE));
     let unit = y.1 - y.0;
@@ -104,13 +100,10 @@ fn series(motion: &Found, path: &Path, shown: u64, period: f64) -> Panel {
     let remark = motion.remark();
     let dash = if remark.is_empty() { "" } else { " — " };
     let (letter, title) = (motion.asked.letter, motion.title());
-    Panel {
-        title: format!("({letter})  {title}{dash}{remark}"),
-        x: Axis::default().range((0.0, shown as f64)),
-        y: Axis::new("X").range(y),
-        layers,
-        ..Panel::default()
-    }
+    panel.title = format!("({letter})  {title}{dash}{remark}");
+    panel.x.ends = [0.0, shown as f64].map(Some);
+    panel.y.ends = [y.0, y.1].map(Some);
+    panel.layers = layers;
 }
 
 fn trajectory(motion: &Found, points: Vec<(f64, f64)>, width: f64) -> Vec<Layer> {
@@ -119,31 +112,26 @@ fn trajectory(motion: &Found, points: Vec<(f64, f64)>, width: f64) -> Vec<Layer>
     vec![Layer::vertical(CLEARANCE, FACE, ""), line]
 }
 
-fn phase_plane(motion: &Found, points: Vec<(f64, f64)>) -> Panel {
-    Panel {
-        x: Axis::default().range(around(points.iter().map(|at| at.0), 0.1)),
-        y: Axis::new("X′").range(around(points.iter().map(|at| at.1), 0.1)),
-        layers: trajectory(motion, points, 1.3),
-        ..Panel::default()
-    }
+fn phase_plane(motion: &Found, points: Vec<(f64, f64)>, panel: &mut Panel) {
+    let (x, y) = (points.iter().map(|at| at.0), points.iter().map(|at| at.1));
+    panel.x = panel.x.clone().range(around(x, 0.1));
+    panel.y = panel.y.clone().range(around(y, 0.1));
+    panel.layers = trajectory(motion, points, 1.3);
 }
 
 /// The part of it near the stop.
-fn near_stop(motion: &Found, points: Vec<(f64, f64)>) -> Panel {
+fn near_stop(motion: &Found, points: Vec<(f64, f64)>, panel: &mut Panel) {
     let (_, high) = around(points.iter().map(|point| point.0), 0.0);
     let depth = (high - CLEARANCE).max(SHALLOW * CLEARANCE);
     let x = (CLEARANCE - NEAR * depth, CLEARANCE + 1.6 * depth);
     let near = points.iter().filter(|point| point.0 > x.0);
-    Panel {
-        x: Axis::default().range(x),
-        y: Axis::new("X′").range(around(near.map(|at| at.1), 0.1)),
-        layers: trajectory(motion, points, 1.1),
-        ..Panel::default()
-    }
+    panel.x = panel.x.clone().range(x);
+    panel.y = panel.y.clone().range(around(near.map(|at| at.1), 0.1));
+    panel.layers = trajectory(motion, points, 1.1);
 }
 
 /// The states at drive angle 0, behind them those of the other motions of the same machine.
-fn section(motion: &Found, all: &[Found]) -> Panel {
+fn section(motion: &Found, all: &[Found]) -> Vec<Layer> {
     let asked = &motion.asked;
     let others = all.iter().map(|other| (other, OTHERS));
     let others = others
@@ -155,9 +143,5 @@ fn section(motion: &Found, all: &[Found]) -> Panel {
             let radius = if states.len() > MANY { DOTS.1 } else { DOTS.0 };
             Layer::dots(states.iter().copied(), radius, color)
         });
-    Panel {
-        y: Axis::new("X′"),
-        layers: layers.collect(),
-        ..Panel::default()
-    }
+    layers.collect()
 }

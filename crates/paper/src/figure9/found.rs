@@ -1,7 +1,7 @@
 //! A motion of the figure as it was found.
 
 use anyhow::Result;
-use softstop::{Ratios, Scene, SceneError};
+use softstop::{Ratios, Scene};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_dynamics::attractors::Attractor;
@@ -21,6 +21,7 @@ const ENERGY: (u64, (u32, u32)) = (2000, (400, 8));
 /// A motion and what was asked for.
 pub struct Found {
     pub asked: Asked,
+    pub scene: Scene,
     attractor: Attractor,
     /// Its states; of transient chaos those from a start on from which it lasts.
     pub section: Section,
@@ -45,10 +46,6 @@ pub fn columns() -> [Column<Found>; 13] {
     }
 }
 
-fn scene(asked: &Asked) -> Result<Scene, SceneError> {
-    Ratios::unloaded().at_frequency(asked.eta).scene()
-}
-
 impl Found {
     /// The motion that is asked for, if it is among those found, with so many states of what does not repeat.
     pub fn among(asked: &Asked, survey: &Survey, most: u64) -> Result<Option<Self>> {
@@ -60,13 +57,15 @@ impl Found {
         let Some(attractor) = survey.attractors.iter().find(fits).cloned() else {
             return Ok(None);
         };
-        let map = StroboscopicMap::new(&scene(asked)?.check()?, 1);
+        let scene = Ratios::unloaded().at_frequency(asked.eta).scene()?;
+        let map = StroboscopicMap::new(&scene.check()?, 1);
         let section = match attractor.motion.periods() {
             Some(periods) => Section::of(&map, attractor.state, periods, usize::MAX)?,
             None => Section::lasting(&map, attractor.state, most)?,
         };
         Ok(Some(Self {
             asked: asked.clone(),
+            scene,
             attractor,
             section,
         }))
@@ -94,15 +93,11 @@ impl Found {
         self.orbit().map(|orbit| orbit.periods)
     }
 
-    pub fn scene(&self) -> Result<Scene, SceneError> {
-        scene(&self.asked)
-    }
-
     /// The motion over drive periods, as [`Path::new`] has it; unless said otherwise until it repeats.
     pub fn path(&self, periods: Option<u64>, fineness: (u32, u32)) -> Result<Path> {
         let periods = periods.or(self.period()).unwrap_or(WANDERING);
         Ok(Path::new(
-            &self.scene()?,
+            &self.scene,
             self.section.start,
             periods,
             fineness,
@@ -161,7 +156,7 @@ impl Found {
     /// The kinetic energy in units of F0^2/k1: its mean over time, and the largest.
     fn kinetic(&self) -> Result<[f64; 2]> {
         let path = self.path(Some(self.period().unwrap_or(ENERGY.0)), ENERGY.1)?;
-        let period = self.scene()?.period();
+        let period = self.scene.period();
         let energy = |at: &Point| 0.5 * at.velocity * at.velocity;
         let time = |at: &Point| at.time / period;
         let pieces = path.points.windows(2);

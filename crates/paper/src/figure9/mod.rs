@@ -65,7 +65,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let (mut files, mut series, mut sections) = (Vec::new(), Vec::new(), Vec::new());
     let mut findings = Findings::default();
     for (motions, shown) in found.chunks(ON_A_PAGE).zip(SHOWN) {
-        let (chart, points) = chart::page(motions, &found, shown)?;
+        let (chart, points) = chart::page(figure, motions, &found, shown)?;
         files.push(chart.svg().into_bytes());
         series.extend(points);
     }

@@ -1,11 +1,12 @@
 //! The chart of stops from soft to rigid: diagrams, a map of the motions, and folds.
 
 use super::folds::Folds;
-use super::stops::{CLEARANCE, RESTITUTION, grazing};
-use super::subharmonics::{self, NARROW, Subharmonic};
+use super::stops::{CLEARANCE, grazing};
+use super::subharmonics::{NARROW, Subharmonic};
 use super::swept::{RANGE, Swept, kind};
 use super::{DECADES, SUBHARMONIC};
-use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Panel, Stroke, style};
+use crate::figure::Figure;
+use softstop_draw::{Align, Chart, Layer, Stroke, style};
 use softstop_dynamics::motion::MotionClass;
 use softstop_explore::palette::{motion_color, motion_keys};
 
@@ -31,37 +32,35 @@ const DOT: f64 = 1.0;
 type Bend = fn(&Folds) -> Option<f64>;
 
 impl Picture<'_> {
-    pub(super) fn chart(&self) -> Chart {
+    pub(super) fn chart(&self, figure: &Figure) -> Chart {
         // What is linear, the first, grows without regard to the clearance.
         let points = self.drawn[1..].iter().flat_map(Swept::points).flatten();
         let top = 1.05 * points.map(|point| point.1).fold(0.0, f64::max);
-        let rows = self.drawn.chunks(ACROSS).enumerate();
-        let diagrams = rows.flat_map(|(row, diagrams)| {
-            let diagrams = diagrams.iter().enumerate();
-            diagrams.map(move |(column, swept)| diagram(swept, (column, row), top))
-        });
-        let panels = diagrams.chain([self.map(), self.widths(), self.orders()]);
-        let explanation = format!(
-            "before-impact velocity X′₋ over η: clearance ρ = {CLEARANCE}, β₁ = 0.02, contact damping for a \
-             restitution of {RESTITUTION}; dashed: grazing of the impact-less motion, g₀"
-        );
-        Chart {
-            subtitle: explanation,
-            legend: Legend::Below,
-            ..Chart::new(
-                "From a soft to a rigid stop: the stiffness k₂ from 0 to infinity",
-                panels,
-            )
+        let mut chart = figure.picture([Vec::new(), self.map(), self.widths(), self.orders()]);
+        let template = chart.panels.remove(0);
+        let highest = self.found.iter().filter(|motion| motion.impacts == 1);
+        let highest = highest.map(|motion| motion.periods).max();
+        let highest = highest.unwrap_or(2).max(2);
+        if let Some(orders) = chart.panels.last_mut() {
+            orders.y.ends = [1.4, highest as f64 + 0.6].map(Some);
+            let ticks = (2..=highest).map(|order| (order as f64, order.to_string()));
+            orders.y.ticks = Some(ticks.collect());
         }
-    }
-
-    /// Rows of diagrams.
-    const fn rows(&self) -> usize {
-        self.drawn.len().div_ceil(ACROSS)
+        let diagrams = self.drawn.iter().enumerate().map(|(index, swept)| {
+            let mut panel = template.clone().at(index % ACROSS, index / ACROSS);
+            panel.title = swept.law.name();
+            panel.y.ends = [0.0, top].map(Some);
+            if panel.at.0 > 0 {
+                panel.y.name.clear();
+            }
+            panel.with(diagram(swept))
+        });
+        chart.panels.splice(0..0, diagrams);
+        chart
     }
 
     /// On the way up; a dot where the way down ends in another motion.
-    fn map(&self) -> Panel {
+    fn map(&self) -> Vec<Layer> {
         let (columns, rows) = (self.map[0].up.len(), self.map.len());
         let cells = self.map.iter().flat_map(|swept| &swept.up);
         let colors = cells.map(|step| motion_color(kind(step)));
@@ -103,21 +102,11 @@ impl Picture<'_> {
             let mut steps = self.map.iter().flat_map(|swept| &swept.up);
             steps.any(|step| kind(step) == class)
         }));
-        let decades = (10f64.powf(DECADES.0), 10f64.powf(DECADES.1));
-        Panel {
-            title: "Motions on rising η".to_owned(),
-            at: (0, self.rows()),
-            span: (ACROSS, 1),
-            size: (600.0, 380.0),
-            x: Axis::new("η").range(RANGE),
-            y: Axis::new("k₂/k₁").range(decades).log(),
-            layers,
-            ..Panel::default()
-        }
+        layers
     }
 
     /// How wide the regions of weak impacts and of hysteresis are, over the stiffness, logarithmic.
-    fn widths(&self) -> Panel {
+    fn widths(&self) -> Vec<Layer> {
         let widths = self.folds.iter().filter_map(Folds::widths);
         let widths: Vec<[f64; 3]> = widths.filter(|it| it[1] > 0.0).collect();
         let hysteresis = "hysteresis, from s_SN back to the weak fold";
@@ -138,26 +127,12 @@ impl Picture<'_> {
                 .into_iter()
                 .chain(named)
         });
-        Panel {
-            title: "Widths above the resonance".to_owned(),
-            at: (0, self.rows() + 1),
-            span: (ACROSS, 1),
-            size: (600.0, 176.0),
-            x: Axis::new("k₂/k₁").range((1.0, 10f64.powf(DECADES.1))).log(),
-            y: Axis::new("width in η").log(),
-            layers: layers.collect(),
-            ..Panel::default()
-        }
+        layers.collect()
     }
 
     /// The frequencies at which there are motions z = 1/n.
-    fn orders(&self) -> Panel {
+    fn orders(&self) -> Vec<Layer> {
         let found = || self.found.iter().filter(|motion| motion.impacts == 1);
-        let highest = found()
-            .map(|motion| motion.periods)
-            .max()
-            .unwrap_or(2)
-            .max(2);
         let stops = SUBHARMONIC.into_iter().enumerate();
         let stops = stops.map(|(index, stiffness)| {
             let own = found().filter(|motion| motion.stiffness == stiffness);
@@ -169,36 +144,17 @@ impl Picture<'_> {
         });
         let name = "g₀: beyond it z = 0 coexists";
         let eta = grazing(NARROW).1;
-        let orders = (2..=highest).map(|order| (order as f64, order.to_string()));
-        Panel {
-            title: format!("Motions z = 1/n found at clearance ρ = {NARROW}"),
-            at: (0, self.rows() + 2),
-            span: (ACROSS, 1),
-            size: (600.0, 158.0),
-            x: Axis::new("η").range(subharmonics::RANGE),
-            y: Axis::new("n of z = 1/n")
-                .range((1.4, highest as f64 + 0.6))
-                .ticks(orders),
-            layers: stops.chain([Layer::vertical(eta, GRAZING, name)]).collect(),
-            legend: Some(Legend::Inside(Corner::BottomRight)),
-        }
+        let edge = Layer::vertical(eta, GRAZING, name);
+        stops.chain([edge]).collect()
     }
 }
 
 /// The diagram of a stop.
-fn diagram(swept: &Swept, at: (usize, usize), top: f64) -> Panel {
+fn diagram(swept: &Swept) -> impl Iterator<Item = Layer> {
     let [up, down] = swept.points();
     let down = Layer::dots(down, DOT, style::FALLING).named("η falling only");
     let up = Layer::dots(up, DOT, style::RISING).named("η rising");
-    Panel {
-        title: swept.law.name(),
-        at,
-        size: (270.0, 160.0),
-        x: Axis::new("").range(RANGE),
-        y: Axis::new(if at.0 > 0 { "" } else { "X′₋" }).range((0.0, top)),
-        layers: grazes().into_iter().chain([down, up]).collect(),
-        ..Panel::default()
-    }
+    grazes().into_iter().chain([down, up])
 }
 
 /// Where the motion without impacts grazes.

@@ -39,7 +39,7 @@ const DECADES: (f64, f64) = (-1.0, 4.0);
 /// Stiffnesses k2/k1 whose subharmonic motions are looked for.
 const SUBHARMONIC: [f64; 3] = [1.0, 10.0, 100.0];
 
-pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
     let drawn = sweep(&DRAWN, detail.pick((420, 200), (120, 80)), studio.kept)?;
     let rows = stiffnesses(detail.pick(51, 11));
@@ -63,7 +63,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     };
     Ok(Drawn {
         files: vec![
-            picture.chart().svg().into_bytes(),
+            picture.chart(figure).svg().into_bytes(),
             steps(&drawn)?,
             steps(&map)?,
             csv(&branches(), &folds)?,

@@ -4,12 +4,11 @@ use softstop_dynamics::motion::MotionClass;
 
 use super::map::RegimeMap;
 use crate::boundaries::Boundaries;
+use crate::figure::Figure;
 use softstop_console::machine::Regime;
-use softstop_draw::{Align, Axis, Chart, Layer, Legend, Mark, Panel, style};
+use softstop_draw::{Align, Chart, Layer, Mark, style};
 use softstop_explore::palette::{motion_color, motion_keys};
 
-/// Size of a map.
-const SIZE: (f64, f64) = (600.0, 400.0);
 /// Where on a map's height the names of curves stand, as a share of it.
 const NAMES_AT: f64 = 0.2;
 /// eta and rho of the points A and B.
@@ -18,29 +17,35 @@ const POINT: (f64, f64) = (1.15, 10.0);
 const NAMED: [MotionClass; 3] = [MotionClass::Zero, MotionClass::One, MotionClass::TwoThirds];
 
 /// The maps with their boundaries.
-pub(super) fn chart(maps: &[RegimeMap<'_>], boundaries: &[Boundaries; 2]) -> Chart {
-    let panels = maps.iter().enumerate();
-    let panels = panels.map(|(index, map)| {
+pub(super) fn chart(
+    figure: &Figure,
+    maps: &[RegimeMap<'_>],
+    boundaries: &[Boundaries; 2],
+) -> Chart {
+    let layers = maps.iter().map(|map| {
         let own = &boundaries[usize::from(map.asked.machine == Regime::Loaded)];
-        panel(index, map, own)
+        layers(map, own)
     });
-    let title = "Regimes z = p/n: p impacts in n drive periods";
-    let mut chart = Chart::new(title, panels).in_columns(2);
+    let mut chart = figure.picture(layers);
+    for (panel, map) in chart.panels.iter_mut().zip(maps) {
+        let [eta, rho] = map.asked.window;
+        panel.x.ends = [eta.0, eta.1].map(Some);
+        panel.y.ends = [rho.0, rho.1].map(Some);
+    }
     let keys = motion_keys(|class| maps.iter().any(|map| map.share(class) > 0.0));
     chart.panels[0].layers.extend(keys);
-    (chart.legend, chart.letters) = (Legend::Below, 18);
     chart
 }
 
 /// A map with its boundaries, the point A or B, and names of wide regimes and of boundaries.
-fn panel(index: usize, map: &RegimeMap<'_>, boundaries: &Boundaries) -> Panel {
+fn layers(map: &RegimeMap<'_>, boundaries: &Boundaries) -> Vec<Layer> {
     let (asked, [eta_range, rho_range]) = (map.asked, map.asked.window);
     let colors = map.cells.iter().map(|cell| motion_color(cell.class()));
     let mut layers = vec![Layer::cells(map.columns, colors)];
     let mut lines = vec![("g₀", boundaries.grazing.clone())];
-    lines.extend(boundaries.curves().map(|(name, _, points)| {
-        let points = points.iter().map(|at| at.parameters.into());
-        (name, points.collect())
+    lines.extend(boundaries.curves.iter().map(|(name, _, curve)| {
+        let points = curve.points.iter().map(|at| at.parameters.into());
+        (*name, points.collect())
     }));
     for (name, points) in &lines {
         let dashes = match *name {
@@ -67,15 +72,7 @@ fn panel(index: usize, map: &RegimeMap<'_>, boundaries: &Boundaries) -> Panel {
         let spot = Layer::marks([POINT], Mark::Hollow, style::INK);
         layers.extend([spot, name(POINT, asked.machine.point()).moved(18.0, -4.0)]);
     }
-    let letter = char::from(b'a' + index as u8);
-    Panel {
-        title: format!("({letter}) {}{}", asked.machine.name(), asked.names[2]),
-        size: SIZE,
-        x: Axis::new("frequency η").range(eta_range),
-        y: Axis::new("clearance ρ").range(rho_range),
-        layers,
-        ..Panel::default()
-    }
+    layers
 }
 
 /// Where a curve is at this height.

@@ -41,8 +41,8 @@ enum Way {
 struct Map {
     machine: Regime,
     way: Way,
-    /// What it is called in tables, among the findings and on the page.
-    names: [String; 3],
+    /// What it is called in tables and among the findings.
+    names: [String; 2],
     /// Ranges of eta and rho.
     window: [(f64, f64); 2],
     /// Cells across and up, for print and for a first look.
@@ -75,7 +75,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         Boundaries::of(&Ratios::unloaded())?,
         Boundaries::of(&Ratios::loaded())?,
     ];
-    let chart = chart::chart(&found, &boundaries);
+    let chart = chart::chart(figure, &found, &boundaries);
     Ok(Drawn {
         files: vec![
             chart.png().map_err(Error::msg)?,

@@ -54,12 +54,12 @@ pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
     for (machine, own) in ["unloaded", "loaded"].into_iter().zip(boundaries) {
         let grazing = own.grazing.iter();
         lines.extend(grazing.map(|&(eta, rho)| ([machine, "g0"], 0, [eta, rho], None)));
-        for (name, number, points) in own.curves() {
-            lines.extend(points.iter().map(|point| {
+        lines.extend(own.curves.iter().flat_map(|(name, number, curve)| {
+            curve.points.iter().map(move |point| {
                 let velocity = Some(point.before_impact_velocity());
-                ([machine, name], number, point.parameters, velocity)
-            }));
-        }
+                ([machine, *name], *number, point.parameters, velocity)
+            })
+        }));
     }
     Ok(csv(&columns, lines)?)
 }

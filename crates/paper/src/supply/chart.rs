@@ -1,7 +1,9 @@
 //! How many z = 1 motions outlast an interrupted supply, and how many miss no stroke.
 
-use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Sign, Stroke, style};
+use softstop_draw::{Align, Chart, Layer, Sign, Stroke, style};
 use softstop_dynamics::basin::wilson_interval;
+
+use crate::figure::Figure;
 
 use super::{Outcome, READINGS, RUNS, of_run};
 
@@ -10,10 +12,10 @@ const DOTS: (f64, f64) = (2.0, 4.0);
 const MARK: Stroke = Stroke::dashed(style::INK, 1.2, (5.0, 4.0));
 
 /// The chart; `fold` is where z = 1 ends with strips.
-pub(super) fn chart(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f64) -> Chart {
+pub(super) fn chart(figure: &Figure, outcomes: &[Outcome], grazing: f64, fold: f64) -> Chart {
     let right = outcomes.iter().map(|it| it.eta).fold(fold, f64::max);
     let room = 0.03 * (right - grazing);
-    let panels = READINGS.into_iter().map(|(reading, name)| {
+    let layers = READINGS.into_iter().map(|(reading, _)| {
         let runs = RUNS.into_iter().enumerate();
         let curves = runs.flat_map(|(index, mean)| {
             let color = style::ordered(index, RUNS.len());
@@ -29,23 +31,13 @@ pub(super) fn chart(outcomes: &[Outcome], grazing: f64, fold: f64, clearance: f6
             (Stroke::dashed(style::INK, 1.6, DOTS), "no stroke missed"),
         ];
         let keys = keys.map(|(stroke, name)| Layer::key(Sign::Line(stroke), name));
-        Panel {
-            title: name.replace("rho", "ρ"),
-            size: (540.0, 280.0),
-            x: Axis::new("drive frequency η = ω/Ω").range((grazing - room, right + room)),
-            y: Axis::new("share of motions").range((0.0, 1.02)),
-            layers: curves.chain(marks).chain(keys).collect(),
-            ..Panel::default()
-        }
+        curves.chain(marks).chain(keys).collect()
     });
-    let title = format!("z = 1 under an interrupted supply of strips, ρ = {clearance}");
-    let explanation =
-        "strips come and fail in runs of a mean length; bands: 95 % intervals where some end";
-    Chart {
-        subtitle: explanation.to_owned(),
-        legend: Legend::Below,
-        ..Chart::new(title, panels).in_columns(1)
+    let mut chart = figure.picture(layers);
+    for panel in &mut chart.panels {
+        panel.x.ends = [grazing - room, right + room].map(Some);
     }
+    chart
 }
 
 /// How many are z = 1 in the end, and how many have missed no stroke.

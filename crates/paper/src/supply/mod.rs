@@ -62,7 +62,7 @@ struct Press {
     is_supplied: bool,
 }
 
-pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
+pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
     let machine = Ratios::loaded();
     let zones = zones(machine.clearance)?;
@@ -114,7 +114,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
             findings.group(&format!("{name}, runs of {mean}: "), values);
         }
     }
-    let chart = chart::chart(&outcomes, grazing, loaded, machine.clearance);
+    let chart = chart::chart(figure, &outcomes, grazing, loaded);
     Ok(Drawn {
         files: vec![chart.svg().into_bytes(), output::csv(&outcomes)?],
         findings,

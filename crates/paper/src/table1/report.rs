@@ -202,8 +202,8 @@ fn follows_decimals(transition: &Transition) -> usize {
 
 /// Which kind of flip ends the first motion, if one does.
 fn flip(transition: &Transition) -> Option<&'static str> {
-    let until = transition.doubled_until?;
-    match (until > transition.value) == transition.rising {
+    transition.doubled_until?;
+    match transition.is_soft() {
         true => Some("soft"),
         false => Some("hard"),
     }

@@ -1,5 +1,6 @@
 //! Why a motion ends: the words of Peterka 2003, Table 2.
 
+use super::Transition;
 use softstop_dynamics::continuation::{SpecialKind, Test};
 use softstop_dynamics::motion::MotionKind;
 
@@ -37,68 +38,60 @@ impl Cause {
     }
 }
 
-/// What goes before a transition.
+/// What ends the motion of a transition, and what ends the motion doubled from it if that is a flip.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct TransitionContext<'a> {
-    /// By what the motion ends.
-    pub end: SpecialKind,
-    /// By what the motion doubled from it ends, if it ends by a flip.
+pub(super) struct Ends {
+    pub own: SpecialKind,
     pub doubled: Option<SpecialKind>,
-    /// True if the doubled motion begins beyond the flip, and takes over without a jump.
-    pub is_soft: bool,
-    /// The motions met beyond the end.
-    pub path: &'a [MotionKind],
-    /// True if the way back is another.
-    pub hysteresis: bool,
 }
 
-impl TransitionContext<'_> {
-    /// The causes, in order.
-    pub(super) fn causes(&self) -> Vec<Cause> {
-        let test = match self.end {
+impl Ends {
+    /// The causes of a transition, in order.
+    pub(super) fn causes(&self, of: &Transition) -> Vec<Cause> {
+        let test = match self.own {
             SpecialKind::Grazing(_) => return vec![Cause::Grazing],
             SpecialKind::Pitchfork => return vec![Cause::Unknown],
             SpecialKind::Critical(test) => test,
         };
         match test {
-            Test::Fold => self.jump(),
-            Test::Flip if self.met_chaos() && !self.hysteresis => vec![Cause::InterruptedFlips],
-            Test::Flip if self.is_soft => self.end_of_doubled(),
+            Test::Fold => jump(of),
+            Test::Flip if met_chaos(of) && !of.hysteresis => vec![Cause::InterruptedFlips],
+            Test::Flip if of.is_soft() => self.end_of_doubled(of),
             // Beyond a hard flip there is nothing near to go on with.
-            Test::Flip => [vec![Cause::Flip], self.jump()].concat(),
+            Test::Flip => [vec![Cause::Flip], jump(of)].concat(),
             Test::NeimarkSacker => vec![Cause::Unknown],
         }
     }
 
     /// A soft doubling loses nothing: the doubled motion goes on in place of the simple one, and its end counts.
-    fn end_of_doubled(&self) -> Vec<Cause> {
+    fn end_of_doubled(&self, of: &Transition) -> Vec<Cause> {
         match self.doubled {
             Some(SpecialKind::Grazing(_)) => vec![Cause::Grazing],
-            Some(SpecialKind::Critical(Test::Fold)) => self.jump(),
-            Some(SpecialKind::Critical(Test::Flip)) if self.met_chaos() => {
-                self.out_of_chaos(Cause::InterruptedFlips)
+            Some(SpecialKind::Critical(Test::Fold)) => jump(of),
+            Some(SpecialKind::Critical(Test::Flip)) if met_chaos(of) => {
+                out_of_chaos(of, Cause::InterruptedFlips)
             }
             _ => vec![Cause::Flip],
         }
     }
+}
 
-    /// A jump to another motion, or into chaos.
-    fn jump(&self) -> Vec<Cause> {
-        match self.met_chaos() {
-            true => self.out_of_chaos(Cause::InterruptedFold),
-            false => vec![Cause::Fold],
-        }
+/// A jump to another motion, or into chaos.
+fn jump(of: &Transition) -> Vec<Cause> {
+    match met_chaos(of) {
+        true => out_of_chaos(of, Cause::InterruptedFold),
+        false => vec![Cause::Fold],
     }
+}
 
-    /// What led into chaos, and the way out of it if there is one.
-    fn out_of_chaos(&self, into: Cause) -> Vec<Cause> {
-        match self.path.last() {
-            Some(MotionKind::Chaos) => vec![into],
-            _ => vec![into, Cause::OutOfChaos],
-        }
+/// What led into chaos, and the way out of it if there is one.
+fn out_of_chaos(of: &Transition, into: Cause) -> Vec<Cause> {
+    match of.path.last() {
+        Some(MotionKind::Chaos) => vec![into],
+        _ => vec![into, Cause::OutOfChaos],
     }
+}
 
-    fn met_chaos(&self) -> bool {
-        self.path.contains(&MotionKind::Chaos)
-    }
+fn met_chaos(of: &Transition) -> bool {
+    of.path.contains(&MotionKind::Chaos)
 }

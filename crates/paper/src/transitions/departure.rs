@@ -1,7 +1,7 @@
 //! What follows beyond the end of a window, and whether the way back leads into it again.
 
 use super::Transition;
-use super::cause::TransitionContext;
+use super::cause::Ends;
 use super::departure_path::DeparturePath;
 use super::explorer::{Explorer, Gathering};
 use super::window::{Window, WindowEnd};
@@ -15,21 +15,14 @@ const INSIDE: f64 = 0.25;
 /// Points of a doubled branch on which its first special point is looked for.
 const DOUBLED: usize = 300;
 
-/// A motion that has left its window.
-pub(super) struct Departure {
-    pub transition: Transition,
-    /// Where it settled.
-    pub value: f64,
-    pub gathering: Gathering,
-}
-
 impl Explorer<'_> {
-    /// What follows beyond an end of a window: held at ever larger distances from it.
+    /// What follows beyond an end of a window, held at ever larger distances from it: the transition, and the motions where
+    /// they have settled.
     pub(super) fn depart(
         &self,
         window: &Window,
         upper: bool,
-    ) -> Result<Option<Departure>, OrbitError> {
+    ) -> Result<Option<(Transition, Gathering)>, OrbitError> {
         let end = &window.ends[usize::from(upper)];
         let Some(kind) = end.kind else {
             return Ok(None);
@@ -65,19 +58,12 @@ impl Explorer<'_> {
             true => self.end_of_doubled(&way, window, end, upper)?,
             false => None,
         };
-        let course = TransitionContext {
-            end: kind,
-            doubled: doubled.and_then(|it| it.0),
-            is_soft: doubled.is_some_and(|it| sign * (it.1 - end.point.parameter) > 0.0),
-            path: &way.path,
-            hysteresis,
-        };
         let settling = self.settling(&way, end.point.parameter, sign)?;
-        let transition = Transition {
+        let mut transition = Transition {
             value: end.point.parameter,
             from: window.motion.clone(),
             state: Some(end.point.state().into()),
-            causes: course.causes(),
+            causes: Vec::new(),
             doubled_until: doubled.map(|it| it.1),
             settled_at: settling.map(|it| it.0),
             settled_within: settling.map_or(0.0, |it| it.1),
@@ -86,11 +72,12 @@ impl Explorer<'_> {
             hysteresis,
             beyond: distance,
         };
-        Ok(Some(Departure {
-            transition,
-            value: end.point.parameter + sign * distance,
-            gathering,
-        }))
+        let ends = Ends {
+            own: kind,
+            doubled: doubled.and_then(|it| it.0),
+        };
+        transition.causes = ends.causes(&transition);
+        Ok(Some((transition, gathering)))
     }
 
     /// Where the last motion on a way first follows, if others come before it, and half the width of where that may be:

@@ -4,9 +4,8 @@ use rayon::prelude::*;
 
 use super::Transition;
 use super::cause::Cause;
-use super::departure::Departure;
 use super::departure_path::is_doubled;
-use super::explorer::Explorer;
+use super::explorer::{Explorer, Gathering};
 use super::window::Window;
 use softstop::Start;
 use softstop_dynamics::attractors::find_attractors;
@@ -50,13 +49,13 @@ impl Explorer<'_> {
                 break;
             }
             let departures = self.follow(&mut atlas, std::mem::take(&mut met))?;
-            for departure in departures {
-                if let Some(orbit) = departure.gathering.orbit {
-                    met.push((departure.value, orbit));
-                } else if departure.transition.to() == &MotionKind::Chaos {
-                    seeds.push((departure.value, departure.gathering.states));
+            for (transition, gathering) in departures {
+                if let Some(orbit) = gathering.orbit {
+                    met.push((transition.seen_at(), orbit));
+                } else if transition.to() == &MotionKind::Chaos {
+                    seeds.push((transition.seen_at(), gathering.states));
                 }
-                atlas.transitions.push(departure.transition);
+                atlas.transitions.push(transition);
             }
             for seed in std::mem::take(&mut seeds) {
                 self.follow_chaos(&mut atlas, &seed, &mut met)?;
@@ -97,7 +96,7 @@ impl Explorer<'_> {
         &self,
         atlas: &mut KnownMotions,
         met: Vec<Met>,
-    ) -> Result<Vec<Departure>, OrbitError> {
+    ) -> Result<Vec<(Transition, Gathering)>, OrbitError> {
         let mut fresh = Vec::new();
         for (value, orbit) in met {
             let motion = MotionKind::of(&orbit);

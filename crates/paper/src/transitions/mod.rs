@@ -28,13 +28,13 @@ mod departure;
 mod departure_path;
 mod explore;
 mod explorer;
-mod impact_order;
 mod intermittent;
+mod stretches;
 mod window;
 
 pub use cause::Cause;
 pub use explorer::Explorer;
-pub(crate) use impact_order::ImpactOrder;
+pub(crate) use stretches::Stretches;
 
 use softstop::Start;
 use softstop_dynamics::attractors::SearchOptions;
@@ -77,13 +77,22 @@ impl Transition {
     /// The parameter where the first motion is lost: where it ends or, if it ends by a soft doubling and what
     /// follows is another motion for good, where that takes over.
     pub fn lost_at(&self) -> f64 {
-        let is_soft = self
-            .doubled_until
-            .is_some_and(|until| (until > self.value) == self.rising);
         match self.settled_at {
-            Some(settled) if is_soft && self.hysteresis => settled,
+            Some(settled) if self.is_soft() && self.hysteresis => settled,
             _ => self.value,
         }
+    }
+
+    /// True if it is a soft doubling: the doubled motion begins beyond it, and takes over without a jump.
+    pub fn is_soft(&self) -> bool {
+        let until = self.doubled_until;
+        until.is_some_and(|until| (until > self.value) == self.rising)
+    }
+
+    /// The parameter at which the last motion was seen.
+    pub(crate) fn seen_at(&self) -> f64 {
+        let sign = if self.rising { 1.0 } else { -1.0 };
+        self.value + sign * self.beyond
     }
 
     /// The causes by the paper's symbols: `PD -> ISN -> OCH`.
