@@ -23,11 +23,6 @@ const CELLS: [usize; 2] = [600, 100];
 /// States of chaos that are drawn, after so many drive periods.
 const STATES: (u64, u64) = (6000, 500);
 
-#[derive(Deserialize)]
-struct What {
-    planes: Vec<Plane>,
-}
-
 /// A plane of starts.
 #[derive(Deserialize)]
 struct Plane {
@@ -52,7 +47,7 @@ impl Plane {
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let planes = figure.what::<What>()?.planes;
+    let planes: Vec<Plane> = figure.get("planes")?;
     let cells = studio.detail.pick(CELLS[0], CELLS[1]);
     let progress = Progress::new((cells * cells * planes.len()) as u64, "cells");
     let found = planes.iter().map(|plane| {

@@ -59,10 +59,11 @@ impl Figure {
         chart
     }
 
-    /// What is computed.
-    pub(crate) fn what<T: DeserializeOwned>(&self) -> Result<T> {
-        let what = T::deserialize(self.what.clone());
-        what.with_context(|| format!("figure {} in docs/paper/figures.toml", self.name))
+    /// What a key of its own says.
+    pub(crate) fn get<T: DeserializeOwned>(&self, key: &str) -> Result<T> {
+        let value = self.what.get(key).cloned().map(T::deserialize);
+        let place = || format!("{key} of figure {} in docs/paper/figures.toml", self.name);
+        value.with_context(place)?.with_context(place)
     }
 }
 

@@ -80,25 +80,22 @@ pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     check(arguments)?;
     let views = views(arguments)?;
     let families = families(&arguments.method)?;
-    let names = views.iter().map(|View(case)| case.name.clone());
-    let pages = names.map(|name| (format!("{name}_svg"), format!("{name}.svg")));
-    let pages: Vec<(String, String)> = pages.collect();
-    let mut files = vec![("csv", "failures.csv"), ("json", "failures.json")];
-    files.extend(pages.iter().map(|(kind, name)| (&kind[..], &name[..])));
-    let export = Export::open(&arguments.output, &files)?;
+    let files = [("csv", "failures.csv"), ("json", "failures.json")];
+    let mut export = Export::open(&arguments.output, &files)?;
+    export.refuse_folders_called(".svg")?;
     let axes = Axes::new(arguments.points);
     let columns = views.len() * axes.stiffness.len();
     let runs = columns * (1 + families.len() * axes.step.len());
     let progress = Progress::new(runs as u64, "runs");
     let mut atlases = Vec::new();
-    for (view, (page, _)) in views.into_iter().zip(&pages) {
+    for view in views {
         let axes = axes.clone();
         let atlas = Atlas::new(view, axes, &families, arguments.tolerance, &progress)?;
         let mut chart = chart::chart(&atlas);
         if arguments.small {
             chart = chart.small();
         }
-        export.file(page, chart.svg().as_bytes())?;
+        export.picture(&atlas.view.0.name, &chart.svg())?;
         atlases.push(atlas);
     }
     drop(progress);

@@ -13,6 +13,7 @@ pub mod measure;
 mod report;
 pub mod truth;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -23,7 +24,7 @@ use computer::Machine;
 use errors::Scale;
 use family::Family;
 use measure::{Bench, Effort, Row};
-use report::{PrecisionReport, SceneReport};
+use report::{LeadReport, PrecisionReport, ReferenceReport, SceneReport};
 use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::output::{self, Folder, Format};
@@ -170,7 +171,27 @@ fn measured(
         progress.say(&format!("{name}: {}", family.name));
         rows.extend(bench.family(family, &|| progress.more(1))?);
     }
-    Ok(SceneReport::new(case, machine, &truth, scale, rows))
+    let exact = rows.first().map_or("", |row| row.method.as_str());
+    Ok(SceneReport {
+        scene: name.clone(),
+        title: case.title.clone(),
+        periods: case.periods,
+        machine: machine.clone(),
+        reference: ReferenceReport {
+            method: truth.method,
+            digits: truth.digits(),
+            end: truth.solution.end,
+            impacts: scale.told(&truth.solution.impacts).len(),
+            slowest: scale.slowest(),
+        },
+        scale,
+        lead: LeadReport {
+            how: lead::HOW,
+            at: lead::leads(&rows, exact),
+        },
+        rows,
+        files: BTreeMap::new(),
+    })
 }
 
 /// Stages chart, table and JSON.

@@ -1,13 +1,11 @@
 //! The report of `chart precision`, whose field names are the keys of the JSON; for people best settings, leads,
 //! failures.
 
-use super::case::Case;
 use super::computer::Machine;
 use super::errors::Scale;
 use super::family::short_name;
-use super::lead::{self, Lead, Quantity, TARGETS};
+use super::lead::{Lead, Quantity, TARGETS};
 use super::measure::Row;
-use super::truth::Truth;
 use serde::Serialize;
 use softstop_console::column::{self, Column, Units};
 use softstop_console::columns;
@@ -69,39 +67,6 @@ pub struct LeadReport {
     pub how: &'static str,
     /// One for each error and target.
     pub at: Vec<Lead>,
-}
-
-impl SceneReport {
-    /// What was measured on a case.
-    pub fn new(
-        case: &Case,
-        machine: &Machine,
-        truth: &Truth,
-        scale: Scale,
-        rows: Vec<Row>,
-    ) -> Self {
-        let exact = rows.first().map_or("", |row| row.method.as_str());
-        Self {
-            scene: case.name.clone(),
-            title: case.title.clone(),
-            periods: case.periods,
-            machine: machine.clone(),
-            reference: ReferenceReport {
-                method: truth.method,
-                digits: truth.digits(),
-                end: truth.solution.end,
-                impacts: scale.told(&truth.solution.impacts).len(),
-                slowest: scale.slowest(),
-            },
-            scale,
-            lead: LeadReport {
-                how: lead::HOW,
-                at: lead::leads(&rows, exact),
-            },
-            rows,
-            files: BTreeMap::new(),
-        }
-    }
 }
 
 impl PrecisionReport {

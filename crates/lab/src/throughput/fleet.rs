@@ -5,9 +5,7 @@ use serde::Serialize;
 use softstop::{Clock, MotionError, Scene, SceneError, Start};
 use softstop_console::machine::Regime;
 use softstop_dynamics::internals::ImpactCounter;
-use softstop_lanes::{
-    BatchObserver, Instructions, Job, Machine, Outcome, run_one_by_one, run_parallel, run_with,
-};
+use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run_parallel, run_with};
 
 /// The motions.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -110,23 +108,11 @@ impl Fleet {
         self.follow(|machines, jobs| run_with(instructions, machines, jobs, &mut ()))
     }
 
-    /// All in one lane on this thread, each machine lowered first.
+    /// All by a run of the lanes on this thread, each machine lowered first.
     ///
     /// # Errors
     /// As [`Fleet::safe`].
-    pub fn one_by_one(&self) -> Result<Count, MotionError> {
-        self.follow(|machines, jobs| run_one_by_one(machines, jobs, &mut ()))
-    }
-
-    /// The same, each impact told, so that no motion with impacts is leapt over.
-    ///
-    /// # Errors
-    /// As [`Fleet::safe`].
-    pub fn each_impact(&self, instructions: Instructions) -> Result<Count, MotionError> {
-        self.follow(|machines, jobs| run_with(instructions, machines, jobs, &mut EachImpact))
-    }
-
-    fn follow(
+    pub fn follow(
         &self,
         run: impl Fn(&[Machine], &[Job]) -> Vec<Outcome>,
     ) -> Result<Count, MotionError> {
@@ -155,8 +141,8 @@ impl Fleet {
     }
 }
 
-/// Hears of each impact.
-struct EachImpact;
+/// Hears of each impact, so that no motion with impacts is leapt over.
+pub struct EachImpact;
 
 impl BatchObserver for EachImpact {
     const IMPACTS: bool = true;

@@ -18,11 +18,11 @@ use std::path::PathBuf;
 use anyhow::{Context, anyhow};
 use clap::Args;
 use softstop::MotionError;
-use softstop_lanes::Instructions;
+use softstop_lanes::{Instructions, run_one_by_one, run_with};
 
 use beside::Beside;
 use check::Plan;
-use fleet::{Count, RANGE, Range};
+use fleet::{Count, EachImpact, RANGE, Range};
 use measure::{ROUNDS, Way};
 use report::ThroughputReport;
 use softstop_console::export;
@@ -55,6 +55,8 @@ power laws (n = 3/2, 2 and 5/2); impacts, crossings and the state at the end of 
 motion are compared if no rounding error can change its crossings, which the growth
 of such errors along the safe engine's motion tells; else from just before a leap on.
 Exit code 1 if one differs.";
+
+const WIDEST: Instructions = Instructions::Widest;
 
 /// Arguments of `softstop-lab throughput`.
 #[derive(Debug, Args)]
@@ -114,9 +116,9 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let lanes = |set| way(move || fleet.batch(set));
     let mut ways = vec![
         way(|| fleet.safe()),
-        way(|| fleet.one_by_one()),
-        lanes(Instructions::Widest),
-        way(|| fleet.each_impact(Instructions::Widest)),
+        way(|| fleet.follow(|machines, jobs| run_one_by_one(machines, jobs, &mut ()))),
+        lanes(WIDEST),
+        way(|| fleet.follow(|machines, jobs| run_with(WIDEST, machines, jobs, &mut EachImpact))),
         way(|| all.install(|| fleet.parallel(ROUNDS))),
         way(|| one.install(|| fleet.parallel(ROUNDS))),
         Box::new(|| zones::count(&machines, &one)),

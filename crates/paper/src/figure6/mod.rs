@@ -4,7 +4,6 @@ mod boundaries;
 mod chart;
 
 use anyhow::{Error, Result};
-use serde::Deserialize;
 use softstop::Parameter;
 use softstop_console::columns;
 use softstop_console::export::csv;
@@ -21,14 +20,8 @@ use chart::Picture;
 const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
 const RANGE: (f64, f64) = (0.8, 1.8);
 
-/// Which machine.
-#[derive(Deserialize)]
-struct What {
-    machine: Regime,
-}
-
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let What { machine: regime } = figure.what()?;
+    let regime: Regime = figure.get("machine")?;
     let machine = regime.ratios();
     let (steps, periods) = studio.detail.pick((1000, 200), (120, 100));
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;

@@ -4,7 +4,6 @@ mod both;
 mod chart;
 
 use anyhow::Result;
-use serde::Deserialize;
 use softstop::{PhaseKind, Scene};
 use softstop_console::columns;
 use softstop_console::export::csv;
@@ -14,12 +13,6 @@ use softstop_dynamics::{Exponents, Orbit};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::path::{Path, Point};
-
-/// Which machine.
-#[derive(Deserialize)]
-struct What {
-    machine: Regime,
-}
 
 /// One period of a z = 1 motion.
 struct Cycle {
@@ -47,7 +40,7 @@ fn faces(scene: &Scene) -> Vec<(f64, &'static str)> {
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let cycle = Cycle::of(studio, figure.what::<What>()?.machine)?;
+    let cycle = Cycle::of(studio, figure.get("machine")?)?;
     let columns = columns! { Point, it;
         "tau" [None], "time" => it.time;
         "position" [None], "X" => it.position;

@@ -81,10 +81,10 @@ fn words((number, found): &Bifurcation<'_>) -> String {
 impl Diagram<'_> {
     /// Draws it into a panel as high as the velocities, with the names of motions beside them.
     fn draw(&self, isolated: &[&Step], panel: &mut Panel) {
-        let all = steps(&self.ways).chain(isolated.iter().copied());
+        let all = steps(self.ways).chain(isolated.iter().copied());
         let top = all.map(Step::hardest_impact).fold(0.0, f64::max);
         let top = if top > 0.0 { top } else { 1.0 };
-        let fleeting = steps(&self.fleeting).filter(|step| step.hardest_impact() > 0.0);
+        let fleeting = steps(self.fleeting).filter(|step| step.hardest_impact() > 0.0);
         let fleeting = Layer::dots(fleeting.flat_map(dots), 0.8 * DOT, style::OPTIMUM);
         let [up, down] = [0, 1].map(|way: usize| {
             let steps = self.ways[way].rising_steps();

@@ -4,7 +4,6 @@ mod chart;
 mod isolated;
 
 use anyhow::{Error, Result};
-use serde::Deserialize;
 use softstop::Ratios;
 use softstop_dynamics::{Chain, Direction, Step};
 
@@ -16,7 +15,6 @@ use softstop_console::columns;
 use softstop_console::export::csv;
 
 /// The whole diagram, its zooms, and sweeps side by side that show chaos while it lasts.
-#[derive(Deserialize)]
 struct What {
     whole: Part,
     zooms: Vec<Part>,
@@ -28,25 +26,46 @@ struct What {
 struct Diagram<'a> {
     part: &'a Part,
     /// The sweep up and the sweep down, over the same values.
-    ways: Vec<Chain>,
+    ways: &'a [Chain],
     /// Faster sweeps down that show chaos which does not last.
-    fleeting: Vec<Chain>,
+    fleeting: &'a [Chain],
 }
 
 /// A bifurcation with its number in Table 1.
 type Bifurcation<'a> = (usize, Match<'a>);
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let (detail, what) = (studio.detail, figure.what::<What>()?);
+    let detail = studio.detail;
+    let what = What {
+        whole: figure.get("whole")?,
+        zooms: figure.get("zooms")?,
+        fleeting: figure.get("fleeting")?,
+        side_by_side: figure.get("side_by_side")?,
+    };
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
     let jobs = vec![(what.whole.plan(detail)?, ways)];
     let whole = diagram::sweep(jobs, "steps of the sweeps", studio.kept)?;
+    let mut jobs = Vec::new();
+    for zoom in &what.zooms {
+        // Each way goes on from where the sweep over all frequencies is at its end.
+        let plan = zoom.plan(detail)?;
+        jobs.extend(whole.iter().map(|sweep| diagram::part_of(sweep, &plan)));
+    }
+    jobs.push(fleeting(&what, detail)?);
+    let chains = diagram::sweep(jobs, "steps of the zooms", studio.kept)?;
+    let (zooms, fleeting) = chains.split_at(2 * what.zooms.len());
     let mut diagrams = vec![Diagram {
         part: &what.whole,
-        ways: whole,
-        fleeting: Vec::new(),
+        ways: &whole,
+        fleeting: &[],
     }];
-    zooms(&mut diagrams, &what, studio)?;
+    let zooms = what.zooms.iter().zip(zooms.chunks_exact(2));
+    diagrams.extend(zooms.map(|(part, ways)| Diagram {
+        part,
+        ways,
+        fleeting: &[],
+    }));
+    diagrams[1].fleeting = fleeting;
     let isolated = isolated::find(&diagrams, studio)?;
     let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter();
@@ -67,29 +86,6 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         ],
         findings,
     })
-}
-
-/// Adds the zooms, each way going on from where the sweep over all frequencies is at their ends, and to the first the
-/// chaos that does not last.
-fn zooms<'a>(diagrams: &mut Vec<Diagram<'a>>, what: &'a What, studio: &Studio) -> Result<()> {
-    let detail = studio.detail;
-    let mut jobs = Vec::new();
-    for zoom in &what.zooms {
-        let plan = zoom.plan(detail)?;
-        let ways = diagrams[0].ways.iter();
-        jobs.extend(ways.map(|sweep| diagram::part_of(sweep, &plan)));
-    }
-    jobs.push(fleeting(what, detail)?);
-    let mut chains = diagram::sweep(jobs, "steps of the zooms", studio.kept)?.into_iter();
-    for zoom in &what.zooms {
-        diagrams.push(Diagram {
-            part: zoom,
-            ways: chains.by_ref().take(2).collect(),
-            fleeting: Vec::new(),
-        });
-    }
-    diagrams[1].fleeting = chains.collect();
-    Ok(())
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.

@@ -40,28 +40,19 @@ struct Asked {
     remark: String,
 }
 
-/// The motions that are asked for.
-fn motions(figure: &Figure) -> Result<Vec<Asked>> {
-    #[derive(Deserialize)]
-    struct What {
-        motions: Vec<Asked>,
-    }
-    Ok(figure.what::<What>()?.motions)
-}
-
 /// The letters at each frequency, as "A, B".
 pub(crate) fn letters() -> Result<Vec<(String, f64)>> {
     let names = |group: &[Asked]| {
         let letters: Vec<String> = group.iter().map(|it| it.letter.to_string()).collect();
         (letters.join(", "), group[0].eta)
     };
-    let motions = motions(Figure::called("9")?)?;
+    let motions: Vec<Asked> = Figure::called("9")?.get("motions")?;
     let groups = motions.chunk_by(|a, b| a.eta == b.eta);
     Ok(groups.map(names).collect())
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let found = found(&motions(figure)?, studio.detail)?;
+    let found = found(&figure.get::<Vec<Asked>>("motions")?, studio.detail)?;
     let (mut files, mut series, mut sections) = (Vec::new(), Vec::new(), Vec::new());
     let mut findings = Findings::default();
     for (motions, shown) in found.chunks(ON_A_PAGE).zip(SHOWN) {

@@ -2,7 +2,7 @@
 
 use softstop_dynamics::motion::MotionClass;
 
-use super::map::RegimeMap;
+use super::RegimeMap;
 use crate::boundaries::Boundaries;
 use crate::figure::Figure;
 use softstop_console::machine::Regime;

@@ -2,7 +2,6 @@
 //! The paper speaks of it at the beginning of its section 3.
 
 mod chart;
-mod map;
 mod report;
 mod starts;
 mod swept;
@@ -11,9 +10,9 @@ use anyhow::{Error, Result};
 use serde::Deserialize;
 use softstop::{Ratios, Scene, SceneError};
 use softstop_console::machine::Regime;
-use softstop_dynamics::Direction;
-
-use map::RegimeMap;
+use softstop_dynamics::basin::find_largest_ball;
+use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::{Axis, Direction, Grid, MotionKind};
 
 use crate::boundaries::Boundaries;
 use crate::figure::{Drawn, Figure, Studio};
@@ -23,6 +22,8 @@ use softstop_console::progress::Progress;
 const PERIODS: u64 = 120;
 /// Starts at each cell of the map of hardest motions.
 const STARTS: usize = 12;
+/// Radius of a place, in units of half the map, that has room for its name.
+const WIDE: f64 = 0.09;
 
 /// How the motion in a cell is found.
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -49,11 +50,6 @@ struct Map {
     sizes: [(usize, usize); 2],
 }
 
-#[derive(Deserialize)]
-struct What {
-    maps: Vec<Map>,
-}
-
 impl Map {
     /// The machine in the middle of a cell.
     fn scene(&self, cell: (usize, usize), size: (usize, usize)) -> Result<Scene, SceneError> {
@@ -64,12 +60,43 @@ impl Map {
     }
 }
 
+/// Cells over frequency and clearance.
+struct RegimeMap<'a> {
+    /// What was asked for.
+    asked: &'a Map,
+    /// Cells in a row.
+    columns: usize,
+    /// The cells, row by row, the lowest row first.
+    cells: Vec<MotionKind>,
+}
+
+impl RegimeMap<'_> {
+    /// Share of the cells that belong to a class.
+    fn share(&self, class: MotionClass) -> f64 {
+        let own = self.cells.iter().filter(|cell| cell.class() == class);
+        own.count() as f64 / self.cells.len() as f64
+    }
+
+    /// The middle of the widest place of a class, if that is wide.
+    fn widest(&self, class: MotionClass) -> Option<(f64, f64)> {
+        let rows = self.cells.len() / self.columns;
+        let [eta, rho] = self.asked.window;
+        let grid = Grid::of_states(
+            Axis::position(eta.0, eta.1, self.columns),
+            Axis::velocity(rho.0, rho.1, rows),
+            0.0,
+        );
+        let ball = find_largest_ball(&grid, |cell| self.cells[cell].class() == class)?;
+        (ball.radius > WIDE).then_some((ball.centre[0], ball.centre[1]))
+    }
+}
+
 fn middle((from, to): (f64, f64), cell: usize, cells: usize) -> f64 {
     from + (cell as f64 + 0.5) / cells as f64 * (to - from)
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let maps = figure.what::<What>()?.maps;
+    let maps: Vec<Map> = figure.get("maps")?;
     let found = found(&maps, studio)?;
     let boundaries = [
         Boundaries::of(&Ratios::unloaded())?,

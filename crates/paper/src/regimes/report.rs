@@ -2,8 +2,7 @@
 
 use anyhow::Result;
 
-use super::map::RegimeMap;
-use super::{Map, middle};
+use super::{Map, RegimeMap, middle};
 use crate::boundaries::Boundaries;
 use crate::figure::Findings;
 use softstop_console::columns;

@@ -1,6 +1,5 @@
 //! `softstop-lab table1`: the paper's Table 1, found anew.
 
-pub(crate) mod figure;
 mod markdown;
 pub(crate) mod matching;
 pub mod paper;
@@ -9,6 +8,7 @@ mod swept;
 
 use std::path::PathBuf;
 
+use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::transitions::{Explorer, Rules, Transition};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
@@ -163,7 +163,27 @@ pub fn transitions(
         bar.at(done);
         interrupt::go_on()
     };
-    let found = Explorer::new(&family, range, *rules, &watcher, kept).explore(values);
+    let explorer = Explorer {
+        family: &family,
+        range,
+        rules: *rules,
+        monitor: &watcher,
+        kept,
+    };
+    let found = explorer.explore(values);
     drop(bar);
     Ok(found?)
+}
+
+/// The table in Markdown, and its rows.
+pub(crate) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
+    let report = TableReport::new(&paper::ROWS, studio.transitions()?, &studio.rules());
+    let mut findings = Findings::default();
+    for row in &report.rows {
+        findings.add(format!("row {:02}", row.number), row.eta);
+    }
+    Ok(Drawn {
+        files: vec![markdown(&report).into_bytes(), output::csv(&report.rows)?],
+        findings,
+    })
 }

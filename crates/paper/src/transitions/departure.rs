@@ -5,7 +5,7 @@ use super::cause::Ends;
 use super::departure_path::DeparturePath;
 use super::explorer::{Explorer, Gathering};
 use super::window::{Window, WindowEnd};
-use softstop_dynamics::continuation::{Continuation, Limits, SpecialKind, Test};
+use softstop_dynamics::continuation::{Continuation, SpecialKind, Test};
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::OrbitError;
@@ -126,22 +126,18 @@ impl Explorer<'_> {
         let place = usize::from(upper);
         if let Some((distance, orbit)) = &way.doubled {
             let value = end.point.parameter + if upper { *distance } else { -distance };
-            let window = Window::of(self.family, value, orbit, self.range, &self.rules)?;
+            let window = self.window(value, orbit)?;
             let end = &window.ends[place];
             return Ok(Some((end.kind, end.point.parameter)));
         }
         let Some(periods) = window.motion.periods() else {
             return Ok(None);
         };
-        let limits = Limits {
-            range: self.range,
-            points: self.rules.points,
-        };
         let continuation = Continuation::new(self.family, periods);
         // Its first special point is the end of the doubled motion or, where the flip is hard, the fold from
         // which the doubled motion comes.
         let mut seen = 0;
-        let branch = continuation.double_period(&end.point, &limits, |_| {
+        let branch = continuation.double_period(&end.point, &self.limits(), |_| {
             seen += 1;
             stop_if(seen == DOUBLED)
         });

@@ -105,7 +105,7 @@ impl Explorer<'_> {
                 continue;
             }
             // An orbit so near an end of its window that it cannot be followed is met again elsewhere.
-            if let Ok(window) = Window::of(self.family, value, &orbit, self.range, &self.rules) {
+            if let Ok(window) = self.window(value, &orbit) {
                 fresh.push(window);
             }
         }
@@ -141,7 +141,7 @@ impl Explorer<'_> {
                 continue;
             };
             met.push((end.after, orbit.clone()));
-            let window = Window::of(self.family, end.after, orbit, self.range, &self.rules);
+            let window = self.window(end.after, orbit);
             let hysteresis = window.is_ok_and(|window| window.contains(end.before));
             if !atlas.has_reverse(target, end.value) {
                 atlas.transitions.push(Transition {

@@ -17,11 +17,16 @@ pub(super) const FIRST_MOTIONS: usize = 16;
 
 /// Finds transitions of a family's motions.
 pub struct Explorer<'a> {
-    pub(super) family: &'a dyn Family,
-    pub(super) range: (f64, f64),
-    pub(super) rules: Rules,
-    pub(super) monitor: Monitor<'a>,
-    pub(super) kept: OptionalMemory<'a>,
+    /// The family.
+    pub family: &'a dyn Family,
+    /// The range of its parameter.
+    pub range: (f64, f64),
+    /// How it is decided what follows on what.
+    pub rules: Rules,
+    /// Is told of the drive periods of one look at motions after the other.
+    pub monitor: Monitor<'a>,
+    /// What is known already.
+    pub kept: OptionalMemory<'a>,
 }
 
 /// Where most of several motions are.
@@ -47,25 +52,7 @@ pub(super) fn is_clear(those: usize, all: usize) -> bool {
     lead >= (CLEAR_DEVIATIONS * (all as f64).sqrt()).min(all as f64)
 }
 
-impl<'a> Explorer<'a> {
-    /// A search in a range of the parameter. The monitor is told of the drive periods of one look at
-    /// motions after the other; what is known is recalled.
-    pub fn new(
-        family: &'a dyn Family,
-        range: (f64, f64),
-        rules: Rules,
-        monitor: Monitor<'a>,
-        kept: OptionalMemory<'a>,
-    ) -> Self {
-        Self {
-            family,
-            range,
-            rules,
-            monitor,
-            kept,
-        }
-    }
-
+impl Explorer<'_> {
     /// Holds the parameter and lets motions settle.
     pub(super) fn settle_at(
         &self,

@@ -13,7 +13,13 @@
 //! use softstop_dynamics::monitor::unmonitored;
 //!
 //! let family = ParameterFamily::new(Ratios::unloaded().scene()?, [Parameter::Frequency])?;
-//! let explorer = Explorer::new(&family, (1.0, 1.5), Rules::default(), &unmonitored, None);
+//! let explorer = Explorer {
+//!     family: &family,
+//!     range: (1.0, 1.5),
+//!     rules: Rules::default(),
+//!     monitor: &unmonitored,
+//!     kept: None,
+//! };
 //! let transitions = explorer.explore(&[1.2])?;
 //! // The grazing of z = 0 at g0 and the fold of z = 1, both with hysteresis.
 //! let symbols: Vec<String> = transitions.iter().map(|it| it.symbols()).collect();

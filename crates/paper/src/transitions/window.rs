@@ -1,8 +1,8 @@
 //! The values of the parameter for which a periodic motion is stable.
 
-use super::Rules;
+use super::Explorer;
 use softstop_dynamics::continuation::{
-    Branch, BranchPoint, Continuation, Family, Limits, SpecialKind, Test,
+    Branch, BranchPoint, Continuation, Limits, SpecialKind, Test,
 };
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::motion::MotionKind;
@@ -27,23 +27,14 @@ pub(super) struct Window {
     pub ends: [WindowEnd; 2],
 }
 
-impl Window {
+impl Explorer<'_> {
     /// The window of a stable orbit at a value of the parameter.
     ///
     /// # Errors
     /// [`OrbitError`] if the orbit is none of the family.
-    pub fn of(
-        family: &dyn Family,
-        value: f64,
-        orbit: &Orbit,
-        range: (f64, f64),
-        rules: &Rules,
-    ) -> Result<Self, OrbitError> {
-        let limits = Limits {
-            range,
-            points: rules.points,
-        };
-        let continuation = Continuation::new(family, orbit.periods);
+    pub(super) fn window(&self, value: f64, orbit: &Orbit) -> Result<Window, OrbitError> {
+        let limits = self.limits();
+        let continuation = Continuation::new(self.family, orbit.periods);
         // One point beyond a fold or flip is enough to have it located.
         let watch = |point: &BranchPoint| stop_if(!point.is_stable());
         let branch = continuation.branch(value, orbit.state(), &limits, watch)?;
@@ -52,12 +43,22 @@ impl Window {
         if ends[0].point.parameter > ends[1].point.parameter {
             ends.reverse();
         }
-        Ok(Self {
+        Ok(Window {
             motion: MotionKind::of(orbit),
             ends,
         })
     }
 
+    /// How far branches are followed.
+    pub(super) const fn limits(&self) -> Limits {
+        Limits {
+            range: self.range,
+            points: self.rules.points,
+        }
+    }
+}
+
+impl Window {
     /// True if the motion is stable at a value.
     pub fn contains(&self, value: f64) -> bool {
         let [low, high] = &self.ends;
