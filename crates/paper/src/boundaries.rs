@@ -2,9 +2,9 @@
 //! back.
 
 use anyhow::{Context, Result};
-use softstop::{Parameter, Ratios};
+use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{
-    ContinuationSettings, Curve, CurveLimits, CurvePoint, SpecialKind, Test, follow_special,
+    Branch, ContinuationSettings, Curve, CurveLimits, CurvePoint, SpecialKind, Test, follow_special,
 };
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::free_amplitude;
@@ -36,16 +36,7 @@ impl Boundaries {
     pub(super) fn of(machine: &Ratios) -> Result<Self> {
         let [eta, _] = RANGES;
         let scene = machine.scene()?;
-        let orbit = find(&scene).context("no z = 1 motion to start from")?;
-        let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency])?;
-        let limits = Limits {
-            range: eta,
-            points: MOST,
-        };
-        let follower = Continuation::new(&family, 1).with_steps(STEP);
-        let at = (machine.frequency, orbit.state());
-        let branch = follower.branch(at.0, at.1, &limits, |_| interrupt::go_on());
-        let branch = branch.context("the z = 1 motion cannot be followed")?;
+        let branch = branch(scene.clone(), eta, MOST, STEP)?;
         let plane = [Parameter::Frequency, Parameter::Clearance];
         let plane = ParameterFamily::new(scene.clone(), plane)?;
         let region = CurveLimits {
@@ -84,4 +75,16 @@ impl Boundaries {
         let velocity = CurvePoint::before_impact_velocity;
         all.max_by(|a, b| velocity(a).total_cmp(&velocity(b)))
     }
+}
+
+/// The branch of z = 1 through the motion of a scene over a range of frequencies: so many points each way, steps of this
+/// size at most.
+pub(super) fn branch(scene: Scene, range: (f64, f64), points: usize, step: f64) -> Result<Branch> {
+    let orbit = find(&scene).context("no z = 1 motion to start from")?;
+    let frequency = scene.excitation.frequency;
+    let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
+    let limits = Limits { range, points };
+    let continuation = Continuation::new(&family, 1).with_steps(step);
+    let branch = continuation.branch(frequency, orbit.state(), &limits, |_| interrupt::go_on());
+    branch.context("the z = 1 motion cannot be followed")
 }

@@ -1,7 +1,7 @@
 //! `softstop-lab paper`: the figures of the paper, and of what it only describes.
 //!
-//! `docs/paper/figures.toml` states title, files and what is computed of each figure. To add one, write its table there, and a
-//! function `draw` that makes its files, named in `FIGURES`.
+//! `docs/paper/figures.toml` states title, files, what is computed and the layout of the picture of each figure. To add one,
+//! write its table there, and a function `draw` that makes its files, named in `FIGURES`.
 
 mod basins;
 mod boundaries;

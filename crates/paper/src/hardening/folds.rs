@@ -4,13 +4,12 @@ use std::f64::consts::PI;
 
 use anyhow::Result;
 use rayon::prelude::*;
-use softstop::Parameter;
+use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::Test;
-use softstop_dynamics::orbit::{OrbitError, find};
-use softstop_dynamics::{BranchPoint, Continuation, Limits, ParameterFamily};
 
 use super::stops::{CLEARANCE, Law, grazing};
 use super::swept::RANGE;
+use crate::boundaries::branch;
 use crate::figure::Findings;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
@@ -20,6 +19,8 @@ use softstop_console::progress::Progress;
 const FREQUENCY: f64 = 1.1;
 /// Largest step along a branch: two flips close to each other are not to be stepped over.
 const LARGEST: f64 = 0.02;
+/// Most points of a branch in each direction.
+const MOST: usize = 2000;
 /// Halvings of the decade of k2 in which folds appear.
 const HALVINGS: u32 = 7;
 
@@ -51,7 +52,7 @@ pub(super) fn folds(stiffnesses: &[f64]) -> Result<Vec<Folds>> {
     let progress = Progress::new(stiffnesses.len() as u64, "branches of z = 1");
     let folds = stiffnesses.par_iter().map(|&stiffness| {
         progress.step()?;
-        Ok(of(stiffness)?)
+        of(stiffness)
     });
     folds.collect()
 }
@@ -87,18 +88,11 @@ fn onset(folds: &[Folds], is_true: impl Fn(&Folds) -> bool) -> Result<Option<f64
     Ok(Some(f64::midpoint(low, high).exp()))
 }
 
-fn of(stiffness: f64) -> Result<Folds, OrbitError> {
+fn of(stiffness: f64) -> Result<Folds> {
     let mut scene = Law::KelvinVoigt(stiffness).scene(FREQUENCY, CLEARANCE);
     // Time 0 where the mass is on its way far from the stop.
     scene.excitation.phase = PI;
-    let state = find(&scene)?.state();
-    let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
-    let limits = Limits {
-        range: RANGE,
-        points: 2000,
-    };
-    let follower = Continuation::new(&family, 1).with_steps(LARGEST);
-    let branch = follower.branch(FREQUENCY, state, &limits, |_| interrupt::go_on())?;
+    let branch = branch(scene, RANGE, MOST, LARGEST)?;
     let described = |point: &BranchPoint| (point.parameter, point.before_impact_velocity());
     let folds = || branch.critical_points(Test::Fold).map(described);
     let strong = folds().reduce(|a, b| if a.1 > b.1 { a } else { b });

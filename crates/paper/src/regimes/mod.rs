@@ -1,10 +1,9 @@
 //! The map of the regimes z = p/n over drive frequency and clearance, with its boundaries g0, s_PD and s_SN.
 //! The paper speaks of it at the beginning of its section 3.
 
+mod cells;
 mod chart;
 mod report;
-mod starts;
-mod swept;
 
 use anyhow::{Error, Result};
 use serde::Deserialize;
@@ -124,9 +123,9 @@ fn found<'a>(maps: &'a [Map], studio: &Studio) -> Result<Vec<RegimeMap<'a>>> {
     let found = maps.iter().map(|map| {
         let (size, kept) = (size(map), studio.kept);
         let cells = match map.way {
-            Way::Up => swept::cells(map, Direction::Up, size, &progress, kept)?,
-            Way::Down => swept::cells(map, Direction::Down, size, &progress, kept)?,
-            Way::Hardest => starts::cells(map, size, &progress, kept)?,
+            Way::Up => cells::swept(map, Direction::Up, size, &progress, kept)?,
+            Way::Down => cells::swept(map, Direction::Down, size, &progress, kept)?,
+            Way::Hardest => cells::hardest(map, size, &progress, kept)?,
         };
         Ok(RegimeMap {
             asked: map,

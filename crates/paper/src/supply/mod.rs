@@ -160,61 +160,50 @@ impl Press {
         let motion = |seed: usize| Motion {
             state: self.start,
             is_supplied: self.is_supplied,
-            tries: tries(seed as u64, mean, periods),
+            chance: Xoshiro256PlusPlus::seed_from_u64(seed as u64),
             strokes: StrokeCount::after_impact(self.impact - 1.0),
             impacts: 0,
         };
         let mut motions: Vec<Motion> = (0..seeds).map(motion).collect();
-        let most = motions.iter().map(|motion| motion.tries.len()).max();
-        for place in 1..most.unwrap_or(0) {
-            let mut jobs = Vec::new();
-            for (index, motion) in motions.iter_mut().enumerate() {
-                let Some(&[from, to]) = motion.tries.get(place - 1..=place) else {
-                    continue;
-                };
-                if place > 1 && motion.state.position < self.clearance {
-                    motion.is_supplied = !motion.is_supplied;
-                }
-                if to > from {
-                    jobs.push((index, from, to - from));
-                }
+        for period in 0..periods {
+            for motion in &mut motions {
+                // Once in a mean run.
+                let chance = motion.chance.next_u64() as f64 / u64::MAX as f64;
+                let changes = chance * mean < 1.0 && motion.state.position < self.clearance;
+                motion.is_supplied ^= changes;
             }
-            self.follow(&mut motions, &jobs)?;
+            self.follow(&mut motions, period, 1)?;
         }
-        let ends = motions
-            .iter()
-            .map(|motion| motion.strokes.missed_strokes(periods as f64) > 0);
-        let missed: Vec<bool> = ends.collect();
+        let strokes = motions.iter().map(|motion| motion.strokes);
+        let missed = strokes.map(|strokes| strokes.missed_strokes(periods as f64) > 0);
+        let missed: Vec<bool> = missed.collect();
         for length in [CLOSE.0, CLOSE.1] {
             for motion in &mut motions {
                 (motion.is_supplied, motion.impacts) = (self.is_supplied, 0);
             }
-            let jobs: Vec<(usize, u64, u64)> = (0..motions.len())
-                .map(|index| (index, periods, length))
-                .collect();
-            self.follow(&mut motions, &jobs)?;
+            self.follow(&mut motions, periods, length)?;
         }
         let ended = motions.iter().map(|motion| motion.impacts != CLOSE.1);
         Ok(missed.into_iter().zip(ended).collect())
     }
 
-    /// Follows motions with or without strips: which, from which drive period, for how many.
-    fn follow(&self, motions: &mut [Motion], spans: &[(usize, u64, u64)]) -> Result<()> {
-        let job = |&(index, _, periods): &(usize, u64, u64)| Job {
-            machine: usize::from(motions[index].is_supplied),
-            start: motions[index].state,
+    /// Follows motions with or without strips from a drive period on, for so many.
+    fn follow(&self, motions: &mut [Motion], from: u64, periods: u64) -> Result<()> {
+        let job = |motion: &Motion| Job {
+            machine: usize::from(motion.is_supplied),
+            start: motion.state,
             periods,
         };
-        let jobs: Vec<Job> = spans.iter().map(job).collect();
+        let jobs: Vec<Job> = motions.iter().map(job).collect();
         let mut counter = Counter {
             period: self.period,
+            from,
             motions,
-            spans,
         };
         let outcomes = softstop_lanes::run(&self.machines, &jobs, &mut counter);
-        for ((index, ..), outcome) in spans.iter().zip(outcomes) {
+        for (motion, outcome) in motions.iter_mut().zip(outcomes) {
             outcome.error.map_or(Ok(()), Err)?;
-            motions[*index].state = outcome.end;
+            motion.state = outcome.end;
         }
         Ok(())
     }
@@ -224,39 +213,31 @@ impl Press {
 struct Motion {
     state: Start,
     is_supplied: bool,
-    /// The drive periods at which the supply may change, from the first to the end.
-    tries: Vec<u64>,
+    /// When the supply changes.
+    chance: Xoshiro256PlusPlus,
     strokes: StrokeCount,
     /// Impacts since the supply is steady.
     impacts: u64,
-}
-
-/// When the supply may change within so many drive periods, by chance once in a mean run; before them 0, the end behind.
-fn tries(seed: u64, mean: f64, periods: u64) -> Vec<u64> {
-    let mut chance = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let mut falls = |_: &u64| chance.next_u64() as f64 / u64::MAX as f64 * mean < 1.0;
-    let within = (0..periods).filter(&mut falls);
-    [0].into_iter().chain(within).chain([periods]).collect()
 }
 
 /// Counts the strokes of motions that are followed together.
 struct Counter<'a> {
     /// A drive period in s.
     period: f64,
+    /// The drive period from which they are followed.
+    from: u64,
     motions: &'a mut [Motion],
-    spans: &'a [(usize, u64, u64)],
 }
 
 impl BatchObserver for Counter<'_> {
     const IMPACTS: bool = true;
 
     fn impact(&mut self, job: usize, cycle: u64, offset: f64, _: f64) {
-        let (index, from, _) = self.spans[job];
-        let motion = &mut self.motions[index];
+        let motion = &mut self.motions[job];
         motion.impacts += 1;
         motion
             .strokes
-            .record_impact((from + cycle) as f64 + offset / self.period);
+            .record_impact((self.from + cycle) as f64 + offset / self.period);
     }
 }
 

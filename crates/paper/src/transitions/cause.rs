@@ -38,41 +38,32 @@ impl Cause {
     }
 }
 
-/// What ends the motion of a transition, and what ends the motion doubled from it if that is a flip.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Ends {
-    pub own: SpecialKind,
-    pub doubled: Option<SpecialKind>,
-}
-
-impl Ends {
-    /// The causes of a transition, in order.
-    pub(super) fn causes(&self, of: &Transition) -> Vec<Cause> {
-        let test = match self.own {
-            SpecialKind::Grazing(_) => return vec![Cause::Grazing],
-            SpecialKind::Pitchfork => return vec![Cause::Unknown],
-            SpecialKind::Critical(test) => test,
-        };
-        match test {
-            Test::Fold => jump(of),
-            Test::Flip if met_chaos(of) && !of.hysteresis => vec![Cause::InterruptedFlips],
-            Test::Flip if of.is_soft() => self.end_of_doubled(of),
-            // Beyond a hard flip there is nothing near to go on with.
-            Test::Flip => [vec![Cause::Flip], jump(of)].concat(),
-            Test::NeimarkSacker => vec![Cause::Unknown],
-        }
-    }
-
-    /// A soft doubling loses nothing: the doubled motion goes on in place of the simple one, and its end counts.
-    fn end_of_doubled(&self, of: &Transition) -> Vec<Cause> {
-        match self.doubled {
+/// The causes of a transition, in order, by what ends its motion and, if that is a flip, the motion doubled from it.
+pub(super) fn causes(
+    of: &Transition,
+    own: SpecialKind,
+    doubled: Option<SpecialKind>,
+) -> Vec<Cause> {
+    let test = match own {
+        SpecialKind::Grazing(_) => return vec![Cause::Grazing],
+        SpecialKind::Pitchfork => return vec![Cause::Unknown],
+        SpecialKind::Critical(test) => test,
+    };
+    match test {
+        Test::Fold => jump(of),
+        Test::Flip if met_chaos(of) && !of.hysteresis => vec![Cause::InterruptedFlips],
+        // A soft doubling loses nothing: the doubled motion goes on in place of the simple one, and its end counts.
+        Test::Flip if of.is_soft() => match doubled {
             Some(SpecialKind::Grazing(_)) => vec![Cause::Grazing],
             Some(SpecialKind::Critical(Test::Fold)) => jump(of),
             Some(SpecialKind::Critical(Test::Flip)) if met_chaos(of) => {
                 out_of_chaos(of, Cause::InterruptedFlips)
             }
             _ => vec![Cause::Flip],
-        }
+        },
+        // Beyond a hard flip there is nothing near to go on with.
+        Test::Flip => [vec![Cause::Flip], jump(of)].concat(),
+        Test::NeimarkSacker => vec![Cause::Unknown],
     }
 }
 

@@ -1,7 +1,7 @@
 //! What follows beyond the end of a window, and whether the way back leads into it again.
 
 use super::Transition;
-use super::cause::Ends;
+use super::cause::causes;
 use super::departure_path::DeparturePath;
 use super::explorer::{Explorer, Gathering};
 use super::window::{Window, WindowEnd};
@@ -72,11 +72,7 @@ impl Explorer<'_> {
             hysteresis,
             beyond: distance,
         };
-        let ends = Ends {
-            own: kind,
-            doubled: doubled.and_then(|it| it.0),
-        };
-        transition.causes = ends.causes(&transition);
+        transition.causes = causes(&transition, kind, doubled.and_then(|it| it.0));
         Ok(Some((transition, gathering)))
     }
 
