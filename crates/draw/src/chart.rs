@@ -184,20 +184,6 @@ impl Default for Panel {
 }
 
 impl Panel {
-    /// With these layers on top of those that it has.
-    #[must_use]
-    pub fn with(mut self, layers: impl IntoIterator<Item = Layer>) -> Self {
-        self.layers.extend(layers);
-        self
-    }
-
-    /// At this column and row.
-    #[must_use]
-    pub fn at(self, column: usize, row: usize) -> Self {
-        let at = (column, row);
-        Self { at, ..self }
-    }
-
     /// The bar of shades that stands beside it, if there is one: its range and its axis.
     pub(crate) fn bar(&self) -> Option<((f64, f64), Axis)> {
         self.layers.iter().find_map(|layer| match &layer.shape {

@@ -30,8 +30,6 @@ const OTHERS: [Starts; 3] = [Starts::AtRest, Starts::Square(1.0), Starts::Square
 const CELLS: [usize; 2] = [52, 24];
 const STEPS: [usize; 2] = [20, 8];
 const ENDS: [f64; 3] = [0.001, 0.01, 0.025];
-/// Places of which the certainty is told.
-const TOLD: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// Which states are asked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -164,27 +162,27 @@ fn findings(curves: &[Curve]) -> Findings {
         places,
     } in curves
     {
-        let (name, starts) = (machine.name(), starts.label());
-        let mut add = |what: &str, value: f64| {
-            let name = format!("{name}, rho = {clearance}, starts {starts}: {what}");
-            findings.add(name, value);
-        };
         let near = |place: f64| {
             let gap = |at: &&CertaintyAtPlace| (at.place - place).abs();
             places.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)))
         };
-        for (place, end) in [(0.0, "near g0"), (1.0, "near s_SN")] {
-            if let Some(at) = near(place) {
-                add(&format!("certainty {end}"), at.certainty);
-                add(&format!("integrity {end}"), integrity(at));
-            }
-        }
-        for place in TOLD {
-            if let Some(at) = near(place) {
-                add(&format!("certainty at s = {place}"), at.certainty);
-            }
-        }
-        add("largest rise of the certainty away from g0", rise(places));
+        let certainty = |place| near(place).map(|at| at.certainty);
+        let values = [
+            ("certainty near g0", certainty(0.0)),
+            ("integrity near g0", near(0.0).map(integrity)),
+            ("certainty near s_SN", certainty(1.0)),
+            ("integrity near s_SN", near(1.0).map(integrity)),
+            ("certainty at s = 0.25", certainty(0.25)),
+            ("certainty at s = 0.5", certainty(0.5)),
+            ("certainty at s = 0.75", certainty(0.75)),
+            (
+                "largest rise of the certainty away from g0",
+                Some(rise(places)),
+            ),
+        ];
+        let (name, starts) = (machine.name(), starts.label());
+        let name = format!("{name}, rho = {clearance}, starts {starts}: ");
+        findings.group(&name, values);
     }
     findings
 }

@@ -47,13 +47,15 @@ impl Picture<'_> {
             orders.y.ticks = Some(ticks.collect());
         }
         let diagrams = self.drawn.iter().enumerate().map(|(index, swept)| {
-            let mut panel = template.clone().at(index % ACROSS, index / ACROSS);
+            let mut panel = template.clone();
             panel.title = swept.law.name();
+            panel.at = (index % ACROSS, index / ACROSS);
             panel.y.ends = [0.0, top].map(Some);
             if panel.at.0 > 0 {
                 panel.y.name.clear();
             }
-            panel.with(diagram(swept))
+            panel.layers = diagram(swept).collect();
+            panel
         });
         chart.panels.splice(0..0, diagrams);
         chart

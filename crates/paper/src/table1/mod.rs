@@ -101,7 +101,9 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
         let message = "--resume: needs --output, the folder in which what is done is kept";
         return Err(Failure::usage(message));
     }
-    let report = table(&rules, keep.as_ref().map(|keep| keep as &dyn Memory))?;
+    let kept = keep.as_ref().map(|keep| keep as &dyn Memory);
+    let transitions = transitions(&rules, RANGE, &values(&paper::INTERVALS), kept)?;
+    let report = TableReport::new(&paper::ROWS, &transitions, &rules);
     if let Some(folder) = folder {
         folder.stage(NAMES[0], &output::csv(&report.rows)?)?;
         folder.stage(NAMES[1], output::json(&report)?.as_bytes())?;
@@ -116,15 +118,6 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
         TableFormat::Csv => String::from_utf8_lossy(&output::csv(&report.rows)?).into_owned(),
         TableFormat::Text => report.text(),
     })
-}
-
-/// The paper's rows among all transitions that are found. What is known is recalled.
-///
-/// # Errors
-/// As [`transitions`].
-pub fn table(rules: &Rules, kept: OptionalMemory<'_>) -> Result<TableReport> {
-    let transitions = transitions(rules, RANGE, &values(&paper::INTERVALS), kept)?;
-    Ok(TableReport::new(&paper::ROWS, &transitions, rules))
 }
 
 fn rules(arguments: &TableArguments) -> Result<Rules, Failure> {
