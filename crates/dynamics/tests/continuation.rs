@@ -318,23 +318,32 @@ fn settings_change_the_points_of_a_branch_but_not_what_is_found_on_it() {
     for (one, other) in fine.specials.iter().zip(&coarse.specials) {
         assert_near(one.point.parameter, other.point.parameter, SOLVED);
     }
+    let refused = |settings| with(settings).err().map(|error| error.to_string());
+    let usual = ContinuationSettings::default();
     for (wrong, named) in [
         (0.0, "0"),
         (-1.0, "-1"),
         (f64::NAN, "NaN"),
         (f64::INFINITY, "inf"),
     ] {
-        let settings = ContinuationSettings {
-            smallest_step: wrong,
-            ..ContinuationSettings::default()
-        };
-        let refusal = with(settings).err().map(|error| error.to_string());
+        let smallest_step = wrong;
         let expected = format!("smallest_step = {named}: must be finite and > 0");
-        assert_eq!(refusal, Some(expected));
+        let settings = ContinuationSettings {
+            smallest_step,
+            ..usual
+        };
+        assert_eq!(refused(settings), Some(expected));
     }
-    let settings = ContinuationSettings {
-        step_growth: 1.0,
-        ..ContinuationSettings::default()
-    };
-    assert!(with(settings).is_err());
+    let step_growth = 1.0;
+    assert!(
+        refused(ContinuationSettings {
+            step_growth,
+            ..usual
+        })
+        .is_some()
+    );
+    let short = Continuation::new(&family, 1).with_steps(1e-6);
+    let short = short.err().map(|error| error.to_string());
+    let expected = "largest_step = 1e-6: must be at least crawling_step";
+    assert_eq!(short.as_deref(), Some(expected));
 }

@@ -204,7 +204,9 @@ fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
             ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
         let limits = Limits { range, points: 500 };
         let go_on = |_: &_| ControlFlow::Continue(());
-        let continuation = Continuation::new(&family, 1).with_steps(0.05);
+        let continuation = Continuation::new(&family, 1)
+            .with_steps(0.05)
+            .expect("valid");
         let branch = continuation
             .branch(from, state, &limits, go_on)
             .expect("a branch");

@@ -154,7 +154,7 @@ impl Branches {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
-        let continuation = Continuation::new(&family, periods).with_steps(STEP);
+        let continuation = Continuation::new(&family, periods).with_steps(STEP).ok()?;
         continuation.branch(value, state, &limits, goes_on).ok()
     }
 }

@@ -40,6 +40,12 @@ pub(crate) trait Equations {
         false
     }
 
+    /// Size of the motion at a place, in units of the family's scales; 0 where the unknowns hold no state.
+    fn motion_size(&self, at: &DVector<f64>) -> f64 {
+        let _ = at;
+        0.0
+    }
+
     /// The residual alone at a place.
     fn residual(&self, at: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
         Ok(self.evaluate(at)?.residual)

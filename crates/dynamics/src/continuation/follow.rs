@@ -41,10 +41,15 @@ impl<'a> Continuation<'a> {
     }
 
     /// This continuation with steps of at most `largest`, in units of the family's scales: for visibly smooth curves.
-    #[must_use]
-    pub fn with_steps(mut self, largest: f64) -> Self {
-        self.settings.largest_step = largest;
-        self
+    ///
+    /// # Errors
+    /// Those of [`ContinuationSettings::validate`].
+    pub fn with_steps(self, largest: f64) -> Result<Self, SceneError> {
+        let settings = ContinuationSettings {
+            largest_step: largest,
+            ..self.settings
+        };
+        self.with_settings(settings)
     }
 
     /// This continuation with other settings.

@@ -120,6 +120,10 @@ impl<const N: usize> Equations for Shooting<'_, N> {
         })
     }
 
+    fn motion_size(&self, at: &DVector<f64>) -> f64 {
+        at.rows(0, 2).norm()
+    }
+
     /// True if small changes of the state grow a hundredfold and more, though the orbit grazes nothing. Near grazing a touch
     /// is slow by the same share.
     fn is_steep(&self, here: &PeriodMap) -> bool {
@@ -209,5 +213,9 @@ impl<const N: usize> Equations for Critical<'_, N> {
         let orbit = self.shooting.evaluate(at)?;
         let value = self.test.scaled_value(&orbit.point.monodromy);
         Ok(orbit.with_test(value))
+    }
+
+    fn motion_size(&self, at: &DVector<f64>) -> f64 {
+        self.shooting.motion_size(at)
     }
 }

@@ -141,7 +141,7 @@ impl<'a, E: Equations> Stepper<'a, E> {
             true => self.crawled + 1,
             false => 0,
         };
-        let size = (HUGE_SHARE * self.node.at.norm()).max(1.0);
+        let size = (HUGE_SHARE * self.equations.motion_size(&self.node.at)).max(1.0);
         self.step = (step.growth * self.step).min(size * self.settings.largest_step);
     }
 

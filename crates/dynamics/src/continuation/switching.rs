@@ -125,7 +125,9 @@ fn fold_of_doubled(
 ) -> Option<(Vector2<f64>, [f64; 2])> {
     let [parameter, second] = flip.parameters;
     let fixed = FixedSecond { family, second };
-    let along = Continuation::new(&fixed, periods).with_steps(region.settings.largest_step);
+    let along = Continuation::new(&fixed, periods)
+        .with_steps(region.settings.largest_step)
+        .ok()?;
     let limits = Limits {
         range: (parameter - within, parameter + within),
         points: region.points,

@@ -18,11 +18,16 @@ pub(super) const STEP: f64 = 0.02;
 /// Steps of a narrow range, and the least share of `STEP` that they are.
 const NARROW: (f64, f64) = (100.0, 0.1);
 
-/// Largest step of a range, so that its chart has no corners.
-fn step(family: &ParameterFamily<1>, (low, high): (f64, f64)) -> f64 {
-    let [scale] = family.parameter_scales();
+/// A continuation with steps that leave the chart of a range no corners.
+fn continuation<'a>(
+    family: &'a ParameterFamily<1>,
+    periods: u64,
+    limits: &Limits,
+) -> Result<Continuation<'a>, Failure> {
+    let ([scale], (low, high)) = (family.parameter_scales(), limits.range);
     let (steps, least) = NARROW;
-    ((high - low) / (steps * scale)).clamp(least * STEP, STEP)
+    let largest = ((high - low) / (steps * scale)).clamp(least * STEP, STEP);
+    Ok(Continuation::new(family, periods).with_steps(largest)?)
 }
 
 /// Counts a point; asks to stop after Ctrl-C.
@@ -50,19 +55,18 @@ pub(super) fn branches(
         None => seed::find(&machine.scene, arguments.orbit)?.state(),
     };
     let bar = Progress::open("points");
-    let largest = step(family, limits.range);
-    let follower = Continuation::new(family, periods).with_steps(largest);
-    let first = follower
+    let first = continuation(family, periods, limits)?
         .branch(along.start, state, limits, |_| count(&bar))
         .map_err(|error| anyhow!(error).context("no orbit to start from"))?;
     let mut branches = vec![first];
     let mut done = 0;
     for _ in 0..arguments.double {
-        let fresh = branches[done..].iter();
-        let doubled = fresh.flat_map(|branch| doubled(family, branch, limits, &bar));
-        let doubled: Vec<Branch> = doubled.collect();
-        done = branches.len();
-        branches.extend(doubled);
+        let fresh = done..branches.len();
+        done = fresh.end;
+        for index in fresh {
+            let doubled = doubled(family, &branches[index], limits, &bar)?;
+            branches.extend(doubled);
+        }
     }
     drop(bar);
     if interrupt::requested() {
@@ -77,13 +81,13 @@ fn doubled(
     branch: &Branch,
     limits: &Limits,
     bar: &Progress,
-) -> Vec<Branch> {
-    let follower = Continuation::new(family, branch.periods).with_steps(step(family, limits.range));
+) -> Result<Vec<Branch>, Failure> {
+    let follower = continuation(family, branch.periods, limits)?;
     let flips = branch.critical_points(Test::Flip);
     let doubled = flips.map(|flip| follower.double_period(flip, limits, |_| count(bar)));
     let pitchforks = branch.specials.iter();
     let pitchforks = pitchforks.filter(|special| special.kind == SpecialKind::Pitchfork);
     let asymmetric = pitchforks
         .map(|special| follower.branch_asymmetric(&special.point, limits, |_| count(bar)));
-    doubled.chain(asymmetric).filter_map(Result::ok).collect()
+    Ok(doubled.chain(asymmetric).filter_map(Result::ok).collect())
 }
