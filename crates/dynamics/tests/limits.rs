@@ -6,8 +6,8 @@ mod equal;
 mod rigid;
 
 use nalgebra::{Matrix2, Vector2};
-use softstop::{Clock, Ratios, Release, Scene, Start, Stop};
-use softstop_dynamics::{Orbit, orbit};
+use softstop::{Clock, Parameter, Ratios, Release, Scene, Start, Stop};
+use softstop_dynamics::{Continuation, Orbit, ParameterFamily, orbit};
 use softstop_testing::tolerance::ROUNDING;
 use softstop_testing::{assert_near, hertz, is_near, kelvin_voigt, preloaded, slope};
 

@@ -4,6 +4,9 @@ use super::face::{Face, NearTouch};
 use super::half_branch::BorderCollision;
 use softstop::{Crossing, CrossingKind, Scene, Trajectory};
 
+/// Largest ratio of the speeds at which a mass comes back to a stop and at which it left it, of bounces of one row.
+const MAX_BOUNCE_RATIO: f64 = 10.0;
+
 /// Counts of what an orbit crosses; they change only where it grazes something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Sequence {
@@ -78,7 +81,7 @@ impl<'a> CountedCrossings<'a> {
     /// The counted crossings of a motion of a scene.
     pub fn of_motion(scene: &Scene, trajectory: &'a Trajectory) -> Self {
         let mut all: Vec<(&Crossing, Option<Face>)> = Vec::new();
-        // Which one is the first of the present row of bounces, and how fast the last is.
+        // Which one is the first of the present row of bounces, and how fast the next can be at most.
         let mut row: Option<(usize, f64)> = None;
         for crossing in trajectory.crossings() {
             if crossing.kind == CrossingKind::Rest
@@ -90,9 +93,10 @@ impl<'a> CountedCrossings<'a> {
             let is_rebound = matches!(crossing.kind, CrossingKind::Rebound { .. });
             if is_rebound || crossing.kind.is_impact() {
                 let goes_on =
-                    row.filter(|(first, last)| all[*first].0.position == position && speed < *last);
+                    row.filter(|(first, most)| all[*first].0.position == position && speed < *most);
                 let first = goes_on.map_or(all.len(), |(first, _)| first);
-                row = Some((first, speed));
+                let left = MAX_BOUNCE_RATIO * crossing.velocity_after.abs();
+                row = Some((first, speed.min(left)));
             }
             let face = is_passage(crossing).then(|| Face::at_position(scene, position));
             all.push((crossing, face.flatten()));

@@ -89,3 +89,19 @@ fn hunt_and_crossley_grows_rigid() {
         .collect();
     assert_order(&errors, factor, 1.0 / (exponent + 1.0));
 }
+
+/// A restitution of almost nothing changes no impact that none would leave, though the mass that then comes to rest bounces.
+#[test]
+fn stops_without_rebound_are_hit_as_often_as_almost_dead_ones() {
+    let impacts = [0.0, 1e-12].map(|restitution| {
+        let scene = machine(0.5, 0.2, 0.04, Stop::Rigid { restitution });
+        let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a parameter");
+        let point = Continuation::new(&family, 1).find_point(0.5, Vector2::new(0.2, 0.0));
+        point.expect("an orbit").impacts
+    });
+    for found in &impacts {
+        assert_eq!(found.len(), 2, "{impacts:?}");
+        assert_near(found[0], 1.204_867, 1e-6);
+        assert_near(found[1], 0.072_138, 1e-6);
+    }
+}
