@@ -1,5 +1,7 @@
 //! Orbits between two stops, against a closed form.
 
+mod grazing;
+
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 

@@ -206,7 +206,7 @@ impl Codimension for SectionOrbit<'_, 2> {
         }
         let scene = self.section.scene_at(0.0, self.parameters(&node.at));
         let is_hard = scene.is_ok_and(|(scene, _)| self.section.face.is_steep(&scene));
-        let value = self.touch_response(&node.here.point);
+        let value = node.here.point.response;
         let kind = CodimensionTwo::ResonantGrazing(self.graze_at(node));
         Some((kind, if is_hard { value } else { 0.0 }))
     }

@@ -26,6 +26,8 @@ pub(crate) struct GrazingTest {
     /// Which faces an orbit can graze smoothly.
     gentle: [bool; Face::ALL.len()],
     parameter: f64,
+    /// True if the orbit is its own mirror image half its period later: touches come in pairs.
+    is_symmetric: bool,
     /// Drive angle at the section and frequency.
     drive: (f64, f64),
     /// Drive angle from phi to the section.
@@ -53,6 +55,7 @@ impl GrazingTest {
             rising: nearest_turn(motion, scene),
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
+            is_symmetric: shooting.symmetric_half_period(node).is_some(),
             drive: (scene.excitation.phase, scene.excitation.frequency),
             turned: TAU * shooting.turn,
             speed: shooting.velocity_scale(),
@@ -116,13 +119,17 @@ impl GrazingTest {
 
     /// Finds the grazing orbits that Newton's method reaches from both touches.
     fn find_grazings(&self, shooting: &Shooting<'_, 1>) -> Vec<Special> {
+        let touches = if self.is_symmetric { 2 } else { 1 };
         let (total, taken) = self.crossings;
-        let dying = self.dying.zip(total.checked_sub(taken));
+        let dying = self.dying.zip(total.checked_sub(touches * taken));
         // Where the force jumps down, the mass goes on from rest at the surface.
-        let passing = self.dying.filter(|_| taken > 1).zip(total.checked_sub(1));
+        let passing = self
+            .dying
+            .filter(|_| taken > 1)
+            .zip(total.checked_sub(touches));
         let rising = self
             .rising
-            .map(|touch| (touch, total - usize::from(touch.reverses)));
+            .map(|touch| (touch, total - touches * usize::from(touch.reverses)));
         [(dying, true), (passing, true), (rising, false)]
             .into_iter()
             .filter_map(|(touch, dies)| touch.map(|(touch, crossings)| (touch, crossings, dies)))
@@ -146,6 +153,7 @@ impl GrazingTest {
             impacts: 0,
             dies,
             face: touch.face,
+            is_symmetric: self.is_symmetric,
             crossings,
         };
         let orbits = (shooting.family, shooting.periods);

@@ -7,7 +7,7 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::face::Face;
-use super::period_map::state_after;
+use super::period_map::{half_way, state_after};
 use super::point::Graze;
 use super::sequence::Sequence;
 use crate::monitor::stop_if;
@@ -24,6 +24,9 @@ pub(crate) struct ImpactSection<'a, const N: usize> {
     pub crossings: usize,
     /// The surface.
     pub face: Face,
+    /// True of orbits that are their own mirror images: they come back to the mirror image of the surface after half of their
+    /// periods.
+    pub is_symmetric: bool,
 }
 
 /// An orbit seen from an impact section.
@@ -33,6 +36,8 @@ pub(crate) struct SectionPoint {
     pub monodromy: Monodromy,
     /// Before-impact velocities in m/s, that at the surface first; that of a touch is left out.
     pub impacts: Vec<f64>,
+    /// How far the velocity at the surface moves the position at the end of the way around, without units.
+    pub response: f64,
     /// True if an orbit that does not graze meets the surface before its last arc comes back to it.
     pub is_cut: bool,
 }
@@ -59,8 +64,12 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
         Self {
             family,
             periods,
-            crossings: graze.crossings,
+            crossings: match graze.is_symmetric {
+                true => graze.crossings / 2,
+                false => graze.crossings,
+            },
             face: graze.face,
+            is_symmetric: graze.is_symmetric,
         }
     }
 
@@ -88,14 +97,18 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
         Ok((scene, position))
     }
 
-    /// Carries a motion around from the section: how far it is off after its periods, scaled, and the motion.
+    /// Carries a motion around from the section: how far it is off when it comes back, scaled, and the motion.
     pub fn carry_around(
         &self,
         scene: &CheckedScene,
         start: Vector2<f64>,
     ) -> Result<(Vector2<f64>, LastArc), OrbitError> {
-        let around = LastArc::carry_past(scene, start, (self.crossings, self.periods))?;
-        let drift = Vector2::from(around.motion.end) - start;
+        let (until, side) = match self.is_symmetric {
+            true => (half_way(scene, self.periods), -1.0),
+            false => (Clock::at_cycle(self.periods), 1.0),
+        };
+        let around = LastArc::carry_past(scene, start, (self.crossings, until))?;
+        let drift = side * Vector2::from(around.motion.end) - start;
         let [length, speed] = self.family.state_scales();
         Ok((Vector2::new(drift.x / length, drift.y / speed), around))
     }
@@ -107,7 +120,11 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
         let (scene, position) = self.scene_at(angle, parameters)?;
         let gone = ((angle - phase) / TAU).rem_euclid(self.periods as f64);
         let begin = Vector2::new(position, velocity);
-        Ok(state_after(&scene, begin, self.periods as f64 - gone)?)
+        let (left, half) = (self.periods as f64 - gone, 0.5 * self.periods as f64);
+        Ok(match self.is_symmetric && left > half {
+            true => -state_after(&scene, begin, left - half)?,
+            false => state_after(&scene, begin, left)?,
+        })
     }
 }
 
@@ -123,17 +140,16 @@ pub(crate) struct LastArc {
 }
 
 impl LastArc {
-    /// The motion of a scene over some drive periods, its last arc carried past what comes in between.
+    /// The motion of a scene up to an instant, its last arc carried past what comes in between.
     ///
     /// # Errors
     /// [`OrbitError`] if it does not cross as often, or cannot be computed.
     pub fn carry_past(
         scene: &CheckedScene,
         start: Vector2<f64>,
-        (crossings, periods): (usize, u64),
+        (crossings, until): (usize, Instant),
     ) -> Result<Self, OrbitError> {
         let mut motion = scene.motion(start.into())?;
-        let until = Clock::at_cycle(periods);
         let mut around = Self {
             motion: Trajectory::empty(scene),
             is_cut: false,

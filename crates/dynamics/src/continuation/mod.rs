@@ -37,6 +37,7 @@ mod face;
 mod follow;
 mod grazing_test;
 mod half_branch;
+mod half_period;
 mod impact_section;
 mod locate;
 mod normal_form;

@@ -99,6 +99,14 @@ fn crossing_margin(trajectory: &Trajectory, periods: u64) -> f64 {
     })
 }
 
+/// The instant after half of so many drive periods of a scene.
+pub(super) fn half_way(scene: &Scene, periods: u64) -> Instant {
+    Instant {
+        offset: 0.5 * (periods % 2) as f64 * scene.period(),
+        ..Clock::at_cycle(periods / 2)
+    }
+}
+
 /// The state of a motion of a scene so many drive periods after one at time 0.
 pub(super) fn state_after(
     scene: &CheckedScene,

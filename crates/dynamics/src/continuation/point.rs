@@ -67,7 +67,10 @@ pub struct Graze {
     pub dies: bool,
     /// The surface that is touched; but for the clearance, the number of impacts stays.
     pub face: Face,
-    /// Crossings of the orbit, the touch left out.
+    /// True if the orbit is its own mirror image half its period later, and touches both of two stops that are alike: the face
+    /// is one of them.
+    pub is_symmetric: bool,
+    /// Crossings of the orbit, the touch left out, or both.
     pub(crate) crossings: usize,
 }
 

@@ -83,6 +83,7 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
             periods,
             crossings: motion.crossings().count() - usize::from(!is_told),
             face,
+            is_symmetric: false,
         };
         let time = motion.clock.time(entry.instant);
         let angle = scene.excitation.phase + scene.excitation.frequency * time;
@@ -92,13 +93,17 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
         Ok(Some((Self { section, condition }, guess)))
     }
 
-    /// The orbit with a weak impact of this velocity, in units of the family's scales, where these graze.
+    /// The orbit with a weak impact of this velocity, in units of the family's scales, where these graze, but for symmetric
+    /// ones, which have two.
     pub fn with_weak_impact(
         &self,
         touch: &DVector<f64>,
         test: Test,
         velocity: f64,
     ) -> Result<(Self, Node<SectionPoint>), OrbitError> {
+        if self.section.is_symmetric {
+            return Err(OrbitError::NotIsolated);
+        }
         let section = ImpactSection {
             crossings: self.section.crossings + 1,
             ..self.section
@@ -148,14 +153,12 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
             impacts: node.here.point.impacts.len(),
             dies: true,
             face: self.section.face,
-            crossings: self.section.crossings,
+            crossings: match self.section.is_symmetric {
+                true => 2 * self.section.crossings,
+                false => self.section.crossings,
+            },
+            is_symmetric: self.section.is_symmetric,
         }
-    }
-
-    /// Response of a grazing orbit: how far the velocity at a touch moves the position at the next, without units.
-    pub fn touch_response(&self, point: &SectionPoint) -> f64 {
-        let [length, speed] = self.section.family.state_scales();
-        point.monodromy.m12 * speed / length
     }
 
     /// The orbit around from the section, how far it is off there, scaled, its scene, and where it begins.
@@ -186,23 +189,30 @@ impl<const N: usize> Equations for SectionOrbit<'_, N> {
         let told = around.motion.impacts();
         let told = told.map(|it| it.before_impact_velocity);
         let own = is_impact.then_some(begin.y.abs()).into_iter();
-        let entered = (entry.unwrap_or_else(Matrix2::identity), 1.0);
+        let mut impacts: Vec<f64> = own.chain(told).collect();
+        let mut factors = vec![
+            (entry.unwrap_or_else(Matrix2::identity), 1.0),
+            (tangent.matrix, tangent.determinant),
+        ];
+        if self.section.is_symmetric {
+            // The way back is the mirror image of the way there.
+            impacts.extend_from_within(..);
+            factors.extend_from_within(..);
+        }
         let sizes = self.section.family.state_scales();
         let orbit = Evaluation {
             residual: DVector::from_column_slice(drift.as_slice()),
             tolerance: round_off(&scene, &begin, &Monodromy::from(&tangent), sizes),
             point: SectionPoint {
-                monodromy: Monodromy::from_factors(&[
-                    entered,
-                    (tangent.matrix, tangent.determinant),
-                ]),
-                impacts: own.chain(told).collect(),
+                monodromy: Monodromy::from_factors(&factors),
+                impacts,
+                response: tangent.matrix.m12 * sizes[1] / sizes[0],
                 is_cut: test.is_some() && around.is_cut,
             },
         };
         let value = match self.condition {
             SectionCondition::Touch => return Ok(orbit),
-            SectionCondition::ResonantTouch => self.touch_response(&orbit.point),
+            SectionCondition::ResonantTouch => orbit.point.response,
             SectionCondition::Impact(test) => test.weighted_value(&orbit.point.monodromy, at[1]),
         };
         Ok(orbit.with_test(value))

@@ -6,7 +6,7 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::{DVector, Vector2};
+use nalgebra::DVector;
 
 use super::arclength::{Equations, Evaluation, Node, correct};
 use super::branch::Branch;
@@ -15,60 +15,11 @@ use super::half_branch::{End, Limits};
 use super::locate::{along_chord, is_beside};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
-use super::shooting::{Shooting, round_off};
+use super::shooting::Shooting;
 use super::stepper::{CurveStep, Stepper};
 use super::test::Test;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::tolerance::SAME;
-use softstop::{Clock, Instant, Scene};
-
-/// True if a machine is its own mirror image half a drive period later: both stops are alike.
-fn is_symmetric(scene: &Scene) -> bool {
-    let below = scene.below.as_ref();
-    let is_alike =
-        below.is_some_and(|below| below.clearance == scene.clearance && below.stop == scene.stop);
-    is_alike && scene.piercing.is_none() && scene.rigid.is_none()
-}
-
-/// Half the period of an orbit, compared with the mirror image of its start.
-struct HalfPeriod {
-    /// Scaled distance of its end from the mirror image of its start.
-    asymmetry: DVector<f64>,
-    /// Its Jacobian P'.
-    monodromy: Monodromy,
-    /// What rounding may leave of the asymmetry.
-    tolerance: f64,
-}
-
-impl Shooting<'_, 1> {
-    /// Half the period of a motion; none if the machine is not its own mirror image, or periods are even in number.
-    fn half_period(&self, map: &PeriodMap) -> Option<HalfPeriod> {
-        let scene = &*map.trajectory.scene;
-        if self.periods.is_multiple_of(2) || !is_symmetric(scene) {
-            return None;
-        }
-        let motion = map.trajectory.up_to(Instant {
-            offset: 0.5 * scene.period(),
-            ..Clock::at_cycle(self.periods / 2)
-        });
-        let monodromy = Monodromy::from(&motion.tangent());
-        let scales = self.family.state_scales();
-        Some(HalfPeriod {
-            asymmetry: self.scaled(
-                -Vector2::from(motion.end) - self.state_at(&map.place),
-                [0.0],
-            ),
-            tolerance: round_off(scene, &map.start, &monodromy, scales),
-            monodromy,
-        })
-    }
-
-    /// The Jacobian of half the period of a symmetric orbit; none of another one.
-    fn symmetric_half_period(&self, node: &Node<PeriodMap>) -> Option<Monodromy> {
-        let half = self.half_period(&node.here.point)?;
-        (half.asymmetry.norm() < SAME).then_some(half.monodromy)
-    }
-}
 
 /// The equations of a pitchfork: symmetric orbits with a multiplier -1 of the mirrored half period.
 struct Pitchfork<'a, 'b>(&'b Shooting<'a, 1>);

@@ -8,7 +8,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use softstop::internals::ParameterSensitivity;
-use softstop::{CheckedScene, Parameter, Scene, SceneError};
+use softstop::{CheckedScene, Clock, Parameter, Scene, SceneError};
 
 use super::variation::{Variation, phase_derivatives};
 use crate::continuation::{
@@ -293,10 +293,15 @@ fn grazing_rates(
     (parameters, along): (&[Parameter], &[(Parameter, f64)]),
 ) -> Result<Vec<f64>, OrbitError> {
     let missing = || OrbitError::no_derivative(parameters);
+    if graze.is_symmetric {
+        // What moves one stop alone leaves no symmetric orbit.
+        return Err(missing());
+    }
     let scene = scene.clone().at_phase(graze.angle)?;
     let place = graze.face.face_position(&scene).ok_or_else(missing)?;
     let start = Vector2::new(place, 0.0);
-    let motion = LastArc::carry_past(&scene, start, (graze.crossings, periods))?.motion;
+    let motion =
+        LastArc::carry_past(&scene, start, (graze.crossings, Clock::at_cycle(periods)))?.motion;
     let phases = scene.phases();
     let all = [parameters, &[Parameter::Phase]].concat();
     let by = phase_derivatives(&scene, &all)?;

@@ -120,7 +120,10 @@ fn describe(kind: &SpecialKind) -> String {
     } else {
         "a turning point arrives"
     };
-    format!("grazing of {:?}: {what}", graze.face).to_lowercase()
+    match graze.is_symmetric {
+        true => format!("grazing of clearance and below: {what}"),
+        false => format!("grazing of {:?}: {what}", graze.face).to_lowercase(),
+    }
 }
 
 fn end(end: &End, points: usize) -> String {

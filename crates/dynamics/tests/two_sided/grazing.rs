@@ -1,0 +1,115 @@
+//! Symmetric orbits that touch both of two stops that are alike.
+
+use super::*;
+use softstop_dynamics::Branch;
+use softstop_dynamics::continuation::{BranchPoint, Graze};
+
+/// The branch of the motion on which a machine settles from rest in the middle, over frequencies.
+fn branch(scene: &Scene, range: (f64, f64)) -> Branch {
+    let settled = scene.trajectory(Start::new(0.0, 1.0), 400);
+    let state = settled.expect("a motion").end;
+    let family = ParameterFamily::new(scene.clone(), [Parameter::Frequency]).expect("a parameter");
+    let limits = Limits {
+        range,
+        points: 4000,
+    };
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let branch = Continuation::new(&family, 1).branch(
+        scene.excitation.frequency,
+        state.into(),
+        &limits,
+        go_on,
+    );
+    branch.expect("a branch")
+}
+
+/// The grazings of both stops on a branch.
+fn of_both(branch: &Branch) -> Vec<(Graze, &BranchPoint)> {
+    let grazes = branch
+        .specials
+        .iter()
+        .filter_map(|special| match special.kind {
+            SpecialKind::Grazing(graze) if graze.is_symmetric => Some((graze, &special.point)),
+            _ => None,
+        });
+    grazes.collect()
+}
+
+/// Where both impacts die the motion is free, and its amplitude is the clearance: |k - m w^2 + i b w| = F / d. Soft stops let
+/// the branch go on from there.
+#[test]
+fn both_impacts_die_where_the_free_motion_reaches_both_stops() {
+    let stops = [
+        (Stop::Rigid { restitution: 0.8 }, false),
+        (
+            Stop::Preloaded {
+                stiffness: 20.0,
+                preload: 5.0,
+            },
+            false,
+        ),
+        (
+            Stop::KelvinVoigt {
+                stiffness: 20.0,
+                release: Release::Clearance,
+            },
+            true,
+        ),
+    ];
+    for (stop, goes_on) in stops {
+        let mut scene = machine(1.0, 0.1, 1.2, 0.8);
+        scene.excitation.amplitude = 0.25;
+        scene.contact_damping = 0.5;
+        scene.below.as_mut().expect("a stop below").stop = stop.clone();
+        scene.stop = stop;
+        let half = 1.0 - 0.5 * scene.damping * scene.damping;
+        let apart = (half * half - 0.75).sqrt();
+        let branch = branch(&scene, (0.5, 4.0));
+        let found = of_both(&branch);
+        assert_eq!(found.len(), 2, "{:?} {:?}", scene.stop, branch.ends);
+        for ((graze, point), square) in found.into_iter().zip([half - apart, half + apart]) {
+            assert_near(point.parameter, square.sqrt(), 1e-10);
+            assert_eq!((graze.dies, graze.impacts), (true, 0), "{:?}", scene.stop);
+        }
+        let grazes = matches!(branch.ends, (End::Grazing, End::Grazing));
+        assert_ne!(grazes, goes_on, "{:?}", branch.ends);
+        assert_eq!(matches!(branch.ends, (End::Range, End::Range)), goes_on);
+    }
+}
+
+/// Where both turning points rise to the stops the orbit still has the closed form: on its way from the stop above it comes back
+/// up to that stop, and no farther.
+#[test]
+fn both_turning_points_arrive_where_the_closed_form_comes_back_up_to_the_stop() {
+    let scene = machine(1.0, 0.04, 1.8, 0.8);
+    let branch = branch(&scene, (0.3, 4.0));
+    assert!(matches!(branch.ends, (End::Grazing, End::Range)));
+    let found = of_both(&branch);
+    let [(graze, point)] = found[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!((graze.dies, graze.impacts), (false, 2));
+    let at = scene.at_frequency(point.parameter);
+    let exact = Symmetric::of(&at, true);
+    assert_near(point.impacts[0], exact.velocity, 1e-9);
+    let w = at.excitation.frequency;
+    let response = 1.0 / Complex::new(at.stiffness - at.mass * w * w, at.damping * w);
+    let position = |share: f64| {
+        let free = transition(at.damping, at.stiffness, share * PI / w) * exact.free;
+        free.x + (response * Complex::from_polar(1.0, exact.angle + share * PI)).re
+    };
+    // Down from the stop, up again, and down to the other: the highest of the turning points between.
+    let shares: Vec<f64> = (200..=1000).map(|it| f64::from(it) * 1e-3).collect();
+    let highest = shares
+        .into_iter()
+        .max_by(|a, b| position(*a).total_cmp(&position(*b)));
+    let (mut low, mut high) = highest.map(|it| (it - 1e-3, it + 1e-3)).expect("shares");
+    for _ in 0..60 {
+        let (a, b) = ((2.0 * low + high) / 3.0, (low + 2.0 * high) / 3.0);
+        match position(a) < position(b) {
+            true => low = a,
+            false => high = b,
+        }
+    }
+    assert_near(position(low), at.clearance, 1e-11);
+}
