@@ -210,8 +210,18 @@ impl Continuation<'_> {
             .find_point(parameter, self.shooting.state_at(&at))
             .ok()?;
         let flip = continuation.locate(&near, Test::Flip).ok()?;
-        let place = self.shooting.scaled(flip.state(), [flip.parameter]);
-        is_near(&place).then_some((flip, End::Merged))
+        if !is_near(&self.place_of(&flip).ok()?) {
+            return None;
+        }
+        let PeriodMap {
+            impacts, monodromy, ..
+        } = self.with_turn(0.0).node_at(&flip).ok()?.here.point;
+        let twice = BranchPoint {
+            impacts,
+            monodromy,
+            ..flip
+        };
+        Some((twice, End::Merged))
     }
 
     /// Scaled gap that closes where an orbit merges: from a state to that after half the periods, or to its mirror image; none

@@ -12,7 +12,7 @@ use super::section_orbit::SectionOrbit;
 use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
 use super::test::Test;
-use crate::orbit::OrbitError;
+use crate::orbit::{Monodromy, OrbitError};
 use softstop::MotionError;
 
 /// Follows a special point, of this kind and with this state at time 0, in both directions of two parameters.
@@ -91,7 +91,7 @@ pub(super) fn end_in_flips(family: &dyn Family<2>, folds: &mut Curve, region: &C
     }
 }
 
-/// The generalised flip near a point of a curve of folds of twice the period, if there is one.
+/// The generalised flip near a point of a curve of folds of twice the period, as one of those, if there is one.
 fn flip_near(
     family: &dyn Family<2>,
     periods: u64,
@@ -119,5 +119,11 @@ fn flip_near(
     };
     let specials = flips.ok()?.specials.into_iter();
     let flips = specials.filter(|it| it.0 == CodimensionTwo::GeneralisedFlip);
-    flips.map(|it| it.1).find(is_near)
+    let flip = flips.map(|it| it.1).find(is_near)?;
+    let again = &flip.monodromy;
+    Some(CurvePoint {
+        monodromy: Monodromy::from_factors(&[(again.matrix, again.determinant()); 2]),
+        impacts: [&flip.impacts[..], &flip.impacts[..]].concat(),
+        ..flip
+    })
 }

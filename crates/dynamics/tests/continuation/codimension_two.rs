@@ -277,6 +277,11 @@ fn curves_begin_in_points_of_codimension_two() {
     begins_at(&from_flips[1], resonant);
     let folds = &from_flips[2];
     begins_at(folds, generalised);
+    let mut specials = folds.specials.iter();
+    let end = specials.find(|it| it.0 == CodimensionTwo::GeneralisedFlip);
+    let end = &end.expect("a generalised flip").1;
+    assert_eq!(end.impacts.len(), 2);
+    assert_near(end.monodromy.fold_test(), 0.0, SOLVED);
 
     let mut compared = 0;
     let beside = |it: &&CurvePoint| it.parameters[0] < 0.97 && it.parameters[1] < 2.5;

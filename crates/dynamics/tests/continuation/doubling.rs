@@ -1,6 +1,8 @@
 //! Branches of twice the period, and orbits asked for at a multiple of theirs.
 
 use super::*;
+use softstop::Machine;
+use softstop_dynamics::orbit;
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{assert_near, with_changes};
 
@@ -78,6 +80,52 @@ fn a_doubled_branch_merges_into_the_one_it_came_from() {
     let merged = ends.iter().find(|(end, _)| matches!(end, End::Merged));
     let (_, point) = merged.expect("one end is the flip");
     assert_near(point.parameter, flip.parameter, 10.0 * MOTION);
+}
+
+/// The doubled orbits between two flips of one branch end in the other one, wherever their section lies by then, as orbits of twice
+/// the period: with a multiplier 1, and each impact twice.
+#[test]
+fn doubled_branches_end_in_the_next_flip_of_their_branch() {
+    let kelvin_voigt = r#"
+        mass = 0.344336
+        stiffness = 2.83648
+        damping = 0.119851
+        clearance = 1.15113
+        contact.damping = 0.0105357
+        excitation = { amplitude = 0.586976, frequency = 3.21157, phase = 0.546143 }
+        stop = { model = "kelvinVoigt", stiffness = 597.64349952, release = "clearance" }
+        initial = { position = 0, velocity = 0 }
+    "#;
+    let piecewise_linear = r#"
+        mass = 1.59043
+        stiffness = 0.360398
+        damping = 0.02
+        clearance = 2.26294
+        contact.damping = 0.0508691
+        excitation = { amplitude = 0.600713, frequency = 0.482023, phase = -1.20584 }
+        initial = { position = 0, velocity = 0 }
+        [stop]
+        model = "piecewiseLinear"
+        loading = [{ from = 0.0, stiffness = 0.84597664132 }, { from = 0.32585, stiffness = 7.2816974308 }]
+    "#;
+    for machine in [kelvin_voigt, piecewise_linear] {
+        let scene = Machine::from_toml(machine).expect("a machine").scene;
+        let own = scene.excitation.frequency;
+        let state = orbit::find(&scene).expect("an orbit").state();
+        let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
+        let range = (0.6 * own, 1.6 * own);
+        let flips = of_kind(&follow(&family, 1, (own, state), range), "PD");
+        let flip = &flips[0].point;
+        let doubled = double_within(&family, 1, flip, range);
+        assert!(matches!(doubled.ends.1, End::Merged), "{:?}", doubled.ends);
+        let last = doubled.points.last().expect("points");
+        assert_eq!(last.impacts.len(), 2 * flip.impacts.len());
+        assert_near(last.fold_test(), 0.0, SOLVED);
+        let other = flips[1..]
+            .iter()
+            .find(|it| is_near(it.point.parameter, last.parameter, SOLVED));
+        assert!(other.is_some(), "{last:?}");
+    }
 }
 
 /// On the orbits of twice the period that begin at a flip, half the distance u of their two states grows as the coefficient c of
