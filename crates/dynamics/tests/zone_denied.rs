@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 use softstop::{Machine, Scene, Start};
-use softstop_dynamics::zone::{Loss, StableRange, stable_ranges};
+use softstop_dynamics::zone::{Loss, StableRange, hysteresis, stable_ranges};
 use softstop_dynamics::{BranchPoint, Orbit};
 
 #[derive(Deserialize)]
@@ -72,4 +72,11 @@ fn what_ends_a_stretch_has_a_name() {
         let is_named = |loss: &Loss| !matches!(loss, Loss::Lost(_) | Loss::Budget);
         assert!(ends.all(|end| is_named(&end.loss)), "{}", one.what);
     }
+}
+
+#[test]
+fn what_bounds_no_resonance_says_what_to_do() {
+    let scene = softstop_testing::with_changes("unloaded", "beta1=0 beta=0");
+    let error = hysteresis(&scene).expect_err("no zone").to_string();
+    assert!(error.contains("raise damping"), "{error}");
 }

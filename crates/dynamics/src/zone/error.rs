@@ -102,7 +102,7 @@ pub enum BranchEnd {
     Below,
     /// No fold is looked for beyond.
     Range,
-    /// It has more points than are followed.
+    /// It has more points than are followed, as at resonance, where hardly any damping bounds the motion.
     Budget,
 }
 
@@ -112,7 +112,9 @@ impl Display for BranchEnd {
             Self::Regime => "it ends otherwise than by a fold",
             Self::Below => "it has come back below the boundary",
             Self::Range => "the search for a fold ends",
-            Self::Budget => "it has more points than are followed",
+            Self::Budget => {
+                "it has more points than are followed: at resonance hardly any damping bounds it; raise damping"
+            }
         })
     }
 }
