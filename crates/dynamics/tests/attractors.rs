@@ -1,12 +1,12 @@
 //! All motions of a scene, found from scratch: the coexisting motions of Peterka 2003, Figs. 8 and 9, and
 //! what other stops settle on.
 
-use softstop::{Scene, Start, Stop};
-use softstop_dynamics::Survey;
+use softstop::{Machine, Scene, Start, Stop};
 use softstop_dynamics::attractors::{
-    Attractor, Chaos, SearchOptions, classify_start, find_attractors,
+    Attractor, Chaos, SearchOptions, classify_start, find_attractors, find_attractors_until,
 };
 use softstop_dynamics::monitor::unmonitored;
+use softstop_dynamics::{MotionKind, Orbit, Regime, Survey};
 use softstop_testing::{assert_near, is_near, loaded, unloaded};
 
 const OPTIONS: SearchOptions = SearchOptions {
@@ -157,4 +157,47 @@ fn single_motions_are_told_apart() {
         let found = classify_start(&unloaded(frequency), start, &OPTIONS).expect("a motion");
         assert_eq!(name(&found), expected, "from {start:?} at {frequency}");
     }
+}
+
+/// Without damping no free motion settles: all that wander without chaos are told as one.
+#[test]
+fn what_does_not_settle_is_told_once() {
+    let mut scene = unloaded(1.15);
+    (scene.stop, scene.damping) = (Stop::None, 0.0);
+    let names = names(&survey(&scene)).into_iter();
+    assert_eq!(names.filter(|it| it == "unsettled").count(), 1);
+}
+
+/// Starts leave transient chaos for z = 1/2 one by one: the search for it goes on until one does, and no farther.
+#[test]
+fn a_motion_behind_transient_chaos_is_searched_until_it_is_met() {
+    let scene = Machine::from_toml(
+        r#"
+        mass = 0.719456
+        stiffness = 1.31025
+        damping = 0.02
+        clearance = 2.37509
+        contact.damping = 0.0198674
+        excitation = { amplitude = 1.61208, frequency = 1.10424, phase = -1.42145 }
+        stop = { model = "preloaded", stiffness = 14.009061975, preload = 37.9959 }
+        piercing = { stiffness = 35.95352205, friction = 2.50462149, thickness = 0.273148, travel = 0.530812 }
+        initial = { position = 0, velocity = 0 }
+        "#,
+    );
+    let scene = scene.expect("a machine").scene;
+    let options = SearchOptions {
+        patience: 4_000_000,
+        ..OPTIONS
+    };
+    let is_half = |orbit: &Orbit| {
+        MotionKind::of(orbit).regime()
+            == Some(Regime {
+                impacts: 1,
+                periods: 2,
+            })
+    };
+    let survey = find_attractors_until(&scene, &options, is_half, &unmonitored).expect("a survey");
+    assert!(survey.periods < options.patience / 2, "{}", survey.periods);
+    let mut orbits = survey.attractors.iter().flat_map(|found| &found.orbit);
+    assert!(orbits.any(|orbit| is_half(orbit)));
 }

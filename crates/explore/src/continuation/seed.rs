@@ -29,8 +29,6 @@ pub fn regime(text: &str) -> Result<Regime, String> {
 
 /// Most drive periods of an orbit.
 pub const LONGEST: u64 = 64;
-/// Drive periods for which motions that do not settle are watched: stable orbits alone are wanted.
-const PATIENCE: u64 = 20_000;
 
 /// A state X,V.
 ///
@@ -58,7 +56,6 @@ pub fn find(scene: &Scene, wanted: Regime) -> Result<Orbit, Failure> {
     }
     let options = SearchOptions {
         longest: LONGEST as usize,
-        patience: PATIENCE,
         ..SearchOptions::default()
     };
     let bar = Progress::new(1, "drive periods at most, in search of the orbit");

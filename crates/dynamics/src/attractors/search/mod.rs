@@ -83,7 +83,7 @@ pub fn find_attractors(
 }
 
 /// The motions on which a scene settles, until a stable orbit is met that is enough: that is asked after the starts from far
-/// and wide, which count in no share, and again before motions that do not settle are watched.
+/// and wide, which count in no share, and again whenever motions that do not settle are looked at.
 ///
 /// # Errors
 /// As [`find_attractors`].
@@ -107,7 +107,7 @@ pub fn find_attractors_until(
     let region = region.unwrap_or(pilot);
     search.launch_starts(region.starts(options.starts, options.seed), true)?;
     if !search.knows(&is_enough) {
-        search.watch_wandering()?;
+        search.watch_wandering(&is_enough)?;
     }
     search.into_survey(region)
 }
@@ -150,7 +150,7 @@ pub fn classify_start(
     if let Some(error) = &search.members[0].member.error {
         return Err(error.clone().into());
     }
-    search.watch_wandering()?;
+    search.watch_wandering(&|_| false)?;
     let found = search.into_survey(Region::pilot(scene))?.attractors;
     found.into_iter().next().ok_or(OrbitError::Stopped)
 }
@@ -267,8 +267,9 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// Watches the motions that have not arrived until the drive periods for that are used up.
-    fn watch_wandering(&mut self) -> Result<(), OrbitError> {
+    /// Watches the motions that have not arrived until the drive periods for that are used up, or an orbit is met that is
+    /// enough.
+    fn watch_wandering(&mut self, is_enough: &dyn Fn(&Orbit) -> bool) -> Result<(), OrbitError> {
         self.group_wandering()?;
         let mut left = self.watch_periods();
         let mut periods = self.options.transient.max(self.log_length() as u64);
@@ -289,6 +290,9 @@ impl<'a> Search<'a> {
                 }
             }
             periods *= BATCH_GROWTH;
+            if self.knows(is_enough) {
+                return Ok(());
+            }
         }
         self.search_long_periods()
     }

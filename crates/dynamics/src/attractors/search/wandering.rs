@@ -17,7 +17,7 @@ const MAX_EXPONENT_TRIES: usize = 6;
 const LAST_LOOK_FACTOR: usize = 8;
 
 impl Search<'_> {
-    /// Groups the wandering motions of the search and measures the exponents of each group.
+    /// Groups the wandering motions of the search and measures the exponents of each group; those that are no chaos are one.
     pub(super) fn group_wandering(&mut self) -> Result<(), OrbitError> {
         let wandering: Vec<usize> = self
             .open_members()
@@ -31,9 +31,22 @@ impl Search<'_> {
             self.members[index].group = Some(number);
             of_group.entry(number).or_default().push(index);
         }
-        for (number, indices) in of_group {
+        let mut unsettled = None;
+        for (own, indices) in of_group {
             let group = self.measure_group(&indices)?;
-            self.groups.insert(number, group);
+            let number = match group.chaos {
+                Some(_) => own,
+                None => *unsettled.get_or_insert(own),
+            };
+            for index in indices {
+                self.members[index].group = Some(number);
+            }
+            match self.groups.get_mut(&number) {
+                Some(known) => known.entered += group.entered,
+                None => {
+                    self.groups.insert(number, group);
+                }
+            }
         }
         Ok(())
     }
