@@ -28,6 +28,12 @@ fn point_a_settles_on_its_before_impact_velocity() {
 }
 
 #[test]
+fn what_dissipates_nothing_gains_nothing_by_rounding() {
+    let line = "SCENES/preloaded.toml --set damping=0 --set contact.damping=0 --periods 200";
+    assert!(simulate(line).number("energy/dissipated") >= 0.0);
+}
+
+#[test]
 fn tables_hold_every_sample_and_every_impact() -> Outcome {
     let summary = simulate("SCENES/piercing.toml --periods 7 --samples-per-period 11");
     let motion = summary.text("motion.csv");

@@ -44,7 +44,7 @@ Examples:
 Words: SN fold, where two orbits meet and vanish; PD flip, where the period doubles; G grazing,
 where an impact dies or a turning point reaches a surface; NS Neimark-Sacker, which damping
 rules out; PF pitchfork, where motions between two equal stops cease to be symmetric. All are
-located to 1e-10. On curves in two parameters: CP cusp, where two folds meet; GPD generalised flip,
+located to 1e-10; where a touch comes or goes, multipliers may jump past 1 (SN) or -1 (PD). On curves in two parameters: CP cusp, where two folds meet; GPD generalised flip,
 where a flip turns from supercritical to subcritical (located to 1e-6); RG resonant grazing, where curves of folds
 and flips end on one of grazing. --format json has the coefficients of the normal forms; a flip
 with a positive one is supercritical. In the chart stable orbits are drawn solid, unstable ones
@@ -95,7 +95,7 @@ pub struct ContinueArguments {
     #[arg(long, value_name = "TIMES", requires = "second", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=6))]
     pub switch: u32,
     /// Most points of a branch or curve in each direction
-    #[arg(long, value_name = "COUNT", default_value_t = 2000)]
+    #[arg(long, value_name = "COUNT", default_value_t = 10_000)]
     pub points: usize,
     /// Folder for branches.csv, branches.svg, curves.csv and curves.svg
     #[arg(long, value_name = "DIR", default_value = "softstop-continue")]

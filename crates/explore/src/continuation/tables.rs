@@ -77,7 +77,7 @@ pub(super) fn curve_columns<'a>() -> [Column<CurveRow<'a>>; 10] {
         "position" [Length], "at time 0, that is at drive angle phi" => row.point.position;
         "velocity" [Velocity], "there" => row.point.velocity;
         "before_impact_velocity" [Velocity], "of the hardest impact" => row.point.before_impact_velocity();
-        "trace" [None], "of the monodromy matrix" => row.point.monodromy.trace();
+        "trace" [None], "of the monodromy matrix, without the touch where the orbit grazes" => row.point.monodromy.trace();
         "determinant" [None], "of the same" => row.point.monodromy.determinant();
     }
 }

@@ -48,7 +48,7 @@ fn impacts<'a>() -> [Column<Run<'a>>; 5] {
 fn energy() -> [Column<Outcome>; 4] {
     columns! { Outcome, it;
         "supplied" [Energy] Seven, "energy supplied" => it.tally.work.supplied;
-        "dissipated" [Energy] Seven, "dissipated" => it.tally.work.dissipated;
+        "dissipated" [Energy] Seven, "dissipated" => it.tally.work.dissipated.max(0.0);
         "stored" [Energy] Seven, "stored" => it.stored;
         "defect" [Energy] Seven, "balance, zero but for rounding" => it.defect();
     }

@@ -25,7 +25,7 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 14] {
         "growth_per_period" [None], "ln of that of small differences, unless p/n" => row.step.growth;
         "least_before_impact_velocity" [Velocity], "of all watched" => row.step.velocities.first().copied();
         "before_impact_velocity" [Velocity], "the largest of them" => row.step.velocities.last().copied();
-        "max_position" [Length], "largest position" => row.step.max_position;
+        "max_position" [Length], "largest position meanwhile: over one period of what repeats, else over all watched" => row.step.max_position;
         "end_position" [Length], "at the end, at drive angle phi" => row.step.end.position;
         "end_velocity" [Velocity], "there" => row.step.end.velocity;
         "before_impact_velocities" [Velocity], "all of them, rising" => velocities(row.step);
