@@ -2,7 +2,7 @@
 //! 2,000 lines of LLVM each; here the work is a `dyn Fn` and the threads are shared out in one place.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
@@ -42,21 +42,23 @@ pub fn filter_map<A: Sync, T: Send + Sync>(
     found
 }
 
-/// The values of a function of the numbers below `count`, in order; after a failure no others are begun.
+/// The values of a function of the numbers below `count`, in order; after a failure no larger ones are begun.
 ///
 /// # Errors
-/// The failure at the least number that was begun.
+/// The failure at the least number that has one.
 pub fn try_map_indices<T: Send + Sync, E: Send + Sync>(
     count: usize,
     of: &(dyn Fn(usize) -> Result<T, E> + Sync),
 ) -> Result<Vec<T>, E> {
-    let has_failed = AtomicBool::new(false);
+    let least_failed = AtomicUsize::new(usize::MAX);
     let values = map_indices(count, &|index| {
-        if has_failed.load(Ordering::Relaxed) {
+        if index > least_failed.load(Ordering::Relaxed) {
             return None;
         }
         let value = of(index);
-        has_failed.fetch_or(value.is_err(), Ordering::Relaxed);
+        if value.is_err() {
+            least_failed.fetch_min(index, Ordering::Relaxed);
+        }
         Some(value)
     });
     let mut found = Vec::with_capacity(count);
@@ -66,10 +68,10 @@ pub fn try_map_indices<T: Send + Sync, E: Send + Sync>(
     Ok(found)
 }
 
-/// The values of a function of some elements, in order; after a failure no others are begun.
+/// The values of a function of some elements, in order; after a failure no later ones are begun.
 ///
 /// # Errors
-/// The failure at the least element that was begun.
+/// The failure at the first element that has one.
 pub fn try_map<A: Sync, T: Send + Sync, E: Send + Sync>(
     all: &[A],
     of: impl Fn(&A) -> Result<T, E> + Sync,
@@ -79,6 +81,9 @@ pub fn try_map<A: Sync, T: Send + Sync, E: Send + Sync>(
 
 #[cfg(test)]
 mod tests {
+    use std::thread;
+    use std::time::Duration;
+
     use super::{filter_map, map, try_map};
 
     #[test]
@@ -92,5 +97,18 @@ mod tests {
             try_map(&all, |it| if *it == 50 { Err(50) } else { Ok(()) }),
             Err(50)
         );
+    }
+
+    #[test]
+    fn the_first_failure_does_not_depend_on_threads() {
+        let all: Vec<usize> = (0..100).collect();
+        let found = try_map(&all, |it| match it {
+            0..30 => {
+                thread::sleep(Duration::from_millis(1));
+                Ok(())
+            }
+            _ => Err(*it),
+        });
+        assert_eq!(found, Err(30));
     }
 }

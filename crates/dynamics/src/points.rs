@@ -4,7 +4,7 @@
 //! hash, Burley 2020), which has 2^16 of them, to 24 bits, under each seed. So a million are 16 sequences that are
 //! scrambled independently: randomised quasi-Monte-Carlo, whose scatter from sequence to sequence is its error.
 //!
-//! Whoever runs many machines does so in [`parallel_blocks`] of their numbers: what comes of them does not depend on the threads.
+//! [`parallel_blocks`] hands the numbers of points out to all threads, in blocks whose outcomes come in order.
 
 use std::ops::Range;
 

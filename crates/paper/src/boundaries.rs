@@ -84,7 +84,7 @@ pub(super) fn branch(scene: Scene, range: (f64, f64), points: usize, step: f64) 
     let frequency = scene.excitation.frequency;
     let family = ParameterFamily::new(scene, [Parameter::Frequency])?;
     let limits = Limits { range, points };
-    let continuation = Continuation::new(&family, 1).with_steps(step);
+    let continuation = Continuation::new(&family, 1).with_steps(step)?;
     let branch = continuation.branch(frequency, orbit.state(), &limits, |_| interrupt::go_on());
     branch.context("the z = 1 motion cannot be followed")
 }

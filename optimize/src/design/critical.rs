@@ -99,10 +99,17 @@ impl CriticalMachines {
         own.chain(cases)
     }
 
-    /// Takes note of the trials that a better design has failed.
+    /// Takes note of the trials that a better design has failed, each once.
     pub(super) fn note_failed(&mut self, better: &Self) {
         for (figure, case) in better.all_failed() {
-            self.for_case_mut(case).failed.push(figure);
+            self.for_case_mut(case).note_failed_trial(figure);
+        }
+    }
+
+    /// Takes note of a trial that a better design has failed in this operating point.
+    pub(super) fn note_failed_trial(&mut self, figure: Figure) {
+        if !self.failed.contains(&figure) {
+            self.failed.push(figure);
         }
     }
 

@@ -38,7 +38,7 @@ mod reach;
 pub mod requirement;
 mod robustify;
 pub mod search;
-mod share;
+pub mod share;
 pub mod slope;
 pub mod slsqp;
 pub mod solution;
@@ -172,7 +172,7 @@ impl Problem {
             Zoned::new(problem, machine, zone)
         };
         let cases = self.in_cases();
-        self.best_of(zoned(self), cases.iter().map(zoned))
+        line_search::best(&self.with_cases(zoned(self), cases.iter().map(zoned))?)
     }
 
     /// The zone of a machine, on the way of a search.
@@ -184,12 +184,18 @@ impl Problem {
     /// The best frequencies at many points, with zones of less accuracy: on the way of a search.
     fn at_batch(&self, points: &[Vec<f64>]) -> Vec<Result<Design, Infeasible>> {
         let cases = self.in_cases();
-        let own = self.zoned(points);
-        let others: Vec<_> = cases.iter().map(|case| case.zoned(points)).collect();
+        let own = self.zoned(points).into_iter();
+        let others = cases.iter().map(|case| case.zoned(points).into_iter());
+        let mut others: Vec<_> = others.collect();
+        let all = own.map(|own| {
+            let cases: Vec<_> = others.iter_mut().filter_map(Iterator::next).collect();
+            self.with_cases(own, cases)
+        });
+        let all: Vec<Result<Zoned, Infeasible>> = all.collect();
         let fork = SharedBudget::of_this_thread();
-        let designs = parallel::map_indices(points.len(), &|index| {
-            let cases = others.iter().map(|all| all[index].clone());
-            fork.run_part(|| self.best_of(own[index].clone(), cases))
+        let designs = parallel::map(&all, |zoned| match zoned {
+            Ok(zoned) => fork.run_part(|| line_search::best(zoned)),
+            Err(lack) => Err(lack.clone()),
         });
         fork.charge_parts();
         designs
@@ -206,15 +212,16 @@ impl Problem {
             .collect()
     }
 
-    fn best_of<'a>(
+    /// A machine of the drawing with the same one in each case.
+    fn with_cases<'a>(
         &self,
         own: Result<Zoned<'a>, Infeasible>,
         cases: impl IntoIterator<Item = Result<Zoned<'a>, Infeasible>>,
-    ) -> Result<Design, Infeasible> {
+    ) -> Result<Zoned<'a>, Infeasible> {
         let own = own?;
         let cases = cases.into_iter().zip(&self.cases);
         let cases = cases.map(|(it, stated)| it.map_err(|lack| lack.in_case(stated)));
-        line_search::best(&own.with_cases(cases.collect::<Result<_, _>>()?))
+        Ok(own.with_cases(cases.collect::<Result<_, _>>()?))
     }
 
     /// Whether the drawing's machine is as required, and stands where margin, frequency bounds and the zones of the machines

@@ -10,7 +10,6 @@ use super::space::Interval;
 use super::{Design, Infeasible, distance_from_zones, finite_or};
 
 /// A machine with its zone.
-#[derive(Clone)]
 pub(super) struct Zoned<'a> {
     pub problem: &'a Problem,
     pub machine: Machine,

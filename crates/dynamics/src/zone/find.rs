@@ -26,7 +26,7 @@ pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
 /// # Errors
 /// As [`find`]; [`OrbitError::Stopped`].
 pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, OrbitError> {
-    let (stable_ranges, _) = find_stable_ranges(scene, monitor)?;
+    let stable_ranges = find_stable_ranges(scene, monitor)?.ranges;
     find_among(scene, &stable_ranges, monitor)
 }
 

@@ -56,7 +56,7 @@ pub fn hysteresis_and_stable_ranges(
 ) -> (Result<Zone, ZoneError>, Result<Vec<StableRange>, ZoneError>) {
     let all = refuse_below(scene).and_then(|()| Ok(find_stable_ranges(scene, monitor)?));
     let (stable_ranges, singles) = match all {
-        Ok((stable_ranges, singles)) => (Ok(stable_ranges), singles),
+        Ok(found) => (Ok(found.ranges), found.singles_at_grazing),
         Err(error) => (Err(error), None),
     };
     (zone_with_singles(scene, singles, monitor), stable_ranges)

@@ -48,17 +48,23 @@ pub fn stable_ranges_with_monitor(
     monitor: Monitor<'_>,
 ) -> Result<Vec<StableRange>, ZoneError> {
     refuse_below(scene)?;
-    Ok(find_stable_ranges(scene, monitor)?.0)
+    Ok(find_stable_ranges(scene, monitor)?.ranges)
 }
 
-/// Stable ranges, and the z = 1 orbits at g0, those with the hardest impacts last, if they were searched.
-type StableRangesAndSingles = (Vec<StableRange>, Option<Vec<Orbit>>);
+/// The stable ranges of a scene, and what else their search finds.
+#[derive(Debug)]
+pub(super) struct FoundRanges {
+    /// In rising order of frequency.
+    pub ranges: Vec<StableRange>,
+    /// The z = 1 orbits at g0, those with the hardest impacts last, if they were searched.
+    pub singles_at_grazing: Option<Vec<Orbit>>,
+}
 
 /// Finds all stable ranges of a scene.
 pub(super) fn find_stable_ranges(
     scene: &Scene,
     monitor: Monitor<'_>,
-) -> Result<StableRangesAndSingles, OrbitError> {
+) -> Result<FoundRanges, OrbitError> {
     let scene = &scene.check()?;
     let family = Frequencies(scene);
     let continuation = Continuation::new(&family, 1);
@@ -66,7 +72,7 @@ pub(super) fn find_stable_ranges(
     let sizes = unknown_scales(scene);
     let mut branches: Vec<Branch> = Vec::new();
     let grazing = grazing_frequencies(scene).ok();
-    let mut at_grazing = None;
+    let mut singles_at_grazing = None;
     let mut frequencies = search_frequencies(scene, grazing);
     let mut next = 0;
     while let Some(&frequency) = frequencies.get(next).filter(|_| next < MAX_BRANCHES) {
@@ -78,7 +84,7 @@ pub(super) fn find_stable_ranges(
         )?);
         if grazing.is_some_and(|(_, above)| above == frequency) {
             let is_here = |orbit: &&Orbit| orbit.scene.excitation.frequency == frequency;
-            at_grazing = Some(met.iter().filter(is_here).cloned().collect());
+            singles_at_grazing = Some(met.iter().filter(is_here).cloned().collect());
         }
         while let Some(orbit) = met.pop_front().filter(|_| branches.len() < MAX_BRANCHES) {
             let frequency = orbit.scene.excitation.frequency;
@@ -123,7 +129,10 @@ pub(super) fn find_stable_ranges(
             distinct.push(one);
         }
     }
-    Ok((distinct, at_grazing))
+    Ok(FoundRanges {
+        ranges: distinct,
+        singles_at_grazing,
+    })
 }
 
 /// True if a point near the chord between two neighbours is not the one between them on their branch.

@@ -125,13 +125,13 @@ pub(crate) fn empty<'a, V: Into<Cow<'a, str>>>(
 }
 
 /// What writes the content of an element.
-type Content<'a> = &'a mut dyn FnMut(&mut Xml) -> io::Result<()>;
-/// Attributes as they are written.
-type Written<'a> = Vec<(&'static str, Cow<'a, str>)>;
+type ContentWriter<'a> = &'a mut dyn FnMut(&mut Xml) -> io::Result<()>;
+/// Names and values of attributes.
+type ElementAttributes<'a> = Vec<(&'static str, Cow<'a, str>)>;
 
 fn collect_attributes<'a, V: Into<Cow<'a, str>>>(
     attributes: impl IntoIterator<Item = (&'static str, V)>,
-) -> Written<'a> {
+) -> ElementAttributes<'a> {
     let attributes = attributes.into_iter();
     attributes
         .map(|(name, value)| (name, value.into()))
@@ -142,8 +142,8 @@ fn collect_attributes<'a, V: Into<Cow<'a, str>>>(
 fn write_element(
     xml: &mut Xml,
     name: &'static str,
-    attributes: Written<'_>,
-    content: Option<Content<'_>>,
+    attributes: ElementAttributes<'_>,
+    content: Option<ContentWriter<'_>>,
 ) -> io::Result<()> {
     let element = xml.create_element(name).with_attributes(attributes);
     match content {
