@@ -1,10 +1,10 @@
 //! States kept, written to bytes and taken up again, through the C functions.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
-use std::ffi::c_char;
+use std::ffi::{c_char, c_void};
 use std::ptr;
 
-use crate::common::{OK, OUTPUTS, Unit};
+use crate::common::{ERROR, OK, OUTPUTS, Unit};
 use softstop_fmi2::*;
 
 fn outputs(unit: &Unit) -> [u64; 9] {
@@ -95,6 +95,38 @@ fn damaged_bytes_are_refused() {
     unit.refused(unit.take_up(&[b'x'; 4096]), &["not written by softstop"]);
     assert_eq!(outputs(&unit), before);
     assert_eq!(unit.step(12.0, 1.0), OK);
+}
+
+/// What another FMU has kept begins with another GUID.
+#[test]
+fn states_of_another_fmu_are_refused() {
+    const GUID: usize = 8;
+    let unit = Unit::new();
+    unit.begin();
+    assert_eq!(unit.step(0.0, 1.0), OK);
+    let mut foreign = unit.keep();
+    let alter = |state: *mut c_void| unsafe { *state.cast::<u8>().add(GUID) ^= 1 };
+    alter(foreign);
+    let position = unit.get("position");
+    for status in unsafe {
+        [
+            fmi2SetFMUstate(unit.component, foreign),
+            fmi2GetFMUstate(unit.component, &raw mut foreign),
+            fmi2FreeFMUstate(unit.component, &raw mut foreign),
+        ]
+    } {
+        assert_eq!(status, ERROR);
+    }
+    let said = unit.take_log();
+    for function in ["fmi2SetFMUstate", "fmi2GetFMUstate", "fmi2FreeFMUstate"] {
+        let words = format!("{function}: the FMU state is of another FMU, or is none");
+        assert!(said.iter().any(|it| it.contains(&words)), "{said:?}");
+    }
+    alter(foreign);
+    assert_eq!(unit.step(1.0, 1.0), OK);
+    assert_eq!(unsafe { fmi2SetFMUstate(unit.component, foreign) }, OK);
+    assert_eq!(unit.get("position"), position);
+    unit.free(foreign);
 }
 
 #[test]

@@ -90,6 +90,8 @@ pub(crate) enum Fault {
     /// Bytes that are no snapshot of this unit.
     #[error("the serialized FMU state {0}")]
     Blob(&'static str),
+    #[error("the FMU state is of another FMU, or is none")]
+    ForeignState,
     #[error("kind {kind} has no {wanted} value")]
     StatusKind { kind: i32, wanted: &'static str },
     #[error(

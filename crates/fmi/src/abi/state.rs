@@ -1,29 +1,86 @@
 //! Snapshots that the importer holds, by a handle each.
+//!
+//! What a handle points to begins with the GUID of the unit: an importer may run several FMUs, and hand the state of one to
+//! another.
 
 use libc::c_void;
+use uuid::Uuid;
 
 use super::component::{Component, Host};
 use super::pointers::{read, write, write_one};
 use crate::fault::Fault;
+use crate::guid::library_uuid;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
 use crate::unit::Unit;
 
+/// Which unit a snapshot is of.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Origin {
+    marker: [u8; 8],
+    guid: Uuid,
+}
+
+impl Origin {
+    /// That of the snapshots of this library.
+    fn of_library<U: Unit>() -> Result<Self, Fault> {
+        Ok(Self {
+            marker: *b"softstop",
+            guid: library_uuid::<U>()?,
+        })
+    }
+}
+
 /// What a snapshot's handle points to.
+#[repr(C)]
+struct Snapshot<U: Unit> {
+    origin: Origin,
+    instance: Instance<U>,
+}
+
+impl<U: Unit> Snapshot<U> {
+    /// A handle of a new snapshot.
+    fn handle(instance: Instance<U>) -> Result<*mut c_void, Fault> {
+        let origin = Origin::of_library::<U>()?;
+        Ok(Box::into_raw(Box::new(Self { origin, instance })).cast())
+    }
+
+    /// What a handle points to; none if it is NULL.
+    ///
+    /// # Errors
+    /// [`Fault::ForeignState`] if it is of another unit.
+    ///
+    /// # Safety
+    /// NULL, or what [`keep`] or [`restore`] of any unit gave and nobody has freed.
+    unsafe fn of_handle<'a>(state: *mut c_void) -> Result<Option<&'a mut Self>, Fault> {
+        // SAFETY: by this function's contract; snapshots of all units begin with their origin.
+        match unsafe { state.cast::<Origin>().as_ref() } {
+            None => Ok(None),
+            Some(origin) if *origin != Origin::of_library::<U>()? => Err(Fault::ForeignState),
+            // SAFETY: it is a snapshot of this unit.
+            Some(_) => Ok(unsafe { state.cast::<Self>().as_mut() }),
+        }
+    }
+}
+
+/// The instance of a snapshot.
 ///
 /// # Safety
-/// NULL, or what [`keep`] or [`restore`] gave and nobody has freed.
+/// As [`Snapshot::of_handle`].
 unsafe fn kept<'a, U: Unit>(state: *mut c_void) -> Result<&'a Instance<U>, Fault> {
     // SAFETY: by this function's contract.
-    unsafe { state.cast::<Instance<U>>().as_ref() }.ok_or(Fault::Null {
+    let snapshot = unsafe { Snapshot::<U>::of_handle(state) }?;
+    let snapshot = snapshot.ok_or(Fault::Null {
         argument: "FMUstate",
-    })
+    })?;
+    Ok(&snapshot.instance)
 }
 
 /// Keeps a snapshot; one that was kept before is overwritten.
 ///
 /// # Safety
-/// NULL, or a place that holds NULL or a handle as [`kept`] takes.
+/// NULL, or a place that holds NULL or a handle as [`Snapshot::of_handle`] takes.
 pub(crate) unsafe fn keep<U: Unit, H: Host>(
     component: &Component<U, H>,
     state: *mut *mut c_void,
@@ -31,12 +88,12 @@ pub(crate) unsafe fn keep<U: Unit, H: Host>(
     // SAFETY: by this function's contract.
     let (state, kept) = unsafe {
         let state = write_one("FMUstate", state)?;
-        let kept = state.cast::<Instance<U>>().as_mut();
+        let kept = Snapshot::<U>::of_handle(*state)?;
         (state, kept)
     };
     match kept {
-        Some(kept) => kept.clone_from(&component.instance),
-        None => *state = Box::into_raw(Box::new(component.instance.clone())).cast(),
+        Some(kept) => kept.instance.clone_from(&component.instance),
+        None => *state = Snapshot::handle(component.instance.clone())?,
     }
     Ok(())
 }
@@ -44,7 +101,7 @@ pub(crate) unsafe fn keep<U: Unit, H: Host>(
 /// Goes back to a snapshot.
 ///
 /// # Safety
-/// As [`kept`].
+/// As [`Snapshot::of_handle`].
 pub(crate) unsafe fn go_back<U: Unit, H: Host>(
     component: &mut Component<U, H>,
     state: *mut c_void,
@@ -70,22 +127,23 @@ pub(crate) unsafe fn go_back<U: Unit, H: Host>(
 ///
 /// # Safety
 /// As [`keep`].
-pub(crate) unsafe fn free<U: Unit>(state: *mut *mut c_void) {
+pub(crate) unsafe fn free<U: Unit>(state: *mut *mut c_void) -> Result<(), Fault> {
     // SAFETY: by this function's contract; the handle is gone afterwards.
     unsafe {
         if let Some(state) = state.as_mut()
-            && !state.is_null()
+            && let Some(snapshot) = Snapshot::<U>::of_handle(*state)?
         {
-            drop(Box::from_raw(state.cast::<Instance<U>>()));
+            drop(Box::from_raw(snapshot));
             *state = std::ptr::null_mut();
         }
     }
+    Ok(())
 }
 
 /// How many bytes a snapshot takes.
 ///
 /// # Safety
-/// As [`kept`]; `size` is NULL or a place for a number.
+/// As [`Snapshot::of_handle`]; `size` is NULL or a place for a number.
 pub(crate) unsafe fn measure<U: Unit>(state: *mut c_void, size: *mut usize) -> Result<(), Fault> {
     // SAFETY: by this function's contract.
     unsafe { *write_one("size", size)? = kept::<U>(state)?.size_in_bytes()? };
@@ -95,7 +153,7 @@ pub(crate) unsafe fn measure<U: Unit>(state: *mut c_void, size: *mut usize) -> R
 /// Writes a snapshot as bytes; what is left of them becomes zero.
 ///
 /// # Safety
-/// As [`kept`]; `bytes` is NULL or a place for `size` bytes.
+/// As [`Snapshot::of_handle`]; `bytes` is NULL or a place for `size` bytes.
 pub(crate) unsafe fn store<U: Unit>(
     state: *mut c_void,
     bytes: *mut u8,
@@ -129,6 +187,6 @@ pub(crate) unsafe fn restore<U: Unit>(
         let state = write_one("FMUstate", state)?;
         (state, read("serializedState", bytes, size)?)
     };
-    *state = Box::into_raw(Box::new(Instance::<U>::from_bytes(bytes)?)).cast();
+    *state = Snapshot::handle(Instance::<U>::from_bytes(bytes)?)?;
     Ok(())
 }

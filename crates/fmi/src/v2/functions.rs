@@ -174,8 +174,7 @@ functions! { $ export_v2 v2 Importer;
 
     /// Frees a snapshot and sets its pointer to NULL; NULL is allowed.
     fn fmi2FreeFMUstate<U>(_component, state: *mut *mut c_void) {
-        state::free::<U>(state);
-        Ok(())
+        state::free::<U>(state)
     }
 
     /// How many bytes a snapshot takes.

@@ -220,8 +220,7 @@ functions! { $ export_v3 v3 Importer;
 
     /// Frees a snapshot and sets its pointer to NULL; NULL is allowed.
     fn fmi3FreeFMUState<U>(_component, state: *mut *mut c_void) {
-        state::free::<U>(state);
-        Ok(())
+        state::free::<U>(state)
     }
 
     /// How many bytes a snapshot takes.
