@@ -42,6 +42,14 @@ pub(super) const ROUGH: Effort = Effort {
     angles: ANGLES / 4,
 };
 
+/// Starts that are counted first: where they show that far too few lead to a motion, no more are.
+const FIRST_STARTS: usize = STARTS / 16;
+/// Exponent of e of the probability that so few of the first starts lead to a motion to which enough of all do.
+const HOPELESS_EXPONENT: f64 = 14.0;
+/// Decay a drive period, as an exponent, below which a basin test no longer follows all motions to their end (28 / 20,000): a
+/// start then takes so many periods that a share far too small is told by the first ones.
+const SLOW_DECAY: f64 = 1.4e-3;
+
 /// Corners of the tolerances at which trials are made, at most.
 const CORNERS: usize = 16;
 
@@ -149,7 +157,13 @@ impl Problem {
     /// The least share of starts that lead to the motion of a design, of its own machine or of those within the tolerances that
     /// are known, in all cases, by the lower end of its interval; none if a motion is lost.
     pub(super) fn least_certainty(&self, design: &Design, known: &CriticalMachines) -> Option<f64> {
-        let share = |orbit: &Orbit| Some(self.established(orbit, STARTS).ok()?.interval[0]);
+        let needed = self.least_share().unwrap_or(0.0);
+        let share = |orbit: &Orbit| {
+            let few = is_slow(orbit).then(|| self.established_too_rarely(orbit, needed));
+            let few = few.transpose().ok()?.flatten();
+            let starts = few.map_or_else(|| self.established(orbit, STARTS), Ok);
+            Some(starts.ok()?.interval[0])
+        };
         let mut least = f64::INFINITY;
         for it in self.operating_points(design) {
             least = least.min(share(&it.design.orbit)?);
@@ -216,6 +230,10 @@ impl Problem {
             false => met.is_met(),
         };
         if requirement.figure == Figure::Certainty && requirement.most.is_none() {
+            let least = requirement.least.unwrap_or(0.0);
+            if !matches!(self.established_too_rarely(orbit, least), Ok(None)) {
+                return false;
+            }
             let is_enough = |starts: &Establishment| {
                 is_met(&Met {
                     value: starts.share,
@@ -241,6 +259,16 @@ impl Problem {
     ) -> Result<Establishment, OrbitError> {
         let region = self.region(orbit)?;
         Establishment::within_region(orbit, &region, starts, &interrupt::watch)
+    }
+
+    /// What the first starts show of the share that leads to a motion, if that is certainly smaller than a share.
+    fn established_too_rarely(
+        &self,
+        orbit: &Orbit,
+        share: f64,
+    ) -> Result<Option<Establishment>, OrbitError> {
+        let first = self.established(orbit, FIRST_STARTS)?;
+        Ok(Some(first).filter(|it| is_hopeless((it.share, FIRST_STARTS), share)))
     }
 
     /// Whether the share of starts that lead to a motion is enough, without counting all of them.
@@ -274,12 +302,34 @@ impl OperatingPoint<'_> {
         own.collect()
     }
 
+    /// The certainty that is required, as the first starts show it, if motions decay so slowly that to follow all would take
+    /// minutes and it is certainly too small.
+    fn too_rare(&self) -> Result<Option<Met>, OrbitError> {
+        let (case, orbit) = (self.case, &self.design.orbit);
+        let mut required = self.problem.trials();
+        let required = required.find(|it| it.figure == Figure::Certainty && it.least.is_some());
+        let Some(requirement) = required.filter(|_| is_slow(orbit)) else {
+            return Ok(None);
+        };
+        let least = requirement.least.unwrap_or(0.0);
+        let few = self.problem.established_too_rarely(orbit, least)?;
+        Ok(few.map(|starts| Met {
+            case,
+            value: starts.share,
+            starts: Some(starts),
+            ..Met::of(*requirement)
+        }))
+    }
+
     /// What it has of the requirements that take many motions, if it meets them.
     fn pass_trials(&self, known: &mut CriticalMachines) -> Result<Vec<Met>, Infeasible> {
         let (problem, design) = (&self.problem, self.design);
-        let mut own = self.tried().map_err(Infeasible::unknown)?;
-        let failed = own.iter().filter(|it| !it.is_met());
-        known.failed.extend(failed.map(|it| it.requirement.figure));
+        let few = self.too_rare().map_err(Infeasible::unknown)?;
+        let own = few.map_or_else(|| self.tried(), |few| Ok(vec![few]));
+        let mut own = own.map_err(Infeasible::unknown)?;
+        for met in own.iter().filter(|it| !it.is_met()) {
+            known.note_failed_trial(met.requirement.figure);
+        }
         if !own.iter().all(Met::is_met) {
             return Err(Infeasible {
                 gap: violation(&own),
@@ -294,7 +344,7 @@ impl OperatingPoint<'_> {
             let mut within = met.within.iter();
             if let Some(Within { worst, at }) = within.find(|it| !requirement.is_met(it.worst)) {
                 known.tried.push(at.clone());
-                known.failed.push(requirement.figure);
+                known.note_failed_trial(requirement.figure);
                 return Err(Infeasible {
                     gap: requirement.violation(*worst),
                     reason: violated_within(&design.machine, requirement, *worst),
@@ -303,6 +353,23 @@ impl OperatingPoint<'_> {
         }
         Ok(own)
     }
+}
+
+/// Whether motions near an orbit decay so slowly that a basin test does not follow all of them to their end.
+fn is_slow(orbit: &Orbit) -> bool {
+    let slowest = orbit.multipliers()[0].norm();
+    -slowest.ln() < SLOW_DECAY * orbit.periods as f64
+}
+
+/// Whether so small a share of so many starts would be met with a probability of less than `e^-14` if a share of all that is
+/// least led to the motion (Chernoff 1952).
+fn is_hopeless((share, starts): (f64, usize), least: f64) -> bool {
+    let part = |own: f64, other: f64| match own {
+        0.0 => 0.0,
+        own => own * (own / other).ln(),
+    };
+    let divergence = part(share, least) + part(1.0 - share, 1.0 - least);
+    share < least && starts as f64 * divergence > HOPELESS_EXPONENT
 }
 
 /// Strips in a row that may be missing, as many as are asked for at most.
@@ -321,4 +388,18 @@ fn survived(requirement: &Requirement, orbit: &Orbit, angles: usize) -> Result<u
         }
     }
     Ok(most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_hopeless;
+
+    #[test]
+    fn only_a_share_far_below_is_hopeless() {
+        assert!(is_hopeless((0.0, 64), 0.2));
+        assert!(is_hopeless((0.5, 64), 0.9) && is_hopeless((0.5, 64), 1.0));
+        assert!(!is_hopeless((0.0, 64), 0.1));
+        assert!(!is_hopeless((0.15, 64), 0.2) && !is_hopeless((0.3, 64), 0.2));
+        assert!(!is_hopeless((1.0, 64), 1.0));
+    }
 }
