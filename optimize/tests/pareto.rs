@@ -171,6 +171,54 @@ fn the_ends_of_a_front_are_the_designs_by_each_objective_alone() -> Outcome {
     Ok(())
 }
 
+/// What a search by one of three objectives finds with bounds of the others, a design of their front has nearly.
+#[test]
+fn a_front_of_three_leaves_no_gap_in_which_single_searches_find_designs() -> Outcome {
+    let traded = vec![
+        objective(Figure::FrequencySn, Sense::Least),
+        objective(Figure::StopForce, Sense::Most),
+    ];
+    let of_three = Problem {
+        margin: 0.25,
+        requirements: Vec::new(),
+        axes: vec![
+            Axis::new(Parameter::Clearance, Interval::new(4.0, 20.0)),
+            Axis::new(Parameter::Damping, Interval::new(0.02, 0.1)),
+        ],
+        ..problem(traded)?
+    };
+    let front = front(&of_three)?;
+    is_front(&of_three, &front)?;
+    let range = |index: usize| {
+        let values = || front.points.iter().map(|it| it.values[index]);
+        let low = values().fold(f64::INFINITY, f64::min);
+        (low, values().fold(f64::NEG_INFINITY, f64::max))
+    };
+    for share in [0.1, 0.2, 0.3, 0.5, 0.7, 0.9] {
+        let (low, high) = range(0);
+        let bound = low + share * (high - low);
+        let softest = Problem {
+            objective: objective(Figure::StopForce, Sense::Most),
+            traded: Vec::new(),
+            requirements: vec![Requirement::at_least(Figure::Velocity, bound)],
+            ..of_three.clone()
+        };
+        let best = search(&softest, SETTINGS, &Unwatched, None)?.design.value;
+        let (least, most) = range(2);
+        let is_beside = |values: &[f64]| {
+            (values[0] - bound).abs() < 0.12 * (high - low)
+                && values[2] - best < 0.15 * (most - least)
+        };
+        let all = front.points.iter().map(|it| &it.values);
+        assert!(
+            all.clone().any(|it| is_beside(it)),
+            "{bound} {best}: {:?}",
+            all.collect::<Vec<_>>()
+        );
+    }
+    Ok(())
+}
+
 #[test]
 fn designs_of_a_front_keep_their_tolerances() -> Outcome {
     let worst = |figure, sense| Objective {

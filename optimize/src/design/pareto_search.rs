@@ -1,6 +1,6 @@
 //! The search of a front: the best design by each objective alone, then the best by one of them with bounds of the others (the
 //! epsilon-constraint method, Haimes, Lasdon and Wismer 1971). Of two objectives one is bounded in the middle of the widest gap
-//! between designs, of more all but the first on a lattice. A problem whose solution follows from a looser one is not searched
+//! between designs, of more all but the first on a lattice, then one in the middle of the widest gaps. A problem whose solution follows from a looser one is not searched
 //! (Mavrotas 2009).
 
 use softstop_dynamics::parallel;
@@ -12,8 +12,9 @@ use super::problem::{Objective, Problem};
 use super::search::{Found, LEAST_EVALUATIONS, Quiet, SearchError, Settings, Watch, search_from};
 use crate::order::sort_rising;
 
-/// Problems of two objectives, and those of them that are solved at once.
+/// Problems in gaps between designs of two objectives and, beside a lattice, of more; those of them that are solved at once.
 const PROBLEMS: usize = 14;
+const PROBLEMS_BESIDE_LATTICE: usize = 12;
 const AT_ONCE: usize = 2;
 /// Share of the evaluations of a search that each problem with bounds may take: its neighbours are solved.
 const SHARE: u64 = 4;
@@ -55,8 +56,15 @@ impl Pareto {
         search.find_anchors(first)?;
         search.refine_anchors();
         match objectives.len() {
-            2 => search.fill_gaps(),
-            _ => search.solve_lattice(),
+            2 => search.fill_gaps(PROBLEMS, |ranges, points, all| {
+                ranges.widest_gaps(points, all)
+            }),
+            _ => {
+                search.solve_lattice();
+                search.fill_gaps(PROBLEMS_BESIDE_LATTICE, |ranges, points, all| {
+                    ranges.widest_marginal_gaps(&points, all)
+                });
+            }
         }
         search.exchange();
         let (solved, tally) = (search.solved.into_iter(), search.tally);
@@ -86,7 +94,7 @@ impl ParetoSearch<'_> {
         self.tally.problems = 2 * count
             + match count {
                 2 => PROBLEMS,
-                _ => (levels(count) + 1).pow(count as u32 - 1) - 1,
+                _ => (levels(count) + 1).pow(count as u32 - 1) - 1 + PROBLEMS_BESIDE_LATTICE,
             };
         let alone = |objective| Posed {
             objective,
@@ -156,12 +164,17 @@ impl ParetoSearch<'_> {
         self.failed.push(posed);
     }
 
-    /// The best designs by one of two objectives with a bound of the other, in the middle of the widest gaps.
-    fn fill_gaps(&mut self) {
+    /// The best designs by one objective with a bound of another one in the middle of the widest gaps between designs, so many at
+    /// most.
+    fn fill_gaps(
+        &mut self,
+        most: usize,
+        widest_gaps: impl Fn(&Ranges, Vec<Vec<f64>>, &[Posed]) -> Vec<Posed>,
+    ) {
         let mut all: Vec<Posed> = Vec::new();
-        while all.len() < PROBLEMS && !self.watch.stop() {
-            let mut next = self.ranges.widest_gaps(self.undominated(), &all);
-            next.truncate(AT_ONCE.min(PROBLEMS - all.len()));
+        while all.len() < most && !self.watch.stop() {
+            let mut next = widest_gaps(&self.ranges, self.undominated(), &all);
+            next.truncate(AT_ONCE.min(most - all.len()));
             if next.is_empty() {
                 break;
             }
@@ -169,16 +182,16 @@ impl ParetoSearch<'_> {
             self.solve_all(next);
         }
         if !self.watch.stop() {
-            self.tally.problems -= PROBLEMS - all.len();
+            self.tally.problems -= most - all.len();
         }
     }
 
-    /// The values of the designs of two objectives that no other one dominates.
-    fn undominated(&self) -> Vec<[f64; 2]> {
+    /// The values of the designs that no other one dominates.
+    fn undominated(&self) -> Vec<Vec<f64>> {
         let all = self.solved.iter().map(|it| &it.alternative);
         let members = undominated(all, self.objectives).members.into_iter();
-        let values = members.map(|index| &self.solved[index].alternative.values);
-        values.map(|it| [it[0], it[1]]).collect()
+        let values = members.map(|index| self.solved[index].alternative.values.clone());
+        values.collect()
     }
 
     /// The best designs by the first objective with so many bounds of each other one, the loosest first: those of one sum of

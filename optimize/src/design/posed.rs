@@ -9,6 +9,9 @@ const LEVELS: [usize; 3] = [5, 2, 1];
 /// Gap between designs of two objectives, in units of their ranges, that needs no design.
 const SMALL_GAP: f64 = 0.04;
 
+/// Gap between the values of one of several objectives, as a share of its range, that needs no design.
+const SMALL_MARGINAL_GAP: f64 = 0.15;
+
 /// Bounds of each objective but the first, of so many.
 pub(super) fn levels(objectives: usize) -> usize {
     LEVELS[(objectives - 3).min(LEVELS.len() - 1)]
@@ -47,7 +50,7 @@ impl Ranges {
     }
 
     /// Problems in the middle of the gaps between designs of two objectives, the widest first, but for those that were posed.
-    pub fn widest_gaps(&self, mut points: Vec<[f64; 2]>, posed: &[Posed]) -> Vec<Posed> {
+    pub fn widest_gaps(&self, mut points: Vec<Vec<f64>>, posed: &[Posed]) -> Vec<Posed> {
         sort_rising(&mut points, |it| it[0]);
         let mut gaps: Vec<(f64, Posed)> = Vec::new();
         for pair in points.windows(2) {
@@ -67,6 +70,34 @@ impl Ranges {
                     .filter(|_| width > SMALL_GAP)
                     .map(|it| (width, it)),
             );
+        }
+        sort_falling(&mut gaps, |it| it.0);
+        gaps.into_iter().map(|(_, it)| it).collect()
+    }
+
+    /// Problems in the middle of the gaps between the values that designs of several objectives have of each, the widest first,
+    /// but for those that were posed: of the objective that the worse end of the gap has most more of.
+    pub fn widest_marginal_gaps(&self, points: &[Vec<f64>], posed: &[Posed]) -> Vec<Posed> {
+        let count = self.0.len();
+        let mut gaps: Vec<(f64, Posed)> = Vec::new();
+        for bounded in 0..count {
+            let mut sorted: Vec<&Vec<f64>> = points.iter().collect();
+            sort_rising(&mut sorted, |it| self.scaled(bounded, it[bounded]));
+            for pair in sorted.windows(2) {
+                let gain = |index: usize| {
+                    self.scaled(index, pair[0][index]) - self.scaled(index, pair[1][index])
+                };
+                let others = (0..count).filter(|index| *index != bounded);
+                let objective = others.max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
+                let middle = 0.5 * (pair[0][bounded] + pair[1][bounded]);
+                let new = Posed {
+                    objective: objective.unwrap_or(0),
+                    ..Posed::of_bound(count, bounded, middle)
+                };
+                if -gain(bounded) > SMALL_MARGINAL_GAP && !posed.contains(&new) {
+                    gaps.push((-gain(bounded), new));
+                }
+            }
         }
         sort_falling(&mut gaps, |it| it.0);
         gaps.into_iter().map(|(_, it)| it).collect()
