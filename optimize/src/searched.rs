@@ -10,7 +10,7 @@ use softstop_console::number::NumberStyle::Six;
 use softstop_console::record::Record;
 
 use crate::design::Problem;
-use crate::design::search::{Ascents, Resolution};
+use crate::design::search::{Ascents, EVALUATIONS_PER_START, Resolution};
 use crate::design::space::Axis;
 use crate::optimize::outcome::{Interrupted, Outcome};
 
@@ -96,14 +96,22 @@ impl SearchReport {
                 Six.format(100.0 * it.place)
             )
         });
-        let Ascents { made, idle } = self.ascents;
+        let Ascents {
+            made,
+            idle,
+            left_out,
+        } = self.ascents;
         let ended = self.interrupted.is_none().then(|| {
             let zones = format!("{} of {} zones", self.evaluations_used, self.evaluations);
-            let why = match idle {
-                0 => "no further start is left within them".to_owned(),
-                idle => format!("the last {idle} bettered nothing"),
+            let why = match (idle, left_out) {
+                (0, 0) => "the survey has no further start; more evaluations make it finer".to_owned(),
+                (0, left_out) => format!(
+                    "each ascent counts as {EVALUATIONS_PER_START} zones, so that {left_out} further starts are left out; more \
+                     evaluations take them up"
+                ),
+                (idle, _) => format!("the last {idle} bettered nothing"),
             };
-            format!("Ended after {zones} and {made} ascents: {why}.\n")
+            format!("Ended after a survey of {zones} and {made} ascents: {why}.\n")
         });
         let all = interrupted.into_iter().chain(ended);
         all.chain(resolution).collect()

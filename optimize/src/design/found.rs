@@ -54,6 +54,8 @@ pub struct Ascents {
     pub made: usize,
     /// The last of them, as many as have bettered nothing.
     pub idle: usize,
+    /// Distant points with a motion from which none was made, for the evaluations did not suffice.
+    pub left_out: usize,
 }
 
 impl Found {

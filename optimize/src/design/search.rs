@@ -37,10 +37,10 @@ pub const LEAST_EVALUATIONS: u64 = 100;
 /// Share of the evaluations that the survey takes for each coordinate, as 1 / share, and of all coordinates at most.
 const SURVEY: u64 = 15;
 const LARGEST_SURVEY: u64 = 3;
-/// Points from which ascents start at once: where as many better nothing, no more are made. What each may take of the
-/// evaluations that the survey leaves.
+/// Points from which ascents start at once: where as many better nothing, no more are made.
 const STARTS: usize = 4;
-const EVALUATIONS_PER_START: u64 = 80;
+/// What each ascent counts of the evaluations that the survey leaves.
+pub const EVALUATIONS_PER_START: u64 = 80;
 /// The cost of a point that has no motion to begin with.
 const DISTANT: f64 = 10.0;
 /// Designs whose catalogues and trials are looked at, at most, until one passes.
@@ -191,10 +191,12 @@ impl<'a> Search<'a> {
         let mut apart: Vec<Point> = Vec::new();
         for point in &points {
             let is_new = apart.iter().all(|other| is_apart(&other.unit, &point.unit));
-            if apart.len() < most && is_new && point.cost < DISTANT {
+            if is_new && point.cost < DISTANT {
                 apart.push(point.clone());
             }
         }
+        let left_out = apart.len().saturating_sub(most);
+        apart.truncate(most);
         let known = CriticalMachines::default();
         let given = parallel::filter_map(starts, |(unit, place)| {
             survey.charged(|| ascend_from(problem, &known, (unit, *place)))
@@ -207,7 +209,10 @@ impl<'a> Search<'a> {
             spare: apart,
             robust: Vec::new(),
             lack: None,
-            ascents: Ascents::default(),
+            ascents: Ascents {
+                left_out,
+                ..Ascents::default()
+            },
         };
         search.ascend_from_spare();
         search.sort();
