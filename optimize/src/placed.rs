@@ -1,13 +1,14 @@
 //! Where a design stands among the motions that were searched, and what that means for starting it.
 
-use softstop::Parameter;
+use softstop::{Dimension, Parameter};
 use softstop_console::column::{Column, Told};
 use softstop_console::columns;
 use softstop_console::number::NumberStyle::Six;
 use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::Test;
-use softstop_dynamics::zone::ZoneEnd;
+use softstop_dynamics::zone::{ZoneEnd, ZoneKind};
 
+use crate::design::conflict::short;
 use crate::design::{Design, Problem};
 use crate::limits::{Limit, end_name};
 
@@ -49,6 +50,36 @@ pub(crate) fn sentences(design: &Design) -> String {
         100.0 * design.place,
         starting(design)
     )
+}
+
+/// Width of a zone, as a share of its frequency, below which hardly a drive keeps within it.
+const NARROW: f64 = 1e-3;
+
+/// Warns of a zone that is so narrow that hardly a drive keeps within it, unless the bounds of the frequency make it so.
+pub(crate) fn warning(design: &Design) -> Option<String> {
+    let Zone {
+        kind, low, high, ..
+    } = &design.zone;
+    let (low, high) = (low.frequency, high.frequency);
+    let name = design.machine.name(Parameter::Frequency);
+    let remedy = match kind {
+        ZoneKind::Hysteresis => "require.margin_g0, the least distance from g0,".to_owned(),
+        ZoneKind::SingleImpact { between } if between.0 < low && high < between.1 => {
+            format!("tolerance.{name}, what the drive keeps to,")
+        }
+        ZoneKind::SingleImpact { .. } => return None,
+    };
+    let share = (high - low) / high;
+    (share < NARROW).then(|| {
+        let width = design.own_frequency(high - low);
+        let unit = design.machine.unit(Dimension::Frequency);
+        let width = format!("{} {unit}", short(width));
+        format!(
+            "the zone is {} wide, {} of its frequency: hardly a drive keeps within it; {remedy} excludes zones as narrow",
+            width.trim_end(),
+            short(share)
+        )
+    })
 }
 
 /// g0 in rad/s, if there is one.

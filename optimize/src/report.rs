@@ -56,6 +56,9 @@ pub struct OptimizeReport {
     /// Keys of what was searched and changes nothing of what is sought and required of the motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     without_effect: Vec<&'static str>,
+    /// What its user should know before it is built.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
     /// What was required, and what the design has of it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     requirements: Vec<Record>,
@@ -150,6 +153,7 @@ impl OptimizeReport {
             comparison: comparison(problem, design, references),
             limits,
             without_effect: idle.collect(),
+            warnings: placed::warning(design).into_iter().collect(),
             requirements: met.collect(),
             cases: cases::records(problem, design, study),
             rivals: rivals.collect(),
@@ -197,6 +201,9 @@ impl OptimizeReport {
     /// Where the design stands, and what holds it back.
     fn stands(&self) -> String {
         let mut text = format!("\n{}", self.stands);
+        for warning in &self.warnings {
+            text += &format!("Warning: {warning}.\n");
+        }
         if !self.limits.is_empty() {
             let limits: Vec<&str> = self.limits.iter().map(|it| it.words.as_str()).collect();
             text += &format!("Held back by: {}.\n", limits.join("; "));

@@ -6,7 +6,7 @@ use std::path::Path;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use serde_json::Value;
-use softstop_testing::files;
+use softstop_testing::{files, words};
 
 use crate::{Outcome, SOFTSTOP};
 
@@ -317,6 +317,36 @@ fn files_in_place_of_older_ones_and_removed_ones_are_told() -> Outcome {
     assert_eq!(second.matches(" (of an earlier run)").count(), tables - 5);
     assert_eq!(files(folder.path()).len(), 5 + 1);
     assert!(own.exists());
+    Ok(())
+}
+
+/// A soft stop without preload: a zone of 3e-4 of its frequency.
+#[test]
+fn a_zone_that_hardly_a_drive_can_hold_is_warned_of() -> Outcome {
+    let machine = "loaded --vary clearance=12 --vary stop.stiffness=1 --set stop.preload=0";
+    let written = optimize(&words(machine))?;
+    let warning = written.report["warnings"][0].as_str().ok_or("a warning")?;
+    assert!(warning.starts_with("the zone is "), "{warning}");
+    assert!(warning.contains("of its frequency: hardly a drive keeps within it"));
+    assert!(warning.contains("require.margin_g0"), "{warning}");
+    assert!(written.text.contains(&format!("Warning: {warning}.")));
+    assert_eq!(
+        written
+            .page
+            .matches("hardly a drive keeps within it")
+            .count(),
+        1
+    );
+    Ok(())
+}
+
+#[test]
+fn starts_that_the_evaluations_leave_out_are_counted() -> Outcome {
+    let written = optimize(&["loaded", "--no-report"])?;
+    assert_eq!(written.report["search"]["ascents"]["left_out"], 2);
+    let told = "each ascent counts as 80 zones, so that 2 further starts are left out";
+    assert!(written.text.contains(told), "{}", written.text);
+    assert_eq!(written.report.get("warnings"), None);
     Ok(())
 }
 
