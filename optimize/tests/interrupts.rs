@@ -111,7 +111,12 @@ const DESIGN: [&str; 6] = [
 fn the_best_design_so_far_is_written() -> Outcome {
     let task = "machine = \"loaded\"\n[vary]\nstop.stiffness = [1, 30]\nclearance = [2, 22]\ndamping = [0.01, 0.05]\n\
                 [search]\nevaluations = 4000000\n";
-    for (require, is_met) in [("", true), ("[require]\nvelocity = 1000\n", false)] {
+    let certain = "[require]\ncertainty = 0.9999\n";
+    for (require, is_met) in [
+        ("", true),
+        ("[require]\nvelocity = 1000\n", false),
+        (certain, false),
+    ] {
         let folder = tempfile::tempdir()?;
         let out = folder.path().join("out");
         fs::write(folder.path().join("task.toml"), format!("{task}{require}"))?;
@@ -137,6 +142,10 @@ fn the_best_design_so_far_is_written() -> Outcome {
         left.sort();
         if !is_met {
             assert_eq!(left, ["optimize.part"], "{said}");
+            assert!(
+                said.contains("no design met so far is as required"),
+                "{said}"
+            );
             continue;
         }
         assert!(said.contains("best design so far is written"), "{said}");

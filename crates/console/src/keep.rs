@@ -56,8 +56,8 @@ impl Keep {
     /// The file `NAME.part` in a folder, for a run of these settings. Without `--resume` an older one is taken away.
     ///
     /// # Errors
-    /// [`Failure::Usage`] if the run to go on with is another one; [`Failure::Run`] if its file cannot be read, or that
-    /// run goes on.
+    /// [`Failure::Usage`] if the run to go on with is another one; [`Failure::Run`] if its file cannot be read or is no run's,
+    /// or that run goes on.
     pub fn open(
         folder: &Path,
         name: &str,
@@ -79,12 +79,15 @@ impl Keep {
             (Err(error), _) if error.kind() == ErrorKind::NotFound => {}
             (Ok(None), _) => return Err(lock::refusal(&keep.path)),
             (Ok(Some(file)), true) => keep.restore(file)?,
-            (Err(error), true) => {
+            // What cannot be taken away cannot be written, which is said then.
+            (Ok(Some(_)), false) => drop(fs::remove_file(&keep.path)),
+            (Err(error), false) if error.kind() != ErrorKind::InvalidData => {
+                drop(fs::remove_file(&keep.path));
+            }
+            (Err(error), _) => {
                 let error = anyhow!(error).context(format!("cannot read {place}"));
                 return Err(Failure::Run(error));
             }
-            // What cannot be taken away cannot be written, which is said then.
-            (_, false) => drop(fs::remove_file(&keep.path)),
         }
         Ok(keep)
     }

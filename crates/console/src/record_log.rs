@@ -57,9 +57,37 @@ impl RecordLog {
     /// The file that is there, not yet read; none if a run that lives has it.
     ///
     /// # Errors
-    /// What the system says; [`io::ErrorKind::NotFound`].
+    /// What the system says; [`io::ErrorKind::NotFound`]; [`io::ErrorKind::InvalidData`] if no run has written it.
     pub fn open(path: &Path) -> io::Result<Option<Self>> {
-        Ok(lock::open(path, false)?.map(|locked| Self::of(path, locked.file)))
+        let Some(locked) = lock::open(path, false)? else {
+            return Ok(None);
+        };
+        let mut log = Self::of(path, locked.file);
+        match log.begins_as_one()? {
+            true => Ok(Some(log)),
+            false => Err(io::Error::new(
+                io::ErrorKind::InvalidData,
+                "no run has written it: move it away",
+            )),
+        }
+    }
+
+    /// Whether the file is empty, or begins with a record without a key, whole or cut off.
+    fn begins_as_one(&mut self) -> io::Result<bool> {
+        let length = self.file.seek(SeekFrom::End(0))?;
+        self.file.seek(SeekFrom::Start(0))?;
+        let mut head = Vec::new();
+        Read::by_ref(&mut self.file)
+            .take(HEAD as u64)
+            .read_to_end(&mut head)?;
+        let piece = head.last_chunk().copied().map_or(0, u32::from_le_bytes);
+        let is_cut_off = head.len() < HEAD || HEAD as u64 + u64::from(piece) > length;
+        self.file.seek(SeekFrom::Start(0))?;
+        Ok(match head.get(4..8) {
+            None => head.is_empty(),
+            Some(key) if key != [0; 4] => false,
+            Some(_) => is_cut_off || next(&mut self.file, 0, length)?.is_some(),
+        })
     }
 
     fn of(path: &Path, file: File) -> Self {

@@ -3,7 +3,7 @@
 use anyhow::anyhow;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::keep::Keep;
+use softstop_console::keep::{KEPT, Keep};
 use softstop_dynamics::basin::{ErosionProfile, zone_box};
 use softstop_dynamics::run_up::{RunUp, RunUpSettings};
 
@@ -45,7 +45,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
             fronts: Vec::new(),
             pareto: None,
         },
-        Err(SearchError::Stopped(None)) => return Err(Failure::Interrupted),
+        Err(SearchError::Stopped(None)) => return Err(interrupted_without_design()),
         Err(SearchError::OverBudget) => return Err(anyhow!(job.budget.refusal()).into()),
         Err(error) => return Err(Failure::Run(error.into())),
     };
@@ -64,7 +64,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     // Of an unfinished search nothing is written that is not as asked.
     let is_whole = |design: &Design| met.iter().all(Met::is_met) && problem.has_box(design).is_ok();
     if interrupted == Some(Interrupted::Search) && !is_whole(&solution.found.design) {
-        return Err(Failure::Interrupted);
+        return Err(interrupted_without_design());
     }
     if let (Some(front), None) = (&mut solution.pareto, interrupted) {
         pareto::judge(problem, front);
@@ -95,6 +95,19 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         evaluations,
         interrupted,
     })
+}
+
+/// What is said of a search that is ended before it has met a design that is as asked.
+const NO_DESIGN: &str = "interrupted: no design met so far is as required, so none is written; what is done is kept, and the same line \
+                         with --resume goes on from there";
+
+/// Ends an interrupted run, whose closing words say why no design is written beside what is kept.
+fn interrupted_without_design() -> Failure {
+    let mut under_way = interrupt::under_way();
+    if under_way.closing() == KEPT {
+        under_way.close_with(NO_DESIGN);
+    }
+    Failure::Interrupted
 }
 
 /// The integrity along the zone of a design and at the design itself, by the starts that requirements count.
