@@ -19,8 +19,8 @@ use crate::robust::{self, Verdict, normal_quantile, verify_in_cases};
 /// Boxes that are tried at most, and the widest in standard deviations.
 const ROUNDS: usize = 16;
 const WIDEST: f64 = 8.0;
-/// Where the machines that decide begin: they are others than those of the report.
-const OTHERS: usize = 1 << 26;
+/// Machines that a report looks at, at most; those that decide are others, which begin there.
+pub const MAX_MACHINES: usize = 1 << 26;
 /// Part of the machines that is counted first, and the share of what is allowed below which it decides.
 const PART: usize = 16;
 const FAR: f64 = 0.8;
@@ -55,7 +55,7 @@ impl Problem {
         let count = |machines| {
             let settings = robust::Settings {
                 machines,
-                first: OTHERS,
+                first: MAX_MACHINES,
                 ..robust::Settings::default()
             };
             let verdict = verify_in_cases(&drawn, (settings, &required), &interrupt::watch);

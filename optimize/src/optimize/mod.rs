@@ -5,6 +5,7 @@ mod cost;
 mod met;
 mod objective;
 pub mod outcome;
+mod packing;
 mod pareto;
 mod progress;
 pub mod reference;
@@ -22,7 +23,8 @@ mod ways;
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::{Dimension, Machine, Start};
+use clap::builder::RangedU64ValueParser;
+use softstop::{Machine, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::budget::Budget;
 use softstop_console::export::Export;
@@ -31,15 +33,15 @@ use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::{self, Format};
 use softstop_console::scene_file;
-use softstop_dynamics::zone::ZoneKind;
 use softstop_explore::prove::{ProofReport, can_be_proven};
 
-use crate::design::Problem;
+use crate::design::share::MAX_MACHINES;
 use crate::fmu::{Standard, archive, library, parameters};
 use crate::page::figures::{self, figures, response};
 use crate::page::html;
 use crate::report::OptimizeReport;
 use outcome::Outcome;
+use packing::{can_be_packed, named};
 use solve::solve;
 use task::Job;
 use vary::Variable;
@@ -145,6 +147,7 @@ pub struct OptimizeArguments {
     pub evaluations: Option<u64>,
     /// Machines looked at within the tolerances
     #[arg(long, value_name = "N", default_value_t = 1 << 20)]
+    #[arg(value_parser = RangedU64ValueParser::<usize>::new().range(..=MAX_MACHINES as u64))]
     pub samples: usize,
     /// Work that survey and ascents of the search may cost, in millions of scan windows for each of
     /// --evaluations; a search that would cost more is refused, the same on every computer
@@ -179,7 +182,7 @@ const FILES: [(&str, &str); 8] = [
 /// Searches, prints and writes the files.
 pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let mut job = Job::new(arguments)?;
-    can_be_packed(&job.problem.machine)?;
+    can_be_packed(&job.problem)?;
     if arguments.prove {
         can_be_proven(&job.problem.machine)?;
     }
@@ -287,48 +290,4 @@ fn look_at(job: &Job, outcome: &Outcome, is_whole: bool) -> Result<OptimizeRepor
         report.figures = figures(problem, outcome, study);
     }
     Ok(report)
-}
-
-/// Refuses a machine whose design no FMU could hold, before it is searched.
-fn can_be_packed(machine: &Machine) -> Result<(), Failure> {
-    let design = Machine {
-        name: Some(design_name(machine)),
-        description: None,
-        ..machine.clone()
-    };
-    let packed = parameters(&design, machine.start);
-    packed.map(drop).map_err(|error| {
-        let name = machine.name.as_deref().unwrap_or_default();
-        Failure::usage(format!("name = {name:?}: its design: {error:#}"))
-    })
-}
-
-fn design_name(machine: &Machine) -> String {
-    format!("{} design", machine.name.as_deref().unwrap_or("machine"))
-}
-
-/// The design's machine under the name of a design.
-fn named(problem: &Problem, outcome: &Outcome) -> Machine {
-    let design = outcome.design();
-    let interrupted = outcome.interrupted.map(|it| format!(" ({})", it.words()));
-    let words = problem.words();
-    let zone = match problem.zone {
-        ZoneKind::Hysteresis => "inside its hysteresis zone",
-        ZoneKind::SingleImpact { .. } => "of stable z = 1",
-    };
-    let machine = &design.machine;
-    let own = |value: f64, dimension| {
-        let value = format!("{value:.6} {}", machine.unit(dimension));
-        value.trim_end().to_owned()
-    };
-    Machine {
-        name: Some(design_name(machine)),
-        description: Some(format!(
-            "Design with the {words} {zone}: drive frequency {}, before-impact velocity {}{}",
-            own(design.frequency(), Dimension::Frequency),
-            own(design.before_impact_velocity(), Dimension::Velocity),
-            interrupted.unwrap_or_default()
-        )),
-        ..machine.clone()
-    }
 }
