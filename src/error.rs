@@ -142,7 +142,7 @@ pub enum MachineError {
         source: SceneError,
     },
     /// A value that is no number.
-    #[error("{}{key} = {value}: must be a number", line_prefix(*line))]
+    #[error("{}{key} = {value}: must be a number{}", line_prefix(*line), rpm_value_hint(value))]
     NotANumber {
         /// Its line in the file.
         line: Option<usize>,
@@ -152,7 +152,7 @@ pub enum MachineError {
         value: String,
     },
     /// An expression that gives no value of a parameter.
-    #[error("{}{key} = {text:?}: {what}", line_prefix(*line))]
+    #[error("{}{key} = {text:?}: {what}{}", line_prefix(*line), rpm_value_hint(text))]
     Expression {
         /// Its line in the file.
         line: Option<usize>,
@@ -217,6 +217,16 @@ pub fn plain_number(value: f64) -> String {
 /// The number of a line, before an error in it.
 fn line_prefix(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))
+}
+
+/// How revolutions per minute are stated, if a text speaks of them in place of a number.
+pub fn rpm_value_hint(text: &str) -> &'static str {
+    match text.contains("rpm") {
+        true => {
+            "; revolutions per minute over 60 are excitation.frequency_hz, of machines in SI units"
+        }
+        false => "",
+    }
 }
 
 /// How revolutions per minute are stated, if a key in Hz is meant by one that speaks of them.

@@ -4,7 +4,7 @@ pub mod samples;
 pub mod scenes;
 
 pub use crate::budget;
-pub use crate::error::{did_you_mean, plain_number};
+pub use crate::error::{did_you_mean, plain_number, rpm_value_hint};
 pub use crate::events::{Guard, NextEvent, first_crossing};
 pub use crate::expression::{Differentiated, Expression, chained};
 pub use crate::flow::{ArcSolution, Departure, LinearLaw, Modes, Polynomial, PowerLaw};

@@ -152,6 +152,9 @@ pub(super) fn all_keys(unit_system: UnitSystem) -> Vec<&'static str> {
 
 /// The one of these keys that a misspelt one may mean.
 pub(super) fn meant_key(key: &str, keys: &[&'static str]) -> Option<&'static str> {
+    if key.ends_with("rpm") && keys.contains(&FREQUENCY_HZ) {
+        return Some(FREQUENCY_HZ);
+    }
     let called = Parameter::ALL
         .into_iter()
         .find(|parameter| parameter.is_called(key) && keys.contains(&parameter.name()));
@@ -312,10 +315,13 @@ impl Machine {
                 has: has.join(", "),
             };
         }
+        let in_hertz = (self.unit_system == UnitSystem::Si).then_some(FREQUENCY_HZ);
+        let stated: Vec<_> = has.iter().copied().chain(in_hertz).collect();
+        let is_speed = key.ends_with("rpm");
         MachineError::UnknownKey {
             line: None,
             key: key.to_owned(),
-            meant: meant_key(key, &has),
+            meant: meant_key(key, if is_speed { &stated } else { &has }),
             known: has.join(", "),
         }
     }

@@ -121,10 +121,14 @@ fn sought(
             return Err(wrong("a margin can only be maximised"));
         }
         false if !is_sought(figure) => {
-            return Err(wrong(
+            let further = match is_traded(figure) {
+                true => ", or into lists of two figures or more: a front trades it",
+                false => "",
+            };
+            return Err(wrong(&format!(
                 "must be velocity, impact_energy, impact_power, stroke_work, drive_force, drive_power, stop_force or cost; \
-                 what else counts goes to [require]",
-            ));
+                 what else counts goes to [require]{further}"
+            )));
         }
         _ => {}
     }

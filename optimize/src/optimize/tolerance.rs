@@ -6,7 +6,7 @@ use softstop::internals::plain_number;
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
-use super::toml_leaves::{leaves, number, percent};
+use super::toml_leaves::{free_parameter, leaves, number, percent};
 use crate::design::problem::{Tolerance, Width};
 use crate::robust::Distribution;
 
@@ -68,9 +68,7 @@ impl Stated {
 pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Tolerance>, Failure> {
     let mut found: Vec<Tolerance> = Vec::new();
     for (name, value) in leaves(table) {
-        let stated = machine.free_parameter(&name);
-        let (parameter, unit) =
-            stated.map_err(|error| Failure::usage(format!("tolerance.{error}")))?;
+        let (parameter, unit) = free_parameter(machine, "tolerance", &name)?;
         let said = number(value).map_or_else(|| value.to_string(), plain_number);
         let wrong = |what: &str| Failure::usage(format!("tolerance.{name} = {said}: {what}"));
         let (stated, distribution) = match value {

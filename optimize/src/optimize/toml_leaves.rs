@@ -1,5 +1,8 @@
 //! Values in tables of TOML, by their dotted names.
 
+use softstop::internals::{did_you_mean, nearest_name};
+use softstop::{Machine, Parameter};
+use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
 /// Keys of a table that says something of one parameter.
@@ -12,6 +15,45 @@ const WORDS: [&str; 7] = [
     "half_width",
     "sigma",
 ];
+
+/// Lists of slopes, which are no numbers.
+const SLOPES: [&str; 4] = [
+    "stop.loading",
+    "stop.unloading",
+    "stop.below.loading",
+    "stop.below.unloading",
+];
+
+/// The parameter of a key in a table of a task, which may be changed by itself, and the key's unit in the machine's own.
+///
+/// # Errors
+/// [`Failure::Usage`] naming table and key.
+pub(super) fn free_parameter(
+    machine: &Machine,
+    table: &str,
+    key: &str,
+) -> Result<(Parameter, f64), Failure> {
+    machine.free_parameter(key).map_err(|error| {
+        let what = slopes(key).or_else(|| misspelt_word(machine, key));
+        Failure::usage(format!("{table}.{}", what.unwrap_or(error.to_string())))
+    })
+}
+
+/// Why a key of slopes stands for no parameter; none if it is another one.
+pub(super) fn slopes(key: &str) -> Option<String> {
+    let is_slopes = SLOPES.iter().any(|it| key.starts_with(it));
+    is_slopes.then(|| {
+        format!("{key}: the slopes of a piecewise linear stop stay as the machine states them: only single numbers can vary")
+    })
+}
+
+/// What a key may mean that ends with a word which says nothing of its parameter.
+fn misspelt_word(machine: &Machine, key: &str) -> Option<String> {
+    let (parameter, word) = key.rsplit_once('.')?;
+    machine.parameter(parameter).ok()?;
+    let meant = nearest_name(word, &WORDS)?;
+    Some(format!("{key}: unknown word{}", did_you_mean(Some(meant))))
+}
 
 /// What a table says of each parameter, by the dotted names of the parameters; `{ values = … }`, `{ follows = … }` and
 /// `{ half_width = … }` are said of one.

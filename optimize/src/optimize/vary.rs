@@ -4,11 +4,12 @@ use std::fmt;
 use std::str::FromStr;
 
 use serde::Deserialize;
+use softstop::internals::rpm_value_hint;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
-use super::toml_leaves::{leaves, number};
+use super::toml_leaves::{free_parameter, leaves, number, slopes};
 use crate::design::problem::Link;
 use crate::design::space::{Axis, Interval};
 
@@ -56,7 +57,7 @@ impl FromStr for Variable {
             .ok_or("expected name=value or name=low:high")?;
         let number = |text: &str| {
             let number = text.trim().parse::<f64>();
-            number.map_err(|_| format!("{text}: not a number"))
+            number.map_err(|_| format!("{text}: not a number{}", rpm_value_hint(text)))
         };
         let (low, high) = values.split_once(':').unwrap_or((values, values));
         Ok(Self {
@@ -101,11 +102,13 @@ impl Values {
 
 /// What `[vary]` holds: ranges first, then catalogues, in the file's order of keys.
 pub(super) fn variables(table: &Table) -> Result<Vec<Variable>, Failure> {
-    let one = |(key, value): (String, &Value)| match Values::read(value) {
-        Some(values) => Ok(Variable { key, values }),
-        None => Err(Failure::usage(format!(
+    let one = |(key, value): (String, &Value)| match (Values::read(value), slopes(&key)) {
+        (_, Some(slopes)) => Err(Failure::usage(format!("vary.{slopes}"))),
+        (Some(values), None) => Ok(Variable { key, values }),
+        (None, None) => Err(Failure::usage(format!(
             "vary.{key} = {value}: must be a range [low, high], a number to hold, {{ values = [a, b, c] }} of \
-             a catalogue, or {{ follows = KEY, factor = NUMBER }}; numbers alone, in the machine's own units"
+             a catalogue, or {{ follows = KEY, factor = NUMBER }}; numbers alone, in the machine's own units{}",
+            rpm_value_hint(&value.to_string())
         ))),
     };
     let all: Result<Vec<Variable>, Failure> = leaves(table).into_iter().map(one).collect();
@@ -195,15 +198,9 @@ fn wrong(key: &str, what: &str) -> Failure {
     Failure::usage(format!("vary.{key}: {what}"))
 }
 
-/// The parameter of a key and the key's unit in the machine's own.
-fn stated(machine: &Machine, key: &str) -> Result<(Parameter, f64), Failure> {
-    let stated = machine.free_parameter(key);
-    stated.map_err(|error| Failure::usage(format!("vary.{error}")))
-}
-
 /// The axis of a variable; none if it follows another one.
 fn axis(machine: &Machine, variable: &Variable) -> Result<Option<Axis>, Failure> {
-    let (parameter, unit) = stated(machine, &variable.key)?;
+    let (parameter, unit) = free_parameter(machine, "vary", &variable.key)?;
     let axis = match &variable.values {
         Values::Follows(_) => return Ok(None),
         Values::Range(ends) => {
@@ -254,8 +251,10 @@ fn link(machine: &Machine, Variable { key, values }: &Variable) -> Result<Option
     let Values::Follows(follow) = values else {
         return Ok(None);
     };
-    let (parameter, unit) = stated(machine, key)?;
-    let (follows, other) = stated(machine, &follow.follows)?;
+    let (parameter, unit) = free_parameter(machine, "vary", key)?;
+    let followed = machine.free_parameter(&follow.follows);
+    let (follows, other) =
+        followed.map_err(|error| wrong(&format!("{key}.follows"), &error.to_string()))?;
     if [parameter, follows].contains(&Parameter::Frequency) {
         let what = "the drive's frequency follows nothing, and nothing follows it: it is found along the zone";
         return Err(wrong(key, what));
