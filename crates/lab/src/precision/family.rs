@@ -40,45 +40,32 @@ pub fn short_name(method: &str) -> &str {
     name.trim_end_matches(", events located")
 }
 
-/// All methods that are made for a scene, the exact one first; every other setting of the others if it has to be quick.
+/// All methods that are made for a scene: the exact one first, then every scheme with a fixed step, Moreau's for a rigid
+/// stop, and the adaptive solvers, whose absolute tolerances are the same in m and m/s. Every other setting if it has to be
+/// quick.
 pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
-    let every = if quick { 2 } else { 1 };
-    let mut families = vec![Family::exact()];
-    families.extend(fixed_steps(scene, every));
-    families.extend(adaptive(every));
-    families
-}
-
-/// Methods with a fixed step: every scheme, and Moreau's for a rigid stop.
-fn fixed_steps(scene: &Scene, every: usize) -> Vec<Family> {
-    let period = scene.period();
+    let (every, period) = (if quick { 2 } else { 1 }, scene.period());
+    let look = |scheme, blind| Look { scheme, blind };
+    let stepped = |name: &str, look, method: Stepped| {
+        let steps = (COARSEST..=FINEST).step_by(every).map(|k| 0.5_f64.powi(k));
+        Family::new(name, look, steps, |knob| method.method(knob * period))
+    };
     let schemes = Scheme::ALL.into_iter().enumerate();
     let both = schemes.flat_map(|(index, scheme)| {
-        let with = |events| (index, Stepped::FixedStep(scheme, events));
-        [Events::Located, Events::Ignored].map(with)
+        [Events::Located, Events::Ignored].map(|events| {
+            let method = Stepped::FixedStep(scheme, events);
+            let look = look(1 + index, events == Events::Ignored);
+            stepped(&method.name(), look, method)
+        })
     });
-    let moreau = scene.wall().map(|_| (Scheme::ALL.len(), Stepped::Moreau));
-    let family = |(index, stepped): (usize, Stepped)| {
-        let (name, blind) = match stepped {
-            Stepped::FixedStep(_, events) => (stepped.name(), events == Events::Ignored),
-            Stepped::Moreau => (stepped.title().to_owned(), false),
-        };
-        let scheme = 1 + index;
-        let look = Look { scheme, blind };
-        let steps = (COARSEST..=FINEST).step_by(every).map(|k| 0.5_f64.powi(k));
-        Family::new(&name, look, steps, |knob| stepped.method(knob * period))
-    };
-    both.chain(moreau).map(family).collect()
-}
-
-/// Tolerances of the adaptive solvers, from coarse to fine; absolute ones are the same in m and m/s.
-fn adaptive(every: usize) -> Vec<Family> {
-    let family = |(index, scheme): (usize, AdaptiveScheme)| {
-        let look = Look {
-            scheme: 2 + Scheme::ALL.len() + index,
-            blind: false,
-        };
+    let moreau = scene.wall().map(|_| {
+        let look = look(1 + Scheme::ALL.len(), false);
+        stepped(Stepped::Moreau.title(), look, Stepped::Moreau)
+    });
+    let schemes = AdaptiveScheme::ALL.into_iter().enumerate();
+    let adaptive = schemes.map(|(index, scheme)| {
         let tolerances = (3..=13).step_by(every).map(|k| 10.0_f64.powi(-k));
+        let look = look(2 + Scheme::ALL.len() + index, false);
         Family::new(scheme.name(), look, tolerances, |tolerance| {
             Box::new(Adaptive {
                 scheme,
@@ -86,9 +73,9 @@ fn adaptive(every: usize) -> Vec<Family> {
                 absolute: tolerance,
             })
         })
-    };
-    let schemes = AdaptiveScheme::ALL.into_iter().enumerate();
-    schemes.map(family).collect()
+    });
+    let others = both.chain(moreau).chain(adaptive);
+    [Family::exact()].into_iter().chain(others).collect()
 }
 
 impl Family {
@@ -109,15 +96,11 @@ impl Family {
 
     /// The exact method.
     pub fn exact() -> Self {
-        let look = Look {
-            scheme: 0,
-            blind: false,
-        };
-        let method = Box::new(Exact);
+        let (scheme, blind) = (0, false);
         Self {
-            name: method.name(),
-            look,
-            settings: vec![(None, method)],
+            name: Exact.name(),
+            look: Look { scheme, blind },
+            settings: vec![(None, Box::new(Exact))],
         }
     }
 }
