@@ -97,7 +97,7 @@ static FIGURES: &[(&str, Draw)] = &[
     ("7", figure7::both),
     ("8", figure8::draw),
     ("9", figure9::draw),
-    ("table1", table1::draw),
+    ("table1", table1::figure::draw),
     ("regimes", regimes::draw),
     ("exponents", exponents::draw),
     ("basins", basins::draw),

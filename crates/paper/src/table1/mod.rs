@@ -1,5 +1,6 @@
 //! `softstop-lab table1`: the paper's Table 1, found anew.
 
+pub(crate) mod figure;
 mod markdown;
 pub(crate) mod matching;
 pub mod paper;
@@ -8,7 +9,6 @@ mod swept;
 
 use std::path::PathBuf;
 
-use crate::figure::{Drawn, Figure, Findings, Studio};
 use crate::transitions::{Explorer, Rules, Transition};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
@@ -166,17 +166,4 @@ pub fn transitions(
     let found = explorer.explore(values);
     drop(bar);
     Ok(found?)
-}
-
-/// The table in Markdown, and its rows.
-pub(crate) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
-    let report = TableReport::new(&paper::ROWS, studio.transitions()?, &studio.rules());
-    let mut findings = Findings::default();
-    for row in &report.rows {
-        findings.add(format!("row {:02}", row.number), row.eta);
-    }
-    Ok(Drawn {
-        files: vec![markdown(&report).into_bytes(), output::csv(&report.rows)?],
-        findings,
-    })
 }
