@@ -25,9 +25,8 @@ const RETURN: f64 = 1e-2;
 /// Steps in a row for which a motion is shown to count.
 const LASTING: usize = 3;
 
-/// The motions that are looked for: name, impacts, drive periods, order of impacts.
-const SOUGHT: [(&str, u64, u64, &str); 2] =
-    [("z = 2/3", 2, 3, "1-1-0"), ("z = (2/4)B", 2, 4, "1-1-0-0")];
+/// The motions that are looked for: name, impacts in each drive period.
+const SOUGHT: [(&str, &str); 2] = [("z = 2/3", "1-1-0"), ("z = (2/4)B", "1-1-0-0")];
 
 pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let etas = etas();
@@ -47,8 +46,11 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         };
         let chains = etas.iter().map(chain).collect::<Result<_>>()?;
         let chains = diagram::sweep(vec![(plan, chains)], "steps of the ways", studio.kept)?;
-        for (name, p, n, order) in SOUGHT {
-            let shows = |step: &Step| shows(step, (p, n), order);
+        for (name, order) in SOUGHT {
+            let shows = |step: &Step| {
+                let own = step.motion.order();
+                own.is_some_and(|it| it.to_string() == order)
+            };
             let (mut met, mut there) = (0, 0);
             for (eta, chain) in etas.iter().zip(&chains) {
                 let mut lasting = chain.steps.windows(LASTING);
@@ -91,13 +93,4 @@ fn etas() -> Vec<f64> {
     let (low, high, count) = ETAS;
     let step = (high - low) / (count - 1) as f64;
     (0..count).map(|index| low + step * index as f64).collect()
-}
-
-fn shows(step: &Step, (impacts, periods): (u64, u64), order: &str) -> bool {
-    let regime = step.motion.regime();
-    regime.is_some_and(|it| (it.impacts, it.periods) == (impacts, periods))
-        && step
-            .motion
-            .order()
-            .is_some_and(|it| it.to_string() == order)
 }

@@ -7,7 +7,6 @@ pub(crate) mod section;
 use anyhow::{Result, anyhow};
 use serde::Deserialize;
 use softstop::Ratios;
-use softstop_dynamics::Survey;
 use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 
 use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
@@ -84,24 +83,9 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     Ok(Drawn { files, findings })
 }
 
-/// All motions that are asked for.
+/// All motions that are asked for, each among those at its frequency.
 fn found(asked: &[Asked], detail: Detail) -> Result<Vec<Found>> {
     let progress = Progress::new(asked.len() as u64, "motions");
-    let mut found = Vec::new();
-    for group in asked.chunk_by(|a, b| a.eta == b.eta) {
-        let survey = survey(group[0].eta, detail, &progress)?;
-        for asked in group {
-            let motion = Found::among(asked, &survey, detail.pick(4000, 600))?;
-            found.push(motion.ok_or_else(|| anyhow!("motion ({}) not found", asked.letter))?);
-            progress.step()?;
-        }
-    }
-    Ok(found)
-}
-
-/// All motions at a frequency.
-fn survey(frequency: f64, detail: Detail, progress: &Progress) -> Result<Survey> {
-    let scene = Ratios::unloaded().at_frequency(frequency).scene()?;
     let options = SearchOptions {
         starts: detail.pick(256, 96),
         patience: detail.pick(4_000_000, 200_000),
@@ -111,5 +95,15 @@ fn survey(frequency: f64, detail: Detail, progress: &Progress) -> Result<Survey>
         progress.beat();
         interrupt::go_on()
     };
-    Ok(find_attractors(&scene, &options, &watcher)?)
+    let mut found = Vec::new();
+    for group in asked.chunk_by(|a, b| a.eta == b.eta) {
+        let scene = Ratios::unloaded().at_frequency(group[0].eta).scene()?;
+        let survey = find_attractors(&scene, &options, &watcher)?;
+        for asked in group {
+            let motion = Found::among(asked, &survey, detail.pick(4000, 600))?;
+            found.push(motion.ok_or_else(|| anyhow!("motion ({}) not found", asked.letter))?);
+            progress.step()?;
+        }
+    }
+    Ok(found)
 }
