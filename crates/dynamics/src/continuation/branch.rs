@@ -73,10 +73,7 @@ impl<'a> Continuation<'a> {
             &mut watch,
         )?;
         let down = match up.end {
-            End::Closed => HalfBranch {
-                end: End::Closed,
-                ..HalfBranch::empty()
-            },
+            End::Closed => HalfBranch::empty(End::Closed),
             _ => self.follow_half(
                 start.clone(),
                 &Self::direction_vector(Direction::Down),
@@ -101,20 +98,8 @@ impl<'a> Continuation<'a> {
             .unwrap_or(periods)
     }
 
-    /// The branch from a point beside a flip or a pitchfork on, in one direction of state and parameter.
-    pub(super) fn branch_along(
-        &self,
-        start: Node<PeriodMap>,
-        along: &DVector<f64>,
-        limits: &Limits,
-        watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
-    ) -> Result<Branch, OrbitError> {
-        let way = self.follow_half(start.clone(), along, limits, watch)?;
-        self.join_halves(&start, HalfBranch::empty(), way)
-    }
-
     /// The branch of two halves, joined at their start.
-    fn join_halves(
+    pub(super) fn join_halves(
         &self,
         start: &Node<PeriodMap>,
         mut down: HalfBranch,
@@ -134,14 +119,14 @@ impl<'a> Continuation<'a> {
     }
 
     /// Follows half a branch, in one direction from a node, from section to section.
-    fn follow_half(
+    pub(super) fn follow_half(
         &self,
         start: Node<PeriodMap>,
         along: &DVector<f64>,
         limits: &Limits,
         watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<HalfBranch, OrbitError> {
-        let mut way = HalfBranch::empty();
+        let mut way = HalfBranch::empty(End::Points);
         let origin = self.point_at(&start)?;
         self.follow_sections((start, along), |continuation, begin| {
             continuation.follow_section(&mut way, begin, &origin, limits, watch)

@@ -67,17 +67,25 @@ impl Continuation<'_> {
                     found.push(pitchfork);
                     continue;
                 }
-                let value = |node: &Node<PeriodMap>| test.scaled_value(&node.here.point.monodromy);
-                let (node, share) = locate_zero(&self.shooting, (from, to), value)?;
-                let point = self.point_at(&node)?;
-                let kind = SpecialKind::Critical(test);
-                found.push((share, Special { kind, point }));
+                found.push(self.locate_critical((from, to), test)?);
             }
         }
         found.extend(self.flips_there_and_back(from, to)?);
         found.extend(self.grazes_between(from, to)?);
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(found.into_iter().map(|(_, special)| special).collect())
+    }
+
+    /// The special point between two nodes at which a test vanishes, and its share of the way.
+    fn locate_critical(
+        &self,
+        ends: (&Node<PeriodMap>, &Node<PeriodMap>),
+        test: Test,
+    ) -> Result<(f64, Special), OrbitError> {
+        let value = |node: &Node<PeriodMap>| test.scaled_value(&node.here.point.monodromy);
+        let (node, share) = locate_zero(&self.shooting, ends, value)?;
+        let (kind, point) = (SpecialKind::Critical(test), self.point_at(&node)?);
+        Ok((share, Special { kind, point }))
     }
 
     /// The two flips of a step on which a multiplier goes beyond -1 and comes back: at little damping, in narrow windows of
@@ -114,10 +122,8 @@ impl Continuation<'_> {
         };
         let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
         let flips = halves.map(|(from, to, begins, ends)| {
-            let (node, own) = locate_zero(&self.shooting, (from, to), value)?;
-            let kind = SpecialKind::Critical(Test::Flip);
-            let point = self.point_at(&node)?;
-            Ok((begins + own * (ends - begins), Special { kind, point }))
+            let (own, special) = self.locate_critical((from, to), Test::Flip)?;
+            Ok((begins + own * (ends - begins), special))
         });
         flips.into_iter().collect()
     }

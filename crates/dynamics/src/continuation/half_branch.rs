@@ -69,12 +69,12 @@ impl HalfBranch {
         true
     }
 
-    /// Half a branch without points.
-    pub(super) fn empty() -> Self {
+    /// Half a branch without points, and why it ends.
+    pub(super) fn empty(end: End) -> Self {
         Self {
             points: Vec::new(),
             specials: Vec::new(),
-            end: End::Points,
+            end,
             turned_at: None,
         }
     }

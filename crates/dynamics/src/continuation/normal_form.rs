@@ -5,13 +5,13 @@ use nalgebra::{Matrix2, Vector2};
 use super::test::Test;
 use crate::orbit::{OrbitError, StroboscopicMap};
 use crate::tolerance::NEAR;
-use softstop::Scene;
+use softstop::CheckedScene;
 
 /// Distances along the critical eigenvector, in the map's scales, over which the Jacobian is differenced.
 const FORM_DISTANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
 /// The coefficient of the normal form of a fixed point's map: a of u + a u^2 at a fold, c of -u + c u^3 at a flip, for the
-/// coordinate u along the critical eigenvector of length 1 in units of [`Scene::scales`]. A flip with c > 0 is supercritical:
+/// coordinate u along the critical eigenvector of length 1 in units of [`Scene::scales`](softstop::Scene::scales). A flip with c > 0 is supercritical:
 /// the orbits of twice the period begin stable, where the orbit is unstable. (Reduction to the centre manifold, Kuznetsov,
 /// *Elements of Applied Bifurcation Theory*, section 5.4; second and third derivatives are differences of the exact Jacobian.)
 ///
@@ -20,7 +20,7 @@ const FORM_DISTANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 /// # Errors
 /// [`OrbitError`] if the motion of the state does not go on.
 pub fn normal_form_coefficient(
-    scene: &Scene,
+    scene: &CheckedScene,
     periods: u64,
     test: Test,
     state: Vector2<f64>,
@@ -30,7 +30,7 @@ pub fn normal_form_coefficient(
         Test::Flip => -1.0,
         Test::NeimarkSacker => return Ok(None),
     };
-    let map = StroboscopicMap::new(&scene.check()?, periods);
+    let map = StroboscopicMap::new(scene, periods);
     let scales = scene.scales();
     let units = Matrix2::from_diagonal(&Vector2::new(scales.length, scales.speed()));
     let bare = Matrix2::from_diagonal(&Vector2::new(scales.length, scales.speed()).map(f64::recip));

@@ -7,10 +7,10 @@ use nalgebra::{DVector, Matrix2};
 use super::arclength::{Node, correct};
 use super::branch::Branch;
 use super::follow::Continuation;
-use super::half_branch::{End, Limits};
+use super::half_branch::{End, HalfBranch, Limits};
 use super::normal_form::null_vector;
 use super::period_map::PeriodMap;
-use super::point::{BranchPoint, Special, SpecialKind};
+use super::point::BranchPoint;
 use super::test::Test;
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
@@ -30,15 +30,26 @@ impl Continuation<'_> {
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
         let doubled = self.over_periods(2 * self.shooting.periods);
-        let (node, along) = doubled.branch_off(flip, (-1.0, 2))?;
-        let mut branch = doubled.branch_along(node, &along, limits, &mut watch)?;
-        branch.ends.0 = End::Merged;
-        Ok(branch)
+        doubled.branch_from(flip, (-1.0, 2, End::Merged), limits, &mut watch)
+    }
+
+    /// The branch along the eigenvector of a critical multiplier of a point, of orbits with so many times its impacts, and why
+    /// it ends at the point.
+    pub(super) fn branch_from(
+        &self,
+        point: &BranchPoint,
+        (multiplier, times, end): (f64, usize, End),
+        limits: &Limits,
+        watch: &mut dyn FnMut(&BranchPoint) -> ControlFlow<()>,
+    ) -> Result<Branch, OrbitError> {
+        let (start, along) = self.branch_off(point, (multiplier, times))?;
+        let way = self.follow_half(start.clone(), &along, limits, watch)?;
+        self.join_halves(&start, HalfBranch::empty(end), way)
     }
 
     /// A node away from a point with a critical multiplier, along its eigenvector, with so many times its impacts, and the
     /// way there: half the period, or its mirror image, leads as clearly away.
-    pub(super) fn branch_off(
+    fn branch_off(
         &self,
         from: &BranchPoint,
         (multiplier, times): (f64, usize),
@@ -79,28 +90,17 @@ impl Continuation<'_> {
         while flips.len() < count {
             let continuation = self.over_periods(periods);
             let flip = &flips[flips.len() - 1];
-            let mut last = None;
+            let mut first = None;
             let branch = continuation.double_period(flip, limits, |point| {
-                let flipped = last.is_some_and(|sign| sign != flip_sign(point));
-                last = Some(flip_sign(point));
-                stop_if(flipped)
+                let is_positive = Test::Flip.scaled_value(&point.monodromy) > 0.0;
+                stop_if(*first.get_or_insert(is_positive) != is_positive)
             })?;
-            let Some(next) = branch.specials.into_iter().find(is_flip) else {
+            let Some(next) = branch.critical_points(Test::Flip).next() else {
                 break;
             };
-            flips.push(next.point);
+            flips.push(next.clone());
             periods *= 2;
         }
         Ok(flips)
     }
-}
-
-/// True if the test of a flip is positive at a point.
-fn flip_sign(point: &BranchPoint) -> bool {
-    Test::Flip.scaled_value(&point.monodromy) > 0.0
-}
-
-/// True if a special point is a flip.
-fn is_flip(special: &Special) -> bool {
-    special.kind == SpecialKind::Critical(Test::Flip)
 }

@@ -72,22 +72,18 @@ pub(super) fn end_in_flips(family: &dyn Family<2>, folds: &mut Curve, region: &C
     if !is_fold || !folds.periods.is_multiple_of(2) {
         return;
     }
-    let near = |point: Option<&CurvePoint>, end: &CurveEnd| {
-        let may_end = matches!(end, CurveEnd::Lost(_));
-        may_end.then(|| flip_near(family, folds.periods / 2, point?, region))?
-    };
-    let first = near(folds.points.first(), &folds.ends.0);
-    let last = near(folds.points.last(), &folds.ends.1);
     let special = CodimensionTwo::GeneralisedFlip;
-    if let Some(flip) = first {
-        folds.points.insert(0, flip.clone());
-        folds.specials.insert(0, (special, flip));
-        folds.ends.0 = CurveEnd::CodimensionTwo(special);
-    }
-    if let Some(flip) = last {
-        folds.points.push(flip.clone());
-        folds.specials.push((special, flip));
-        folds.ends.1 = CurveEnd::CodimensionTwo(special);
+    for end in [&mut folds.ends.1, &mut folds.ends.0] {
+        // After two turns the curve runs as before.
+        if let (CurveEnd::Lost(_), Some(last)) = (&*end, folds.points.last())
+            && let Some(flip) = flip_near(family, folds.periods / 2, last, region)
+        {
+            folds.points.push(flip.clone());
+            folds.specials.push((special, flip));
+            *end = CurveEnd::CodimensionTwo(special);
+        }
+        folds.points.reverse();
+        folds.specials.reverse();
     }
 }
 

@@ -105,9 +105,6 @@ impl Continuation<'_> {
         limits: &Limits,
         mut watch: impl FnMut(&BranchPoint) -> ControlFlow<()>,
     ) -> Result<Branch, OrbitError> {
-        let (node, along) = self.branch_off(pitchfork, (1.0, 1))?;
-        let mut branch = self.branch_along(node, &along, limits, &mut watch)?;
-        branch.ends.0 = End::Symmetric;
-        Ok(branch)
+        self.branch_from(pitchfork, (1.0, 1, End::Symmetric), limits, &mut watch)
     }
 }

@@ -36,13 +36,10 @@ impl Way {
     ];
 
     /// The ways to run up that need no more than the drive's own amplitude.
-    pub const BY_OWN_DRIVE: [Self; 5] = [
-        Self::SwitchedOn,
-        Self::FrequencyRaised,
-        Self::FrequencyLowered,
-        Self::ClearanceOpened,
-        Self::AmplitudeRaised,
-    ];
+    pub const BY_OWN_DRIVE: [Self; 5] = {
+        let [one, two, three, four, five, _] = Self::ALL;
+        [one, two, three, four, five]
+    };
 
     /// The way to run up, in words.
     pub const fn name(self) -> &'static str {
@@ -69,40 +66,24 @@ impl Way {
     /// The slow change on a way to run up: parameter, first value in SI units, direction; none without such a way.
     pub(super) fn slow_change(self, scene: &Scene) -> Option<(Parameter, f64, Direction)> {
         let w = scene.excitation.frequency;
-        let (amplitude, clearance) = (scene.excitation.amplitude, scene.clearance);
-        let reached = scene.least_clearance();
+        let amplitude = scene.excitation.amplitude;
         let own = (scene.stiffness / scene.mass).sqrt();
-        match self {
-            Self::SwitchedOn => None,
+        let (first, direction) = match self {
+            Self::SwitchedOn => return None,
             Self::FrequencyRaised => {
                 let slow = if own > 0.0 { own.min(w) } else { w };
-                Some((Parameter::Frequency, LOW_FREQUENCY * slow, Direction::Up))
+                (LOW_FREQUENCY * slow, Direction::Up)
             }
-            Self::FrequencyLowered => Some((
-                Parameter::Frequency,
-                HIGH_FACTOR * own.max(w),
-                Direction::Down,
-            )),
-            Self::ClearanceOpened => (clearance > 0.0).then_some((
-                Parameter::Clearance,
-                START_CLEARANCE * clearance,
-                Direction::Up,
-            )),
-            Self::AmplitudeRaised => (amplitude > 0.0).then_some((
-                Parameter::Amplitude,
-                START_AMPLITUDE * amplitude,
-                Direction::Up,
-            )),
+            Self::FrequencyLowered => (HIGH_FACTOR * own.max(w), Direction::Down),
+            Self::ClearanceOpened => (START_CLEARANCE * scene.clearance, Direction::Up),
+            Self::AmplitudeRaised => (START_AMPLITUDE * amplitude, Direction::Up),
             Self::AmplitudeLowered => {
-                let free = free_amplitude(scene, w);
-                let enough = amplitude * (GRAZING_FACTOR * reached / free).max(HIGH_FACTOR);
-                (amplitude > 0.0 && enough.is_finite()).then_some((
-                    Parameter::Amplitude,
-                    enough,
-                    Direction::Down,
-                ))
+                let grazing = GRAZING_FACTOR * scene.least_clearance() / free_amplitude(scene, w);
+                (amplitude * grazing.max(HIGH_FACTOR), Direction::Down)
             }
-        }
+        };
+        let is_possible = first > 0.0 && first.is_finite();
+        is_possible.then_some((self.changed_parameter()?, first, direction))
     }
 }
 

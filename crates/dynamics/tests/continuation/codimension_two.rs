@@ -158,9 +158,10 @@ fn the_papers_machines_have_resonant_grazings() {
             ..unloaded().at_frequency(frequency)
         };
         let state = Vector2::new(point.position, point.velocity);
-        let coefficient = normal_form_coefficient(&scene, 1, Test::Flip, state);
+        let checked = scene.check().expect("valid");
+        let coefficient = normal_form_coefficient(&checked, 1, Test::Flip, state);
         let coefficient = coefficient.expect("a motion").expect("a coefficient");
-        let map = StroboscopicMap::new(&scene.check().expect("a map"), 1);
+        let map = StroboscopicMap::new(&checked, 1);
         let flip = BranchPoint {
             parameter: frequency,
             position: point.position,

@@ -96,8 +96,8 @@ fn classified<'a>(
         };
         let mut machine = machine.clone();
         machine.set(parameter, special.point.parameter);
-        let state = special.point.state();
-        normal_form_coefficient(&machine.scene, branch.periods, test, state).ok()?
+        let (scene, state) = (machine.check(None).ok()?, special.point.state());
+        normal_form_coefficient(&scene, branch.periods, test, state).ok()?
     };
     let all = branch.specials.iter();
     all.map(|it| (it, coefficient(it))).collect()
