@@ -70,6 +70,17 @@ pub(super) struct Passed {
     pub resolution: Option<Resolution>,
 }
 
+impl Passed {
+    /// A design that passes as it is.
+    pub(super) const fn as_is(robust: Robust, tried: Vec<Met>) -> Self {
+        Self {
+            robust,
+            tried,
+            resolution: None,
+        }
+    }
+}
+
 /// The best design that passes its trials: this one if it does, otherwise one that is sought from it, unless that was done from
 /// its place before. Adds its place to those from which one was sought, unless that ended with machines to take note of: with
 /// others known it may end elsewhere.
@@ -83,13 +94,7 @@ fn check_trials(
 ) -> Result<Passed, Infeasible> {
     let passed = problem.pass_trials(&held.candidate.design, &mut held.known);
     let lack = match passed {
-        Ok(tried) => {
-            return Ok(Passed {
-                robust: held.clone(),
-                tried,
-                resolution: None,
-            });
-        }
+        Ok(tried) => return Ok(Passed::as_is(held.clone(), tried)),
         Err(lack) => lack,
     };
     let mut from = held.candidate.clone();
@@ -165,11 +170,7 @@ pub(super) fn check_finalists(
                 break;
             };
             let passed = problem.pass_trials(&next.candidate.design, &mut next.known);
-            let passed = passed.map(|tried| Passed {
-                robust: next.clone(),
-                tried,
-                resolution: None,
-            });
+            let passed = passed.map(|tried| Passed::as_is(next.clone(), tried));
             if checked.note(next, passed) {
                 break;
             }

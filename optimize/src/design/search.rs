@@ -87,9 +87,14 @@ impl SearchError {
             ZoneKind::SingleImpact { .. } => "",
         };
         let sought = format!("stable z = 1 motion {zone}");
+        let has_catalogues = problem.axes.iter().any(|it| it.catalogue.len() > 1);
         let found = match surveyed.zip(widest(problem)) {
             Some((surveyed, widest)) => format!(
                 "found no {sought}that is as the task asks; the survey saw {surveyed} machines on a logarithmic lattice: narrow {widest}"
+            ),
+            None if has_catalogues && problem.trials().next().is_some() => format!(
+                "found no {sought}that is as the task asks; what takes many motions was tried with the values of catalogues beside \
+                 the best: hold others"
             ),
             None => format!("no {sought}is as the task asks within the bounds"),
         };
@@ -147,16 +152,11 @@ pub fn search_from(
         return Err(SearchError::OverBudget);
     }
     if watch.stop() {
-        let untried = |candidate| Passed {
-            robust: Robust {
-                candidate,
-                known: CriticalMachines::default(),
-            },
-            tried: Vec::new(),
-            resolution: None,
-        };
-        let best = incumbent.take().map(untried);
-        let best = best.map(|it| Box::new(Found::new(problem, it, &[])));
+        let best = incumbent.take().map(|candidate| {
+            let known = CriticalMachines::default();
+            let untried = Passed::as_is(Robust { candidate, known }, Vec::new());
+            Box::new(Found::new(problem, untried, &[]))
+        });
         return Err(SearchError::Stopped(best));
     }
     found.unwrap_or(Err(SearchError::Stopped(None)))
@@ -380,4 +380,29 @@ impl<'a> Search<'a> {
 fn is_apart(one: &[f64], other: &[f64]) -> bool {
     let far = |(a, b): (&f64, &f64)| (a - b).abs() > APART;
     one.iter().zip(other).any(far)
+}
+
+#[cfg(test)]
+mod tests {
+    use softstop::{Machine, Parameter};
+
+    use super::{Axis, Problem, SearchError};
+    use crate::design::figure::Figure;
+    use crate::design::requirement::Requirement;
+
+    #[test]
+    fn of_catalogues_and_trials_no_more_is_said_than_what_was_tried() {
+        let machine = Machine::named("unloaded").expect("the paper's machine");
+        let axis = Axis::of_catalogue(Parameter::Damping, vec![1e-6, 0.02]);
+        let mut problem = Problem::of(machine, vec![axis]);
+        let says = |problem: &Problem| {
+            SearchError::no_design(problem, Some(9), (String::new(), String::new())).to_string()
+        };
+        assert!(says(&problem).starts_with("no stable z = 1 motion"));
+        let certainty = Requirement::at_least(Figure::Certainty, 0.2);
+        problem.requirements.push(certainty);
+        let words = says(&problem);
+        assert!(words.starts_with("found no"), "{words}");
+        assert!(words.contains("values of catalogues beside the best: hold others"));
+    }
 }

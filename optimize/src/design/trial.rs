@@ -55,7 +55,7 @@ const CORNERS: usize = 16;
 
 impl Problem {
     /// The requirements that take many motions.
-    fn trials(&self) -> impl Iterator<Item = &Requirement> {
+    pub(super) fn trials(&self) -> impl Iterator<Item = &Requirement> {
         self.requirements.iter().filter(|it| it.figure.is_trial())
     }
 
