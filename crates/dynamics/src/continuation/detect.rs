@@ -212,13 +212,18 @@ impl Continuation<'_> {
         }
         let continuation = self.over_periods(periods / 2);
         let [parameter] = self.shooting.parameters(&at);
-        let near = continuation
+        let found = continuation
             .find_point(parameter, self.shooting.state_at(&at))
-            .ok()?;
-        let flip = continuation.locate(&near, Test::Flip).ok()?;
-        if !is_near(&self.place_of(&flip).ok()?) {
-            return None;
-        }
+            .and_then(|near| continuation.locate(&near, Test::Flip));
+        let beside = |flip: &BranchPoint| self.place_of(flip).is_ok_and(|place| is_near(&place));
+        let Some(flip) = found.ok().filter(beside) else {
+            // Right beside grazing Newton's method does not settle on the flip: the gap vanishes there nevertheless.
+            let left = |node: &Node<PeriodMap>| self.merging_gap(node).map(|gap| gap.dot(&a));
+            let value = |node: &Node<PeriodMap>| left(node).unwrap_or(f64::NAN);
+            let (node, _) = locate_zero(&self.shooting, (from, to), value).ok()?;
+            let vanishes = self.merging_gap(&node)?.norm() < NEAR * a.norm().max(b.norm());
+            return vanishes.then_some((self.point_at(&node).ok()?, End::Merged));
+        };
         let PeriodMap {
             impacts, monodromy, ..
         } = self.with_turn(0.0).node_at(&flip).ok()?.here.point;

@@ -128,6 +128,23 @@ fn doubled_branches_end_in_the_next_flip_of_their_branch() {
     }
 }
 
+/// Orbits of four periods end at a flip of those of two at which the weaker impact all but grazes.
+#[test]
+fn doubled_branches_end_beside_grazing() {
+    let machine = include_str!("beside_grazing.toml");
+    let scene = Machine::from_toml(machine).expect("a machine").scene;
+    let own = scene.excitation.frequency;
+    let state = orbit::find(&scene).expect("an orbit").state();
+    let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
+    let range = (0.6 * own, 1.6 * own);
+    let flip = of_kind(&follow(&family, 1, (own, state), range), "PD").remove(0);
+    let twice = of_kind(&double_within(&family, 1, &flip.point, range), "PD");
+    let four = double_within(&family, 2, &twice[1].point, range);
+    assert!(matches!(four.ends.1, End::Merged), "{:?}", four.ends);
+    let last = four.points.last().expect("points").parameter;
+    assert_near(last, twice[0].point.parameter, SOLVED);
+}
+
 /// On the orbits of twice the period that begin at a flip, half the distance u of their two states grows as the coefficient c of
 /// the normal form says: their multiplier is 1 - 4 c u^2. At a fold the multiplier changes by 2 a along the branch.
 #[test]
