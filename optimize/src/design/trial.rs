@@ -3,7 +3,6 @@
 
 use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
-use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::Establishment;
 use softstop_dynamics::missing_strips::{StopWithoutStrip, survives_missing_strips};
 use softstop_dynamics::orbit::OrbitError;
@@ -41,14 +40,6 @@ pub(super) const ROUGH: Effort = Effort {
     starts: STARTS / 4,
     angles: ANGLES / 4,
 };
-
-/// Starts that are counted first: where they show that far too few lead to a motion, no more are.
-const FIRST_STARTS: usize = STARTS / 16;
-/// Exponent of e of the probability that so few of the first starts lead to a motion to which enough of all do.
-const HOPELESS_EXPONENT: f64 = 14.0;
-/// Decay a drive period, as an exponent, below which a basin test no longer follows all motions to their end (28 / 20,000): a
-/// start then takes so many periods that a share far too small is told by the first ones.
-const SLOW_DECAY: f64 = 1.4e-3;
 
 /// Corners of the tolerances at which trials are made, at most.
 const CORNERS: usize = 16;
@@ -154,36 +145,6 @@ impl Problem {
                 .all(|it| self.is_passed(it, &design.orbit, effort))
     }
 
-    /// The least share of starts that lead to the motion of a design, of its own machine or of those within the tolerances that
-    /// are known, in all cases, by the lower end of its interval; none if a motion is lost.
-    pub(super) fn least_certainty(&self, design: &Design, known: &CriticalMachines) -> Option<f64> {
-        let needed = self.least_share().unwrap_or(0.0);
-        let share = |orbit: &Orbit| {
-            let few = is_slow(orbit).then(|| self.established_too_rarely(orbit, needed));
-            let few = few.transpose().ok()?.flatten();
-            let starts = few.map_or_else(|| self.established(orbit, STARTS), Ok);
-            Some(starts.ok()?.interval[0])
-        };
-        let mut least = f64::INFINITY;
-        for it in self.operating_points(design) {
-            least = least.min(share(&it.design.orbit)?);
-            let Some(spread) = it.problem.spread(&it.design.machine) else {
-                continue;
-            };
-            let neighbours = Neighbours::new(&spread, &it.design.orbit);
-            for at in &known.for_case(it.case).tried {
-                least = least.min(share(&neighbours.motion(at)?)?);
-            }
-        }
-        Some(least)
-    }
-
-    /// The share of starts that must lead to a motion, if any.
-    pub(super) fn least_share(&self) -> Option<f64> {
-        let mut all = self.trials();
-        all.find(|it| it.figure == Figure::Certainty)?.least
-    }
-
     /// What a motion has of a requirement that takes many.
     fn tried_of(
         &self,
@@ -247,48 +208,6 @@ impl Problem {
         let tried = self.tried_of(requirement, orbit, effort);
         tried.is_ok_and(|met| is_met(&met))
     }
-
-    /// The share of starts that lead to a motion.
-    ///
-    /// # Errors
-    /// As [`Problem::tried`].
-    pub(super) fn established(
-        &self,
-        orbit: &Orbit,
-        starts: usize,
-    ) -> Result<Establishment, OrbitError> {
-        let region = self.region(orbit)?;
-        Establishment::within_region(orbit, &region, starts, &interrupt::watch)
-    }
-
-    /// What the first starts show of the share that leads to a motion, if that is certainly smaller than a share.
-    fn established_too_rarely(
-        &self,
-        orbit: &Orbit,
-        share: f64,
-    ) -> Result<Option<Establishment>, OrbitError> {
-        let first = self.established(orbit, FIRST_STARTS)?;
-        Ok(Some(first).filter(|it| is_hopeless((it.share, FIRST_STARTS), share)))
-    }
-
-    /// Whether the share of starts that lead to a motion is enough, without counting all of them.
-    fn is_established(
-        &self,
-        orbit: &Orbit,
-        starts: usize,
-        is_enough: impl Fn(&Establishment) -> bool,
-    ) -> Result<bool, OrbitError> {
-        let (region, watcher) = (self.region(orbit)?, &interrupt::watch);
-        Establishment::is_enough_within_region(orbit, &region, starts, is_enough, watcher)
-    }
-
-    /// The box of starts: what the task states of it, before a rigid stop, or that of all commands.
-    fn region(&self, orbit: &Orbit) -> Result<Region, OrbitError> {
-        match &self.starts {
-            Some(region) => Ok(region.clipped_at_stops(&orbit.scene)),
-            None => starting_box(&orbit.scene, &interrupt::watch),
-        }
-    }
 }
 
 impl OperatingPoint<'_> {
@@ -300,25 +219,6 @@ impl OperatingPoint<'_> {
             Ok(Met { case, ..met })
         });
         own.collect()
-    }
-
-    /// The certainty that is required, as the first starts show it, if motions decay so slowly that to follow all would take
-    /// minutes and it is certainly too small.
-    fn too_rare(&self) -> Result<Option<Met>, OrbitError> {
-        let (case, orbit) = (self.case, &self.design.orbit);
-        let mut required = self.problem.trials();
-        let required = required.find(|it| it.figure == Figure::Certainty && it.least.is_some());
-        let Some(requirement) = required.filter(|_| is_slow(orbit)) else {
-            return Ok(None);
-        };
-        let least = requirement.least.unwrap_or(0.0);
-        let few = self.problem.established_too_rarely(orbit, least)?;
-        Ok(few.map(|starts| Met {
-            case,
-            value: starts.share,
-            starts: Some(starts),
-            ..Met::of(*requirement)
-        }))
     }
 
     /// What it has of the requirements that take many motions, if it meets them.
@@ -355,23 +255,6 @@ impl OperatingPoint<'_> {
     }
 }
 
-/// Whether motions near an orbit decay so slowly that a basin test does not follow all of them to their end.
-fn is_slow(orbit: &Orbit) -> bool {
-    let slowest = orbit.multipliers()[0].norm();
-    -slowest.ln() < SLOW_DECAY * orbit.periods as f64
-}
-
-/// Whether so small a share of so many starts would be met with a probability of less than `e^-14` if a share of all that is
-/// least led to the motion (Chernoff 1952).
-fn is_hopeless((share, starts): (f64, usize), least: f64) -> bool {
-    let part = |own: f64, other: f64| match own {
-        0.0 => 0.0,
-        own => own * (own / other).ln(),
-    };
-    let divergence = part(share, least) + part(1.0 - share, 1.0 - least);
-    share < least && starts as f64 * divergence > HOPELESS_EXPONENT
-}
-
 /// Strips in a row that may be missing, as many as are asked for at most.
 fn survived(requirement: &Requirement, orbit: &Orbit, angles: usize) -> Result<u32, OrbitError> {
     let most = requirement.least.unwrap_or(0.0) as u32;
@@ -388,18 +271,4 @@ fn survived(requirement: &Requirement, orbit: &Orbit, angles: usize) -> Result<u
         }
     }
     Ok(most)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_hopeless;
-
-    #[test]
-    fn only_a_share_far_below_is_hopeless() {
-        assert!(is_hopeless((0.0, 64), 0.2));
-        assert!(is_hopeless((0.5, 64), 0.9) && is_hopeless((0.5, 64), 1.0));
-        assert!(!is_hopeless((0.0, 64), 0.1));
-        assert!(!is_hopeless((0.15, 64), 0.2) && !is_hopeless((0.3, 64), 0.2));
-        assert!(!is_hopeless((1.0, 64), 1.0));
-    }
 }
