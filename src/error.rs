@@ -103,7 +103,7 @@ pub enum MachineError {
         "{}{key}: unknown key{}{}; known are {known}",
         line_prefix(*line),
         did_you_mean(*meant),
-        rpm_hint(key, *meant)
+        key_hint(key, *meant)
     )]
     UnknownKey {
         /// Its line in the file.
@@ -229,11 +229,15 @@ pub fn rpm_value_hint(text: &str) -> &'static str {
     }
 }
 
-/// How revolutions per minute are stated, if a key in Hz is meant by one that speaks of them.
-fn rpm_hint(key: &str, meant: Option<&str>) -> &'static str {
-    match meant {
-        Some(meant) if key.ends_with("rpm") && meant.ends_with("_hz") => {
+/// What a key that no machine has says of its file or its value: how revolutions per minute are stated, if a key in Hz is
+/// meant; which commands take a file that names a machine.
+fn key_hint(key: &str, meant: Option<&str>) -> &'static str {
+    match (key, meant) {
+        (_, Some(meant)) if key.ends_with("rpm") && meant.ends_with("_hz") => {
             ": revolutions per minute over 60"
+        }
+        ("machine", _) => {
+            ": a file that names its machine is a task (softstop optimize --config FILE) or a study (softstop study FILE)"
         }
         _ => "",
     }

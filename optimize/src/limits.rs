@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use softstop::Parameter;
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::ZoneEnd;
 use softstop_explore::zone::lost_by;
 
@@ -110,8 +110,8 @@ fn at_margin(end: &str) -> Limit {
 /// What ends a zone, in words.
 pub(crate) fn end_name(end: &ZoneEnd) -> String {
     match &end.loss {
-        _ if end.is_critical(Test::Fold) => "s_SN".to_owned(),
-        _ if end.is_critical(Test::Flip) => "s_PD".to_owned(),
+        _ if end.is_critical(TestFunction::Fold) => "s_SN".to_owned(),
+        _ if end.is_critical(TestFunction::Flip) => "s_PD".to_owned(),
         loss => lost_by(loss),
     }
 }

@@ -5,7 +5,7 @@ use softstop_console::column::{Column, Told};
 use softstop_console::columns;
 use softstop_console::number::NumberStyle::Six;
 use softstop_dynamics::Zone;
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::{ZoneEnd, ZoneKind};
 
 use crate::design::conflict::short;
@@ -91,7 +91,8 @@ pub(crate) fn grazing(zone: &Zone) -> Option<f64> {
 /// The fold in rad/s, if the zone ends there.
 pub(crate) fn fold(zone: &Zone) -> Option<f64> {
     let high = &zone.high;
-    high.is_critical(Test::Fold).then_some(high.frequency)
+    high.is_critical(TestFunction::Fold)
+        .then_some(high.frequency)
 }
 
 fn searched(design: &Design) -> &'static str {

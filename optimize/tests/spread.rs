@@ -56,7 +56,7 @@ fn a_way_out_that_ends_in_a_flip_ends_at_that_of_its_branch() -> Outcome {
     };
     let go_on = |_: &_| std::ops::ControlFlow::Continue(());
     let branch = Continuation::new(&family, 1).branch(1.15, nominal.state(), &limits, go_on)?;
-    let test = softstop_dynamics::continuation::Test::Flip;
+    let test = softstop_dynamics::continuation::TestFunction::Flip;
     let flip = branch.critical_points(test).last().ok_or("a flip")?;
     let frequency = 1.15 * (1.0 - 0.5 * reached.share);
     assert_relative(frequency, flip.parameter, 1e-8);

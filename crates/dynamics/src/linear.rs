@@ -2,7 +2,7 @@
 
 use nalgebra::{Const, DMatrix, DVector, DimMin};
 
-/// The solution of a linear system with as many equations as unknowns, without further room for two or three.
+/// Solves A x = b by LU; two or three equations as matrices of fixed size, without the heap.
 pub(crate) fn solve_linear(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
     match right.len() {
         2 => solve_fixed::<2>(matrix, right),

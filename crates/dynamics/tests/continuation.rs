@@ -12,7 +12,7 @@ use nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{
     ContinuationSettings, Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Family, Special,
-    SpecialKind, Test, follow_special, normal_form_coefficient,
+    SpecialKind, TestFunction, follow_special, normal_form_coefficient,
 };
 use softstop_dynamics::zone::grazing_frequencies;
 use softstop_dynamics::{

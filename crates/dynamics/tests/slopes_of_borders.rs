@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use softstop::{Parameter, Ratios, Scene};
-use softstop_dynamics::continuation::{Face, SpecialKind, Test};
+use softstop_dynamics::continuation::{Face, SpecialKind, TestFunction};
 use softstop_dynamics::slopes::{Border, BorderKind};
 use softstop_dynamics::{Continuation, Limits, ParameterFamily, orbit, zone};
 use softstop_testing::tolerance::DIFFERENCED;
@@ -25,8 +25,13 @@ fn normals_are_those_of_zones_computed_anew() {
             .collect();
         let of = |scene: &Scene| zone::hysteresis(scene).expect("a zone");
         let zone = of(&scene);
-        let fold = Border::at_critical(&scene, 1, (Test::Fold, &zone.high.point), &parameters)
-            .expect("smooth");
+        let fold = Border::at_critical(
+            &scene,
+            1,
+            (TestFunction::Fold, &zone.high.point),
+            &parameters,
+        )
+        .expect("smooth");
         let free = Border::at_g0(&scene, true, &parameters).expect("grazes");
         for (index, parameter) in parameters.into_iter().enumerate() {
             if matches!(parameter, Parameter::Frequency | Parameter::Phase) {
@@ -119,8 +124,12 @@ fn normals_are_those_of_borders_found_again() {
         let on = |kind: &BorderKind| matches!(kind, BorderKind::Motion(SpecialKind::Grazing(graze)) if graze.face == face);
         kinds.iter().any(on)
     };
-    assert!(has(|kind| *kind == SpecialKind::Critical(Test::Fold)));
-    assert!(has(|kind| *kind == SpecialKind::Critical(Test::Flip)));
+    assert!(has(
+        |kind| *kind == SpecialKind::Critical(TestFunction::Fold)
+    ));
+    assert!(has(
+        |kind| *kind == SpecialKind::Critical(TestFunction::Flip)
+    ));
     assert!(
         [Face::Clearance, Face::Stop, Face::Wall]
             .into_iter()

@@ -6,7 +6,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rayon::prelude::*;
 use softstop::{Parameter, Piercing, Ratios, Scene};
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::nalgebra::Vector2;
 use softstop_dynamics::slopes::{self, Border};
 use softstop_dynamics::{Orbit, zone};
@@ -126,8 +126,13 @@ fn judged(scene: &Scene, share: f64) -> Option<Tally> {
         .iter()
         .map(|figure| figure.value.abs())
         .collect();
-    let fold =
-        Border::at_critical(scene, 1, (Test::Fold, &zone.high.point), &parameters).expect("smooth");
+    let fold = Border::at_critical(
+        scene,
+        1,
+        (TestFunction::Fold, &zone.high.point),
+        &parameters,
+    )
+    .expect("smooth");
     let mut tally = (0, 0, 0.0);
     for (index, parameter) in parameters.iter().enumerate() {
         let value = parameter.get(&orbit.scene)?;

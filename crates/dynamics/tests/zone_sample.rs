@@ -10,7 +10,7 @@ use proptest::test_runner::TestRunner;
 use serde_json::{Value, json};
 use softstop::{Scene, Slope, Stop};
 use softstop_dynamics::BranchPoint;
-use softstop_dynamics::continuation::{Direction, Test};
+use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::zone::{Zone, hysteresis, loss_of_stability};
 use softstop_testing::reference::{ZONES, list, number, ratios};
 use softstop_testing::tolerance::GROWN;
@@ -92,7 +92,7 @@ fn scene(parameters: &Value) -> Scene {
 /// s_PD: where z = 1, followed down from g0, doubles its period.
 fn flip(zone: &Zone) -> Option<BranchPoint> {
     let orbit = zone.orbit_at(0.0).ok()?;
-    loss_of_stability(&orbit, Direction::Down, Test::Flip).ok()?
+    loss_of_stability(&orbit, Direction::Down, TestFunction::Flip).ok()?
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use softstop::{Machine, Piercing, Ratios, Scene, Start, Stop, UnitSystem};
 use softstop_dynamics::MotionKind;
-use softstop_dynamics::continuation::{Direction, Test};
+use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::settled::Settling;
 use softstop_dynamics::zone::{BranchEnd, ZoneError, hysteresis, loss_of_stability};
@@ -32,7 +32,7 @@ fn machine(clearance: f64, damping: f64, which: usize) -> Scene {
 fn bounds(scene: &Scene) -> Result<[f64; 4], String> {
     let zone = hysteresis(scene).map_err(|error| format!("{error:?}"))?;
     let orbit = zone.orbit_at(0.5).map_err(|error| format!("{error:?}"))?;
-    let flip = loss_of_stability(&orbit, Direction::Down, Test::Flip).expect("a branch");
+    let flip = loss_of_stability(&orbit, Direction::Down, TestFunction::Flip).expect("a branch");
     let flip = flip.map_or(f64::NAN, |point| point.parameter);
     Ok([
         zone.frequency_g0,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use softstop::{Excitation, Parameter, Ratios, Scene, Stop};
-use softstop_dynamics::continuation::{Direction, Face, Test};
+use softstop_dynamics::continuation::{Direction, Face, TestFunction};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::zone::{
@@ -49,9 +49,10 @@ fn it_holds_the_hysteresis_zone() {
         assert_near(whole.high.frequency, part.high.frequency, 1e-12);
         assert_near(whole.frequency_g0, part.frequency_g0, 1e-12);
         let orbit = part.orbit_at(0.5).expect("an orbit");
-        let flip = loss_of_stability(&orbit, Direction::Down, Test::Flip).expect("followed");
+        let flip =
+            loss_of_stability(&orbit, Direction::Down, TestFunction::Flip).expect("followed");
         let flip = flip.expect("a flip").parameter;
-        assert!(whole.low.is_critical(Test::Flip) && flip < part.frequency_g0);
+        assert!(whole.low.is_critical(TestFunction::Flip) && flip < part.frequency_g0);
         assert_near(whole.low.frequency, flip, 1e-9);
         for share in [0.1, 0.5, 0.9, 1.0] {
             let place = whole.place_of(part.frequency_at(share)).min(1.0);
@@ -96,7 +97,7 @@ fn its_ends_have_normals() {
         Parameter::Damping,
     ];
     assert_eq!(zone.low.loss, Loss::AnotherImpact);
-    assert!(zone.high.is_critical(Test::Flip));
+    assert!(zone.high.is_critical(TestFunction::Flip));
     let ends: [fn(&Zone) -> f64; 2] = [|zone| zone.low.frequency, |zone| zone.high.frequency];
     for (end, frequency) in [&zone.low, &zone.high].into_iter().zip(ends) {
         let border = Border::at_end(&scene, end, &parameters).expect("a normal");
@@ -126,7 +127,7 @@ fn one_frequency_is_enough_to_look_for_it() {
     let zones = single_impact(std::slice::from_ref(&scene), (at, at), &unmonitored);
     let found = zones.into_iter().next().expect("one").expect("a zone");
     assert_near(found.low.frequency, whole(&scene).low.frequency, 1e-6);
-    assert_ne!(found.low.loss, Loss::Free);
+    assert_ne!(found.low.loss, Loss::FreeGrazing);
     let none = single_impact(std::slice::from_ref(&scene), (400.0, 410.0), &unmonitored);
     let words = none
         .into_iter()
@@ -255,7 +256,7 @@ fn the_zone_of_a_lightly_damped_machine_ends_at_a_fold_of_its_branch() {
             let frequency = zone.high.frequency * (1.0 + off);
             let all = stable_ranges(&scene).expect("a machine");
             let holds = |it: &&StableRange| {
-                it.high.is_critical(Test::Fold)
+                it.high.is_critical(TestFunction::Fold)
                     && (it.low.frequency..=it.high.frequency).contains(&frequency)
             };
             all.iter().filter(holds).count()

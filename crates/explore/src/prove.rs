@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use nalgebra::Vector2;
 use serde::Serialize;
 use softstop::{Machine, Parameter, Scene, UnitSystem};
-use softstop_dynamics::continuation::{Special, SpecialKind, Test};
+use softstop_dynamics::continuation::{Special, SpecialKind, TestFunction};
 use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, Regime};
 use softstop_prove::machine::Machine as Laws;
 use softstop_prove::motion::Kind;
@@ -175,10 +175,10 @@ fn nearest(wanted: Bifurcation, scene: &Scene, orbit: &Orbit) -> Result<Special,
 
 fn kind(special: &Special) -> Option<Bifurcation> {
     match special.kind {
-        SpecialKind::Critical(Test::Fold) => Some(Bifurcation::Fold),
-        SpecialKind::Critical(Test::Flip) => Some(Bifurcation::Flip),
+        SpecialKind::Critical(TestFunction::Fold) => Some(Bifurcation::Fold),
+        SpecialKind::Critical(TestFunction::Flip) => Some(Bifurcation::Flip),
         SpecialKind::Grazing(_) => Some(Bifurcation::Grazing),
-        SpecialKind::Critical(Test::NeimarkSacker) | SpecialKind::Pitchfork => None,
+        SpecialKind::Critical(TestFunction::NeimarkSacker) | SpecialKind::Pitchfork => None,
     }
 }
 
@@ -193,9 +193,9 @@ fn name(what: Bifurcation) -> &'static str {
 /// What is to be proven of a special point.
 fn claim(scene: &Scene, special: &Special) -> Option<Claim> {
     match special.kind {
-        SpecialKind::Critical(Test::Fold) => Some(Claim::Fold),
-        SpecialKind::Critical(Test::Flip) => Some(Claim::Flip),
-        SpecialKind::Critical(Test::NeimarkSacker) | SpecialKind::Pitchfork => None,
+        SpecialKind::Critical(TestFunction::Fold) => Some(Claim::Fold),
+        SpecialKind::Critical(TestFunction::Flip) => Some(Claim::Flip),
+        SpecialKind::Critical(TestFunction::NeimarkSacker) | SpecialKind::Pitchfork => None,
         SpecialKind::Grazing(graze) => Some(Claim::Grazing(Touch {
             angle: graze.angle,
             position: graze.face.face_position(scene)?,

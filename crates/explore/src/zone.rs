@@ -138,7 +138,7 @@ fn stretch_columns<'a>() -> [Column<Stretched<'a>>; 7] {
 pub fn lost_by(loss: &Loss) -> String {
     let word = match loss {
         Loss::Fold => "fold",
-        Loss::Free => "g0",
+        Loss::FreeGrazing => "g0",
         Loss::Flip => "flip",
         Loss::NeimarkSacker => "Neimark-Sacker",
         Loss::Pitchfork => "pitchfork",

@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use softstop::internals::budget;
 use softstop::{Dimension, Machine, Parameter};
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::{self, grazing_frequencies};
 use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily, Zone, orbit};
 
@@ -124,7 +124,7 @@ impl Branches {
         let s_sn = zone.map(|zone| own(zone.high.frequency));
         let flips = single
             .iter()
-            .flat_map(|branch| branch.critical_points(Test::Flip));
+            .flat_map(|branch| branch.critical_points(TestFunction::Flip));
         let flips = flips
             .map(|flip| flip.parameter)
             .filter(|flip| s_sn.is_some_and(|fold| *flip < fold));

@@ -4,7 +4,8 @@
 use anyhow::{Context, Result};
 use softstop::{Parameter, Ratios, Scene};
 use softstop_dynamics::continuation::{
-    Branch, ContinuationSettings, Curve, CurveLimits, CurvePoint, SpecialKind, Test, follow_special,
+    Branch, ContinuationSettings, Curve, CurveLimits, CurvePoint, SpecialKind, TestFunction,
+    follow_special,
 };
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::free_amplitude;
@@ -45,7 +46,7 @@ impl Boundaries {
             settings: ContinuationSettings::of_curves(STEP),
         };
         let mut curves = Vec::new();
-        for (name, test) in [("s_PD", Test::Flip), ("s_SN", Test::Fold)] {
+        for (name, test) in [("s_PD", TestFunction::Flip), ("s_SN", TestFunction::Fold)] {
             let special = SpecialKind::Critical(test);
             for (number, point) in branch.critical_points(test).enumerate() {
                 let at = [point.parameter, machine.clearance];

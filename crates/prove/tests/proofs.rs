@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use proptest::test_runner::TestRunner;
 use softstop::nalgebra::Vector2;
 use softstop::{Parameter, Ratios, Scene, Start, Stop};
-use softstop_dynamics::continuation::{SpecialKind, Test};
+use softstop_dynamics::continuation::{SpecialKind, TestFunction};
 use softstop_dynamics::{Continuation, Limits, Orbit, ParameterFamily, orbit};
 use softstop_prove::arcs::Enclosed;
 use softstop_prove::motion::Motion;
@@ -67,13 +67,15 @@ fn bifurcations_are_where_continuation_finds_them() {
         let branch = follower.branch(1.15, orbit.state(), &limits, |_| ControlFlow::Continue(()));
         for special in branch.expect("a branch").specials {
             let claim = match special.kind {
-                SpecialKind::Critical(Test::Fold) => Claim::Fold,
-                SpecialKind::Critical(Test::Flip) => Claim::Flip,
+                SpecialKind::Critical(TestFunction::Fold) => Claim::Fold,
+                SpecialKind::Critical(TestFunction::Flip) => Claim::Flip,
                 SpecialKind::Grazing(graze) => Claim::Grazing(Touch {
                     angle: graze.angle,
                     position: graze.face.face_position(&scene).expect("a face"),
                 }),
-                SpecialKind::Critical(Test::NeimarkSacker) | SpecialKind::Pitchfork => continue,
+                SpecialKind::Critical(TestFunction::NeimarkSacker) | SpecialKind::Pitchfork => {
+                    continue;
+                }
             };
             let at = special.point.parameter;
             let near = scene.at_frequency(at);

@@ -5,7 +5,7 @@
 use crate::order::sort_rising;
 use crate::spread::{ToleranceBox, critical_normal, free_normal};
 use softstop::{Dimension, Machine, Parameter};
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::zone::{Loss, grazing_frequencies};
 use softstop_dynamics::{BranchPoint, Zone};
@@ -61,7 +61,7 @@ impl BoxWindow {
         };
         Ok(Some(Self {
             low: match zone.low.loss {
-                Loss::Free => Some(corners.low()?),
+                Loss::FreeGrazing => Some(corners.low()?),
                 _ => None,
             },
             high: corners.high(zone)?,
@@ -77,7 +77,7 @@ impl BoxWindow {
 
 /// The fold at which a zone ends, if that is what ends it.
 fn fold_of(zone: &Zone) -> Option<BranchPoint> {
-    let is_fold = zone.high.is_critical(Test::Fold);
+    let is_fold = zone.high.is_critical(TestFunction::Fold);
     is_fold.then(|| zone.high.point.clone())
 }
 
@@ -107,7 +107,8 @@ impl Corners<'_> {
             return Ok(std::array::from_fn(|_| None));
         };
         let normal = |corner: &[f64], fold: &BranchPoint| {
-            critical_normal(&self.spread, corner, (Test::Fold, fold)).map_err(Infeasible::unknown)
+            critical_normal(&self.spread, corner, (TestFunction::Fold, fold))
+                .map_err(Infeasible::unknown)
         };
         let mut outwards = normal(&corner, &fold)?;
         for _ in 0..CORNERS {
@@ -135,7 +136,8 @@ impl Corners<'_> {
             let (mut corner, mut fold) = (corner.clone(), fold.clone());
             if set > 0 {
                 let scene = self.spread.scene(&corner);
-                let border = Border::at_critical(&scene, 1, (Test::Fold, &fold), &[]).ok()?;
+                let border =
+                    Border::at_critical(&scene, 1, (TestFunction::Fold, &fold), &[]).ok()?;
                 for (bit, index) in doubtful.iter().enumerate() {
                     if set >> bit & 1 == 1 {
                         corner[*index] *= -1.0;

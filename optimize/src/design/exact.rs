@@ -3,7 +3,7 @@
 
 use softstop::{Machine, Parameter};
 use softstop_dynamics::Zone;
-use softstop_dynamics::continuation::{Direction, Test};
+use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::slopes::{self, Border, Slopes};
 use softstop_dynamics::zone::{ZoneEnd, loss_of_stability};
 
@@ -130,14 +130,15 @@ impl<'a> Linearization<'a> {
                 let border = Border::at_g0(&motion.orbit.scene, true, parameters);
                 Some(above(&border.ok()?))
             }
-            Figure::FrequencySn if motion.zone.high.is_critical(Test::Fold) => {
+            Figure::FrequencySn if motion.zone.high.is_critical(TestFunction::Fold) => {
                 minus(&self.high, &self.frequency)
             }
             Figure::FrequencyPd if motion.is_flip_above() => minus(&self.high, &self.frequency),
             Figure::FrequencyPd => {
-                let flip = loss_of_stability(motion.orbit, Direction::Down, Test::Flip).ok()??;
+                let flip =
+                    loss_of_stability(motion.orbit, Direction::Down, TestFunction::Flip).ok()??;
                 let scene = &motion.orbit.scene;
-                let border = Border::at_critical(scene, 1, (Test::Flip, &flip), parameters);
+                let border = Border::at_critical(scene, 1, (TestFunction::Flip, &flip), parameters);
                 Some(above(&border.ok()?))
             }
             Figure::Share if motion.place < 0.5 => Some(self.place.clone()),

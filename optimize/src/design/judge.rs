@@ -5,7 +5,7 @@ use std::slice;
 use softstop::{Machine, MotionError, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::basin::Establishment;
-use softstop_dynamics::continuation::{Direction, Test};
+use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::{find_end_along, find_zones, free_amplitude, loss_of_stability};
 use softstop_dynamics::{CycleMetrics, Orbit, ParameterFamily, Zone};
@@ -60,7 +60,7 @@ impl<'a> Judged<'a> {
             Figure::Share => self.place.min(1.0 - self.place),
             Figure::FrequencyG0 => frequency - self.zone.frequency_g0,
             Figure::FrequencySn | Figure::ClearanceSn
-                if !self.zone.high.is_critical(Test::Fold) =>
+                if !self.zone.high.is_critical(TestFunction::Fold) =>
             {
                 f64::INFINITY
             }
@@ -69,7 +69,7 @@ impl<'a> Judged<'a> {
             Figure::FrequencyPd | Figure::ClearancePd if self.is_at_fold() => f64::NAN,
             Figure::FrequencyPd => {
                 let below = self.above_flip(frequency);
-                match self.zone.high.is_critical(Test::Flip) {
+                match self.zone.high.is_critical(TestFunction::Flip) {
                     true => below.min(self.zone.high.frequency - frequency),
                     false => below,
                 }
@@ -79,14 +79,16 @@ impl<'a> Judged<'a> {
                 scene.least_clearance() - free_amplitude(scene, frequency)
             }
             Figure::ClearanceSn => self.below_fold(frequency),
-            Figure::ClearancePd => self.along(Parameter::Clearance, Direction::Down, Test::Flip),
+            Figure::ClearancePd => {
+                self.along(Parameter::Clearance, Direction::Down, TestFunction::Flip)
+            }
             _ => f64::NAN,
         }
     }
 
     /// Distance in rad/s from the flip below, infinite if there is none.
     fn above_flip(&self, frequency: f64) -> f64 {
-        match loss_of_stability(self.orbit, Direction::Down, Test::Flip) {
+        match loss_of_stability(self.orbit, Direction::Down, TestFunction::Flip) {
             Ok(Some(flip)) => frequency - flip.parameter,
             Ok(None) => f64::INFINITY,
             Err(_) => f64::NAN,
@@ -96,12 +98,13 @@ impl<'a> Judged<'a> {
     /// True if the nearer flip is the upper end of the zone.
     pub(super) fn is_flip_above(&self) -> bool {
         let frequency = self.orbit.scene.excitation.frequency;
-        self.zone.high.is_critical(Test::Flip)
+        self.zone.high.is_critical(TestFunction::Flip)
             && self.zone.high.frequency - frequency < self.above_flip(frequency)
     }
 
     fn is_at_fold(&self) -> bool {
-        let is_at_end = self.zone.high.is_critical(Test::Fold) && self.place > 1.0 - AT_FOLD;
+        let is_at_end =
+            self.zone.high.is_critical(TestFunction::Fold) && self.place > 1.0 - AT_FOLD;
         is_at_end || !self.orbit.is_stable()
     }
 
@@ -155,7 +158,7 @@ impl<'a> Judged<'a> {
 
     /// Distance along a parameter, in SI units, to where the motion is lost, by this or by anything else; infinite if it
     /// is not, NaN if it cannot be followed.
-    fn along(&self, parameter: Parameter, direction: Direction, test: Test) -> f64 {
+    fn along(&self, parameter: Parameter, direction: Direction, test: TestFunction) -> f64 {
         let scene = &self.orbit.scene;
         let Some(from) = parameter.get(scene) else {
             return f64::NAN;

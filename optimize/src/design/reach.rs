@@ -4,7 +4,7 @@
 use crate::spread::{Reached, ToleranceBox, along};
 use softstop::Scene;
 use softstop_dynamics::BranchPoint;
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::zone::Loss;
 
@@ -35,7 +35,7 @@ pub(super) fn inside(about: &Linearization<'_>, edge: &Edge) -> Option<Slope> {
     let (border, sign) = match &edge.fold {
         None => (Border::at_g0(&scene, true, rows.parameters()).ok()?, 1.0),
         Some(fold) => {
-            let fold = (Test::Fold, fold);
+            let fold = (TestFunction::Fold, fold);
             let border = Border::at_critical(&scene, 1, fold, rows.parameters()).ok()?;
             (border, -1.0)
         }
@@ -77,8 +77,8 @@ pub(super) fn reserve(
         return Some(Slope { value, by });
     };
     let test = match loss {
-        Loss::Fold => Some(Test::Fold),
-        Loss::Flip => Some(Test::Flip),
+        Loss::Fold => Some(TestFunction::Fold),
+        Loss::Flip => Some(TestFunction::Flip),
         _ => None,
     };
     let by = test.and_then(|test| {
@@ -99,7 +99,7 @@ fn by_normal(
     about: &Linearization<'_>,
     scene: &Scene,
     (end, share): (&[f64], f64),
-    (test, mut point): (Test, BranchPoint),
+    (test, mut point): (TestFunction, BranchPoint),
 ) -> Option<Vec<f64>> {
     let rows = Rows::at(about, end)?;
     point.parameter = scene.excitation.frequency;

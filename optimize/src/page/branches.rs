@@ -3,7 +3,7 @@
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_draw::Stroke;
-use softstop_dynamics::continuation::{Continuation, Direction, Test};
+use softstop_dynamics::continuation::{Continuation, Direction, TestFunction};
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::{BranchPoint, Orbit, ParameterFamily, Zone};
 
@@ -29,7 +29,7 @@ impl Motions {
             true => below(zone).unwrap_or_default(),
             false => {
                 let mut ends = [&zone.low, &zone.high].into_iter();
-                let flip = ends.find(|end| end.is_critical(Test::Flip));
+                let flip = ends.find(|end| end.is_critical(TestFunction::Flip));
                 (Vec::new(), flip.map(|end| end.frequency))
             }
         };
@@ -118,7 +118,7 @@ fn is_shown(point: &BranchPoint) -> bool {
     let end = point
         .fold_test()
         .abs()
-        .min(Test::Flip.scaled_value(&point.monodromy).abs());
+        .min(TestFunction::Flip.scaled_value(&point.monodromy).abs());
     point.is_stable() || end < 1e-6
 }
 
@@ -134,11 +134,11 @@ fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
             stop_if(ends || interrupt::watch(0, 0).is_break())
         })
         .ok()?;
-    let flips = |point: &BranchPoint| Test::Flip.scaled_value(&point.monodromy) <= 0.0;
+    let flips = |point: &BranchPoint| TestFunction::Flip.scaled_value(&point.monodromy) <= 0.0;
     let last = points.pop_if(|point| !point.is_stable());
     let flip = last
         .filter(flips)
-        .and_then(|last| follower.locate(&last, Test::Flip).ok());
+        .and_then(|last| follower.locate(&last, TestFunction::Flip).ok());
     let at = flip.as_ref().map(|flip| flip.parameter);
     points.extend(flip);
     Some((points, at))

@@ -4,7 +4,7 @@ use std::mem::{Discriminant, discriminant};
 
 use crate::spread::{Reached, ToleranceBox, along, critical_normal, free_normal};
 use softstop::MotionError;
-use softstop_dynamics::continuation::{Direction, Test};
+use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
 use softstop_dynamics::points::sobol_point;
@@ -73,14 +73,14 @@ impl Search<'_> {
         };
         let around = (0..AROUND).map(|index| self.farthest_along(&sobol_point(index, dimensions)));
         let centre = vec![0.0; dimensions];
-        let border = |(heading, test, outwards): (Direction, Test, f64)| {
+        let border = |(heading, test, outwards): (Direction, TestFunction, f64)| {
             let point = loss_of_stability(self.nominal, heading, test).ok()??;
             let normal = critical_normal(self.spread, &centre, (test, &point)).ok()?;
             Some((outwards, normal))
         };
         let borders = [
-            (Direction::Up, Test::Fold, 1.0),
-            (Direction::Down, Test::Flip, -1.0),
+            (Direction::Up, TestFunction::Fold, 1.0),
+            (Direction::Down, TestFunction::Flip, -1.0),
         ];
         let free = free_normal(self.spread, &centre).ok();
         let normals = borders.into_iter().filter_map(border);
@@ -189,8 +189,8 @@ impl Search<'_> {
         };
         let exact = match here.manifold {
             Manifold::Hysteresis => free_normal(self.spread, &here.at()).ok(),
-            Manifold::Motion(Loss::Fold) => critical(Test::Fold),
-            Manifold::Motion(Loss::Flip) => critical(Test::Flip),
+            Manifold::Motion(Loss::Fold) => critical(TestFunction::Fold),
+            Manifold::Motion(Loss::Flip) => critical(TestFunction::Flip),
             Manifold::Motion(_) => None,
         };
         let normal = exact.unwrap_or_else(|| self.differenced(here));

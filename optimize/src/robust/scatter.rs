@@ -3,7 +3,7 @@
 use crate::spread::{
     MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, critical_normal, free_normal,
 };
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
@@ -42,11 +42,11 @@ pub fn sensitivities(
     zone: &Zone,
 ) -> Result<Sensitivities, ZoneError> {
     let centre = vec![0.0; spread.dimensions()];
-    let fold = match zone.high.is_critical(Test::Fold) {
+    let fold = match zone.high.is_critical(TestFunction::Fold) {
         true => Some(critical_normal(
             spread,
             &centre,
-            (Test::Fold, &zone.high.point),
+            (TestFunction::Fold, &zone.high.point),
         )?),
         false => None,
     };

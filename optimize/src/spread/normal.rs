@@ -2,7 +2,7 @@
 
 use super::ToleranceBox;
 use softstop::{Parameter, Scene};
-use softstop_dynamics::continuation::{BranchPoint, Test};
+use softstop_dynamics::continuation::{BranchPoint, TestFunction};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::slopes::Border;
 use softstop_dynamics::zone::ZoneError;
@@ -29,7 +29,7 @@ pub fn free_normal(spread: &dyn ToleranceBox, at: &[f64]) -> Result<Vec<f64>, Zo
 pub fn critical_normal(
     spread: &dyn ToleranceBox,
     at: &[f64],
-    (test, point): (Test, &BranchPoint),
+    (test, point): (TestFunction, &BranchPoint),
 ) -> Result<Vec<f64>, OrbitError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
     let border = Border::at_critical(&scene, 1, (test, point), &parameters)?;

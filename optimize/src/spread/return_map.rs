@@ -3,7 +3,7 @@
 use nalgebra::{RowVector2, Vector2};
 
 use softstop::{Arc, CheckedScene, Clock, Crossing, MotionError, Observer, Scene, Tangent};
-use softstop_dynamics::continuation::{BranchPoint, Test};
+use softstop_dynamics::continuation::{BranchPoint, TestFunction};
 use softstop_dynamics::internals::carry_on;
 use softstop_dynamics::orbit::Monodromy;
 
@@ -104,8 +104,8 @@ impl Settled {
             }
             let far = scales.state(&step).norm();
             let monodromy = Monodromy::from(&once.tangent);
-            let clear = |test: Test| test.scaled_value(&monodromy) > CLEAR * far;
-            let sure = far <= SHORT && clear(Test::Fold) && clear(Test::Flip);
+            let clear = |test: TestFunction| test.scaled_value(&monodromy) > CLEAR * far;
+            let sure = far <= SHORT && clear(TestFunction::Fold) && clear(TestFunction::Flip);
             if sure && monodromy.is_stable() {
                 return Some(Self {
                     state,

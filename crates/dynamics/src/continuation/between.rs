@@ -8,7 +8,7 @@ use super::half_branch::Limits;
 use super::locate::{OFF_CHORD, along_chord, locate_zero, solve_zero};
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::ROUNDING;
 
@@ -24,7 +24,7 @@ impl Continuation<'_> {
         &self,
         from: &BranchPoint,
         to: &BranchPoint,
-        test: Test,
+        test: TestFunction,
     ) -> Result<BranchPoint, OrbitError> {
         self.find_clear(from, to, |continuation, ends| {
             continuation.critical_of_nodes(ends, test)
@@ -49,7 +49,7 @@ impl Continuation<'_> {
     fn critical_of_nodes(
         &self,
         ends: (&Node<PeriodMap>, &Node<PeriodMap>),
-        test: Test,
+        test: TestFunction,
     ) -> Result<BranchPoint, OrbitError> {
         let value = |round: &PeriodMap| test.scaled_value(&round.monodromy);
         let node = solve_zero(&self.shooting, ends, value).or_else(|_| {

@@ -13,7 +13,7 @@ use super::locate::{locate_zero, passes_place};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::stepper::Stepper;
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::direction::Direction;
 use crate::orbit::OrbitError;
 use crate::tolerance::SAME;
@@ -39,7 +39,7 @@ impl Branch {
     }
 
     /// The points of the branch at which a test vanishes, in their order.
-    pub fn critical_points(&self, test: Test) -> impl Iterator<Item = &BranchPoint> {
+    pub fn critical_points(&self, test: TestFunction) -> impl Iterator<Item = &BranchPoint> {
         let own = move |special: &&Special| special.kind == SpecialKind::Critical(test);
         let own = self.specials.iter().filter(own);
         own.map(|special| &special.point)

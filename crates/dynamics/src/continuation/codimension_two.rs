@@ -8,10 +8,10 @@ use super::impact_section::SectionPoint;
 use super::normal_form::normal_form_coefficient;
 use super::period_map::PeriodMap;
 use super::point::Graze;
-use super::section_orbit::SectionOrbit;
+use super::section_system::SectionSystem;
 use super::sequence::Sequence;
 use super::shooting::Critical;
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
 
 /// A point of a curve of special points in two parameters.
@@ -85,7 +85,7 @@ pub(super) trait Codimension: Equations {
     /// The machines of the curve, and the drive periods of its orbits.
     fn family_and_periods(&self) -> (&dyn Family<2>, u64);
     /// The test that vanishes on the curve; none on one of grazing.
-    fn critical_test(&self) -> Option<Test>;
+    fn critical_test(&self) -> Option<TestFunction>;
     /// The state of the orbit at time 0 for these unknowns.
     fn state_at(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError>;
     /// The before-impact velocities of the orbit of a point, its Jacobian, and what it crosses.
@@ -127,14 +127,14 @@ pub(super) trait Codimension: Equations {
         if let Some(found) = self.resonance_test(node) {
             return found;
         }
-        if self.critical_test() != Some(Test::Flip) {
+        if self.critical_test() != Some(TestFunction::Flip) {
             let value = along_parameters(before).dot(&along_parameters(here));
             return (CodimensionTwo::Cusp, value);
         }
         let (machines, periods) = self.family_and_periods();
         let coefficient = self.curve_point(node).and_then(|point| {
             let scene = machines.scene(point.parameters)?;
-            normal_form_coefficient(&scene, periods, Test::Flip, point.state())
+            normal_form_coefficient(&scene, periods, TestFunction::Flip, point.state())
         });
         let value = coefficient.ok().flatten().unwrap_or(f64::NAN);
         (CodimensionTwo::GeneralisedFlip, value)
@@ -154,7 +154,7 @@ pub(super) trait Codimension: Equations {
     /// none if that number is odd. It vanishes where the curve ends on one of flips.
     fn half_period_gap(&self, point: &CurvePoint) -> Option<Vector2<f64>> {
         let (machines, periods) = self.family_and_periods();
-        if self.critical_test() != Some(Test::Fold) || !periods.is_multiple_of(2) {
+        if self.critical_test() != Some(TestFunction::Fold) || !periods.is_multiple_of(2) {
             return None;
         }
         let scene = machines.scene(point.parameters).ok()?;
@@ -170,7 +170,7 @@ impl Codimension for Critical<'_, 2> {
         (self.shooting.family, self.shooting.periods)
     }
 
-    fn critical_test(&self) -> Option<Test> {
+    fn critical_test(&self) -> Option<TestFunction> {
         Some(self.test)
     }
 
@@ -183,12 +183,12 @@ impl Codimension for Critical<'_, 2> {
     }
 }
 
-impl Codimension for SectionOrbit<'_, 2> {
+impl Codimension for SectionSystem<'_, 2> {
     fn family_and_periods(&self) -> (&dyn Family<2>, u64) {
         (self.section.family, self.section.periods)
     }
 
-    fn critical_test(&self) -> Option<Test> {
+    fn critical_test(&self) -> Option<TestFunction> {
         self.critical_test()
     }
 
@@ -221,7 +221,8 @@ impl Codimension for SectionOrbit<'_, 2> {
         if velocity + change > 0.0 {
             return None;
         }
-        let (resonant, guess) = self.resonant_grazing(&(&node.at - step * (velocity / change)));
+        let (resonant, guess) =
+            self.resonant_grazing_system(&(&node.at - step * (velocity / change)));
         let found = correct(&resonant, &guess, None).ok()?;
         let is_near = (&found.at - node.at.clone().remove_row(1)).norm() <= step.norm();
         let kind = CodimensionTwo::ResonantGrazing(resonant.graze_at(&found));

@@ -5,12 +5,12 @@
 use nalgebra::DVector;
 
 use super::arclength::{Equations, Node, correct, curve_tangent};
-use super::follow::{Continuation, keeps_sense};
+use super::follow::{Continuation, same_orientation};
 use super::period_map::PeriodMap;
 use super::point::{Special, SpecialKind};
 use super::shooting::Shooting;
 use super::stepper::Stepper;
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 
 /// Scaled distances beyond a corner at which the branch is taken up.
@@ -40,7 +40,7 @@ impl Continuation<'_> {
                 let ahead = &node.at + reach * &along;
                 let found = correct(&self.shooting, &ahead, Some(&along)).ok()?;
                 let near = (&found.at - &node.at).norm() < CORNER_REACH * reach;
-                let goes_on = keeps_sense(
+                let goes_on = same_orientation(
                     (&stepper.direction, &node.here.point.monodromy),
                     (&along, &found.here.point.monodromy),
                 );
@@ -58,7 +58,10 @@ impl Continuation<'_> {
     ) -> Result<Vec<Special>, OrbitError> {
         let (a, b) = (&from.here.point.monodromy, &to.here.point.monodromy);
         let mut found = Vec::new();
-        for test in Test::ALL.into_iter().filter(|test| test.passes_zero(a, b)) {
+        for test in TestFunction::ALL
+            .into_iter()
+            .filter(|test| test.passes_zero(a, b))
+        {
             let (kind, point) = (SpecialKind::Critical(test), self.point_at(from)?);
             found.push(Special { kind, point });
         }

@@ -11,7 +11,7 @@ use super::half_branch::{End, Limits};
 use super::locate::{CurveCubic, along_chord, locate_zero};
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR};
 use softstop::internals::highest_point;
@@ -59,9 +59,9 @@ impl Continuation<'_> {
     ) -> Result<Vec<Special>, OrbitError> {
         let mut found = Vec::new();
         let (a, b) = (&from.here.point, &to.here.point);
-        for test in Test::ALL {
+        for test in TestFunction::ALL {
             if test.passes_zero(&a.monodromy, &b.monodromy) {
-                if test == Test::Fold
+                if test == TestFunction::Fold
                     && let Some(pitchfork) = self.pitchfork_between(from, to)?
                 {
                     found.push(pitchfork);
@@ -80,7 +80,7 @@ impl Continuation<'_> {
     fn locate_critical(
         &self,
         ends: (&Node<PeriodMap>, &Node<PeriodMap>),
-        test: Test,
+        test: TestFunction,
     ) -> Result<(f64, Special), OrbitError> {
         let value = |node: &Node<PeriodMap>| test.scaled_value(&node.here.point.monodromy);
         let (node, share) = locate_zero(&self.shooting, ends, value)?;
@@ -96,7 +96,8 @@ impl Continuation<'_> {
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
-        let value = |node: &Node<PeriodMap>| Test::Flip.scaled_value(&node.here.point.monodromy);
+        let value =
+            |node: &Node<PeriodMap>| TestFunction::Flip.scaled_value(&node.here.point.monodromy);
         let [a, b] = [from, to].map(|node| &node.here.point.monodromy);
         let (begins, ends) = (value(from), value(to));
         if a.trace() > 0.0 || begins.min(ends) <= 0.0 {
@@ -122,7 +123,7 @@ impl Continuation<'_> {
         };
         let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
         let flips = halves.map(|(from, to, begins, ends)| {
-            let (own, special) = self.locate_critical((from, to), Test::Flip)?;
+            let (own, special) = self.locate_critical((from, to), TestFunction::Flip)?;
             Ok((begins + own * (ends - begins), special))
         });
         flips.into_iter().collect()
@@ -214,7 +215,7 @@ impl Continuation<'_> {
         let [parameter] = self.shooting.parameters(&at);
         let found = continuation
             .find_point(parameter, self.shooting.state_at(&at))
-            .and_then(|near| continuation.locate(&near, Test::Flip));
+            .and_then(|near| continuation.locate(&near, TestFunction::Flip));
         let beside = |flip: &BranchPoint| self.place_of(flip).is_ok_and(|place| is_near(&place));
         let Some(flip) = found.ok().filter(beside) else {
             // Right beside grazing Newton's method does not settle on the flip: the gap vanishes there nevertheless.

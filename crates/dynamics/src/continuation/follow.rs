@@ -11,7 +11,7 @@ use super::point::BranchPoint;
 use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
 use super::stepper::{CurveStep, Stepper};
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::direction::Direction;
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::ROUNDING;
@@ -197,7 +197,11 @@ impl<'a> Continuation<'a> {
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle.
-    pub fn locate(&self, near: &BranchPoint, test: Test) -> Result<BranchPoint, OrbitError> {
+    pub fn locate(
+        &self,
+        near: &BranchPoint,
+        test: TestFunction,
+    ) -> Result<BranchPoint, OrbitError> {
         let plain = self.with_turn(0.0);
         let guess = plain.shooting.scaled(near.state(), [near.parameter]);
         let shooting = plain.shooting.seen_at(0.0, plain.shooting.periods);
@@ -251,18 +255,18 @@ impl<'a> Continuation<'a> {
 /// True if a step has not leapt to another piece of the branch: no test changes much, the sense does not change.
 fn is_same_piece(stepper: &Stepper<'_, Shooting<'_, 1>>, step: &CurveStep<PeriodMap>) -> bool {
     let [from, to] = [&stepper.node, &step.node].map(|node| &node.here.point.monodromy);
-    Test::change_little(from, to, stepper.settings.max_test_change)
-        && keeps_sense((&stepper.direction, from), (&step.direction, to))
+    TestFunction::change_little(from, to, stepper.settings.max_test_change)
+        && same_orientation((&stepper.direction, from), (&step.direction, to))
 }
 
-/// True if directions at two places of a branch, each with the monodromy matrix there, may be one: the parameter turns
-/// back where 1 - tr + det changes its sign, and nowhere else. Its rate along the curve is that test times a factor of one
-/// sign, at corners as well: it is the index of a fixed point of a map that is continuous.
-pub(super) fn keeps_sense(
+/// True if two tangents of a branch, each with the monodromy matrix there, have one orientation: along a branch the parameter's rate is
+/// 1 - tr + det times a factor of constant sign, at corners as well, since that sign is the index of a fixed point of a continuous map.
+pub(super) fn same_orientation(
     (from, before): (&DVector<f64>, &Monodromy),
     (to, after): (&DVector<f64>, &Monodromy),
 ) -> bool {
-    let sense = |direction: &DVector<f64>, matrix| Test::Fold.scaled_value(matrix) * direction[2];
+    let sense =
+        |direction: &DVector<f64>, matrix| TestFunction::Fold.scaled_value(matrix) * direction[2];
     is_one_sense(sense(from, before), sense(to, after))
 }
 

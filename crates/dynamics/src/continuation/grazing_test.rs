@@ -9,7 +9,7 @@ use super::face::{Face, NearTouch};
 use super::impact_section::SectionPoint;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
-use super::section_orbit::SectionOrbit;
+use super::section_system::SectionSystem;
 use super::shooting::Shooting;
 use crate::orbit::OrbitError;
 use softstop::internals::turning_points;
@@ -169,7 +169,7 @@ pub(crate) fn find_grazing(
     phase: f64,
     parameter: f64,
 ) -> Result<Special, OrbitError> {
-    let touching = SectionOrbit::of_graze(near, (family, periods));
+    let touching = SectionSystem::of_graze(near, (family, periods));
     let guess = touching.section.scaled_unknowns(&[near.angle], [parameter]);
     let node = correct(&touching, &guess, None)?;
     let [parameter] = touching.section.parameters(&node.at);

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::{OrbitError, StroboscopicMap};
 use crate::tolerance::NEAR;
 use softstop::CheckedScene;
@@ -22,13 +22,13 @@ const FORM_DISTANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 pub fn normal_form_coefficient(
     scene: &CheckedScene,
     periods: u64,
-    test: Test,
+    test: TestFunction,
     state: Vector2<f64>,
 ) -> Result<Option<f64>, OrbitError> {
     let multiplier = match test {
-        Test::Fold => 1.0,
-        Test::Flip => -1.0,
-        Test::NeimarkSacker => return Ok(None),
+        TestFunction::Fold => 1.0,
+        TestFunction::Flip => -1.0,
+        TestFunction::NeimarkSacker => return Ok(None),
     };
     let map = StroboscopicMap::new(scene, periods);
     let scales = scene.scales();
@@ -53,7 +53,7 @@ pub fn normal_form_coefficient(
         let first = (8.0 * (on - back) - (far - far_back)) / (12.0 * width);
         let quadratic = first * right;
         let parts = match test {
-            Test::Fold => [0.5 * left.dot(&quadratic), 0.0],
+            TestFunction::Fold => [0.5 * left.dot(&quadratic), 0.0],
             _ => {
                 let even = 16.0 * (on + back) - 30.0 * jacobian - (far + far_back);
                 let second = even / (12.0 * width * width);

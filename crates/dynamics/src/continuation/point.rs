@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use super::face::Face;
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::Monodromy;
 
 /// A point of a branch: the orbit at one value of the parameter.
@@ -47,7 +47,7 @@ impl BranchPoint {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SpecialKind {
     /// A bifurcation that the monodromy matrix tells: fold (the paper's SN), flip (PD), Neimark-Sacker.
-    Critical(Test),
+    Critical(TestFunction),
     /// The orbit grazes the stop (the paper's G).
     Grazing(Graze),
     /// An orbit between two stops that are alike ceases to be symmetric: two that are not come out of it.
@@ -78,9 +78,9 @@ impl SpecialKind {
     /// The kind of special point as a symbol, as in the paper's table where it has one: SN, PD, NS, G, PF.
     pub fn symbol(&self) -> &'static str {
         match self {
-            Self::Critical(Test::Fold) => "SN",
-            Self::Critical(Test::Flip) => "PD",
-            Self::Critical(Test::NeimarkSacker) => "NS",
+            Self::Critical(TestFunction::Fold) => "SN",
+            Self::Critical(TestFunction::Flip) => "PD",
+            Self::Critical(TestFunction::NeimarkSacker) => "NS",
             Self::Grazing(_) => "G",
             Self::Pitchfork => "PF",
         }
@@ -89,9 +89,9 @@ impl SpecialKind {
     /// The kind of special point in words.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Critical(Test::Fold) => "fold",
-            Self::Critical(Test::Flip) => "flip",
-            Self::Critical(Test::NeimarkSacker) => "Neimark-Sacker",
+            Self::Critical(TestFunction::Fold) => "fold",
+            Self::Critical(TestFunction::Flip) => "flip",
+            Self::Critical(TestFunction::NeimarkSacker) => "Neimark-Sacker",
             Self::Grazing(_) => "grazing",
             Self::Pitchfork => "pitchfork",
         }

@@ -8,7 +8,7 @@
 use nalgebra::DVector;
 
 use super::arclength::{Node, correct, curve_tangent};
-use super::follow::{Continuation, SectionChange, keeps_sense};
+use super::follow::{Continuation, SectionChange, same_orientation};
 use super::period_map::{PeriodMap, before_wall, state_after};
 use super::point::BranchPoint;
 use crate::tolerance::DIFFERENCE_WIDTH;
@@ -34,7 +34,7 @@ impl<'a> Continuation<'a> {
         let (mut along, _) = curve_tangent(&continuation.shooting, &seen, &along).ok()?;
         // Where small changes grow too much on the way, what is carried back may point backward.
         let [before, after] = [node, &seen].map(|node| &node.here.point.monodromy);
-        if !keeps_sense((direction, before), (&along, after)) {
+        if !same_orientation((direction, before), (&along, after)) {
             along.neg_mut();
         }
         Some(SectionChange {

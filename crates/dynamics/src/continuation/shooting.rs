@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use super::Family;
 use super::arclength::{Equations, Evaluation};
 use super::period_map::PeriodMap;
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR_GRAZING};
 use softstop::internals::{ParameterSensitivity, PhaseDerivatives};
@@ -203,7 +203,7 @@ pub(crate) fn round_off(
 #[derive(Debug)]
 pub(crate) struct Critical<'a, const N: usize> {
     pub shooting: Shooting<'a, N>,
-    pub test: Test,
+    pub test: TestFunction,
 }
 
 impl<const N: usize> Equations for Critical<'_, N> {

@@ -8,10 +8,10 @@ use super::Family;
 use super::codimension_two::{CodimensionTwo, CurvePoint};
 use super::curve::{Curve, CurveEnd, CurveLimits, follow_curve};
 use super::point::SpecialKind;
-use super::section_orbit::SectionOrbit;
+use super::section_system::SectionSystem;
 use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError};
 use softstop::MotionError;
 
@@ -48,7 +48,7 @@ fn follow_raw(
             let shooting = Shooting::new(family, periods);
             let guess = shooting.scaled(state, parameters);
             let critical = Critical { shooting, test };
-            match SectionOrbit::at_orbit((family, periods), test, state, parameters)? {
+            match SectionSystem::at_orbit((family, periods), test, state, parameters)? {
                 Some((at_impact, impact)) => follow_curve(&at_impact, kind, &impact, region, watch)
                     .or_else(|_| follow_curve(&critical, kind, &guess, region, watch)),
                 None => follow_curve(&critical, kind, &guess, region, watch),
@@ -56,7 +56,7 @@ fn follow_raw(
         }
         SpecialKind::Pitchfork => Err(OrbitError::NotIsolated),
         SpecialKind::Grazing(graze) => {
-            let touching = SectionOrbit::of_graze(&graze, (family, periods));
+            let touching = SectionSystem::of_graze(&graze, (family, periods));
             let guess = touching.section.scaled_unknowns(&[graze.angle], parameters);
             follow_curve(&touching, kind, &guess, region, watch)
         }
@@ -68,7 +68,7 @@ const FLIP_SEARCH: (usize, f64) = (5, 0.1);
 
 /// Gives curves of folds that end near a generalised flip, singular there, their last point by that of flips.
 pub(super) fn end_in_flips(family: &dyn Family<2>, folds: &mut Curve, region: &CurveLimits) {
-    let is_fold = folds.kind == SpecialKind::Critical(Test::Fold);
+    let is_fold = folds.kind == SpecialKind::Critical(TestFunction::Fold);
     if !is_fold || !folds.periods.is_multiple_of(2) {
         return;
     }
@@ -105,7 +105,7 @@ fn flip_near(
         },
         ..*region
     };
-    let flip = (SpecialKind::Critical(Test::Flip), point.state());
+    let flip = (SpecialKind::Critical(TestFunction::Flip), point.state());
     let go_on = &mut |_: &_| ControlFlow::Continue(());
     let flips = follow_raw(family, periods, flip, point.parameters, &region, go_on);
     let scales = family.parameter_scales();

@@ -1,14 +1,14 @@
 //! Step control of a branch: what keeps a step from missing anything, and what ends a branch that no step can follow.
 
 use super::arclength::{Equations, Node, correct};
-use super::follow::{Continuation, keeps_sense};
+use super::follow::{Continuation, same_orientation};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{BorderCollision, End, HalfBranch, Limits};
 use super::period_map::PeriodMap;
 use super::point::{Special, SpecialKind};
 use super::shooting::Shooting;
 use super::stepper::{CurveStep, Stepper};
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::DIFFERENCE_WIDTH;
 
@@ -99,7 +99,7 @@ impl Continuation<'_> {
             // Beyond, rounding decides on which side of a grazing an orbit is.
             && self.shooting.growth(&to.monodromy) * f64::EPSILON.sqrt() < 1.0
             && !self.comes_to_rest(&stepper.node, &step.node)
-            && (keeps_sense(
+            && (same_orientation(
                 (&stepper.direction, &from.monodromy),
                 (&step.direction, &to.monodromy),
             ) || self.keeps_symmetric_sense(stepper, step));
@@ -107,7 +107,7 @@ impl Continuation<'_> {
         if stepper.step < settings.crawling_step {
             return same;
         }
-        Test::change_little(&from.monodromy, &to.monodromy, settings.max_test_change)
+        TestFunction::change_little(&from.monodromy, &to.monodromy, settings.max_test_change)
             && same
             && ahead.may_step(now, settings.min_distance_left, settings.border_distance)
             && !now.may_graze_twice(ahead, stepper.step)
@@ -118,8 +118,8 @@ impl Continuation<'_> {
         let after = self.fold_test_while_held(to);
         let [before, there] = [from, to].map(|node| &node.here.point.monodromy);
         after < self.settings.border_distance
-            && after < Test::Fold.scaled_value(before).abs()
-            && !Test::Fold.passes_zero(before, there)
+            && after < TestFunction::Fold.scaled_value(before).abs()
+            && !TestFunction::Fold.passes_zero(before, there)
     }
 
     /// Size of the fold test of an orbit with a mass that is held on the way; infinite for others, above twice the distance
@@ -127,7 +127,7 @@ impl Continuation<'_> {
     /// of what is left, and Newton's method settles on orbits that no longer slip.
     fn fold_test_while_held(&self, node: &Node<PeriodMap>) -> f64 {
         let map = &node.here.point;
-        let fold = Test::Fold.scaled_value(&map.monodromy).abs();
+        let fold = TestFunction::Fold.scaled_value(&map.monodromy).abs();
         let merges = || {
             let gap = self.merging_gap(node);
             gap.is_some_and(|gap| gap.norm() < MERGING_GAP)
@@ -175,7 +175,7 @@ impl Continuation<'_> {
             let found = correct(&self.shooting, &guess, Some(&way.normalize()));
             found.is_ok_and(|Node { here, .. }| {
                 from.sequence == here.point.sequence
-                    && Test::Fold.passes_zero(&from.monodromy, &here.point.monodromy)
+                    && TestFunction::Fold.passes_zero(&from.monodromy, &here.point.monodromy)
             })
         };
         FOLD_SEARCH_SHARES.iter().any(turns)

@@ -17,7 +17,7 @@ use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Special, SpecialKind};
 use super::shooting::Shooting;
 use super::stepper::{CurveStep, Stepper};
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::tolerance::SAME;
 
@@ -35,7 +35,7 @@ impl Equations for Pitchfork<'_, '_> {
             tolerance: half.tolerance,
             point: half.monodromy,
         };
-        Ok(symmetric.with_test(Test::Fold.scaled_value(&half.monodromy)))
+        Ok(symmetric.with_test(TestFunction::Fold.scaled_value(&half.monodromy)))
     }
 }
 
@@ -58,8 +58,8 @@ impl Continuation<'_> {
         };
         // 1 - tr + det of the mirrored half round.
         is_one_sense(
-            Test::Flip.scaled_value(&from) * stepper.direction[2],
-            Test::Flip.scaled_value(&to) * step.direction[2],
+            TestFunction::Flip.scaled_value(&from) * stepper.direction[2],
+            TestFunction::Flip.scaled_value(&to) * step.direction[2],
         )
     }
 
@@ -73,10 +73,10 @@ impl Continuation<'_> {
         let (Some(a), Some(b)) = (half(from), half(to)) else {
             return Ok(None);
         };
-        if !Test::Fold.passes_zero(&a, &b) {
+        if !TestFunction::Fold.passes_zero(&a, &b) {
             return Ok(None);
         }
-        let [a, b] = [a, b].map(|half| Test::Fold.scaled_value(&half));
+        let [a, b] = [a, b].map(|half| TestFunction::Fold.scaled_value(&half));
         let way = &to.at - &from.at;
         let node = self.pitchfork(&(&from.at + a / (a - b) * &way))?;
         let (share, _) = along_chord((&from.at, &way), &node.at);

@@ -12,7 +12,7 @@ use softstop::{CheckedScene, Clock, Parameter, Scene, SceneError};
 
 use super::variation::{Variation, phase_derivatives};
 use crate::continuation::{
-    BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, Test, find_grazing,
+    BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, TestFunction, find_grazing,
 };
 use crate::orbit::OrbitError;
 use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
@@ -22,7 +22,7 @@ use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
 #[non_exhaustive]
 pub enum BorderKind {
     /// g0: the motion without impacts grazes the stop, above resonance or below it.
-    Free {
+    FreeGrazing {
         /// Above resonance.
         above: bool,
     },
@@ -97,7 +97,7 @@ impl Border {
             .map(|(parameter, rate)| rate * by(parameter));
         let own = by(&Parameter::Frequency) + followers.sum::<f64>();
         Ok(Self {
-            kind: BorderKind::Free { above },
+            kind: BorderKind::FreeGrazing { above },
             scene,
             point: None,
             parameters: parameters.to_vec(),
@@ -118,7 +118,7 @@ impl Border {
         parameters: &[Parameter],
     ) -> Result<Self, ZoneError> {
         match (&end.loss, end.special) {
-            (Loss::Free, _) => Self::at_g0(scene, true, parameters),
+            (Loss::FreeGrazing, _) => Self::at_g0(scene, true, parameters),
             (_, Some(kind)) => Ok(Self::at_point(scene, 1, (kind, &end.point), parameters)?),
             (_, None) => Err(OrbitError::no_derivative(parameters).into()),
         }
@@ -146,7 +146,7 @@ impl Border {
     pub fn at_critical(
         scene: &Scene,
         periods: u64,
-        (test, point): (Test, &BranchPoint),
+        (test, point): (TestFunction, &BranchPoint),
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
         Self::at_point(
@@ -165,7 +165,7 @@ impl Border {
         let parameters = &self.parameters;
         let (motion, (near, periods)) = match (self.kind, &self.point) {
             (BorderKind::Motion(kind), Some(point)) => (kind, point),
-            (BorderKind::Free { above: false }, _) => {
+            (BorderKind::FreeGrazing { above: false }, _) => {
                 return Self::at_g0(scene, false, parameters);
             }
             _ => return Self::at_g0(scene, true, parameters),
@@ -217,7 +217,7 @@ impl Border {
         let moved: Vec<Parameter> = along.iter().map(|(parameter, _)| *parameter).collect();
         let all = [parameters, &moved].concat();
         let rates = match kind {
-            SpecialKind::Critical(Test::Fold) => fold_rates(&scene, periods, point, &all)?,
+            SpecialKind::Critical(TestFunction::Fold) => fold_rates(&scene, periods, point, &all)?,
             SpecialKind::Critical(test) => test_rates(&scene, periods, (test, point), &all)?,
             SpecialKind::Pitchfork => return Err(OrbitError::NotIsolated),
             SpecialKind::Grazing(graze) => grazing_rates(&scene, periods, &graze, (&all, &along))?,
@@ -272,14 +272,14 @@ fn fold_rates(
 fn test_rates(
     scene: &CheckedScene,
     periods: u64,
-    (test, point): (Test, &BranchPoint),
+    (test, point): (TestFunction, &BranchPoint),
     parameters: &[Parameter],
 ) -> Result<Vec<f64>, OrbitError> {
     let variation = Variation::of_motion(scene, point.state(), periods, parameters)?;
     let rates = variation.stability_rates(scene, periods)?.into_iter();
     let rate = |[trace, determinant]: [f64; 2]| match test {
-        Test::NeimarkSacker => determinant,
-        Test::Fold | Test::Flip => trace + determinant,
+        TestFunction::NeimarkSacker => determinant,
+        TestFunction::Fold | TestFunction::Flip => trace + determinant,
     };
     Ok(rates.map(rate).collect())
 }

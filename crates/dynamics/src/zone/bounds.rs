@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{grazing_frequencies, loss_of_stability};
-use crate::continuation::{Direction, Test};
+use crate::continuation::{Direction, TestFunction};
 use crate::orbit::{Orbit, OrbitError};
 use softstop::{Scene, Start};
 
@@ -34,8 +34,8 @@ impl Bounds {
         };
         Ok(Self {
             grazing,
-            flip: bound(Direction::Down, Test::Flip)?.map(|point| point.parameter),
-            fold: bound(Direction::Up, Test::Fold)?.map(|point| point.parameter),
+            flip: bound(Direction::Down, TestFunction::Flip)?.map(|point| point.parameter),
+            fold: bound(Direction::Up, TestFunction::Fold)?.map(|point| point.parameter),
         })
     }
 }

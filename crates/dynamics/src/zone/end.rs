@@ -1,7 +1,7 @@
 //! The end of a zone or a stable range, and why it is there.
 
 use super::loss::Loss;
-use crate::continuation::{Branch, BranchPoint, Face, SpecialKind, Test};
+use crate::continuation::{Branch, BranchPoint, Face, SpecialKind, TestFunction};
 
 /// One end of a zone or of a range of frequencies with a stable z = 1 motion.
 #[derive(Debug, Clone)]
@@ -34,7 +34,7 @@ impl ZoneEnd {
     }
 
     /// True if a test of the monodromy matrix vanishes at the end.
-    pub fn is_critical(&self, test: Test) -> bool {
+    pub fn is_critical(&self, test: TestFunction) -> bool {
         self.special == Some(SpecialKind::Critical(test))
     }
 }

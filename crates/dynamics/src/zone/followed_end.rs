@@ -2,7 +2,9 @@
 
 use super::end::{ZoneEnd, first_end};
 use super::loss::Loss;
-use crate::continuation::{BranchPoint, Continuation, Direction, Limits, SpecialKind, Test};
+use crate::continuation::{
+    BranchPoint, Continuation, Direction, Limits, SpecialKind, TestFunction,
+};
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
@@ -41,8 +43,8 @@ fn end_between(
     (low, high): (f64, f64),
 ) -> Result<ZoneEnd, OrbitError> {
     if !beyond.is_stable() {
-        let fails = |test: &Test| test.scaled_value(&beyond.monodromy) <= 0.0;
-        let test = Test::ALL.into_iter().find(fails);
+        let fails = |test: &TestFunction| test.scaled_value(&beyond.monodromy) <= 0.0;
+        let test = TestFunction::ALL.into_iter().find(fails);
         let test = test.ok_or(OrbitError::NotIsolated)?;
         beyond = continuation.critical_between(before, &beyond, test)?;
         if (low..=high).contains(&beyond.parameter) {

@@ -15,7 +15,7 @@ use super::stable_range::StableRange;
 use super::stable_ranges::{FOLLOWED_RANGE, find_stable_ranges};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use super::{Zone, ZoneKind};
-use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, Test};
+use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, TestFunction};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_singles};
 use crate::tolerance::TEST_ROUNDING;
@@ -159,7 +159,7 @@ fn zone_from_start(
         frequency_g0,
         low: ZoneEnd {
             frequency: frequency_g0,
-            ..ZoneEnd::at_point(&branch[0], Loss::Free, None)
+            ..ZoneEnd::at_point(&branch[0], Loss::FreeGrazing, None)
         },
         high,
         branch,
@@ -189,7 +189,8 @@ pub(super) fn follow_upward(
     let highest = folds
         .iter()
         .max_by(|a, b| a.parameter.total_cmp(&b.parameter));
-    let end = highest.map(|fold| ZoneEnd::at_special(fold, SpecialKind::Critical(Test::Fold)));
+    let end =
+        highest.map(|fold| ZoneEnd::at_special(fold, SpecialKind::Critical(TestFunction::Fold)));
     Ok((branch, end))
 }
 
@@ -206,11 +207,11 @@ fn insert_folds(
     let mut folds = Vec::new();
     for index in (1..branch.len()).rev() {
         let (from, to) = (&branch[index - 1], &branch[index]);
-        let tests = [from, to].map(|point| Test::Fold.scaled_value(&point.monodromy));
+        let tests = [from, to].map(|point| TestFunction::Fold.scaled_value(&point.monodromy));
         let passes_zero = tests[0] * tests[1] < 0.0;
         if passes_zero
             && tests.iter().any(|value| value.abs() > TEST_ROUNDING)
-            && let Ok(fold) = continuation.critical_between(from, to, Test::Fold)
+            && let Ok(fold) = continuation.critical_between(from, to, TestFunction::Fold)
         {
             branch.insert(index, fold.clone());
             folds.push(fold);

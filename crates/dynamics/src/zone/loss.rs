@@ -1,6 +1,6 @@
 //! Why a stable z = 1 motion ends along a branch.
 
-use crate::continuation::{BorderCollision, End, Face, SpecialKind, Test};
+use crate::continuation::{BorderCollision, End, Face, SpecialKind, TestFunction};
 use crate::orbit::OrbitError;
 
 /// Why a range of stable z = 1 motions, or the hysteresis zone, ends.
@@ -8,7 +8,7 @@ use crate::orbit::OrbitError;
 #[non_exhaustive]
 pub enum Loss {
     /// g0: below it the motion without impacts strikes. The motion itself goes on beyond it.
-    Free,
+    FreeGrazing,
     /// The motion meets an unstable one and vanishes.
     Fold,
     /// It doubles its period.
@@ -61,12 +61,12 @@ impl Loss {
     }
 }
 
-impl From<Test> for Loss {
-    fn from(test: Test) -> Self {
+impl From<TestFunction> for Loss {
+    fn from(test: TestFunction) -> Self {
         match test {
-            Test::Fold => Self::Fold,
-            Test::Flip => Self::Flip,
-            Test::NeimarkSacker => Self::NeimarkSacker,
+            TestFunction::Fold => Self::Fold,
+            TestFunction::Flip => Self::Flip,
+            TestFunction::NeimarkSacker => Self::NeimarkSacker,
         }
     }
 }

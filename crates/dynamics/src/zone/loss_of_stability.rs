@@ -1,7 +1,7 @@
 //! Loss of stability of a motion as the drive's frequency, or another parameter, changes.
 
 use super::Frequencies;
-use crate::continuation::{BranchPoint, Continuation, Direction, Family, Test};
+use crate::continuation::{BranchPoint, Continuation, Direction, Family, TestFunction};
 use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
 
@@ -11,14 +11,14 @@ const MAX_LOSS_POINTS: usize = 400;
 const MAX_LOSS_FACTOR: f64 = 4.0;
 
 /// The first orbit, up or down from a stable z = 1 orbit, at which a test passes zero: s_SN by
-/// [`Test::Fold`], s_PD by [`Test::Flip`]. None if stability is lost otherwise, or not at all.
+/// [`TestFunction::Fold`], s_PD by [`TestFunction::Flip`]. None if stability is lost otherwise, or not at all.
 ///
 /// # Errors
 /// [`OrbitError`] if the branch cannot be begun.
 pub fn loss_of_stability(
     orbit: &Orbit,
     direction: Direction,
-    test: Test,
+    test: TestFunction,
 ) -> Result<Option<BranchPoint>, OrbitError> {
     let from = orbit.scene.excitation.frequency;
     let family = Frequencies(&orbit.scene);
@@ -41,7 +41,7 @@ pub fn find_end_along(
     from: f64,
     orbit: &Orbit,
     direction: Direction,
-    test: Test,
+    test: TestFunction,
 ) -> Result<Option<f64>, OrbitError> {
     let continuation = Continuation::new(family, 1);
     let branch = follow_stable(&continuation, from, orbit, direction)?;
@@ -73,7 +73,7 @@ fn follow_stable(
 fn locate_loss(
     continuation: &Continuation<'_>,
     branch: &[BranchPoint],
-    test: Test,
+    test: TestFunction,
 ) -> Result<Option<BranchPoint>, OrbitError> {
     let value = |point: &BranchPoint| test.scaled_value(&point.monodromy);
     match branch {

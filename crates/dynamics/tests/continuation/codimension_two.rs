@@ -103,7 +103,7 @@ fn curves_from_impact_to_impact_are_those_of_the_stroboscopic_map() {
         let branch = follow(&along, 1, (1.15, orbit.state()), (0.9, 1.8));
         let parameters = [Parameter::Frequency, Parameter::Clearance];
         let family = ParameterFamily::new(scene.clone(), parameters).expect("a family");
-        for (symbol, test) in [("PD", Test::Flip), ("SN", Test::Fold)] {
+        for (symbol, test) in [("PD", TestFunction::Flip), ("SN", TestFunction::Fold)] {
             let Some(special) = of_kind(&branch, symbol).into_iter().next() else {
                 continue;
             };
@@ -159,7 +159,7 @@ fn the_papers_machines_have_resonant_grazings() {
         };
         let state = Vector2::new(point.position, point.velocity);
         let checked = scene.check().expect("valid");
-        let coefficient = normal_form_coefficient(&checked, 1, Test::Flip, state);
+        let coefficient = normal_form_coefficient(&checked, 1, TestFunction::Flip, state);
         let coefficient = coefficient.expect("a motion").expect("a coefficient");
         let map = StroboscopicMap::new(&checked, 1);
         let flip = BranchPoint {

@@ -69,7 +69,7 @@ fn fold_curve_passes_through_all_known_folds() {
         assert_near(nearest.parameters[0], frequency, printed(5));
         assert_near(nearest.impacts[0], velocity, printed(2));
         assert_near(
-            Test::Fold.scaled_value(&nearest.monodromy),
+            TestFunction::Fold.scaled_value(&nearest.monodromy),
             0.0,
             10.0 * MOTION,
         );

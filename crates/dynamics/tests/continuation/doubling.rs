@@ -155,7 +155,7 @@ fn coefficients_are_those_of_the_orbits_beside() {
     let branch = follow(&family, 1, (2.2, state), (1.5, 3.0));
     let flip = of_kind(&branch, "PD").remove(0).point;
     let at_flip = scene(flip.parameter);
-    let found = normal_form_coefficient(&at_flip, 1, Test::Flip, flip.state());
+    let found = normal_form_coefficient(&at_flip, 1, TestFunction::Flip, flip.state());
     let coefficient = found.expect("a motion").expect("a coefficient");
     assert!(coefficient > 0.0, "the cascade begins with a stable orbit");
     let doubled = double_within(&family, 1, &flip, (1.5, 3.0));
@@ -175,7 +175,7 @@ fn coefficients_are_those_of_the_orbits_beside() {
     let z1 = all_of_z1();
     let fold = of_kind(&z1, "SN").remove(0).point;
     let at_fold = frequencies(1.15).scene([fold.parameter]).expect("a scene");
-    let found = normal_form_coefficient(&at_fold, 1, Test::Fold, fold.state());
+    let found = normal_form_coefficient(&at_fold, 1, TestFunction::Fold, fold.state());
     let coefficient = found.expect("a motion").expect("a coefficient");
     let scales = at_fold.scales();
     let place = z1.points.iter().position(|it| it.state() == fold.state());

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use anyhow::anyhow;
 use nalgebra::Vector2;
 use softstop::Machine;
-use softstop_dynamics::continuation::{Family, SpecialKind, Test};
+use softstop_dynamics::continuation::{Family, SpecialKind, TestFunction};
 use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily};
 
 use super::{ContinueArguments, Followed, family, seed};
@@ -83,7 +83,7 @@ fn doubled(
     bar: &Progress,
 ) -> Result<Vec<Branch>, Failure> {
     let follower = continuation(family, branch.periods, limits)?;
-    let flips = branch.critical_points(Test::Flip);
+    let flips = branch.critical_points(TestFunction::Flip);
     let doubled = flips.map(|flip| follower.double_period(flip, limits, |_| count(bar)));
     let pitchforks = branch.specials.iter();
     let pitchforks = pitchforks.filter(|special| special.kind == SpecialKind::Pitchfork);

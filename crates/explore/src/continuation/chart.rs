@@ -3,22 +3,22 @@
 use softstop::{Dimension, Machine, Parameter};
 use softstop_draw::style::{self, bifurcation};
 use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Stroke};
-use softstop_dynamics::continuation::{CodimensionTwo, Curve, SpecialKind, Test};
+use softstop_dynamics::continuation::{CodimensionTwo, Curve, SpecialKind, TestFunction};
 use softstop_dynamics::{Branch, BranchPoint};
 
 /// Name, mark and line of a kind of special points.
 fn sign(kind: &SpecialKind) -> (&'static str, Mark, Stroke) {
     let dashed = |color, dashes| Stroke::dashed(color, 2.2, dashes);
     match kind {
-        SpecialKind::Critical(Test::Fold) => {
+        SpecialKind::Critical(TestFunction::Fold) => {
             let line = Stroke::solid(bifurcation::FOLD, 2.2);
             ("fold (SN)", Mark::Circle, line)
         }
-        SpecialKind::Critical(Test::Flip) => {
+        SpecialKind::Critical(TestFunction::Flip) => {
             let line = dashed(bifurcation::FLIP, (9.0, 5.0));
             ("flip (PD)", Mark::Square, line)
         }
-        SpecialKind::Critical(Test::NeimarkSacker) => {
+        SpecialKind::Critical(TestFunction::NeimarkSacker) => {
             let line = dashed(bifurcation::NEIMARK_SACKER, (9.0, 3.0));
             ("Neimark-Sacker (NS)", Mark::Triangle, line)
         }

@@ -7,7 +7,7 @@ use softstop::{Machine, Scene};
 use softstop_console::column::Unit;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_dynamics::continuation::{Direction, Test};
+use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::parallel;
 use softstop_dynamics::settled::SettledMotion;
@@ -271,7 +271,7 @@ impl Look<'_> {
             true => self.orbit().cloned(),
             false => in_zone(),
         };
-        let flip = loss_of_stability(&orbit?, Direction::Down, Test::Flip).ok()?;
+        let flip = loss_of_stability(&orbit?, Direction::Down, TestFunction::Flip).ok()?;
         Some(flip.map_or(f64::NEG_INFINITY, |flip| flip.parameter))
     }
 

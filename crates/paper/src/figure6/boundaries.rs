@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use rayon::prelude::*;
 use softstop::Ratios;
 use softstop::internals::highest_point;
-use softstop_dynamics::continuation::{CurvePoint, Direction, Test};
+use softstop_dynamics::continuation::{CurvePoint, Direction, TestFunction};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{ZoneError, grazing_frequencies, hysteresis, loss_of_stability};
 use softstop_dynamics::{Orbit, StroboscopicMap};
@@ -51,7 +51,7 @@ fn ends_of(machine: &Ratios) -> Result<Ends> {
         Err(ZoneError::NoFold { .. } | ZoneError::Flip { .. }) => None,
         Err(error) => return Err(error.into()),
     };
-    let flip = loss_of_stability(&at_g0, Direction::Down, Test::Flip)?;
+    let flip = loss_of_stability(&at_g0, Direction::Down, TestFunction::Flip)?;
     let flip = flip.filter(|point| point.parameter > LEAST);
     let [fold, flip] = [fold, flip].map(|point| {
         let point = point.as_ref();

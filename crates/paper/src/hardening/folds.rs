@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use anyhow::Result;
 use rayon::prelude::*;
 use softstop_dynamics::BranchPoint;
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 
 use super::stops::{CLEARANCE, Law, grazing};
 use super::swept::RANGE;
@@ -94,11 +94,11 @@ fn of(stiffness: f64) -> Result<Folds> {
     scene.excitation.phase = PI;
     let branch = branch(scene, RANGE, MOST, LARGEST)?;
     let described = |point: &BranchPoint| (point.parameter, point.before_impact_velocity());
-    let folds = || branch.critical_points(Test::Fold).map(described);
+    let folds = || branch.critical_points(TestFunction::Fold).map(described);
     let strong = folds().reduce(|a, b| if a.1 > b.1 { a } else { b });
     let weak = folds().reduce(|a, b| if a.1 < b.1 { a } else { b });
     let flips = branch
-        .critical_points(Test::Flip)
+        .critical_points(TestFunction::Flip)
         .map(|point| point.parameter);
     let flips: Vec<f64> = flips.collect();
     let first = flips.iter().copied().reduce(f64::min);

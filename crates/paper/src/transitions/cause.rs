@@ -1,7 +1,7 @@
 //! Why a motion ends: the words of Peterka 2003, Table 2.
 
 use super::Transition;
-use softstop_dynamics::continuation::{SpecialKind, Test};
+use softstop_dynamics::continuation::{SpecialKind, TestFunction};
 use softstop_dynamics::motion::MotionKind;
 
 /// Why a motion ends.
@@ -50,20 +50,20 @@ pub(super) fn causes(
         SpecialKind::Critical(test) => test,
     };
     match test {
-        Test::Fold => jump(of),
-        Test::Flip if met_chaos(of) && !of.hysteresis => vec![Cause::InterruptedFlips],
+        TestFunction::Fold => jump(of),
+        TestFunction::Flip if met_chaos(of) && !of.hysteresis => vec![Cause::InterruptedFlips],
         // A soft doubling loses nothing: the doubled motion goes on in place of the simple one, and its end counts.
-        Test::Flip if of.is_soft() => match doubled {
+        TestFunction::Flip if of.is_soft() => match doubled {
             Some(SpecialKind::Grazing(_)) => vec![Cause::Grazing],
-            Some(SpecialKind::Critical(Test::Fold)) => jump(of),
-            Some(SpecialKind::Critical(Test::Flip)) if met_chaos(of) => {
+            Some(SpecialKind::Critical(TestFunction::Fold)) => jump(of),
+            Some(SpecialKind::Critical(TestFunction::Flip)) if met_chaos(of) => {
                 out_of_chaos(of, Cause::InterruptedFlips)
             }
             _ => vec![Cause::Flip],
         },
         // Beyond a hard flip there is nothing near to go on with.
-        Test::Flip => [vec![Cause::Flip], jump(of)].concat(),
-        Test::NeimarkSacker => vec![Cause::Unknown],
+        TestFunction::Flip => [vec![Cause::Flip], jump(of)].concat(),
+        TestFunction::NeimarkSacker => vec![Cause::Unknown],
     }
 }
 

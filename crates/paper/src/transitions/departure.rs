@@ -5,7 +5,7 @@ use super::cause::causes;
 use super::departure_path::DeparturePath;
 use super::explorer::{Explorer, Gathering};
 use super::window::{Window, WindowEnd};
-use softstop_dynamics::continuation::{Continuation, SpecialKind, Test};
+use softstop_dynamics::continuation::{Continuation, SpecialKind, TestFunction};
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::motion::MotionKind;
 use softstop_dynamics::orbit::OrbitError;
@@ -27,7 +27,7 @@ impl Explorer<'_> {
         let Some(kind) = end.kind else {
             return Ok(None);
         };
-        let flips = kind == SpecialKind::Critical(Test::Flip);
+        let flips = kind == SpecialKind::Critical(TestFunction::Flip);
         let sign = if upper { 1.0 } else { -1.0 };
         let mut way = DeparturePath {
             states: self.fill(&[end.point.state().into()]),

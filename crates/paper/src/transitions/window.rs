@@ -2,7 +2,7 @@
 
 use super::Explorer;
 use softstop_dynamics::continuation::{
-    Branch, BranchPoint, Continuation, Limits, SpecialKind, Test,
+    Branch, BranchPoint, Continuation, Limits, SpecialKind, TestFunction,
 };
 use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::motion::MotionKind;
@@ -83,7 +83,7 @@ fn end(branch: &Branch, start: usize, backwards: bool) -> WindowEnd {
     };
     let mut beyond = points.iter().skip(1);
     let special = beyond.find_map(|point| Some((branch.special_at(point)?.kind, *point)));
-    let is_told = |kind: &SpecialKind| *kind != SpecialKind::Critical(Test::NeimarkSacker);
+    let is_told = |kind: &SpecialKind| *kind != SpecialKind::Critical(TestFunction::NeimarkSacker);
     WindowEnd {
         kind: special.map(|(kind, _)| kind).filter(is_told),
         point: special

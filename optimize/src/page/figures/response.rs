@@ -5,7 +5,7 @@ use std::slice;
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_draw::{Axis, Layer, Mark, Panel, style};
-use softstop_dynamics::continuation::Test;
+use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::ZoneEnd;
 use softstop_dynamics::{Zone, parallel, zone};
 
@@ -29,7 +29,7 @@ const MARGIN: f64 = 0.15;
 
 /// The frequency in rad/s of an end of a zone that is neither fold nor flip.
 fn ends_otherwise(end: &ZoneEnd) -> Option<f64> {
-    let is_named = end.is_critical(Test::Fold) || end.is_critical(Test::Flip);
+    let is_named = end.is_critical(TestFunction::Fold) || end.is_critical(TestFunction::Flip);
     (!is_named).then_some(end.frequency)
 }
 

@@ -11,7 +11,7 @@ use super::half_branch::{End, HalfBranch, Limits};
 use super::normal_form::null_vector;
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
@@ -63,7 +63,7 @@ impl Continuation<'_> {
                 continue;
             };
             let along: DVector<f64> = &node.at - &at;
-            let fold = Test::Fold.scaled_value(&node.here.point.monodromy);
+            let fold = TestFunction::Fold.scaled_value(&node.here.point.monodromy);
             // Beyond, the new branch may have flipped itself.
             let near = along.norm() < 2.0 * distance && fold.abs() < 0.5;
             let gap = self.merging_gap(&node);
@@ -92,10 +92,10 @@ impl Continuation<'_> {
             let flip = &flips[flips.len() - 1];
             let mut first = None;
             let branch = continuation.double_period(flip, limits, |point| {
-                let is_positive = Test::Flip.scaled_value(&point.monodromy) > 0.0;
+                let is_positive = TestFunction::Flip.scaled_value(&point.monodromy) > 0.0;
                 stop_if(*first.get_or_insert(is_positive) != is_positive)
             })?;
-            let Some(next) = branch.critical_points(Test::Flip).next() else {
+            let Some(next) = branch.critical_points(TestFunction::Flip).next() else {
                 break;
             };
             flips.push(next.clone());

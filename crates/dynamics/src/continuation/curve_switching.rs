@@ -10,9 +10,9 @@ use super::curve::{Curve, CurveLimits, follow_curve};
 use super::follow::Continuation;
 use super::half_branch::Limits;
 use super::point::{Graze, SpecialKind};
-use super::section_orbit::SectionOrbit;
+use super::section_system::SectionSystem;
 use super::special_curve::{end_in_flips, follow_special};
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::monitor::stop_if;
 use softstop::{CheckedScene, MotionError};
 
@@ -29,7 +29,7 @@ pub fn switch_curves(
     mut is_known: impl FnMut(&SpecialKind, u64, &CurvePoint) -> bool,
     mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Vec<Curve> {
-    let [folds, flips] = [Test::Fold, Test::Flip].map(SpecialKind::Critical);
+    let [folds, flips] = [TestFunction::Fold, TestFunction::Flip].map(SpecialKind::Critical);
     let mut found = Vec::new();
     for (special, point) in &from.specials {
         let others = match special {
@@ -72,11 +72,11 @@ pub fn switch_curves(
 fn from_grazing(
     family: &dyn Family<2>,
     (periods, graze, parameters): (u64, &Graze, [f64; 2]),
-    test: Test,
+    test: TestFunction,
     region: &CurveLimits,
     watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Option<Curve> {
-    let touching = SectionOrbit::of_graze(graze, (family, periods));
+    let touching = SectionSystem::of_graze(graze, (family, periods));
     let touch = touching.section.scaled_unknowns(&[graze.angle], parameters);
     let beside = |velocity: &f64| touching.with_weak_impact(&touch, test, *velocity).ok();
     let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
@@ -124,7 +124,7 @@ fn fold_of_doubled(
     region: &CurveLimits,
 ) -> Option<(Vector2<f64>, [f64; 2])> {
     let [parameter, second] = flip.parameters;
-    let fixed = FixedSecond { family, second };
+    let fixed = RestrictedFamily { family, second };
     let along = Continuation::new(&fixed, periods)
         .with_steps(region.settings.largest_step)
         .ok()?;
@@ -139,18 +139,18 @@ fn fold_of_doubled(
         stop_if(*begins.get_or_insert(is_positive) != is_positive)
     });
     let branch = branch.ok()?;
-    let fold = branch.critical_points(Test::Fold).next()?;
+    let fold = branch.critical_points(TestFunction::Fold).next()?;
     Some((fold.state(), [fold.parameter, second]))
 }
 
 /// A family at one value of its second parameter.
 #[derive(Debug)]
-struct FixedSecond<'a> {
+struct RestrictedFamily<'a> {
     family: &'a dyn Family<2>,
     second: f64,
 }
 
-impl Family for FixedSecond<'_> {
+impl Family for RestrictedFamily<'_> {
     fn scene(&self, [first]: [f64; 1]) -> Result<CheckedScene, MotionError> {
         self.family.scene([first, self.second])
     }

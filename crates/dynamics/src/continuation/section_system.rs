@@ -17,7 +17,7 @@ use super::impact_section::{ImpactSection, LastArc, SectionPoint};
 use super::period_map::carry_through;
 use super::point::Graze;
 use super::shooting::round_off;
-use super::test::Test;
+use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::record_trajectory::record_trajectory;
 use softstop::internals::Phase;
@@ -32,19 +32,19 @@ pub(crate) enum SectionCondition {
     /// the next: in the linear machine at frequencies 2 `omega_d` n / k.
     ResonantTouch,
     /// It hits the surface, with its slowest impact, and a test vanishes.
-    Impact(Test),
+    Impact(TestFunction),
 }
 
 /// Orbits of a family that fulfil a condition at an impact section, in unknowns: drive angle there, scaled velocity of an
 /// impact, scaled parameters.
 #[derive(Debug)]
-pub(crate) struct SectionOrbit<'a, const N: usize> {
+pub(crate) struct SectionSystem<'a, const N: usize> {
     /// The surface, and the crossings of the orbit, a touch left out.
     pub section: ImpactSection<'a, N>,
     pub condition: SectionCondition,
 }
 
-impl<'a, const N: usize> SectionOrbit<'a, N> {
+impl<'a, const N: usize> SectionSystem<'a, N> {
     /// The grazing orbits of a family over a number of drive periods that touch as another one does.
     pub fn of_graze(graze: &Graze, orbits: (&'a dyn Family<N>, u64)) -> Self {
         Self {
@@ -56,7 +56,7 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
     /// The system of a test and its unknowns at an orbit; none if its slowest entry is none into a rigid or preloaded stop.
     pub fn at_orbit(
         (family, periods): (&'a dyn Family<N>, u64),
-        test: Test,
+        test: TestFunction,
         state: Vector2<f64>,
         parameters: [f64; N],
     ) -> Result<Option<(Self, DVector<f64>)>, MotionError> {
@@ -98,7 +98,7 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
     pub fn with_weak_impact(
         &self,
         touch: &DVector<f64>,
-        test: Test,
+        test: TestFunction,
         velocity: f64,
     ) -> Result<(Self, Node<SectionPoint>), OrbitError> {
         if self.section.is_symmetric {
@@ -117,7 +117,7 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
     }
 
     /// The system of resonant grazing of orbits with an impact, and its unknowns near them.
-    pub fn resonant_grazing(&self, at: &DVector<f64>) -> (Self, DVector<f64>) {
+    pub fn resonant_grazing_system(&self, at: &DVector<f64>) -> (Self, DVector<f64>) {
         let section = ImpactSection {
             crossings: self.section.crossings - 1,
             ..self.section
@@ -127,7 +127,7 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
     }
 
     /// The test that vanishes on orbits with an impact.
-    pub fn critical_test(&self) -> Option<Test> {
+    pub fn critical_test(&self) -> Option<TestFunction> {
         match self.condition {
             SectionCondition::Impact(test) => Some(test),
             SectionCondition::Touch | SectionCondition::ResonantTouch => None,
@@ -173,7 +173,7 @@ impl<'a, const N: usize> SectionOrbit<'a, N> {
     }
 }
 
-impl<const N: usize> Equations for SectionOrbit<'_, N> {
+impl<const N: usize> Equations for SectionSystem<'_, N> {
     type Point = SectionPoint;
 
     fn evaluate(&self, at: &DVector<f64>) -> Result<Evaluation<SectionPoint>, OrbitError> {

@@ -1,11 +1,11 @@
-//! Test functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
+//! TestFunction functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
 
 use crate::orbit::Monodromy;
 use crate::tolerance::TEST_ROUNDING;
 
 /// A function of the monodromy matrix that vanishes at a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Test {
+pub enum TestFunction {
     /// 1 - tr + det: a multiplier is 1.
     Fold,
     /// 1 + tr + det: a multiplier is -1.
@@ -15,7 +15,7 @@ pub enum Test {
     NeimarkSacker,
 }
 
-impl Test {
+impl TestFunction {
     /// All tests.
     pub const ALL: [Self; 3] = [Self::Fold, Self::Flip, Self::NeimarkSacker];
 
@@ -62,7 +62,7 @@ impl Test {
 
 #[cfg(test)]
 mod tests {
-    use super::Test;
+    use super::TestFunction;
     use crate::orbit::Monodromy;
     use nalgebra::{Matrix2, Rotation2};
 
@@ -72,16 +72,21 @@ mod tests {
 
     #[test]
     fn tests_vanish_at_their_multipliers() {
-        let vanishes = |test: Test, matrix| assert!(test.scaled_value(&of(matrix)).abs() < 1e-15);
-        vanishes(Test::Fold, Matrix2::new(1.0, 5.0, 0.0, 0.3));
-        vanishes(Test::Flip, Matrix2::new(-1.0, 5.0, 0.0, 0.3));
-        vanishes(Test::NeimarkSacker, Rotation2::new(1.0).into_inner());
+        let vanishes =
+            |test: TestFunction, matrix| assert!(test.scaled_value(&of(matrix)).abs() < 1e-15);
+        vanishes(TestFunction::Fold, Matrix2::new(1.0, 5.0, 0.0, 0.3));
+        vanishes(TestFunction::Flip, Matrix2::new(-1.0, 5.0, 0.0, 0.3));
+        vanishes(
+            TestFunction::NeimarkSacker,
+            Rotation2::new(1.0).into_inner(),
+        );
     }
 
     #[test]
     fn neimark_sacker_needs_complex_multipliers_and_a_change() {
         let turned = |size: f64| of(Rotation2::new(1.0).into_inner() * size);
-        let passes = |from: Monodromy, to: Monodromy| Test::NeimarkSacker.passes_zero(&from, &to);
+        let passes =
+            |from: Monodromy, to: Monodromy| TestFunction::NeimarkSacker.passes_zero(&from, &to);
         assert!(passes(turned(0.9), turned(1.1)));
         assert!(!passes(turned(0.9), turned(0.95)));
         assert!(!passes(turned(1.0 - 1e-14), turned(1.0 + 1e-14)));
