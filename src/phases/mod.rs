@@ -35,7 +35,7 @@ pub enum PhaseKind {
     Pierce,
     /// Phase II: the punch moves in the cut against dry friction.
     Cut,
-    /// Beyond the clearance where no strip lies.
+    /// Beyond the clearance where neither strip nor stop acts: the contact damping alone.
     Gap,
     /// Phase III: the stop is pressed.
     Stop,
