@@ -43,7 +43,8 @@ pub fn toml(data: &[u8]) {
     }
 }
 
-/// A file that keeps what a run has done: all that is recalled can be read, what is added is recalled with it.
+/// A file that keeps what a run has done: all that is recalled can be read, what is added is recalled with it; a file that no run
+/// has written is refused and stays as it is.
 ///
 /// # Panics
 /// If not, or if files cannot be written.
@@ -52,6 +53,11 @@ pub fn pieces(data: &[u8]) {
     let path = folder.path().join("run.part");
     let mut file = std::fs::File::create(&path).expect("a file");
     file.write_all(data).expect("a file");
+    if let Err(error) = RecordLog::open(&path) {
+        assert_eq!(error.kind(), std::io::ErrorKind::InvalidData);
+        assert_eq!(std::fs::read(&path).expect("a file"), data);
+        return;
+    }
     let read = || {
         let mut known = Vec::new();
         let mut file = RecordLog::open(&path)
