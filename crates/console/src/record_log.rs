@@ -35,6 +35,8 @@ pub struct RecordSpan {
 
 /// How often a file is written through to the disk, against a crash of the system; a kill takes nothing written.
 const SYNC: Duration = Duration::from_secs(5);
+/// Bytes of what a first record says the file is of, at most.
+const MAX_FIRST_PIECE: u32 = 1 << 20;
 /// Bytes in front of a record: its checksum, and the lengths of key and piece.
 const HEAD: usize = 12;
 
@@ -72,7 +74,8 @@ impl RecordLog {
         }
     }
 
-    /// Whether the file is empty, or begins with a record without a key, whole or cut off.
+    /// Whether the file holds nothing, not even after a crash of the system that left zeros, or begins with a record without
+    /// a key, whole or cut off.
     fn begins_as_one(&mut self) -> io::Result<bool> {
         let length = self.file.seek(SeekFrom::End(0))?;
         self.file.seek(SeekFrom::Start(0))?;
@@ -81,13 +84,12 @@ impl RecordLog {
             .take(HEAD as u64)
             .read_to_end(&mut head)?;
         let piece = head.last_chunk().copied().map_or(0, u32::from_le_bytes);
-        let is_cut_off = head.len() < HEAD || HEAD as u64 + u64::from(piece) > length;
+        let is_cut_off = head.len() < HEAD
+            || (piece < MAX_FIRST_PIECE && HEAD as u64 + u64::from(piece) > length);
         self.file.seek(SeekFrom::Start(0))?;
-        Ok(match head.get(4..8) {
-            None => head.is_empty(),
-            Some(key) if key != [0; 4] => false,
-            Some(_) => is_cut_off || next(&mut self.file, 0, length)?.is_some(),
-        })
+        let is_empty = head.iter().all(|byte| *byte == 0);
+        let has_no_key = head.get(4..8) == Some(&[0; 4]);
+        Ok(is_empty || (has_no_key && (is_cut_off || next(&mut self.file, 0, length)?.is_some())))
     }
 
     fn of(path: &Path, file: File) -> Self {

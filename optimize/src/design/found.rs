@@ -54,7 +54,7 @@ pub struct Ascents {
     pub made: usize,
     /// The last of them, as many as have bettered nothing.
     pub idle: usize,
-    /// Distant points with a motion from which none was made, for the evaluations did not suffice.
+    /// Distant points with a motion beyond as many as the evaluations allow.
     pub left_out: usize,
 }
 

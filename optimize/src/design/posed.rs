@@ -87,7 +87,8 @@ impl Ranges {
                 let gain = |index: usize| {
                     self.scaled(index, pair[0][index]) - self.scaled(index, pair[1][index])
                 };
-                let others = (0..count).filter(|index| *index != bounded);
+                let others =
+                    (0..count).filter(|index| *index != bounded && gain(*index).is_finite());
                 let objective = others.max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
                 let middle = 0.5 * (pair[0][bounded] + pair[1][bounded]);
                 let new = Posed {

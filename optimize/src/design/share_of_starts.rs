@@ -18,7 +18,7 @@ use crate::robust::Neighbours;
 /// Starts that are counted first: where they show that far too few lead to a motion, no more are.
 const FIRST_STARTS: usize = STARTS / 16;
 /// Exponent of e of the probability that so few of the first starts lead to a motion to which enough of all do.
-const HOPELESS_EXPONENT: f64 = 14.0;
+const REFUTING_EXPONENT: f64 = 14.0;
 /// Decay a drive period, as an exponent, below which a basin test no longer follows all motions to their end (28 / 20,000): a
 /// start then takes so many periods that a share far too small is told by the first ones.
 const SLOW_DECAY: f64 = 1.4e-3;
@@ -29,9 +29,8 @@ impl Problem {
     pub(super) fn least_certainty(&self, design: &Design, known: &CriticalMachines) -> Option<f64> {
         let needed = self.least_share().unwrap_or(0.0);
         let share = |orbit: &Orbit| {
-            let few = is_slow(orbit).then(|| self.established_too_rarely(orbit, needed));
-            let few = few.transpose().ok()?.flatten();
-            let starts = few.map_or_else(|| self.established(orbit, STARTS), Ok);
+            let refuted = self.refuted_share(orbit, needed).ok()?;
+            let starts = refuted.map_or_else(|| self.established(orbit, STARTS), Ok);
             Some(starts.ok()?.interval[0])
         };
         let mut least = f64::INFINITY;
@@ -67,14 +66,18 @@ impl Problem {
         Establishment::within_region(orbit, &region, starts, &interrupt::watch)
     }
 
-    /// What the first starts show of the share that leads to a motion, if that is certainly smaller than a share.
-    pub(super) fn established_too_rarely(
+    /// What the first starts show of the share that leads to a motion, if motions decay so slowly that to follow all would take
+    /// minutes, and that is certainly smaller than a share.
+    pub(super) fn refuted_share(
         &self,
         orbit: &Orbit,
         share: f64,
     ) -> Result<Option<Establishment>, OrbitError> {
+        if share <= 0.0 || !is_slow(orbit) {
+            return Ok(None);
+        }
         let first = self.established(orbit, FIRST_STARTS)?;
-        Ok(Some(first).filter(|it| is_hopeless((it.share, FIRST_STARTS), share)))
+        Ok(Some(first).filter(|it| is_refuted((it.share, FIRST_STARTS), share)))
     }
 
     /// Whether the share of starts that lead to a motion is enough, without counting all of them.
@@ -98,18 +101,17 @@ impl Problem {
 }
 
 impl OperatingPoint<'_> {
-    /// The certainty that is required, as the first starts show it, if motions decay so slowly that to follow all would take
-    /// minutes and it is certainly too small.
-    pub(super) fn too_rare(&self) -> Result<Option<Met>, OrbitError> {
+    /// The certainty that is required, as the first starts show it, if they refute it.
+    pub(super) fn refuted_certainty(&self) -> Result<Option<Met>, OrbitError> {
         let (case, orbit) = (self.case, &self.design.orbit);
         let mut required = self.problem.trials();
         let required = required.find(|it| it.figure == Figure::Certainty && it.least.is_some());
-        let Some(requirement) = required.filter(|_| is_slow(orbit)) else {
+        let Some(requirement) = required else {
             return Ok(None);
         };
         let least = requirement.least.unwrap_or(0.0);
-        let few = self.problem.established_too_rarely(orbit, least)?;
-        Ok(few.map(|starts| Met {
+        let refuted = self.problem.refuted_share(orbit, least)?;
+        Ok(refuted.map(|starts| Met {
             case,
             value: starts.share,
             starts: Some(starts),
@@ -126,25 +128,25 @@ fn is_slow(orbit: &Orbit) -> bool {
 
 /// Whether so small a share of so many starts would be met with a probability of less than `e^-14` if a share of all that is
 /// least led to the motion (Chernoff 1952).
-fn is_hopeless((share, starts): (f64, usize), least: f64) -> bool {
+fn is_refuted((share, starts): (f64, usize), least: f64) -> bool {
     let part = |own: f64, other: f64| match own {
         0.0 => 0.0,
         own => own * (own / other).ln(),
     };
     let divergence = part(share, least) + part(1.0 - share, 1.0 - least);
-    share < least && starts as f64 * divergence > HOPELESS_EXPONENT
+    share < least && starts as f64 * divergence > REFUTING_EXPONENT
 }
 
 #[cfg(test)]
 mod tests {
-    use super::is_hopeless;
+    use super::is_refuted;
 
     #[test]
-    fn only_a_share_far_below_is_hopeless() {
-        assert!(is_hopeless((0.0, 64), 0.2));
-        assert!(is_hopeless((0.5, 64), 0.9) && is_hopeless((0.5, 64), 1.0));
-        assert!(!is_hopeless((0.0, 64), 0.1));
-        assert!(!is_hopeless((0.15, 64), 0.2) && !is_hopeless((0.3, 64), 0.2));
-        assert!(!is_hopeless((1.0, 64), 1.0));
+    fn only_a_share_far_below_is_refuted() {
+        assert!(is_refuted((0.0, 64), 0.2));
+        assert!(is_refuted((0.5, 64), 0.9) && is_refuted((0.5, 64), 1.0));
+        assert!(!is_refuted((0.0, 64), 0.1));
+        assert!(!is_refuted((0.15, 64), 0.2) && !is_refuted((0.3, 64), 0.2));
+        assert!(!is_refuted((1.0, 64), 1.0));
     }
 }

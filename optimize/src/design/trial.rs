@@ -192,7 +192,7 @@ impl Problem {
         };
         if requirement.figure == Figure::Certainty && requirement.most.is_none() {
             let least = requirement.least.unwrap_or(0.0);
-            if !matches!(self.established_too_rarely(orbit, least), Ok(None)) {
+            if !matches!(self.refuted_share(orbit, least), Ok(None)) {
                 return false;
             }
             let is_enough = |starts: &Establishment| {
@@ -224,7 +224,7 @@ impl OperatingPoint<'_> {
     /// What it has of the requirements that take many motions, if it meets them.
     fn pass_trials(&self, known: &mut CriticalMachines) -> Result<Vec<Met>, Infeasible> {
         let (problem, design) = (&self.problem, self.design);
-        let few = self.too_rare().map_err(Infeasible::unknown)?;
+        let few = self.refuted_certainty().map_err(Infeasible::unknown)?;
         let own = few.map_or_else(|| self.tried(), |few| Ok(vec![few]));
         let mut own = own.map_err(Infeasible::unknown)?;
         for met in own.iter().filter(|it| !it.is_met()) {

@@ -16,33 +16,47 @@ const REST: Start = Start {
     velocity: 0.0,
 };
 
-/// Refuses a machine whose design no FMU could hold, before it is searched, and ends of what is searched that are beyond the
-/// ranges of an FMU.
+/// Refuses a machine whose design no FMU could hold, before it is searched, and what is searched beyond the range of an FMU
+/// alone.
 pub(super) fn can_be_packed(problem: &Problem) -> Result<(), Failure> {
-    let machine = &problem.machine;
+    let mut machine = problem.machine.clone();
     let frequency = Axis::new(Parameter::Frequency, problem.frequency);
     for Axis {
         parameter, range, ..
     } in problem.axes.iter().chain([&frequency])
     {
-        for end in [range.low, range.high]
-            .into_iter()
-            .filter(|it| it.is_finite())
-        {
-            let mut machine = machine.clone();
-            machine.set(*parameter, end);
-            problem.link(&mut machine);
+        let refusal = |machine: &Machine| {
             let values = StartValues::from_scene(&machine.scene, REST);
-            if let Err(error @ NotServed::OutOfRange { .. }) = values {
+            let is_own = |it: &NotServed| matches!(it, NotServed::OutOfRange { name, .. } if *name == parameter.name());
+            values.err().filter(is_own)
+        };
+        let ends = [range.low, range.high]
+            .into_iter()
+            .filter(|it| it.is_finite());
+        let ends: Vec<Machine> = ends
+            .map(|end| {
+                let mut changed = machine.clone();
+                changed.set(*parameter, end);
+                problem.link(&mut changed);
+                changed
+            })
+            .collect();
+        match (
+            ends.iter().find(|it| refusal(it).is_none()),
+            ends.first().and_then(refusal),
+        ) {
+            (Some(served), _) if refusal(&machine).is_some() => machine = served.clone(),
+            (None, Some(error)) => {
                 let name = machine.name(*parameter);
                 return Err(Failure::usage(format!(
                     "vary.{name} = {range}: a design with {error}, as which each is packed"
                 )));
             }
+            _ => {}
         }
     }
     let design = Machine {
-        name: Some(design_name(machine)),
+        name: Some(design_name(&machine)),
         description: None,
         ..machine.clone()
     };

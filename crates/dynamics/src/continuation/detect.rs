@@ -225,12 +225,9 @@ impl Continuation<'_> {
             let vanishes = self.merging_gap(&node)?.norm() < NEAR * a.norm().max(b.norm());
             return vanishes.then_some((self.point_at(&node).ok()?, End::Merged));
         };
-        let PeriodMap {
-            impacts, monodromy, ..
-        } = self.with_turn(0.0).node_at(&flip).ok()?.here.point;
         let twice = BranchPoint {
-            impacts,
-            monodromy,
+            impacts: flip.impacts.repeat(2),
+            monodromy: flip.monodromy.squared(),
             ..flip
         };
         Some((twice, End::Merged))

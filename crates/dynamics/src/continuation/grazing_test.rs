@@ -127,9 +127,10 @@ impl GrazingTest {
             .dying
             .filter(|_| taken > 1)
             .zip(total.checked_sub(touches));
-        let rising = self
-            .rising
-            .map(|touch| (touch, total - touches * usize::from(touch.reverses)));
+        let rising = self.rising.and_then(|touch| {
+            let taken = touches * usize::from(touch.reverses);
+            Some((touch, total.checked_sub(taken)?))
+        });
         [(dying, true), (passing, true), (rising, false)]
             .into_iter()
             .filter_map(|(touch, dies)| touch.map(|(touch, crossings)| (touch, crossings, dies)))

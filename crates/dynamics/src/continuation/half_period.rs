@@ -10,7 +10,7 @@ use crate::tolerance::SAME;
 use softstop::Scene;
 
 /// True if a machine is its own mirror image half a drive period later: both stops are alike.
-fn is_symmetric(scene: &Scene) -> bool {
+pub(super) fn is_symmetric(scene: &Scene) -> bool {
     let below = scene.below.as_ref();
     let is_alike =
         below.is_some_and(|below| below.clearance == scene.clearance && below.stop == scene.stop);

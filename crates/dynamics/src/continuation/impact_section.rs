@@ -7,6 +7,7 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::face::Face;
+use super::half_period::is_symmetric;
 use super::period_map::{half_way, state_after};
 use super::point::Graze;
 use super::sequence::Sequence;
@@ -53,7 +54,7 @@ impl SectionPoint {
     }
 }
 
-/// The error of an orbit that does not cross as often as it should, or of a scene without the surface.
+/// The error of an orbit that does not cross as often as it should, or of a scene without the surface or the symmetry.
 const NO_CROSSING: OrbitError = OrbitError::Diverged {
     residual: f64::INFINITY,
 };
@@ -93,6 +94,9 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
         parameters: [f64; N],
     ) -> Result<(CheckedScene, f64), OrbitError> {
         let scene = self.family.scene(parameters)?.at_phase(angle)?;
+        if self.is_symmetric && !is_symmetric(&scene) {
+            return Err(NO_CROSSING);
+        }
         let position = self.face.face_position(&scene).ok_or(NO_CROSSING)?;
         Ok((scene, position))
     }

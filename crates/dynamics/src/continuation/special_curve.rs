@@ -12,7 +12,7 @@ use super::section_system::SectionSystem;
 use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
 use super::test_function::TestFunction;
-use crate::orbit::{Monodromy, OrbitError};
+use crate::orbit::OrbitError;
 use softstop::MotionError;
 
 /// Follows a special point, of this kind and with this state at time 0, in both directions of two parameters.
@@ -116,10 +116,9 @@ fn flip_near(
     let specials = flips.ok()?.specials.into_iter();
     let flips = specials.filter(|it| it.0 == CodimensionTwo::GeneralisedFlip);
     let flip = flips.map(|it| it.1).find(is_near)?;
-    let again = &flip.monodromy;
     Some(CurvePoint {
-        monodromy: Monodromy::from_factors(&[(again.matrix, again.determinant()); 2]),
-        impacts: [&flip.impacts[..], &flip.impacts[..]].concat(),
+        impacts: flip.impacts.repeat(2),
+        monodromy: flip.monodromy.squared(),
         ..flip
     })
 }

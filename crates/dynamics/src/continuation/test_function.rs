@@ -1,4 +1,4 @@
-//! TestFunction functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
+//! Test functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
 
 use crate::orbit::Monodromy;
 use crate::tolerance::TEST_ROUNDING;

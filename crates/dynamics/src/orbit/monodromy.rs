@@ -35,6 +35,11 @@ impl Monodromy {
         }
     }
 
+    /// The monodromy matrix of a motion gone around twice.
+    pub(crate) fn squared(&self) -> Self {
+        Self::from_factors(&[(self.matrix, self.determinant); 2])
+    }
+
     /// Determinant of the monodromy matrix, as a product over arcs and resets: free of cancellation at weak impacts.
     pub fn determinant(&self) -> f64 {
         self.determinant

@@ -3,6 +3,8 @@
 //! What a handle points to begins with the GUID of the unit: an importer may run several FMUs, and hand the state of one to
 //! another.
 
+use std::ptr::NonNull;
+
 use libc::c_void;
 use uuid::Uuid;
 
@@ -53,13 +55,14 @@ impl<U: Unit> Snapshot<U> {
     ///
     /// # Safety
     /// NULL, or what [`keep`] or [`restore`] of any unit gave and nobody has freed.
-    unsafe fn of_handle<'a>(state: *mut c_void) -> Result<Option<&'a mut Self>, Fault> {
+    unsafe fn of_handle(state: *mut c_void) -> Result<Option<NonNull<Self>>, Fault> {
+        let Some(origin) = NonNull::new(state.cast::<Origin>()) else {
+            return Ok(None);
+        };
         // SAFETY: by this function's contract; snapshots of all units begin with their origin.
-        match unsafe { state.cast::<Origin>().as_ref() } {
-            None => Ok(None),
-            Some(origin) if *origin != Origin::of_library::<U>()? => Err(Fault::ForeignState),
-            // SAFETY: it is a snapshot of this unit.
-            Some(_) => Ok(unsafe { state.cast::<Self>().as_mut() }),
+        match unsafe { *origin.as_ref() } == Origin::of_library::<U>()? {
+            true => Ok(Some(origin.cast())),
+            false => Err(Fault::ForeignState),
         }
     }
 }
@@ -70,7 +73,7 @@ impl<U: Unit> Snapshot<U> {
 /// As [`Snapshot::of_handle`].
 unsafe fn kept<'a, U: Unit>(state: *mut c_void) -> Result<&'a Instance<U>, Fault> {
     // SAFETY: by this function's contract.
-    let snapshot = unsafe { Snapshot::<U>::of_handle(state) }?;
+    let snapshot = unsafe { Snapshot::<U>::of_handle(state)?.map(|it| it.as_ref()) };
     let snapshot = snapshot.ok_or(Fault::Null {
         argument: "FMUstate",
     })?;
@@ -88,7 +91,7 @@ pub(crate) unsafe fn keep<U: Unit, H: Host>(
     // SAFETY: by this function's contract.
     let (state, kept) = unsafe {
         let state = write_one("FMUstate", state)?;
-        let kept = Snapshot::<U>::of_handle(*state)?;
+        let kept = Snapshot::<U>::of_handle(*state)?.map(|mut it| it.as_mut());
         (state, kept)
     };
     match kept {
@@ -133,7 +136,7 @@ pub(crate) unsafe fn free<U: Unit>(state: *mut *mut c_void) -> Result<(), Fault>
         if let Some(state) = state.as_mut()
             && let Some(snapshot) = Snapshot::<U>::of_handle(*state)?
         {
-            drop(Box::from_raw(snapshot));
+            drop(Box::from_raw(snapshot.as_ptr()));
             *state = std::ptr::null_mut();
         }
     }
