@@ -2,7 +2,9 @@
 
 use super::*;
 use softstop_dynamics::Branch;
-use softstop_dynamics::continuation::{BranchPoint, Graze};
+use softstop_dynamics::continuation::{
+    BranchPoint, ContinuationSettings, CurveLimits, Graze, follow_special,
+};
 
 /// The branch of the motion on which a machine settles from rest in the middle, over frequencies.
 fn branch(scene: &Scene, range: (f64, f64)) -> Branch {
@@ -112,4 +114,37 @@ fn both_turning_points_arrive_where_the_closed_form_comes_back_up_to_the_stop() 
         }
     }
     assert_near(position(low), at.clearance, 1e-11);
+}
+
+/// Where the stops cease to be alike no orbit touches both: a curve follows both by what leaves them alike alone.
+#[test]
+fn curves_of_both_touches_stay_with_stops_that_are_alike() {
+    let scene = machine(1.0, 0.04, 1.8, 0.8);
+    let branch = branch(&scene, (0.3, 4.0));
+    let [(graze, point)] = of_both(&branch)[..] else {
+        panic!("a grazing of both");
+    };
+    let curve = |second: Parameter, value: f64, range: (f64, f64)| {
+        let plane = [Parameter::Frequency, second];
+        let family = ParameterFamily::new(scene.clone(), plane).expect("parameters");
+        let region = CurveLimits {
+            ranges: [(0.3, 4.0), range],
+            points: 400,
+            settings: ContinuationSettings::of_curves(0.05),
+        };
+        let kind = SpecialKind::Grazing(graze);
+        let (orbit, from) = ((1, point.state()), [point.parameter, value]);
+        let go_on = |_: &_| ControlFlow::Continue(());
+        follow_special(&family, orbit.0, (kind, orbit.1), from, &region, go_on)
+    };
+    assert!(curve(Parameter::Clearance, scene.clearance, (0.3, 0.8)).is_err());
+    let amplitude = scene.excitation.amplitude;
+    let scaled = curve(Parameter::Amplitude, amplitude, (0.5, 2.0)).expect("a curve");
+    assert!(scaled.points.len() > 20);
+    for point in &scaled.points {
+        let [velocity, other] = point.impacts[..] else {
+            panic!("{point:?}");
+        };
+        assert_near(velocity, other, 1e-9);
+    }
 }
