@@ -22,6 +22,7 @@ use softstop_console::arguments::CommandArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
+use softstop_console::range;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -119,6 +120,7 @@ fn help() -> String {
 
 /// Follows the motion and writes tables and charts.
 pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
+    range::require(arguments.points > 0, "points", arguments.points, "> 0")?;
     let mut machine = arguments.common.machine_without_start()?;
     let mut start = (arguments.orbit.periods, arguments.state);
     if let Some(point) = &arguments.from_point {
