@@ -34,10 +34,10 @@ UNLOADED = {
 class Unit:
     """One instance, driven through FMPy's low-level interface."""
 
-    def __init__(self, folder, description, name="unit", guid=None, logging_on=False):
+    def __init__(self, folder, description, name="unit", guid=None, logging_on=False, kind=FMU2Slave):
         self.variables = {v.name: v for v in description.modelVariables}
         self.lines = []
-        self.fmu = FMU2Slave(
+        self.fmu = kind(
             guid=guid or description.guid,
             unzipDirectory=folder,
             modelIdentifier=description.coSimulation.modelIdentifier,

@@ -3,8 +3,7 @@
 import fmpy
 import numpy as np
 import pytest
-from conftest import UNLOADED
-from fmpy.fmi1 import FMICallException
+from conftest import UNLOADED, Unit
 from fmpy.fmi2 import FMU2Model
 from fmpy.validation import validate_fmu
 from grazing import missed
@@ -111,24 +110,18 @@ def test_input_that_varies(unit):
 def test_parameters_change_at_events_alone(path, tmp_path):
     archive = package_exchange(path)
     description = fmpy.read_model_description(archive)
-    clearance = [v.valueReference for v in description.modelVariables if v.name == "clearance"]
-    model = FMU2Model(guid=description.guid, unzipDirectory=fmpy.extract(archive, unzipdir=tmp_path),
-                      modelIdentifier=description.modelExchange.modelIdentifier)
-    model.instantiate()
-    model.setupExperiment(startTime=0.0)
-    model.enterInitializationMode()
-    model.exitInitializationMode()
-    model.newDiscreteStates()
-    model.enterContinuousTimeMode()
-    before = model.getReal(clearance)
-    model.setReal(clearance, before)
-    with pytest.raises(FMICallException):
-        model.setReal(clearance, [before[0] + 0.5])
-    assert model.getReal(clearance) == before
-    model.enterEventMode()
-    model.setReal(clearance, [before[0] + 0.5])
-    model.newDiscreteStates()
-    model.enterContinuousTimeMode()
-    assert model.getReal(clearance) == [before[0] + 0.5]
-    model.terminate()
-    model.freeInstance()
+    unit = Unit(fmpy.extract(archive, unzipdir=tmp_path), description, kind=FMU2Model)
+    unit.begin()
+    unit.fmu.newDiscreteStates()
+    unit.fmu.enterContinuousTimeMode()
+    before = unit.get("clearance")
+    unit.set({"clearance": before})
+    unit.refused(lambda: unit.set({"clearance": before + 0.5}), "clearance", "continuous-time mode")
+    assert unit.get("clearance") == before
+    unit.fmu.enterEventMode()
+    unit.set({"clearance": before + 0.5})
+    unit.fmu.newDiscreteStates()
+    unit.fmu.enterContinuousTimeMode()
+    assert unit.get("clearance") == before + 0.5
+    unit.fmu.terminate()
+    unit.fmu.freeInstance()
