@@ -10,7 +10,8 @@ use super::lanes::{Lanes, Pair};
 pub(super) const HALF_WINDOW_DEGREE: usize = 7;
 /// Degree in angle^2 of the series for an eighth of a turn, 0.79 rad: the first term left out is below 3e-18.
 const EIGHTH_TURN_DEGREE: usize = 8;
-/// Degree in angle^2 of the series for the small drive angle, at most 0.02 rad, to a zero nearby: the first term left out is 0.02^8 / 8! < 1e-18.
+/// Degree in angle^2 of the series for the small drive angle, at most 0.02 rad, to a zero nearby: the first term left out is
+/// 0.02^8 / 8! < 1e-18.
 pub(super) const SMALL_ANGLE_DEGREE: usize = 3;
 
 /// cos and sin of `turns` full turns, of 0 to 1.

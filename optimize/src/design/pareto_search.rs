@@ -1,7 +1,7 @@
 //! The search of a front: the best design by each objective alone, then the best by one of them with bounds of the others (the
 //! epsilon-constraint method, Haimes, Lasdon and Wismer 1971). Of two objectives one is bounded in the middle of the widest gap
-//! between designs, of more all but the first on a lattice, then one in the middle of the widest gaps. A problem whose solution follows from a looser one is not searched
-//! (Mavrotas 2009).
+//! between designs, of more all but the first on a lattice, then one in the middle of the widest gaps. A problem whose solution
+//! follows from a looser one is not searched (Mavrotas 2009).
 
 use softstop_dynamics::parallel;
 

@@ -45,10 +45,11 @@ Examples:
 Words: SN fold, where two orbits meet and vanish; PD flip, where the period doubles; G grazing,
 where an impact dies or a turning point reaches a surface; NS Neimark-Sacker, which damping
 rules out; PF pitchfork, where motions between two equal stops cease to be symmetric. All are
-located to 1e-10; where a touch comes or goes, multipliers may jump past 1 (SN) or -1 (PD). On curves in two parameters: CP cusp, where two folds meet; GPD generalised flip,
-where a flip turns from supercritical to subcritical (located to 1e-6); RG resonant grazing, where curves of folds
-and flips end on one of grazing. --format json has the coefficients of the normal forms; a flip
-with a positive one is supercritical. In the chart stable orbits are drawn solid, unstable ones
+located to 1e-10; where a touch comes or goes, multipliers may jump past 1 (SN) or -1 (PD).
+On curves in two parameters: CP cusp, where two folds meet; GPD generalised flip, where a flip turns
+from supercritical to subcritical (located to 1e-6); RG resonant grazing, where curves of folds and
+flips end on one of grazing. --format json has the coefficients of the normal forms; a flip with a
+positive one is supercritical. In the chart stable orbits are drawn solid, unstable ones
 dashed; of an orbit with several impacts each has its line.
 
 The parameter starts at the machine's own value, which must lie between --from and --to.";
