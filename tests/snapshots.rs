@@ -1,12 +1,19 @@
 //! A machine that is kept, written to bytes, read back and restored goes on bit for bit.
 
 use proptest::prelude::*;
+use serde::Serialize;
 use softstop::{Begin, Effort, MotionError, Scene, Simulation, Snapshot, Start};
 use softstop_testing::{cases, loaded, machines, start_below};
 
-fn through_bytes(machine: &Simulation) -> Simulation {
-    let bytes = rmp_serde::to_vec_named(&machine.snapshot()).expect("plain data");
-    let read: Snapshot = rmp_serde::from_slice(&bytes).expect("what was written");
+fn to_bytes(value: &impl Serialize) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    ciborium::into_writer(value, &mut bytes).expect("plain data");
+    bytes
+}
+
+pub fn through_bytes(machine: &Simulation) -> Simulation {
+    let bytes = to_bytes(&machine.snapshot());
+    let read: Snapshot = ciborium::from_reader(&*bytes).expect("what was written");
     assert_eq!(read, machine.snapshot());
     Simulation::restored(&read).expect("left behind by a machine")
 }
@@ -67,10 +74,10 @@ proptest! {
     ) {
         let mut machine = Simulation::new(&scene, start_below(&scene, 1.0, 3.0)).expect("valid");
         machine.advance(3.0 * scene.period()).expect("bounded");
-        let mut bytes = rmp_serde::to_vec_named(&machine.snapshot()).expect("plain data");
+        let mut bytes = to_bytes(&machine.snapshot());
         let place = place.index(bytes.len());
         bytes[place] = byte;
-        if let Ok(read) = rmp_serde::from_slice::<Snapshot>(&bytes)
+        if let Ok(read) = ciborium::from_reader::<Snapshot, _>(&*bytes)
             && let Ok(mut restored) = Simulation::restored(&read)
         {
             restored.sample();
@@ -93,14 +100,12 @@ fn a_snapshot_of_another_kind_is_refused() {
     }
     machine.advance(machine.time() + 1e-6).expect("bounded");
     let text = serde_json::to_string(&scene).expect("plain data");
-    let mut value = rmp_serde::to_vec_named(&machine.snapshot())
-        .map(|bytes| rmp_serde::from_slice::<serde_json::Value>(&bytes).expect("a map"))
-        .expect("plain data");
+    let bytes = to_bytes(&machine.snapshot());
+    let mut value: serde_json::Value = ciborium::from_reader(&*bytes).expect("a map");
     value["scene"] = serde_json::from_str(&text).expect("JSON");
     // JSON knows no infinity; any speed will do.
     value["motion"]["bounce_train"]["slowest"] = 0.5.into();
-    let bytes = rmp_serde::to_vec_named(&value).expect("plain data");
-    let read: Snapshot = rmp_serde::from_slice(&bytes).expect("a snapshot");
+    let read: Snapshot = ciborium::from_reader(&*to_bytes(&value)).expect("a snapshot");
     let refused = Simulation::restored(&read).expect_err("the phase is not there");
     assert!(matches!(refused, MotionError::Snapshot { .. }), "{refused}");
 }

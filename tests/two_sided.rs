@@ -7,8 +7,10 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use softstop::{Below, Machine, Scene, SceneError, Simulation, Snapshot, Start, Stop, Trajectory};
+use softstop::{Below, Machine, Scene, SceneError, Simulation, Start, Stop, Trajectory};
 use softstop_testing::{cases, start_between, two_sided};
+
+use crate::snapshots::through_bytes;
 
 /// The machine seen from the other side.
 fn mirrored(scene: &Scene) -> Scene {
@@ -78,9 +80,7 @@ proptest! {
         let mut machine = Simulation::new(&scene, start).expect("a start");
         for step in 1..60 {
             let end = 0.31 * scene.period() * f64::from(step);
-            let bytes = rmp_serde::to_vec_named(&machine.snapshot()).expect("plain data");
-            let read: Snapshot = rmp_serde::from_slice(&bytes).expect("what was written");
-            let mut restored = Simulation::restored(&read).expect("left behind by a machine");
+            let mut restored = through_bytes(&machine);
             machine.advance(end).expect("bounded");
             restored.advance(end).expect("bounded");
             prop_assert_eq!(machine.sample(), restored.sample());

@@ -124,3 +124,20 @@ fn corpora() {
         }
     }
 }
+
+/// A header that fits is no proof: data that nest without end do not exhaust the stack, where types hold themselves, where the
+/// reader must look ahead, and where it skips.
+#[test]
+fn states_that_nest_without_end_are_refused() {
+    /// An array, and maps of one entry, in CBOR (RFC 8949), 3.1.
+    const ARRAY: &[u8] = b"\x81";
+    const UNIT_MORE: &[u8] = b"\xa1\x64unit\xa1\x64more";
+    const ENDED_MORE: &[u8] = b"\xa1\x65ended\xa1\x64more";
+    const STOP: &[u8] = b"\xa1\x64unit\xa1\x6asimulation\xa1\x65scene\xa1\x64stop";
+    const UNKNOWN: &[u8] = b"\xa1\x67unknown";
+    let head = &softstop_fuzz::serialized()[..52];
+    for (begin, again) in [(UNIT_MORE, ENDED_MORE), (STOP, ARRAY), (UNKNOWN, ARRAY)] {
+        let nested = again.repeat(200_000);
+        softstop_fuzz::state(&[head, begin, &nested].concat());
+    }
+}

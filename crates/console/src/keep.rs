@@ -19,7 +19,7 @@ use softstop_dynamics::monitor::Memory;
 use crate::failure::Failure;
 use crate::interrupt::{requested, under_way};
 use crate::lock;
-use crate::record_log::{RecordLog, RecordSpan};
+use crate::record_log::{RecordLog, RecordSpan, run_identity};
 
 /// Whether a run goes on with what an earlier one has done.
 #[derive(Debug, Clone, Copy, Args)]
@@ -64,10 +64,9 @@ impl Keep {
         of: &impl Serialize,
         arguments: KeepArguments,
     ) -> Result<Self, Failure> {
-        let of = rmp_serde::to_vec(&(env!("CARGO_PKG_VERSION"), of));
         let keep = Self {
             path: folder.join(format!("{name}.part")),
-            of: of.context("cannot tell runs apart")?,
+            of: run_identity(of)?,
             state: Mutex::new(State {
                 file: None,
                 is_open: true,

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use serde::Serialize;
+use softstop_dynamics::monitor::to_bytes;
 use uuid::Uuid;
 
 use crate::lock::{self, Locked};
@@ -235,7 +236,10 @@ fn next(
 /// # Errors
 /// If the settings cannot be written.
 pub fn fingerprint(of: &impl Serialize) -> anyhow::Result<String> {
-    let bytes =
-        rmp_serde::to_vec(&(env!("CARGO_PKG_VERSION"), of)).context("cannot tell runs apart")?;
-    Ok(Uuid::new_v5(&Uuid::NAMESPACE_OID, &bytes).to_string())
+    Ok(Uuid::new_v5(&Uuid::NAMESPACE_OID, &run_identity(of)?).to_string())
+}
+
+/// What runs of the same version and settings have in common, as bytes.
+pub(crate) fn run_identity(of: &impl Serialize) -> anyhow::Result<Vec<u8>> {
+    to_bytes(&(env!("CARGO_PKG_VERSION"), of)).context("cannot tell runs apart")
 }

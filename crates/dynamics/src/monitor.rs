@@ -1,5 +1,6 @@
 //! Monitors of long work, and stores of its finished pieces: one way to watch, to stop and to resume.
 
+use std::io;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
@@ -37,6 +38,16 @@ pub type OptionalMemory<'a> = Option<&'a dyn Memory>;
 /// Duration of work whose result is stored as one piece.
 pub(crate) const PIECE_DURATION: Duration = Duration::from_millis(250);
 
+/// A value as bytes, in CBOR (RFC 8949).
+///
+/// # Errors
+/// If the value refuses to be written.
+pub fn to_bytes(value: &impl Serialize) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    ciborium::into_writer(value, &mut bytes).map_err(io::Error::other)?;
+    Ok(bytes)
+}
+
 /// A piece of work: recalled if it is stored, else computed now and stored, unless the [`budget`] is spent by then. It
 /// must follow from its key. What it costs is charged in both cases.
 ///
@@ -47,11 +58,11 @@ pub fn recall_or_compute<T: Serialize + DeserializeOwned, E>(
     key: &impl Serialize,
     work: impl FnOnce() -> Result<T, E>,
 ) -> Result<T, E> {
-    let Some((memory, key)) = kept.zip(rmp_serde::to_vec(key).ok()) else {
+    let Some((memory, key)) = kept.zip(to_bytes(key).ok()) else {
         return work();
     };
     let known = memory.recall_piece(&key);
-    if let Some((cost, known)) = known.and_then(|bytes| rmp_serde::from_slice(&bytes).ok()) {
+    if let Some((cost, known)) = known.and_then(|bytes| ciborium::from_reader(&*bytes).ok()) {
         budget::charge(cost);
         return Ok(known);
     }
@@ -59,7 +70,7 @@ pub fn recall_or_compute<T: Serialize + DeserializeOwned, E>(
     let done = work()?;
     let left = budget::windows_left();
     if left > 0
-        && let Ok(bytes) = rmp_serde::to_vec(&(before - left, &done))
+        && let Ok(bytes) = to_bytes(&(before - left, &done))
     {
         memory.store_piece(&key, &bytes);
     }

@@ -5,7 +5,7 @@
 //!      8          4          16                     16                      8
 //! ```
 //!
-//! The data are MessagePack. The fingerprint is a name-based UUID (SHA-1) in the unit's own namespace,
+//! The data are CBOR (RFC 8949). The fingerprint is a name-based UUID (SHA-1) in the unit's own namespace,
 //! so bytes that were altered, cut off or left behind by another unit are refused before anything is
 //! read out of them.
 
@@ -17,12 +17,15 @@ use crate::instance::Instance;
 use crate::unit::Unit;
 
 const MAGIC: &[u8; 8] = b"softstop";
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 const HEADER: usize = 8 + 4 + 16 + 16 + 8;
 
 impl<U: Unit> Instance<U> {
     fn data(&self) -> Result<Vec<u8>, Fault> {
-        rmp_serde::to_vec_named(self).map_err(|error| Fault::Internal(error.to_string()))
+        let mut data = Vec::new();
+        ciborium::into_writer(self, &mut data)
+            .map_err(|error| Fault::Internal(error.to_string()))?;
+        Ok(data)
     }
 
     /// How many bytes this instance takes.
@@ -48,7 +51,7 @@ impl<U: Unit> Instance<U> {
     pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, Fault> {
         let data = checked(bytes, library_uuid::<U>()?)?;
         let instance: Self =
-            rmp_serde::from_slice(data).map_err(|_| Fault::Blob("cannot be read"))?;
+            ciborium::from_reader(data).map_err(|_| Fault::Blob("cannot be read"))?;
         let sizes = |instance: &Self| (instance.values.len(), instance.signals.len());
         if sizes(&instance) != sizes(&Self::new()) {
             return Err(Fault::Blob("has another set of variables"));
