@@ -4,13 +4,12 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use rayon::prelude::*;
-
 use crate::batch::follow_batch;
 use crate::member::{HasMember, RECORD_COST};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::OrbitError;
-use softstop::internals::budget::{self, SharedBudget};
+use crate::parallel;
+use softstop::internals::budget;
 use softstop::{Instant, Start};
 use softstop_lanes::{BatchObserver, Machine};
 
@@ -71,13 +70,9 @@ impl<'a> Ensemble<'a> {
         periods: u64,
         recorded: usize,
     ) -> Result<(), OrbitError> {
-        let fork = SharedBudget::of_this_thread();
-        let chunks = members.par_chunks_mut(MEMBERS_AT_ONCE);
-        let advanced = chunks.try_for_each(|chunk| {
-            fork.run_part(|| self.advance_together(chunk, periods, recorded))
-        });
-        fork.charge_parts();
-        advanced
+        parallel::try_change_chunks(members, MEMBERS_AT_ONCE, |members| {
+            self.advance_together(members, periods, recorded)
+        })
     }
 
     /// Advances some members on this thread, in stretches between which the monitor is asked.

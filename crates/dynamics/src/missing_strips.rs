@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::basin::{BasinTest, TestedMotion};
@@ -10,6 +9,7 @@ use crate::interrupted_motion::InterruptedMotion;
 use crate::member::Member;
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
+use crate::parallel;
 pub use crate::stroke_count::StrokeCount;
 use softstop::{CheckedScene, MotionError, Piercing, Scene};
 use softstop_lanes::Machine;
@@ -100,36 +100,31 @@ pub fn survives_missing_strips(
     let angles: Vec<f64> = (0..angles)
         .map(|index| turn * index as f64 / angles as f64)
         .collect();
-    let gaps = angles
-        .par_chunks(GAPS_TOGETHER)
-        .map(|angles| -> Result<_, OrbitError> {
-            let (mut machines, mut motions) = (Vec::new(), Vec::new());
-            for (machine, turned) in angles.iter().enumerate() {
-                let run = run_through_gap(orbit, &without, *turned, missing)?;
-                let angle = (orbit.scene.excitation.phase + turned).rem_euclid(TAU);
-                machines.push(Machine::new(&orbit.scene.clone().at_phase(angle)?));
-                motions.push(TestedMotion {
-                    member: Member::new(machine, run.motion.state()),
-                    angle,
-                    time: turned / TAU + run.periods as f64,
-                    period: orbit.scene.period(),
-                    strokes: run.strokes,
-                });
-            }
-            let tested =
-                basin_test.follow_motions::<true>(&machines, motions, &|_| false, monitor)?;
-            let gap = |tested: &TestedMotion| StripGap {
-                angle: tested.angle,
-                comes_back: tested.reaches_orbit(),
-                missed: tested.strokes.missed_strokes(tested.time),
-            };
-            Ok(tested.iter().map(gap).collect::<Vec<_>>())
-        });
+    let gaps = parallel::try_map_chunks(&angles, GAPS_TOGETHER, |angles| {
+        let (mut machines, mut motions) = (Vec::new(), Vec::new());
+        for (machine, turned) in angles.iter().enumerate() {
+            let run = run_through_gap(orbit, &without, *turned, missing)?;
+            let angle = (orbit.scene.excitation.phase + turned).rem_euclid(TAU);
+            machines.push(Machine::new(&orbit.scene.clone().at_phase(angle)?));
+            motions.push(TestedMotion {
+                member: Member::new(machine, run.motion.state()),
+                angle,
+                time: turned / TAU + run.periods as f64,
+                period: orbit.scene.period(),
+                strokes: run.strokes,
+            });
+        }
+        let tested = basin_test.follow_motions::<true>(&machines, motions, &|_| false, monitor)?;
+        let gap = |tested: &TestedMotion| StripGap {
+            angle: tested.angle,
+            comes_back: tested.reaches_orbit(),
+            missed: tested.strokes.missed_strokes(tested.time),
+        };
+        Ok::<_, OrbitError>(tested.iter().map(gap).collect::<Vec<_>>())
+    });
     Ok(StripSurvival {
         missing,
-        gaps: gaps
-            .collect::<Result<Vec<Vec<StripGap>>, OrbitError>>()?
-            .concat(),
+        gaps: gaps?.concat(),
     })
 }
 

@@ -1,14 +1,19 @@
-//! Work on all threads whose outcome does not depend on them. An iterator of `rayon` is compiled anew wherever it stands, some
-//! 2,000 lines of LLVM each; here the work is a `dyn Fn` and the threads are shared out in one place.
+//! Work on all threads whose outcome does not depend on them, and which is charged to the [budget](softstop::internals::budget)
+//! of the thread that asks for it. An iterator of `rayon` is compiled anew wherever it stands, some 2,000 lines of LLVM each;
+//! here the work is a `dyn Fn` and the threads are shared out in one place.
 
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use rayon::prelude::*;
+use softstop::internals::budget::SharedBudget;
 
 /// Does work with each number below `count`.
 fn for_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
-    (0..count).into_par_iter().for_each(work);
+    let budget = SharedBudget::of_this_thread();
+    let part = |index| budget.run_part(|| work(index));
+    (0..count).into_par_iter().for_each(part);
+    budget.charge_parts();
 }
 
 /// The values of a function of the numbers below `count`, in order.
@@ -77,6 +82,34 @@ pub fn try_map<A: Sync, T: Send + Sync, E: Send + Sync>(
     of: impl Fn(&A) -> Result<T, E> + Sync,
 ) -> Result<Vec<T>, E> {
     try_map_indices(all.len(), &|index| of(&all[index]))
+}
+
+/// The values of a function of pieces of `size` elements, the last one of fewer, in order; after a failure no later ones are begun.
+///
+/// # Errors
+/// The failure at the first piece that has one.
+pub fn try_map_chunks<A: Sync, T: Send + Sync, E: Send + Sync>(
+    all: &[A],
+    size: usize,
+    of: impl Fn(&[A]) -> Result<T, E> + Sync,
+) -> Result<Vec<T>, E> {
+    try_map(&all.chunks(size).collect::<Vec<_>>(), |chunk| of(chunk))
+}
+
+/// Changes pieces of `size` elements, the last one of fewer; after a failure no later ones are begun.
+///
+/// # Errors
+/// The failure at the first piece that has one.
+pub fn try_change_chunks<A: Send, E: Send + Sync>(
+    all: &mut [A],
+    size: usize,
+    change: impl Fn(&mut [A]) -> Result<(), E> + Sync,
+) -> Result<(), E> {
+    let chunks: Vec<_> = all.chunks_mut(size).map(Mutex::new).collect();
+    try_map(&chunks, |chunk| {
+        change(&mut chunk.lock().unwrap_or_else(PoisonError::into_inner))
+    })?;
+    Ok(())
 }
 
 #[cfg(test)]

@@ -56,7 +56,6 @@ use box_window::BoxWindow;
 use case::Case;
 use judge::{Judged, Met};
 use operating_point::OperatingPoint;
-use softstop::internals::budget::SharedBudget;
 use softstop::{Dimension, Machine, MotionError, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::zone::{ZoneError, ZoneKind};
@@ -193,13 +192,10 @@ impl Problem {
             self.with_cases(own, cases)
         });
         let all: Vec<Result<Zoned, Infeasible>> = all.collect();
-        let fork = SharedBudget::of_this_thread();
-        let designs = parallel::map(&all, |zoned| match zoned {
-            Ok(zoned) => fork.run_part(|| line_search::best(zoned)),
+        parallel::map(&all, |zoned| match zoned {
+            Ok(zoned) => line_search::best(zoned),
             Err(lack) => Err(lack.clone()),
-        });
-        fork.charge_parts();
-        designs
+        })
     }
 
     /// The machines at many points with their zones, without cases.

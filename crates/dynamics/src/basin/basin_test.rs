@@ -3,8 +3,6 @@
 use std::slice::from_ref;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use rayon::prelude::*;
-
 use super::contraction_ball::ContractionBalls;
 use super::section::bring_to_section;
 use crate::ensemble::Ensemble;
@@ -12,11 +10,11 @@ use crate::member::{HasMember, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::recurrence::{motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError};
+use crate::parallel;
 use crate::stroke_count::StrokeCount;
 use crate::tolerance::{SAME, STABLE_REACH};
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};
-use softstop::internals::budget::SharedBudget;
 use softstop::{Instant, MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
@@ -171,20 +169,13 @@ impl BasinTest {
             period: scene.period(),
             strokes: StrokeCount::after_impact(0.0),
         };
-        let follow_motions = |starts: &[Start]| {
+        let follow_motions = |starts: &[Start]| -> Result<Vec<bool>, OrbitError> {
             let motions = starts.iter().map(motion).collect();
             let machines = from_ref(&self.machine);
             let ended = self.follow_motions::<false>(machines, motions, is_decided, monitor)?;
             Ok(ended.iter().map(TestedMotion::reaches_orbit).collect())
         };
-        let (fork, chunks) = (
-            SharedBudget::of_this_thread(),
-            starts.par_chunks(MOTIONS_TOGETHER),
-        );
-        let chunks = chunks.map(|starts| fork.run_part(|| follow_motions(starts)));
-        let chunks = chunks.collect::<Result<Vec<Vec<bool>>, OrbitError>>();
-        fork.charge_parts();
-        Ok(chunks?.concat())
+        Ok(parallel::try_map_chunks(starts, MOTIONS_TOGETHER, follow_motions)?.concat())
     }
 
     /// Follows motions until they have reached the orbit or are given up, or one that has ended decides, with or without

@@ -1,7 +1,6 @@
 //! Integrity along the hysteresis zone: how the basin of z = 1 is eaten away from g0 to s_SN (Thompson 1989; Rega and
 //! Lenci 2005).
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::basin_test::BasinTest;
@@ -9,6 +8,7 @@ use super::state_ball::StateBall;
 use crate::attractors::{Region, end_states, starting_box};
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
+use crate::parallel;
 use crate::wilson_interval::wilson_interval;
 use crate::zone::{Zone, ZoneError};
 use softstop::{Scene, Start};
@@ -183,21 +183,21 @@ impl ErosionProfile {
         let widened = held != *region;
         let region = held;
         let states = region.starts(starts, START_SEED);
-        let place = |(place, orbit): (&f64, &Orbit)| -> Result<Integrity, ZoneError> {
+        let place = |(place, orbit): &(&f64, &Orbit)| -> Result<Integrity, ZoneError> {
             let (certainty, radius) = certainty_and_ball_radius(orbit, &region, &states, monitor)?;
             Ok(Integrity {
-                place: *place,
+                place: **place,
                 frequency: orbit.scene.excitation.frequency,
                 velocity: orbit.before_impact_velocity(),
                 certainty,
                 radius,
             })
         };
-        let places = places.par_iter().zip(&orbits).map(place);
+        let places: Vec<_> = places.iter().zip(&orbits).collect();
         Ok(Self {
             widened,
             region,
-            places: places.collect::<Result<_, _>>()?,
+            places: parallel::try_map(&places, place)?,
         })
     }
 

@@ -2,7 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::basin_test::PERIODS_BETWEEN_CHECKS;
@@ -10,8 +9,8 @@ use super::survey::{BasinSurvey, LostCell, TILE_CELLS, earlier_lost};
 use crate::member::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
 use crate::orbit::OrbitError;
+use crate::parallel;
 use softstop::Start;
-use softstop::internals::budget::SharedBudget;
 
 /// Cells that go together as in [`TILE_CELLS`], where each motion goes alone, and takes long.
 const SMALL_TILE_CELLS: usize = 16;
@@ -40,11 +39,7 @@ impl BasinSurvey<'_> {
         } else {
             SMALL_TILE_CELLS
         };
-        let (fork, tiles) = (SharedBudget::of_this_thread(), open.par_chunks(tile));
-        let followed = tiles.map(|tile| fork.run_part(|| self.follow_tile(tile)));
-        let followed: Result<Vec<_>, OrbitError> = followed.collect();
-        fork.charge_parts();
-        for (cells, lost) in followed? {
+        for (cells, lost) in parallel::try_map_chunks(&open, tile, |tile| self.follow_tile(tile))? {
             for (cell, state, outcome) in cells {
                 (self.states[cell], self.outcomes[cell]) = (state, outcome);
             }

@@ -1,6 +1,5 @@
 //! The survey of the basins on a grid: scouts, the motions of all cells, and the logs of those that are left.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::contraction_ball::ContractionBalls;
@@ -11,7 +10,7 @@ use crate::ensemble::Ensemble;
 use crate::member::{Member, MemberStatus};
 use crate::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
 use crate::orbit::OrbitError;
-use softstop::internals::budget::SharedBudget;
+use crate::parallel;
 use softstop::{CheckedScene, MotionError, Scene, Start};
 use softstop_lanes::Machine;
 
@@ -121,10 +120,8 @@ impl BasinSurvey<'_> {
         for from in (0..cells).step_by(CELLS_BROUGHT_TOGETHER) {
             self.ensemble.count_work(0)?;
             let here = from..cells.min(from + CELLS_BROUGHT_TOGETHER);
-            let (fork, brought) = (SharedBudget::of_this_thread(), here.clone().into_par_iter());
-            let brought = brought.map(|cell| fork.run_part(|| self.cell_at_section(cell)));
-            let brought: Vec<_> = brought.collect();
-            fork.charge_parts();
+            let brought =
+                parallel::map_indices(here.len(), &|index| self.cell_at_section(from + index));
             for (cell, result) in here.zip(brought) {
                 let (state, outcome) = match result {
                     Ok(state) => (state, MemberStatus::Open),
@@ -240,11 +237,7 @@ impl BasinSurvey<'_> {
             let of = ("cell", &*self.scene, self.grid, self.options, cell, periods);
             recall_or_compute(self.kept, &of, || self.log_together(&[*cell], periods))
         };
-        let fork = SharedBudget::of_this_thread();
-        let seen = cells.par_iter().map(|cell| fork.run_part(|| one(cell)));
-        let seen = seen.collect::<Result<Vec<_>, OrbitError>>();
-        fork.charge_parts();
-        Ok(seen?.concat())
+        Ok(parallel::try_map(cells, one)?.concat())
     }
 
     /// Follows cells together for so many drive periods and those of a log.

@@ -6,7 +6,6 @@ mod way;
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::basin::{BasinTest, bring_to_section};
@@ -14,6 +13,7 @@ use crate::cycle_metrics::peak_stop_force;
 use crate::monitor::{Monitor, stop_if};
 use crate::motion::MotionKind;
 use crate::orbit::{Orbit, OrbitError, Regime, StroboscopicMap};
+use crate::parallel;
 use crate::sweep::{Chain, Plan};
 use crate::tolerance::SIMILAR;
 use softstop::{CheckedScene, Machine, MotionError, Parameter, Scene, Start};
@@ -139,15 +139,12 @@ impl RunUp {
         monitor: Monitor<'_>,
     ) -> Result<Self, OrbitError> {
         let basin_test = BasinTest::of(orbit)?;
-        let tried = settings.ways.par_iter();
-        let tried =
-            tried.map(
-                |way| match try_way(orbit, &basin_test, (settings, *way, angles), monitor) {
-                    Err(OrbitError::Motion(_)) => Ok(None),
-                    tried => tried,
-                },
-            );
-        let tried = tried.collect::<Result<Vec<Option<Attempt>>, OrbitError>>()?;
+        let tried = parallel::try_map(&settings.ways, |way| {
+            match try_way(orbit, &basin_test, (settings, *way, angles), monitor) {
+                Err(OrbitError::Motion(_)) => Ok(None),
+                tried => tried,
+            }
+        })?;
         Ok(Self {
             ways: tried.into_iter().flatten().collect(),
             most_force: settings.most_force,
@@ -172,9 +169,12 @@ impl RunUp {
                 ways: attempt.ok().flatten().into_iter().collect(),
                 most_force: settings.most_force,
             };
-            of_one_way.working_ways().next().is_some()
+            match of_one_way.working_ways().next() {
+                Some(_) => Err(()),
+                None => Ok(()),
+            }
         };
-        Ok(settings.ways.par_iter().any(works))
+        Ok(parallel::try_map(&settings.ways, works).is_err())
     }
 
     /// The attempts by ways that lead to the motion for sure, with no more force than is allowed.

@@ -4,7 +4,6 @@ use std::convert::Infallible;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::step::Step;
@@ -12,8 +11,9 @@ use super::{Chain, Plan};
 use crate::ensemble::Ensemble;
 use crate::member::Member;
 use crate::monitor::{Monitor, OptionalMemory, PIECE_DURATION, recall_or_compute};
+use crate::parallel;
 use crate::settled::SettledMotion;
-use softstop::internals::budget::{self, SharedBudget};
+use softstop::internals::budget;
 use softstop::{Parameter, Scene, SceneError, Start};
 use softstop_lanes::Machine;
 
@@ -40,7 +40,6 @@ impl Plan {
         let stopped = AtomicBool::new(false);
         let done = chains.iter().map(|chain| chain.steps.len() as u64);
         let done = AtomicU64::new(done.sum());
-        let fork = SharedBudget::of_this_thread();
         let run = |group: &mut [Chain]| {
             while !stopped.load(Ordering::Relaxed) {
                 let ask = |_, _| monitor(done.load(Ordering::Relaxed), all);
@@ -56,10 +55,9 @@ impl Plan {
                     stopped.store(true, Ordering::Relaxed);
                 }
             }
+            Ok::<_, Infallible>(())
         };
-        let groups = chains.par_chunks_mut(size);
-        groups.for_each(|group| fork.run_part(|| run(group)));
-        fork.charge_parts();
+        let Ok(()) = parallel::try_change_chunks(chains, size, run);
         chains.iter().all(|chain| self.is_complete(chain))
     }
 

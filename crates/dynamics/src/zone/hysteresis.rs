@@ -6,8 +6,6 @@
 //! motions come back (48 periods, 10,400 each). The search for the next crossing, with its proof, is 40 % of a period with
 //! its Jacobian.
 
-use rayon::prelude::*;
-
 use super::end::ZoneEnd;
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
 use super::loss::Loss;
@@ -18,9 +16,9 @@ use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction, SpecialKind, TestFunction};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::{Orbit, OrbitError, find_batch, find_with_singles};
+use crate::parallel;
 use crate::tolerance::TEST_ROUNDING;
 use softstop::Scene;
-use softstop::internals::budget::SharedBudget;
 
 /// Before-impact velocity, in units of that at g0, below which an unstable branch is left: it ends in grazing.
 const MIN_VELOCITY_SHARE: f64 = 0.2;
@@ -97,13 +95,9 @@ pub(super) fn zones_of(
     upper: UpperEnd,
     monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
-    let fork = SharedBudget::of_this_thread();
-    let chunks = scenes.par_chunks(MACHINES_TOGETHER);
-    let zones =
-        chunks.flat_map_iter(|scenes| fork.run_part(|| zones_together(scenes, upper, monitor)));
-    let zones = zones.collect();
-    fork.charge_parts();
-    zones
+    let chunks: Vec<_> = scenes.chunks(MACHINES_TOGETHER).collect();
+    let zones = parallel::map(&chunks, |scenes| zones_together(scenes, upper, monitor));
+    zones.into_iter().flatten().collect()
 }
 
 /// The hysteresis zones of a few machines, whose motions at g0 are found together.

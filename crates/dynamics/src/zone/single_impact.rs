@@ -1,7 +1,5 @@
 //! Single-impact zones: all stable z = 1 motions on one branch, below g0 as well.
 
-use rayon::prelude::*;
-
 use super::followed_end::{LONGEST_BRANCH, find_end};
 use super::hysteresis::follow_upward;
 use super::stable_ranges::FOLLOWED_RANGE;
@@ -10,8 +8,8 @@ use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
 use crate::orbit::{Orbit, OrbitError, hardest_single};
+use crate::parallel;
 use crate::tolerance::SAME;
-use softstop::internals::budget::SharedBudget;
 use softstop::{CheckedScene, Scene};
 
 /// Frequencies beside g0 at which single-impact motions are looked for.
@@ -28,12 +26,7 @@ pub fn single_impact(
     between: (f64, f64),
     monitor: Monitor<'_>,
 ) -> Vec<Result<Zone, ZoneError>> {
-    let fork = SharedBudget::of_this_thread();
-    let zones = scenes.par_iter();
-    let zones = zones.map(|scene| fork.run_part(|| of_scene(scene, between, monitor)));
-    let zones = zones.collect();
-    fork.charge_parts();
-    zones
+    parallel::map(scenes, |scene| of_scene(scene, between, monitor))
 }
 
 /// The single-impact zone of one scene.
