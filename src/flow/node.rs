@@ -16,8 +16,8 @@ pub(crate) struct Window<'a> {
 
 /// Windows counted from one origin.
 const MOST_WINDOWS: u32 = 1 << 31;
-/// Windows passed by rotation before a node is evaluated afresh.
-const ROTATIONS: u32 = 8;
+/// Windows by which drive and modes are advanced by rotation before a node is evaluated afresh, against the growth of rounding.
+const WINDOWS_PER_EXACT_NODE: u32 = 8;
 
 /// Ratio of the long window to the usual one from which it is worth asking whether it can be used.
 const LONG: f64 = 4.0;
@@ -86,7 +86,9 @@ impl ArcSolution {
         let (origin, windows) = (node.origin, node.windows + 1);
         let elapsed = origin + f64::from(windows) * self.flow.window;
         let particular = match self.form {
-            Form::Particular { particular, .. } if windows % ROTATIONS != 0 => particular,
+            Form::Particular { particular, .. } if windows % WINDOWS_PER_EXACT_NODE != 0 => {
+                particular
+            }
             _ if windows >= MOST_WINDOWS => return self.node_at(elapsed),
             _ => {
                 return Node {
@@ -150,7 +152,7 @@ impl ArcSolution {
         );
         let (most, rest) = flow.window_bounds;
         let driven = flow.amplitude * square * square * flow.window * rest;
-        while node.elapsed < until && !(node.windows + 1).is_multiple_of(ROTATIONS) {
+        while node.elapsed < until && !(node.windows + 1).is_multiple_of(WINDOWS_PER_EXACT_NODE) {
             let next = self.rotated_node(&particular, node);
             let ((y, rate), Drive { cos, sin }) = (node.deviation, node.drive);
             let x4 = cosine * cos + sine * sin + (fourth.0 * y + fourth.1 * rate);

@@ -129,7 +129,7 @@ impl TaylorStep {
     }
 
     /// The series of the time since departure in s.
-    pub(super) fn time_series(&self) -> Series {
+    pub(super) fn time_in_sigma(&self) -> Series {
         match &self.regularized {
             Some(regularized) => regularized.time,
             None => {
@@ -142,7 +142,7 @@ impl TaylorStep {
 
     /// The series of d(time)/d(sigma).
     pub(super) fn time_rate_series(&self) -> Series {
-        derivative(&self.time_series())
+        derivative(&self.time_in_sigma())
     }
 
     /// The series of d^n, where the power law acts.

@@ -99,7 +99,7 @@ impl ArcSolution {
         if step.slow_manifold.is_some() || !push.is_linear() || push.rate() != 0.0 {
             return None;
         }
-        let mut time = step.time_series();
+        let mut time = step.time_in_sigma();
         time[0] += since;
         let force = product(&time, &derivative(&step.push));
         Some(force.map(|coefficient| coefficient / self.flow.frequency))

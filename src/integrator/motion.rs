@@ -242,7 +242,7 @@ impl Motion {
         .unwrap_or(self.fed)
     }
 
-    /// Changes the feed of strips; it takes effect at the next upward crossing of the clearance.
+    /// As [`Simulation::feed_strip`](crate::Simulation::feed_strip).
     pub fn feed_strip(&mut self, fed: bool) {
         self.fed = fed;
     }

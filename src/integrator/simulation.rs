@@ -233,7 +233,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Feeds a strip or not, from the next upward crossing of the clearance on.
+    /// Switches the feed of strips on or off; it takes effect at the next upward crossing of the clearance.
     pub fn feed_strip(&mut self, fed: bool) {
         self.motion.feed_strip(fed);
     }

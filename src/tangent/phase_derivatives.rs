@@ -107,7 +107,7 @@ impl PhaseDerivatives {
         })
     }
 
-    /// Derivative of the position in m of the surface at a position.
+    /// Derivative by the parameter of the position in m of the surface between phases that lies at a position.
     pub fn surface_derivative(&self, phases: &Phases, position: f64) -> f64 {
         let at = phases
             .surfaces

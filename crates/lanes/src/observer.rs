@@ -61,7 +61,7 @@ impl<'a> ObserverHandle<'a> {
     pub fn count_work(&mut self, windows: u64) -> ControlFlow<()> {
         self.work += windows;
         if self.work >= WORK_BETWEEN_QUESTIONS && self.answer.is_continue() {
-            (self.work, self.answer) = (0, self.watch.ask());
+            (self.work, self.answer) = (0, self.watch.ask_to_go_on());
         }
         self.answer
     }
@@ -81,7 +81,7 @@ impl<'a> ObserverHandle<'a> {
 trait DynamicObserver {
     fn tell_impact(&mut self, job: usize, cycle: u64, offset: f64, velocity: f64);
     fn tell_period(&mut self, job: usize, cycle: u64, state: Start);
-    fn ask(&mut self) -> ControlFlow<()>;
+    fn ask_to_go_on(&mut self) -> ControlFlow<()>;
 }
 
 impl<W: BatchObserver> DynamicObserver for W {
@@ -93,7 +93,7 @@ impl<W: BatchObserver> DynamicObserver for W {
         self.period(job, cycle, state);
     }
 
-    fn ask(&mut self) -> ControlFlow<()> {
+    fn ask_to_go_on(&mut self) -> ControlFlow<()> {
         self.goes_on()
     }
 }

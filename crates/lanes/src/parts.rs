@@ -16,7 +16,7 @@ pub(super) struct Parts<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Parts<S, N> {
-    /// The parts one window later.
+    /// Free and steady part one window later.
     #[inline(always)]
     pub fn after_window(&self, law: &Law<S, N>) -> Self {
         let Self { y, u, p, q } = *self;
@@ -28,7 +28,7 @@ impl<S: Simd, const N: usize> Parts<S, N> {
         }
     }
 
-    /// The parts after `time` of at most a window, `next` being those at its end.
+    /// Free and steady part after `time` of at most a window, from the nearer of its ends: `next` holds the parts at the later one.
     #[inline(always)]
     pub fn within_window(
         &self,

@@ -6,7 +6,7 @@ use softstop::SceneError;
 type Allowed = (f64, f64, &'static str);
 const POSITIVE: Allowed = (0.0, f64::INFINITY, "finite and > 0");
 const SHARE: Allowed = (0.0, 1.0, "in (0, 1)");
-const GROWTH: Allowed = (1.0, f64::INFINITY, "finite and > 1");
+const ABOVE_ONE: Allowed = (1.0, f64::INFINITY, "finite and > 1");
 
 /// Makes the struct of the settings of a table of rows `name: default, allowed range;`.
 macro_rules! settings {
@@ -56,7 +56,7 @@ ContinuationSettings {
     /// Largest step; where the state is more than a hundred in size, a hundredth of it times as long.
     largest_step: 0.25, POSITIVE;
     /// Factor by which steps grow at most.
-    step_growth: 1.6, GROWTH;
+    step_growth: 1.6, ABOVE_ONE;
     /// Cosine of the largest turn of the direction in a step.
     min_turn_cosine: 0.96, SHARE;
     /// Step below which something stands in the way of a branch: a grazing is looked for ahead.
