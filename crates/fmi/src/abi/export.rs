@@ -28,7 +28,7 @@ macro_rules! functions {
             ) -> c_int {
                 // SAFETY: the importer passes NULL or what instantiation gave it.
                 let component = unsafe { component.cast::<Component<$call_unit, $host>>().as_mut() };
-                guarded(component, stringify!($call), |$component| {
+                guarded(component, stringify!($call), &mut |$component| {
                     // SAFETY: by the standard arrays are as long as the importer says; NULL is
                     // refused where there is something to read or to write.
                     #[allow(unused_unsafe, reason = "not every function takes an array")]

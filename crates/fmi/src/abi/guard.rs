@@ -56,11 +56,11 @@ fn message(panic: &(dyn Any + Send)) -> &str {
 }
 
 /// Runs a call on an instance: a fault becomes an error and one log line, a panic as well, after
-/// which the instance must be reset.
+/// which the instance must be reset. A `dyn` action: this is compiled once, not once for each C function.
 pub(crate) fn guarded<U: Unit, H: Host>(
     component: Option<&mut Component<U, H>>,
     call: &'static str,
-    action: impl FnOnce(&mut Component<U, H>) -> Result<(), Fault>,
+    action: &mut dyn FnMut(&mut Component<U, H>) -> Result<(), Fault>,
 ) -> c_int {
     let Some(component) = component else {
         return Status::Error as c_int;

@@ -100,7 +100,7 @@ functions! { $ export_v3 v3 Importer;
         let component = component.cast::<Component<U, Importer>>();
         let (point, step) = (current_communication_point, communication_step_size);
         tell_events_of_step(component, point, step);
-        guarded(component.as_mut(), "fmi3DoStep", |component| {
+        guarded(component.as_mut(), "fmi3DoStep", &mut |component| {
             let event = write_one("eventHandlingNeeded", event_handling_needed)?;
             let terminate = write_one("terminateSimulation", terminate_simulation)?;
             let early = write_one("earlyReturn", early_return)?;
