@@ -1,27 +1,22 @@
-//! `softstop-lab throughput`: how fast the engines are, and whether the fast one gives the same motions.
+//! `softstop-lab throughput`: how fast the engines are.
 //!
-//! [`fleet`] says what is run, [`measure`] takes the times; [`zones`] does both for hysteresis zones, [`beside`] for studies; [`random_machines`] makes random machines, [`aimed`] aims them at trouble, [`doubt`] says which
-//! of their motions can be compared, [`check`] compares; `report` says what came of it.
+//! [`fleet`] says what is run, [`measure`] takes the times; [`zones`] does both for hysteresis zones, [`beside`] for studies;
+//! `report` says what came of it.
 
-pub mod aimed;
 pub mod beside;
-pub mod check;
-pub mod doubt;
 pub mod fleet;
 pub mod measure;
-pub mod random_machines;
 mod report;
 pub mod zones;
 
 use std::path::PathBuf;
 
-use anyhow::{Context, anyhow};
+use anyhow::Context;
 use clap::Args;
 use softstop::MotionError;
 use softstop_lanes::{Instructions, run_one_by_one, run_with};
 
 use beside::Beside;
-use check::Plan;
 use fleet::{Count, EachImpact, RANGE, Range};
 use measure::{ROUNDS, Way};
 use report::ThroughputReport;
@@ -37,24 +32,15 @@ const EXAMPLES: &str = "\
 Examples:
   softstop-lab throughput
       the speed of the safe engine, of one lane and of all, on one core and more, and of zones
-  softstop-lab throughput loaded --check 0
+  softstop-lab throughput loaded
       with a strip to pierce
   softstop-lab throughput --format json
       the same for programs
-  softstop-lab throughput --check 1000000 --repeats 5
-      and whether both give the same million random motions
-  softstop-lab throughput --check 50000 --check-periods 600 --aimed
-      the same in machines aimed at trouble, in motions that have time to settle, so that lanes leap over most periods
-  softstop-lab throughput --check 0 --study docs/studies/map.toml
+  softstop-lab throughput --study docs/studies/map.toml
       and how much longer a study takes than the lanes alone for its motions
 
 The engines take turns, each round a measurement of each; a round ahead of them
-is not counted. Lowering the machines is part of the time. The random machines of
---check are the paper's without and with a strip, others with linear stops, and with
-power laws (n = 3/2, 2 and 5/2); impacts, crossings and the state at the end of a
-motion are compared if no rounding error can change its crossings, which the growth
-of such errors along the safe engine's motion tells; else from just before a leap on.
-Exit code 1 if one differs.";
+is not counted. Lowering the machines is part of the time.";
 
 const WIDEST: Instructions = Instructions::Widest;
 
@@ -65,18 +51,6 @@ pub struct ThroughputArguments {
     /// Machine whose drive periods are counted
     #[arg(value_enum, default_value_t = Regime::Unloaded)]
     pub machine: Regime,
-    /// Random motions to compare both engines on, 0 to 1000000000
-    #[arg(long, value_name = "N", default_value_t = 10_000)]
-    pub check: u64,
-    /// Drive periods of each of them, 1 to 1000000
-    #[arg(long, value_name = "N", default_value_t = 20)]
-    pub check_periods: u64,
-    /// Aim them at trouble: faces beside turning points of settled motions, frequencies beside changes of the motion
-    #[arg(long)]
-    pub aimed: bool,
-    /// Seed of the random machines
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    pub seed: u64,
     /// Measurements that the medians are of, 1 to 1000
     #[arg(long, value_name = "R", default_value_t = 11)]
     pub repeats: usize,
@@ -92,15 +66,13 @@ pub struct ThroughputArguments {
     pub format: Format,
 }
 
-/// Measures, compares and says what came of it.
+/// Measures and says what came of it.
 ///
 /// # Errors
-/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if the engines differ,
+/// [`Failure::Usage`] for values that cannot be, [`Failure::Run`] if a motion cannot be computed,
 /// [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
-    let ThroughputArguments { check, repeats, .. } = *arguments;
-    within("check", check, 0..=1_000_000_000)?;
-    within("check-periods", arguments.check_periods, 1..=1_000_000)?;
+    let repeats = arguments.repeats;
     within("repeats", repeats, 1..=1000)?;
     within("zones", arguments.zones, 4..=1_000_000)?;
     let study = arguments.study.as_deref().map(Measured::read).transpose()?;
@@ -131,21 +103,7 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     if let (Some(path), Some(study)) = (&arguments.study, &study) {
         report.study = Some(Beside::measure(path, study, repeats)?);
     }
-    if check > 0 {
-        report.check = Some(check::check(Plan {
-            trajectories: check,
-            periods: arguments.check_periods,
-            seed: arguments.seed,
-            aimed: arguments.aimed,
-        })?);
-    }
-    export::print(&report, report.text(), arguments.format)?;
-    match report.check.map_or(0, |check| check.tally.different) {
-        0 => Ok(()),
-        different => Err(Failure::Run(anyhow!(
-            "{different} of {check} random motions differ in lanes from those by the safe engine"
-        ))),
-    }
+    export::print(&report, report.text(), arguments.format)
 }
 
 /// A way through the motions of the measurement.

@@ -4,7 +4,6 @@ use serde::Serialize;
 use softstop_lanes::Instructions;
 
 use super::beside::Beside;
-use super::check::Check;
 use super::fleet::Range;
 use super::measure::{ROUNDS, Timing};
 use super::zones::{Grid, Zones};
@@ -43,8 +42,6 @@ pub struct ThroughputReport {
     /// A study, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub study: Option<Beside>,
-    /// The engines on random machines, if asked for.
-    pub check: Option<Check>,
 }
 
 /// One engine on one core.
@@ -90,7 +87,7 @@ pub struct Cores {
 }
 
 impl ThroughputReport {
-    /// What was measured, without study and check: the timings of the safe engine, of one lane, of all, of all with each
+    /// What was measured, without a study: the timings of the safe engine, of one lane, of all, of all with each
     /// impact told, of all cores, of one of them, of the zones, and of the narrower sets.
     pub fn new(
         scene: Range,
@@ -147,7 +144,6 @@ impl ThroughputReport {
             },
             zones: Zones::new(grid, zones),
             study: None,
-            check: None,
         })
     }
 }
@@ -231,38 +227,6 @@ impl ThroughputReport {
             spread.1
         );
         said += &self.study.as_ref().map_or_else(String::new, Beside::told);
-        said += &self.check.as_ref().map_or_else(String::new, told);
         said + &format!("Machine: {}\n", self.machine.line())
     }
-}
-
-fn told(check: &Check) -> String {
-    let tally = &check.tally;
-    let mut text = format!(
-        "\nBoth engines on {} random motions of {} periods with {} impacts, {} of them leapt over in part, in {:.1} s:\n\
-         {} differ in impacts, crossings or end; the ends are {:.0e} times the growth of an error apart at most\n\
-         {} more are chaotic or graze within rounding: {} count other impacts; {} of them leapt and agree from there on\n\
-         but for the differing ones, {} leapt and could not be compared\n\
-         {} periods in {} motions were handed over\n",
-        tally.trajectories,
-        check.plan.periods,
-        tally.impacts,
-        tally.leapt,
-        check.seconds,
-        tally.different,
-        tally.farthest,
-        tally.chaotic,
-        tally.different_in_chaos,
-        tally.compared_from_leap,
-        tally.not_compared,
-        tally.handed_over_periods,
-        tally.handed_over,
-    );
-    for difference in &tally.first {
-        text += &format!(
-            "  impacts, crossings, position, velocity: {:?} in lanes, {:?} by the safe engine: {:?} from {:?}\n",
-            difference.batch, difference.scalar, difference.scene, difference.start
-        );
-    }
-    text
 }

@@ -1,14 +1,13 @@
 //! Machines aimed at trouble: a face beside a turning point of a settled motion, or a frequency beside one at which the
 //! settled motion changes.
 
-use anyhow::Result;
 use softstop::internals::turning_points;
 use softstop::{Arc, Clock, Crossing, Observer, Scene, Slope, Start, Stop};
 
-use super::random_machines::{Draw, Kind, Motion};
+use super::random_machines::{Draw, Motion};
 
 /// Motions of one aim.
-pub const GROUP: usize = 16;
+const GROUP: usize = 16;
 /// Drive periods that a motion is given to settle, and those that it is looked at.
 const SETTLING: u64 = 240;
 const LOOKED_AT: u64 = 64;
@@ -24,17 +23,11 @@ struct Settled {
     crossings: usize,
 }
 
-#[derive(Default)]
-struct Turns {
-    positions: Vec<f64>,
-    crossings: usize,
-}
-
-impl Observer for Turns {
+impl Observer for Settled {
     fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
         let back = arc.course.start_node().velocity >= 0.0;
         let turns = turning_points(arc.course, elapsed, back);
-        self.positions.extend(turns.map(|turn| turn.position));
+        self.turns.extend(turns.map(|turn| turn.position));
     }
 
     fn crossing(&mut self, _: &Crossing) {
@@ -43,18 +36,20 @@ impl Observer for Turns {
 }
 
 impl Settled {
-    fn of(scene: &Scene, start: Start) -> Result<Self> {
-        let mut motion = scene.motion(start)?;
-        motion.advance(Clock::at_cycle(SETTLING), &mut ())?;
-        let state = motion.state();
-        let mut turns = Turns::default();
-        motion.advance(Clock::at_cycle(SETTLING + LOOKED_AT), &mut turns)?;
-        motion.tell_arc(&mut turns);
-        Ok(Self {
-            state,
-            turns: turns.positions,
-            crossings: turns.crossings,
-        })
+    fn of(scene: &Scene, start: Start) -> Self {
+        let mut motion = scene.motion(start).expect("valid");
+        let mut settled = Self {
+            state: start,
+            turns: Vec::new(),
+            crossings: 0,
+        };
+        let advanced = motion.advance(Clock::at_cycle(SETTLING), &mut ());
+        advanced.expect("bounded");
+        settled.state = motion.state();
+        let advanced = motion.advance(Clock::at_cycle(SETTLING + LOOKED_AT), &mut settled);
+        advanced.expect("bounded");
+        motion.tell_arc(&mut settled);
+        settled
     }
 
     fn peak(&self) -> f64 {
@@ -69,17 +64,14 @@ impl Settled {
 
 impl Draw {
     /// Motions of machines that are aimed at trouble, [`GROUP`] of one aim; none if nothing was found to aim at.
-    ///
-    /// # Errors
-    /// An error if a motion cannot be computed.
-    pub fn aimed(&mut self) -> Result<Option<Vec<Motion>>> {
-        let (_, mut scene, start) = self.machine()?;
+    pub fn aimed(&mut self) -> Vec<Motion> {
+        let (mut scene, start) = self.machine();
         if self.below(2) == 0 {
             scene.damping = 10f64.powf(self.between(-4.0, -0.5));
             scene.contact_damping = 10f64.powf(self.between(-4.0, 0.0));
         }
         if scene.validate().is_err() || matches!(scene.stop, Stop::Hertz { .. }) {
-            return Ok(None);
+            return Vec::new();
         }
         match self.below(2) {
             0 => self.faces(&scene, start),
@@ -88,10 +80,10 @@ impl Draw {
     }
 
     /// Faces beside a turning point, by 1e-9 to 0.3.
-    fn faces(&mut self, scene: &Scene, start: Start) -> Result<Option<Vec<Motion>>> {
-        let settled = Settled::of(scene, start)?;
+    fn faces(&mut self, scene: &Scene, start: Start) -> Vec<Motion> {
+        let settled = Settled::of(scene, start);
         if settled.turns.is_empty() {
-            return Ok(None);
+            return Vec::new();
         }
         let target = match self.below(3) {
             0 => settled.turns[self.below(settled.turns.len())],
@@ -100,22 +92,22 @@ impl Draw {
         let motion = |draw: &mut Self| {
             let aside = draw.aside(-9.0, -0.5);
             let aimed = draw.face_at(scene, target + aside);
-            draw.motion(Kind::Face, aimed, &settled, start)
+            draw.motion(aimed, &settled, start)
         };
-        Ok(Some((0..GROUP).filter_map(|_| motion(self)).collect()))
+        (0..GROUP).filter_map(|_| motion(self)).collect()
     }
 
     /// Frequencies beside that of a change, by 1e-8 to 1e-2.
-    fn changes(&mut self, scene: &Scene, start: Start) -> Result<Option<Vec<Motion>>> {
+    fn changes(&mut self, scene: &Scene, start: Start) -> Vec<Motion> {
         let mut from = scene.excitation.frequency;
         let mut to = from * (1.0 + self.aside(-3.0, -1.3));
-        let mut settled = Settled::of(scene, start)?;
-        if !settled.differs(&Settled::of(&scene.at_frequency(to), start)?) {
-            return Ok(None);
+        let mut settled = Settled::of(scene, start);
+        if !settled.differs(&Settled::of(&scene.at_frequency(to), start)) {
+            return Vec::new();
         }
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (from + to);
-            let there = Settled::of(&scene.at_frequency(middle), start)?;
+            let there = Settled::of(&scene.at_frequency(middle), start);
             if settled.differs(&there) {
                 to = middle;
             } else {
@@ -124,26 +116,20 @@ impl Draw {
         }
         let motion = |draw: &mut Self| {
             let aimed = scene.at_frequency(from * (1.0 + draw.aside(-8.0, -2.0)));
-            draw.motion(Kind::Change, aimed, &settled, start)
+            draw.motion(aimed, &settled, start)
         };
-        Ok(Some((0..GROUP).filter_map(|_| motion(self)).collect()))
+        (0..GROUP).filter_map(|_| motion(self)).collect()
     }
 
     /// From the start that was settled from, from the settled state, or from anywhere; none if the machine cannot be.
-    fn motion(
-        &mut self,
-        kind: Kind,
-        scene: Scene,
-        settled: &Settled,
-        start: Start,
-    ) -> Option<Motion> {
+    fn motion(&mut self, scene: Scene, settled: &Settled, start: Start) -> Option<Motion> {
         let start = match self.below(3) {
             0 => start,
             1 => settled.state,
             _ => self.start(&scene),
         };
         scene.motion(start).ok()?;
-        Some((kind, scene, start))
+        Some((scene, start))
     }
 
     /// A machine with a face at a position: its clearance where the mass turns short of it, else a wall or a corner behind.

@@ -1,30 +1,11 @@
-//! Random machines with linear laws, and where their motions start.
+//! Random machines, and where their motions start.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
-use serde::Serialize;
-use softstop::{Ratios, Release, RigidStop, Scene, SceneError, Slope, Start, Stop};
-
-/// What kind of machine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// The paper's, without a strip.
-    Unloaded,
-    /// The paper's, with a strip.
-    Loaded,
-    /// Another stop with a linear law.
-    Other,
-    /// A stop with a power law.
-    Power,
-    /// With a face beside a turning point of a settled motion.
-    Face,
-    /// At a frequency beside one at which the settled motion changes.
-    Change,
-}
+use softstop::{Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
 
 /// A machine and where its motion starts.
-pub type Motion = (Kind, Scene, Start);
+pub type Motion = (Scene, Start);
 
 /// Draws machines; the same ones for the same seed and part.
 pub struct Draw(Xoshiro256PlusPlus);
@@ -37,32 +18,30 @@ impl Draw {
         Self(Xoshiro256PlusPlus::seed_from_u64(own))
     }
 
-    /// The next machine and the start of its motion: as many of each kind, frequency ratios 0.5 to 2,
-    /// clearances 0.5 to 20, stops of stiffness 3 to 10^4; every second power law dissipates, and every tenth stop of
-    /// another kind that is not rigid gets a rigid one behind.
-    ///
-    /// # Errors
-    /// [`SceneError`] if the drawing went wrong.
-    pub fn machine(&mut self) -> Result<Motion, SceneError> {
-        let kind = [Kind::Unloaded, Kind::Loaded, Kind::Other, Kind::Power][self.below(4)];
+    /// The next machine and the start of its motion: as many of the paper's without and with a strip, with other linear
+    /// laws and with power laws, frequency ratios 0.5 to 2, clearances 0.5 to 20, stops of stiffness 3 to 10^4; every second
+    /// power law dissipates, and every tenth stop of another kind that is not rigid gets a rigid one behind.
+    pub fn machine(&mut self) -> Motion {
+        let kind = self.below(4);
         let base = match kind {
-            Kind::Loaded => Ratios::loaded(),
+            1 => Ratios::loaded(),
             _ => Ratios::unloaded(),
         };
         let ratios = base.at_frequency(self.between(0.5, 2.0));
-        let mut scene = ratios.at_clearance(self.between(0.5, 20.0)).scene()?;
+        let ratios = ratios.at_clearance(self.between(0.5, 20.0));
+        let mut scene = ratios.scene().expect("valid");
         match kind {
-            Kind::Other => scene.stop = self.stop(),
-            Kind::Power => scene.stop = self.power(),
+            2 => scene.stop = self.stop(),
+            3 => scene.stop = self.power(),
             _ => {}
         }
-        let is_last = kind == Kind::Power || matches!(scene.stop, Stop::Rigid { .. });
+        let is_last = matches!(scene.stop, Stop::Hertz { .. } | Stop::Rigid { .. });
         if self.below(10) == 0 && !is_last {
             let travel = self.between(0.1, 2.0);
             scene.rigid = Some(self.wall(travel));
         }
         let start = self.start(&scene);
-        Ok((kind, scene, start))
+        (scene, start)
     }
 
     /// Somewhere before the wall.

@@ -7,11 +7,8 @@
 //! it than that, and wherever the errors have grown so far that the tangent says nothing of them.
 
 use nalgebra::Matrix2;
-use softstop::internals::ArcSolution;
-use softstop::internals::turning_points;
-use softstop::{
-    Arc, Clock, Crossing, CrossingKind, MotionError, Observer, Scene, Start, Stop, Tangent,
-};
+use softstop::internals::{ArcSolution, turning_points};
+use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, Scene, Start, Stop, Tangent};
 
 /// Errors of position (m) and velocity (m/s) made on one arc. An arc has some ten windows and the motions are
 /// up to 20 m and 30 m/s large: rounding makes at most some 10 * 4e-15, the 4th differences of both
@@ -36,11 +33,8 @@ pub struct Verdict {
     pub doubtful: bool,
 }
 
-/// Follows a motion with the scalar engine and judges it.
-///
-/// # Errors
-/// [`MotionError`] if it cannot be computed.
-pub fn judge(scene: &Scene, start: Start, periods: u64) -> Result<Verdict, MotionError> {
+/// Follows a motion with the safe engine and judges it.
+pub fn judge(scene: &Scene, start: Start, periods: u64) -> Verdict {
     let mut doubt = Doubt {
         levels: levels(scene),
         covariance: Matrix2::identity() * (ROUNDING * ROUNDING),
@@ -53,26 +47,23 @@ pub fn judge(scene: &Scene, start: Start, periods: u64) -> Result<Verdict, Motio
             doubtful: false,
         },
     };
-    let mut motion = scene.motion(start)?;
+    let mut motion = scene.motion(start).expect("valid");
     let end = Clock::at_cycle(periods);
-    motion.advance(end, &mut doubt)?;
+    motion.advance(end, &mut doubt).expect("bounded");
     motion.tell_arc(&mut doubt);
-    Ok(Verdict {
+    Verdict {
         end: motion.state(),
         errors: doubt.errors(),
         ..doubt.verdict
-    })
+    }
 }
 
 /// Where a machine has faces, in m.
 pub fn levels(scene: &Scene) -> Vec<f64> {
     let stop = scene.stop_position();
     let mut levels = vec![scene.clearance, stop];
-    levels.extend(
-        scene
-            .piercing
-            .map(|strip| scene.clearance + strip.thickness),
-    );
+    let strip = scene.piercing;
+    levels.extend(strip.map(|strip| scene.clearance + strip.thickness));
     levels.extend(scene.wall().map(|wall| wall.position));
     if let Stop::PiecewiseLinear { loading, unloading } = &scene.stop {
         let corners = loading.iter().chain(unloading);
