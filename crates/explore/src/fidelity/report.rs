@@ -1,13 +1,12 @@
 //! The result, in the machine's own units.
 
-use super::models::Quantity;
+use super::models::{Answers, Quantity};
 use serde_json::json;
 use softstop::{Dimension, Machine};
-use softstop_dynamics::zone::Bounds;
 
 use super::FidelityArguments;
 use super::structure::{Structure, Track, kind};
-use super::study::{Entry, Name, Study, Unmatched};
+use super::study::{Entry, Name, Study};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Unit, Units};
 use softstop_console::record::{Record, below};
@@ -31,8 +30,8 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
         "matched" [None], "what it shares with the contact, if anything" => it.model.name.word();
         "quantity" [None], "what is compared" => it.quantity.name();
         "unit" [None], "of its value" => unit(it.machine, it.quantity);
-        "value" [Of("unit")], "of the model" => own(it.machine, it.quantity, it.quantity.value(&it.model.answers));
-        "error" [None], "relative to the machine's own value" => it.quantity.error(&it.study.truth, &it.model.answers);
+        "value" [Of("unit")], "of the model" => own(it.machine, it.quantity, &it.model.answers);
+        "error" [None], "relative to the machine's own value" => it.study.truth.error(&it.model.answers, it.quantity);
         "evaluations_per_period" [None], "of the law of force" => it.model.evaluations_per_period;
         "microseconds_per_period" [Of("us")], "median" => it.model.microseconds_per_period;
     }
@@ -59,14 +58,15 @@ fn unit(machine: &Machine, quantity: Quantity) -> &'static str {
 }
 
 /// A value of a quantity in the machine's own units.
-fn own(machine: &Machine, quantity: Quantity, value: Option<f64>) -> Option<f64> {
+fn own(machine: &Machine, quantity: Quantity, answers: &Answers) -> Option<f64> {
+    let value = answers.value(quantity);
     value.map(|value| machine.to_own(quantity.dimension(), value))
 }
 
 /// What is told of a model.
 fn figures<'a>() -> [Column<Row<'a>>; 4] {
     columns! { Row<'a>, it;
-        "value" [None] Fixed(6), "of the quantity" => own(it.machine, it.quantity, it.quantity.value(&it.model.answers));
+        "value" [None] Fixed(6), "of the quantity" => own(it.machine, it.quantity, &it.model.answers);
         "error" [None] Plain, "of it" => error(it.model.error);
         "evaluations_per_period" [None] Fixed(1), "of the law of force" => it.model.evaluations_per_period;
         "microseconds_per_period" [None] Fixed(2), "median" => it.model.microseconds_per_period;
@@ -92,17 +92,12 @@ fn tracks<'a>() -> [Column<Tracked<'a>>; 7] {
     columns! { Tracked<'a>, it;
         "same_regime" [None] Percent(1), "share" => it.1.agreement(it.2, |regime| regime);
         "same_kind" [None] Percent(1), "share" => it.1.agreement(it.2, kind);
-        "grazing_frequency" [Frequency] Fixed(6), "g0" => bound(it, |it| it.grazing);
-        "flip_frequency" [Frequency] Fixed(6), "s_PD" => bound(it, |it| it.flip);
-        "fold_frequency" [Frequency] Fixed(6), "s_SN" => bound(it, |it| it.fold);
+        "grazing_frequency" [Frequency] Fixed(6), "g0" => own(it.0, Quantity::GrazingFrequency, &it.2.entry.answers);
+        "flip_frequency" [Frequency] Fixed(6), "s_PD" => own(it.0, Quantity::FlipFrequency, &it.2.entry.answers);
+        "fold_frequency" [Frequency] Fixed(6), "s_SN" => own(it.0, Quantity::FoldFrequency, &it.2.entry.answers);
         "sequence_from_rest" [None], "regimes in order of frequency" => json!(it.2.sequence(0));
         "sequence_flung" [None], "the same, flung" => json!(it.2.sequence(1));
     }
-}
-
-fn bound((machine, _, track): &Tracked, one: fn(&Bounds) -> Option<f64>) -> Option<f64> {
-    let bound = track.entry.answers.bounds.as_ref().and_then(one);
-    own(machine, Quantity::FoldFrequency, bound)
 }
 
 /// A model by its names.
@@ -132,7 +127,7 @@ fn model(row: Row<'_>) -> Record {
     named(entry.name)
         .hidden("is_scene", entry.is_truth)
         .hidden("machine", stated_machine(&machine))
-        .and(MotionName::of_regime(entry.answers.observed.regime).figures())
+        .and(MotionName::of_regime(entry.answers.regime).figures())
         .and(Record::of(&figures(), &row))
         .hidden("answers", answers)
 }
@@ -182,7 +177,7 @@ pub(super) fn report(
     let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
     text += &table(&Record::all(&figures(), &rows));
     text += &format!("\n{}", advice(arguments, machine, study));
-    for Unmatched { name, reason } in &study.unmatched {
+    for (name, reason) in &study.unmatched {
         text += &format!("Without a model: {name}: {reason}\n");
     }
     let sweep = structure.map(|structure| {
@@ -197,17 +192,14 @@ pub(super) fn report(
     });
     let cheapest = study.cheapest(tolerance);
     let unmatched = study.unmatched.iter();
-    let unmatched = unmatched.map(|it| named(it.name).hidden("reason", it.reason.clone()));
+    let unmatched = unmatched.map(|it| named(it.0).hidden("reason", it.1.clone()));
     let result = Record::default()
         .hidden("machine", stated_machine(machine))
         .hidden("start", json!(machine.start))
         .hidden("quantity", quantity.name())
         .hidden("unit", unit(machine, quantity))
         .hidden("tolerance", tolerance)
-        .hidden(
-            "value",
-            own(machine, quantity, quantity.value(&study.truth)),
-        )
+        .hidden("value", own(machine, quantity, &study.truth))
         .hidden("operating_velocity", study.velocity)
         .hidden("predictive", arguments.predictive)
         .hidden("cheapest", cheapest.map(|entry| named(entry.name)))

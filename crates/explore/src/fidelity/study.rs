@@ -4,8 +4,7 @@ use std::fmt;
 use std::time::Instant;
 
 use super::models::{
-    Answers, FidelityError, Ladder, Likeness, Model, Observation, Quantity, Rung, cheapest,
-    from_model, from_truth,
+    Answers, FidelityError, Ladder, Likeness, Quantity, Rung, cheapest, from_model, from_truth,
 };
 use anyhow::{Context, anyhow};
 use softstop::internals::Evaluations;
@@ -58,13 +57,6 @@ pub(super) struct Entry {
     pub(super) is_truth: bool,
 }
 
-/// A rung without a model.
-#[derive(Debug, Clone)]
-pub(super) struct Unmatched {
-    pub(super) name: Name,
-    pub(super) reason: String,
-}
-
 /// All models of a scene.
 #[derive(Debug, Clone)]
 pub(super) struct Study {
@@ -72,7 +64,8 @@ pub(super) struct Study {
     pub(super) velocity: Option<f64>,
     pub(super) truth: Answers,
     pub(super) entries: Vec<Entry>,
-    pub(super) unmatched: Vec<Unmatched>,
+    /// Those without a model, and why.
+    pub(super) unmatched: Vec<(Name, String)>,
 }
 
 impl Study {
@@ -80,10 +73,13 @@ impl Study {
     pub(super) fn new(machine: &Machine, arguments: &FidelityArguments) -> Result<Self, Failure> {
         let (truth, quantity) = (&machine.scene, arguments.quantity);
         let is_bounded = arguments.structure || quantity.is_bound();
-        let answers_of = |scene: &Scene, seen| Answers::of(scene, seen, is_bounded).map_err(run);
-        let observed = Observation::settled(truth, None, machine.start).map_err(run)?;
-        let answers = answers_of(truth, observed)?;
-        if quantity.value(&answers).is_none() {
+        let bounded = |scene: &Scene, seen: Answers| match is_bounded {
+            true => seen.with_bounds(scene).map_err(run),
+            false => Ok(seen),
+        };
+        let observed = Answers::settled(truth, None, machine.start).map_err(run)?;
+        let answers = bounded(truth, observed)?;
+        if answers.value(quantity).is_none() {
             return Err(absent(quantity));
         }
         let plan = plan(truth, arguments.matched.likenesses());
@@ -96,22 +92,19 @@ impl Study {
         };
         for name in plan {
             match model(truth, name, &observed, machine.start, arguments.predictive) {
-                Ok((model, seen)) => {
-                    let answers = answers_of(&model.scene, seen)?;
+                Ok((scene, seen)) => {
+                    let answers = bounded(&scene, seen)?;
                     study.entries.push(Entry {
                         name,
                         is_truth: name.rung == Rung::of(truth),
-                        scene: model.scene,
-                        error: quantity.error(&study.truth, &answers),
+                        scene,
+                        error: study.truth.error(&answers, quantity),
                         answers,
                         evaluations_per_period: f64::NAN,
                         microseconds_per_period: f64::NAN,
                     });
                 }
-                Err(error) => study.unmatched.push(Unmatched {
-                    name,
-                    reason: error.to_string(),
-                }),
+                Err(error) => study.unmatched.push((name, error.to_string())),
             }
             progress.step()?;
         }
@@ -129,7 +122,7 @@ impl Study {
         for _ in 0..repeats {
             for (entry, times) in self.entries.iter_mut().zip(&mut times) {
                 let begin = Instant::now();
-                let start = entry.answers.observed.start;
+                let start = entry.answers.start;
                 let taken =
                     evaluated(&entry.scene, start, periods).context("cannot time a motion")?;
                 times.push(1e6 * begin.elapsed().as_secs_f64() / periods as f64);
@@ -182,10 +175,10 @@ fn plan(truth: &Scene, likenesses: &[Likeness]) -> Vec<Name> {
 fn model(
     truth: &Scene,
     Name { rung, matched }: Name,
-    observed: &Observation,
+    observed: &Answers,
     start: Start,
     is_predictive: bool,
-) -> Result<(Model, Observation), FidelityError> {
+) -> Result<(Scene, Answers), FidelityError> {
     let ladder = Ladder {
         truth: truth.clone(),
         likeness: matched.unwrap_or_default(),
@@ -201,7 +194,7 @@ fn model(
         _ => from_truth(observed)?,
     };
     let model = ladder.model(rung, velocity)?;
-    let seen = Observation::settled(&model.scene, Some(observed.start), start)?;
+    let seen = Answers::settled(&model, Some(observed.start), start)?;
     Ok((model, seen))
 }
 

@@ -159,7 +159,7 @@ fn without_damping_a_preloaded_contact_obeys_the_energy_equivalence() -> Outcome
         truth: scene,
         likeness: Likeness::Penetration,
     };
-    let Stop::KelvinVoigt { stiffness: k, .. } = ladder.model(Rung::KelvinVoigt, speed)?.scene.stop
+    let Stop::KelvinVoigt { stiffness: k, .. } = ladder.model(Rung::KelvinVoigt, speed)?.stop
     else {
         return Err("no spring".into());
     };

@@ -2,15 +2,12 @@
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
-
 use super::matching::{self, root};
 use super::{Contact, FidelityError};
 use softstop::{Release, Scene, Stop};
 
 /// A rung: a law of contact, simple ones first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rung {
     /// No stop.
     Linear,
@@ -75,24 +72,13 @@ impl fmt::Display for Rung {
 }
 
 /// What a soft model has in common with the scene's contact, besides the restitution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Likeness {
     /// The largest penetration: without damping, the energy stored there, 1/2 k d^2 = E(d).
     #[default]
     Penetration,
     /// How long the mass is beyond the clearance.
     Duration,
-}
-
-/// A model of a scene.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Model {
-    /// Its rung.
-    pub rung: Rung,
-    /// Its machine.
-    pub scene: Scene,
 }
 
 /// The models of one scene.
@@ -126,7 +112,7 @@ impl Ladder {
     /// # Errors
     /// [`FidelityError::Unmatched`] if no contact of this law behaves like the scene's,
     /// [`FidelityError::Motion`] if that cannot be computed.
-    pub fn model(&self, rung: Rung, velocity: f64) -> Result<Model, FidelityError> {
+    pub fn model(&self, rung: Rung, velocity: f64) -> Result<Scene, FidelityError> {
         let scene = if rung == Rung::of(&self.truth) {
             self.truth.clone()
         } else if rung == Rung::Linear {
@@ -135,7 +121,7 @@ impl Ladder {
             self.matched(rung, &Contact::of(&self.truth, velocity)?)?
         };
         scene.validate()?;
-        Ok(Model { rung, scene })
+        Ok(scene)
     }
 
     /// The scene with another stop, and with nothing before and behind it.

@@ -3,9 +3,9 @@
 //!
 //! A [`Ladder`] holds the models of one scene, each derived from it by the formulas of [`matching`] so that
 //! it agrees with the scene's own contact ([`Contact`]) at one velocity, the *operating velocity*. What a
-//! model gives is an [`Observation`] of its motion, or one of the bounds of its z = 1 motion
+//! model gives are [`Answers`] of its motion, the bounds of its z = 1 motion among them
 //! ([`Bounds`](softstop_dynamics::zone::Bounds));
-//! a [`Quantity`] tells how far it is from that of the scene itself.
+//! [`Answers::error`] tells how far a [`Quantity`] of it is from that of the scene itself.
 
 mod contact;
 mod ladder;
@@ -15,10 +15,10 @@ mod operating;
 mod quantity;
 
 pub use contact::Contact;
-pub use ladder::{Ladder, Likeness, Model, Rung};
-pub use observation::Observation;
+pub use ladder::{Ladder, Likeness, Rung};
+pub use observation::Answers;
 pub use operating::{from_model, from_truth};
-pub use quantity::{Answers, Quantity, cheapest};
+pub use quantity::{Quantity, cheapest};
 
 use thiserror::Error;
 

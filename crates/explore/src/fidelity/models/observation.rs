@@ -2,45 +2,23 @@
 
 use std::f64::consts::TAU;
 
-use serde::Serialize;
-
 use softstop::internals::work;
 use softstop::{Clock, Crossing, CrossingKind, MotionError, PhaseKind, Scene, Start, Touch};
 use softstop_dynamics::internals::peak_contact_force;
 use softstop_dynamics::orbit::{Orbit, OrbitError, Regime, StroboscopicMap, find};
+use softstop_dynamics::zone::Bounds;
+
+use super::Quantity;
 
 /// What the settled motion of a machine gives.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct Observation {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answers {
     /// Position in m and velocity in m/s at drive angle phi with which it was observed from.
-    #[serde(serialize_with = "pair")]
     pub start: Start,
-    /// Drive periods over which it was observed.
-    pub periods: u64,
     /// Its regime; none if it does not repeat.
     pub regime: Option<Regime>,
-    /// Impacts while it was observed.
-    pub impacts: u64,
-    /// Mean before-impact velocity in m/s; none without impacts, as all that follows but the position and
-    /// the power.
-    pub before_impact_velocity: Option<f64>,
-    /// Mean drive angle at an impact in rad, 0 to 2 pi.
-    pub impact_phase: Option<f64>,
-    /// Largest contact force in N; none if a rigid stop is hit, where it has no bound.
-    pub peak_force: Option<f64>,
-    /// Mean time in s in contact per impact.
-    pub contact_time: Option<f64>,
-    /// Mean energy in J that is lost in contact per impact.
-    pub energy_per_impact: Option<f64>,
-    /// Largest position in m.
-    pub max_position: f64,
-    /// Mean power in W that the drive supplies.
-    pub mean_power: f64,
-}
-
-fn pair<S: serde::Serializer>(start: &Start, serializer: S) -> Result<S::Ok, S::Error> {
-    (start.position, start.velocity).serialize(serializer)
+    /// By quantity; none without impacts, but for position, power and regime.
+    pub values: [Option<f64>; Quantity::ALL.len()],
 }
 
 /// Drive periods after which a motion that is not z = 1 counts as settled.
@@ -48,7 +26,7 @@ const TRANSIENT: u64 = 400;
 /// Drive periods over which a motion is observed that does not repeat.
 const LONG: u64 = 200;
 
-impl Observation {
+impl Answers {
     /// The stable z = 1 motion of a scene: the one that Newton's method reaches from `hint`, else the one
     /// that a search finds. If there is none, what the motion from `start` has settled on.
     ///
@@ -100,18 +78,54 @@ impl Observation {
         let (sine, cosine) = drives.fold((0.0, 0.0), |(sine, cosine), drive| {
             (sine + drive.sin, cosine + drive.cos)
         });
+        let phase = f64::atan2(sine, cosine).rem_euclid(TAU);
+        let velocity = impacts.iter().map(|it| it.before_impact_velocity).sum();
+        let value = |quantity| match quantity {
+            Quantity::BeforeImpactVelocity => mean(velocity),
+            Quantity::ImpactPhase => mean(0.0).map(|_| phase),
+            Quantity::MaxPosition => Some(motion.max_position()),
+            Quantity::PeakForce => peak.filter(|_| !motion.crossings().any(rebounds)),
+            Quantity::ContactTime => mean(contact_time),
+            Quantity::EnergyPerImpact => mean(lost),
+            Quantity::MeanPower => Some(supplied / clock.time(Clock::at_cycle(periods))),
+            Quantity::Regime => regime.map(|it| it.impacts as f64 / it.periods as f64),
+            Quantity::GrazingFrequency | Quantity::FlipFrequency | Quantity::FoldFrequency => None,
+        };
         Ok(Self {
             start,
-            periods,
             regime,
-            impacts: impacts.len() as u64,
-            before_impact_velocity: mean(impacts.iter().map(|it| it.before_impact_velocity).sum()),
-            impact_phase: mean(0.0).map(|_| f64::atan2(sine, cosine).rem_euclid(TAU)),
-            peak_force: peak.filter(|_| !motion.crossings().any(rebounds)),
-            contact_time: mean(contact_time),
-            energy_per_impact: mean(lost),
-            max_position: motion.max_position(),
-            mean_power: supplied / clock.time(Clock::at_cycle(periods)),
+            values: Quantity::ALL.map(value),
+        })
+    }
+
+    /// The same with the bounds of a scene, those of its z = 1 motion only if this is one.
+    ///
+    /// # Errors
+    /// [`OrbitError`] if a bound cannot be followed.
+    pub fn with_bounds(mut self, scene: &Scene) -> Result<Self, OrbitError> {
+        let near = (self.regime == Some(Regime::ONE)).then_some(self.start);
+        let bounds = Bounds::of_scene(scene, near)?;
+        self.values[Quantity::GrazingFrequency as usize] = bounds.grazing;
+        self.values[Quantity::FlipFrequency as usize] = bounds.flip;
+        self.values[Quantity::FoldFrequency as usize] = bounds.fold;
+        Ok(self)
+    }
+
+    /// A quantity; none if the motion has none, or its bounds were not asked for.
+    pub fn value(&self, quantity: Quantity) -> Option<f64> {
+        self.values[quantity as usize]
+    }
+
+    /// How far a model's are from these: relative to these, for a drive angle as a share of a turn, for a regime 0 or
+    /// infinite. None if one of the two has no value.
+    pub fn error(&self, model: &Self, quantity: Quantity) -> Option<f64> {
+        let (own, value) = (self.value(quantity)?, model.value(quantity)?);
+        let gap = (value - own).abs();
+        Some(match quantity {
+            Quantity::ImpactPhase => gap.min(TAU - gap) / TAU,
+            Quantity::Regime if self.regime != model.regime => f64::INFINITY,
+            _ if gap == 0.0 => 0.0,
+            _ => gap / own.abs(),
         })
     }
 }

@@ -1,17 +1,16 @@
 //! The velocity at which models are matched.
 
-use super::{FidelityError, Ladder, Model, Observation, Rung};
-use softstop::Start;
+use super::{Answers, FidelityError, Ladder, Quantity, Rung};
+use softstop::{Scene, Start};
 
 /// The before-impact velocity in m/s of the scene's own motion.
 ///
 /// # Errors
 /// [`FidelityError::NoImpact`] if it has no impact.
-pub fn from_truth(observed: &Observation) -> Result<f64, FidelityError> {
-    observed
-        .before_impact_velocity
-        .filter(|velocity| *velocity > 0.0)
-        .ok_or(FidelityError::NoImpact)
+pub fn from_truth(observed: &Answers) -> Result<f64, FidelityError> {
+    let velocity = observed.value(Quantity::BeforeImpactVelocity);
+    let velocity = velocity.filter(|velocity| *velocity > 0.0);
+    velocity.ok_or(FidelityError::NoImpact)
 }
 
 /// Rounds of the fixed-point iteration.
@@ -29,14 +28,14 @@ pub fn from_model(
     ladder: &Ladder,
     rung: Rung,
     start: Start,
-) -> Result<(Model, Observation), FidelityError> {
+) -> Result<(Scene, Answers), FidelityError> {
     let truth = &ladder.truth;
     let mut velocity = truth.motion_scales().speed();
     let mut hint = None;
     for _ in 0..MAX_ROUNDS {
         let model = ladder.model(rung, velocity)?;
-        let observed = Observation::settled(&model.scene, hint, start)?;
-        if rung == Rung::Linear || model.scene == *truth {
+        let observed = Answers::settled(&model, hint, start)?;
+        if rung == Rung::Linear || model == *truth {
             return Ok((model, observed));
         }
         let next = from_truth(&observed)?;

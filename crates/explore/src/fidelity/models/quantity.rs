@@ -1,19 +1,11 @@
-//! What is asked of a model, and how far its answer is from the scene's own.
+//! What is asked of a model, and which model is the cheapest.
 
-use std::f64::consts::TAU;
-
-use serde::{Deserialize, Serialize};
-
-use super::Observation;
-use softstop::{Dimension, Scene};
-use softstop_dynamics::orbit::{OrbitError, Regime};
-use softstop_dynamics::zone::Bounds;
+use softstop::Dimension;
 
 macro_rules! quantities {
     ($($(#[$what:meta])* $quantity:ident $name:literal $dimension:ident;)*) => {
         /// A quantity that a model should give.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-        #[serde(rename_all = "snake_case")]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Quantity {
             $($(#[$what])* $quantity),*
         }
@@ -64,69 +56,13 @@ quantities! {
     FoldFrequency "fold_frequency" Frequency;
 }
 
-/// All that is known of a model's motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Answers {
-    /// Of its settled motion.
-    pub observed: Observation,
-    /// Bounds of its z = 1 motion, if they were asked for.
-    pub bounds: Option<Bounds>,
-}
-
-impl Answers {
-    /// What is known of a scene whose settled motion has been observed; its bounds if they are `wanted`, those of
-    /// z = 1 only if the motion is one.
-    ///
-    /// # Errors
-    /// [`OrbitError`] if a bound cannot be followed.
-    pub fn of(scene: &Scene, observed: Observation, wanted: bool) -> Result<Self, OrbitError> {
-        let is_one = observed.regime == Some(Regime::ONE);
-        let near = is_one.then_some(observed.start);
-        let bounds = wanted.then(|| Bounds::of_scene(scene, near)).transpose()?;
-        Ok(Self { observed, bounds })
-    }
-}
-
 impl Quantity {
-    /// Whether it is one of the [`Bounds`].
+    /// Whether it is one of the [`Bounds`](softstop_dynamics::zone::Bounds).
     pub const fn is_bound(self) -> bool {
         matches!(
             self,
             Self::GrazingFrequency | Self::FlipFrequency | Self::FoldFrequency
         )
-    }
-
-    /// Its value; none if the motion has none.
-    pub fn value(self, answers: &Answers) -> Option<f64> {
-        let Answers { observed, bounds } = answers;
-        match self {
-            Self::BeforeImpactVelocity => observed.before_impact_velocity,
-            Self::ImpactPhase => observed.impact_phase,
-            Self::MaxPosition => Some(observed.max_position),
-            Self::PeakForce => observed.peak_force,
-            Self::ContactTime => observed.contact_time,
-            Self::EnergyPerImpact => observed.energy_per_impact,
-            Self::MeanPower => Some(observed.mean_power),
-            Self::Regime => observed
-                .regime
-                .map(|Regime { impacts, periods }| impacts as f64 / periods as f64),
-            Self::GrazingFrequency => bounds.and_then(|bounds| bounds.grazing),
-            Self::FlipFrequency => bounds.and_then(|bounds| bounds.flip),
-            Self::FoldFrequency => bounds.and_then(|bounds| bounds.fold),
-        }
-    }
-
-    /// How far a model is from the truth: relative to the truth, for a drive angle as a share of a turn,
-    /// for a regime 0 or infinite. None if one of the two has no value.
-    pub fn error(self, truth: &Answers, model: &Answers) -> Option<f64> {
-        let (truth_value, value) = (self.value(truth)?, self.value(model)?);
-        let gap = (value - truth_value).abs();
-        Some(match self {
-            Self::ImpactPhase => gap.min(TAU - gap) / TAU,
-            Self::Regime if truth.observed.regime != model.observed.regime => f64::INFINITY,
-            _ if gap == 0.0 => 0.0,
-            _ => gap / truth_value.abs(),
-        })
     }
 }
 
