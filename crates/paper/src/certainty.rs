@@ -117,7 +117,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let rows = rows.flat_map(|curve| curve.places.iter().map(move |at| (curve, at)));
     Ok(Drawn {
         files: vec![
-            chart(figure, &curves).svg().into_bytes(),
+            chart(figure, &curves)?.svg().into_bytes(),
             csv(&columns(), rows)?,
         ],
         findings: findings(&curves),
@@ -199,7 +199,7 @@ fn rise(places: &[CertaintyAtPlace]) -> f64 {
     places.iter().enumerate().map(later).fold(0.0, f64::max)
 }
 
-fn chart(figure: &Figure, curves: &[Curve]) -> Chart {
+fn chart(figure: &Figure, curves: &[Curve]) -> Result<Chart> {
     let count = CLEARANCES.len();
     let color = |index| style::ordered(index, count);
     let by_clearance = |index: usize| {

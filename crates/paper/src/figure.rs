@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
 
 use crate::transitions::{Rules, Transition};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -51,12 +51,23 @@ impl Figure {
     }
 
     /// Its picture, with the layers of its panels in order.
-    pub(crate) fn picture(&self, layers: impl IntoIterator<Item = Vec<Layer>>) -> Chart {
+    ///
+    /// # Errors
+    /// If there are not as many as the file states panels.
+    pub(crate) fn picture(&self, layers: impl IntoIterator<Item = Vec<Layer>>) -> Result<Chart> {
         let mut chart = self.chart.clone();
+        let (name, panels) = (&self.name, chart.panels.len());
+        let layers: Vec<_> = layers.into_iter().collect();
+        let place = "docs/paper/figures.toml";
+        ensure!(
+            layers.len() == panels,
+            "figure {name} has {panels} panels in {place}, {} are drawn",
+            layers.len()
+        );
         for (panel, layers) in chart.panels.iter_mut().zip(layers) {
             panel.layers = layers;
         }
-        chart
+        Ok(chart)
     }
 
     /// What a key of its own says.
@@ -189,5 +200,24 @@ impl Detail {
             Self::Full => full,
             Self::Draft => draft,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_has_layers_for_each_of_its_panels() -> Result<()> {
+        let figure = Figure::called("7")?;
+        let layers = |count: usize| vec![Vec::new(); count];
+        let panels = figure.chart.panels.len();
+        assert_eq!(figure.picture(layers(panels))?.panels.len(), panels);
+        for wrong in [panels - 1, panels + 1] {
+            let refused = figure.picture(layers(wrong)).err();
+            let told = format!("has {panels} panels in docs/paper/figures.toml, {wrong} are drawn");
+            assert!(refused.is_some_and(|it| it.to_string().contains(&told)));
+        }
+        Ok(())
     }
 }

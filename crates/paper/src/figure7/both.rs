@@ -1,5 +1,6 @@
 //! Points A and B over each other: "small difference between working and unloaded regime" (Peterka 2003, section 3).
 
+use anyhow::Result;
 use softstop_draw::{Chart, Layer, Stroke, style};
 
 use super::chart::{FACE, STATE};
@@ -15,7 +16,7 @@ const CURVES: [(&str, Stroke); 2] = [
 const BEFORE: f64 = 0.6;
 
 /// Time series, phase plane, and the part of it near the stop; both have the same clearance and period.
-pub(super) fn chart(figure: &Figure, cycles: &[Cycle; 2]) -> Chart {
+pub(super) fn chart(figure: &Figure, cycles: &[Cycle; 2]) -> Result<Chart> {
     let scene = &cycles[1].orbit.scene;
     let (rho, period) = (scene.clearance, scene.period());
     let highest = cycles.iter().map(|it| it.orbit.max_position);
@@ -35,9 +36,9 @@ pub(super) fn chart(figure: &Figure, cycles: &[Cycle; 2]) -> Chart {
         layers(&series, |at, _| Layer::horizontal(at, FACE, "")),
         layers(&STATE, |at, _| Layer::vertical(at, FACE, "")),
         layers(&STATE, |at, name| Layer::vertical(at, FACE, name)),
-    ]);
+    ])?;
     chart.panels[2].x.ends = [rho - BEFORE * depth, highest + 0.2 * depth].map(Some);
-    chart
+    Ok(chart)
 }
 
 /// The line at a position at which the law changes, and its name.

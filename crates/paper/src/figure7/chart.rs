@@ -1,6 +1,7 @@
 //! The picture of figure 7: a z = 1 motion with its phases shaded (Peterka 2003).
 //! Position over time, the phase plane, the force of contact.
 
+use anyhow::Result;
 use softstop::PhaseKind;
 
 use super::{Cycle, faces};
@@ -32,7 +33,7 @@ pub(super) const STATE: Show = |point| (point.position, point.velocity);
 const FORCE: Show = |point| (point.position, point.force);
 
 impl Cycle {
-    pub(super) fn chart(&self, figure: &Figure) -> Chart {
+    pub(super) fn chart(&self, figure: &Figure) -> Result<Chart> {
         let orbit = &self.orbit;
         let period = orbit.scene.period();
         let (slow, fast) = self.range(STATE, 0.0);
@@ -62,7 +63,7 @@ impl Cycle {
             self.plane(0, ranges[2]),
             self.plane(1, close),
             self.plane(2, force),
-        ]);
+        ])?;
         chart.subtitle = format!(
             "X_m = {:.5},  X′₋ = {:.6},  Floquet multipliers of modulus {:.4}",
             orbit.max_position,
@@ -72,7 +73,7 @@ impl Cycle {
         for (panel, [x, y]) in chart.panels.iter_mut().zip(ranges) {
             (panel.x.ends, panel.y.ends) = ([x.0, x.1].map(Some), [y.0, y.1].map(Some));
         }
-        chart
+        Ok(chart)
     }
 
     /// Some periods, with X_m and the period T between the first two impacts, and what the tints mean.

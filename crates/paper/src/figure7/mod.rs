@@ -50,7 +50,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     };
     let table = csv(&columns, &cycle.path.points)?;
     Ok(Drawn {
-        files: vec![cycle.chart(figure).svg().into_bytes(), table],
+        files: vec![cycle.chart(figure)?.svg().into_bytes(), table],
         findings: findings(&cycle),
     })
 }
@@ -65,7 +65,7 @@ pub(super) fn both(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let faster = b.orbit.before_impact_velocity() / a.orbit.before_impact_velocity();
     findings.add("X'_- of B over that of A", faster);
     Ok(Drawn {
-        files: vec![both::chart(figure, &[a, b]).svg().into_bytes()],
+        files: vec![both::chart(figure, &[a, b])?.svg().into_bytes()],
         findings,
     })
 }

@@ -1,5 +1,7 @@
 //! The chart of stops from soft to rigid: diagrams, a map of the motions, and folds.
 
+use anyhow::Result;
+
 use super::folds::Folds;
 use super::stops::{CLEARANCE, grazing};
 use super::subharmonics::{NARROW, Subharmonic};
@@ -32,11 +34,11 @@ const DOT: f64 = 1.0;
 type Bend = fn(&Folds) -> Option<f64>;
 
 impl Picture<'_> {
-    pub(super) fn chart(&self, figure: &Figure) -> Chart {
+    pub(super) fn chart(&self, figure: &Figure) -> Result<Chart> {
         // What is linear, the first, grows without regard to the clearance.
         let points = self.drawn[1..].iter().flat_map(Swept::points).flatten();
         let top = 1.05 * points.map(|point| point.1).fold(0.0, f64::max);
-        let mut chart = figure.picture([Vec::new(), self.map(), self.widths(), self.orders()]);
+        let mut chart = figure.picture([Vec::new(), self.map(), self.widths(), self.orders()])?;
         let template = chart.panels.remove(0);
         let highest = self.found.iter().filter(|motion| motion.impacts == 1);
         let highest = highest.map(|motion| motion.periods).max();
@@ -58,7 +60,7 @@ impl Picture<'_> {
             panel
         });
         chart.panels.splice(0..0, diagrams);
-        chart
+        Ok(chart)
     }
 
     /// On the way up; a dot where the way down ends in another motion.

@@ -63,7 +63,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     };
     Ok(Drawn {
         files: vec![
-            picture.chart(figure).svg().into_bytes(),
+            picture.chart(figure)?.svg().into_bytes(),
             steps(&drawn)?,
             steps(&map)?,
             csv(&branches(), &folds)?,

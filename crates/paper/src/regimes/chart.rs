@@ -1,5 +1,6 @@
 //! The regimes z = p/n over drive frequency and clearance, as a page of maps.
 
+use anyhow::Result;
 use softstop_dynamics::motion::MotionClass;
 
 use super::RegimeMap;
@@ -21,12 +22,12 @@ pub(super) fn chart(
     figure: &Figure,
     maps: &[RegimeMap<'_>],
     boundaries: &[Boundaries; 2],
-) -> Chart {
+) -> Result<Chart> {
     let layers = maps.iter().map(|map| {
         let own = &boundaries[usize::from(map.asked.machine == Regime::Loaded)];
         layers(map, own)
     });
-    let mut chart = figure.picture(layers);
+    let mut chart = figure.picture(layers)?;
     for (panel, map) in chart.panels.iter_mut().zip(maps) {
         let [eta, rho] = map.asked.window;
         panel.x.ends = [eta.0, eta.1].map(Some);
@@ -34,7 +35,7 @@ pub(super) fn chart(
     }
     let keys = motion_keys(|class| maps.iter().any(|map| map.share(class) > 0.0));
     chart.panels[0].layers.extend(keys);
-    chart
+    Ok(chart)
 }
 
 /// A map with its boundaries, the point A or B, and names of wide regimes and of boundaries.

@@ -101,7 +101,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         Boundaries::of(&Ratios::unloaded())?,
         Boundaries::of(&Ratios::loaded())?,
     ];
-    let chart = chart::chart(figure, &found, &boundaries);
+    let chart = chart::chart(figure, &found, &boundaries)?;
     Ok(Drawn {
         files: vec![
             chart.png().map_err(Error::msg)?,

@@ -1,5 +1,6 @@
 //! How many z = 1 motions outlast an interrupted supply, and how many miss no stroke.
 
+use anyhow::Result;
 use softstop_draw::{Align, Chart, Layer, Sign, Stroke, style};
 use softstop_dynamics::basin::wilson_interval;
 
@@ -12,7 +13,12 @@ const DOTS: (f64, f64) = (2.0, 4.0);
 const MARK: Stroke = Stroke::dashed(style::INK, 1.2, (5.0, 4.0));
 
 /// The chart; `fold` is where z = 1 ends with strips.
-pub(super) fn chart(figure: &Figure, outcomes: &[Outcome], grazing: f64, fold: f64) -> Chart {
+pub(super) fn chart(
+    figure: &Figure,
+    outcomes: &[Outcome],
+    grazing: f64,
+    fold: f64,
+) -> Result<Chart> {
     let right = outcomes.iter().map(|it| it.eta).fold(fold, f64::max);
     let room = 0.03 * (right - grazing);
     let layers = READINGS.into_iter().map(|(reading, _)| {
@@ -33,11 +39,11 @@ pub(super) fn chart(figure: &Figure, outcomes: &[Outcome], grazing: f64, fold: f
         let keys = keys.map(|(stroke, name)| Layer::key(Sign::Line(stroke), name));
         curves.chain(marks).chain(keys).collect()
     });
-    let mut chart = figure.picture(layers);
+    let mut chart = figure.picture(layers)?;
     for panel in &mut chart.panels {
         panel.x.ends = [grazing - room, right + room].map(Some);
     }
-    chart
+    Ok(chart)
 }
 
 /// How many are z = 1 in the end, and how many have missed no stroke.

@@ -114,7 +114,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
             findings.group(&format!("{name}, runs of {mean}: "), values);
         }
     }
-    let chart = chart::chart(figure, &outcomes, grazing, loaded);
+    let chart = chart::chart(figure, &outcomes, grazing, loaded)?;
     Ok(Drawn {
         files: vec![chart.svg().into_bytes(), output::csv(&outcomes)?],
         findings,
