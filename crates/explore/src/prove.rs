@@ -164,29 +164,22 @@ fn nearest(wanted: Bifurcation, scene: &Scene, orbit: &Orbit) -> Result<Special,
         return Err(Failure::Interrupted);
     }
     let away = |it: &Special| (it.point.parameter - own).abs();
-    let specials = branch
-        .specials
-        .into_iter()
-        .filter(|it| kind(it) == Some(wanted));
-    let none = || anyhow!("no {} found on the branch of the motion", name(wanted));
+    let specials = branch.specials.into_iter();
+    let specials = specials.filter(|it| wanted.is(it.kind));
+    let name = format!("{wanted:?}").to_lowercase();
+    let none = || anyhow!("no {name} found on the branch of the motion");
     let nearest = specials.min_by(|a, b| away(a).total_cmp(&away(b)));
     Ok(nearest.ok_or_else(none)?)
 }
 
-fn kind(special: &Special) -> Option<Bifurcation> {
-    match special.kind {
-        SpecialKind::Critical(TestFunction::Fold) => Some(Bifurcation::Fold),
-        SpecialKind::Critical(TestFunction::Flip) => Some(Bifurcation::Flip),
-        SpecialKind::Grazing(_) => Some(Bifurcation::Grazing),
-        SpecialKind::Critical(TestFunction::NeimarkSacker) | SpecialKind::Pitchfork => None,
-    }
-}
-
-fn name(what: Bifurcation) -> &'static str {
-    match what {
-        Bifurcation::Fold => "fold",
-        Bifurcation::Flip => "flip",
-        Bifurcation::Grazing => "grazing",
+impl Bifurcation {
+    /// Whether a special point of a kind is one.
+    fn is(self, kind: SpecialKind) -> bool {
+        match self {
+            Self::Fold => kind == SpecialKind::Critical(TestFunction::Fold),
+            Self::Flip => kind == SpecialKind::Critical(TestFunction::Flip),
+            Self::Grazing => matches!(kind, SpecialKind::Grazing(_)),
+        }
     }
 }
 

@@ -6,8 +6,9 @@ use std::fs;
 
 use serde_json::Value;
 use softstop_console::progress::Progress;
-use softstop_lab::failures::{Atlas, Axes, Cell, Family, View};
+use softstop_lab::failures::{self, Atlas, Axes, Cell, Family, built_in};
 use softstop_lab::methods::{Events, Exact, Integrator, Scheme, Task, Verdict};
+use softstop_lab::scenes::Case;
 use softstop_testing::{Program, docs, is_near};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -17,12 +18,12 @@ const PROGRAM: Program = Program {
     first: &["chart", "failures"],
 };
 
-fn view(name: &str) -> Result<View, String> {
-    View::find(name).map_err(|failure| failure.to_string())
+fn find(name: &str) -> Result<Case, String> {
+    failures::find(name).map_err(|failure| failure.to_string())
 }
 
-fn atlas(view: View, axes: Axes, families: &[Family]) -> Result<Atlas, String> {
-    Atlas::new(view, axes, families, 0.01, &Progress::new(1, "runs"))
+fn atlas(case: Case, axes: Axes, families: &[Family]) -> Result<Atlas, String> {
+    Atlas::new(case, axes, families, 0.01, &Progress::new(1, "runs"))
         .map_err(|failure| failure.to_string())
 }
 
@@ -31,9 +32,12 @@ fn atlas(view: View, axes: Axes, families: &[Family]) -> Result<Atlas, String> {
 fn the_exact_method_agrees_with_67_digits() -> Outcome {
     for name in ["bounce", "graze", "chatter", "driven"] {
         for stiffness in [1.0, 1e2, 1e4, 1e8] {
-            let view = view(name)?;
-            let task: Task = view.task(stiffness);
-            let digits = view.stored(stiffness).ok_or("a stored motion")?.solution;
+            let case = find(name)?;
+            let task: Task = case.with_stiffness(stiffness);
+            let digits = case
+                .stored(Some(stiffness))
+                .ok_or("a stored motion")?
+                .solution;
             let exact = Exact.integrate(&task)?;
             let apart = |a: f64, b: f64, scale: f64| {
                 assert!(
@@ -64,7 +68,7 @@ fn maps_change_at_the_line_of_theory() -> Outcome {
             .map(|index| 1e-4 * 10_f64.powf(0.1 * f64::from(index)))
             .collect(),
     };
-    let atlas = atlas(view("pressed")?, axes, &families)?;
+    let atlas = atlas(find("pressed")?, axes, &families)?;
     assert_eq!(atlas.maps.len(), 2);
     for map in &atlas.maps {
         for (cells, limit) in map.columns.iter().zip(&map.limit) {
@@ -102,7 +106,7 @@ fn each_page_shows_its_failure() -> Outcome {
             stiffness: vec![1.0, 1e3, 1e5],
             step: vec![3e-3, 1e-2, 3e-2, 0.1],
         };
-        let atlas = atlas(view(name)?, axes, &everywhere(events))?;
+        let atlas = atlas(find(name)?, axes, &everywhere(events))?;
         let mut cells = atlas
             .maps
             .iter()
@@ -187,10 +191,10 @@ fn a_scene_of_the_user_and_a_filter() -> Outcome {
 #[test]
 fn the_page_shows_every_map_and_scene() -> Outcome {
     let page = fs::read_to_string(docs("methods.md"))?;
-    let views = View::built_in().map_err(|failure| failure.to_string())?;
-    for view in &views {
+    let cases = built_in().map_err(|failure| failure.to_string())?;
+    for case in &cases {
         for end in ["svg", "toml"] {
-            let name = format!("failures/{}.{end}", view.0.name);
+            let name = format!("failures/{}.{end}", case.name);
             assert!(page.contains(&format!("({name})")), "{name}");
             assert!(docs(&name).is_file(), "{name}");
         }
@@ -198,7 +202,7 @@ fn the_page_shows_every_map_and_scene() -> Outcome {
     let pictures = fs::read_dir(docs("failures"))?
         .filter_map(Result::ok)
         .filter(|entry| entry.path().extension().is_some_and(|end| end == "svg"));
-    assert_eq!(pictures.count(), views.len());
+    assert_eq!(pictures.count(), cases.len());
     for verdict in Verdict::ALL {
         assert!(
             page.contains(&format!("| {} |", verdict.name())),

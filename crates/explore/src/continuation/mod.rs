@@ -149,7 +149,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
     let limit = arguments.common.limit.budget;
     let branches = limit.limit(|| branches::branches(arguments, &machine, &first, start))?;
     let chart = chart::branches(&machine, first.parameter, &branches);
-    let rows = tables::branch_rows(&branches);
+    let rows = branches.iter().enumerate().flat_map(tables::branch_rows);
     export.sheet(
         ["branches_csv", "branches_svg"],
         &tables::branch_columns(),
@@ -161,7 +161,8 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
         let both = [&first, second];
         let found = limit.limit(|| curves::curves(&machine, arguments, both, &branches[0]))?;
         let chart = chart::curves(&machine, both.map(|one| one.parameter), &found.found);
-        let rows = tables::curve_rows(&found.found);
+        let rows = found.found.iter().enumerate();
+        let rows = rows.flat_map(tables::curve_rows);
         export.sheet(
             ["curves_csv", "curves_svg"],
             &tables::curve_columns(),

@@ -9,7 +9,7 @@ use softstop_dynamics::continuation::{
 use softstop_dynamics::orbit::OrbitError;
 
 use super::curves::Curves;
-use super::tables::{branch_columns, curve_columns, rows_of_branch, rows_of_curve};
+use super::tables::{branch_columns, branch_rows, curve_columns, curve_rows};
 use softstop_console::column::{Column, Told, Unit, Units, arrays};
 use softstop_console::columns;
 use softstop_console::record::{Record, below};
@@ -201,7 +201,7 @@ pub(super) fn report(
             true => "No special points.\n\n".to_owned(),
             false => below(&specials, &units) + "\n",
         };
-        let table = arrays(&branch_columns(), rows_of_branch(number, it))?;
+        let table = arrays(&branch_columns(), branch_rows((number, it)))?;
         found.push(figures.hidden("table", table).hidden("specials", specials));
     }
     let of_curves = curves.map(|(second, curves)| {
@@ -244,7 +244,7 @@ fn curves_found(
     for (number, it) in curves.iter().enumerate() {
         let own = it.specials.iter().map(|special| (it.kind, special));
         let own = Record::all(&codimension_two(), &own.collect::<Vec<_>>());
-        let table = arrays(&curve_columns(), rows_of_curve(number, it))?;
+        let table = arrays(&curve_columns(), curve_rows((number, it)))?;
         let one = Record::of(&curve(), &(it, most));
         figures.push(one.clone());
         specials.extend(own.clone());

@@ -33,18 +33,9 @@ pub(super) fn branch_columns<'a>() -> [Column<BranchRow<'a>>; 13] {
     }
 }
 
-/// The rows of `branches.csv`.
-pub(super) fn branch_rows(branches: &[Branch]) -> impl Iterator<Item = BranchRow<'_>> {
-    branches
-        .iter()
-        .enumerate()
-        .flat_map(|(number, branch)| rows_of_branch(number, branch))
-}
-
-/// Those of one branch.
-pub(super) fn rows_of_branch(
-    number: usize,
-    branch: &Branch,
+/// The rows of a branch with its number.
+pub(super) fn branch_rows(
+    (number, branch): (usize, &Branch),
 ) -> impl Iterator<Item = BranchRow<'_>> {
     branch.points.iter().map(move |point| BranchRow {
         number,
@@ -82,16 +73,8 @@ pub(super) fn curve_columns<'a>() -> [Column<CurveRow<'a>>; 10] {
     }
 }
 
-/// The rows of `curves.csv`.
-pub(super) fn curve_rows(curves: &[Curve]) -> impl Iterator<Item = CurveRow<'_>> {
-    curves
-        .iter()
-        .enumerate()
-        .flat_map(|(number, curve)| rows_of_curve(number, curve))
-}
-
-/// Those of one curve.
-pub(super) fn rows_of_curve(number: usize, curve: &Curve) -> impl Iterator<Item = CurveRow<'_>> {
+/// The rows of a curve with its number.
+pub(super) fn curve_rows((number, curve): (usize, &Curve)) -> impl Iterator<Item = CurveRow<'_>> {
     curve.points.iter().map(move |point| CurveRow {
         number,
         curve,

@@ -1,11 +1,11 @@
 //! The summary of a run, in the machine's own units.
 
 use serde_json::json;
-use softstop::{Machine, Start};
+use softstop::{Impact, Machine, Start};
 
 use super::name;
 use super::run::{Outcome, Plan};
-use super::tally::{Impact, Rest, Visit};
+use super::tally::{Rest, Visit};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Units};
 use softstop_console::columns;
@@ -14,33 +14,28 @@ use softstop_console::record::{Record, below};
 use softstop_console::report::stated_machine;
 use softstop_console::table::{heading, sections};
 
-/// A run.
-struct Run<'a> {
-    machine: &'a Machine,
-    periods: u64,
-    start: Start,
-    outcome: &'a Outcome,
-}
+/// A run and what came of it.
+type Run<'a> = (&'a Plan<'a>, &'a Outcome);
 
 fn overview<'a>() -> [Column<Run<'a>>; 7] {
     columns! { Run<'a>, it;
-        "periods" [None] Plain, "drive periods" => it.periods;
-        "period" [Time], "drive period" => it.machine.scene.period();
-        "duration" [Time] Seven, "time" => it.outcome.duration;
-        "start" [None] Plain, "start: position and velocity" => state(it.start);
-        "end" [None] Plain, "end: position and velocity" => state(it.outcome.end);
-        "pierced" [None] Plain, "strips pierced" => it.outcome.tally.pierced;
-        "rest_count" [None] Plain, "rests" => it.outcome.tally.rest_count;
+        "periods" [None] Plain, "drive periods" => it.0.periods;
+        "period" [Time], "drive period" => it.0.begun.machine.scene.period();
+        "duration" [Time] Seven, "time" => it.1.duration;
+        "start" [None] Plain, "start: position and velocity" => state(it.0.begun.start);
+        "end" [None] Plain, "end: position and velocity" => state(it.1.end);
+        "pierced" [None] Plain, "strips pierced" => it.1.tally.pierced;
+        "rest_count" [None] Plain, "rests" => it.1.tally.rest_count;
     }
 }
 
 fn impacts<'a>() -> [Column<Run<'a>>; 5] {
     columns! { Run<'a>, it;
-        "count" [None] Plain, "impacts" => it.outcome.tally.impacts.count;
-        "per_period" [None] Seven, "impacts per period" => it.outcome.tally.impacts.count as f64 / it.periods as f64;
-        "least_before_impact_velocity" [Velocity] Seven, "lowest before-impact velocity" => it.outcome.tally.impacts.range.map(|it| it.0);
-        "mean_before_impact_velocity" [Velocity] Seven, "mean" => it.outcome.tally.impacts.mean();
-        "before_impact_velocity" [Velocity] Seven, "highest" => it.outcome.tally.impacts.range.map(|it| it.1);
+        "count" [None] Plain, "impacts" => it.1.tally.impacts.count;
+        "per_period" [None] Seven, "impacts per period" => it.1.tally.impacts.count as f64 / it.0.periods as f64;
+        "least_before_impact_velocity" [Velocity] Seven, "lowest before-impact velocity" => it.1.tally.impacts.range.map(|it| it.0);
+        "mean_before_impact_velocity" [Velocity] Seven, "mean" => it.1.tally.impacts.mean();
+        "before_impact_velocity" [Velocity] Seven, "highest" => it.1.tally.impacts.range.map(|it| it.1);
     }
 }
 
@@ -75,7 +70,7 @@ fn rests() -> [Column<Rest>; 4] {
 fn blows() -> [Column<Impact>; 2] {
     columns! { Impact, it;
         "time" [Time] Seven, "when" => it.time;
-        "before_impact_velocity" [Velocity] Seven, "how hard" => it.before_impact_velocity;
+        "before_impact_velocity" [Velocity] Seven, "how hard" => it.velocity;
     }
 }
 
@@ -105,12 +100,7 @@ const SHOWN: usize = 10;
 /// The summary and the text of it; all impacts stand in crossings.csv, here the last ones.
 pub(crate) fn report(plan: &Plan<'_>, outcome: &Outcome) -> (Record, String) {
     let (tally, machine) = (&outcome.tally, &plan.begun.machine);
-    let run = Run {
-        machine,
-        periods: plan.periods,
-        start: plan.begun.start,
-        outcome,
-    };
+    let run: Run<'_> = (plan, outcome);
     let seen = tally.phases.iter();
     let seen: Vec<(Visit, f64)> = seen.map(|visit| (*visit, outcome.duration)).collect();
     let phases = Record::all(&visits(), &seen);

@@ -1,20 +1,11 @@
 //! What a motion adds up to: impacts, rests, phases, energies.
 
-use softstop::{Crossing, CrossingKind, PhaseKind, Work};
+use softstop::{Crossing, CrossingKind, Impact, PhaseKind, Work};
 
 /// Impacts kept one by one; all of them stand in crossings.csv.
 const RECENT: usize = 10;
 /// Rests kept one by one.
 const MOST_RESTS: usize = 1000;
-
-/// An impact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impact {
-    /// In s.
-    pub time: f64,
-    /// In m/s.
-    pub before_impact_velocity: f64,
-}
 
 /// The impacts of a motion.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -35,7 +26,7 @@ impl Impacts {
     }
 
     fn add(&mut self, impact: Impact) {
-        let velocity = impact.before_impact_velocity;
+        let velocity = impact.velocity;
         let (low, high) = self.range.unwrap_or((velocity, velocity));
         self.range = Some((low.min(velocity), high.max(velocity)));
         self.count += 1;
@@ -124,11 +115,8 @@ impl Tally {
         if matches!(crossing.kind, CrossingKind::Rebound { .. }) {
             self.last = None;
         }
-        if let Some(before_impact_velocity) = crossing.impact_velocity() {
-            self.impacts.add(Impact {
-                time,
-                before_impact_velocity,
-            });
+        if let Some(velocity) = crossing.impact_velocity() {
+            self.impacts.add(Impact { time, velocity });
         }
     }
 }

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args;
+use softstop::Scene;
 
 use softstop_console::column::{Column, Units, text};
 use softstop_console::columns;
@@ -16,7 +17,7 @@ use softstop_console::failure::Failure;
 use softstop_console::output::Format;
 use softstop_console::record::Record;
 use stroke::Stroke;
-use zoo::{Exhibit, Specimen, ZOO};
+use zoo::{Exhibit, ZOO};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -77,7 +78,7 @@ const LEAD: f64 = 0.12;
 /// # Errors
 /// [`Failure`] if one of its scenes cannot be read or run.
 pub fn picture(exhibit: &Exhibit) -> Result<String, Failure> {
-    let stroke = |law: &Specimen| Ok((law.label, stroke(exhibit, law)?));
+    let stroke = |law: &(&'static str, &str)| Ok((law.0, stroke(exhibit, *law)?));
     let strokes = exhibit.laws.iter().map(stroke);
     let strokes = strokes.collect::<Result<Vec<_>, Failure>>()?;
     let subtitle = format!("full stroke of 1 kg, first touch at {} m/s", exhibit.speed);
@@ -85,11 +86,12 @@ pub fn picture(exhibit: &Exhibit) -> Result<String, Failure> {
 }
 
 /// The stroke of one law, with free flight in proportion to its depth.
-fn stroke(exhibit: &Exhibit, law: &Specimen) -> Result<Stroke, Failure> {
-    let scene = law.scene()?;
+fn stroke(exhibit: &Exhibit, (label, scene): (&str, &str)) -> Result<Stroke, Failure> {
+    let scene = Scene::from_toml(scene);
+    let scene = scene.map_err(|error| Failure::usage(format!("{label}: {error}")))?;
     let stroke = |lead| {
         Stroke::new(&scene, exhibit.speed, lead, exhibit.damped)
-            .with_context(|| format!("cannot simulate the stroke of {}", law.label))
+            .with_context(|| format!("cannot simulate the stroke of {label}"))
     };
     let depth = stroke(1.0)?.depth();
     Ok(stroke(LEAD * if depth > 0.0 { depth } else { 1.0 })?)

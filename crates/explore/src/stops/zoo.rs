@@ -1,9 +1,6 @@
 //! The zoo: which scenes are drawn, at which speed, under which name.
 
-use softstop::Scene;
 use softstop::internals::scenes;
-
-use softstop_console::failure::Failure;
 
 /// One picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,26 +13,8 @@ pub struct Exhibit {
     pub speed: f64,
     /// Whether the damping that contact adds is part of the law that is drawn.
     pub damped: bool,
-    /// The laws in it.
-    pub laws: &'static [Specimen],
-}
-
-/// One law in a picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Specimen {
-    /// Its name in the legend.
-    pub label: &'static str,
-    /// Its scene, a file of `docs/scenes`.
-    pub scene: &'static str,
-}
-
-macro_rules! specimen {
-    ($scene:ident, $label:literal) => {
-        Specimen {
-            label: $label,
-            scene: scenes::$scene,
-        }
-    };
+    /// The laws in it: the name of each in the legend, and its scene, a file of `docs/scenes`.
+    pub laws: &'static [(&'static str, &'static str)],
 }
 
 /// All pictures of the zoo.
@@ -46,8 +25,8 @@ pub const ZOO: [Exhibit; 6] = [
         speed: 6.0,
         damped: true,
         laws: &[
-            specimen!(KELVIN_VOIGT, "release at the clearance"),
-            specimen!(KELVIN_VOIGT_ZERO_FORCE, "release at zero force"),
+            ("release at the clearance", scenes::KELVIN_VOIGT),
+            ("release at zero force", scenes::KELVIN_VOIGT_ZERO_FORCE),
         ],
     },
     Exhibit {
@@ -56,8 +35,11 @@ pub const ZOO: [Exhibit; 6] = [
         speed: 6.0,
         damped: false,
         laws: &[
-            specimen!(PIECEWISE_LINEAR, "one chain for both ways"),
-            specimen!(PIECEWISE_LINEAR_UNLOADING, "another chain on the way out"),
+            ("one chain for both ways", scenes::PIECEWISE_LINEAR),
+            (
+                "another chain on the way out",
+                scenes::PIECEWISE_LINEAR_UNLOADING,
+            ),
         ],
     },
     Exhibit {
@@ -66,8 +48,11 @@ pub const ZOO: [Exhibit; 6] = [
         speed: 6.0,
         damped: false,
         laws: &[
-            specimen!(HERTZ, "Hertz"),
-            specimen!(HUNT_CROSSLEY, "with Hunt and Crossley's dissipation"),
+            ("Hertz", scenes::HERTZ),
+            (
+                "with Hunt and Crossley's dissipation",
+                scenes::HUNT_CROSSLEY,
+            ),
         ],
     },
     Exhibit {
@@ -75,28 +60,20 @@ pub const ZOO: [Exhibit; 6] = [
         title: "Preloaded: a pre-stressed spring",
         speed: 20.0,
         damped: false,
-        laws: &[specimen!(PRELOADED, "preload and spring")],
+        laws: &[("preload and spring", scenes::PRELOADED)],
     },
     Exhibit {
         name: "piercing",
         title: "Piercing: strip, preloaded stop, rigid stop",
         speed: 8.0,
         damped: false,
-        laws: &[specimen!(PIERCING, "phases I to IV")],
+        laws: &[("phases I to IV", scenes::PIERCING)],
     },
     Exhibit {
         name: "rigid",
         title: "Rigid: Newton's restitution",
         speed: 6.0,
         damped: false,
-        laws: &[specimen!(RIGID, "rigid stop")],
+        laws: &[("rigid stop", scenes::RIGID)],
     },
 ];
-
-impl Specimen {
-    /// The scene.
-    pub fn scene(&self) -> Result<Scene, Failure> {
-        Scene::from_toml(self.scene)
-            .map_err(|error| Failure::usage(format!("{}: {error}", self.label)))
-    }
-}

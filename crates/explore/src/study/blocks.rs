@@ -184,6 +184,11 @@ impl<'a> Run<'a> {
             Ok(Some(file)) if resume => blocks.take(study, file)?,
             Ok(_) => {}
             Err(error) if error.kind() == ErrorKind::NotFound => {}
+            // It is somebody else's.
+            Err(error) if error.kind() == ErrorKind::InvalidData => {
+                let foreign = Err(error).with_context(|| format!("cannot read {}", place(&path)));
+                return Ok(foreign?);
+            }
             Err(error) => return Err(cannot(error)),
         }
         let is_begun = blocks.places.iter().any(Option::is_some);
@@ -274,3 +279,30 @@ impl<'a> Run<'a> {
 
 /// Between two looks whether another run of the same shard has ended.
 const WAIT: Duration = Duration::from_millis(100);
+
+#[cfg(test)]
+mod tests {
+    use softstop_console::budget::Budget;
+
+    use super::*;
+
+    #[test]
+    fn a_file_that_no_run_has_written_is_left_and_told() -> anyhow::Result<()> {
+        let folder = tempfile::tempdir()?;
+        let [file, part] = ["study.toml", "study.part"].map(|name| folder.path().join(name));
+        let text = "outputs = [\"z\"]\n[[axis]]\nparameter = \"eta\"\nvalues = [1.0]\n";
+        fs::write(&file, text)?;
+        fs::write(&part, "a letter, say, and no blocks")?;
+        let study = Study::read(&file, Budget::POINT)?;
+        for resume in [false, true] {
+            let run = Run::open(&study, Shard::WHOLE, part.clone(), resume);
+            let Err(Failure::Run(error)) = run else {
+                return Err(anyhow!("it was taken for its own"));
+            };
+            let told = format!("cannot read {}: no run has written it", place(&part));
+            assert!(format!("{error:#}").starts_with(&told), "{error:#}");
+        }
+        assert_eq!(fs::read_to_string(&part)?, "a letter, say, and no blocks");
+        Ok(())
+    }
+}

@@ -19,7 +19,7 @@ use softstop_dynamics::{
 };
 
 use super::file::Study;
-use super::outputs::{Output, Own, kind};
+use super::outputs::{Output, Own, What, kind};
 
 /// Points whose motions go together in the lanes: it may not depend on how many threads there are.
 const TOGETHER: usize = 256;
@@ -29,7 +29,7 @@ impl Study {
     ///
     /// # Errors
     /// [`Failure::Interrupted`].
-    pub fn evaluate(&self, block: u64) -> Result<Vec<f64>, Failure> {
+    pub(super) fn evaluate(&self, block: u64) -> Result<Vec<f64>, Failure> {
         let machines: Vec<Machine> = self.block(block).map(|it| self.machine_at(it)).collect();
         let groups: Vec<&[Machine]> = machines.chunks(TOGETHER).collect();
         let told = parallel::try_map(&groups, |machines| {
@@ -49,7 +49,7 @@ impl Study {
     }
 
     /// Numbers that a point takes in a block.
-    pub fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         self.outputs.iter().map(|output| output.width()).sum()
     }
 
@@ -143,19 +143,19 @@ impl Look<'_> {
     /// An output, in the machine's own units.
     fn value(&self, output: Output) -> [f64; 2] {
         if !self.is_valid {
-            return match output {
-                Output::Own(Own::Kind) => [kind(&MotionKind::Lost), f64::NAN],
+            return match output.what {
+                What::Own(Own::Kind) => [kind(&MotionKind::Lost), f64::NAN],
                 _ => NOTHING,
             };
         }
-        if output == Output::Own(Own::Z) {
+        if output.what == What::Own(Own::Z) {
             return self.z().unwrap_or(NOTHING);
         }
-        let value = match output {
-            Output::Own(own) => self.own(own),
-            Output::Figure(figure) => self.figure(figure),
+        let value = match output.what {
+            What::Own(own) => self.own(own),
+            What::Figure(figure) => self.figure(figure),
         };
-        let own = |value| match output.unit() {
+        let own = |value| match output.unit {
             Unit::Own(dimension) => self.machine.to_own(dimension, value),
             _ => value,
         };

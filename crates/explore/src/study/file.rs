@@ -98,24 +98,24 @@ pub(super) const MOST: u64 = 4_000_000_000;
 
 /// A study.
 #[derive(Debug)]
-pub(super) struct Study {
+pub struct Study {
     /// The machine; what axes change plays no part.
-    pub machine: Machine,
+    pub(super) machine: Machine,
     /// The same without words: there is one at each point.
-    pub wordless: Machine,
-    pub axes: Vec<Axis>,
+    pub(super) wordless: Machine,
+    pub(super) axes: Vec<Axis>,
     /// Samples at each point of the grid, if any axis is drawn.
-    pub samples: Option<u64>,
-    pub seed: u32,
-    pub outputs: Vec<Output>,
-    pub settling: Settling,
-    pub certainty: Certainty,
+    pub(super) samples: Option<u64>,
+    pub(super) seed: u32,
+    pub(super) outputs: Vec<Output>,
+    pub(super) settling: Settling,
+    pub(super) certainty: Certainty,
     /// What a point may cost.
-    pub budget: Budget,
+    pub(super) budget: Budget,
     /// Points of the grid times samples.
-    pub points: u64,
+    pub(super) points: u64,
     /// What studies that come to the same have in common.
-    pub hash: String,
+    pub(super) hash: String,
 }
 
 impl Study {
@@ -180,9 +180,7 @@ impl Study {
         let outputs = outputs(&file.outputs)?;
         if let Some(output) = outputs.iter().find(|it| it.is_of_other_frequencies()) {
             refuse_without_zone(&machine).map_err(|failure| match failure {
-                Failure::Usage(what) => {
-                    Failure::usage(format!("outputs: {}: {what}", output.name()))
-                }
+                Failure::Usage(what) => Failure::usage(format!("outputs: {}: {what}", output.name)),
                 failure => failure,
             })?;
         }
@@ -221,7 +219,7 @@ impl Study {
         let axes: Vec<_> = axes
             .map(|axis| (axis.name.clone(), axis.values.clone()))
             .collect();
-        let outputs: Vec<&str> = self.outputs.iter().map(|output| output.name()).collect();
+        let outputs: Vec<&str> = self.outputs.iter().map(|output| output.name).collect();
         let drawn = (self.samples, self.seed);
         let how = (self.settling, self.certainty, self.budget);
         (machine.scene.clone(), stated, axes, drawn, outputs, how)
@@ -246,7 +244,7 @@ fn outputs(names: &[String]) -> Result<Vec<Output>, Failure> {
     let mut outputs: Vec<Output> = Vec::new();
     for name in names {
         let output = Output::named(name).ok_or_else(|| {
-            let all: Vec<&str> = Output::all().map(Output::name).collect();
+            let all: Vec<&str> = Output::all().map(|it| it.name).collect();
             Failure::usage(format!(
                 "outputs: {name:?} is not known; there are {}",
                 all.join(", ")

@@ -5,7 +5,6 @@ mod blocks;
 mod column;
 mod evaluate;
 mod file;
-mod measured;
 mod outputs;
 mod picture;
 mod plot;
@@ -30,11 +29,10 @@ use softstop_console::output::Format;
 use softstop_console::record::Record;
 
 use blocks::{Blocks, Run};
-use file::Study;
 use report::StudyReport;
 use shard::DONE;
 
-pub use measured::Measured;
+pub use file::Study;
 pub use plot::PlotArguments;
 pub use schema::schema;
 pub use shard::Shard;
@@ -149,6 +147,31 @@ pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
         (None, Some(what), Some(shard)) => part(what, shard, arguments.keep),
         (None, Some(what), None) => whole(what, arguments.keep),
         (None, None, _) => Err(Failure::usage("STUDY.toml: must say what to compute")),
+    }
+}
+
+impl Study {
+    /// How many points it has.
+    pub fn points(&self) -> u64 {
+        self.points
+    }
+
+    /// Drive periods for which each motion is followed.
+    pub fn periods(&self) -> u64 {
+        self.settling.periods
+    }
+
+    /// Computes all of it and writes its table, into a folder that is taken away.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] if a file cannot be written; [`Failure::Interrupted`].
+    pub fn measure(&self) -> Result<(), Failure> {
+        let folder = tempfile::tempdir().context("no folder for the results")?;
+        let run = Run::open(self, Shard::WHOLE, folder.path().join("study.part"), false)?;
+        run.go_on()?;
+        let file = fs::File::create(folder.path().join(TABLE)).context(TABLE)?;
+        table::write(self, &mut run.done(), file, None)?;
+        Ok(())
     }
 }
 

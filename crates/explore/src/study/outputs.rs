@@ -4,29 +4,40 @@ use softstop_console::column::{Unit, Units};
 use softstop_dynamics::MotionKind;
 use softstop_dynamics::figure::Figure;
 
+/// A column of a study's results.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Output {
+    /// What it tells.
+    pub what: What,
+    /// Its name.
+    pub name: &'static str,
+    /// What it is one of.
+    pub unit: Unit,
+    /// What it is, in a few words.
+    pub meaning: &'static str,
+}
+
+/// What an output tells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum What {
+    Own(Own),
+    Figure(Figure),
+}
+
 macro_rules! outputs {
     (@unit None) => { Unit::None };
     (@unit $dimension:ident) => { Unit::Own(softstop::Dimension::$dimension) };
-    ($($name:ident $key:literal [$unit:ident], $meaning:literal;)*) => {
+    ($($own:ident $name:literal [$unit:ident], $meaning:literal;)*) => {
         /// What no figure of a motion tells.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub(super) enum Own { $($name),* }
+        pub(super) enum Own { $($own),* }
 
-        impl Own {
-            const ALL: &[Self] = &[$(Self::$name),*];
-
-            const fn name(self) -> &'static str {
-                match self { $(Self::$name => $key),* }
-            }
-
-            const fn unit(self) -> Unit {
-                match self { $(Self::$name => outputs!(@unit $unit)),* }
-            }
-
-            const fn meaning(self) -> &'static str {
-                match self { $(Self::$name => $meaning),* }
-            }
-        }
+        const OWN: &[Output] = &[$(Output {
+            what: What::Own(Own::$own),
+            name: $name,
+            unit: outputs!(@unit $unit),
+            meaning: $meaning,
+        }),*];
     };
 }
 
@@ -87,58 +98,32 @@ pub(super) fn is_over_budget(number: f64) -> bool {
     number.to_bits() == OVER.to_bits()
 }
 
-/// A column of a study's results.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Output {
-    Own(Own),
-    Figure(Figure),
-}
-
 impl Output {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
-        let own = Own::ALL.iter().map(|own| Self::Own(*own));
-        own.chain(FIGURES.iter().copied().map(Self::Figure))
+        let figures = FIGURES.iter().map(|figure| Self {
+            what: What::Figure(*figure),
+            name: figure.name(),
+            unit: Unit::Own(figure.dimension()),
+            meaning: figure.meaning(),
+        });
+        OWN.iter().copied().chain(figures)
     }
 
     /// The one of this name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::all().find(|output| output.name() == name)
-    }
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Own(own) => own.name(),
-            Self::Figure(figure) => figure.name(),
-        }
-    }
-
-    /// What it is one of.
-    pub const fn unit(self) -> Unit {
-        match self {
-            Self::Own(own) => own.unit(),
-            Self::Figure(figure) => Unit::Own(figure.dimension()),
-        }
-    }
-
-    /// What it is, in a few words.
-    pub const fn meaning(self) -> &'static str {
-        match self {
-            Self::Own(own) => own.meaning(),
-            Self::Figure(figure) => figure.meaning(),
-        }
+        Self::all().find(|output| output.name == name)
     }
 
     /// True if it is a word, not a number.
     pub const fn is_word(self) -> bool {
-        matches!(self, Self::Own(Own::Kind | Own::Z))
+        matches!(self.what, What::Own(Own::Kind | Own::Z))
     }
 
     /// Numbers that it takes in files of blocks.
     pub const fn width(self) -> usize {
-        match self {
-            Self::Own(Own::Z) => 2,
+        match self.what {
+            What::Own(Own::Z) => 2,
             _ => 1,
         }
     }
@@ -146,9 +131,9 @@ impl Output {
     /// True if it takes the motion from the start.
     pub const fn is_of_motion(self) -> bool {
         use Figure as F;
-        match self {
-            Self::Own(own) => !matches!(own, Own::G0 | Own::Sn | Own::AtSn),
-            Self::Figure(figure) => !matches!(
+        match self.what {
+            What::Own(own) => !matches!(own, Own::G0 | Own::Sn | Own::AtSn),
+            What::Figure(figure) => !matches!(
                 figure,
                 F::Share | F::FrequencyG0 | F::FrequencySn | F::ClearanceG0 | F::Certainty
             ),
@@ -158,34 +143,37 @@ impl Output {
     /// True if it takes the hysteresis zone.
     pub const fn is_of_zone(self) -> bool {
         use Figure as F;
-        match self {
-            Self::Own(own) => matches!(own, Own::Sn | Own::Pd | Own::AtSn),
-            Self::Figure(figure) => matches!(figure, F::Share | F::FrequencySn | F::FrequencyPd),
+        match self.what {
+            What::Own(own) => matches!(own, Own::Sn | Own::Pd | Own::AtSn),
+            What::Figure(figure) => matches!(figure, F::Share | F::FrequencySn | F::FrequencyPd),
         }
     }
 
     /// True if it takes other drive frequencies than that of the point.
     pub const fn is_of_other_frequencies(self) -> bool {
-        let is_grazing = matches!(self, Self::Own(Own::G0) | Self::Figure(Figure::FrequencyG0));
+        let is_grazing = matches!(
+            self.what,
+            What::Own(Own::G0) | What::Figure(Figure::FrequencyG0)
+        );
         is_grazing || self.is_of_zone()
     }
 
     /// Its numbers at a point over the budget.
     pub fn over_budget(self) -> [f64; 2] {
         let place = KINDS.iter().position(|kind| *kind == OVER_BUDGET);
-        match (self, place) {
-            (Self::Own(Own::Kind), Some(place)) => [place as f64, f64::NAN],
+        match (self.what, place) {
+            (What::Own(Own::Kind), Some(place)) => [place as f64, f64::NAN],
             _ => [OVER; 2],
         }
     }
 
     /// Its word, from its numbers in a file of blocks.
     pub fn word(self, [first, second]: [f64; 2]) -> Option<String> {
-        match self {
-            Self::Own(Own::Kind) if first >= 0.0 => {
+        match self.what {
+            What::Own(Own::Kind) if first >= 0.0 => {
                 KINDS.get(first as usize).map(|&kind| kind.to_owned())
             }
-            Self::Own(Own::Z) if second >= 1.0 => {
+            What::Own(Own::Z) if second >= 1.0 => {
                 let impacts = match first.is_finite() {
                     true => first.to_string(),
                     false => "∞".to_owned(),
@@ -209,11 +197,11 @@ pub(super) fn kind(motion: &MotionKind) -> f64 {
 /// What outputs mean: a paragraph at the end of `--help`.
 pub(super) fn help() -> String {
     let lines = Output::all().map(|output| {
-        let unit = match Units::SI.name(output.unit()) {
+        let unit = match Units::SI.name(output.unit) {
             "" => "-",
             unit => unit,
         };
-        format!("  {:<22} {unit:<6} {}\n", output.name(), output.meaning())
+        format!("  {:<22} {unit:<6} {}\n", output.name, output.meaning)
     });
     "\n\nOutputs:\n".to_owned() + &lines.collect::<String>()
 }

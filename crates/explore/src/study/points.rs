@@ -12,18 +12,18 @@ pub(super) const BLOCK: u64 = 1024;
 
 impl Study {
     /// How many blocks there are.
-    pub fn blocks(&self) -> u64 {
+    pub(super) fn blocks(&self) -> u64 {
         self.points.div_ceil(BLOCK)
     }
 
     /// The points of a block.
-    pub fn block(&self, block: u64) -> Range<u64> {
+    pub(super) fn block(&self, block: u64) -> Range<u64> {
         block * BLOCK..((block + 1) * BLOCK).min(self.points)
     }
 
     /// Tells the values of all axes at a point, each with the axis's number: the first axis changes slowest, samples
     /// fastest.
-    pub fn each_value(&self, point: u64, mut tell: impl FnMut(usize, f64)) {
+    pub(super) fn each_value(&self, point: u64, mut tell: impl FnMut(usize, f64)) {
         let samples = self.samples.unwrap_or(1);
         let (mut rest, sample) = (point / samples, point % samples);
         let mut dimension = [0; 2];

@@ -138,9 +138,9 @@ impl StudyReport {
         });
         let columns = study.outputs.iter().zip(summaries);
         let columns = columns.map(|(output, summary)| ColumnReport {
-            name: output.name().to_owned(),
-            unit: unit(machine, output.unit()).to_owned(),
-            meaning: output.meaning().to_owned(),
+            name: output.name.to_owned(),
+            unit: unit(machine, output.unit).to_owned(),
+            meaning: output.meaning.to_owned(),
             summary,
         });
         Self {

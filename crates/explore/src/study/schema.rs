@@ -10,7 +10,7 @@ use super::outputs::Output;
 pub fn schema() -> Value {
     let number = json!({ "type": "number" });
     let range = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
-    let names: Vec<&str> = Output::all().map(Output::name).collect();
+    let names: Vec<&str> = Output::all().map(|it| it.name).collect();
     let count =
         |least: u64, most: u64| json!({ "type": "integer", "minimum": least, "maximum": most });
     let told = |mut schema: Value, what: &str| {

@@ -85,7 +85,7 @@ fn put(
 /// The names of all columns: axes and outputs.
 pub(super) fn names(study: &Study) -> impl Iterator<Item = &str> {
     let axes = study.axes.iter().map(|axis| axis.name.as_str());
-    axes.chain(study.outputs.iter().map(|output| output.name()))
+    axes.chain(study.outputs.iter().map(|output| output.name))
 }
 
 fn open(study: &Study, file: File) -> Result<SerializedFileWriter<File>, Error> {
@@ -131,8 +131,8 @@ fn properties(study: &Study) -> Result<WriterProperties, Error> {
     let words = study.outputs.iter().filter(|output| output.is_word());
     let grids = study.axes.iter().filter(|axis| axis.draw().is_none());
     let properties = words.fold(properties, |properties, output| {
-        let properties = properties.set_column_dictionary_enabled(output.name().into(), true);
-        properties.set_column_encoding(output.name().into(), Encoding::PLAIN)
+        let properties = properties.set_column_dictionary_enabled(output.name.into(), true);
+        properties.set_column_encoding(output.name.into(), Encoding::PLAIN)
     });
     let properties = grids.fold(properties, |properties, axis| {
         properties.set_column_dictionary_enabled(axis.name.as_str().into(), true)
@@ -147,9 +147,9 @@ fn told(study: &Study) -> Result<Vec<KeyValue>, Error> {
         let (unit, label) = axis.told(machine);
         json!({ "name": axis.name, "unit": unit, "meaning": label })
     });
-    let outputs = study.outputs.iter().map(|it| {
-        json!({ "name": it.name(), "unit": unit(machine, it.unit()), "meaning": it.meaning() })
-    });
+    let outputs = study.outputs.iter().map(
+        |it| json!({ "name": it.name, "unit": unit(machine, it.unit), "meaning": it.meaning }),
+    );
     let columns: Vec<Value> = axes.chain(outputs).collect();
     Ok(vec![
         KeyValue::new("study".to_owned(), study.hash.clone()),

@@ -5,8 +5,9 @@ use anyhow::Context;
 use rayon::prelude::*;
 
 use super::family::Family;
-use super::view::{View, contact_mode, shortest_contact};
+use super::machines::{contact_mode, shortest_contact};
 use crate::precision::truth::OTHER;
+use crate::scenes::Case;
 use softstop_console::failure::Failure;
 use softstop_console::progress::Progress;
 
@@ -51,7 +52,7 @@ pub struct Cell {
     pub impacts: Option<usize>,
 }
 
-/// All runs of one method on one view.
+/// All runs of one method on one machine.
 #[derive(Debug, Clone)]
 pub struct Map {
     /// The method.
@@ -62,11 +63,11 @@ pub struct Map {
     pub limit: Vec<Option<f64>>,
 }
 
-/// One view with all its maps.
+/// One machine, whose stop's stiffness is swept, with all its maps.
 #[derive(Debug, Clone)]
 pub struct Atlas {
     /// The machine.
-    pub view: View,
+    pub case: Case,
     /// Where it was looked at.
     pub axes: Axes,
     /// What stands above each stiffness.
@@ -99,14 +100,14 @@ impl Atlas {
     /// # Errors
     /// [`Failure::Run`] if the true motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
     pub fn new(
-        view: View,
+        case: Case,
         axes: Axes,
         families: &[Family],
         tolerance: f64,
         progress: &Progress,
     ) -> Result<Self, Failure> {
         let columns = axes.stiffness.par_iter();
-        let columns = columns.map(|&stiffness| Column::new(&view, stiffness, tolerance, progress));
+        let columns = columns.map(|&stiffness| Column::new(&case, stiffness, tolerance, progress));
         let columns = columns.collect::<Result<Vec<_>, _>>()?;
         let mut maps = Vec::new();
         for &family in families {
@@ -124,7 +125,7 @@ impl Atlas {
             }
         }
         Ok(Self {
-            view,
+            case,
             axes,
             columns,
             tolerance,
@@ -148,16 +149,16 @@ impl Cell {
 
 impl Column {
     fn new(
-        view: &View,
+        case: &Case,
         stiffness: f64,
         tolerance: f64,
         progress: &Progress,
     ) -> Result<Self, Failure> {
-        let task = view.task(stiffness);
+        let task = case.with_stiffness(stiffness);
         let lost = || format!("no true motion at a stiffness of {stiffness} N/m");
         let own = Exact.integrate(&task).with_context(lost)?;
         let contact = shortest_contact(&task).with_context(lost)?;
-        let stored = view.stored(stiffness).map(|stored| stored.solution);
+        let stored = case.stored(Some(stiffness)).map(|stored| stored.solution);
         let judged =
             |truth: &Solution| Cell::new(&Judge::new(&task, truth, tolerance), Ok(own.clone()));
         let known = stored.clone().or_else(|| borne_out(&task, &own));

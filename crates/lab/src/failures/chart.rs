@@ -15,8 +15,8 @@ const DASHES: Option<(f64, f64)> = Some((2.0, 3.0));
 
 /// The page.
 pub(super) fn chart(atlas: &Atlas) -> Chart {
-    let (view, percent) = (&atlas.view.0, 100.0 * atlas.tolerance);
-    let periods = view.periods;
+    let (case, percent) = (&atlas.case, 100.0 * atlas.tolerance);
+    let periods = case.periods;
     let plural = if periods == 1.0 { "" } else { "s" };
     let rows = atlas.maps.chunk_by(|a, b| a.family.row() == b.family.row());
     let rows = rows.flat_map(|maps| maps.chunks(COLUMNS));
@@ -39,7 +39,7 @@ pub(super) fn chart(atlas: &Atlas) -> Chart {
         legend: Legend::Below,
         letters: 13,
         shares_y: true,
-        ..Chart::new(&view.title, maps.chain([exact]))
+        ..Chart::new(&case.title, maps.chain([exact]))
     }
 }
 

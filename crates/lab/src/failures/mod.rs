@@ -3,18 +3,19 @@
 mod atlas;
 mod chart;
 mod family;
+mod machines;
 mod report;
-mod view;
 
 pub use atlas::{Atlas, Axes, Cell, Column, Map};
 pub use family::Family;
-pub use view::View;
+pub use machines::{built_in, find};
 
 use std::path::PathBuf;
 
 use clap::Args;
 
 use crate::filter::filter;
+use crate::scenes::Case;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::output::Format;
@@ -78,24 +79,24 @@ pub struct FailuresArguments {
 /// folder cannot be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &FailuresArguments) -> Result<(), Failure> {
     check(arguments)?;
-    let views = views(arguments)?;
+    let cases = cases(arguments)?;
     let families = families(&arguments.method)?;
     let files = [("csv", "failures.csv"), ("json", "failures.json")];
     let mut export = Export::open(&arguments.output, &files)?;
     export.refuse_folders_called(".svg")?;
     let axes = Axes::new(arguments.points);
-    let columns = views.len() * axes.stiffness.len();
+    let columns = cases.len() * axes.stiffness.len();
     let runs = columns * (1 + families.len() * axes.step.len());
     let progress = Progress::new(runs as u64, "runs");
     let mut atlases = Vec::new();
-    for view in views {
+    for case in cases {
         let axes = axes.clone();
-        let atlas = Atlas::new(view, axes, &families, arguments.tolerance, &progress)?;
+        let atlas = Atlas::new(case, axes, &families, arguments.tolerance, &progress)?;
         let mut chart = chart::chart(&atlas);
         if arguments.small {
             chart = chart.small();
         }
-        export.picture(&atlas.view.0.name, &chart.svg())?;
+        export.picture(&atlas.case.name, &chart.svg())?;
         atlases.push(atlas);
     }
     drop(progress);
@@ -114,24 +115,24 @@ fn check(arguments: &FailuresArguments) -> Result<(), Failure> {
     require(fits, "periods", periods, "> 0 and at most 100")
 }
 
-fn views(arguments: &FailuresArguments) -> Result<Vec<View>, Failure> {
-    let found = arguments.scene.iter().map(|place| View::find(place));
-    let mut views = match arguments.scene.is_empty() {
-        true => View::built_in()?,
+fn cases(arguments: &FailuresArguments) -> Result<Vec<Case>, Failure> {
+    let found = arguments.scene.iter().map(|place| find(place));
+    let mut cases = match arguments.scene.is_empty() {
+        true => built_in()?,
         false => found.collect::<Result<Vec<_>, _>>()?,
     };
-    for View(case) in &mut views {
+    for case in &mut cases {
         case.periods = arguments.periods.unwrap_or(case.periods);
     }
-    for (index, View(case)) in views.iter().enumerate() {
-        if views[..index].iter().any(|other| other.0.name == case.name) {
+    for (index, case) in cases.iter().enumerate() {
+        if cases[..index].iter().any(|other| other.name == case.name) {
             return Err(Failure::usage(format!(
                 "scene = {}: must be given once, its files go by that name",
                 case.name
             )));
         }
     }
-    Ok(views)
+    Ok(cases)
 }
 
 fn families(words: &[String]) -> Result<Vec<Family>, Failure> {

@@ -25,7 +25,7 @@ pub(super) fn runs(atlases: &[Atlas]) -> impl Iterator<Item = Run<'_>> {
 /// The columns of the table.
 pub(super) fn table<'a>() -> [Column<Run<'a>>; 9] {
     columns! { Run<'a>, it;
-        "scene" [None], "" => it.0.view.0.name.as_str();
+        "scene" [None], "" => it.0.case.name.as_str();
         "scheme" [None], "" => it.1.family.title();
         "events" [None], "" => it.1.family.row();
         "stiffness (N/m)" [None], "" => it.0.axes.stiffness[it.2];
@@ -50,9 +50,9 @@ pub(super) fn record(atlases: &[Atlas]) -> Record {
 
 fn scene() -> [Column<Atlas>; 11] {
     columns! { Atlas, it;
-        "name" [None], "" => it.view.0.name.as_str();
-        "title" [None], "" => it.view.0.title.as_str();
-        "periods" [None], "" => it.view.0.periods;
+        "name" [None], "" => it.case.name.as_str();
+        "title" [None], "" => it.case.title.as_str();
+        "periods" [None], "" => it.case.periods;
         "tolerance" [None], "" => it.tolerance;
         "stiffness" [None], "in N/m" => it.axes.stiffness.clone();
         "step" [None], "in drive periods" => it.axes.step.clone();
@@ -119,8 +119,8 @@ pub(super) fn text(atlas: &Atlas) -> String {
     };
     format!(
         "{} ({}): % of all runs\n{}exact: {} of {} converged, largest error {error:.1e}{untold}\n\n",
-        atlas.view.0.title,
-        atlas.view.0.name,
+        atlas.case.title,
+        atlas.case.name,
         column::text(&columns, maps, &Units::SI),
         count('C'),
         exact.len() - count('-'),

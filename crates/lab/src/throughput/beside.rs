@@ -10,7 +10,7 @@ use softstop::{MotionError, SceneError};
 use softstop_console::failure::Failure;
 use softstop_console::median::median;
 use softstop_console::progress::Progress;
-use softstop_explore::study::Measured;
+use softstop_explore::study::Study;
 use softstop_lanes::{Instructions, Job, Machine, run_parallel};
 
 /// Points whose machines are in memory at once.
@@ -37,14 +37,14 @@ impl Beside {
     /// # Errors
     /// [`Failure::Run`] if a motion cannot be computed, or a file not be
     /// written; [`Failure::Interrupted`].
-    pub fn measure(path: &Path, study: &Measured, repeats: usize) -> Result<Self, Failure> {
+    pub fn measure(path: &Path, study: &Study, repeats: usize) -> Result<Self, Failure> {
         let progress = Progress::new(2 * repeats as u64, "runs of the study");
         let (mut alone, mut whole) = (Vec::new(), Vec::new());
         for _ in 0..repeats {
             alone.push(lanes(study).context("a motion of the study")?);
             progress.step()?;
             let begin = Instant::now();
-            study.compute()?;
+            study.measure()?;
             whole.push(begin.elapsed().as_secs_f64());
             progress.step()?;
         }
@@ -77,7 +77,7 @@ impl Beside {
 }
 
 /// Seconds that the lanes take for the motions of a study, unwatched; lowering is part of it, making the machines is not.
-fn lanes(study: &Measured) -> Result<f64, MotionError> {
+fn lanes(study: &Study) -> Result<f64, MotionError> {
     let mut seconds = 0.0;
     for first in (0..study.points()).step_by(TOGETHER as usize) {
         let points = first..(first + TOGETHER).min(study.points());

@@ -34,9 +34,9 @@ impl Timing {
     }
 
     /// So much work over the longest time and over the shortest.
-    pub fn spread(&self, work: f64) -> (f64, f64) {
+    pub fn spread(&self, work: f64) -> [f64; 2] {
         let rate = |seconds: Option<&f64>| seconds.map_or(f64::NAN, |seconds| work / seconds);
-        (rate(self.seconds.last()), rate(self.seconds.first()))
+        [rate(self.seconds.last()), rate(self.seconds.first())]
     }
 }
 
@@ -63,7 +63,7 @@ pub fn pool(threads: usize) -> Result<ThreadPool, Failure> {
 ///
 /// # Errors
 /// [`Failure::Run`] if a motion cannot be computed, [`Failure::Interrupted`] after Ctrl-C.
-pub fn measure(ways: &[Way<'_>], repeats: usize) -> Result<Vec<Timing>, Failure> {
+pub fn measure(ways: &[&Way<'_>], repeats: usize) -> Result<Vec<Timing>, Failure> {
     let progress = Progress::new(((repeats + 1) * ways.len()) as u64, "measurements");
     let mut timings = vec![Timing::default(); ways.len()];
     for round in 0..=repeats {

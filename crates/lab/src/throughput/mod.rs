@@ -19,13 +19,14 @@ use softstop_lanes::{Instructions, run_one_by_one, run_with};
 use beside::Beside;
 use fleet::{Count, EachImpact, RANGE, Range};
 use measure::{ROUNDS, Way};
-use report::ThroughputReport;
+use report::{Engine, ThroughputReport};
+use softstop_console::budget::Budget;
 use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::machine::Regime;
 use softstop_console::output::Format;
 use softstop_console::range::within;
-use softstop_explore::study::Measured;
+use softstop_explore::study::Study;
 use zones::Grid;
 
 const EXAMPLES: &str = "\
@@ -75,30 +76,44 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let repeats = arguments.repeats;
     within("repeats", repeats, 1..=1000)?;
     within("zones", arguments.zones, 4..=1_000_000)?;
-    let study = arguments.study.as_deref().map(Measured::read).transpose()?;
+    let read = |path: &PathBuf| Study::read(path, Budget::POINT);
+    let study = arguments.study.as_ref().map(read).transpose()?;
     let range = Range {
         machine: arguments.machine,
         ..RANGE
     };
     let fleet = &range.fleet().context("the machines of the measurement")?;
-    let sets = measure::narrower();
     let (all, one) = (measure::pool(0)?, measure::pool(1)?);
     let grid = Grid::of(arguments.zones);
     let machines = grid.scenes().context("the machines of the zones")?;
     let lanes = |set| way(move || fleet.batch(set));
-    let mut ways = vec![
-        way(|| fleet.safe()),
-        way(|| fleet.follow(|machines, jobs| run_one_by_one(machines, jobs, &mut ()))),
-        lanes(WIDEST),
-        way(|| fleet.follow(|machines, jobs| run_with(WIDEST, machines, jobs, &mut EachImpact))),
+    let each = || fleet.follow(|machines, jobs| run_with(WIDEST, machines, jobs, &mut EachImpact));
+    let engine = |names, lanes, way| Engine { names, lanes, way };
+    let of_set = |set: Instructions| Some((set.registers().lanes, set));
+    let scalar = || fleet.follow(|machines, jobs| run_one_by_one(machines, jobs, &mut ()));
+    let one_lane = Some((1, Instructions::Avx2));
+    let mut engines = vec![
+        engine(["safe"; 2], None, way(|| fleet.safe())),
+        engine(["scalar"; 2], one_lane, way(scalar)),
+        engine(["batch"; 2], of_set(WIDEST), lanes(WIDEST)),
+        engine(["each_impact", "each impact"], of_set(WIDEST), way(each)),
+    ];
+    engines.extend(measure::narrower().into_iter().map(|set| {
+        let key = match set {
+            Instructions::Avx2 => "avx2",
+            _ => "portable",
+        };
+        engine([key, "batch"], of_set(set), lanes(set))
+    }));
+    let others: [Way<'_>; 3] = [
         way(|| all.install(|| fleet.parallel(ROUNDS))),
         way(|| one.install(|| fleet.parallel(ROUNDS))),
         Box::new(|| zones::count(&machines, &one)),
     ];
-    ways.extend(sets.iter().map(|set| lanes(*set)));
-    let timings = measure::measure(&ways, repeats)?;
-    let timings = (&timings[..], all.current_num_threads());
-    let report = ThroughputReport::new(range, grid, repeats, timings, &sets);
+    let ways = engines.iter().map(|engine| &engine.way).chain(&others);
+    let timings = measure::measure(&ways.collect::<Vec<_>>(), repeats)?;
+    let (threads, what) = (all.current_num_threads(), (range, grid, repeats));
+    let report = ThroughputReport::new(what, &engines, &timings, threads);
     let mut report = report.context("a measurement is missing")?;
     if let (Some(path), Some(study)) = (&arguments.study, &study) {
         report.study = Some(Beside::measure(path, study, repeats)?);

@@ -37,7 +37,7 @@ pub struct Zones {
     /// Machines per second, the median.
     pub zones_per_second_per_core: f64,
     /// Slowest and fastest measurement.
-    pub spread: (f64, f64),
+    pub spread: [f64; 2],
 }
 
 impl Grid {

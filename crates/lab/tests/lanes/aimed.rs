@@ -2,7 +2,8 @@
 //! settled motion changes.
 
 use softstop::internals::turning_points;
-use softstop::{Arc, Clock, Crossing, Observer, Scene, Slope, Start, Stop};
+use softstop::{Arc, Clock, Crossing, Observer, Scene, Start, Stop};
+use softstop_testing::slope;
 
 use super::random_machines::{Draw, Motion};
 
@@ -143,7 +144,6 @@ impl Draw {
         let steeper = 10f64.powf(self.between(0.1, 4.0));
         match (&scene.stop, self.below(2)) {
             (Stop::KelvinVoigt { stiffness, .. }, 0) => {
-                let slope = |from, stiffness| Slope { from, stiffness };
                 let corner = slope(behind, steeper * stiffness);
                 scene.stop = Stop::PiecewiseLinear {
                     loading: vec![slope(0.0, *stiffness), corner],

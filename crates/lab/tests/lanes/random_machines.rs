@@ -2,7 +2,8 @@
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
-use softstop::{Ratios, Release, RigidStop, Scene, Slope, Start, Stop};
+use softstop::{Ratios, Release, RigidStop, Scene, Start, Stop};
+use softstop_testing::{hertz, kelvin_voigt, preloaded, rigid_stop, slope};
 
 /// A machine and where its motion starts.
 pub type Motion = (Scene, Start);
@@ -53,44 +54,29 @@ impl Draw {
 
     /// A rigid stop behind the stop.
     pub(super) fn wall(&mut self, travel: f64) -> RigidStop {
-        RigidStop {
-            travel,
-            restitution: self.between(0.2, 0.95),
-        }
+        rigid_stop(travel, self.between(0.2, 0.95))
     }
 
     fn stop(&mut self) -> Stop {
         let stiffness = 10f64.powf(self.between(0.5, 4.0));
-        let slope = |from, stiffness| Slope { from, stiffness };
         match self.below(5) {
             0 => Stop::Rigid {
                 restitution: self.between(0.2, 0.95),
             },
-            1 => Stop::KelvinVoigt {
-                stiffness,
-                release: Release::Clearance,
-            },
-            2 => Stop::KelvinVoigt {
-                stiffness,
-                release: Release::ZeroForce,
-            },
+            1 => kelvin_voigt(stiffness, Release::Clearance),
+            2 => kelvin_voigt(stiffness, Release::ZeroForce),
             3 => Stop::PiecewiseLinear {
                 loading: vec![slope(0.0, stiffness), slope(0.3, 2.0 * stiffness)],
                 unloading: vec![slope(0.0, 0.5 * stiffness)],
             },
-            _ => Stop::Preloaded {
-                stiffness,
-                preload: self.between(0.0, 100.0),
-            },
+            _ => preloaded(stiffness, self.between(0.0, 100.0)),
         }
     }
 
     fn power(&mut self) -> Stop {
-        Stop::Hertz {
-            stiffness: 10f64.powf(self.between(0.5, 4.0)),
-            exponent: [1.5, 2.0, 2.5][self.below(3)],
-            dissipation: self.between(-0.1, 0.1).max(0.0),
-        }
+        let stiffness = 10f64.powf(self.between(0.5, 4.0));
+        let exponent = [1.5, 2.0, 2.5][self.below(3)];
+        hertz(stiffness, exponent, self.between(-0.1, 0.1).max(0.0))
     }
 
     /// Evenly in [low, high).

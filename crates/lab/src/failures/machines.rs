@@ -1,15 +1,10 @@
 //! The machines of the atlas, whose stop's stiffness is swept.
 
 use crate::methods::Task;
-use crate::reference::Reference;
 use crate::scenes::{BuiltIn, Case, built_in};
 use softstop::{MotionError, PhaseKind, Scene, Slope, Stop};
 
 use softstop_console::failure::Failure;
-
-/// A machine of the atlas, whose stop's stiffness is swept.
-#[derive(Debug, Clone, PartialEq)]
-pub struct View(pub Case);
 
 const BUILT_IN: [BuiltIn; 5] = built_in! {
     "failures/":
@@ -29,46 +24,40 @@ const SETTLED: f64 = 0.9;
 /// Drive periods that a user's scene runs unless the user says otherwise.
 const PERIODS: f64 = 3.0;
 
-impl View {
-    /// All that come with the program.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] if one of their files does not describe a machine.
-    pub fn built_in() -> Result<Vec<Self>, Failure> {
-        let names = BUILT_IN.iter().map(|known| known.name);
-        names.map(Self::find).collect()
-    }
+/// All machines that come with the program.
+///
+/// # Errors
+/// [`Failure::Usage`] if one of their files does not describe a machine.
+pub fn built_in() -> Result<Vec<Case>, Failure> {
+    let names = BUILT_IN.iter().map(|known| known.name);
+    names.map(find).collect()
+}
 
-    /// The one of this name, or of the scene file at this path.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] if there is neither, or nothing to sweep.
-    pub fn find(place: &str) -> Result<Self, Failure> {
-        let mut case = Case::find(place, &BUILT_IN, PERIODS)?;
-        if with_stiffness(&case.machine.scene.stop, 1.0).is_none() {
-            return Err(Failure::usage(format!(
-                "{place}: stop.model: must have a stiffness to sweep: kelvinVoigt, piecewiseLinear, hertz or \
-                 preloaded"
-            )));
-        }
-        if case.reference.is_none() {
-            case.title.clone_from(&case.name);
-        }
-        Ok(Self(case))
+/// The one of this name, or of the scene file at this path.
+///
+/// # Errors
+/// [`Failure::Usage`] if there is neither, or nothing to sweep.
+pub fn find(place: &str) -> Result<Case, Failure> {
+    let mut case = Case::find(place, &BUILT_IN, PERIODS)?;
+    if with_stiffness(&case.machine.scene.stop, 1.0).is_none() {
+        return Err(Failure::usage(format!(
+            "{place}: stop.model: must have a stiffness to sweep: kelvinVoigt, piecewiseLinear, hertz or preloaded"
+        )));
     }
-
-    /// The motion with a stop of this stiffness in N/m in many digits, if it is stored.
-    pub fn stored(&self, stiffness: f64) -> Option<Reference> {
-        self.0.stored(Some(stiffness))
+    if case.reference.is_none() {
+        case.title.clone_from(&case.name);
     }
+    Ok(case)
+}
 
+impl Case {
     /// The task with a stop of this stiffness in N/m.
-    pub fn task(&self, stiffness: f64) -> Task {
-        let mut task = self.0.task();
+    pub fn with_stiffness(&self, stiffness: f64) -> Task {
+        let mut task = self.task();
         if let Some(stop) = with_stiffness(&task.scene.stop, stiffness) {
             task.scene.stop = stop;
         }
-        if self.0.reference == Some(PRESSED) {
+        if self.reference == Some(PRESSED) {
             let scene = &task.scene;
             let load = -scene.stiffness * scene.clearance;
             task.start.position += SETTLED * (load / (scene.stiffness + stiffness));
