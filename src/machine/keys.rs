@@ -164,6 +164,7 @@ pub(super) fn meant_key(key: &str, keys: &[&'static str]) -> Option<&'static str
     meant_table(key, keys)
         .map(|(_, meant)| meant)
         .or_else(|| nearest_name(key, keys))
+        .or_else(|| nearest_name(key, &TASK_TABLES).filter(|_| !key.contains('.')))
 }
 
 /// The table of a key, if none of these keys is in it, and that of [`TASK_TABLES`] that it may mean.
@@ -181,14 +182,13 @@ pub(super) fn meant_table<'a>(
 const MAX_NAME_LENGTH: usize = 200;
 
 /// The one of these names that a misspelt one may mean; dots part a name, and its last part may stand alone.
-pub fn nearest_name(name: &str, known: &[&'static str]) -> Option<&'static str> {
+pub fn nearest_name<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     if name.len() > MAX_NAME_LENGTH {
         return None;
     }
     let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
-    let distance = |known: &&'static str| {
-        edit_distance(name, known).min(1 + edit_distance(&last(name), &last(known)))
-    };
+    let distance =
+        |known: &&str| edit_distance(name, known).min(1 + edit_distance(&last(name), &last(known)));
     let nearest = known.iter().copied().min_by_key(distance)?;
     (distance(&nearest) <= (name.len() / 3).max(1)).then_some(nearest)
 }

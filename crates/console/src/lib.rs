@@ -18,7 +18,7 @@ pub mod median;
 pub mod names;
 pub mod number;
 pub mod output;
-mod position;
+pub mod position;
 
 pub mod progress;
 pub mod range;

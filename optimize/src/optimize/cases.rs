@@ -2,6 +2,7 @@
 
 use std::iter::zip;
 
+use softstop::internals::{did_you_mean, nearest_name};
 use softstop::{Machine, Parameter};
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
@@ -26,7 +27,7 @@ pub(super) fn cases(machine: &Machine, tables: &[Table]) -> Result<Vec<Case>, Fa
             return Err(wrong(
                 index + 1,
                 NAME,
-                format!("= {:?}: is the name of another case", case.name),
+                format!(" = {:?}: is the name of another case", case.name),
             ));
         }
         all.push(case);
@@ -36,7 +37,7 @@ pub(super) fn cases(machine: &Machine, tables: &[Table]) -> Result<Vec<Case>, Fa
 
 /// A failure at a key of a case, counted from 1.
 fn wrong(index: usize, key: &str, what: impl AsRef<str>) -> Failure {
-    Failure::usage(format!("case.{index}.{key} {}", what.as_ref()))
+    Failure::usage(format!("case.{index}.{key}{}", what.as_ref()))
 }
 
 /// Reads a case, counted from 1.
@@ -47,7 +48,7 @@ fn case(machine: &Machine, table: &Table, index: usize) -> Result<Case, Failure>
         changes: Vec::new(),
     };
     for (key, value) in leaves(table) {
-        let wrong = |what: &str| wrong(index, &key, format!("= {value}: {what}"));
+        let wrong = |what: &str| wrong(index, &key, format!(" = {value}: {what}"));
         let is_name = |name: &&str| {
             !name.trim().is_empty() && !name.contains(char::is_control) && *name != DRAWING
         };
@@ -84,10 +85,12 @@ fn change(
     (key, value): (&str, &Value),
     index: usize,
 ) -> Result<(Parameter, f64), Failure> {
-    let wrong = |what: &str| wrong(index, key, format!("= {value}: {what}"));
+    let wrong = |what: &str| wrong(index, key, format!(" = {value}: {what}"));
     let stated = machine.free_parameter(key);
-    let (parameter, unit) =
-        stated.map_err(|error| Failure::usage(format!("case.{index}.{error}")))?;
+    let (parameter, unit) = stated.map_err(|error| match nearest_name(key, &[NAME, WEIGHT]) {
+        None => Failure::usage(format!("case.{index}.{error}")),
+        meant => self::wrong(index, key, format!(": unknown key{}", did_you_mean(meant))),
+    })?;
     let own = number(value).ok_or_else(|| wrong("must be a number"))? * unit;
     let name = machine.name(parameter);
     let checked = parameter.about().allowed.check(name, own);
@@ -108,7 +111,7 @@ pub(super) fn check(
     for (case, index) in zip(cases, 1..) {
         for (parameter, value) in &case.changes {
             let name = machine.name(*parameter);
-            let wrong = |what: &str| Err(wrong(index, name, format!("= {value}: {what}")));
+            let wrong = |what: &str| Err(wrong(index, name, format!(" = {value}: {what}")));
             let is_own = |it: Parameter| it == *parameter;
             let mut axes = searched.axes.iter().filter(|it| !it.range.is_held());
             if axes.any(|it| is_own(it.parameter)) {

@@ -109,7 +109,7 @@ fn sought(
         Sense::Least => "maximise",
         Sense::Most => "minimise",
     };
-    let figure = known(&format!("objective.{says} = "), name)?;
+    let figure = known(&format!("objective.{says} = "), name, &[])?;
     let wrong = |what: &str| Failure::usage(format!("objective.{says} = {name}: {what}"));
     match is_front {
         true if !is_traded(figure) => {
@@ -162,9 +162,11 @@ pub(super) const fn is_traded(figure: Figure) -> bool {
     !figure.is_trial() && !is_unbounded
 }
 
-pub(super) fn known(place: &str, name: &str) -> Result<Figure, Failure> {
+/// The figure of a name, which may as well be one of others at its place.
+pub(super) fn known(place: &str, name: &str, others: &[&'static str]) -> Result<Figure, Failure> {
     Figure::named(name).ok_or_else(|| {
-        let names: Vec<&'static str> = Figure::ALL.iter().map(|it| it.name()).collect();
+        let names = Figure::ALL.iter().map(|it| it.name());
+        let names: Vec<&str> = names.chain(others.iter().copied()).collect();
         let meant = did_you_mean(nearest_name(name, &names));
         Failure::usage(format!(
             "{place}{name}: unknown figure{meant}; known are {}",

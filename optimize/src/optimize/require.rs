@@ -1,5 +1,7 @@
 //! What a task requires of the design: the table `[require]`.
 
+use std::ops::RangeInclusive;
+
 use serde::Deserialize;
 use softstop::{Dimension, Machine};
 use softstop_console::failure::Failure;
@@ -8,19 +10,19 @@ use softstop_dynamics::run_up::Way;
 use toml::{Table, Value};
 
 use super::objective::{Goal, known, lacks};
-use super::toml_leaves::{number, percent};
-use super::ways::{WAYS, ways};
+use super::toml_leaves::{number, percent, read_words};
+use super::ways::ways;
 use crate::design::figure::{Figure, Sense};
 use crate::design::problem::{Problem, VIOLATING};
 use crate::design::requirement::{Requirement, Scope};
 
 /// `{ least = 10, most = 12, at = "drawing" }`.
-#[derive(Deserialize)]
+#[derive(Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Bounds {
-    least: Option<f64>,
-    most: Option<f64>,
-    at: Option<Scope>,
+pub(super) struct Bounds {
+    pub least: Option<f64>,
+    pub most: Option<f64>,
+    pub at: Option<Scope>,
 }
 
 /// The key of the reserve.
@@ -41,32 +43,25 @@ pub(super) fn read_requirements(
     table: &Table,
 ) -> Result<Option<f64>, Failure> {
     let machine = &problem.machine;
-    let reserve = match table.get(RESERVE) {
-        None => 1.0,
-        Some(value) => {
-            let reserve = number(value).filter(|it| (1.0..=10.0).contains(it));
-            reserve.ok_or_else(|| {
-                Failure::usage(format!(
-                    "require.{RESERVE} = {value}: must be a number in [1, 10]"
-                ))
-            })?
-        }
+    let stated = |key: &str, usual: f64, allowed: RangeInclusive<f64>, what: &str| {
+        let Some(value) = table.get(key) else {
+            return Ok(usual);
+        };
+        let stated = number(value).or_else(|| percent(value).filter(|_| key == SHARE));
+        let stated = stated.filter(|it| allowed.contains(it));
+        stated.ok_or_else(|| Failure::usage(format!("require.{key} = {value}: must be {what}")))
     };
-    let run_up = ways(machine, table.get(Figure::RunUp.name()))?;
-    let violating = match table.get(SHARE) {
-        None => VIOLATING,
-        Some(value) => {
-            let share = number(value).or_else(|| percent(value));
-            let share = share.filter(|it| (LEAST_SHARE..=0.5).contains(it));
-            share.ok_or_else(|| {
-                Failure::usage(format!(
-                    "require.{SHARE} = {value}: must be a share from 0.00001 to 0.5, or \"0.27 %\""
-                ))
-            })?
-        }
-    };
+    let reserve = stated(RESERVE, 1.0, 1.0..=10.0, "a number in [1, 10]")?;
+    let violating = stated(
+        SHARE,
+        VIOLATING,
+        LEAST_SHARE..=0.5,
+        "a share from 0.00001 to 0.5, or \"0.27 %\"",
+    )?;
+    let (run_up, run_up_bounds) = ways(machine, table.get(Figure::RunUp.name()))?;
+    let others = [RESERVE, SHARE, STARTS];
     let one = |(name, value): (&String, &Value)| {
-        let figure = known("require.", name)?;
+        let figure = known("require.", name, &others)?;
         let wrong = |what: &str| Failure::usage(format!("require.{name} = {value}: {what}"));
         let what = match figure {
             Figure::RunUp => {
@@ -80,14 +75,11 @@ pub(super) fn read_requirements(
             (Value::Boolean(true), _) if figure == Figure::RunUp => (Some(1.0), None),
             (Value::Boolean(false), _) if figure == Figure::RunUp => (Some(0.0), None),
             (Value::Table(words), _) => {
-                let mut words = words.clone();
-                if figure == Figure::RunUp {
-                    words.retain(|key, _| !WAYS.contains(&key));
-                    if !words.contains_key("least") && !words.contains_key("most") {
-                        words.insert("least".to_owned(), 1.into());
-                    }
-                }
-                let bounds: Bounds = words.try_into().map_err(|_| wrong(what))?;
+                let stated = match figure {
+                    Figure::RunUp => run_up_bounds,
+                    _ => read_words(&format!("require.{name}"), words)?,
+                };
+                let bounds: Bounds = stated.ok_or_else(|| wrong(what))?;
                 scope = bounds.at.unwrap_or_default();
                 (bounds.least, bounds.most)
             }
@@ -124,7 +116,6 @@ pub(super) fn read_requirements(
             scope,
         })
     };
-    let others = [RESERVE, SHARE, STARTS];
     let figures = table
         .iter()
         .filter(|(name, _)| !others.contains(&name.as_str()));
@@ -162,7 +153,10 @@ struct Starts {
 
 /// Reads the box of starts.
 fn starts(machine: &Machine, value: &Value) -> Result<Region, Failure> {
-    let stated = value.clone().try_into::<Starts>().ok();
+    let stated: Option<Starts> = match value {
+        Value::Table(words) => read_words("require.starts", words)?,
+        _ => None,
+    };
     let is_range = |[low, high]: [f64; 2]| low < high && low >= -FARTHEST && high <= FARTHEST;
     let stated = stated.filter(|it| is_range(it.position) && is_range(it.velocity));
     let Starts { position, velocity } = stated.ok_or_else(|| {

@@ -6,7 +6,7 @@ use softstop::internals::plain_number;
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
-use super::toml_leaves::{free_parameter, leaves, number, percent};
+use super::toml_leaves::{free_parameter, leaves, number, percent, read_words};
 use crate::design::problem::{Tolerance, Width};
 use crate::robust::Distribution;
 
@@ -73,7 +73,7 @@ pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Toleran
         let wrong = |what: &str| Failure::usage(format!("tolerance.{name} = {said}: {what}"));
         let (stated, distribution) = match value {
             Value::Table(words) => {
-                let stated = words.clone().try_into::<Stated>().ok();
+                let stated: Option<Stated> = read_words(&format!("tolerance.{name}"), words)?;
                 stated.and_then(Stated::read).ok_or_else(|| {
                     wrong(
                         "must be { half_width = NUMBER, distribution = \"normal\", cpk = NUMBER }, Cpk from 0.1 to 10 and 1 \

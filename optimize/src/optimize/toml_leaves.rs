@@ -1,18 +1,23 @@
 //! Values in tables of TOML, by their dotted names.
 
+use serde::de::DeserializeOwned;
 use softstop::internals::{did_you_mean, nearest_name};
 use softstop::{Machine, Parameter};
 use softstop_console::failure::Failure;
+use softstop_console::position::with_near_word;
 use toml::{Table, Value};
 
 /// Keys of a table that says something of one parameter.
-const WORDS: [&str; 7] = [
+const WORDS: [&str; 10] = [
     "values",
     "follows",
     "factor",
+    "offset",
     "least",
     "most",
     "half_width",
+    "distribution",
+    "cpk",
     "sigma",
 ];
 
@@ -37,6 +42,26 @@ pub(super) fn free_parameter(
         let what = slopes(key).or_else(|| misspelt_word(machine, key));
         Failure::usage(format!("{table}.{}", what.unwrap_or(error.to_string())))
     })
+}
+
+/// What a table of words says of a key, unless a word has the wrong value, or one is missing.
+///
+/// # Errors
+/// [`Failure::Usage`] naming an unknown word, and the known one that it may mean.
+pub(super) fn read_words<T: DeserializeOwned>(
+    key: &str,
+    words: &Table,
+) -> Result<Option<T>, Failure> {
+    match words.clone().try_into() {
+        Ok(said) => Ok(Some(said)),
+        Err(error) => match error.message() {
+            message if message.starts_with("unknown ") => Err(Failure::usage(format!(
+                "{key}: {}",
+                with_near_word(message)
+            ))),
+            _ => Ok(None),
+        },
+    }
 }
 
 /// Why a key of slopes stands for no parameter; none if it is another one.

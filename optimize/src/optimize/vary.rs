@@ -9,7 +9,7 @@ use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
 use toml::{Table, Value};
 
-use super::toml_leaves::{free_parameter, leaves, number, slopes};
+use super::toml_leaves::{free_parameter, leaves, number, read_words, slopes};
 use crate::design::problem::Link;
 use crate::design::space::{Axis, Interval};
 
@@ -77,39 +77,47 @@ impl fmt::Display for Variable {
     }
 }
 
+/// `{ values = [5, 7, 9] }`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Listed {
+    values: Vec<f64>,
+}
+
 impl Values {
-    fn read(value: &Value) -> Option<Self> {
-        let numbers = |value: &Value| {
-            value
-                .as_array()?
-                .iter()
-                .map(number)
-                .collect::<Option<Vec<_>>>()
-        };
-        match value {
-            Value::Table(words) if words.contains_key("values") && words.len() == 1 => {
-                let mut values = numbers(&words["values"])?;
-                values.sort_by(f64::total_cmp);
-                values.dedup();
-                Some(Self::Catalogue(values)).filter(|it| *it != Self::Catalogue(Vec::new()))
+    /// What a key's value says; none if it says nothing of values.
+    fn read(key: &str, value: &Value) -> Result<Option<Self>, Failure> {
+        let key = format!("vary.{key}");
+        let range = || value.clone().try_into().ok().map(Self::Range);
+        Ok(match value {
+            Value::Table(words) if words.contains_key("values") => {
+                read_words::<Listed>(&key, words)?.and_then(|Listed { mut values }| {
+                    values.sort_by(f64::total_cmp);
+                    values.dedup();
+                    (!values.is_empty()).then_some(Self::Catalogue(values))
+                })
             }
-            Value::Table(words) => words.clone().try_into().ok().map(Self::Follows),
-            Value::Array(_) => Some(Self::Range(numbers(value)?.try_into().ok()?)),
+            Value::Table(words) => read_words(&key, words)?.map(Self::Follows),
+            Value::Array(_) => range(),
             value => number(value).map(|held| Self::Range([held, held])),
-        }
+        })
     }
 }
 
 /// What `[vary]` holds: ranges first, then catalogues, in the file's order of keys.
 pub(super) fn variables(table: &Table) -> Result<Vec<Variable>, Failure> {
-    let one = |(key, value): (String, &Value)| match (Values::read(value), slopes(&key)) {
-        (_, Some(slopes)) => Err(Failure::usage(format!("vary.{slopes}"))),
-        (Some(values), None) => Ok(Variable { key, values }),
-        (None, None) => Err(Failure::usage(format!(
-            "vary.{key} = {value}: must be a range [low, high], a number to hold, {{ values = [a, b, c] }} of \
-             a catalogue, or {{ follows = KEY, factor = NUMBER }}; numbers alone, in the machine's own units{}",
-            rpm_value_hint(&value.to_string())
-        ))),
+    let one = |(key, value): (String, &Value)| {
+        if let Some(slopes) = slopes(&key) {
+            return Err(Failure::usage(format!("vary.{slopes}")));
+        }
+        let Some(values) = Values::read(&key, value)? else {
+            return Err(Failure::usage(format!(
+                "vary.{key} = {value}: must be a range [low, high], a number to hold, {{ values = [a, b, c] }} of \
+                 a catalogue, or {{ follows = KEY, factor = NUMBER }}; numbers alone, in the machine's own units{}",
+                rpm_value_hint(&value.to_string())
+            )));
+        };
+        Ok(Variable { key, values })
     };
     let all: Result<Vec<Variable>, Failure> = leaves(table).into_iter().map(one).collect();
     let mut all = all?;

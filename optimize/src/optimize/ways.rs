@@ -3,35 +3,41 @@
 use serde::Deserialize;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
-use softstop_dynamics::run_up::{self, Way};
+use softstop_console::position::with_near_word;
+use softstop_dynamics::run_up::{RunUpSettings, Way};
 use toml::Value;
+use toml::de::Error;
 
-/// What `run_up = { ... }` says of the ways.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct Ways {
+use super::require::Bounds;
+use crate::design::requirement::Scope;
+
+/// `run_up = { ways = ["frequency_raised"], ramp_rate = 0.2 }`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stated {
     ways: Option<Vec<Way>>,
     ramp_rate: Option<f64>,
     force: Option<f64>,
+    least: Option<f64>,
+    most: Option<f64>,
+    at: Option<Scope>,
 }
 
-/// Its keys.
-pub(super) const WAYS: [&str; 3] = ["ways", "ramp_rate", "force"];
-
-/// How a machine may be run up: a ramp's rate is a change of the frequency each drive period.
+/// How a machine may be run up, and in how many ways it must be possible, if a table says so: one if that names none. A ramp's
+/// rate is a change of the frequency each drive period.
 pub(super) fn ways(
     machine: &Machine,
     value: Option<&Value>,
-) -> Result<run_up::RunUpSettings, Failure> {
-    let usual = run_up::RunUpSettings::default();
+) -> Result<(RunUpSettings, Option<Bounds>), Failure> {
+    let usual = RunUpSettings::default();
     let Some(Value::Table(words)) = value else {
-        return Ok(usual);
+        return Ok((usual, None));
     };
     let usage = |what: &str| Failure::usage(format!("require.run_up{what}"));
-    let words: Ways = words
+    let words: Stated = words
         .clone()
         .try_into()
-        .map_err(|error: toml::de::Error| usage(&format!(": {}", error.message())))?;
+        .map_err(|error: Error| usage(&format!(": {}", with_near_word(error.message()))))?;
     let positive = |key: &str, value: Option<f64>, dimension| {
         let Some(value) = value else { return Ok(None) };
         match value > 0.0 && value.is_finite() {
@@ -68,10 +74,16 @@ pub(super) fn ways(
         positive("ramp_rate", words.ramp_rate, Dimension::Frequency)?,
         positive("force", words.force, Dimension::Force)?,
     );
-    Ok(run_up::RunUpSettings {
+    let bounds = Bounds {
+        least: words.least.or(words.most.is_none().then_some(1.0)),
+        most: words.most,
+        at: words.at,
+    };
+    let settings = RunUpSettings {
         ways,
         ramp,
         most_force,
         with_peaks: false,
-    })
+    };
+    Ok((settings, Some(bounds)))
 }

@@ -3,6 +3,8 @@
 use std::fs;
 use std::process::Stdio;
 
+use softstop_optimize::design::figure::Figure;
+use softstop_optimize::optimize::task_schema;
 use softstop_testing::{docs, words};
 
 use super::{Outcome, SOFTSTOP};
@@ -117,5 +119,103 @@ fn control_characters_do_not_reach_the_terminal() -> Outcome {
         assert!(is_quiet(&run.stdout) && is_quiet(&run.stderr), "{run:?}");
     }
     assert!(is_quiet(&fs::read(out.join("motion.svg"))?));
+    Ok(())
+}
+
+/// Tasks that hold every key and word of the format, a line each, with those of the line.
+const KEYS: [(&str, &str); 23] = [
+    (
+        "vary.clearance = { values = [0.01, 0.02] }",
+        "vary clearance values",
+    ),
+    (
+        "vary.clearance = { follows = \"damping\", factor = 1, offset = 1 }",
+        "follows damping factor offset",
+    ),
+    ("tolerance.clearance = 1e-4", "tolerance clearance"),
+    (
+        "tolerance.clearance = { half_width = 1e-4, distribution = \"normal\", cpk = 1.33 }",
+        "half_width distribution normal cpk",
+    ),
+    ("tolerance.clearance = { sigma = 1e-4 }", "sigma"),
+    (
+        "objective = { maximise = \"velocity\", of = \"worst\" }",
+        "objective maximise velocity of worst",
+    ),
+    ("objective.minimise = \"cost\"", "minimise cost"),
+    ("objective.cost = \"3 * clearance\"", "cost"),
+    (
+        "require.velocity = { least = 1, most = 2, at = \"drawing\" }",
+        "require velocity least most at drawing",
+    ),
+    ("require.tolerance_reserve = 2", "tolerance_reserve"),
+    ("require.violating = 0.01", "violating"),
+    (
+        "require.starts = { position = [0, 1], velocity = [0, 1] }",
+        "starts position velocity",
+    ),
+    (
+        "require.run_up = { ways = [\"frequency_raised\"], ramp_rate = 0.2, force = 1, least = 1 }",
+        "run_up ways frequency_raised ramp_rate force least",
+    ),
+    (
+        "require.run_up = { most = 2, at = \"drawing\" }",
+        "most at drawing",
+    ),
+    (
+        "[[case]]\nname = \"worn\"\nweight = 1\ndamping = 700",
+        "case name weight damping",
+    ),
+    (
+        "[search]\nevaluations = 200\nzone = \"hysteresis\"",
+        "search evaluations zone hysteresis",
+    ),
+    ("report.title = \"A press\"", "report title"),
+    ("report.author = \"A. Engineer\"", "author"),
+    ("report.date = 2026-11-26", "date"),
+    ("machine = \"unloaded\"", "machine"),
+    ("set = [\"damping=700\"]", "set"),
+    ("output = \"there\"", "output"),
+    ("format = \"json\"", "format"),
+];
+
+/// Whatever word of a task is misspelt, the refusal says which one it may mean.
+#[test]
+fn misspelt_words_of_tasks_are_told() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let task = folder.path().join("task.toml");
+    let machine = docs("scenes/hertz.toml").display().to_string();
+    let line = [
+        "optimize",
+        &machine,
+        "--config",
+        &task.display().to_string(),
+        "--output",
+        &folder.path().join("never").display().to_string(),
+    ];
+    for (text, keys) in KEYS {
+        for key in words(keys) {
+            let misspelt = text.replacen(key, &format!("{key}x"), 1);
+            fs::write(&task, misspelt)?;
+            SOFTSTOP.ends_with(&line, 2, &[&format!("did you mean {key}?"), "task.toml"]);
+        }
+    }
+    Ok(())
+}
+
+/// No key of the schema of tasks but a figure's is missing among those that are misspelt.
+#[test]
+fn all_words_of_tasks_are_misspelt_once() -> Outcome {
+    let known: Vec<&str> = KEYS.iter().flat_map(|it| words(it.1)).collect();
+    let mut all = vec![task_schema()];
+    while let Some(schema) = all.pop() {
+        let keys = schema["properties"].as_object().into_iter().flatten();
+        for (key, below) in keys {
+            let is_figure = Figure::ALL.iter().any(|it| it.name() == key);
+            assert!(is_figure || known.contains(&key.as_str()), "{key}");
+            all.push(below.clone());
+            all.extend(below["anyOf"].as_array().into_iter().flatten().cloned());
+        }
+    }
     Ok(())
 }
