@@ -65,6 +65,24 @@ fn values_of_catalogues_are_tried() -> Outcome {
     Ok(())
 }
 
+/// Values far from those of the best designs are tried where these fail their trials, and then those between.
+#[test]
+fn far_values_of_catalogues_are_tried() -> Outcome {
+    let slow = (0..14).map(|step| f64::from(step) * 1e-6);
+    let catalogue: Vec<f64> = slow.chain([0.018, 0.02]).collect();
+    let designs = [catalogue, vec![0.018]].map(|damping| {
+        let axis = Axis::of_catalogue(Parameter::Damping, damping);
+        let mut problem = problem(vec![axis, CLEARANCE], 0.2);
+        problem.machine.set(Parameter::ContactDamping, 0.0);
+        solve(&problem).map(|found| found.design)
+    });
+    let [listed, held] = designs;
+    let (listed, held) = (listed?, held?);
+    assert_eq!(listed.machine.value(Parameter::Damping), Some(0.018));
+    assert!(listed.value >= (1.0 - 1e-9) * held.value, "{listed:?}");
+    Ok(())
+}
+
 /// A design is sought but once from a place: its first answer is kept, and is no worse than one that is sought anew from within
 /// what counts as that place, as far as counted shares have an accuracy.
 #[test]

@@ -1,65 +1,22 @@
-//! The best design that passes its trials. They have no derivatives and count motions, so that what is sought with them is a
-//! search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon 2003),
-//! closer and closer. Of each zone only places that are better than the best so far are tried.
+//! Which of the designs that a search has found pass their trials; from one that fails, one that passes is sought
+//! (`trial_search`).
 
-use serde::Serialize;
-use softstop_console::interrupt;
-use softstop_dynamics::parallel;
+use std::collections::HashSet;
 
-use super::ascent::ascend_from;
-use super::certain::certain;
-use super::coordinates::{Candidate, Coordinates, SearchStart, best_by};
-use super::critical::CriticalMachines;
-use super::improve_catalogue::CatalogueSearch;
+use super::Infeasible;
+use super::coordinates::SearchStart;
+use super::distant_values::check_distant_values;
+use super::improve_catalogue::{CatalogueSearch, Catalogues};
 use super::judge::Met;
-use super::problem::{Objective, Problem};
+use super::problem::Problem;
 use super::robustify::{Robust, look};
-use super::space::digits;
-use super::trial::FULL;
-use super::zoned::Zoned;
-use super::{Design, Infeasible};
-use crate::order::{sort_falling, sort_rising};
+use super::trial_search::{RESOLUTION, Resolution, Trials};
+use crate::order::sort_falling;
 
-/// Zones of the lattice, at most.
-const LATTICE: usize = 32;
-/// Distances of the zones beside the design that fails, in edges of the cube: its hill may be narrower than the lattice.
-const BESIDE: [f64; 2] = [0.05, 0.1];
-/// Distance of the zones around the best, in edges of the cube: the first and the last.
-const FIRST: f64 = 0.08;
-const LAST: f64 = 6e-4;
-/// The next distance, in units of the one before, where nothing better is found.
-const SHRINKING: f64 = 0.7;
-/// Places of a zone, and halvings between the best that passes and the next.
-const PLACES: usize = 24;
-const HALVINGS: u32 = 9;
-/// Relative distance from a score at which another is just above it, and steps to find that.
-const JUST: f64 = 1e-4;
-const SECANTS: usize = 4;
-/// Places of a zone that are tried to find one that passes, if none is known elsewhere, and if one is, or beyond the last.
-const TRIES: usize = 8;
-const FEW_TRIES: usize = 3;
-/// Share of a score that is no gain.
-const GAIN: f64 = 1e-9;
-/// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
-const MARGINS: [f64; 2] = [0.2, 0.4];
 /// Designs with other values of catalogues than those of finalists whose trials are made, at most.
 const OTHERS: usize = 2;
 /// How often what is lost within the tolerances of what was found, or fails there, is taken note of.
 const ROUNDS: usize = 8;
-
-/// How fine a search with trials has looked.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Resolution {
-    /// Step of each axis, as a share of its range.
-    pub axes: f64,
-    /// Step along a zone, as a share of it at most.
-    pub place: f64,
-}
-
-const RESOLUTION: Resolution = Resolution {
-    axes: LAST,
-    place: 1.0 / (PLACES << HALVINGS) as f64,
-};
 
 /// A design that passes its trials.
 pub(super) struct Passed {
@@ -81,13 +38,33 @@ impl Passed {
     }
 }
 
+/// Why no design passes its trials.
+pub(super) struct Refusal {
+    /// What the one that lacks least lacks.
+    pub lack: Infeasible,
+    /// Its point of the unit cube, if it was looked at.
+    pub unit: Option<Vec<f64>>,
+    /// Choices from catalogues with which trials were made, and all; none if nothing is chosen, or no trials were made.
+    pub choices: Option<[usize; 2]>,
+}
+
+impl From<Infeasible> for Refusal {
+    fn from(lack: Infeasible) -> Self {
+        Self {
+            lack,
+            unit: None,
+            choices: None,
+        }
+    }
+}
+
 /// The best design that passes its trials: this one if it does, otherwise one that is sought from it, unless that was done from
 /// its place before. Adds its place to those from which one was sought, unless that ended with machines to take note of: with
 /// others known it may end elsewhere.
 ///
 /// # Errors
 /// [`Infeasible`] if none was met: what this design fails.
-fn check_trials(
+pub(super) fn check_trials(
     problem: &Problem,
     held: &mut Robust,
     sought_from: &mut Vec<SearchStart>,
@@ -106,10 +83,7 @@ fn check_trials(
     }
     let start = from.start();
     for round in 0..ROUNDS {
-        let trials = Trials {
-            problem,
-            known: &held.known,
-        };
+        let trials = Trials::new(problem, &held.known);
         let found = match round {
             0 => trials.best(&from),
             _ => trials.best_near(&from),
@@ -138,16 +112,16 @@ fn check_trials(
 
 /// The best designs that pass their trials, in falling order, from designs that keep their box of tolerances, each bettered by
 /// exchange of values of catalogues. What is then not better than a bound, or than one that passes, is left out. Where one fails,
-/// designs with other values are tried as they are.
+/// designs with other values are tried as they are; where all fail and there is no bound, values far from theirs.
 ///
 /// # Errors
-/// [`Infeasible`] if none passes: what the first one fails.
+/// [`Refusal`] if none passes.
 pub(super) fn check_finalists(
     problem: &Problem,
     finalists: impl IntoIterator<Item = Robust>,
     bound: f64,
     sought_from: &mut Vec<SearchStart>,
-) -> Result<Vec<Passed>, Infeasible> {
+) -> Result<Vec<Passed>, Refusal> {
     let mut checked = Checked {
         problem,
         bound,
@@ -176,30 +150,33 @@ pub(super) fn check_finalists(
             }
         }
     }
+    if checked.passing.is_empty() && bound == 0.0 {
+        check_distant_values(&mut checked, sought_from);
+    }
     checked.into_passing()
 }
 
 /// Designs whose trials were made.
-struct Checked<'a> {
-    problem: &'a Problem,
+pub(super) struct Checked<'a> {
+    pub problem: &'a Problem,
     bound: f64,
-    passing: Vec<Passed>,
-    failed: Vec<(Robust, Infeasible)>,
+    pub passing: Vec<Passed>,
+    pub failed: Vec<(Robust, Infeasible)>,
 }
 
 impl Checked<'_> {
-    fn score(&self, it: &Robust) -> f64 {
+    pub fn score(&self, it: &Robust) -> f64 {
         self.problem.score(&it.candidate.design)
     }
 
     /// The score that another design must exceed.
-    fn least(&self) -> f64 {
+    pub fn least(&self) -> f64 {
         let passing = self.passing.iter().map(|it| self.score(&it.robust));
         passing.fold(self.bound, f64::max)
     }
 
     /// Takes note of a design's trials; true if it passes as it is.
-    fn note(&mut self, design: Robust, passed: Result<Passed, Infeasible>) -> bool {
+    pub fn note(&mut self, design: Robust, passed: Result<Passed, Infeasible>) -> bool {
         let mut passed = match passed {
             Ok(passed) => passed,
             Err(lack) => {
@@ -218,234 +195,39 @@ impl Checked<'_> {
     }
 
     /// The designs that pass, in falling order.
-    fn into_passing(mut self) -> Result<Vec<Passed>, Infeasible> {
+    fn into_passing(mut self) -> Result<Vec<Passed>, Refusal> {
         let problem = self.problem;
         sort_falling(&mut self.passing, |it| {
             problem.score(&it.robust.candidate.design)
         });
-        if self.passing.is_empty() {
-            let first = self.failed.into_iter().next();
-            return Err(first.map_or_else(|| Infeasible::unknown("stopped"), |(_, lack)| lack));
+        match self.passing.is_empty() {
+            true => Err(self.into_refusal()),
+            false => Ok(self.passing),
         }
-        Ok(self.passing)
-    }
-}
-
-/// A design near one that does not pass its trials and passes them: without the search that [`check_trials`] takes, and good
-/// to a per cent or so.
-pub(super) fn nearby(
-    problem: &Problem,
-    from: &Candidate,
-    known: &CriticalMachines,
-) -> Option<Candidate> {
-    Trials { problem, known }.first(from)
-}
-
-struct Trials<'a> {
-    problem: &'a Problem,
-    known: &'a CriticalMachines,
-}
-
-impl Trials<'_> {
-    fn score(&self, design: &Design) -> f64 {
-        self.problem.score(design)
     }
 
-    /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice and
-    /// those beside the design, then by a compass search.
-    fn best(&self, from: &Candidate) -> Option<Candidate> {
-        let coordinates = Coordinates::new(self.problem, &from.unit);
-        let lattice = lattice(coordinates.axes().len());
-        let lattice = lattice.iter().map(|at| coordinates.unit(at));
-        let beside = BESIDE.into_iter().flat_map(|step| coordinates.around(step));
-        let zones: Vec<_> = lattice.chain(beside).collect();
-        let first = self.first(from);
-        let best = self.best_of(&zones, first.as_ref()).or(first)?;
-        self.compass(best)
-    }
-
-    /// The best design that passes, sought near one that does not: by a compass search without a lattice.
-    fn best_near(&self, from: &Candidate) -> Option<Candidate> {
-        self.compass(self.first(from)?)
-    }
-
-    /// A compass search from a design.
-    fn compass(&self, mut best: Candidate) -> Option<Candidate> {
-        let mut step = FIRST;
-        while step >= LAST && !interrupt::requested() {
-            let around = Coordinates::new(self.problem, &best.unit).around(step);
-            match self.best_of(&around, Some(&best)) {
-                Some(better) => best = better,
-                None => step *= SHRINKING,
-            }
-        }
-        Some(best)
-    }
-
-    /// The best of the zone of a design, of those with wider margins, and of what linear models of the share of starts lead
-    /// to from each, if that is required.
-    fn first(&self, from: &Candidate) -> Option<Candidate> {
-        let wider = parallel::filter_map(&MARGINS, |margin| {
-            let wider = Problem {
-                margin: margin.max(self.problem.margin),
-                ..self.problem.clone()
-            };
-            let place = (&from.unit[..], from.design.place);
-            ascend_from(&wider, self.known, place)
-        });
-        let mut starts = vec![from.clone()];
-        starts.extend(wider);
-        let share = self.problem.least_share();
-        let led = |start: &Candidate| certain(self.problem, start, (share?, self.known));
-        let passing = parallel::filter_map(&starts, |it| led(it).filter(|it| self.passes(it)));
-        let best = self.better_of(passing);
-        let units: Vec<_> = starts.into_iter().map(|it| it.unit).collect();
-        let best = self.best_of(&units, best.as_ref()).or(best)?;
-        let further = led(&best).filter(|it| self.passes(it));
-        self.better_of([best].into_iter().chain(further).collect())
-    }
-
-    /// Whether a design keeps what is known of its box, and passes.
-    fn passes(&self, it: &Candidate) -> bool {
-        let kept = self.known.design(self.problem, it.design.clone());
-        kept.is_some() && self.is_passed(&it.design)
-    }
-
-    fn is_passed(&self, design: &Design) -> bool {
-        self.problem.passes(design, self.known, FULL)
-    }
-
-    /// The best of some zones that is better than one that is known.
-    fn best_of(&self, units: &[Vec<f64>], known: Option<&Candidate>) -> Option<Candidate> {
-        let least = known.map_or(0.0, |it| (1.0 + GAIN) * self.score(&it.design));
-        let found = parallel::filter_map(units, |unit| {
-            Some(Candidate {
-                unit: unit.clone(),
-                design: self.along(unit, least)?,
-            })
-        });
-        self.better_of(found)
-    }
-
-    /// The best of some designs, the first of several.
-    fn better_of(&self, found: Vec<Candidate>) -> Option<Candidate> {
-        best_by(found.into_iter().rev(), |it| self.score(&it.design))
-    }
-
-    /// The best motion along the zone of a point of the unit cube that passes and is better than that.
-    fn along(&self, unit: &[f64], least: f64) -> Option<Design> {
-        let problem = self.problem;
-        let cases = problem.in_cases();
-        let zoned = Zoned::find(problem, &cases, &problem.axis_values(unit))?;
-        let window = zoned.window().ok()?;
-        let design = |place: f64| self.known.design(problem, zoned.at(place)?);
-        let places = (0..=PLACES).map(|index| window.at(index as f64 / PLACES as f64));
-        let motions: Vec<Option<Design>> = places.map(|place| zoned.at(place)).collect();
-        let sampled = self.designs_above(least, motions);
-        let pairs = sampled.windows(2);
-        let pairs = pairs.filter_map(|pair| pair[0].as_ref().zip(pair[1].as_ref()));
-        let crossings = pairs.filter_map(|pair| self.just_above(least, pair, design));
-        let mut all: Vec<Design> = crossings.collect();
-        let better = sampled.into_iter().flatten();
-        all.extend(better.filter(|it| self.score(it) > least));
-        sort_rising(&mut all, |it| self.score(it));
-        let last = all.len().checked_sub(1)?;
-        // The least of them pass most easily, but what is counted scatters; the best ends the search.
-        let spread: Vec<usize> = match least > 0.0 {
-            true => (0..=last).take(FEW_TRIES).collect(),
-            false => (0..TRIES).map(|index| index * last / (TRIES - 1)).collect(),
+    /// Why none passes: what the first lacks, or, of several choices from catalogues, the one that lacks least.
+    fn into_refusal(self) -> Refusal {
+        let catalogues = Catalogues::of(self.problem);
+        let failed = self.failed.iter();
+        let choices: HashSet<_> = failed
+            .map(|(it, _)| catalogues.places(&it.candidate.unit))
+            .collect();
+        let choices = [choices.len(), catalogues.count()];
+        let least = self.failed.into_iter();
+        let least = least.reduce(
+            |one, other| match choices[1] > 1 && other.1.gap < one.1.gap {
+                true => other,
+                false => one,
+            },
+        );
+        let Some((design, lack)) = least else {
+            return Infeasible::unknown("stopped").into();
         };
-        let mut ascending = spread.into_iter();
-        let mut low = ascending.rfind(|index| self.is_passed(&all[*index]))?;
-        let mut high = all.len();
-        while high - low > 1 {
-            let middle = low.midpoint(high);
-            match self.is_passed(&all[middle]) {
-                true => low = middle,
-                false => high = middle,
-            }
+        Refusal {
+            lack,
+            unit: Some(design.candidate.unit),
+            choices: Some(choices).filter(|[_, all]| *all > 1),
         }
-        // What is counted scatters: some of the next may pass again.
-        let beyond = |low: usize| {
-            let mut next = (low + 2..all.len()).take(FEW_TRIES);
-            next.find(|index| self.is_passed(&all[*index]))
-        };
-        while let Some(next) = beyond(low) {
-            (low, high) = (next, next + 1);
-        }
-        let next = all.get(high).cloned();
-        let mut best = all.swap_remove(low);
-        let Some(mut failing) = next else {
-            return Some(best);
-        };
-        for _ in 0..HALVINGS {
-            match design(0.5 * (best.place + failing.place)) {
-                Some(middle) if self.score(&middle) <= self.score(&best) => break,
-                Some(middle) if self.is_passed(&middle) => best = middle,
-                Some(middle) => failing = middle,
-                None => break,
-            }
-        }
-        Some(best)
     }
-
-    /// The designs of the motions along a zone whose own machine scores above `least`, and of those beside them, between which
-    /// the zone crosses `least`. No other one can: a tolerance never raises a score.
-    fn designs_above(&self, least: f64, motions: Vec<Option<Design>>) -> Vec<Option<Design>> {
-        let Objective { figure, .. } = self.problem.objective;
-        let is_above = |motion: &Option<Design>| {
-            let motion = motion.as_ref();
-            motion.is_some_and(|motion| {
-                let own = self.problem.nominal_of(figure, motion);
-                own.is_none_or(|own| self.problem.objective.score(own) > least)
-            })
-        };
-        let above: Vec<bool> = motions.iter().map(is_above).collect();
-        let is_beside = |index: usize| above[index.saturating_sub(1)..].iter().take(3);
-        let all = motions.into_iter().enumerate();
-        let designs = all.map(|(index, motion)| match is_beside(index).any(|it| *it) {
-            true => self.known.design(self.problem, motion?),
-            false => None,
-        });
-        designs.collect()
-    }
-
-    /// Between two motions of a zone, one whose score is above a bound by very little; none if both are on one side of it.
-    fn just_above(
-        &self,
-        bound: f64,
-        (one, other): (&Design, &Design),
-        design: impl Fn(f64) -> Option<Design>,
-    ) -> Option<Design> {
-        let above = |it: &Design| self.score(it) - bound;
-        let [mut low, mut high] = [one, other].map(|it| (it.place, above(it)));
-        let mut found = None;
-        for _ in 0..SECANTS {
-            if low.1 > high.1 {
-                (low, high) = (high, low);
-            }
-            if low.1 > 0.0 || high.1 <= JUST * bound {
-                break;
-            }
-            let aim = 0.5 * JUST * bound;
-            let share = (aim - low.1) / (high.1 - low.1);
-            let middle = design(low.0 + share * (high.0 - low.0))?;
-            let end = (middle.place, above(&middle));
-            if end.1 > 0.0 {
-                (high, found) = (end, Some(middle));
-            } else {
-                low = end;
-            }
-        }
-        found
-    }
-}
-
-/// Points of a lattice over the cube, each in the middle of an equal part.
-fn lattice(dimensions: usize) -> Vec<Vec<f64>> {
-    let edge = (LATTICE as f64).powf(1.0 / dimensions.max(1) as f64) as usize;
-    let count = edge.checked_pow(dimensions as u32).unwrap_or(0);
-    let middle = |digit: usize| (digit as f64 + 0.5) / edge as f64;
-    let point = |index| digits(index, edge, dimensions).map(middle).collect();
-    (0..count).map(point).collect()
 }

@@ -3,13 +3,14 @@
 use serde::Serialize;
 
 use super::ascent::ascend_from;
-use super::check_trials::{Passed, Resolution, check_finalists};
+use super::check_trials::{Passed, check_finalists};
 use super::constraint::ActiveLimit;
 use super::coordinates::{Candidate, SearchStart};
 use super::critical::CriticalMachines;
 use super::judge::Met;
 use super::multipliers::{Held, held};
 use super::robustify::{Robust, enforce_tolerance_box, keep_as_is};
+use super::trial_search::Resolution;
 use super::{Design, Problem};
 use crate::order::sort_falling;
 

@@ -7,7 +7,6 @@ use softstop_dynamics::parallel;
 use super::Design;
 use super::ascent::{ascend, ascend_from};
 use super::certain::certain;
-use super::check_trials::nearby;
 use super::coordinates::{Candidate, best_by};
 use super::critical::CriticalMachines;
 use super::figure::{Figure, Sense};
@@ -17,6 +16,7 @@ use super::requirement::{Scope, sign};
 use super::robustify::enforce;
 use super::search::Found;
 use super::trial::{ROUGH, STARTS};
+use super::trial_search::nearby;
 use crate::order::sort_rising;
 
 /// What is given up for more of what is sought.

@@ -13,6 +13,8 @@ use super::robustify::{Robust, enforce};
 
 /// How far along one catalogue values are tried; of two, both neighbours at once.
 const FAR: usize = 3;
+/// Choices from catalogues that are listed, at most.
+const MAX_CHOICES: usize = 4096;
 /// Share of a score that is no gain.
 const GAIN: f64 = 1e-12;
 
@@ -63,33 +65,71 @@ impl<'a> CatalogueSearch<'a> {
     }
 
     /// The best designs with the untried values beside those of a design.
-    fn seek_beside(&mut self, Robust { candidate, known }: &Robust) -> Vec<Robust> {
-        let beside = self.catalogues.beside(&candidate.unit).into_iter();
+    fn seek_beside(&mut self, from: &Robust) -> Vec<Robust> {
+        let beside = self.catalogues.beside(&from.candidate.unit).into_iter();
         let new: Vec<_> = beside
             .filter(|places| self.tried.insert(places.clone()))
             .collect();
-        let problem = self.problem;
         parallel::filter_map(&new, |places| {
-            let unit = self.catalogues.unit(&candidate.unit, places);
-            let warm = ascend_from(problem, known, (&unit, candidate.design.place));
-            let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
-            enforce(problem, &start, known.clone()).ok()
+            self.catalogues.design_at(self.problem, from, places)
         })
     }
 }
 
 /// The coordinates of the cube that are catalogues, and how many values each has.
-struct Catalogues(Vec<(usize, usize)>);
+pub(super) struct Catalogues(Vec<(usize, usize)>);
 
 impl Catalogues {
-    fn of(problem: &Problem) -> Self {
+    pub(super) fn of(problem: &Problem) -> Self {
         let free = problem.free_axes();
         let sizes = free.map(|axis| axis.catalogue.len()).enumerate();
         Self(sizes.filter(|(_, size)| *size > 0).collect())
     }
 
+    /// How many choices there are.
+    pub(super) fn count(&self) -> usize {
+        let sizes = self.0.iter().map(|(_, size)| *size);
+        sizes.fold(1, usize::saturating_mul)
+    }
+
+    /// All choices of a value from each, or so many of them, evenly spaced in their order.
+    pub(super) fn all(&self) -> Vec<Vec<usize>> {
+        let count = self.count();
+        let listed = count.min(MAX_CHOICES);
+        let choice = |index: usize| {
+            let mut rest = (index as u128 * count as u128 / listed as u128) as usize;
+            let place = |(_, size): &(usize, usize)| {
+                let place = rest % size;
+                rest /= size;
+                place
+            };
+            self.0.iter().map(place).collect()
+        };
+        (0..listed).map(choice).collect()
+    }
+
+    /// How far two choices are apart, in units of the lengths of the catalogues.
+    pub(super) fn distance(&self, one: &[usize], other: &[usize]) -> f64 {
+        let all = self.0.iter().zip(one).zip(other);
+        let parts = all.map(|(((_, size), one), other)| one.abs_diff(*other) as f64 / *size as f64);
+        parts.map(|part| part * part).sum::<f64>().sqrt()
+    }
+
+    /// The best design with a choice that keeps its box of tolerances, sought from one with another; none if none is met.
+    pub(super) fn design_at(
+        &self,
+        problem: &Problem,
+        Robust { candidate, known }: &Robust,
+        places: &[usize],
+    ) -> Option<Robust> {
+        let unit = self.unit(&candidate.unit, places);
+        let warm = ascend_from(problem, known, (&unit, candidate.design.place));
+        let start: Candidate = warm.or_else(|| ascend(problem, &unit))?;
+        enforce(problem, &start, known.clone()).ok()
+    }
+
     /// Which values a point has.
-    fn places(&self, unit: &[f64]) -> Vec<usize> {
+    pub(super) fn places(&self, unit: &[f64]) -> Vec<usize> {
         let place = |(index, size): &(usize, usize)| {
             ((unit[*index].clamp(0.0, 1.0) * *size as f64) as usize).min(size - 1)
         };
@@ -106,7 +146,7 @@ impl Catalogues {
     }
 
     /// The values beside those of a point.
-    fn beside(&self, unit: &[f64]) -> Vec<Vec<usize>> {
+    pub(super) fn beside(&self, unit: &[f64]) -> Vec<Vec<usize>> {
         let own = self.places(unit);
         let moved = |steps: &[(usize, isize)]| {
             let mut places = own.clone();

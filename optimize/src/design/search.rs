@@ -15,8 +15,7 @@ use softstop_dynamics::parallel;
 use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};
-pub use super::check_trials::Resolution;
-use super::check_trials::{Passed, check_finalists};
+use super::check_trials::{Passed, Refusal, check_finalists};
 use super::conflict::stated;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
@@ -29,6 +28,7 @@ use super::space::{Axis, Interval};
 use super::survey::{Point, Survey};
 pub use super::survey::{Quiet, Unwatched, Watch};
 use super::trial::FULL;
+pub use super::trial_search::Resolution;
 use super::{Infeasible, Problem};
 use crate::order::sort_falling;
 
@@ -75,11 +75,12 @@ pub enum SearchError {
 }
 
 impl SearchError {
-    /// Nothing feasible was met of a problem whose survey saw so many machines, if it was that which met nothing: where these
-    /// lie decades apart, more is not said than that.
+    /// Nothing feasible was met of a problem whose survey saw so many machines, if it was that which met nothing, and of which
+    /// trials were made with so many of all choices from catalogues: more is not said than that.
     pub(super) fn no_design(
         problem: &Problem,
         surveyed: Option<usize>,
+        choices: Option<[usize; 2]>,
         (place, reason): (String, String),
     ) -> Self {
         let zone = match problem.zone {
@@ -87,16 +88,17 @@ impl SearchError {
             ZoneKind::SingleImpact { .. } => "",
         };
         let sought = format!("stable z = 1 motion {zone}");
-        let has_catalogues = problem.axes.iter().any(|it| it.catalogue.len() > 1);
         let found = match surveyed.zip(widest(problem)) {
             Some((surveyed, widest)) => format!(
                 "found no {sought}that is as the task asks; the survey saw {surveyed} machines on a logarithmic lattice: narrow {widest}"
             ),
-            None if has_catalogues && problem.trials().next().is_some() => format!(
-                "found no {sought}that is as the task asks; what takes many motions was tried with the values of catalogues beside \
-                 the best: hold others"
-            ),
-            None => format!("no {sought}is as the task asks within the bounds"),
+            None => match choices {
+                Some([tried, all]) => format!(
+                    "found no {sought}that is as the task asks; what takes many motions was tried with {tried} of {all} choices from \
+                     catalogues"
+                ),
+                None => format!("no {sought}is as the task asks within the bounds"),
+            },
         };
         Self::NoDesign {
             found,
@@ -268,7 +270,9 @@ impl<'a> Search<'a> {
         let mut sought_from = Vec::new();
         let finalists = finalists.into_iter().cloned();
         let passing = check_finalists(problem, finalists, 0.0, &mut sought_from);
-        let mut passing = passing.map_err(|lack| self.no_design(lack))?.into_iter();
+        let mut passing = passing
+            .map_err(|refusal| self.no_design(refusal))?
+            .into_iter();
         let Some(passed) = passing.next() else {
             return Err(self.no_design(Infeasible::unknown("stopped")));
         };
@@ -361,10 +365,16 @@ impl<'a> Search<'a> {
     }
 
     /// What the nearest point lacks.
-    fn no_design(&self, infeasible: Infeasible) -> SearchError {
+    fn no_design(&self, refusal: impl Into<Refusal>) -> SearchError {
         let problem = self.survey.problem;
-        let unit = self.tops.first().map_or(&self.nearest.unit, |it| &it.unit);
-        let values = problem.axis_values(unit);
+        let Refusal {
+            lack,
+            unit,
+            choices,
+        } = refusal.into();
+        let top = self.tops.first().map_or(&self.nearest.unit, |it| &it.unit);
+        let values =
+            problem.axis_values(unit.as_ref().filter(|_| choices.is_some()).unwrap_or(top));
         let values = problem.axes.iter().zip(values);
         let all = values.map(|(axis, value)| stated(&problem.machine, axis.parameter, value));
         let all = all.collect::<Vec<_>>().join(", ");
@@ -372,7 +382,7 @@ impl<'a> Search<'a> {
             true => String::new(),
             false => format!(", at {all}"),
         };
-        SearchError::no_design(problem, Some(self.surveyed), (place, infeasible.reason))
+        SearchError::no_design(problem, Some(self.surveyed), choices, (place, lack.reason))
     }
 }
 
@@ -387,22 +397,19 @@ mod tests {
     use softstop::{Machine, Parameter};
 
     use super::{Axis, Problem, SearchError};
-    use crate::design::figure::Figure;
-    use crate::design::requirement::Requirement;
 
     #[test]
     fn of_catalogues_and_trials_no_more_is_said_than_what_was_tried() {
         let machine = Machine::named("unloaded").expect("the paper's machine");
         let axis = Axis::of_catalogue(Parameter::Damping, vec![1e-6, 0.02]);
-        let mut problem = Problem::of(machine, vec![axis]);
-        let says = |problem: &Problem| {
-            SearchError::no_design(problem, Some(9), (String::new(), String::new())).to_string()
+        let problem = Problem::of(machine, vec![axis]);
+        let says = |choices| {
+            let nowhere = (String::new(), String::new());
+            SearchError::no_design(&problem, Some(9), choices, nowhere).to_string()
         };
-        assert!(says(&problem).starts_with("no stable z = 1 motion"));
-        let certainty = Requirement::at_least(Figure::Certainty, 0.2);
-        problem.requirements.push(certainty);
-        let words = says(&problem);
+        assert!(says(None).starts_with("no stable z = 1 motion"));
+        let words = says(Some([1, 2]));
         assert!(words.starts_with("found no"), "{words}");
-        assert!(words.contains("values of catalogues beside the best: hold others"));
+        assert!(words.contains("tried with 1 of 2 choices from catalogues"));
     }
 }

@@ -160,6 +160,7 @@ pub(super) fn search_with_share(
         None => SearchError::no_design(
             problem,
             None,
+            None,
             (
                 String::new(),
                 format!(
