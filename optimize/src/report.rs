@@ -56,9 +56,9 @@ pub struct OptimizeReport {
     /// Keys of what was searched and changes nothing of what is sought and required of the motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     without_effect: Vec<&'static str>,
-    /// What its user should know before it is built.
+    /// What its user should know before it is built, and of this report.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    warnings: Vec<String>,
+    pub warnings: Vec<String>,
     /// What was required, and what the design has of it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     requirements: Vec<Record>,

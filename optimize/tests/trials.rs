@@ -4,6 +4,7 @@ use softstop::{Machine, Parameter};
 use softstop_optimize::design::Problem;
 use softstop_optimize::design::coordinates::Candidate;
 use softstop_optimize::design::figure::Figure;
+use softstop_optimize::design::front::front;
 use softstop_optimize::design::requirement::Requirement;
 use softstop_optimize::design::search::{Found, SearchError, Settings, Unwatched, search};
 use softstop_optimize::design::space::{Axis, Interval};
@@ -80,6 +81,25 @@ fn far_values_of_catalogues_are_tried() -> Outcome {
     let (listed, held) = (listed?, held?);
     assert_eq!(listed.machine.value(Parameter::Damping), Some(0.018));
     assert!(listed.value >= (1.0 - 1e-9) * held.value, "{listed:?}");
+    Ok(())
+}
+
+/// With hardly any damping the starts of many designs are not counted: the trade-off with certainty is left out, no other.
+#[test]
+fn certainty_is_not_traded_where_motions_settle_slowly() -> Outcome {
+    let traded = [1e-5, 0.02].map(|damping| -> Outcome<Vec<Figure>> {
+        let mut problem = problem(vec![CLEARANCE], 0.0);
+        problem.requirements.clear();
+        problem.machine.set(Parameter::Damping, damping);
+        problem.machine.set(Parameter::ContactDamping, 0.0);
+        let found = solve(&problem)?;
+        let figures = [Figure::Certainty, Figure::StopForce].into_iter();
+        let traded = figures.filter(|it| front(&problem, &found, *it).is_some());
+        Ok(traded.collect())
+    });
+    let [slow, usual] = traded;
+    assert_eq!(slow?, [Figure::StopForce]);
+    assert_eq!(usual?, [Figure::Certainty, Figure::StopForce]);
     Ok(())
 }
 

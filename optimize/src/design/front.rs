@@ -15,6 +15,7 @@ use super::problem::{Objective, Problem};
 use super::requirement::{Scope, sign};
 use super::robustify::enforce;
 use super::search::Found;
+use super::share_of_starts::settles_slowly;
 use super::trial::{ROUGH, STARTS};
 use super::trial_search::nearby;
 use crate::order::sort_rising;
@@ -80,7 +81,8 @@ const SHARES: usize = 4;
 const FREE: f64 = 1e-6;
 const GAIN: f64 = 1e-9;
 
-/// What a figure costs of what is sought, around a design; none if the design has no such figure. The others are sought
+/// What a figure costs of what is sought, around a design; none if the design has no such figure, or that is certainty and
+/// motions settle so slowly that no starts of many designs are counted. The others are sought
 /// without requirements that take many motions; those that fail them give way to ones near them, and are left out if there
 /// is none. With the best design on the way that solves the problem itself better than the design, if there is one: then the
 /// search can go on from there.
@@ -91,6 +93,9 @@ pub fn front(
 ) -> Option<(Front, Option<Candidate>)> {
     let start = found.candidate();
     let known = &found.known;
+    if figure == Figure::Certainty && settles_slowly(&start.design.orbit) {
+        return None;
+    }
     let own = place(problem, figure, &start)?;
     let is_held = |parameter| problem.axes.iter().all(|axis| axis.parameter != parameter);
     let is_of_force = figure == Figure::DriveForce && is_held(Parameter::Amplitude);

@@ -40,7 +40,7 @@ pub mod requirement;
 mod robustify;
 pub mod search;
 pub mod share;
-mod share_of_starts;
+pub mod share_of_starts;
 pub mod slope;
 pub mod slsqp;
 pub mod solution;

@@ -73,7 +73,7 @@ impl Problem {
         orbit: &Orbit,
         share: f64,
     ) -> Result<Option<Establishment>, OrbitError> {
-        if share <= 0.0 || !is_slow(orbit) {
+        if share <= 0.0 || !settles_slowly(orbit) {
             return Ok(None);
         }
         let first = self.established(orbit, FIRST_STARTS)?;
@@ -121,7 +121,7 @@ impl OperatingPoint<'_> {
 }
 
 /// Whether motions near an orbit decay so slowly that a basin test does not follow all of them to their end.
-fn is_slow(orbit: &Orbit) -> bool {
+pub fn settles_slowly(orbit: &Orbit) -> bool {
     let slowest = orbit.multipliers()[0].norm();
     -slowest.ln() < SLOW_DECAY * orbit.periods as f64
 }

@@ -287,7 +287,9 @@ fn look_at(job: &Job, outcome: &Outcome, is_whole: bool) -> Result<OptimizeRepor
     let front = outcome.solution.pareto.as_ref();
     report.front = front.map(|it| figures::pareto(problem, it));
     if is_whole && job.report {
-        report.figures = figures(problem, outcome, study);
+        let (figures, missing) = figures(problem, outcome, study);
+        report.figures = figures;
+        report.warnings.extend(missing);
     }
     Ok(report)
 }

@@ -1,7 +1,10 @@
 //! What came of a search, and what was looked at of the design beside it.
 
+use std::fmt::Display;
+
 use serde::Serialize;
 use softstop::Parameter;
+use softstop::internals::budget;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_dynamics::basin::ErosionProfile;
@@ -13,6 +16,27 @@ use crate::design::solution::Solution;
 
 /// Places of the erosion profile beside the design's.
 pub(super) const PLACES: usize = 25;
+
+/// Work that one picture of many motions may cost, in scan windows: some minutes of a core.
+const PICTURE_WINDOWS: u64 = 10_000_000_000;
+
+/// What a picture of many motions shows, if that takes no more work than a picture may; otherwise the reason why the report
+/// goes without it, in words.
+pub(crate) fn for_picture<T, E: Display>(
+    picture: &str,
+    work: impl FnOnce() -> Result<T, E>,
+) -> Result<T, String> {
+    let (done, spent) = budget::within(PICTURE_WINDOWS, work);
+    let why = match done {
+        _ if spent >= PICTURE_WINDOWS => format!(
+            "its motions settle so slowly that they were not followed to their end within {} million scan windows",
+            PICTURE_WINDOWS / 1_000_000
+        ),
+        Err(error) => error.to_string(),
+        Ok(done) => return Ok(done),
+    };
+    Err(format!("the report goes without {picture}: {why}"))
+}
 
 /// What a run was doing when it was asked to end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -59,8 +83,8 @@ pub struct Outcome {
     pub evaluations: u64,
     /// Whether the run was asked to end.
     pub interrupted: Option<Interrupted>,
-    /// The basin along the zone, for the report.
-    pub erosion: Option<ErosionProfile>,
+    /// The basin along the zone, for the report, or why there is none.
+    pub erosion: Option<Result<ErosionProfile, String>>,
     /// Ways to run the machine up, for the report.
     pub run_up: Option<RunUp>,
 }
@@ -86,5 +110,27 @@ impl Outcome {
         interrupt::save();
         self.interrupted = Some(Interrupted::Report);
         Ok(None)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt;
+
+    use softstop::internals::budget;
+
+    use super::for_picture;
+
+    #[test]
+    fn a_picture_that_costs_too_much_is_left_out_with_its_reason() {
+        let costs = |windows| {
+            for_picture("the map", || {
+                budget::charge(windows);
+                Ok::<_, fmt::Error>(7)
+            })
+        };
+        assert_eq!(costs(1_000_000), Ok(7));
+        let why = costs(u64::MAX).expect_err("over its budget");
+        assert!(why.starts_with("the report goes without the map: its motions settle so slowly"));
     }
 }

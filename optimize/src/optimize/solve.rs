@@ -8,7 +8,7 @@ use softstop_dynamics::basin::{ErosionProfile, zone_box};
 use softstop_dynamics::run_up::{RunUp, RunUpSettings};
 
 use super::met::met;
-use super::outcome::{Interrupted, Outcome, PLACES};
+use super::outcome::{Interrupted, Outcome, PLACES, for_picture};
 use super::pareto;
 use super::progress::Best;
 use super::task::Job;
@@ -81,7 +81,10 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
             };
             let up = || RunUp::of(&design.orbit, &ways, ANGLES, watcher).ok();
             rayon::join(
-                || job.report.then(|| erosion(design)).flatten(),
+                || {
+                    job.report
+                        .then(|| for_picture("the basin along the zone", || erosion(design)))
+                },
                 || (job.report || is_required).then(up).flatten(),
             )
         }
@@ -111,13 +114,13 @@ fn interrupted_without_design() -> Failure {
 }
 
 /// The integrity along the zone of a design and at the design itself, by the starts that requirements count.
-fn erosion(design: &Design) -> Option<ErosionProfile> {
+fn erosion(design: &Design) -> anyhow::Result<ErosionProfile> {
     let watcher = &interrupt::watch;
-    let (region, widened) = zone_box(&design.orbit.scene, &design.zone, watcher).ok()?;
+    let (region, widened) = zone_box(&design.orbit.scene, &design.zone, watcher)?;
     let mut places = ErosionProfile::evenly_spaced_places(PLACES);
     places.push(design.place);
     places.sort_by(f64::total_cmp);
-    let mut profile = ErosionProfile::of(&design.zone, &region, (&places, STARTS), watcher).ok()?;
+    let mut profile = ErosionProfile::of(&design.zone, &region, (&places, STARTS), watcher)?;
     profile.widened |= widened;
-    Some(profile)
+    Ok(profile)
 }

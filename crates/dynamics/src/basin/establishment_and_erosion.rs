@@ -169,7 +169,7 @@ impl ErosionProfile {
     /// ball lies in it. The same for any number of threads.
     ///
     /// # Errors
-    /// [`ZoneError`] if a place lies outside the zone, a motion is lost or the monitor says stop.
+    /// [`ZoneError`] if a place lies outside the zone, a motion is lost, the monitor says stop or the budget is spent.
     pub fn of(
         zone: &Zone,
         region: &Region,

@@ -16,22 +16,40 @@ use rayon::join;
 use softstop::{Dimension, Machine, Parameter};
 
 use super::figure::Figure;
+use crate::design::share_of_starts::settles_slowly;
 use crate::design::{Design, Problem};
-use crate::optimize::outcome::Outcome;
+use crate::optimize::outcome::{Outcome, for_picture};
 use crate::optimize::study::Study;
 
 pub use pareto::pareto;
 pub use response::response;
 pub use sketch::sketch;
 
-/// The pictures of what a run has found, but for the response.
-pub fn figures(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> Vec<Figure> {
+/// Why there is no trade-off with certainty.
+const UNTRADED: &str = "the report goes without the trade-off with certainty: motions settle so slowly that the starts of as many \
+                        designs are not counted";
+
+/// The pictures of what a run has found, but for the response, and why some are missing.
+pub fn figures(
+    problem: &Problem,
+    outcome: &Outcome,
+    study: Option<&Study>,
+) -> (Vec<Figure>, Vec<String>) {
     let design = outcome.design();
     let (maps, (motions, basin)) = join(
         || map::maps(problem, design),
-        || join(|| portrait::motions(design), || basin::basin(design).ok()),
+        || {
+            let basin = || for_picture("the picture of its basins", || basin::basin(design));
+            join(|| portrait::motions(design), basin)
+        },
     );
-    let erosion = outcome.erosion.iter();
+    let erosion = outcome.erosion.as_ref();
+    let missing = [
+        settles_slowly(&design.orbit).then(|| UNTRADED.to_owned()),
+        erosion.and_then(|it| it.as_ref().err().cloned()),
+        basin.as_ref().err().cloned(),
+    ];
+    let erosion = erosion.and_then(|it| it.as_ref().ok());
     let fronts = outcome.solution.fronts.iter();
     let mut figures = maps;
     figures.push(sketch::sketch(&design.machine));
@@ -42,7 +60,7 @@ pub fn figures(problem: &Problem, outcome: &Outcome, study: Option<&Study>) -> V
     figures.extend(fronts.map(|it| front::front(problem, it)));
     figures.extend(study.map(|it| histogram::histogram(&design.machine, it)));
     figures.extend(study.map(|it| effects::effects(&design.machine, it)));
-    figures
+    (figures, missing.into_iter().flatten().collect())
 }
 
 /// The label of the before-impact velocity.
