@@ -162,6 +162,50 @@ fn the_best_design_so_far_is_written() -> Outcome {
     Ok(())
 }
 
+/// Whatever beginning of what a killed search has kept is there, it goes on to the same design, or says that no run has
+/// written it.
+#[test]
+fn every_beginning_of_what_is_kept_resumes_or_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("out");
+    let part = out.join("optimize.part");
+    let command = |more: &str| {
+        let mut command = Command::new(SOFTSTOP.file);
+        let line = "optimize loaded --evaluations 400 --no-report --samples 1000 --output out";
+        command.args(words(line)).args(words(more));
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        command.current_dir(folder.path());
+        command
+    };
+    let design = || fs::read(out.join("design.json"));
+    let mut run = command("").spawn()?;
+    let mut kept = Vec::new();
+    while run.try_wait()?.is_none() {
+        let now = fs::read(&part).unwrap_or_default();
+        if now.len() > kept.len() {
+            kept = now;
+        }
+    }
+    let whole = design()?;
+    assert!(kept.len() > 2000, "{} bytes are kept", kept.len());
+    let cuts = (0..16).chain((0..=16).map(|step| step * kept.len() / 16));
+    for cut in cuts {
+        fs::remove_dir_all(&out)?;
+        fs::create_dir(&out)?;
+        fs::write(&part, &kept[..cut])?;
+        let end = command("--resume").output()?;
+        let said = String::from_utf8_lossy(&end.stderr);
+        if end.status.success() {
+            assert_eq!(design()?, whole, "cut at {cut}");
+            assert!(!part.exists(), "cut at {cut}");
+        } else {
+            assert!(said.contains("no run has written it"), "{cut}: {said}");
+            assert_eq!(fs::read(&part)?, kept[..cut]);
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn study() {
     let kept = &["study.part"];
