@@ -65,8 +65,8 @@ impl Continuation<'_> {
             let (kind, point) = (SpecialKind::Critical(test), self.point_at(from)?);
             found.push(Special { kind, point });
         }
-        let touch = self.graze_between((from, to), CORNER_REACH)?;
-        found.extend(touch.map(|(_, special)| special));
+        let (touches, _) = self.grazes_of_ends((from, to), CORNER_REACH, |_| false)?;
+        found.extend(touches.into_iter().map(|(_, special)| special));
         Ok(found)
     }
 }

@@ -10,12 +10,14 @@ use super::grazing_test::GrazingTest;
 use super::half_branch::{End, Limits};
 use super::locate::{CurveCubic, along_chord, locate_zero};
 use super::period_map::PeriodMap;
-use super::point::{BranchPoint, Special, SpecialKind};
+use super::point::{BranchPoint, Graze, Special, SpecialKind};
 use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR};
 use softstop::internals::highest_point;
 
+/// Crossings of a face that come or go with one touch at most: onto it and back.
+const MAX_TOUCH_CROSSINGS: usize = 2;
 /// Share of a step over which a test is taken to be straight.
 const STRAIGHT_SHARE: f64 = 0.02;
 
@@ -140,17 +142,16 @@ impl Continuation<'_> {
         if a == b {
             return Ok(Vec::new());
         }
-        let found = self.graze_between((from, to), 0.0)?;
-        let [before, after] = sequences.map(|sequence| [sequence.faces, sequence.reversals]);
-        let is_whole = |special: &Special| match special.kind {
-            SpecialKind::Grazing(graze) => graze.crossings == a.min(b),
-            SpecialKind::Critical(_) | SpecialKind::Pitchfork => false,
+        let [before, after] = sequences.map(|sequence| (sequence.faces, sequence.reversals));
+        let touches = before.0.into_iter().zip(after.0);
+        let touches = touches.map(|(a, b)| a.abs_diff(b).div_ceil(MAX_TOUCH_CROSSINGS));
+        let touches: usize = touches.sum();
+        let is_whole = |graze: &Graze| {
+            graze.crossings == a.min(b) && touches <= 1 + usize::from(graze.is_symmetric)
         };
-        if found.as_ref().is_some_and(|(_, special)| is_whole(special))
-            || before == after
-            || (&to.at - &from.at).norm() < 0.1 * DIFFERENCE_WIDTH
-        {
-            return Ok(found.into_iter().collect());
+        let (found, is_whole) = self.grazes_of_ends((from, to), 0.0, is_whole)?;
+        if is_whole || before == after || (&to.at - &from.at).norm() < self.settings.smallest_step {
+            return Ok(found);
         }
         let middle = CurveCubic::between(&self.shooting, (from, to))?.node_at(0.5)?;
         let mut grazes = Vec::new();
@@ -164,29 +165,44 @@ impl Continuation<'_> {
         Ok(grazes)
     }
 
-    /// The grazing between two nodes that Newton's method reaches from one of them, or as many of their distances beyond them.
-    pub(super) fn graze_between(
+    /// The grazings between two nodes, or as many of their distances beyond them, that Newton's method reaches from them: the
+    /// first that is the whole difference, and whether it is, or one of each node, at different faces.
+    pub(super) fn grazes_of_ends(
         &self,
         (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
         beyond: f64,
-    ) -> Result<Option<(f64, Special)>, OrbitError> {
+        is_whole: impl Fn(&Graze) -> bool,
+    ) -> Result<(Vec<(f64, Special)>, bool), OrbitError> {
         let way = &to.at - &from.at;
+        let mut found: Vec<(f64, Special)> = Vec::new();
+        let mut faces = Vec::new();
         for node in [from, to] {
             for special in GrazingTest::of_node(&self.shooting, node).grazing_orbits(&self.shooting)
             {
+                let SpecialKind::Grazing(mut graze) = special.kind else {
+                    continue;
+                };
                 let at = self.place_of(&special.point)?;
                 let (share, off) = along_chord((&from.at, &way), &at);
                 if !(-beyond..=1.0 + beyond).contains(&share) || off > way.norm() {
                     continue;
                 }
-                let mut special = special.clone();
-                if let SpecialKind::Grazing(graze) = &mut special.kind {
-                    graze.dies = from.here.point.impacts.len() > graze.impacts;
+                graze.dies = from.here.point.impacts.len() > graze.impacts;
+                let special = Special {
+                    kind: SpecialKind::Grazing(graze),
+                    ..special.clone()
+                };
+                if is_whole(&graze) {
+                    return Ok((vec![(share, special)], true));
                 }
-                return Ok(Some((share, special)));
+                if !faces.contains(&graze.face) {
+                    faces.push(graze.face);
+                    found.push((share, special));
+                }
+                break;
             }
         }
-        Ok(None)
+        Ok((found, false))
     }
 
     /// The flip at which an orbit becomes one of half as many periods, or the pitchfork at which it becomes symmetric,

@@ -95,7 +95,7 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
     ) -> Result<(CheckedScene, f64), OrbitError> {
         let scene = self.family.scene(parameters)?.at_phase(angle)?;
         if self.is_symmetric && !is_symmetric(&scene) {
-            return Err(NO_CROSSING);
+            return Err(OrbitError::NotAlike);
         }
         let position = self.face.face_position(&scene).ok_or(NO_CROSSING)?;
         Ok((scene, position))

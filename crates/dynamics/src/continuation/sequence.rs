@@ -14,8 +14,8 @@ pub(crate) struct Sequence {
     pub impacts: usize,
     /// Crossings of surfaces, impacts on a rigid stop among them.
     pub surfaces: usize,
-    /// Crossings of surfaces at a [`Face`].
-    pub faces: usize,
+    /// Crossings of each [`Face`], in the order of [`Face::ALL`].
+    pub faces: [usize; Face::ALL.len()],
     /// Turns under dry friction.
     pub reversals: usize,
     /// Rows of bounces that end in rest.
@@ -140,7 +140,9 @@ impl<'a> CountedCrossings<'a> {
             match crossing.kind {
                 CrossingKind::Surface { .. } | CrossingKind::Rebound { .. } => {
                     sequence.surfaces += 1;
-                    sequence.faces += usize::from(face.is_some());
+                    if let Some(face) = face {
+                        sequence.faces[*face as usize] += 1;
+                    }
                     let gentle = face.is_none_or(|face| face.is_gentle(scene));
                     touched = sequence.count_passage(crossing, gentle, touched);
                 }

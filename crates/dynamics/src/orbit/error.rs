@@ -30,6 +30,9 @@ pub enum OrbitError {
     /// Orbits lie side by side, as where dry friction holds the mass for good, at one place or another.
     #[error("the periodic motion is one of many, side by side: no single one can be followed")]
     NotIsolated,
+    /// An orbit that touches both stops at once is looked for in a machine whose stops differ.
+    #[error("it touches two stops that are alike at once, and here they are not alike")]
+    NotAlike,
     /// The periodic motion has another number of impacts.
     #[error("the periodic motion has {impacts} impacts in its period, not one")]
     OtherRegime {
