@@ -211,12 +211,14 @@ impl Continuation<'_> {
         &self,
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
-    ) -> Option<(BranchPoint, End)> {
+    ) -> Result<Option<(BranchPoint, End)>, OrbitError> {
         let periods = self.shooting.periods;
         let is_even = periods.is_multiple_of(2);
-        let (a, b) = (self.merging_gap(from)?, self.merging_gap(to)?);
+        let (Some(a), Some(b)) = (self.merging_gap(from), self.merging_gap(to)) else {
+            return Ok(None);
+        };
         if a.dot(&b) >= 0.0 && b.norm() > NEAR * a.norm() {
-            return None;
+            return Ok(None);
         }
         let share = a.norm() / (a.norm() + b.norm());
         let way = &to.at - &from.at;
@@ -224,8 +226,9 @@ impl Continuation<'_> {
         // Where an impact passes drive angle phi the gaps change their sides, too: what is found then lies elsewhere.
         let is_near = |place: &DVector<f64>| (place - &at).norm() <= way.norm();
         if !is_even {
-            let node = self.pitchfork(&at).ok().filter(|it| is_near(&it.at))?;
-            return Some((self.point_at(&node).ok()?, End::Symmetric));
+            let node = self.pitchfork(&at).ok().filter(|it| is_near(&it.at));
+            let point = node.and_then(|node| self.point_at(&node).ok());
+            return Ok(point.map(|point| (point, End::Symmetric)));
         }
         let continuation = self.over_periods(periods / 2);
         let [parameter] = self.shooting.parameters(&at);
@@ -237,16 +240,25 @@ impl Continuation<'_> {
             // Right beside grazing Newton's method does not settle on the flip: the gap vanishes there nevertheless.
             let left = |node: &Node<PeriodMap>| self.merging_gap(node).map(|gap| gap.dot(&a));
             let value = |node: &Node<PeriodMap>| left(node).unwrap_or(f64::NAN);
-            let (node, _) = locate_zero(&self.shooting, (from, to), value).ok()?;
-            let vanishes = self.merging_gap(&node)?.norm() < NEAR * a.norm().max(b.norm());
-            return vanishes.then_some((self.point_at(&node).ok()?, End::Merged));
+            let Ok((node, _)) = locate_zero(&self.shooting, (from, to), value) else {
+                return Ok(None);
+            };
+            let gap = self.merging_gap(&node);
+            if gap.is_none_or(|gap| gap.norm() >= NEAR * a.norm().max(b.norm())) {
+                return Ok(None);
+            }
+            // So it does on the orbit without the touch.
+            return match node.here.point.sequence == from.here.point.sequence {
+                true => Ok(Some((self.point_at(&node)?, End::Merged))),
+                false => Err(OrbitError::LOST),
+            };
         };
         let twice = BranchPoint {
             impacts: flip.impacts.repeat(2),
             monodromy: flip.monodromy.squared(),
             ..flip
         };
-        Some((twice, End::Merged))
+        Ok(Some((twice, End::Merged)))
     }
 
     /// Scaled gap that closes where an orbit merges: from a state to that after half the periods, or to its mirror image; none

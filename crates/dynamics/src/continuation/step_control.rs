@@ -10,7 +10,7 @@ use super::shooting::Shooting;
 use super::stepper::{CurveStep, Stepper};
 use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
-use crate::tolerance::DIFFERENCE_WIDTH;
+use crate::tolerance::{DIFFERENCE_WIDTH, SAME};
 
 /// Shares of the way to a grazing at which a fold is looked for behind.
 const FOLD_SEARCH_SHARES: [f64; 3] = [0.9, 0.99, 0.999];
@@ -23,8 +23,9 @@ const REST_DISTANCES: [f64; 3] = [1e-4, 1e-3, 1e-2];
 const MERGING_GAP: f64 = 0.05;
 
 impl Continuation<'_> {
-    /// Ends a branch that cannot be followed any farther: in the grazing just ahead, at the end of the range just ahead
-    /// (of values that no machine can have beyond), at an orbit that is too unstable, or lost.
+    /// Ends a branch that cannot be followed any farther: where its orbit is one of half its period, in the grazing just ahead,
+    /// at the end of the range just ahead (of values that no machine can have beyond), at an orbit that is too unstable, or
+    /// lost.
     pub(super) fn end_branch(
         &self,
         way: &mut HalfBranch,
@@ -33,6 +34,12 @@ impl Continuation<'_> {
         limits: &Limits,
         error: OrbitError,
     ) {
+        let is_even = self.shooting.periods.is_multiple_of(2);
+        let gap = self.merging_gap(&stepper.node).filter(|_| is_even);
+        if gap.is_some_and(|gap| gap.norm() < SAME) {
+            way.end = End::Merged;
+            return;
+        }
         let reach = self.settings.newton_reach;
         if way.end_in_grazing(self.graze_within(reach, stepper, grazing_test)) {
             return;

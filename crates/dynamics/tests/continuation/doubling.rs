@@ -128,6 +128,30 @@ fn doubled_branches_end_in_the_next_flip_of_their_branch() {
     }
 }
 
+/// A stop so stiff that all of the doubled orbits from the flip beside grazing on lie within 1e-9 of its frequency: rounding tells
+/// on no step where the halves change sides.
+#[test]
+fn doubled_branches_of_stiff_stops_end_in_a_flip() {
+    for stiffness in [1e5, 1e6] {
+        let contact = 0.18 * f64::sqrt(stiffness);
+        let scene = with_changes(
+            "unloaded",
+            &format!(
+                "damping=0.04 contact.damping={contact} stop.stiffness={stiffness} stop.preload=0"
+            ),
+        );
+        let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
+        let range = (0.9, 1.5);
+        let branch = follow(&family, 1, (1.15, Vector2::new(6.9, 9.5)), range);
+        let flips = of_kind(&branch, "PD");
+        let doubled = double_within(&family, 1, &flips[1].point, range);
+        assert!(matches!(doubled.ends.1, End::Merged), "{:?}", doubled.ends);
+        let last = doubled.points.last().expect("points");
+        assert_near(last.parameter, flips[0].point.parameter, SOLVED);
+        assert_eq!(last.impacts.len(), 2, "{stiffness}");
+    }
+}
+
 /// Orbits of four periods end at a flip of those of two at which the weaker impact all but grazes.
 #[test]
 fn doubled_branches_end_beside_grazing() {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use anyhow::anyhow;
 use nalgebra::Vector2;
 use softstop::Machine;
-use softstop_dynamics::continuation::{Family, SpecialKind, TestFunction};
+use softstop_dynamics::continuation::{End, Family, Special, SpecialKind, TestFunction};
 use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily};
 
 use super::{ContinueArguments, Followed, family, seed};
@@ -17,6 +17,8 @@ use softstop_console::progress::Progress;
 pub(super) const STEP: f64 = 0.02;
 /// Steps of a narrow range, and the least share of `STEP` that they are.
 const NARROW: (f64, f64) = (100.0, 0.1);
+/// Steps of a range many times as wide as the machine's own value, which `STEP` is a share of.
+const WIDE: f64 = 2000.0;
 
 /// A continuation with steps that leave the chart of a range no corners.
 fn continuation<'a>(
@@ -26,7 +28,8 @@ fn continuation<'a>(
 ) -> Result<Continuation<'a>, Failure> {
     let ([scale], (low, high)) = (family.parameter_scales(), limits.range);
     let (steps, least) = NARROW;
-    let largest = ((high - low) / (steps * scale)).clamp(least * STEP, STEP);
+    let width = (high - low) / scale;
+    let largest = (width / steps).clamp(least * STEP, STEP.max(width / WIDE));
     Ok(Continuation::new(family, periods).with_steps(largest)?)
 }
 
@@ -75,7 +78,11 @@ pub(super) fn branches(
     Ok(branches)
 }
 
-/// The branches of twice the period from the flips of one, and those of asymmetric orbits from its pitchforks.
+/// Distance, in units of the family's scales, within which a branch merges into another one at a special point of that.
+const SAME: f64 = 1e-6;
+
+/// The branches of twice the period from the flips of one, and those of asymmetric orbits from its pitchforks, each from one end
+/// alone.
 fn doubled(
     family: &ParameterFamily<1>,
     branch: &Branch,
@@ -83,11 +90,23 @@ fn doubled(
     bar: &Progress,
 ) -> Result<Vec<Branch>, Failure> {
     let follower = continuation(family, branch.periods, limits)?;
-    let flips = branch.critical_points(TestFunction::Flip);
-    let doubled = flips.map(|flip| follower.double_period(flip, limits, |_| count(bar)));
-    let pitchforks = branch.specials.iter();
-    let pitchforks = pitchforks.filter(|special| special.kind == SpecialKind::Pitchfork);
-    let asymmetric = pitchforks
-        .map(|special| follower.branch_asymmetric(&special.point, limits, |_| count(bar)));
-    Ok(doubled.chain(asymmetric).filter_map(Result::ok).collect())
+    let [scale] = family.parameter_scales();
+    let mut found: Vec<Branch> = Vec::new();
+    for Special { kind, point, .. } in &branch.specials {
+        let is_reached = |other: &Branch| {
+            let last = other.points.last();
+            matches!(other.ends.1, End::Merged | End::Symmetric)
+                && last.is_some_and(|it| (it.parameter - point.parameter).abs() < SAME * scale)
+        };
+        let doubled = match kind {
+            _ if found.iter().any(is_reached) => continue,
+            SpecialKind::Critical(TestFunction::Flip) => {
+                follower.double_period(point, limits, |_| count(bar))
+            }
+            SpecialKind::Pitchfork => follower.branch_asymmetric(point, limits, |_| count(bar)),
+            _ => continue,
+        };
+        found.extend(doubled);
+    }
+    Ok(found)
 }
