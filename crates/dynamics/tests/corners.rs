@@ -5,7 +5,7 @@ use softstop_testing::tolerance::SOLVED;
 use std::ops::ControlFlow;
 
 use softstop::{Machine, Parameter, Ratios, Scene, Stop};
-use softstop_dynamics::continuation::End;
+use softstop_dynamics::continuation::{End, TestFunction};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::{
     Branch, BranchPoint, Continuation, Limits, Orbit, ParameterFamily, StroboscopicMap,
@@ -128,5 +128,40 @@ fn turning_points_pass_kinks() -> Outcome {
             .clone()
             .any(|point| point.impacts.len() == 1 && !deepest(&point))
     );
+    Ok(())
+}
+
+/// The damper of a stop that lets go where its force vanishes sets in with a touch: the multipliers jump past 1 there, and the
+/// branch turns back as at a fold. Where it turns back farther on, they pass 1.
+#[test]
+fn a_fold_at_a_touch_is_told_from_one_that_multipliers_pass() -> Outcome {
+    let file = "
+        mass = 1.0
+        stiffness = 1.0
+        damping = 0.1
+        clearance = 1.0
+        contact.damping = 3.0
+        excitation = { amplitude = 1.0, frequency = 1.1 }
+        stop = { model = 'kelvinVoigt', stiffness = 50.0, release = 'zeroForce' }
+        initial = { position = 0.0, velocity = 1.0 }
+    ";
+    let scene = Machine::from_toml(file)?.scene;
+    let state = find(&scene)?.state();
+    let family = ParameterFamily::new(scene, [Parameter::Amplitude])?;
+    let limits = Limits {
+        range: (0.01, 3.0),
+        points: 2000,
+    };
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let branch = Continuation::new(&family, 1).branch(1.0, state, &limits, go_on)?;
+    let touch = 0.21f64.hypot(0.11);
+    let folds = branch.critical_points(TestFunction::Fold);
+    let folds = folds.map(|fold| {
+        let jumps = TestFunction::Fold.jumps_at(&fold.monodromy);
+        (jumps, is_near(fold.parameter, touch, SOLVED))
+    });
+    let mut folds: Vec<(bool, bool)> = folds.collect();
+    folds.sort();
+    assert_eq!(folds, [(false, false), (true, true)]);
     Ok(())
 }

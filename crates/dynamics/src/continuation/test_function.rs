@@ -1,7 +1,7 @@
 //! Test functions of the monodromy matrix for folds, flips and Neimark-Sacker points.
 
 use crate::orbit::Monodromy;
-use crate::tolerance::TEST_ROUNDING;
+use crate::tolerance::{NEAR, TEST_ROUNDING};
 
 /// A function of the monodromy matrix that vanishes at a bifurcation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +36,11 @@ impl TestFunction {
             Self::NeimarkSacker => determinant - 1.0,
         };
         weight * test / size
+    }
+
+    /// True if the test does not vanish at a point where its sign changes: multipliers jump there, where a touch comes or goes.
+    pub fn jumps_at(self, monodromy: &Monodromy) -> bool {
+        self.scaled_value(monodromy).abs() > NEAR
     }
 
     /// True if no test changes by more than `most` between two orbits.

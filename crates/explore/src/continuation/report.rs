@@ -36,7 +36,7 @@ type Classified<'a> = (&'a Special, Option<f64>);
 fn specials<'a>() -> [Column<Classified<'a>>; 9] {
     columns! { Classified<'a>, it;
         "symbol" [None] Plain, "SN, PD, NS, G or PF" => it.0.kind.symbol();
-        "name" [None] Plain, "what it is" => describe(&it.0.kind);
+        "name" [None] Plain, "what it is" => describe(it.0);
         "value" [None] Fixed(12), "of the parameter" => it.0.point.parameter;
         "position" [Length], "at time 0, that is at drive angle phi" => it.0.point.position;
         "velocity" [Velocity], "there" => it.0.point.velocity;
@@ -78,7 +78,7 @@ type Failed<'a> = &'a (&'a Special, OrbitError);
 fn failures<'a>() -> [Column<Failed<'a>>; 4] {
     columns! { Failed<'a>, it;
         "symbol" [None] Plain, "SN, PD, NS or G" => it.0.kind.symbol();
-        "name" [None] Plain, "what it is" => describe(&it.0.kind);
+        "name" [None] Plain, "what it is" => describe(it.0);
         "value" [None] Fixed(12), "of the first parameter" => it.0.point.parameter;
         "reason" [None] Plain, "why no curve begins there" => it.1.to_string();
     }
@@ -110,10 +110,16 @@ fn ends(ends: [String; 2]) -> Told {
     }
 }
 
-/// What a special point is, with what becomes of the regime at a grazing.
-fn describe(kind: &SpecialKind) -> String {
+/// What a special point is, with what becomes of the regime at a grazing, and whether multipliers jump past it there.
+fn describe(special: &Special) -> String {
+    let kind = &special.kind;
     let SpecialKind::Grazing(graze) = kind else {
-        return kind.name().to_owned();
+        return match kind {
+            SpecialKind::Critical(test) if test.jumps_at(&special.point.monodromy) => {
+                format!("{}: multipliers jump within the last digit", kind.name())
+            }
+            _ => kind.name().to_owned(),
+        };
     };
     let what = if graze.dies {
         "a crossing dies"
