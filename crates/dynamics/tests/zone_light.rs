@@ -163,6 +163,21 @@ fn without_a_grazing_boundary_there_are_stretches() -> Outcome {
     Ok(())
 }
 
+/// With hardly any damping there are motions with one impact at resonances whose ranges are narrower than rounding: none is told.
+#[test]
+fn ranges_narrower_than_rounding_are_left_out() -> Outcome {
+    for damping in [1e-8, 1e-9, 0.0] {
+        let scene = Scene {
+            damping,
+            ..Ratios::unloaded().scene()?
+        };
+        let found = stable_ranges(&scene)?;
+        assert_eq!(found.len(), 1, "{damping}");
+        assert_near(found[0].high.frequency, 1.465_137, 1e-6);
+    }
+    Ok(())
+}
+
 #[derive(Deserialize)]
 struct Light {
     narrow: Vec<Settled>,

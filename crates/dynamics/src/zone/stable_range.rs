@@ -9,7 +9,7 @@ use super::loss::Loss;
 use super::{Frequencies, Zone};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Family, OFF_CHORD, SpecialKind};
 use crate::orbit::OrbitError;
-use crate::tolerance::SAME;
+use crate::tolerance::{ROUNDING, SAME};
 use softstop::internals::highest_point;
 use softstop::{CheckedScene, Scene};
 
@@ -182,7 +182,7 @@ impl RangeCandidate {
         }
     }
 
-    /// The stable range, if the motions between the ends of the part are stable and have one impact.
+    /// The stable range, if the motions between the ends of the part are stable and have one impact, and the ends are told apart.
     fn into_range(self, continuation: &Continuation<'_>, ends: RangeEnd) -> Option<StableRange> {
         let Self { begins, mut points } = self;
         // Both ends may lie on one step.
@@ -199,6 +199,10 @@ impl RangeCandidate {
         if points[0].parameter > points[points.len() - 1].parameter {
             points.reverse();
             causes.reverse();
+        }
+        let [low, high] = [points[0].parameter, points[points.len() - 1].parameter];
+        if high - low <= ROUNDING * high {
+            return None;
         }
         let [below, above] = causes;
         Some(StableRange {
