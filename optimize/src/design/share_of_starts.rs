@@ -3,7 +3,7 @@
 use softstop_console::interrupt;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::attractors::{Region, starting_box};
-use softstop_dynamics::basin::Establishment;
+use softstop_dynamics::basin::{Establishment, SLOW_DECAY};
 use softstop_dynamics::orbit::OrbitError;
 
 use super::Design;
@@ -19,9 +19,6 @@ use crate::robust::Neighbours;
 const FIRST_STARTS: usize = STARTS / 16;
 /// Exponent of e of the probability that so few of the first starts lead to a motion to which enough of all do.
 const REFUTING_EXPONENT: f64 = 14.0;
-/// Decay a drive period, as an exponent, below which a basin test no longer follows all motions to their end (28 / 20,000): a
-/// start then takes so many periods that a share far too small is told by the first ones.
-const SLOW_DECAY: f64 = 1.4e-3;
 
 impl Problem {
     /// The least share of starts that lead to the motion of a design, of its own machine or of those within the tolerances that
@@ -120,7 +117,8 @@ impl OperatingPoint<'_> {
     }
 }
 
-/// Whether motions near an orbit decay so slowly that a basin test does not follow all of them to their end.
+/// Whether motions near an orbit decay so slowly that a basin test does not follow all of them to their end: a start then takes so
+/// many periods that a share far too small is told by the first ones.
 pub fn settles_slowly(orbit: &Orbit) -> bool {
     let slowest = orbit.multipliers()[0].norm();
     -slowest.ln() < SLOW_DECAY * orbit.periods as f64

@@ -28,6 +28,8 @@ const APPROACH_PERIODS: u64 = 256;
 const SETTLING_EXPONENT: f64 = 28.0;
 /// Most drive periods that a basin test grants motions for their decay onto the orbit.
 const MAX_SETTLING_PERIODS: f64 = 20_000.0;
+/// Decay a drive period, as an exponent, below which a basin test does not follow all motions to their end.
+pub const SLOW_DECAY: f64 = SETTLING_EXPONENT / MAX_SETTLING_PERIODS;
 /// Decay a drive period, as an exponent, below which an orbit is at a border to rounding, as at a fold.
 const MIN_DECAY_EXPONENT: f64 = 1e-5;
 /// Drive periods that motions get to come to an orbit at a border.

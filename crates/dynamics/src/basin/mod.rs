@@ -40,8 +40,8 @@ mod survey;
 
 pub use crate::wilson_interval::wilson_interval;
 pub use axis::{Axis, AxisQuantity};
-pub use basin_test::BasinTest;
 pub(crate) use basin_test::TestedMotion;
+pub use basin_test::{BasinTest, SLOW_DECAY};
 pub use certainty::{CertaintyAtPlace, establishing_certainties};
 pub use entropy::BasinEntropy;
 pub use establishment_and_erosion::{ErosionProfile, Establishment, Integrity, zone_box};

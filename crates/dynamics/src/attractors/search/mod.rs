@@ -47,6 +47,16 @@ struct Group {
     entered: usize,
 }
 
+impl Group {
+    /// Keeps the exponents of the motion whose first one is the largest.
+    fn keep_largest(&mut self, exponents: Exponents) {
+        let larger = |best: &Exponents| exponents.per_period[0] > best.per_period[0];
+        if self.exponents.as_ref().is_none_or(larger) {
+            self.exponents = Some(exponents);
+        }
+    }
+}
+
 /// A search of the attractors of a scene.
 struct Search<'a> {
     scene: CheckedScene,

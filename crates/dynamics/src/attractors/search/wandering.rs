@@ -41,12 +41,10 @@ impl Search<'_> {
             for index in indices {
                 self.members[index].group = Some(number);
             }
-            match self.groups.get_mut(&number) {
-                Some(known) => known.entered += group.entered,
-                None => {
-                    self.groups.insert(number, group);
-                }
-            }
+            let known = self.groups.entry(number).or_default();
+            known.entered += group.entered;
+            known.chaos = group.chaos.or(known.chaos);
+            group.exponents.map(|own| known.keep_largest(own));
         }
         Ok(())
     }
@@ -61,10 +59,7 @@ impl Search<'_> {
         for &index in indices.iter().take(MAX_EXPONENT_TRIES) {
             let state = self.members[index].member.state;
             let (exponents, end, wanders) = self.measure_exponents(state)?;
-            let larger = |best: &Exponents| exponents.per_period[0] > best.per_period[0];
-            if group.exponents.as_ref().is_none_or(larger) {
-                group.exponents = Some(exponents);
-            }
+            group.keep_largest(exponents);
             if wanders && exponents.is_positive() {
                 let chaos = Chaos::of_motion(&self.scene, &self.ensemble, (state, end), exponents)?;
                 // Without impacts the motion is linear and damped: it settles, if slowly.
