@@ -70,12 +70,6 @@ impl StripSurvival {
         let back = self.gaps.iter().filter(|gap| gap.comes_back).count();
         back as f64 / self.gaps.len() as f64
     }
-
-    /// Most strokes missed in a gap of missing strips after which the motion comes back.
-    pub fn max_missed_strokes(&self) -> u64 {
-        let back = self.gaps.iter().filter(|gap| gap.comes_back);
-        back.map(|gap| gap.missed).max().unwrap_or(0)
-    }
 }
 
 /// Gaps of missing strips whose motions are followed together; it may not depend on how many threads there are.

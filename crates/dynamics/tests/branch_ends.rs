@@ -50,7 +50,7 @@ fn orbit(scene: &Scene) -> Option<Orbit> {
 /// Its branch along the frequency, over two octaves, or along the clearance.
 fn branch(scene: &Scene, orbit: &Orbit, along: Parameter) -> Result<Branch, OrbitError> {
     let family = ParameterFamily::new(scene.clone(), [along]).expect("every machine has it");
-    let [value] = family.own_values();
+    let value = along.get(scene).expect("every machine has it");
     let range = match along {
         Parameter::Frequency => (0.5 * value, 2.0 * value),
         _ => (value - 3.0, value + 3.0),

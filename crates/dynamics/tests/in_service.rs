@@ -8,7 +8,7 @@ use softstop_dynamics::basin::{
 };
 use softstop_dynamics::missing_strips::{StopWithoutStrip, survives_missing_strips};
 use softstop_dynamics::monitor::{stop_if, unmonitored};
-use softstop_dynamics::run_up::{RunUp, RunUpSettings, Way};
+use softstop_dynamics::run_up::{Attempt, RunUp, RunUpSettings, Way};
 use softstop_dynamics::{Axis, Grid, Orbit, Regime, Zone, orbit, zone};
 use softstop_testing::{loaded, unloaded};
 
@@ -80,7 +80,8 @@ fn b_outlasts_missing_strips() {
             let found =
                 survives_missing_strips(&b, missing, reading, 64, &unmonitored).expect("computed");
             assert_eq!((found.return_share(), found.gaps.len()), (1.0, 64));
-            assert_eq!(found.max_missed_strokes(), 0, "{missing} {reading:?}");
+            let missed = found.gaps.iter().any(|gap| gap.missed > 0);
+            assert!(!missed, "{missing} {reading:?}");
         }
     }
 }
@@ -95,6 +96,11 @@ fn near_the_fold_missing_strips_end_the_motion() {
     assert!(found.return_share() < 0.5, "{}", found.return_share());
     let lost = found.gaps.iter().filter(|gap| !gap.comes_back);
     assert!(lost.clone().count() > 0 && lost.clone().all(|gap| gap.missed > 3));
+}
+
+fn attempt_by(run_up: &RunUp, way: Way) -> &Attempt {
+    let mut ways = run_up.ways.iter();
+    ways.find(|attempt| attempt.way == way).expect("tried")
 }
 
 fn all_ways() -> RunUpSettings {
@@ -115,7 +121,7 @@ fn the_peaks_of_a_ramp_are_those_of_a_simulation() {
         ..RunUpSettings::default()
     };
     let found = RunUp::of(&orbit, &settings, 1, &unmonitored).expect("computed");
-    let attempt = found.attempt_by(Way::FrequencyRaised).expect("tried");
+    let attempt = attempt_by(&found, Way::FrequencyRaised);
     let steps = attempt.periods.expect("periods");
     assert_eq!(steps, 131, "from 0.5 to 1.15");
     let (mut state, mut highest, mut force) = (Start::REST, 0.0_f64, 0.0_f64);
@@ -171,13 +177,8 @@ fn a_and_b_are_run_up_from_impacts() {
             Way::AmplitudeLowered,
         ];
         assert_eq!(works, ways, "{run_up}");
-        assert_eq!(
-            run_up
-                .attempt_by(Way::SwitchedOn)
-                .map(|attempt| attempt.share),
-            Some(0.0)
-        );
-        let lowered = run_up.attempt_by(Way::FrequencyLowered).expect("tried");
+        assert_eq!(attempt_by(&run_up, Way::SwitchedOn).share, 0.0);
+        let lowered = attempt_by(&run_up, Way::FrequencyLowered);
         assert_eq!((lowered.lost, lowered.from), (None, Some(2.3)));
         assert!(
             run_up

@@ -20,7 +20,7 @@ impl Continuation<'_> {
     ///
     /// # Errors
     /// [`OrbitError`] if a correction fails.
-    pub fn critical_between(
+    pub(crate) fn critical_between(
         &self,
         from: &BranchPoint,
         to: &BranchPoint,
@@ -74,7 +74,7 @@ impl Continuation<'_> {
     ///
     /// # Errors
     /// [`OrbitError`] if a correction fails.
-    pub fn point_between(
+    pub(crate) fn point_between(
         &self,
         from: &BranchPoint,
         to: &BranchPoint,

@@ -12,7 +12,6 @@ use super::normal_form::null_vector;
 use super::period_map::PeriodMap;
 use super::point::BranchPoint;
 use super::test_function::TestFunction;
-use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
 
 /// Scaled distances from a flip or a pitchfork at which the branch that comes out of it is looked for.
@@ -73,34 +72,5 @@ impl Continuation<'_> {
             }
         }
         Err(OrbitError::LOST)
-    }
-
-    /// Follows a cascade of at most `count` doublings: the first flip, the first on its doubled branch, and so on.
-    ///
-    /// # Errors
-    /// [`OrbitError`] if a doubled branch cannot be followed.
-    pub fn follow_cascade(
-        &self,
-        first: &BranchPoint,
-        count: usize,
-        limits: &Limits,
-    ) -> Result<Vec<BranchPoint>, OrbitError> {
-        let mut flips = vec![first.clone()];
-        let mut periods = self.shooting.periods;
-        while flips.len() < count {
-            let continuation = self.over_periods(periods);
-            let flip = &flips[flips.len() - 1];
-            let mut first = None;
-            let branch = continuation.double_period(flip, limits, |point| {
-                let is_positive = TestFunction::Flip.scaled_value(&point.monodromy) > 0.0;
-                stop_if(*first.get_or_insert(is_positive) != is_positive)
-            })?;
-            let Some(next) = branch.critical_points(TestFunction::Flip).next() else {
-                break;
-            };
-            flips.push(next.clone());
-            periods *= 2;
-        }
-        Ok(flips)
     }
 }

@@ -45,12 +45,6 @@ impl<const N: usize> ParameterFamily<N> {
             parameter_scales,
         })
     }
-
-    /// The values of the family's parameters that the machine itself has.
-    pub fn own_values(&self) -> [f64; N] {
-        self.parameters
-            .map(|parameter| self.machine.value(parameter).unwrap_or(f64::NAN))
-    }
 }
 
 impl<const N: usize> Family<N> for ParameterFamily<N> {

@@ -76,13 +76,6 @@ pub struct Losses {
     pub stop: f64,
 }
 
-impl Losses {
-    /// All energy in J that a period dissipates.
-    pub fn total_loss(&self) -> f64 {
-        self.free_damping + self.contact_damping + self.impacts + self.strip + self.stop
-    }
-}
-
 /// The largest position in m less that of the strip's far side; none without a strip.
 pub(crate) fn depth_beyond_strip(orbit: &Orbit) -> Option<f64> {
     let scene = &orbit.scene;

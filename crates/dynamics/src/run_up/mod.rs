@@ -188,11 +188,6 @@ impl RunUp {
         let within = |most: f64| attempt.peaks.is_some_and(|it| it.stop_force <= most);
         self.most_force.is_none_or(within)
     }
-
-    /// The attempt to run up by one way.
-    pub fn attempt_by(&self, way: Way) -> Option<&Attempt> {
-        self.ways.iter().find(|attempt| attempt.way == way)
-    }
 }
 
 impl Display for RunUp {

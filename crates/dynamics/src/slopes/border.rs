@@ -53,14 +53,6 @@ impl Border {
         self.scene.excitation.frequency
     }
 
-    /// The normal of the border along one of its parameters instead of the frequency: d(q - q_b)/d(parameter), q_b the
-    /// value of q at which the border stands while the others are as they are; none if it is not among the parameters.
-    pub fn normal_along(&self, parameter: Parameter) -> Option<Vec<f64>> {
-        let index = self.parameters.iter().position(|own| *own == parameter)?;
-        let own = self.normal[index];
-        Some(self.normal.iter().map(|part| part / own).collect())
-    }
-
     /// The border g0, where the motion without impacts grazes the stop above resonance, or its counterpart below.
     ///
     /// # Errors
@@ -191,7 +183,7 @@ impl Border {
     }
 
     /// The border's frequency in rad/s of a machine close by, as its tangent predicts it.
-    pub fn predicted_frequency(&self, scene: &Scene) -> f64 {
+    fn predicted_frequency(&self, scene: &Scene) -> f64 {
         let others = self.parameters.iter().zip(&self.normal);
         let others = others.filter(|(parameter, _)| **parameter != Parameter::Frequency);
         let there = scene.at_frequency(self.frequency());

@@ -16,7 +16,6 @@ fn rigid() -> Frequencies {
 #[test]
 fn doublings_of_a_rigid_stop_are_feigenbaums() {
     let family = rigid();
-    let continuation = Continuation::new(&family, 1);
     let limits = Limits {
         range: (1.5, 3.0),
         points: 500,
@@ -24,9 +23,24 @@ fn doublings_of_a_rigid_stop_are_feigenbaums() {
     let state = Vector2::new(-0.630_529, 0.062_449);
     let branch = follow(&family, 1, (2.2, state), limits.range);
     let flip = of_kind(&branch, "PD").remove(0).point;
-    let flips = continuation
-        .follow_cascade(&flip, 5, &limits)
-        .expect("a cascade");
+    let next = |flip: &BranchPoint| {
+        let continuation = Continuation::new(&family, flip.impacts.len() as u64);
+        let mut first = None;
+        let branch = continuation.double_period(flip, &limits, |point| {
+            let is_positive = TestFunction::Flip.scaled_value(&point.monodromy) > 0.0;
+            match *first.get_or_insert(is_positive) == is_positive {
+                true => ControlFlow::Continue(()),
+                false => ControlFlow::Break(()),
+            }
+        });
+        let flip = branch
+            .expect("doubled orbits")
+            .critical_points(TestFunction::Flip)
+            .next()
+            .cloned();
+        flip
+    };
+    let flips: Vec<BranchPoint> = std::iter::successors(Some(flip), next).take(5).collect();
     assert_eq!(flips.len(), 5);
     for (index, flip) in flips.iter().enumerate() {
         assert_eq!(flip.impacts.len(), 1 << index);
