@@ -33,12 +33,11 @@ fn doublings_of_a_rigid_stop_are_feigenbaums() {
                 false => ControlFlow::Break(()),
             }
         });
-        let flip = branch
+        branch
             .expect("doubled orbits")
             .critical_points(TestFunction::Flip)
             .next()
-            .cloned();
-        flip
+            .cloned()
     };
     let flips: Vec<BranchPoint> = std::iter::successors(Some(flip), next).take(5).collect();
     assert_eq!(flips.len(), 5);

@@ -55,12 +55,15 @@ fn message(panic: &(dyn Any + Send)) -> &str {
         .unwrap_or("unknown")
 }
 
+/// What a C function does with an instance. Behind a `dyn`, what guards it is compiled once, not once for each function.
+type Action<'a, U, H> = &'a mut dyn FnMut(&mut Component<U, H>) -> Result<(), Fault>;
+
 /// Runs a call on an instance: a fault becomes an error and one log line, a panic as well, after
-/// which the instance must be reset. A `dyn` action: this is compiled once, not once for each C function.
+/// which the instance must be reset.
 pub(crate) fn guarded<U: Unit, H: Host>(
     component: Option<&mut Component<U, H>>,
     call: &'static str,
-    action: &mut dyn FnMut(&mut Component<U, H>) -> Result<(), Fault>,
+    action: Action<'_, U, H>,
 ) -> c_int {
     let Some(component) = component else {
         return Status::Error as c_int;

@@ -44,7 +44,9 @@ impl Search<'_> {
             let known = self.groups.entry(number).or_default();
             known.entered += group.entered;
             known.chaos = group.chaos.or(known.chaos);
-            group.exponents.map(|own| known.keep_largest(own));
+            if let Some(own) = group.exponents {
+                known.keep_largest(own);
+            }
         }
         Ok(())
     }
