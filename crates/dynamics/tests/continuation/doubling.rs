@@ -2,6 +2,7 @@
 
 use super::*;
 use softstop::Machine;
+use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::orbit;
 use softstop_testing::tolerance::MOTION;
 use softstop_testing::{assert_near, with_changes};
@@ -28,16 +29,10 @@ fn doublings_of_a_rigid_stop_are_feigenbaums() {
         let mut first = None;
         let branch = continuation.double_period(flip, &limits, |point| {
             let is_positive = TestFunction::Flip.scaled_value(&point.monodromy) > 0.0;
-            match *first.get_or_insert(is_positive) == is_positive {
-                true => ControlFlow::Continue(()),
-                false => ControlFlow::Break(()),
-            }
+            stop_if(*first.get_or_insert(is_positive) != is_positive)
         });
-        branch
-            .expect("doubled orbits")
-            .critical_points(TestFunction::Flip)
-            .next()
-            .cloned()
+        let branch = branch.expect("doubled orbits");
+        branch.critical_points(TestFunction::Flip).next().cloned()
     };
     let flips: Vec<BranchPoint> = std::iter::successors(Some(flip), next).take(5).collect();
     assert_eq!(flips.len(), 5);
