@@ -5,16 +5,13 @@ use std::collections::HashSet;
 
 use super::Infeasible;
 use super::coordinates::SearchStart;
-use super::distant_values::check_distant_values;
-use super::improve_catalogue::{CatalogueSearch, Catalogues};
+use super::improve_catalogue::Catalogues;
 use super::judge::Met;
 use super::problem::Problem;
 use super::robustify::{Robust, look};
 use super::trial_search::{RESOLUTION, Resolution, Trials};
 use crate::order::sort_falling;
 
-/// Designs with other values of catalogues than those of finalists whose trials are made, at most.
-const OTHERS: usize = 2;
 /// How often what is lost within the tolerances of what was found, or fails there, is taken note of.
 const ROUNDS: usize = 8;
 
@@ -110,56 +107,10 @@ pub(super) fn check_trials(
     Err(lack)
 }
 
-/// The best designs that pass their trials, in falling order, from designs that keep their box of tolerances, each bettered by
-/// exchange of values of catalogues. What is then not better than a bound, or than one that passes, is left out. Where one fails,
-/// designs with other values are tried as they are; where all fail and there is no bound, values far from theirs.
-///
-/// # Errors
-/// [`Refusal`] if none passes.
-pub(super) fn check_finalists(
-    problem: &Problem,
-    finalists: impl IntoIterator<Item = Robust>,
-    bound: f64,
-    sought_from: &mut Vec<SearchStart>,
-) -> Result<Vec<Passed>, Refusal> {
-    let mut checked = Checked {
-        problem,
-        bound,
-        passing: Vec::new(),
-        failed: Vec::new(),
-    };
-    let mut others = 0..OTHERS;
-    for finalist in finalists {
-        let mut catalogues = CatalogueSearch::new(problem, finalist);
-        let best = catalogues.take_best(0.0);
-        let Some(mut best) = best.filter(|it| checked.score(it) > checked.least()) else {
-            continue;
-        };
-        let passed = check_trials(problem, &mut best, sought_from);
-        if checked.note(best, passed) {
-            continue;
-        }
-        for _ in others.by_ref() {
-            let Some(mut next) = catalogues.take_best(checked.least()) else {
-                break;
-            };
-            let passed = problem.pass_trials(&next.candidate.design, &mut next.known);
-            let passed = passed.map(|tried| Passed::as_is(next.clone(), tried));
-            if checked.note(next, passed) {
-                break;
-            }
-        }
-    }
-    if checked.passing.is_empty() && bound == 0.0 {
-        check_distant_values(&mut checked, sought_from);
-    }
-    checked.into_passing()
-}
-
 /// Designs whose trials were made.
 pub(super) struct Checked<'a> {
     pub problem: &'a Problem,
-    bound: f64,
+    pub bound: f64,
     pub passing: Vec<Passed>,
     pub failed: Vec<(Robust, Infeasible)>,
 }
@@ -195,7 +146,7 @@ impl Checked<'_> {
     }
 
     /// The designs that pass, in falling order.
-    fn into_passing(mut self) -> Result<Vec<Passed>, Refusal> {
+    pub fn into_passing(mut self) -> Result<Vec<Passed>, Refusal> {
         let problem = self.problem;
         sort_falling(&mut self.passing, |it| {
             problem.score(&it.robust.candidate.design)

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::ascent::ascend_from;
-use super::check_trials::{Passed, check_finalists};
+use super::check_finalists::check_finalists;
+use super::check_trials::Passed;
 use super::constraint::ActiveLimit;
 use super::coordinates::{Candidate, SearchStart};
 use super::critical::CriticalMachines;

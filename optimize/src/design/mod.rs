@@ -11,6 +11,7 @@ mod box_window;
 pub mod case;
 mod cases;
 mod certain;
+mod check_finalists;
 mod check_trials;
 pub mod conflict;
 pub mod constraint;

@@ -15,7 +15,8 @@ use softstop_dynamics::parallel;
 use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};
-use super::check_trials::{Passed, Refusal, check_finalists};
+use super::check_finalists::check_finalists;
+use super::check_trials::{Passed, Refusal};
 use super::conflict::stated;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;

@@ -11,19 +11,10 @@ use toml::{Table, Value};
 
 use super::objective::{Goal, known, lacks};
 use super::toml_leaves::{number, percent, read_words};
-use super::ways::ways;
+use super::ways::{Bounds, ways};
 use crate::design::figure::{Figure, Sense};
 use crate::design::problem::{Problem, VIOLATING};
 use crate::design::requirement::{Requirement, Scope};
-
-/// `{ least = 10, most = 12, at = "drawing" }`.
-#[derive(Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Bounds {
-    pub least: Option<f64>,
-    pub most: Option<f64>,
-    pub at: Option<Scope>,
-}
 
 /// The key of the reserve.
 pub(super) const RESERVE: &str = "tolerance_reserve";

@@ -8,8 +8,16 @@ use softstop_dynamics::run_up::{RunUpSettings, Way};
 use toml::Value;
 use toml::de::Error;
 
-use super::require::Bounds;
 use crate::design::requirement::Scope;
+
+/// `{ least = 10, most = 12, at = "drawing" }`.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Bounds {
+    pub least: Option<f64>,
+    pub most: Option<f64>,
+    pub at: Option<Scope>,
+}
 
 /// `run_up = { ways = ["frequency_raised"], ramp_rate = 0.2 }`.
 #[derive(Deserialize)]
