@@ -8,7 +8,7 @@ use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::{ZoneEnd, ZoneKind};
 
-use crate::design::conflict::short;
+use crate::design::conflict::{own, short};
 use crate::design::{Design, Problem};
 use crate::limits::{Limit, end_name};
 
@@ -71,12 +71,9 @@ pub(crate) fn warning(design: &Design) -> Option<String> {
     };
     let share = (high - low) / high;
     (share < NARROW).then(|| {
-        let width = design.own_frequency(high - low);
-        let unit = design.machine.unit(Dimension::Frequency);
-        let width = format!("{} {unit}", short(width));
         format!(
             "the zone is {} wide, {} of its frequency: hardly a drive keeps within it; {remedy} excludes zones as narrow",
-            width.trim_end(),
+            own(&design.machine, Dimension::Frequency, high - low),
             short(share)
         )
     })

@@ -1,7 +1,7 @@
 //! What stands against a design, in words: bounds, and which of them are violated.
 
 use softstop::internals::plain_number;
-use softstop::{Machine, Parameter};
+use softstop::{Dimension, Machine, Parameter};
 
 use super::judge::Met;
 use super::requirement::Requirement;
@@ -31,11 +31,7 @@ pub fn conflict(machine: &Machine, met: &[Met]) -> String {
 /// `velocity = 9.8 m/s: must be at least 10 m/s, 0.2 m/s are missing`.
 fn words(machine: &Machine, met: &Met) -> String {
     let figure = met.requirement.figure;
-    let unit = machine.unit(figure.dimension());
-    let own = |value: f64| {
-        let value = machine.to_own(figure.dimension(), value);
-        format!("{} {unit}", short(value)).trim_end().to_owned()
-    };
+    let own = |value: f64| own(machine, figure.dimension(), value);
     let (bound, value, missing) = (bound(machine, &met.requirement), met.value, -met.margin());
     if value.is_nan() {
         return format!("{} has no value: must be {bound}", figure.name());
@@ -55,14 +51,19 @@ fn words(machine: &Machine, met: &Met) -> String {
 /// `within the tolerances stop_force goes to 528 N: must be at most 500 N`.
 pub(super) fn violated_within(machine: &Machine, requirement: &Requirement, worst: f64) -> String {
     let figure = requirement.figure;
-    let value = short(machine.to_own(figure.dimension(), worst));
-    let told = format!(
-        "within the tolerances {} goes to {value} {}",
+    format!(
+        "within the tolerances {} goes to {}: must be {}",
         figure.name(),
-        machine.unit(figure.dimension())
-    );
-    let bound = bound(machine, requirement);
-    format!("{}: must be {bound}", told.trim_end())
+        own(machine, figure.dimension(), worst),
+        bound(machine, requirement)
+    )
+}
+
+/// A value in SI units as a machine states it: `9.8 m/s`.
+pub fn own(machine: &Machine, dimension: Dimension, value: f64) -> String {
+    let value = short(machine.to_own(dimension, value));
+    let text = format!("{value} {}", machine.unit(dimension));
+    text.trim_end().to_owned()
 }
 
 /// A parameter of a machine with a value in its own units: `clearance = 0.01 m`.

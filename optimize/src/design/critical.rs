@@ -2,6 +2,8 @@
 //! nearest to a bound. A search adds to them what it finds until there are no more (an exchange method of semi-infinite
 //! programming, Blankenship and Falk 1976).
 
+use std::sync::LazyLock;
+
 use softstop::Parameter;
 use softstop_dynamics::slopes;
 
@@ -52,13 +54,7 @@ pub struct CriticalMachines {
 }
 
 /// No machines.
-static NONE: CriticalMachines = CriticalMachines {
-    losses: Vec::new(),
-    extremes: Vec::new(),
-    tried: Vec::new(),
-    failed: Vec::new(),
-    cases: Vec::new(),
-};
+static NONE: LazyLock<CriticalMachines> = LazyLock::new(CriticalMachines::default);
 
 /// Largest distance along each coordinate of the box at which two machines are one.
 const SAME: f64 = 1e-6;

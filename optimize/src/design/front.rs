@@ -37,11 +37,6 @@ pub struct Front {
 }
 
 impl Front {
-    /// True if one of its points is better than the design in both quantities.
-    pub fn beats_design(&self, problem: &Problem, point: (f64, f64)) -> bool {
-        beats(problem, self.figure, point, self.design)
-    }
-
     /// How it was found, as far as its axes do not tell; may be empty.
     pub fn note(&self) -> String {
         let found = match self.figure {
@@ -142,7 +137,7 @@ pub fn front(
 }
 
 /// Whether a figure and what is sought are both better at one place than at another.
-fn beats(problem: &Problem, figure: Figure, one: (f64, f64), other: (f64, f64)) -> bool {
+pub(super) fn beats(problem: &Problem, figure: Figure, one: (f64, f64), other: (f64, f64)) -> bool {
     let score = |value| problem.objective.score(value);
     sign(figure.sense()) * (one.0 - other.0) > 0.0 && score(one.1) > score(other.1)
 }

@@ -26,7 +26,6 @@ const ROUNDING: f64 = 1e-9;
 /// A problem of a front with its solution.
 #[derive(Debug, Clone)]
 struct Solved {
-    problem: Problem,
     posed: Posed,
     alternative: Alternative,
 }
@@ -100,12 +99,9 @@ impl ParetoSearch<'_> {
             objective,
             bounds: vec![None; count],
         };
-        self.keep(self.problem.clone(), alone(0), first);
-        for (index, objective) in self.objectives.iter().enumerate().skip(1) {
-            let problem = Problem {
-                objective: *objective,
-                ..self.problem.clone()
-            };
+        self.keep(alone(0), first);
+        for index in 1..count {
+            let problem = self.problem_of(&alone(index));
             let starts = [first.start()];
             let quiet = Quiet(self.watch);
             let found = match search_from(&problem, self.settings, &starts, (&quiet, None)) {
@@ -117,7 +113,7 @@ impl ParetoSearch<'_> {
                 }
                 Err(error) => return Err(error),
             };
-            self.keep(problem, alone(index), &found);
+            self.keep(alone(index), &found);
             self.tell();
         }
         self.ranges = Ranges((0..count).map(|index| self.range(index)).collect());
@@ -148,13 +144,9 @@ impl ParetoSearch<'_> {
     }
 
     /// Takes note of a solution.
-    fn keep(&mut self, problem: Problem, posed: Posed, found: &Found) {
+    fn keep(&mut self, posed: Posed, found: &Found) {
         match Alternative::new(self.problem, self.objectives, found) {
-            Some(alternative) => self.solved.push(Solved {
-                problem,
-                posed,
-                alternative,
-            }),
+            Some(alternative) => self.solved.push(Solved { posed, alternative }),
             None => self.fail(posed),
         }
     }
@@ -211,9 +203,9 @@ impl ParetoSearch<'_> {
             all.into_iter().partition(|it| self.is_implied(it));
         self.tally.implied += implied.len();
         let found = parallel::map(&posed, |it| self.solve(it));
-        for (posed, (problem, found)) in posed.into_iter().zip(found) {
+        for (posed, found) in posed.into_iter().zip(found) {
             match found {
-                Ok(found) => self.keep(problem, posed, &found),
+                Ok(found) => self.keep(posed, &found),
                 Err(SearchError::Stopped(_)) => return,
                 Err(_)
                     if self
@@ -261,17 +253,21 @@ impl ParetoSearch<'_> {
         bounded.all(|is_kept| is_kept)
     }
 
-    /// A problem with bounds, from the designs that are nearest to these on.
-    fn solve(&self, posed: &Posed) -> (Problem, Result<Found, SearchError>) {
-        let mut problem = Problem {
+    /// The problem of one objective with bounds of the others.
+    fn problem_of(&self, posed: &Posed) -> Problem {
+        let alone = Problem {
             objective: self.objectives[posed.objective],
             ..self.problem.clone()
         };
-        for (objective, bound) in self.objectives.iter().zip(&posed.bounds) {
-            if let Some(bound) = bound {
-                problem = problem.bounded(objective, *bound);
-            }
-        }
+        let bounds = self.objectives.iter().zip(&posed.bounds);
+        bounds.fold(alone, |problem, (objective, bound)| match bound {
+            Some(bound) => problem.bounded(objective, *bound),
+            None => problem,
+        })
+    }
+
+    /// Solves a problem with bounds, from the designs that are nearest to these on.
+    fn solve(&self, posed: &Posed) -> Result<Found, SearchError> {
         let distance = |it: &Solved| {
             let bounds = posed.bounds.iter().zip(&it.alternative.values).enumerate();
             let parts = bounds.filter_map(|(index, (bound, value))| {
@@ -286,8 +282,8 @@ impl ParetoSearch<'_> {
         let settings = Settings {
             evaluations: (self.settings.evaluations / SHARE).max(LEAST_EVALUATIONS),
         };
-        let found = search_from(&problem, settings, &starts, (&Quiet(self.watch), None));
-        (problem, found)
+        let watch = (&Quiet(self.watch) as &dyn Watch, None);
+        search_from(&self.problem_of(posed), settings, &starts, watch)
     }
 
     /// Goes on with each problem from the design of another one, where that solves it better.
@@ -308,12 +304,10 @@ impl ParetoSearch<'_> {
             let Some(best) = better.max_by(|a, b| graded(a).total_cmp(&graded(b))) else {
                 continue;
             };
-            let (from, mut found) = (
-                best.alternative.found.candidate(),
-                own.alternative.found.clone(),
-            );
+            let from = best.alternative.found.candidate();
+            let mut found = own.alternative.found.clone();
             found.design.value = own.alternative.values[objective];
-            if found.go_on_from(&own.problem, &from)
+            if found.go_on_from(&self.problem_of(&own.posed), &from)
                 && let Some(alternative) = Alternative::new(self.problem, self.objectives, &found)
             {
                 self.solved[index].alternative = alternative;

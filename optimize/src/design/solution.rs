@@ -7,7 +7,7 @@ use softstop_dynamics::parallel;
 
 use super::coordinates::{Candidate, best_by};
 use super::figure::Figure;
-use super::front::{Front, front};
+use super::front::{Front, beats, front};
 use super::pareto::Pareto;
 use super::requirement::Scope;
 use super::search::{Found, SearchError, Settings, Unwatched, Watch, search_from};
@@ -132,11 +132,8 @@ impl Solution {
             relaxed.go_on_from(&relaxed_problem, &found.candidate());
         }
         for front in &mut fronts {
-            let points = std::mem::take(&mut front.points);
-            let points = points.into_iter();
-            front.points = points
-                .filter(|it| !front.beats_design(problem, *it))
-                .collect();
+            let (figure, own) = (front.figure, front.design);
+            front.points.retain(|it| !beats(problem, figure, *it, own));
         }
         fronts.retain(|it| it.points.len() > 2 || it.left_out > 0);
         let pareto = pareto.map(|it| it.with(problem, &found));
@@ -159,10 +156,8 @@ impl Solution {
                 .then(|| format!("without tolerances {score}, with them {own}"))
         });
         let fronts = self.fronts.iter().flat_map(|front| {
-            let better = front
-                .points
-                .iter()
-                .filter(|it| front.beats_design(problem, **it));
+            let better = front.points.iter();
+            let better = better.filter(|it| beats(problem, front.figure, **it, front.design));
             better.map(|it| format!("{}: {it:?} against {:?}", front.figure.name(), front.design))
         });
         let rivals = self.found.rivals.iter().filter_map(|it| {

@@ -4,36 +4,30 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, OnceLock};
 
 use crate::design::Problem;
-use crate::design::problem::Objective;
 use crate::design::search::Watch;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
 /// Watches a search.
-pub(super) struct Best {
+pub(super) struct Best<'a> {
+    problem: &'a Problem,
     /// None once a front is searched.
     zones: Mutex<Option<Progress>>,
     front: OnceLock<Progress>,
     best: Mutex<Option<f64>>,
     evaluations: AtomicU64,
     budget: u64,
-    objective: Objective,
-    words: String,
-    unit: &'static str,
 }
 
-impl Best {
-    pub(super) fn new(problem: &Problem, evaluations: u64, budget: u64) -> Self {
-        let objective = problem.objective;
+impl<'a> Best<'a> {
+    pub(super) fn new(problem: &'a Problem, evaluations: u64, budget: u64) -> Self {
         Self {
+            problem,
             zones: Mutex::new(Some(Progress::at_most(evaluations, "zones"))),
             front: OnceLock::new(),
             best: Mutex::new(None),
             evaluations: AtomicU64::new(0),
             budget,
-            objective,
-            words: problem.words(),
-            unit: problem.machine.unit(objective.figure.dimension()),
         }
     }
 
@@ -43,7 +37,7 @@ impl Best {
     }
 }
 
-impl Watch for Best {
+impl Watch for Best<'_> {
     fn evaluated(&self, value: Option<f64>) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
         let (Ok(zones), Ok(mut best)) = (self.zones.lock(), self.best.lock()) else {
@@ -52,10 +46,14 @@ impl Watch for Best {
         let Some(zones) = &*zones else { return };
         zones.more(1);
         let Some(value) = value else { return };
-        let score = |value| self.objective.score(value);
+        let Problem {
+            objective, machine, ..
+        } = self.problem;
+        let score = |value| objective.score(value);
         if best.is_none_or(|best| score(value) > score(best)) {
             *best = Some(value);
-            let (what, unit) = (&self.words, self.unit);
+            let unit = machine.unit(objective.figure.dimension());
+            let what = self.problem.words();
             zones.say(format!("{what} {value:.4} {unit}").trim_end());
         }
     }
