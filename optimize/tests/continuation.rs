@@ -202,7 +202,8 @@ fn curves_switch_in_points_of_codimension_two() {
     report.shows("curves.svg", &["generalised flip (GPD)", "cusp (CP)"]);
 }
 
-/// Beside the upper graze of this machine lies a fold, and no curve of folds begins there: that costs none of the others.
+/// At the upper graze of this machine the branch turns back in a nonsmooth fold, and no curve of folds begins there: that costs none
+/// of the others.
 #[test]
 fn a_special_point_without_a_curve_is_told_beside_the_others() {
     let line = "continue SCENES/kelvin-voigt-zero-force.toml --parameter excitation.frequency --from 0.6 --to 1.6 \
@@ -215,7 +216,7 @@ fn a_special_point_without_a_curve_is_told_beside_the_others() {
     assert_eq!(failures.len(), 1);
     assert_eq!(
         [&failures[0]["symbol"], &failures[0]["name"]],
-        ["SN", "fold"]
+        ["SN", "nonsmooth fold"]
     );
     has_near(&failures[0], &[("value", 1.044_440_044, 1e-8)]);
     assert!(

@@ -116,7 +116,7 @@ fn describe(special: &Special) -> String {
     let SpecialKind::Grazing(graze) = kind else {
         return match kind {
             SpecialKind::Critical(test) if test.jumps_at(&special.point.monodromy) => {
-                format!("{}: multipliers jump within the last digit", kind.name())
+                format!("nonsmooth {}", kind.name())
             }
             _ => kind.name().to_owned(),
         };
