@@ -16,7 +16,7 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use softstop::{Effort, Machine, Simulation};
 use softstop_console::record_log::RecordLog;
 
-pub use state::{serialized, state};
+pub use state::{behind_fitting_header, serialized, state, take_up};
 
 /// A machine file: it is refused, or its machine moves on and every number of it stays finite.
 ///

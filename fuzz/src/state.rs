@@ -26,9 +26,16 @@ pub fn serialized() -> Vec<u8> {
 /// If not.
 pub fn state(data: &[u8]) {
     take_up(data);
-    let Some((head, body)) = data.split_at_checked(HEADER) else {
-        return;
-    };
+    if let Some((head, body)) = data.split_at_checked(HEADER) {
+        take_up(&behind_fitting_header(head, body));
+    }
+}
+
+/// Data behind a header that fits them, with magic word and format of another header.
+///
+/// # Panics
+/// If the unit has no GUID.
+pub fn behind_fitting_header(head: &[u8], body: &[u8]) -> Vec<u8> {
     let guid = library_guid().expect("a GUID");
     let own = Uuid::parse_str(guid.trim_matches(['{', '}'])).expect("a GUID");
     let mut bytes = head[..12].to_vec();
@@ -36,17 +43,23 @@ pub fn state(data: &[u8]) {
     bytes.extend(Uuid::new_v5(&own, body).as_bytes());
     bytes.extend((body.len() as u64).to_le_bytes());
     bytes.extend(body);
-    take_up(&bytes);
+    bytes
 }
 
-fn take_up(bytes: &[u8]) {
+/// The status of a unit that takes up these bytes: it goes on from them, or refuses them, and after a reset begins anew.
+///
+/// # Panics
+/// If not.
+pub fn take_up(bytes: &[u8]) -> i32 {
     let unit = Unit::new();
     unit.begin();
-    match unit.take_up(bytes) {
+    let taken = unit.take_up(bytes);
+    match taken {
         OK => drop(unit.step(12.0, 1.0)),
         status => assert_eq!(status, ERROR),
     }
     assert_eq!(unit.reset(), OK);
     unit.begin();
     assert_eq!(unit.step(0.0, 1.0), OK);
+    taken
 }

@@ -242,7 +242,7 @@ impl Motion {
         .unwrap_or(self.fed)
     }
 
-    /// As [`Simulation::feed_strip`](crate::Simulation::feed_strip).
+    /// Switches the feed of strips on or off; it takes effect at the next upward crossing of the clearance.
     pub fn feed_strip(&mut self, fed: bool) {
         self.fed = fed;
     }

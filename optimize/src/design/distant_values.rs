@@ -48,7 +48,8 @@ pub(super) fn check_distant_values(checked: &mut Checked<'_>, sought_from: &mut 
     sort_rising(&mut better, |(_, lack)| lack.gap);
     let rest = better.split_off(SOUGHT.min(better.len()));
     for (mut design, lack) in better {
-        let passed = match interrupt::requested() {
+        let is_over = interrupt::requested() || checked.score(&design) <= checked.least();
+        let passed = match is_over {
             true => Err(lack),
             false => check_trials(checked.problem, &mut design, sought_from),
         };

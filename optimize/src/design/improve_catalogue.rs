@@ -15,6 +15,8 @@ use super::robustify::{Robust, enforce};
 const FAR: usize = 3;
 /// Choices from catalogues that are listed, at most.
 const MAX_CHOICES: usize = 4096;
+/// A prime that is larger than any catalogue: Knuth's multiplicative hash.
+const STRIDE: u128 = 2_654_435_761;
 /// Share of a score that is no gain.
 const GAIN: f64 = 1e-12;
 
@@ -92,12 +94,13 @@ impl Catalogues {
         sizes.fold(1, usize::saturating_mul)
     }
 
-    /// All choices of a value from each, or so many of them, evenly spaced in their order.
+    /// All choices of a value from each, or so many of them, spread over their order by a stride that shares no factor with their
+    /// number, so that each value is in some.
     pub(super) fn all(&self) -> Vec<Vec<usize>> {
         let count = self.count();
         let listed = count.min(MAX_CHOICES);
         let choice = |index: usize| {
-            let mut rest = (index as u128 * count as u128 / listed as u128) as usize;
+            let mut rest = (index as u128 * STRIDE % count as u128) as usize;
             let place = |(_, size): &(usize, usize)| {
                 let place = rest % size;
                 rest /= size;
@@ -175,5 +178,32 @@ impl Catalogues {
                 .collect::<Vec<_>>()
         });
         along.chain(both).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Catalogues, MAX_CHOICES};
+
+    #[test]
+    fn each_value_is_in_some_of_the_choices() {
+        for sizes in [
+            vec![3, 5],
+            vec![16; 4],
+            vec![128; 2],
+            vec![2; 13],
+            vec![32; 3],
+        ] {
+            let choices = Catalogues(sizes.iter().copied().enumerate().collect()).all();
+            let count = sizes.iter().product::<usize>().min(MAX_CHOICES);
+            let mut different = choices.clone();
+            different.sort();
+            different.dedup();
+            assert_eq!(different.len(), count);
+            for (axis, size) in sizes.into_iter().enumerate() {
+                let has = |value: &usize| choices.iter().any(|it| it[axis] == *value);
+                assert!((0..size).all(|value| has(&value)), "{axis} of {size}");
+            }
+        }
     }
 }

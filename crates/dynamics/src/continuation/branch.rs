@@ -239,7 +239,10 @@ impl<'a> Continuation<'a> {
         let closes =
             way.points.len() >= MIN_LOOP_POINTS && passes_place(&self.shooting, (from, to), origin);
         let bound = self.bound_passed((from, to), limits);
-        let merged = self.merging_point(from, to)?;
+        let merged = match bound {
+            None => self.merging_point(from, to)?,
+            Some(_) => None,
+        };
         let (to, end) = match (bound, merged) {
             (Some((_, true)), _) => return Ok(Some(End::Range)),
             (Some((bound, false)), _) => {

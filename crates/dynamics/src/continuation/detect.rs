@@ -150,7 +150,8 @@ impl Continuation<'_> {
             graze.crossings == a.min(b) && touches <= 1 + usize::from(graze.is_symmetric)
         };
         let (found, is_whole) = self.grazes_of_ends((from, to), 0.0, is_whole)?;
-        if is_whole || before == after || (&to.at - &from.at).norm() < self.settings.smallest_step {
+        let least = (4.0 * f64::EPSILON * to.at.norm()).max(self.settings.smallest_step);
+        if is_whole || before == after || (&to.at - &from.at).norm() < least {
             return Ok(found);
         }
         let middle = CurveCubic::between(&self.shooting, (from, to))?.node_at(0.5)?;

@@ -34,8 +34,9 @@ impl Continuation<'_> {
         limits: &Limits,
         error: OrbitError,
     ) {
-        let is_even = self.shooting.periods.is_multiple_of(2);
-        let gap = self.merging_gap(&stepper.node).filter(|_| is_even);
+        // It begins right beside such an orbit, too.
+        let may_merge = self.shooting.periods.is_multiple_of(2) && !way.points.is_empty();
+        let gap = self.merging_gap(&stepper.node).filter(|_| may_merge);
         if gap.is_some_and(|gap| gap.norm() < SAME) {
             way.end = End::Merged;
             return;

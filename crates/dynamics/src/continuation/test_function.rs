@@ -38,7 +38,8 @@ impl TestFunction {
         weight * test / size
     }
 
-    /// True if the test does not vanish at a point where its sign changes: multipliers jump there, where a touch comes or goes.
+    /// True if the test does not vanish at a point where its sign changes to the last digit of the parameter: multipliers jump there,
+    /// as where a touch comes or goes.
     pub fn jumps_at(self, monodromy: &Monodromy) -> bool {
         self.scaled_value(monodromy).abs() > NEAR
     }

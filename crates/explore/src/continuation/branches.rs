@@ -5,8 +5,10 @@ use std::ops::ControlFlow;
 use anyhow::anyhow;
 use nalgebra::Vector2;
 use softstop::Machine;
-use softstop_dynamics::continuation::{End, Family, Special, SpecialKind, TestFunction};
-use softstop_dynamics::{Branch, Continuation, Limits, ParameterFamily};
+use softstop_dynamics::continuation::{
+    ContinuationSettings, End, Family, SpecialKind, TestFunction,
+};
+use softstop_dynamics::{Branch, BranchPoint, Continuation, Limits, ParameterFamily};
 
 use super::{ContinueArguments, Followed, family, seed};
 use softstop_console::failure::Failure;
@@ -17,8 +19,9 @@ use softstop_console::progress::Progress;
 pub(super) const STEP: f64 = 0.02;
 /// Steps of a narrow range, and the least share of `STEP` that they are.
 const NARROW: (f64, f64) = (100.0, 0.1);
-/// Steps of a range many times as wide as the machine's own value, which `STEP` is a share of.
-const WIDE: f64 = 2000.0;
+/// Largest number of steps across a range that is many times as wide as the scale of the parameter, unless they would be longer
+/// than those of a continuation that has no chart to draw.
+const MAX_STEPS_ACROSS: f64 = 2000.0;
 
 /// A continuation with steps that leave the chart of a range no corners.
 fn continuation<'a>(
@@ -29,7 +32,9 @@ fn continuation<'a>(
     let ([scale], (low, high)) = (family.parameter_scales(), limits.range);
     let (steps, least) = NARROW;
     let width = (high - low) / scale;
-    let largest = (width / steps).clamp(least * STEP, STEP.max(width / WIDE));
+    let longest = ContinuationSettings::default().largest_step;
+    let most = (width / MAX_STEPS_ACROSS).clamp(STEP, longest);
+    let largest = (width / steps).clamp(least * STEP, most);
     Ok(Continuation::new(family, periods).with_steps(largest)?)
 }
 
@@ -78,8 +83,9 @@ pub(super) fn branches(
     Ok(branches)
 }
 
-/// Distance, in units of the family's scales, within which a branch merges into another one at a special point of that.
-const SAME: f64 = 1e-6;
+/// Distance, in units of the scale of the parameter, between the end of a branch that merges into another one and the special point
+/// of that.
+const MERGING_DISTANCE: f64 = 1e-6;
 
 /// The branches of twice the period from the flips of one, and those of asymmetric orbits from its pitchforks, each from one end
 /// alone.
@@ -92,21 +98,29 @@ fn doubled(
     let follower = continuation(family, branch.periods, limits)?;
     let [scale] = family.parameter_scales();
     let mut found: Vec<Branch> = Vec::new();
-    for Special { kind, point, .. } in &branch.specials {
-        let is_reached = |other: &Branch| {
-            let last = other.points.last();
-            matches!(other.ends.1, End::Merged | End::Symmetric)
-                && last.is_some_and(|it| (it.parameter - point.parameter).abs() < SAME * scale)
+    let flips = branch.critical_points(TestFunction::Flip);
+    let pitchforks = branch.specials.iter();
+    let pitchforks = pitchforks.filter(|special| special.kind == SpecialKind::Pitchfork);
+    let pitchforks = pitchforks.map(|special| (&special.point, true));
+    for (point, is_pitchfork) in flips.map(|flip| (flip, false)).chain(pitchforks) {
+        let merges_here = |other: &Branch| {
+            let merges = match other.ends.1 {
+                End::Merged => !is_pitchfork,
+                End::Symmetric => is_pitchfork,
+                _ => false,
+            };
+            let is_near = |last: &BranchPoint| {
+                (last.parameter - point.parameter).abs() < MERGING_DISTANCE * scale
+            };
+            merges && other.points.last().is_some_and(is_near)
         };
-        let doubled = match kind {
-            _ if found.iter().any(is_reached) => continue,
-            SpecialKind::Critical(TestFunction::Flip) => {
-                follower.double_period(point, limits, |_| count(bar))
-            }
-            SpecialKind::Pitchfork => follower.branch_asymmetric(point, limits, |_| count(bar)),
-            _ => continue,
-        };
-        found.extend(doubled);
+        if found.iter().any(merges_here) {
+            continue;
+        }
+        found.extend(match is_pitchfork {
+            false => follower.double_period(point, limits, |_| count(bar)),
+            true => follower.branch_asymmetric(point, limits, |_| count(bar)),
+        });
     }
     Ok(found)
 }

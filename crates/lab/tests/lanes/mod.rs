@@ -52,7 +52,8 @@ impl Tally {
 }
 
 fn given(name: &str) -> Option<u64> {
-    env::var(name).ok()?.parse().ok()
+    let number = env::var(name).ok()?;
+    Some(number.parse().expect("a whole number in digits"))
 }
 
 /// Compares so many motions of so many periods, drawn from a seed, on all cores; all three may be given from outside.

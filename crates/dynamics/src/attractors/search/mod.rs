@@ -50,8 +50,12 @@ struct Group {
 impl Group {
     /// Keeps the exponents of the motion whose first one is the largest.
     fn keep_largest(&mut self, exponents: Exponents) {
-        let larger = |best: &Exponents| exponents.per_period[0] > best.per_period[0];
-        if self.exponents.as_ref().is_none_or(larger) {
+        let first = |of: &Exponents| of.per_period[0];
+        if self
+            .exponents
+            .as_ref()
+            .is_none_or(|best| first(best).is_nan() || first(&exponents) > first(best))
+        {
             self.exponents = Some(exponents);
         }
     }
