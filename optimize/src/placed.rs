@@ -8,7 +8,7 @@ use softstop_dynamics::Zone;
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::{ZoneEnd, ZoneKind};
 
-use crate::design::conflict::{own, short};
+use crate::design::conflict::{format_in_own_unit, short};
 use crate::design::{Design, Problem};
 use crate::limits::{Limit, end_name};
 
@@ -73,7 +73,7 @@ pub(crate) fn warning(design: &Design) -> Option<String> {
     (share < NARROW).then(|| {
         format!(
             "the zone is {} wide, {} of its frequency: hardly a drive keeps within it; {remedy} excludes zones as narrow",
-            own(&design.machine, Dimension::Frequency, high - low),
+            format_in_own_unit(&design.machine, Dimension::Frequency, high - low),
             short(share)
         )
     })

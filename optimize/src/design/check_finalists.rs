@@ -16,7 +16,8 @@ const DISTANT_WINDOWS: u64 = 1 << 31;
 
 /// The best designs that pass their trials, in falling order, from designs that keep their box of tolerances, each bettered by
 /// exchange of values of catalogues. What is then not better than a bound, or than one that passes, is left out. Where one fails,
-/// designs with other values are tried as they are; where all fail, and there is neither a bound nor a front to find, values far from theirs.
+/// designs with other values are tried as they are; where all fail, and there is neither a bound nor a front to find, values far
+/// from theirs.
 ///
 /// # Errors
 /// [`Refusal`] if none passes.

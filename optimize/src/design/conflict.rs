@@ -31,7 +31,7 @@ pub fn conflict(machine: &Machine, met: &[Met]) -> String {
 /// `velocity = 9.8 m/s: must be at least 10 m/s, 0.2 m/s are missing`.
 fn words(machine: &Machine, met: &Met) -> String {
     let figure = met.requirement.figure;
-    let own = |value: f64| own(machine, figure.dimension(), value);
+    let own = |value: f64| format_in_own_unit(machine, figure.dimension(), value);
     let (bound, value, missing) = (bound(machine, &met.requirement), met.value, -met.margin());
     if value.is_nan() {
         return format!("{} has no value: must be {bound}", figure.name());
@@ -54,13 +54,13 @@ pub(super) fn violated_within(machine: &Machine, requirement: &Requirement, wors
     format!(
         "within the tolerances {} goes to {}: must be {}",
         figure.name(),
-        own(machine, figure.dimension(), worst),
+        format_in_own_unit(machine, figure.dimension(), worst),
         bound(machine, requirement)
     )
 }
 
 /// A value in SI units as a machine states it: `9.8 m/s`.
-pub fn own(machine: &Machine, dimension: Dimension, value: f64) -> String {
+pub fn format_in_own_unit(machine: &Machine, dimension: Dimension, value: f64) -> String {
     let value = short(machine.to_own(dimension, value));
     let text = format!("{value} {}", machine.unit(dimension));
     text.trim_end().to_owned()

@@ -77,9 +77,8 @@ const FREE: f64 = 1e-6;
 const GAIN: f64 = 1e-9;
 
 /// What a figure costs of what is sought, around a design; none if the design has no such figure, or that is certainty and
-/// motions settle so slowly that no starts of many designs are counted. The others are sought
-/// without requirements that take many motions; those that fail them give way to ones near them, and are left out if there
-/// is none. With the best design on the way that solves the problem itself better than the design, if there is one: then the
+/// motions settle so slowly that no starts of many designs are counted. The others are sought without requirements that take
+/// many motions; those that fail them give way to ones near them, and are left out if there is none. With the best design on the way that solves the problem itself better than the design, if there is one: then the
 /// search can go on from there.
 pub fn front(
     problem: &Problem,

@@ -12,8 +12,9 @@ const FORM_DISTANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
 /// The coefficient of the normal form of a fixed point's map: a of u + a u^2 at a fold, c of -u + c u^3 at a flip, for the
 /// coordinate u along the critical eigenvector of length 1 in units of [`Scene::scales`](softstop::Scene::scales). A flip with
-/// c > 0 is supercritical: the orbits of twice the period begin stable, where the orbit is unstable. (Reduction to the centre manifold, Kuznetsov,
-/// *Elements of Applied Bifurcation Theory*, section 5.4; second and third derivatives are differences of the exact Jacobian.)
+/// c > 0 is supercritical: the orbits of twice the period begin stable, where the orbit is unstable. (Reduction to the centre
+/// manifold, Kuznetsov, *Elements of Applied Bifurcation Theory*, section 5.4; second and third derivatives are differences of the
+/// exact Jacobian.)
 ///
 /// None where there is no such form: for a Neimark-Sacker point, and where the orbit grazes too near.
 ///

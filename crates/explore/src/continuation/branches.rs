@@ -19,8 +19,8 @@ use softstop_console::progress::Progress;
 pub(super) const STEP: f64 = 0.02;
 /// Steps of a narrow range, and the least share of `STEP` that they are.
 const NARROW: (f64, f64) = (100.0, 0.1);
-/// Largest number of steps across a range that is many times as wide as the scale of the parameter, unless they would be longer
-/// than those of a continuation that has no chart to draw.
+/// Number of steps across a range that `STEP` divides into more, as long as they are no longer than those of a continuation that
+/// has no chart to draw.
 const MAX_STEPS_ACROSS: f64 = 2000.0;
 
 /// A continuation with steps that leave the chart of a range no corners.

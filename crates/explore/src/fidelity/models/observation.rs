@@ -98,7 +98,7 @@ impl Answers {
         })
     }
 
-    /// The same with the bounds of a scene, those of its z = 1 motion only if this is one.
+    /// These answers with the bounds of a scene, those of its z = 1 motion only if this is one.
     ///
     /// # Errors
     /// [`OrbitError`] if a bound cannot be followed.
