@@ -267,14 +267,18 @@ impl Constants {
         (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
     }
 
-    /// Sets the distances from a guard, and the velocities, below which rounding may decide: the safe engine does.
+    /// Sets the distances from a guard, and the velocities there before and after an impact, below which rounding may decide:
+    /// the safe engine does. It tells faint bounces from rest only where it has seen the impact before them.
     fn set_ambiguity(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
         let size = finite(self.low)
             .max(finite(self.high))
             .max(self.swing + self.offset.abs());
         self.ambiguity = AMBIGUOUS_DISTANCE * size;
-        self.slow = AMBIGUOUS_SPEED * size * fastest;
+        let ends = [(self.low, self.bounce_low), (self.high, self.bounce)].into_iter();
+        let kept = ends.filter(|(end, _)| end.is_finite());
+        let kept = kept.fold(1.0, |kept: f64, (_, bounce)| kept.min(bounce.abs()));
+        self.slow = AMBIGUOUS_SPEED * size * fastest / kept;
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
     }
 

@@ -248,6 +248,20 @@ fn the_watcher_hears_of_every_impact_and_period() {
     compare_told(&scene, starts.collect());
 }
 
+/// A bounce is faint or not by the speed after the impact before it.
+#[test]
+fn bounces_that_hardly_rebound_count_as_in_the_scalar_engine() {
+    for restitution in [0.0, 1e-12, 1e-9, 1e-6, 1e-3] {
+        for index in 0..20 {
+            let ratios = Ratios::unloaded().at_frequency(between(0.8, 2.4, spread(index, 1)));
+            let mut scene = ratios.scene().expect("valid");
+            scene.stop = Stop::Rigid { restitution };
+            scene.clearance = between(0.0, 1.0, spread(index, 2));
+            compare_told(&scene, vec![Start::REST]);
+        }
+    }
+}
+
 /// Compares what a watcher of these motions of a machine hears with the scalar engine's trajectories.
 fn compare_told(scene: &Scene, starts: Vec<Start>) {
     #[derive(Default)]
