@@ -9,7 +9,7 @@ use softstop_testing::tolerance::{DIFFERENCED, GROWN, MOTION, SOLVED, printed};
 use std::ops::ControlFlow;
 
 use nalgebra::Vector2;
-use softstop::{Parameter, Ratios, Scene};
+use softstop::{Parameter, Ratios, Release, Scene, Start};
 use softstop_dynamics::continuation::{
     ContinuationSettings, Curve, CurveEnd, CurveLimits, CurvePoint, End, Face, Family, Special,
     SpecialKind, TestFunction, follow_special, normal_form_coefficient,
@@ -20,7 +20,7 @@ use softstop_dynamics::{
 };
 use softstop_testing::reference::{FOLDS, MACHINE, list, number};
 use softstop_testing::tangent::differences;
-use softstop_testing::{assert_near, is_near, loaded};
+use softstop_testing::{assert_near, is_near, kelvin_voigt, loaded};
 
 type Frequencies = ParameterFamily<1>;
 
@@ -55,6 +55,42 @@ fn double_within(family: &Frequencies, n: u64, flip: &BranchPoint, range: (f64, 
     let go_on = |_: &_| ControlFlow::Continue(());
     let doubled = Continuation::new(family, n).double_period(flip, &limits, go_on);
     doubled.expect("a branch of twice the period")
+}
+
+/// A branch has the same special points whatever value of the parameter it is followed from.
+#[test]
+fn a_branch_from_a_tiny_value_of_the_parameter_is_that_from_a_usual_one() {
+    let specials = |amplitude: f64| {
+        let mut scene = Ratios::unloaded().at_frequency(1.1).scene().expect("valid");
+        (scene.clearance, scene.damping, scene.contact_damping) = (1.0, 0.1, 0.1);
+        scene.stop = kelvin_voigt(100.0, Release::Clearance);
+        scene.excitation.amplitude = amplitude;
+        let settled = scene.trajectory(Start::REST, 400).expect("a motion").end;
+        let family = ParameterFamily::new(scene, [Parameter::Amplitude]).expect("a parameter");
+        let (range, points) = ((amplitude, 1.3), 4000);
+        let limits = Limits { range, points };
+        let go_on = |_: &_| ControlFlow::Continue(());
+        let branch =
+            Continuation::new(&family, 1).branch(amplitude, settled.into(), &limits, go_on);
+        let branch = branch.expect("a branch");
+        assert!(matches!(branch.ends.1, End::Range), "{:?}", branch.ends);
+        let specials = branch.specials.into_iter();
+        let specials = specials.map(|it| (it.kind.symbol(), it.point.parameter));
+        specials.collect::<Vec<_>>()
+    };
+    let usual = specials(0.1);
+    assert_eq!(
+        usual.iter().map(|it| it.0).collect::<Vec<_>>(),
+        ["G", "SN", "SN"]
+    );
+    for tiny in [1e-5, 1e-10] {
+        let found = specials(tiny);
+        assert_eq!(found.len(), usual.len());
+        for (found, expected) in found.iter().zip(&usual) {
+            assert_eq!(found.0, expected.0);
+            assert_near(found.1, expected.1, SOLVED);
+        }
+    }
 }
 
 /// The z = 1 branch through the paper's point A, and states of others (settled from arbitrary starts).

@@ -46,6 +46,13 @@ impl<'a, const N: usize> Shooting<'a, N> {
         }
     }
 
+    /// This shooting with scales of the parameters that are so many times as large.
+    pub fn with_grown_scales(&self, growth: f64) -> Self {
+        let mut grown = self.seen_at(self.turn, self.periods);
+        grown.scales.rows_mut(2, N).scale_mut(growth);
+        grown
+    }
+
     /// The scaled unknowns of the shooting for a state and parameters.
     pub fn scaled(&self, state: Vector2<f64>, parameters: [f64; N]) -> DVector<f64> {
         let raw = [state.x, state.y].into_iter().chain(parameters);
