@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use nalgebra::DVector;
 
 use super::arclength::{Equations, Node};
+use super::face::Face;
 use super::follow::Continuation;
 use super::grazing_test::GrazingTest;
 use super::half_branch::{End, Limits};
@@ -139,15 +140,21 @@ impl Continuation<'_> {
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
         let sequences = [from, to].map(|node| node.here.point.sequence);
         let [a, b] = sequences.map(|sequence| sequence.crossing_count());
-        if a == b {
+        let [before, after] = sequences.map(|sequence| (sequence.faces, sequence.reversals));
+        if a == b && before == after {
             return Ok(Vec::new());
         }
-        let [before, after] = sequences.map(|sequence| (sequence.faces, sequence.reversals));
-        let touches = before.0.into_iter().zip(after.0);
-        let touches = touches.map(|(a, b)| a.abs_diff(b).div_ceil(MAX_TOUCH_CROSSINGS));
-        let touches: usize = touches.sum();
+        let touches = Face::ALL.map(|face| {
+            let [a, b] = [before, after].map(|(faces, _)| faces[face as usize]);
+            a.abs_diff(b).div_ceil(MAX_TOUCH_CROSSINGS)
+        });
+        let all: usize = touches.iter().sum();
         let is_whole = |graze: &Graze| {
-            graze.crossings == a.min(b) && touches <= 1 + usize::from(graze.is_symmetric)
+            let own = match graze.is_symmetric {
+                true => all,
+                false => touches[graze.face as usize],
+            };
+            own == all && all <= 1 + usize::from(graze.is_symmetric) && graze.crossings == a.min(b)
         };
         let (found, is_whole) = self.grazes_of_ends((from, to), 0.0, is_whole)?;
         let least = (4.0 * f64::EPSILON * to.at.norm()).max(self.settings.smallest_step);
@@ -167,7 +174,7 @@ impl Continuation<'_> {
     }
 
     /// The grazings between two nodes, or as many of their distances beyond them, that Newton's method reaches from them: the
-    /// first that is the whole difference, and whether it is, or one of each node, at different faces.
+    /// first that is the whole difference, and whether it is, or one at each face.
     pub(super) fn grazes_of_ends(
         &self,
         (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
@@ -200,7 +207,6 @@ impl Continuation<'_> {
                     faces.push(graze.face);
                     found.push((share, special));
                 }
-                break;
             }
         }
         Ok((found, false))

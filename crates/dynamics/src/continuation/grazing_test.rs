@@ -179,8 +179,14 @@ pub(crate) fn find_grazing(
     let [parameter] = touching.section.parameters(&node.at);
     let state = touching.state(&node.at)?;
     let SectionPoint {
-        monodromy, impacts, ..
+        monodromy,
+        impacts,
+        is_cut,
+        ..
     } = node.here.point;
+    if is_cut {
+        return Err(OrbitError::LOST);
+    }
     let graze = Graze {
         angle: phase + (node.at[0] - phase).rem_euclid(TAU * periods as f64),
         impacts: impacts.len(),

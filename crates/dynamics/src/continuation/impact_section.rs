@@ -13,7 +13,7 @@ use super::point::Graze;
 use super::sequence::Sequence;
 use crate::monitor::stop_if;
 use crate::orbit::{Monodromy, OrbitError};
-use crate::tolerance::SAME;
+use crate::tolerance::NEAR;
 use softstop::{Arc, CheckedScene, Clock, Crossing, Instant, Observer, Start, Trajectory};
 
 /// An impact section of a family: the surface at which its orbits begin and end.
@@ -41,7 +41,7 @@ pub(crate) struct SectionPoint {
     pub impacts: Vec<f64>,
     /// How far the velocity at the surface moves the position at the end of the way around, without units.
     pub response: f64,
-    /// True if an orbit that does not graze meets the surface before its last arc comes back to it.
+    /// True if the last arc meets something before it comes back to the surface: there is no such orbit.
     pub is_cut: bool,
 }
 
@@ -138,7 +138,7 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
 pub(crate) struct LastArc {
     /// The motion, which ends with that arc.
     pub motion: Trajectory,
-    /// True if something comes in between, more than rounding before the end.
+    /// True if something comes in between, and not as near to the end as the surface that is touched there.
     pub is_cut: bool,
     left: usize,
     until: Instant,
@@ -179,7 +179,7 @@ impl LastArc {
         self.motion.arc(arc, elapsed);
         let (position, velocity) = arc.course.state_at(elapsed, arc.clock.drive(self.until));
         self.motion.end = Start::new(position, velocity);
-        self.is_cut = lasts < (1.0 - SAME) * elapsed;
+        self.is_cut = lasts < (1.0 - NEAR) * elapsed;
         self.is_found = true;
     }
 }

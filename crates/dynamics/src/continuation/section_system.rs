@@ -208,7 +208,7 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
                 monodromy: Monodromy::from_factors(&factors),
                 impacts,
                 response: tangent.matrix.m12 * sizes[1] / sizes[0],
-                is_cut: test.is_some() && around.is_cut,
+                is_cut: around.is_cut,
             },
         };
         let value = match self.condition {

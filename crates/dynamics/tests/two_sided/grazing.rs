@@ -3,9 +3,10 @@
 use super::*;
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
-    BranchPoint, ContinuationSettings, CurveLimits, Face, Graze, follow_special,
+    BranchPoint, ContinuationSettings, CurveLimits, Face, Graze, Special, follow_special,
 };
 use softstop_dynamics::orbit::OrbitError;
+use softstop_testing::kelvin_voigt;
 
 /// The branch of the motion on which a machine settles from rest in the middle, over frequencies.
 fn branch(scene: &Scene, range: (f64, f64)) -> Branch {
@@ -120,6 +121,75 @@ fn touches_of_stops_that_are_nearly_alike_are_told_apart() {
         }
         faces.sort_by_key(|face| *face == Face::Below);
         assert_eq!(faces, [Face::Clearance, Face::Below], "{apart} {release:?}");
+    }
+}
+
+/// The branch of the motion between two stops along the clearance of that above, from where it presses on this one to where it no
+/// longer does, and the amplitude of the free motion. The stop below is nearer than that by a share.
+fn along_clearance(frequency: f64, stop: Stop, nearer: f64) -> (Branch, f64) {
+    let mut scene = machine(1.0, 0.1, frequency, 0.8);
+    let spring = 1.0 - frequency * frequency;
+    let amplitude = scene.excitation.amplitude / spring.hypot(0.1 * frequency);
+    (scene.clearance, scene.contact_damping) = (0.98 * amplitude, 0.1);
+    let clearance = amplitude * (1.0 - nearer);
+    scene.below = Some(Box::new(Below {
+        clearance,
+        stop: stop.clone(),
+    }));
+    scene.stop = stop;
+    let (start, settled) = (scene.clearance, scene.trajectory(Start::new(0.0, 1.0), 400));
+    let family = ParameterFamily::new(scene, [Parameter::Clearance]).expect("a parameter");
+    let limits = Limits {
+        range: (start, 1.1 * amplitude),
+        points: 4000,
+    };
+    let state = settled.expect("a motion").end.into();
+    let go_on = |_: &_| ControlFlow::Continue(());
+    let branch = Continuation::new(&family, 1).branch(start, state, &limits, go_on);
+    (branch.expect("a branch"), amplitude)
+}
+
+/// The faces that are grazed on a branch, whether a crossing dies there, and the parameter.
+fn touches(branch: &Branch) -> Vec<(Face, bool, f64)> {
+    let touch = |special: &Special| match special.kind {
+        SpecialKind::Grazing(graze) => Some((graze.face, graze.dies, special.point.parameter)),
+        _ => None,
+    };
+    branch.specials.iter().filter_map(touch).collect()
+}
+
+/// The orbit leaves the stop below, comes back to it as it presses less and less on that above, and leaves this one where the
+/// free motion just reaches it: on one step, after which it crosses one face less often and the other more often.
+#[test]
+fn touches_that_come_and_go_on_one_step_are_told_each() {
+    for nearer in [1e-6, 1e-9] {
+        let stop = kelvin_voigt(1.0, Release::Clearance);
+        let (branch, amplitude) = along_clearance(0.5, stop, nearer);
+        let [left, back, free] = touches(&branch)[..] else {
+            panic!("{:?}", touches(&branch));
+        };
+        let kinds = [left, back, free].map(|(face, dies, _)| (face, dies));
+        let (below, above) = (Face::Below, Face::Clearance);
+        assert_eq!(kinds, [(below, true), (below, false), (above, true)]);
+        assert!(left.2 < back.2 && back.2 < free.2);
+        assert_near(free.2, amplitude, 0.1 * nearer);
+    }
+}
+
+/// Where the free motion just reaches the stop above it would be beyond the one below: no orbit touches as it does, and the
+/// branch ends before, in the touch of the stop below.
+#[test]
+fn what_would_cross_another_stop_does_not_graze() {
+    for (preload, nearer) in [(1e-3, 1e-6), (1e-2, 1e-4)] {
+        let stiffness = 0.2;
+        let stop = Stop::Preloaded { stiffness, preload };
+        let (branch, amplitude) = along_clearance(0.3, stop, nearer);
+        assert!(matches!(branch.ends.1, End::Grazing), "{:?}", branch.ends);
+        let touches = touches(&branch);
+        let [(Face::Below, false, parameter)] = touches[..] else {
+            panic!("{touches:?}");
+        };
+        assert!(parameter < amplitude);
     }
 }
 
