@@ -270,3 +270,26 @@ fn the_zone_of_a_lightly_damped_machine_ends_at_a_fold_of_its_branch() {
         assert_near(zone.high.frequency, 1.4808, 1e-3);
     }
 }
+
+/// Above half its natural frequency the paper's machine has a stable range whose distance from there, width and hardest impact
+/// shrink as its damping does. Rounding tells its orbits apart ever worse, until it is too narrow.
+#[test]
+fn a_range_that_shrinks_with_the_damping_is_found() {
+    let in_dampings = |damping: f64| {
+        let mut scene = Ratios::unloaded().scene().expect("valid");
+        (scene.damping, scene.contact_damping) = (2.0 * damping, 2.0 * damping);
+        let ranges = stable_ranges(&scene).expect("a scene");
+        let range = ranges.first().filter(|range| range.high.frequency < 0.6)?;
+        let ends = [&range.low, &range.high].map(|end| (end.frequency - 0.5) / damping);
+        Some((ends, range.hardest.before_impact_velocity() / damping))
+    };
+    let (ends, hardest) = in_dampings(1e-6).expect("a range");
+    for damping in [3e-7, 2e-7, 1e-7, 3e-8] {
+        let (found, velocity) = in_dampings(damping).expect("a range");
+        for (found, expected) in found.into_iter().zip(ends) {
+            assert_near(found, expected, 0.01 * (ends[1] - ends[0]));
+        }
+        assert_near(velocity, hardest, 0.01 * hardest);
+    }
+    assert!(in_dampings(1e-8).is_none());
+}

@@ -185,16 +185,22 @@ impl RangeCandidate {
     /// The stable range, if the motions between the ends of the part are stable and have one impact, and the ends are told apart.
     fn into_range(self, continuation: &Continuation<'_>, ends: RangeEnd) -> Option<StableRange> {
         let Self { begins, mut points } = self;
+        let end = points.pop()?;
+        let mut inner = points.split_off(points.len().min(1));
+        let begin = points.pop()?;
+        let middle = 0.5 * (begin.parameter + end.parameter);
         // Both ends may lie on one step.
-        if let [from, to] = points.as_slice() {
-            let middle = 0.5 * (from.parameter + to.parameter);
-            points.insert(1, continuation.point_between(from, to, middle).ok()?);
+        if inner.is_empty() {
+            inner.push(continuation.point_between(&begin, &end, middle).ok()?);
         }
-        let inner = points.get(1..points.len().saturating_sub(1))?;
-        let is_single = |point: &BranchPoint| point.impacts.len() == 1 && point.is_stable();
-        if inner.is_empty() || !inner.iter().all(is_single) {
+        // No test passes zero in between, but at hardly any damping rounding puts motions onto the other side of an end.
+        let stable = inner.iter().filter(|point| point.is_stable()).count();
+        if 2 * stable <= inner.len() || inner.iter().any(|point| point.impacts.len() != 1) {
             return None;
         }
+        let off = |point: &BranchPoint| (point.parameter - middle).abs();
+        inner.retain(|point| point.is_stable() && off(point) <= off(&end));
+        let mut points = [vec![begin], inner, vec![end]].concat();
         let mut causes = [begins, ends];
         if points[0].parameter > points[points.len() - 1].parameter {
             points.reverse();
