@@ -7,7 +7,6 @@ mod figure;
 mod grazing;
 mod guide;
 mod interrupts;
-mod lanes;
 mod methods;
 mod methods_limits;
 mod paper_maps;

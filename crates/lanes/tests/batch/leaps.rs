@@ -217,7 +217,7 @@ fn a_wall_met_once_in_four_periods_is_not_leapt_over() {
 }
 
 /// Motions of 600 periods that lanes led elsewhere while they trusted measured returns: those of other machines among the
-/// 268 of 24,576 motions of machines aimed at trouble (`crates/lab/tests/lanes`, seeds 37 and 38), but for the chaotic ones. All have
+/// 268 of 24,576 motions of machines aimed at trouble (`random/aimed.rs`, seeds 37 and 38), but for the chaotic ones. All have
 /// a wall that is met once in many periods.
 #[test]
 fn motions_once_led_elsewhere_end_where_the_scalar_engine_ends() {

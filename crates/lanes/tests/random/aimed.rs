@@ -5,7 +5,7 @@ use softstop::internals::turning_points;
 use softstop::{Arc, Clock, Crossing, Observer, Scene, Start, Stop};
 use softstop_testing::slope;
 
-use super::random_machines::{Draw, Motion};
+use super::machines::{Draw, Motion};
 
 /// Motions of one aim.
 const GROUP: usize = 16;
