@@ -9,7 +9,7 @@ pub use crate::events::{Guard, NextEvent, first_crossing};
 pub use crate::expression::{Differentiated, Expression, chained};
 pub use crate::flow::{ArcSolution, Departure, LinearLaw, Modes, Polynomial, PowerLaw};
 pub use crate::integrator::{Evaluations, MAX_RESTITUTION, Motion, Shares, Walk, shares, work};
-pub use crate::machine::nearest_name;
+pub use crate::machine::{nearest_name, with_near_word};
 pub use crate::peak::{highest_point, largest_value};
 pub use crate::phases::{Beyond, Exit, Mode, Phase, PhaseId, Phases, Surface, SurfaceId};
 pub use crate::root::narrow_root;

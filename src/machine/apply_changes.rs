@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::keys::SlopeKey;
+use super::keys::{SlopeKey, with_near_word};
 use super::{Machine, UnitSystem, keys};
 use crate::error::MachineError;
 use crate::scene::{Below, Parameter, Stop};
@@ -224,7 +224,7 @@ fn set_slope(
 
 /// What is wrong with a stop, in its keys.
 fn stop_error(error: &toml::de::Error, stop: &str) -> MachineError {
-    let words = error.message().replace("field `", &format!("key `{stop}."));
+    let words = with_near_word(error.message()).replace("field `", &format!("key `{stop}."));
     MachineError::Syntax(format!("{stop}: {words}"))
 }
 

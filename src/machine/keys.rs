@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{Machine, UnitSystem};
-use crate::error::MachineError;
+use crate::error::{MachineError, did_you_mean};
 use crate::scene::{Dimension, Parameter, Stop};
 
 /// Key of the initial position, in m.
@@ -191,6 +191,15 @@ pub fn nearest_name<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
         |known: &&str| edit_distance(name, known).min(1 + edit_distance(&last(name), &last(known)));
     let nearest = known.iter().copied().min_by_key(distance)?;
     (distance(&nearest) <= (name.len() / 3).max(1)).then_some(nearest)
+}
+
+/// What a reader says of an unknown word, with the known one that it may mean; any other message stays as it is.
+pub fn with_near_word(message: &str) -> String {
+    let mut quoted = message.split('`').skip(1).step_by(2);
+    let unknown = quoted.next().filter(|_| message.starts_with("unknown "));
+    let known: Vec<&str> = quoted.collect();
+    let meant = unknown.and_then(|unknown| nearest_name(unknown, &known));
+    message.to_owned() + &did_you_mean(meant)
 }
 
 /// Letters to put in, take out or change to make one word of another.

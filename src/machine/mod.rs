@@ -7,7 +7,7 @@ mod line_numbers;
 mod read_file;
 mod write_file;
 
-pub use keys::nearest_name;
+pub use keys::{nearest_name, with_near_word};
 
 use crate::checked_scene::CheckedScene;
 use crate::error::{MachineError, SceneError};

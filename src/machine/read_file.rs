@@ -44,7 +44,11 @@ impl Machine {
     pub fn from_toml(text: &str) -> Result<Self, MachineError> {
         let syntax = |mut error: Error| {
             error.set_input(Some(text));
-            MachineError::Syntax(error.to_string().trim_end().to_owned())
+            let (text, message) = (error.to_string(), error.message());
+            let text = text
+                .trim_end()
+                .replace(message, &keys::with_near_word(message));
+            MachineError::Syntax(text)
         };
         let mut table = DeTable::parse(text).map_err(syntax)?;
         for task in Self::TASK {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use softstop::internals::{did_you_mean, nearest_name};
+use softstop::internals::with_near_word;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
@@ -38,15 +38,6 @@ impl Failure {
         let column = before.chars().rev().take_while(|it| *it != '\n').count() + 1;
         Self::usage(format!("{}:{line}:{column}: {message}", path.display()))
     }
-}
-
-/// What a reader says of an unknown word, with the known one that it may mean; any other message stays as it is.
-pub fn with_near_word(message: &str) -> String {
-    let mut quoted = message.split('`').skip(1).step_by(2);
-    let unknown = quoted.next().filter(|_| message.starts_with("unknown "));
-    let known: Vec<&str> = quoted.collect();
-    let meant = unknown.and_then(|unknown| nearest_name(unknown, &known));
-    message.to_owned() + &did_you_mean(meant)
 }
 
 /// Where a dotted key begins, or the innermost table of those that it is in.

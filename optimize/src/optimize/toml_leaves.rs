@@ -1,10 +1,9 @@
 //! Values in tables of TOML, by their dotted names.
 
 use serde::de::DeserializeOwned;
-use softstop::internals::{did_you_mean, nearest_name};
+use softstop::internals::{did_you_mean, nearest_name, with_near_word};
 use softstop::{Machine, Parameter};
 use softstop_console::failure::Failure;
-use softstop_console::position::with_near_word;
 use toml::{Table, Value};
 
 /// Keys of a table that says something of one parameter.

@@ -1,9 +1,9 @@
 //! How a machine may be run up: what `require.run_up = { ... }` says besides bounds.
 
 use serde::Deserialize;
+use softstop::internals::with_near_word;
 use softstop::{Dimension, Machine, Parameter};
 use softstop_console::failure::Failure;
-use softstop_console::position::with_near_word;
 use softstop_dynamics::run_up::{RunUpSettings, Way};
 use toml::Value;
 use toml::de::Error;
