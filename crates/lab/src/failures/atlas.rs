@@ -26,10 +26,10 @@ pub struct Axes {
     pub step: Vec<f64>,
 }
 
-/// What stands above one stiffness: the machine, its true motion and the limits that theory sets.
+/// The machine with a stop of one stiffness, its true motion and the limits that theory sets.
 #[derive(Debug, Clone)]
-pub struct Column {
-    /// The task; its machine has the column's stiffness.
+pub struct StiffnessCase {
+    /// The task, with this machine.
     pub task: Task,
     /// The true motion: stored, or else the exact method's own.
     pub truth: Solution,
@@ -71,7 +71,7 @@ pub struct Atlas {
     /// Where it was looked at.
     pub axes: Axes,
     /// What stands above each stiffness.
-    pub columns: Vec<Column>,
+    pub columns: Vec<StiffnessCase>,
     /// Error at the end over the motion's size up to which a run has converged.
     pub tolerance: f64,
     /// A map for each method.
@@ -107,7 +107,8 @@ impl Atlas {
         progress: &Progress,
     ) -> Result<Self, Failure> {
         let columns = axes.stiffness.par_iter();
-        let columns = columns.map(|&stiffness| Column::new(&case, stiffness, tolerance, progress));
+        let columns =
+            columns.map(|&stiffness| StiffnessCase::new(&case, stiffness, tolerance, progress));
         let columns = columns.collect::<Result<Vec<_>, _>>()?;
         let mut maps = Vec::new();
         for &family in families {
@@ -147,7 +148,7 @@ impl Cell {
     }
 }
 
-impl Column {
+impl StiffnessCase {
     fn new(
         case: &Case,
         stiffness: f64,

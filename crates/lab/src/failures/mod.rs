@@ -6,7 +6,7 @@ mod family;
 mod machines;
 mod report;
 
-pub use atlas::{Atlas, Axes, Cell, Column, Map};
+pub use atlas::{Atlas, Axes, Cell, Map, StiffnessCase};
 pub use family::Family;
 pub use machines::{built_in, find};
 

@@ -3,37 +3,56 @@
 use crate::methods::Verdict;
 use serde_json::json;
 
-use super::atlas::{Atlas, Cell, Map};
-use softstop_console::column::{self, Column, Units};
+use super::atlas::{Atlas, Cell, Map, StiffnessCase};
+use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::record::Record;
+use softstop_console::table::aligned;
 
-/// A run: its atlas and map, and the numbers of its stiffness and of its step.
-pub(super) type Run<'a> = (&'a Atlas, &'a Map, usize, usize);
+/// A run.
+pub(super) struct Run<'a> {
+    atlas: &'a Atlas,
+    map: &'a Map,
+    machine: &'a StiffnessCase,
+    stiffness: f64,
+    step: f64,
+    cell: &'a Cell,
+}
 
 /// All runs.
 pub(super) fn runs(atlases: &[Atlas]) -> impl Iterator<Item = Run<'_>> {
     let maps = atlases.iter();
     let maps = maps.flat_map(|atlas| atlas.maps.iter().map(move |map| (atlas, map)));
     maps.flat_map(|(atlas, map)| {
-        let steps = atlas.axes.step.len();
-        let all = 0..steps * atlas.axes.stiffness.len();
-        all.map(move |run| (atlas, map, run / steps, run % steps))
+        let machines = atlas.axes.stiffness.iter().zip(&atlas.columns);
+        machines
+            .zip(&map.columns)
+            .flat_map(move |((stiffness, machine), cells)| {
+                let cells = atlas.axes.step.iter().zip(cells);
+                cells.map(move |(step, cell)| Run {
+                    atlas,
+                    map,
+                    machine,
+                    stiffness: *stiffness,
+                    step: *step,
+                    cell,
+                })
+            })
     })
 }
 
 /// The columns of the table.
 pub(super) fn table<'a>() -> [Column<Run<'a>>; 9] {
     columns! { Run<'a>, it;
-        "scene" [None], "" => it.0.case.name.as_str();
-        "scheme" [None], "" => it.1.family.title();
-        "events" [None], "" => it.1.family.row();
-        "stiffness (N/m)" [None], "" => it.0.axes.stiffness[it.2];
-        "step (drive periods)" [None], "" => it.0.axes.step[it.3];
-        "verdict" [None], "" => it.1.columns[it.2][it.3].verdict.name();
-        "error" [None], "" => it.1.columns[it.2][it.3].error;
-        "impacts" [None], "" => it.1.columns[it.2][it.3].impacts;
-        "true impacts" [None], "" => it.0.columns[it.2].truth.impacts.len();
+        "scene" [None], "" => it.atlas.case.name.as_str();
+        "scheme" [None], "" => it.map.family.title();
+        "events" [None], "" => it.map.family.row();
+        "stiffness (N/m)" [None], "" => it.stiffness;
+        "step (drive periods)" [None], "" => it.step;
+        "verdict" [None], "" => it.cell.verdict.name();
+        "error" [None], "" => it.cell.error;
+        "impacts" [None], "" => it.cell.impacts;
+        "true impacts" [None], "" => it.machine.truth.impacts.len();
     }
 }
 
@@ -94,23 +113,15 @@ fn shares(map: &Map) -> [f64; 8] {
     Verdict::ALL.map(|own| verdicts().filter(|other| *other == own).count() as f64 / all)
 }
 
-/// For people: the shares of all classes in per cent.
+/// For people: the shares of the classes in per cent.
 pub(super) fn text(atlas: &Atlas) -> String {
-    let columns = columns! { (String, [f64; 8]), it;
-        "method" [None] Plain, "" => it.0.as_str();
-        "conv." [None] Fixed(1), "" => 100.0 * it.1[0];
-        "inacc." [None] Fixed(1), "" => 100.0 * it.1[1];
-        "count" [None] Fixed(1), "" => 100.0 * it.1[2];
-        "missed" [None] Fixed(1), "" => 100.0 * it.1[3];
-        "gain" [None] Fixed(1), "" => 100.0 * it.1[4];
-        "blow-up" [None] Fixed(1), "" => 100.0 * it.1[5];
-        "stuck" [None] Fixed(1), "" => 100.0 * it.1[6];
-        "unsuited" [None] Fixed(1), "" => 100.0 * it.1[7];
+    let line = |map: &Map| {
+        let shares = Verdict::ALL.iter().zip(shares(map));
+        let shares = shares.filter(|(_, share)| *share > 0.0);
+        let words = shares.map(|(it, share)| format!("{:.1} {}", 100.0 * share, it.name()));
+        vec![map.family.name(), words.collect::<Vec<_>>().join(", ")]
     };
-    let maps = atlas
-        .maps
-        .iter()
-        .map(|map| (map.family.name(), shares(map)));
+    let maps: Vec<Vec<String>> = atlas.maps.iter().map(line).collect();
     let (exact, error) = exact(atlas);
     let count = |letter| exact.matches(letter).count();
     let untold = match count('-') {
@@ -121,7 +132,7 @@ pub(super) fn text(atlas: &Atlas) -> String {
         "{} ({}): % of all runs\n{}exact: {} of {} converged, largest error {error:.1e}{untold}\n\n",
         atlas.case.title,
         atlas.case.name,
-        column::text(&columns, maps, &Units::SI),
+        aligned(&maps, |_| true),
         count('C'),
         exact.len() - count('-'),
     )

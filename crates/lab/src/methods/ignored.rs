@@ -1,7 +1,7 @@
 //! Steps on a fixed grid that take the law as it is where the state is, whatever they step over.
 
 use super::machine::{Machine, State};
-use super::rise::{Fineness, Probe, rise};
+use super::rise::{Probe, locate_rise};
 use super::step::Step;
 use super::{MethodError, Task};
 use softstop::{Impact, Wall};
@@ -111,7 +111,7 @@ impl Span {
         let end = |at: f64, state: &State| Probe {
             at,
             value: state.position - position,
-            what: state.velocity,
+            state: state.velocity,
         };
         let (low, high) = (end(0.0, &self.from), end(1.0, &self.to));
         if low.value >= 0.0 {
@@ -120,15 +120,11 @@ impl Span {
                 velocity: self.from.velocity.max(0.0),
             };
         }
-        let fine = Fineness {
-            width: f64::EPSILON,
-            value: f64::EPSILON * position.abs(),
-        };
-        let tried = rise(low, high, fine, probe);
-        let Probe { at, what, .. } = tried.unwrap_or(high);
+        let tolerance = f64::EPSILON * position.abs();
+        let Ok(found) = locate_rise([low, high], f64::EPSILON, tolerance, probe);
         Impact {
-            time: self.time + at * self.length,
-            velocity: what,
+            time: self.time + found.at * self.length,
+            velocity: found.state,
         }
     }
 

@@ -20,7 +20,7 @@ pub use exact::Exact;
 pub use fixed::{Events, FixedStep};
 pub(crate) use machine::in_range;
 pub use moreau::Moreau;
-pub use rise::{Fineness, Probe, rise};
+pub use rise::{Probe, locate_rise};
 pub use scheme::Scheme;
 pub use verdict::{Judge, Verdict};
 

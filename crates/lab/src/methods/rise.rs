@@ -1,5 +1,7 @@
 //! Where a function rises through zero, by what it is at tried places.
 
+use softstop::internals::narrow_root;
+
 /// A tried place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Probe<T> {
@@ -7,106 +9,74 @@ pub struct Probe<T> {
     pub at: f64,
     /// The function there.
     pub value: f64,
-    /// What else is known there.
-    pub what: T,
+    /// The state there.
+    pub state: T,
 }
 
-/// How closely a zero is to be found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fineness {
-    /// Width of the bracket.
-    pub width: f64,
-    /// Size of the function that counts as zero.
-    pub value: f64,
-}
-
-/// Regula falsi with halved weights (Illinois; Dowell and Jarratt 1971) in the bracket from `low`, where the
-/// function is below zero, to `high`, where it is not. Where two tries in a row have not halved the bracket, its
-/// middle is tried.
+/// The place between two at which a function, above zero at the later one, rises through zero: so close that its size is
+/// within the tolerance, or that of the bracket within the width. If it begins on zero, it is taken to dip below first; if
+/// no dip is found, it rises at once.
 ///
 /// # Errors
 /// Those of the function.
-pub fn rise<T: Copy, E>(
-    mut low: Probe<T>,
-    mut high: Probe<T>,
-    fine: Fineness,
+pub fn locate_rise<T: Copy, E>(
+    [begin, mut high]: [Probe<T>; 2],
+    width: f64,
+    tolerance: f64,
     mut function: impl FnMut(f64) -> Result<(f64, T), E>,
 ) -> Result<Probe<T>, E> {
-    let (mut below, mut above) = (low.value, high.value);
-    let mut last_rose = None;
-    let mut widths = [f64::INFINITY; 2];
-    loop {
-        let width = high.at - low.at;
-        if high.value <= fine.value || width <= fine.width {
-            return Ok(high);
-        }
-        if -low.value <= fine.value {
-            return Ok(low);
-        }
-        let slow = width > 0.5 * widths[0];
-        let middle = low.at + 0.5 * width;
-        let secant = low.at + width * (below / (below - above));
-        let inside = low.at < secant && secant < high.at;
-        let at = if slow || !inside { middle } else { secant };
-        widths = if slow {
-            [f64::INFINITY; 2]
-        } else {
-            [widths[1], width]
+    let mut probe = |at| {
+        let (value, state) = function(at)?;
+        Ok(Probe { at, value, state })
+    };
+    let mut low = begin;
+    while low.value >= -tolerance {
+        let tried = match high.at - begin.at > width {
+            true => probe(f64::midpoint(begin.at, high.at))?,
+            false => return Ok(begin),
         };
-        if at <= low.at || at >= high.at {
-            return Ok(high);
-        }
-        let (value, what) = function(at)?;
-        let rose = value >= 0.0;
-        let repeated = last_rose == Some(rose);
-        last_rose = Some(rose);
-        if rose {
-            high = Probe { at, value, what };
-            above = value;
-            below *= if repeated { 0.5 } else { 1.0 };
-        } else {
-            low = Probe { at, value, what };
-            below = value;
-            above *= if repeated { 0.5 } else { 1.0 };
+        match tried.value < -tolerance {
+            true => low = tried,
+            false => high = tried,
         }
     }
+    let [below, above] = [low, high].map(|end| (end.at, end.value));
+    if high.value > tolerance {
+        narrow_root(below, above, width, |at| {
+            let tried = probe(at)?;
+            if tried.value >= -tolerance {
+                high = tried;
+            }
+            Ok(match tried.value.abs() <= tolerance {
+                true => 0.0,
+                false => tried.value,
+            })
+        })?;
+    }
+    Ok(high)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-
-    fn zero(low: f64, high: f64, function: impl Fn(f64) -> f64) -> (f64, u32) {
-        let mut tries = 0;
-        let probe = |at: f64| Probe {
-            at,
-            value: function(at),
-            what: (),
-        };
-        let fine = Fineness {
-            width: 1e-15,
-            value: 0.0,
-        };
-        let found = rise(probe(low), probe(high), fine, |at| {
-            tries += 1;
-            Ok::<_, ()>((function(at), ()))
-        });
-        (found.expect("a zero").at, tries)
-    }
+    use super::{Probe, locate_rise};
 
     #[test]
-    fn finds_simple_flat_and_steep_zeros() {
-        let (at, tries) = zero(0.0, 2.0, |x| x * x - 2.0);
-        assert!(
-            (at - 2f64.sqrt()).abs() < 1e-15 && tries < 14,
-            "{at} {tries}"
-        );
-        let (at, tries) = zero(-0.3, 2.0, |x| x.powi(9));
-        assert!(at.abs() < 2e-15 && tries < 170, "{at} {tries}");
-        // So close below the zero that the secant cannot be told from that end.
-        let (at, tries) = zero(5.0, 6.0, |x| if x < 5.5 { -1e-30 } else { x });
-        assert!((at - 5.5).abs() < 2e-15 && tries < 170, "{at} {tries}");
-        let (at, tries) = zero(0.0, 1.0, |x| if x < 0.3 { -1e-9 } else { 1e9 });
-        assert!((at - 0.3).abs() < 2e-15 && tries < 170, "{at} {tries}");
+    fn a_function_that_begins_on_zero_rises_behind_its_dip_or_at_once() {
+        for (function, expected) in [
+            ((|x| x * (x - 0.75)) as fn(f64) -> f64, 0.75),
+            (|x| x * (x - 1e-3), 1e-3),
+            (|x| x * (x + 0.75), 0.0),
+        ] {
+            let probe = |at| Probe {
+                at,
+                value: function(at),
+                state: (),
+            };
+            let found = locate_rise([probe(0.0), probe(1.0)], 1e-15, 1e-16, |at| {
+                Ok::<_, ()>((function(at), ()))
+            });
+            let at = found.expect("a zero").at;
+            assert!((at - expected).abs() < 2e-15, "{at}");
+        }
     }
 }

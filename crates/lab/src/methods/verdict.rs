@@ -11,7 +11,7 @@ const BLOWN_UP: f64 = 1e3;
 macro_rules! verdicts {
     ($($(#[$what:meta])* $verdict:ident $name:literal $letter:literal $color:expr;)*) => {
         /// The class of an outcome. Of several that apply the one named last here is taken.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Verdict {
             $($(#[$what])* $verdict),*
         }

@@ -41,7 +41,7 @@ pub fn short_name(method: &str) -> &str {
 }
 
 /// All methods that are made for a scene: the exact one first, then every scheme with a fixed step, Moreau's for a rigid
-/// stop, and the adaptive solvers, whose absolute tolerances are the same in m and m/s. Every other setting if it has to be
+/// stop, and the adaptive solvers. Every other setting if it has to be
 /// quick.
 pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
     let (every, period) = (if quick { 2 } else { 1 }, scene.period());
@@ -67,11 +67,7 @@ pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
         let tolerances = (3..=13).step_by(every).map(|k| 10.0_f64.powi(-k));
         let look = look(2 + Scheme::ALL.len() + index, false);
         Family::new(scheme.name(), look, tolerances, |tolerance| {
-            Box::new(Adaptive {
-                scheme,
-                relative: tolerance,
-                absolute: tolerance,
-            })
+            Box::new(Adaptive { scheme, tolerance })
         })
     });
     let others = both.chain(moreau).chain(adaptive);

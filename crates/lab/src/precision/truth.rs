@@ -16,8 +16,7 @@ const AGREED: &str = "the exact method, borne out by Dormand and Prince's 8(5,3)
 /// The method that bears the exact one out.
 pub(crate) const OTHER: Adaptive = Adaptive {
     scheme: AdaptiveScheme::Dop853,
-    relative: 1e-13,
-    absolute: 1e-13,
+    tolerance: 1e-13,
 };
 /// Least error of doubles: half a unit in the last place, relative.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;

@@ -3,7 +3,7 @@
 //! Its own events and dense output are not used: in version 0.7.0 the search for an event loses its bracket, and the
 //! interpolants are not those of the schemes' authors.
 
-use crate::methods::{Fineness, MethodError, Probe, rise};
+use crate::methods::{MethodError, Probe, locate_rise};
 use differential_equations::control::ControlFlag;
 use differential_equations::error::Error;
 use differential_equations::interpolate::Interpolation;
@@ -45,7 +45,7 @@ fn follow<const O: usize, const S: usize, const I: usize>(
 ) -> Outcome {
     let most = usize::try_from(span.most_steps).unwrap_or(usize::MAX);
     let method = || {
-        let method = scheme().rtol(settings.relative).atol(settings.absolute);
+        let method = scheme().rtol(settings.tolerance).atol(settings.tolerance);
         method.max_steps(most)
     };
     let start = (span.from, span.state);
@@ -69,18 +69,25 @@ fn follow<const O: usize, const S: usize, const I: usize>(
         steps,
     };
     if watch.risen {
-        let found = first_rise(leg, before, (time, state), |at| {
+        // Of several guards the first zero of the highest.
+        let ends = [before, (time, state)].map(|(at, state)| Probe {
+            at,
+            value: leg.height(state),
+            state,
+        });
+        // What rounding leaves of position and of time.
+        let slope = (ends[1].value - ends[0].value) / (time - before.0);
+        let width = 4.0 * f64::EPSILON * time.abs();
+        let tolerance = 2.0 * f64::EPSILON * (leg.size() + slope * time.abs());
+        let found = locate_rise(ends, width, tolerance, |at| {
             let step = IVP::ode(leg, before.0, at, before.1);
             let points = step.method(method().h0(at - before.0)).solve();
-            Ok(points
-                .map_err(failed)?
-                .y
-                .last()
-                .copied()
-                .unwrap_or(before.1))
+            let state = points.map_err(failed)?.y.last().copied();
+            let state = state.unwrap_or(before.1);
+            Ok::<_, MethodError>((leg.height(state), state))
         })?;
-        (reached.time, reached.state) = (found.at, found.what);
-        reached.guard = leg.highest(found.what).map(|(index, _)| index);
+        (reached.time, reached.state) = (found.at, found.state);
+        reached.guard = leg.highest(found.state).map(|(index, _)| index);
     }
     Ok(reached)
 }
@@ -121,43 +128,4 @@ impl Solout<f64, State> for &mut Watch<'_> {
             false => ControlFlag::Continue,
         }
     }
-}
-
-/// Where a guard rises through zero before one is above zero at the end of a step: the first zero of the highest. If
-/// that begins on zero, as on a surface that was just left, it dips below first; if no dip is found, it rises
-/// at once.
-fn first_rise(
-    leg: &Leg<'_>,
-    before: (f64, State),
-    after: (f64, State),
-    mut step: impl FnMut(f64) -> Result<State, MethodError>,
-) -> Result<Probe<State>, MethodError> {
-    let probe = |(at, what)| Probe {
-        at,
-        value: leg.height(what),
-        what,
-    };
-    let begin = probe(before);
-    let (mut low, mut high) = (begin, probe(after));
-    // What rounding leaves of position and of time.
-    let slope = (high.value - low.value) / (high.at - low.at);
-    let fine = Fineness {
-        width: 4.0 * f64::EPSILON * high.at.abs(),
-        value: 2.0 * f64::EPSILON * (leg.size() + slope * high.at.abs()),
-    };
-    while low.value >= -fine.value {
-        let at = begin.at + 0.5 * (high.at - begin.at);
-        if at <= begin.at || at >= high.at {
-            return Ok(begin);
-        }
-        let tried = probe((at, step(at)?));
-        match tried.value < -fine.value {
-            true => low = tried,
-            false => high = tried,
-        }
-    }
-    rise(low, high, fine, |at| {
-        let state = step(at)?;
-        Ok((leg.height(state), state))
-    })
 }

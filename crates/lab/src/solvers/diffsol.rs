@@ -46,8 +46,8 @@ fn problem<'a>(
 > {
     OdeBuilder::<Matrix>::new()
         .t0(span.from)
-        .rtol(settings.relative)
-        .atol([settings.absolute])
+        .rtol(settings.tolerance)
+        .atol([settings.tolerance])
         .rhs_implicit(
             |y, _, t, rate| rate.copy_from_slice(&leg.rate(t, pair(y))),
             |y, _, _, along, product| {

@@ -11,7 +11,7 @@
 //!
 //! The smooth law of one phase is followed with that phase's guards as the solver's event functions; at an
 //! event the core's rules of landing choose state and phase, and the solver begins anew there. All settings but
-//! the tolerances are the crates' own. While the mass is held the solver follows the drive instead, which
+//! the tolerance are the crates' own. While the mass is held the solver follows the drive instead, which
 //! has to let it go.
 //!
 //! A contact that begins and ends within one step is passed over by all of them. diffsol's roots are its own: it looks
@@ -84,30 +84,24 @@ impl AdaptiveScheme {
 /// Follows a leg.
 type Follow = fn(&Leg<'_>, &Span, &Adaptive) -> Outcome;
 
-/// A crate's solver with its tolerances.
+/// A crate's solver with its tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Adaptive {
     /// The scheme.
     pub scheme: AdaptiveScheme,
-    /// Error allowed in a step, relative to position and velocity, > 0.
-    pub relative: f64,
-    /// Error allowed in a step beside that, in m and in m/s, > 0.
-    pub absolute: f64,
+    /// Error allowed in a step, relative to position and velocity, and as much in m and in m/s, > 0.
+    pub tolerance: f64,
 }
 
 impl Integrator for Adaptive {
     fn name(&self) -> String {
-        let (scheme, relative, absolute) = (self.scheme.name(), self.relative, self.absolute);
-        format!("{scheme}, tolerances {relative:e} and {absolute:e}")
+        format!("{}, tolerance {:e}", self.scheme.name(), self.tolerance)
     }
 
     fn integrate(&self, task: &Task) -> Result<Solution, MethodError> {
-        let positive = |name, value: f64| {
-            let holds = value > 0.0 && value.is_finite();
-            in_range(name, value, holds, "finite and > 0")
-        };
-        positive("relative tolerance", self.relative)?;
-        positive("absolute tolerance", self.absolute)?;
+        let tolerance = self.tolerance;
+        let holds = tolerance > 0.0 && tolerance.is_finite();
+        in_range("tolerance", tolerance, holds, "finite and > 0")?;
         let until = task.until()?;
         let (_, follow) = self.scheme.solver();
         let mut walk = Walk::new(&task.scene.check().map_err(MotionError::from)?, task.start)?;
