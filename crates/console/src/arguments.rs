@@ -8,7 +8,7 @@ use softstop::{Machine, Parameter, UnitSystem};
 use crate::budget::BudgetArguments;
 use crate::change::Change;
 use crate::failure::Failure;
-use crate::machine::Regime;
+use crate::machine::PaperMachine;
 use crate::output::Format;
 use crate::scene_file::read;
 
@@ -68,15 +68,15 @@ impl MachineArguments {
         below: &[Change],
     ) -> Result<Machine, Failure> {
         let named = self.machine.clone().or(machine);
-        let named = named.unwrap_or_else(|| Regime::Unloaded.name().into());
-        let regime = Regime::called(&named);
+        let named = named.unwrap_or_else(|| PaperMachine::Unloaded.name().into());
+        let regime = PaperMachine::called(&named);
         let mut machine = match regime.and_then(|regime| Machine::named(regime.name())) {
             Some(machine) => machine,
             None => read(&named)?,
         };
         for (word, changes) in [("set", below), ("--set", &self.set)] {
             let of_strip = changes.iter().find(|it| it.key().starts_with("piercing."));
-            if let (Some(Regime::Unloaded), Some(change)) = (regime, of_strip) {
+            if let (Some(PaperMachine::Unloaded), Some(change)) = (regime, of_strip) {
                 return Err(Failure::usage(format!(
                     "{} = {}: the unloaded machine has no strip; the machine called loaded has one",
                     change.key(),

@@ -9,14 +9,14 @@ use softstop::Ratios;
 /// The paper's two regimes (its Figs. 6 and 7, a and b).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Regime {
+pub enum PaperMachine {
     /// No strip: the preloaded stop stands at the clearance (point A).
     Unloaded,
     /// A strip is pierced before the stop is met (point B).
     Loaded,
 }
 
-impl Regime {
+impl PaperMachine {
     /// Its machine, at that point.
     pub const fn ratios(self) -> Ratios {
         match self {

@@ -8,7 +8,7 @@ use softstop_dynamics::{MotionKind, Orbit, orbit};
 
 use crate::column::{Cell, Column, Told};
 use crate::columns;
-use crate::machine::Regime;
+use crate::machine::PaperMachine;
 use crate::number::NumberStyle;
 use crate::record::Record;
 use crate::units;
@@ -73,7 +73,9 @@ pub fn stated(machine: &Machine) -> Record {
 }
 
 fn ratio(machine: &Machine, ratios: &Ratios, name: &str) -> Option<Cell> {
-    let regime = ratios.piercing.map_or(Regime::Unloaded, |_| Regime::Loaded);
+    let regime = ratios
+        .piercing
+        .map_or(PaperMachine::Unloaded, |_| PaperMachine::Loaded);
     Some(match name {
         "preload" => ratios.preload.into(),
         "regime" => regime.name().into(),

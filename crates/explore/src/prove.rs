@@ -14,13 +14,12 @@ use softstop_prove::motion::Kind;
 use softstop_prove::{Certificate, Claim, Interval, Touch};
 
 use crate::continuation::seed;
-use softstop_console::arguments::{MachineArguments, refuse_followers_of_frequency};
-use softstop_console::budget::BudgetArguments;
+use softstop_console::arguments::{CommandArguments, refuse_followers_of_frequency};
 use softstop_console::column::Units;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::output::{self, Format, folder_and_file};
+use softstop_console::output::{self, folder_and_file};
 use softstop_console::record::Record;
 use softstop_console::report::{self, stated_machine};
 use softstop_console::table::{aligned, heading};
@@ -51,7 +50,7 @@ pub struct ProveArguments {
     #[arg(long, value_name = "p/n", value_parser = seed::regime)]
     pub orbit: Option<Regime>,
     /// Prove the orbit nearest to this state at time 0, stable or not: that of --orbit p/n if given, else of one drive period
-    #[arg(long, value_name = "X,V", value_parser = seed::state)]
+    #[arg(long, value_name = "X,V", value_parser = seed::state, allow_hyphen_values = true)]
     pub state: Option<Vector2<f64>>,
     /// Prove a bifurcation of the motion: the one at the nearest frequency of the drive on its branch
     #[arg(long, value_enum, value_name = "WHAT")]
@@ -59,15 +58,9 @@ pub struct ProveArguments {
     /// The certificate to write
     #[arg(long, value_name = "FILE.json", default_value = "proof.json")]
     pub output: PathBuf,
-    /// How to print the result; the JSON is the certificate
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine.
+    /// How it prints its result, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 /// Where a motion begins or ends.
@@ -86,23 +79,20 @@ const BRANCH: ((f64, f64), usize) = ((0.5, 2.0), 2000);
 
 /// Proves the motion, writes the certificate and prints what it says.
 pub fn run(arguments: &ProveArguments) -> Result<(), Failure> {
-    arguments.machine.refuse_start()?;
-    let machine = arguments.machine.machine()?;
+    let machine = arguments.common.machine_without_start()?;
     can_be_proven(&machine)?;
     if arguments.at.is_some() {
         refuse_followers_of_frequency(&machine)?;
     }
     let (folder, file) = folder_and_file(&arguments.output)?;
     let export = Export::of_file("json", folder, file)?;
-    let certificate = arguments
-        .limit
-        .budget
-        .limit(|| prove(arguments, &machine.scene))?;
+    let limit = arguments.common.limit.budget;
+    let certificate = limit.limit(|| prove(arguments, &machine.scene))?;
     let report = ProofReport::new(certificate, &machine);
     if !file.ends_with(".json") {
         export.file("json", output::json(&report)?.as_bytes())?;
     }
-    export.finish(&report, report.text(), arguments.format)
+    export.finish(&report, report.text(), arguments.common.format)
 }
 
 /// Refuses a machine with a law that has no closed form.

@@ -1,7 +1,7 @@
 //! `softstop-lab throughput` as users and scripts meet it. Times are not looked at.
 
-use softstop_console::machine::Regime;
-use softstop_lab::throughput::fleet::Range;
+use softstop_console::machine::PaperMachine;
+use softstop_lab::throughput::batch::Range;
 use softstop_lab::throughput::measure::narrower;
 use softstop_lanes::Instructions;
 use softstop_testing::Program;
@@ -61,22 +61,22 @@ fn the_table_is_for_people() {
 #[test]
 fn engines_agree_on_the_motions_that_are_timed() -> Outcome {
     let range = Range {
-        machine: Regime::Unloaded,
+        machine: PaperMachine::Unloaded,
         frequencies: (1.1, 1.4),
         motions: 20,
         periods: 30,
         start: (0.0, 14.0),
     };
-    let fleet = range.fleet()?;
-    let safe = fleet.safe()?.impacts;
+    let batch = range.batch()?;
+    let safe = batch.safe()?.impacts;
     assert!(safe > 100);
     for set in [
         Instructions::Widest,
         Instructions::Avx2,
         Instructions::Portable,
     ] {
-        assert_eq!(fleet.batch(set)?.impacts, safe);
+        assert_eq!(batch.in_lanes(set)?.impacts, safe);
     }
-    assert_eq!(fleet.parallel(3)?.impacts, 3 * safe);
+    assert_eq!(batch.parallel(3)?.impacts, 3 * safe);
     Ok(())
 }

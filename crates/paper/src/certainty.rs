@@ -11,7 +11,7 @@ use crate::figure::{Drawn, Figure, Findings, Studio};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::csv;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_console::progress::Progress;
 use softstop_draw::{Chart, Layer, Mark, Stroke, style};
 use softstop_dynamics::basin::{BasinOptions, CertaintyAtPlace, establishing_certainties};
@@ -65,7 +65,7 @@ impl Starts {
 
 /// The certainty along the zone of a machine.
 struct Curve {
-    machine: Regime,
+    machine: PaperMachine,
     clearance: f64,
     starts: Starts,
     places: Vec<CertaintyAtPlace>,
@@ -83,10 +83,10 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let places = places(studio.detail.pick(STEPS[0], STEPS[1]));
     let cells = studio.detail.pick(CELLS[0], CELLS[1]);
     let usual = |machine| CLEARANCES.map(|clearance| (machine, clearance, REGION));
-    let others = OTHERS.map(|starts| (Regime::Unloaded, CLEARANCES[MIDDLE], starts));
+    let others = OTHERS.map(|starts| (PaperMachine::Unloaded, CLEARANCES[MIDDLE], starts));
     let all = [
-        &usual(Regime::Unloaded)[..],
-        &usual(Regime::Loaded),
+        &usual(PaperMachine::Unloaded)[..],
+        &usual(PaperMachine::Loaded),
         &others,
     ]
     .concat();

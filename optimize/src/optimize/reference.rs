@@ -4,7 +4,7 @@ use anyhow::Context;
 use softstop::Machine;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_dynamics::{Orbit, orbit, zone};
 
 /// A motion and its machine.
@@ -39,7 +39,7 @@ pub(super) fn references(machine: &Machine) -> Result<Vec<Reference>, Failure> {
             orbit,
         })));
     }
-    [Regime::Unloaded, Regime::Loaded]
+    [PaperMachine::Unloaded, PaperMachine::Loaded]
         .into_iter()
         .map(|regime| {
             let point = || format!("the paper's point {}", regime.point());

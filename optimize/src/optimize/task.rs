@@ -9,7 +9,7 @@ use softstop_console::arguments::refuse_without_zone;
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_console::output::Format;
 use softstop_console::range::require;
 use softstop_console::scene_file;
@@ -340,7 +340,7 @@ type Text = (PathBuf, String);
 /// The task of `--config`, or the one that stands beside the machine in its file; with that file.
 fn task(arguments: &OptimizeArguments) -> Result<(TaskSpec, Option<Text>), Failure> {
     let machine = arguments.machine.machine.as_ref();
-    let file = machine.filter(|path| Regime::called(path).is_none());
+    let file = machine.filter(|path| PaperMachine::called(path).is_none());
     let beside = |path: &PathBuf| {
         let text = scene_file::text(path)?;
         let task = TaskSpec::beside_machine(path, &text)?;
@@ -363,13 +363,13 @@ fn task(arguments: &OptimizeArguments) -> Result<(TaskSpec, Option<Text>), Failu
 /// Where the machine is: what the command line says, or else the task, seen from the task's folder.
 fn place(arguments: &OptimizeArguments, task: &TaskSpec) -> Option<PathBuf> {
     let folder = arguments.config.as_ref().and_then(|path| path.parent());
-    let of_task = task
-        .machine
-        .as_ref()
-        .map(|machine| match (Regime::called(machine), folder) {
-            (None, Some(folder)) => folder.join(machine),
-            _ => machine.clone(),
-        });
+    let of_task =
+        task.machine
+            .as_ref()
+            .map(|machine| match (PaperMachine::called(machine), folder) {
+                (None, Some(folder)) => folder.join(machine),
+                _ => machine.clone(),
+            });
     arguments.machine.machine.clone().or(of_task)
 }
 

@@ -6,7 +6,7 @@ use hmac_sha256::Hash;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::json;
 use softstop_console::failure::Failure;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_console::scene_file;
 use toml::Value;
 
@@ -85,7 +85,7 @@ impl Source {
         arguments: &OptimizeArguments,
         machine: Option<&Path>,
     ) -> Result<Vec<Self>, Failure> {
-        let is_file = |path: &&Path| Regime::called(path).is_none() && path.is_file();
+        let is_file = |path: &&Path| PaperMachine::called(path).is_none() && path.is_file();
         let files = arguments.config.as_deref().into_iter().chain(machine);
         let files = files.filter(is_file).map(Self::read);
         let mut sources = files.collect::<Result<Vec<Self>, Failure>>()?;

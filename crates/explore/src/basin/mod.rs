@@ -10,14 +10,14 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Error, anyhow};
 use clap::Args;
+use serde::Serialize;
 use softstop::Machine;
 use softstop_dynamics::attractors::starting_box;
 use softstop_dynamics::basin::{BasinOptions, establishing_certainties, find_basins, zone_box};
-use softstop_dynamics::monitor::OptionalMemory;
+use softstop_dynamics::monitor::{Monitor, OptionalMemory};
 use softstop_dynamics::zone;
 
 use plane::{Plane, Size};
-use report::{BasinReport, CertaintyReport};
 use softstop_console::arguments::{CommandArguments, refuse_without_zone, title};
 use softstop_console::column;
 use softstop_console::export::{Array, Export, hand_over};
@@ -169,6 +169,21 @@ fn options(arguments: &BasinArguments) -> Result<BasinOptions, Failure> {
     })
 }
 
+/// Does work on so many cells within the budget, each piece of it kept: what it finds, and the pieces.
+fn compute<T, E: std::error::Error + Send + Sync + 'static>(
+    arguments: &BasinArguments,
+    of: &impl Serialize,
+    cells: usize,
+    progress: Progress,
+    work: impl FnOnce(Monitor<'_>, OptionalMemory<'_>) -> Result<T, E>,
+) -> Result<(T, Keep), Failure> {
+    let keep = Keep::open(&arguments.output, "basin", of, arguments.keep)?;
+    let found = arguments.common.limit.budget.limit_many(cells, || {
+        Ok(work(&progress.watcher(), Some(&keep)).map_err(Error::from)?)
+    })?;
+    Ok((found, keep))
+}
+
 /// The basins of one machine.
 fn picture(
     arguments: &BasinArguments,
@@ -181,15 +196,12 @@ fn picture(
     let limit = arguments.common.limit.budget;
     let region = || starting_box(scene, &interrupt::watch);
     let grid = limit.limit(|| plane::grid(arguments, scene, region))?;
+    let cells = grid.cell_count();
+    let progress = Progress::new(cells as u64, "cells");
     let of = (scene, grid, options);
-    let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
-    let progress = Progress::new(grid.cell_count() as u64, "cells");
-    let kept: OptionalMemory<'_> = Some(&keep);
-    let basins = limit.limit_many(grid.cell_count(), || {
-        let basins = find_basins(scene, &grid, options, &progress.watcher(), kept);
-        Ok(basins.map_err(Error::from)?)
+    let (basins, keep) = compute(arguments, &of, cells, progress, |monitor, kept| {
+        find_basins(scene, &grid, options, monitor, kept)
     })?;
-    drop(progress);
     let shown = format!("Basins: {}", title(machine));
     let png = chart::png(machine, &basins, shown);
     let png = png.map_err(|error| anyhow!("cannot draw basin.png: {error}"))?;
@@ -199,9 +211,9 @@ fn picture(
         let middles = || (0..axis.cells).map(|cell| axis.value_at(cell)).collect();
         hand_over(name, || Array::Numbers(middles()));
     }
-    let (report, text) = BasinReport::new(machine, &basins, plane::beyond(machine, &grid));
+    let (result, text) = report::basins(machine, &basins, plane::beyond(machine, &grid));
     export.table("csv", &report::columns(), report::rows(&basins))?;
-    export.finish(&report, text, arguments.common.format)?;
+    export.finish(&result, text, arguments.common.format)?;
     keep.forget();
     Ok(())
 }
@@ -231,22 +243,18 @@ fn along_zone(
     let shares: Vec<f64> = (0..places)
         .map(|k| k as f64 / (places - 1) as f64)
         .collect();
+    let cells = grid.cell_count() * places;
+    let progress = Progress::new(cells as u64, "cells");
     let of = (&zone.scene, &shares, grid, options);
-    let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
-    let progress = Progress::new((grid.cell_count() * places) as u64, "cells");
-    let kept: OptionalMemory<'_> = Some(&keep);
-    let found = limit.limit_many(grid.cell_count() * places, || {
-        let found =
-            establishing_certainties(&zone, &shares, &grid, options, &progress.watcher(), kept);
-        Ok(found.map_err(Error::from)?)
+    let (found, keep) = compute(arguments, &of, cells, progress, |monitor, kept| {
+        establishing_certainties(&zone, &shares, &grid, options, monitor, kept)
     })?;
-    drop(progress);
     let title = format!("Establishing certainty: {}", title(machine));
     let chart = certainty::chart(machine, &found, &title);
-    let (report, text) = CertaintyReport::new(machine, (&grid, widened), &found);
+    let (result, text) = report::certainties(machine, (&grid, widened), &found);
     let rows = found.iter().map(|place| (machine, place));
     export.sheet(["csv", "svg"], &report::places(), rows, &chart)?;
-    export.finish(&report, text, arguments.common.format)?;
+    export.finish(&result, text, arguments.common.format)?;
     keep.forget();
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! What basins came to.
 
-use serde::Serialize;
+use serde_json::json;
 use softstop::{Dimension, Machine};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Units};
@@ -10,30 +10,6 @@ use softstop_console::report::{MotionName, stated_machine};
 use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::basin::{AxisQuantity, BasinBall, CertaintyAtPlace};
 use softstop_dynamics::{Axis, Basins, Grid, Regime};
-
-/// The basins of one machine.
-#[derive(Debug, Serialize)]
-pub(super) struct BasinReport {
-    machine: Record,
-    /// Where the cells lie.
-    grid: Grid,
-    basins: Vec<Record>,
-    /// What to beware of.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    warning: Option<String>,
-}
-
-/// The certainty of z = 1 along the hysteresis zone.
-#[derive(Debug, Serialize)]
-pub(super) struct CertaintyReport {
-    /// The machine; its own frequency says where the cells lie.
-    machine: Record,
-    /// Where the cells lie.
-    grid: Grid,
-    /// Whether that is wider than at the machine's own frequency, for the motions of the zone.
-    widened: bool,
-    places: Vec<Record>,
-}
 
 /// A row of `basin.csv`.
 pub(super) type Basin<'a> = (&'a Attractor, Option<BasinBall>);
@@ -118,64 +94,61 @@ fn range(machine: &Machine, axis: &Axis) -> String {
         .to_owned()
 }
 
-impl BasinReport {
-    /// The basins, and the text of them.
-    pub(super) fn new(
-        machine: &Machine,
-        basins: &Basins,
-        warning: Option<String>,
-    ) -> (Self, String) {
-        let (rows, columns) = (rows(basins), columns());
-        let found = rows.iter().map(|row| {
-            let figures = Record::of(&columns[NAMING..], row);
-            let name = MotionName::of(&row.0.motion).figures();
-            name.and(figures).and(Record::of(&centre(), row))
-        });
-        let told = warning.iter();
-        let told = told.map(|warning| format!("\nWarning: {warning}.\n"));
-        let text = head(machine, &basins.grid)
-            + &below(&Record::all(&columns, &rows), &Units::of(machine))
-            + &told.collect::<String>();
-        let report = Self {
-            machine: stated_machine(machine),
-            grid: basins.grid,
-            basins: found.collect(),
-            warning,
-        };
-        (report, text)
-    }
+/// The basins of one machine, what to beware of, and the text of both.
+pub(super) fn basins(
+    machine: &Machine,
+    basins: &Basins,
+    warning: Option<String>,
+) -> (Record, String) {
+    let (rows, columns) = (rows(basins), columns());
+    let found = rows.iter().map(|row| {
+        let figures = Record::of(&columns[NAMING..], row);
+        let name = MotionName::of(&row.0.motion).figures();
+        name.and(figures).and(Record::of(&centre(), row))
+    });
+    let told = warning.iter();
+    let told = told.map(|warning| format!("\nWarning: {warning}.\n"));
+    let text = head(machine, &basins.grid)
+        + &below(&Record::all(&columns, &rows), &Units::of(machine))
+        + &told.collect::<String>();
+    let result = Record::default()
+        .hidden("machine", stated_machine(machine))
+        .hidden("grid", json!(basins.grid))
+        .hidden("basins", found.collect::<Vec<_>>());
+    let result = warning
+        .into_iter()
+        .fold(result, |result, it| result.hidden("warning", it));
+    (result, text)
 }
 
-impl CertaintyReport {
-    /// The places, and the text of them.
-    pub(super) fn new(
-        machine: &Machine,
-        (grid, widened): (&Grid, bool),
-        found: &[CertaintyAtPlace],
-    ) -> (Self, String) {
-        let columns = places();
-        let figures = |place| Record::of(&columns[..columns.len() - 1], &(machine, place));
-        let figures: Vec<Record> = found.iter().map(figures).collect();
-        let wider = "Wider than at the machine's own frequency, for motions of the zone lie outside that.\n\n";
-        let text = "Establishing certainty of z = 1, from g0 (place 0) to s_SN (place 1)\n"
-            .to_owned()
-            + &head(machine, grid)
-            + if widened { wider } else { "" }
-            + &below(&figures, &Units::of(machine));
-        let motion = |class: &Attractor| {
-            let name = MotionName::of(&class.motion).figures();
-            name.hidden("share", class.share)
-        };
-        let places = figures.into_iter().zip(found).map(|(figures, place)| {
-            let motions = place.basins.classes.iter().map(motion);
-            figures.hidden("motions", motions.collect::<Vec<_>>())
-        });
-        let report = Self {
-            machine: stated_machine(machine),
-            grid: *grid,
-            widened,
-            places: places.collect(),
-        };
-        (report, text)
-    }
+/// The certainty of z = 1 along the hysteresis zone, and the text of it; the grid may be wider than at the machine's own
+/// frequency, for the motions of the zone.
+pub(super) fn certainties(
+    machine: &Machine,
+    (grid, widened): (&Grid, bool),
+    found: &[CertaintyAtPlace],
+) -> (Record, String) {
+    let columns = places();
+    let figures = |place| Record::of(&columns[..columns.len() - 1], &(machine, place));
+    let figures: Vec<Record> = found.iter().map(figures).collect();
+    let wider =
+        "Wider than at the machine's own frequency, for motions of the zone lie outside that.\n\n";
+    let text = "Establishing certainty of z = 1, from g0 (place 0) to s_SN (place 1)\n".to_owned()
+        + &head(machine, grid)
+        + if widened { wider } else { "" }
+        + &below(&figures, &Units::of(machine));
+    let motion = |class: &Attractor| {
+        let name = MotionName::of(&class.motion).figures();
+        name.hidden("share", class.share)
+    };
+    let places = figures.into_iter().zip(found).map(|(figures, place)| {
+        let motions = place.basins.classes.iter().map(motion);
+        figures.hidden("motions", motions.collect::<Vec<_>>())
+    });
+    let result = Record::default()
+        .hidden("machine", stated_machine(machine))
+        .hidden("grid", json!(grid))
+        .hidden("widened", widened)
+        .hidden("places", places.collect::<Vec<_>>());
+    (result, text)
 }

@@ -19,8 +19,14 @@ use softstop_console::progress::Progress;
 pub(super) struct Curves<'a> {
     /// The curves.
     pub found: Vec<Curve>,
-    /// The special points that lie on none, and why no curve begins there.
-    pub failures: Vec<(&'a Special, OrbitError)>,
+    /// The special points that lie on none.
+    pub not_followed: Vec<NotFollowed<'a>>,
+}
+
+/// A special point that no curve in two parameters could be followed from, and why.
+pub(super) struct NotFollowed<'a> {
+    pub special: &'a Special,
+    pub error: OrbitError,
 }
 
 /// Follows the special points of a branch in both parameters.
@@ -40,7 +46,7 @@ pub(super) fn curves<'a>(
         settings: ContinuationSettings::of_curves(STEP),
     };
     let bar = Progress::open("points of curves");
-    let (mut found, mut failures) = (Vec::<Curve>::new(), Vec::new());
+    let (mut found, mut not_followed) = (Vec::<Curve>::new(), Vec::new());
     let start = |special: &Special| [special.point.parameter, both[1].start];
     let is_on = |special: &Special, curves: &[Curve]| {
         let mut curves = curves.iter();
@@ -58,7 +64,7 @@ pub(super) fn curves<'a>(
         });
         match curve {
             Ok(curve) => found.push(curve),
-            Err(error) => failures.push((special, error)),
+            Err(error) => not_followed.push(NotFollowed { special, error }),
         }
     }
     let scales = family.parameter_scales();
@@ -88,17 +94,20 @@ pub(super) fn curves<'a>(
     if interrupt::requested() {
         return Err(Failure::Interrupted);
     }
-    failures.retain(|(special, _)| !is_on(special, &found));
-    if found.is_empty() && !failures.is_empty() {
+    not_followed.retain(|it: &NotFollowed<'_>| !is_on(it.special, &found));
+    if found.is_empty() && !not_followed.is_empty() {
         let name = machine.name(both[0].parameter);
-        let failed = failures.iter().map(|(special, error)| {
+        let failed = not_followed.iter().map(|NotFollowed { special, error }| {
             let (kind, place) = (special.kind.name(), special.point.parameter);
             format!("no curve of the {kind} at {name} = {place}: {error}")
         });
         let failed: Vec<_> = failed.collect();
         return Err(Failure::Run(anyhow!(failed.join("\n       "))));
     }
-    Ok(Curves { found, failures })
+    Ok(Curves {
+        found,
+        not_followed,
+    })
 }
 
 /// True if a curve is of this kind, with so many drive periods.

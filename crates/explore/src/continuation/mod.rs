@@ -74,7 +74,7 @@ pub struct ContinueArguments {
     pub orbit: Regime,
     /// Start from the orbit of n drive periods (--orbit p/n) nearest to this state at time 0,
     /// that is at drive angle phi, stable or not
-    #[arg(long, value_name = "X,V", value_parser = seed::state)]
+    #[arg(long, value_name = "X,V", value_parser = seed::state, allow_hyphen_values = true)]
     pub state: Option<Vector2<f64>>,
     /// Start from a point of an earlier run, stable or not: FILE is its --format json, POINT a special point (SN, or PD2
     /// for the second PD; not PF) or a row of its branches.csv; the parameter of that run takes its value there
@@ -171,8 +171,7 @@ pub fn run(arguments: &ContinueArguments) -> Result<(), Failure> {
         )?;
         curves = Some((second.parameter, found));
     }
-    let most = arguments.points;
-    let report = report(&machine, first.parameter, most, &branches, curves.as_ref());
+    let report = report(&machine, first.parameter, &branches, curves.as_ref());
     let (result, text) = report.map_err(anyhow::Error::from)?;
     export.finish(&result, text, arguments.common.format)
 }

@@ -8,7 +8,7 @@ use softstop_dynamics::continuation::{
 };
 use softstop_dynamics::orbit::OrbitError;
 
-use super::curves::Curves;
+use super::curves::{Curves, NotFollowed};
 use super::tables::{branch_columns, branch_rows, curve_columns, curve_rows};
 use softstop_console::column::{Column, Told, Unit, Units, arrays};
 use softstop_console::columns;
@@ -17,16 +17,13 @@ use softstop_console::report::stated_machine;
 use softstop_console::table::heading;
 use softstop_console::units;
 
-/// A branch or a curve, and the points that it was followed for at most.
-type Followed<'a, T> = (&'a T, usize);
-
-fn branch<'a>() -> [Column<Followed<'a, Branch>>; 5] {
-    columns! { Followed<'a, Branch>, it;
-        "periods" [None] Plain, "drive periods n of its orbits" => it.0.periods;
-        "points" [None] Plain, "points" => it.0.points.len();
-        "from" [None] Fixed(10), "value of the parameter at its first point" => it.0.points.first().map(|it| it.parameter);
-        "to" [None] Fixed(10), "at its last" => it.0.points.last().map(|it| it.parameter);
-        "ends" [None] Plain, "why it ends there" => ends([&it.0.ends.0, &it.0.ends.1].map(|at| end(at, it.1)));
+fn branch() -> [Column<Branch>; 5] {
+    columns! { Branch, it;
+        "periods" [None] Plain, "drive periods n of its orbits" => it.periods;
+        "points" [None] Plain, "points" => it.points.len();
+        "from" [None] Fixed(10), "value of the parameter at its first point" => it.points.first().map(|it| it.parameter);
+        "to" [None] Fixed(10), "at its last" => it.points.last().map(|it| it.parameter);
+        "ends" [None] Plain, "why it ends there" => ends([&it.ends.0, &it.ends.1].map(end));
     }
 }
 
@@ -47,14 +44,14 @@ fn specials<'a>() -> [Column<Classified<'a>>; 9] {
     }
 }
 
-fn curve<'a>() -> [Column<Followed<'a, Curve>>; 6] {
-    columns! { Followed<'a, Curve>, it;
-        "symbol" [None] Plain, "SN, PD, NS or G" => it.0.kind.symbol();
-        "periods" [None] Plain, "drive periods n of its orbits" => it.0.periods;
-        "points" [None] Plain, "how many" => it.0.points.len();
-        "from" [None] Fixed(8), "both parameters at its first point" => it.0.points.first().map(|it| it.parameters);
-        "to" [None] Fixed(8), "at its last" => it.0.points.last().map(|it| it.parameters);
-        "ends" [None] Plain, "why it ends there" => ends([&it.0.ends.0, &it.0.ends.1].map(|at| curve_end(at, it.1)));
+fn curve() -> [Column<Curve>; 6] {
+    columns! { Curve, it;
+        "symbol" [None] Plain, "SN, PD, NS or G" => it.kind.symbol();
+        "periods" [None] Plain, "drive periods n of its orbits" => it.periods;
+        "points" [None] Plain, "how many" => it.points.len();
+        "from" [None] Fixed(8), "both parameters at its first point" => it.points.first().map(|it| it.parameters);
+        "to" [None] Fixed(8), "at its last" => it.points.last().map(|it| it.parameters);
+        "ends" [None] Plain, "why it ends there" => ends([&it.ends.0, &it.ends.1].map(curve_end));
     }
 }
 
@@ -72,15 +69,12 @@ fn codimension_two<'a>() -> [Column<OnCurve<'a>>; 6] {
     }
 }
 
-/// A special point that no curve in two parameters could be followed from, and why.
-type Failed<'a> = &'a (&'a Special, OrbitError);
-
-fn failures<'a>() -> [Column<Failed<'a>>; 4] {
-    columns! { Failed<'a>, it;
-        "symbol" [None] Plain, "SN, PD, NS or G" => it.0.kind.symbol();
-        "name" [None] Plain, "what it is" => describe(it.0);
-        "value" [None] Fixed(12), "of the first parameter" => it.0.point.parameter;
-        "reason" [None] Plain, "why no curve begins there" => it.1.to_string();
+fn not_followed<'a>() -> [Column<NotFollowed<'a>>; 4] {
+    columns! { NotFollowed<'a>, it;
+        "symbol" [None] Plain, "SN, PD, NS or G" => it.special.kind.symbol();
+        "name" [None] Plain, "what it is" => describe(it.special);
+        "value" [None] Fixed(12), "of the first parameter" => it.special.point.parameter;
+        "reason" [None] Plain, "why no curve begins there" => it.error.to_string();
     }
 }
 
@@ -132,10 +126,10 @@ fn describe(special: &Special) -> String {
     }
 }
 
-fn end(end: &End, points: usize) -> String {
+fn end(end: &End) -> String {
     match end {
         End::Range => "the range ends".to_owned(),
-        End::Points => limit(points),
+        End::Points => LIMIT.to_owned(),
         End::Closed => "the branch is closed".to_owned(),
         End::Grazing => "the orbit grazes".to_owned(),
         End::Merged => "it merges into the orbit of half its period".to_owned(),
@@ -160,9 +154,7 @@ pub fn met(border: BorderCollision) -> &'static str {
 }
 
 /// Why it stops at the most points that there may be.
-fn limit(points: usize) -> String {
-    format!("stopped at the limit of {points} points; raise --points")
-}
+const LIMIT: &str = "stopped at the limit that --points sets";
 
 /// Why something cannot be followed any farther.
 fn lost(error: &OrbitError) -> String {
@@ -173,10 +165,10 @@ fn lost(error: &OrbitError) -> String {
     }
 }
 
-fn curve_end(end: &CurveEnd, points: usize) -> String {
+fn curve_end(end: &CurveEnd) -> String {
     match end {
         CurveEnd::Range => "a range ends".to_owned(),
-        CurveEnd::Points => limit(points),
+        CurveEnd::Points => LIMIT.to_owned(),
         CurveEnd::Closed => "the curve is closed".to_owned(),
         CurveEnd::Grazing => "the orbit grazes elsewhere".to_owned(),
         CurveEnd::CodimensionTwo(kind) => kind.name().to_owned(),
@@ -190,7 +182,6 @@ fn curve_end(end: &CurveEnd, points: usize) -> String {
 pub(super) fn report(
     machine: &Machine,
     parameter: Parameter,
-    most: usize,
     branches: &[Branch],
     curves: Option<&(Parameter, Curves<'_>)>,
 ) -> serde_json::Result<(Record, String)> {
@@ -199,7 +190,7 @@ pub(super) fn report(
     let label = |it| units.label(machine.name(it), Unit::Of(unit(it)));
     let (mut text, mut found) = (String::new(), Vec::new());
     for (number, it) in branches.iter().enumerate() {
-        let figures = Record::of(&branch(), &(it, most));
+        let figures = Record::of(&branch(), it);
         let specials = Record::all(&specials(), &classified(machine, parameter, it));
         text += &heading(&format!("Branch along {}", label(parameter)));
         text += &format!("{}\n", figures.text(&units));
@@ -216,19 +207,18 @@ pub(super) fn report(
             label(parameter),
             label(*second)
         ));
-        let (found, told) = curves_found(&curves.found, most, &units)?;
+        let (found, told) = curves_found(&curves.found, &units)?;
         text += &told;
-        let failures: Vec<_> = curves.failures.iter().collect();
-        let failures = Record::all(&self::failures(), &failures);
-        if !failures.is_empty() {
-            text += &format!("\nNot followed:\n{}", below(&failures, &units));
+        let not_followed = Record::all(&not_followed(), &curves.not_followed);
+        if !not_followed.is_empty() {
+            text += &format!("\nNot followed:\n{}", below(&not_followed, &units));
         }
         serde_json::Result::Ok(
             Record::default()
                 .hidden("parameter", machine.name(*second))
                 .hidden("unit", unit(*second))
                 .hidden("curves", found)
-                .hidden("not_followed", failures),
+                .hidden("not_followed", not_followed),
         )
     });
     let result = Record::default()
@@ -241,17 +231,13 @@ pub(super) fn report(
 }
 
 /// Curves with their points of codimension two, and the text of them.
-fn curves_found(
-    curves: &[Curve],
-    most: usize,
-    units: &Units,
-) -> serde_json::Result<(Vec<Record>, String)> {
+fn curves_found(curves: &[Curve], units: &Units) -> serde_json::Result<(Vec<Record>, String)> {
     let (mut figures, mut specials, mut found) = (Vec::new(), Vec::new(), Vec::new());
     for (number, it) in curves.iter().enumerate() {
         let own = it.specials.iter().map(|special| (it.kind, special));
         let own = Record::all(&codimension_two(), &own.collect::<Vec<_>>());
         let table = arrays(&curve_columns(), curve_rows((number, it)))?;
-        let one = Record::of(&curve(), &(it, most));
+        let one = Record::of(&curve(), it);
         figures.push(one.clone());
         specials.extend(own.clone());
         found.push(one.hidden("table", table).hidden("specials", own));

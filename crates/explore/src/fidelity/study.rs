@@ -109,13 +109,13 @@ impl Study {
             progress.step()?;
         }
         drop(progress);
-        study.measure(arguments)?;
+        study.measure_costs(arguments)?;
         Ok(study)
     }
 
-    /// Takes the costs of the motions, timed turn and turn about, so that what else the machine does meanwhile falls on
+    /// Measures the costs of the motions, timed turn and turn about, so that what else the machine does meanwhile falls on
     /// all of them.
-    fn measure(&mut self, arguments: &FidelityArguments) -> Result<(), Failure> {
+    fn measure_costs(&mut self, arguments: &FidelityArguments) -> Result<(), Failure> {
         let (periods, repeats) = (arguments.periods, arguments.repeats);
         let progress = Progress::new(self.entries.len() as u64 * repeats, "runs");
         let mut times = vec![Vec::new(); self.entries.len()];

@@ -6,12 +6,11 @@ use clap::Args;
 use softstop::internals::Motion;
 use softstop::{Allowed, Machine, Start};
 
-use softstop_console::arguments::MachineArguments;
-use softstop_console::budget::BudgetArguments;
+use softstop_console::arguments::CommandArguments;
 use softstop_console::failure::Failure;
 use softstop_console::range::require;
 
-/// What says which machine runs, and from where.
+/// Which machine runs, and from where.
 #[derive(Debug, Args)]
 pub struct MotionArguments {
     /// Position to start from [default: that of the machine]
@@ -24,12 +23,9 @@ pub struct MotionArguments {
     /// stays where it is
     #[arg(long, value_name = "FIRST:LAST", value_parser = counted)]
     pub missing_strips: Option<RangeInclusive<u64>>,
-    /// The machine.
+    /// How it prints its summary, the machine, and what it may cost.
     #[command(flatten)]
-    pub machine: MachineArguments,
-    /// What it may cost.
-    #[command(flatten)]
-    pub limit: BudgetArguments,
+    pub common: CommandArguments,
 }
 
 /// A machine at the beginning of a run.
@@ -46,10 +42,10 @@ impl MotionArguments {
         for (flag, value) in [("position", self.position), ("velocity", self.velocity)] {
             Allowed::Finite.check(flag, value.unwrap_or(0.0))?;
             if value.is_some() {
-                self.machine.refuse_start_beside(flag)?;
+                self.common.machine.refuse_start_beside(flag)?;
             }
         }
-        let machine = self.machine.machine()?;
+        let machine = self.common.machine.machine()?;
         let missing = self.missing_strips.clone();
         if let Some(periods) = &missing {
             let given = format!("{}:{}", periods.start(), periods.end());

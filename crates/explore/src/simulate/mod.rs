@@ -14,15 +14,14 @@ use clap::Args;
 use softstop::PhaseKind;
 
 pub use begin::MotionArguments;
-pub(crate) use record::Crossed;
 pub use record::contact_force;
+pub(crate) use record::{Crossed, crossing_columns};
 pub(crate) use report::report;
 pub(crate) use run::{Outcome, Plan, faces};
 
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::output::Format;
 use softstop_console::range::within;
 
 const EXAMPLES: &str = "\
@@ -56,7 +55,7 @@ reversal, rest and release with the exact states on both sides) and motion.svg (
 periods). docs/stops.md explains all stops.";
 
 fn help() -> String {
-    let crossings = column::help("crossings.csv", &record::columns());
+    let crossings = column::help("crossings.csv", &crossing_columns());
     EXAMPLES.to_owned() + &column::help("motion.csv", &run::columns()) + &crossings
 }
 
@@ -73,10 +72,7 @@ pub struct SimulateArguments {
     /// Folder for motion.csv, crossings.csv and motion.svg
     #[arg(long, value_name = "DIR", default_value = "softstop-motion")]
     pub output: PathBuf,
-    /// How to print the summary
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine, and where its motion begins.
+    /// How it prints its summary, the machine, and where its motion begins.
     #[command(flatten)]
     pub motion: MotionArguments,
 }
@@ -99,7 +95,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     check(arguments)?;
     let begun = arguments.motion.begin()?;
     let export = Export::open(&arguments.output, &FILES)?;
-    let (samples, crossings) = (run::columns(), record::columns());
+    let (samples, crossings) = (run::columns(), crossing_columns());
     let mut samples = export.open_table("motion_csv", &samples)?;
     let mut crossings = export.open_table("crossings_csv", &crossings)?;
     let plan = Plan {
@@ -109,17 +105,17 @@ pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
         drawn: DRAWN,
     };
     let run = || plan.run(|row| samples.row(row), |row| crossings.row(row));
-    let outcome = arguments.motion.limit.budget.limit(run)?;
+    let outcome = arguments.motion.common.limit.budget.limit(run)?;
     samples.close()?;
     crossings.close()?;
     let machine = &begun.machine;
-    let title = report::chart_title(machine, plan.periods, plan.drawn);
+    let title = report::chart_title(&plan);
     let chart = outcome
         .drawing
         .svg(machine, &title, &faces(&machine.check(None)?));
     export.file("svg", chart.as_bytes())?;
-    let (result, text) = report(&plan, &outcome);
-    export.finish(&result, text, arguments.format)
+    let (result, text) = report(&outcome);
+    export.finish(&result, text, arguments.motion.common.format)
 }
 
 fn check(arguments: &SimulateArguments) -> Result<(), Failure> {

@@ -44,7 +44,7 @@ impl Crossed {
 }
 
 /// The columns of crossings.csv.
-pub(super) fn columns() -> [Column<Crossed>; 10] {
+pub(crate) fn crossing_columns() -> [Column<Crossed>; 10] {
     columns! { Crossed, it;
         "time" [Time], "when" => it.time;
         "kind" [None], "of the crossing" => it.kind();

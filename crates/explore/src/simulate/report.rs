@@ -1,7 +1,7 @@
 //! The summary of a run, in the machine's own units.
 
 use serde_json::json;
-use softstop::{Impact, Machine, Start};
+use softstop::{Impact, Start};
 
 use super::name;
 use super::run::{Outcome, Plan};
@@ -14,34 +14,31 @@ use softstop_console::record::{Record, below};
 use softstop_console::report::stated_machine;
 use softstop_console::table::{heading, sections};
 
-/// A run and what came of it.
-type Run<'a> = (&'a Plan<'a>, &'a Outcome);
-
-fn overview<'a>() -> [Column<Run<'a>>; 7] {
-    columns! { Run<'a>, it;
-        "periods" [None] Plain, "drive periods" => it.0.periods;
-        "period" [Time], "drive period" => it.0.begun.machine.scene.period();
-        "duration" [Time] Seven, "time" => it.1.duration;
-        "start" [None] Plain, "start: position and velocity" => state(it.0.begun.start);
-        "end" [None] Plain, "end: position and velocity" => state(it.1.end);
-        "pierced" [None] Plain, "strips pierced" => it.1.tally.pierced;
-        "rest_count" [None] Plain, "rests" => it.1.tally.rest_count;
+fn overview<'a>() -> [Column<Outcome<'a>>; 7] {
+    columns! { Outcome<'a>, it;
+        "periods" [None] Plain, "drive periods" => it.plan.periods;
+        "period" [Time], "drive period" => it.plan.begun.machine.scene.period();
+        "duration" [Time] Seven, "time" => it.duration;
+        "start" [None] Plain, "start: position and velocity" => state(it.plan.begun.start);
+        "end" [None] Plain, "end: position and velocity" => state(it.end);
+        "pierced" [None] Plain, "strips pierced" => it.tally.pierced;
+        "rest_count" [None] Plain, "rests" => it.tally.rest_count;
     }
 }
 
-fn impacts<'a>() -> [Column<Run<'a>>; 5] {
-    columns! { Run<'a>, it;
-        "count" [None] Plain, "impacts" => it.1.tally.impacts.count;
-        "per_period" [None] Seven, "impacts per period" => it.1.tally.impacts.count as f64 / it.0.periods as f64;
-        "least_before_impact_velocity" [Velocity] Seven, "lowest before-impact velocity" => it.1.tally.impacts.range.map(|it| it.0);
-        "mean_before_impact_velocity" [Velocity] Seven, "mean" => it.1.tally.impacts.mean();
-        "before_impact_velocity" [Velocity] Seven, "highest" => it.1.tally.impacts.range.map(|it| it.1);
+fn impacts<'a>() -> [Column<Outcome<'a>>; 5] {
+    columns! { Outcome<'a>, it;
+        "count" [None] Plain, "impacts" => it.tally.impacts.count;
+        "per_period" [None] Seven, "impacts per period" => it.tally.impacts.count as f64 / it.plan.periods as f64;
+        "least_before_impact_velocity" [Velocity] Seven, "lowest before-impact velocity" => it.tally.impacts.range.map(|it| it.0);
+        "mean_before_impact_velocity" [Velocity] Seven, "mean" => it.tally.impacts.mean();
+        "before_impact_velocity" [Velocity] Seven, "highest" => it.tally.impacts.range.map(|it| it.1);
     }
 }
 
 /// supplied = dissipated + stored, but for the defect of rounding.
-fn energy() -> [Column<Outcome>; 4] {
-    columns! { Outcome, it;
+fn energy<'a>() -> [Column<Outcome<'a>>; 4] {
+    columns! { Outcome<'a>, it;
         "supplied" [Energy] Seven, "energy supplied" => it.tally.work.supplied;
         "dissipated" [Energy] Seven, "dissipated" => it.tally.work.dissipated.max(0.0);
         "stored" [Energy] Seven, "stored" => it.stored;
@@ -86,8 +83,9 @@ fn state(state: Start) -> Told {
 }
 
 /// The chart's title.
-pub(super) fn chart_title(machine: &Machine, periods: u64, drawn: u64) -> String {
-    let (name, drawn) = (title(machine), periods.min(drawn));
+pub(super) fn chart_title(plan: &Plan<'_>) -> String {
+    let (name, periods) = (title(&plan.begun.machine), plan.periods);
+    let drawn = periods.min(plan.drawn);
     match drawn == periods {
         true => format!("{name}: {drawn} drive periods"),
         false => format!("{name}: the last {drawn} of {periods} drive periods"),
@@ -98,16 +96,15 @@ pub(super) fn chart_title(machine: &Machine, periods: u64, drawn: u64) -> String
 const SHOWN: usize = 10;
 
 /// The summary and the text of it; all impacts stand in crossings.csv, here the last ones.
-pub(crate) fn report(plan: &Plan<'_>, outcome: &Outcome) -> (Record, String) {
-    let (tally, machine) = (&outcome.tally, &plan.begun.machine);
-    let run: Run<'_> = (plan, outcome);
+pub(crate) fn report(outcome: &Outcome<'_>) -> (Record, String) {
+    let (tally, machine) = (&outcome.tally, &outcome.plan.begun.machine);
     let seen = tally.phases.iter();
     let seen: Vec<(Visit, f64)> = seen.map(|visit| (*visit, outcome.duration)).collect();
     let phases = Record::all(&visits(), &seen);
     let rests = Record::all(&rests(), &tally.rests);
     let last = Record::all(&blows(), &tally.impacts.recent);
-    let overview = Record::of(&overview(), &run);
-    let impacts = Record::of(&impacts(), &run);
+    let overview = Record::of(&overview(), outcome);
+    let impacts = Record::of(&impacts(), outcome);
     let energy = Record::of(&energy(), outcome);
 
     let units = Units::of(machine);

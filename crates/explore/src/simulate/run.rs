@@ -26,7 +26,8 @@ pub(crate) struct Plan<'a> {
 }
 
 /// What came of it.
-pub(crate) struct Outcome {
+pub(crate) struct Outcome<'a> {
+    pub plan: &'a Plan<'a>,
     pub tally: Tally,
     pub drawing: Drawing,
     /// Energy in J stored at the end less that at the start.
@@ -39,7 +40,7 @@ pub(crate) struct Outcome {
 /// Share of the largest energy beyond which their balance tells that digits are lost.
 const MOST_DEFECT: f64 = 1e-9;
 
-impl Outcome {
+impl Outcome<'_> {
     /// Energy in J that the balance lacks.
     pub(super) fn defect(&self) -> f64 {
         let work = &self.tally.work;
@@ -77,7 +78,7 @@ impl Plan<'_> {
         &self,
         mut sampled: impl FnMut(&Sample) -> Result<(), Failure>,
         crossed: impl FnMut(&Crossed) -> Result<(), Failure>,
-    ) -> Result<Outcome, Failure> {
+    ) -> Result<Outcome<'_>, Failure> {
         let scene = &self.begun.machine.scene;
         let mut motion = self.begun.motion()?;
         let period = motion.clock().period();
@@ -109,6 +110,7 @@ impl Plan<'_> {
         drop(progress);
         let (tally, drawing) = recorder.finish(&motion);
         let outcome = Outcome {
+            plan: self,
             tally,
             drawing,
             stored: motion.mechanical_energy(scene) - before,

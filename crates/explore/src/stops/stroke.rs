@@ -2,16 +2,14 @@
 //! suspension acting on it besides. What is recorded is the force of the phases that the library
 //! lowers to.
 
-use softstop::{
-    Arc, Clock, Crossing, CrossingKind, MotionError, Observer, PhaseKind, Scene, Start,
-};
+use softstop::{Arc, Crossing, CrossingKind, MotionError, PhaseKind, Scene, Start};
 
 /// Points on an arc of a linear law.
 const POINTS: u32 = 120;
 /// Points on an arc of a nonlinear law, one of many that make up a contact.
 const FEW: u32 = 30;
 /// Drive periods after which a stroke that is still under way is cut.
-const LONGEST: u64 = 100;
+const MAX_PERIODS: u64 = 100;
 
 /// A stretch of a stroke in one phase and one direction.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,20 +55,66 @@ impl Stroke {
     /// [`MotionError`] if the scene is invalid.
     pub fn new(scene: &Scene, speed: f64, lead: f64, damped: bool) -> Result<Self, MotionError> {
         let scene = bare(scene, damped);
-        let mut motion = scene.motion(approach(&scene, speed, lead))?;
-        let mut recorder = Recorder {
-            clearance: scene.clearance,
-            lead,
-            stroke: Self::default(),
+        let motion = scene.trajectory(approach(&scene, speed, lead), MAX_PERIODS)?;
+        let clearance = scene.clearance;
+        let leaves = |it: &&Crossing| it.position == clearance && it.velocity_after < 0.0;
+        let exit = motion.crossings().find(leaves);
+        let mut stroke = Self {
+            exit_speed: exit.map(|it| -it.velocity_after),
+            ..Self::default()
         };
-        for cycle in 1..=LONGEST {
-            motion.advance(Clock::at_cycle(cycle), &mut recorder)?;
-            if recorder.stroke.exit_speed.is_some() {
+        for kept in &motion.arcs {
+            stroke.add(&motion.observed_arc(kept), kept.duration, clearance, lead);
+            let hit = kept.crossing.as_ref();
+            let hit = hit.filter(|it| matches!(it.kind, CrossingKind::Rebound { .. }));
+            stroke.rebound = stroke.rebound.or(hit.map(|it| Rebound {
+                deflection: it.position - clearance,
+                before: it.velocity,
+                after: it.velocity_after,
+                pieces_before: stroke.pieces.len(),
+            }));
+            let last = stroke.pieces.last();
+            if last.is_some_and(|piece| piece.kind == PhaseKind::Free && !piece.inward) {
                 break;
             }
         }
-        motion.tell_arc(&mut recorder);
-        Ok(recorder.stroke)
+        Ok(stroke)
+    }
+
+    /// Adds an arc, of the free flight out just the lead.
+    fn add(&mut self, arc: &Arc<'_>, elapsed: f64, clearance: f64, lead: f64) {
+        let Some(phase) = arc.phase else {
+            return;
+        };
+        let speed = -arc.course.departure.velocity;
+        let elapsed = match arc.kind == PhaseKind::Free && speed > 0.0 {
+            true => elapsed.min(lead / speed),
+            false => elapsed,
+        };
+        // The law of a way starts where the one before ended: with a jump, if there is one. A
+        // nonlinear phase is a chain of arcs without jumps.
+        let mut fresh = phase.hertz.is_none();
+        let points = if fresh { POINTS } else { FEW };
+        for step in 0..=points {
+            let after = elapsed * f64::from(step) / f64::from(points);
+            let Start { position, velocity } = arc.at(after);
+            let inward = velocity > 0.0;
+            let point = (
+                position - clearance,
+                phase.contact_force(position, velocity),
+            );
+            match self.pieces.last_mut() {
+                Some(last) if !fresh && last.kind == arc.kind && last.inward == inward => {
+                    last.points.push(point);
+                }
+                _ => self.pieces.push(Piece {
+                    kind: arc.kind,
+                    inward,
+                    points: vec![point],
+                }),
+            }
+            fresh = false;
+        }
     }
 
     /// Its largest deflection in m.
@@ -104,83 +148,4 @@ fn approach(scene: &Scene, speed: f64, lead: f64) -> Start {
     let climb = scene.clearance * scene.clearance - position * position;
     let square = speed * speed + scene.stiffness * climb / scene.mass;
     Start::new(position, square.max(0.0).sqrt())
-}
-
-struct Recorder {
-    clearance: f64,
-    lead: f64,
-    stroke: Stroke,
-}
-
-impl Recorder {
-    /// Appends a point, to a new piece if phase or direction are new.
-    fn push(&mut self, kind: PhaseKind, inward: bool, fresh: bool, point: (f64, f64)) {
-        let pieces = &mut self.stroke.pieces;
-        match pieces.last_mut() {
-            Some(last) if !fresh && last.kind == kind && last.inward == inward => {
-                last.points.push(point);
-            }
-            _ => pieces.push(Piece {
-                kind,
-                inward,
-                points: vec![point],
-            }),
-        }
-    }
-
-    /// True once the flight out has been recorded.
-    fn is_complete(&self) -> bool {
-        let last = self.stroke.pieces.last();
-        last.is_some_and(|piece| piece.kind == PhaseKind::Free && !piece.inward)
-    }
-
-    /// How long an arc lasts within the picture: of the free flight out, just the lead.
-    fn shown(&self, arc: &Arc<'_>, elapsed: f64) -> f64 {
-        let speed = -arc.course.departure.velocity;
-        if arc.kind == PhaseKind::Free && speed > 0.0 {
-            elapsed.min(self.lead / speed)
-        } else {
-            elapsed
-        }
-    }
-}
-
-impl Observer for Recorder {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let Some(phase) = arc.phase.filter(|_| !self.is_complete()) else {
-            return;
-        };
-        let elapsed = self.shown(arc, elapsed);
-        // The law of a way starts where the one before ended: with a jump, if there is one. A
-        // nonlinear phase is a chain of arcs without jumps.
-        let mut fresh = phase.hertz.is_none();
-        let points = if fresh { POINTS } else { FEW };
-        for step in 0..=points {
-            let after = elapsed * f64::from(step) / f64::from(points);
-            let Start { position, velocity } = arc.at(after);
-            let inward = if step == 0 && velocity == 0.0 {
-                false
-            } else {
-                velocity > 0.0
-            };
-            let force = phase.contact_force(position, velocity);
-            self.push(arc.kind, inward, fresh, (position - self.clearance, force));
-            fresh = false;
-        }
-    }
-
-    fn crossing(&mut self, crossing: &Crossing) {
-        let (before, after) = (crossing.velocity, crossing.velocity_after);
-        if matches!(crossing.kind, CrossingKind::Rebound { .. }) && self.stroke.rebound.is_none() {
-            self.stroke.rebound = Some(Rebound {
-                deflection: crossing.position - self.clearance,
-                before,
-                after,
-                pieces_before: self.stroke.pieces.len(),
-            });
-        }
-        if crossing.position == self.clearance && after < 0.0 {
-            self.stroke.exit_speed.get_or_insert(-after);
-        }
-    }
 }

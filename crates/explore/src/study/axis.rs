@@ -10,7 +10,7 @@ use super::values::{Draw, Scale, Values, between};
 /// An axis as the file states it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Stated {
+pub(super) struct AxisSettings {
     /// A key of the machine's file, or a letter.
     pub parameter: String,
     pub from: Option<f64>,
@@ -43,7 +43,7 @@ pub(super) struct Axis {
 
 impl Axis {
     /// What is stated of it, of this machine.
-    pub fn new(machine: &Machine, stated: &Stated) -> Result<Self, Failure> {
+    pub fn new(machine: &Machine, stated: &AxisSettings) -> Result<Self, Failure> {
         let key = stated.parameter.as_str();
         let wrong = |what: String| Failure::usage(format!("axis {key}: {what}"));
         let (target, unit) = match key {
@@ -87,7 +87,7 @@ impl Axis {
     /// Its least and greatest value.
     pub fn ends(&self) -> [f64; 2] {
         let [a, b] = match &self.values {
-            Values::Listed { values } => {
+            Values::List { values } => {
                 let least = values.iter().copied().fold(f64::INFINITY, f64::min);
                 [
                     least,
@@ -140,8 +140,8 @@ impl Axis {
 }
 
 /// The values that are stated, or what is wrong with them.
-fn values(stated: &Stated) -> Result<Values, String> {
-    let Stated {
+fn values(stated: &AxisSettings) -> Result<Values, String> {
+    let AxisSettings {
         from,
         to,
         count,
@@ -151,7 +151,7 @@ fn values(stated: &Stated) -> Result<Values, String> {
         ..
     } = stated;
     let values = match (values, from, to, count, sample) {
-        (Some(values), None, None, None, None) if *scale == Scale::Linear => Values::Listed {
+        (Some(values), None, None, None, None) if *scale == Scale::Linear => Values::List {
             values: values.clone(),
         },
         (None, Some(from), Some(to), Some(count), None) => Values::Grid {
@@ -175,8 +175,8 @@ fn values(stated: &Stated) -> Result<Values, String> {
         }
     };
     match &values {
-        Values::Listed { values } if values.is_empty() => Err("values = []: must have one".into()),
-        Values::Listed { values } if values.iter().any(|value| !value.is_finite()) => {
+        Values::List { values } if values.is_empty() => Err("values = []: must have one".into()),
+        Values::List { values } if values.iter().any(|value| !value.is_finite()) => {
             Err("values: must be finite".into())
         }
         Values::Grid { count: 0, .. } => Err("count = 0: must be >= 1".into()),
@@ -190,6 +190,6 @@ fn values(stated: &Stated) -> Result<Values, String> {
                 _ => Ok(values),
             }
         }
-        Values::Listed { .. } => Ok(values),
+        Values::List { .. } => Ok(values),
     }
 }

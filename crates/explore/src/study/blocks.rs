@@ -142,14 +142,14 @@ const TOLD: usize = 10;
 
 /// A run of a shard, or of the whole study.
 #[derive(Debug)]
-pub(super) struct Run<'a> {
+pub(super) struct ShardRun<'a> {
     study: &'a Study,
     shard: Shard,
     path: PathBuf,
     blocks: Mutex<Blocks>,
 }
 
-impl<'a> Run<'a> {
+impl<'a> ShardRun<'a> {
     /// Waits while another run has the file: a shard may be given to a second worker before the first has ended.
     ///
     /// # Errors
@@ -176,26 +176,23 @@ impl<'a> Run<'a> {
         resume: bool,
     ) -> Result<Self, Failure> {
         let mut blocks = Blocks::none(study);
-        let cannot = |error: io::Error| {
+        let cannot = |what: &str, error: io::Error| {
             let place = place(&path);
-            Failure::Run(Error::from(error).context(format!("cannot write {place}")))
+            Failure::Run(Error::from(error).context(format!("cannot {what} {place}")))
         };
         match RecordLog::open(&path) {
             Ok(Some(file)) if resume => blocks.take(study, file)?,
             Ok(_) => {}
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             // It is somebody else's.
-            Err(error) if error.kind() == ErrorKind::InvalidData => {
-                let foreign = Err(error).with_context(|| format!("cannot read {}", place(&path)));
-                return Ok(foreign?);
-            }
-            Err(error) => return Err(cannot(error)),
+            Err(error) => return Err(cannot("read", error)),
         }
         let is_begun = blocks.places.iter().any(Option::is_some);
         if !is_begun {
             // The lock of a file without any block goes before it is made anew.
             blocks.files.clear();
-            let file = RecordLog::create(&path, study.hash.as_bytes()).map_err(cannot)?;
+            let file = RecordLog::create(&path, study.hash.as_bytes());
+            let file = file.map_err(|error| cannot("write", error))?;
             let busy = || lock::refusal(&path);
             blocks.files = vec![file.ok_or_else(busy)?];
         }
@@ -295,7 +292,7 @@ mod tests {
         fs::write(&part, "a letter, say, and no blocks")?;
         let study = Study::read(&file, Budget::POINT)?;
         for resume in [false, true] {
-            let run = Run::open(&study, Shard::WHOLE, part.clone(), resume);
+            let run = ShardRun::open(&study, Shard::WHOLE, part.clone(), resume);
             let Err(Failure::Run(error)) = run else {
                 return Err(anyhow!("it was taken for its own"));
             };

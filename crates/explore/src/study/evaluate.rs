@@ -19,7 +19,7 @@ use softstop_dynamics::{
 };
 
 use super::file::Study;
-use super::outputs::{Output, Own, What, kind};
+use super::outputs::{Observable, Output, OutputKind, kind};
 
 /// Points whose motions go together in the lanes: it may not depend on how many threads there are.
 const TOGETHER: usize = 256;
@@ -34,8 +34,8 @@ impl Study {
         let groups: Vec<&[Machine]> = machines.chunks(TOGETHER).collect();
         let told = parallel::try_map(&groups, |machines| {
             let mut told = Vec::with_capacity(machines.len() * self.width());
-            for look in self.look(machines)? {
-                told.extend(self.row(look.as_ref()));
+            for evaluation in self.prepare(machines)? {
+                told.extend(self.row(evaluation.as_ref()));
             }
             Ok::<_, Failure>(told)
         });
@@ -54,7 +54,7 @@ impl Study {
     }
 
     /// The outputs of a point, none of which is there if they are over the budget.
-    fn row(&self, look: Option<&Look<'_>>) -> Vec<f64> {
+    fn row(&self, evaluation: Option<&PointEvaluation<'_>>) -> Vec<f64> {
         let told = |value: &dyn Fn(Output) -> [f64; 2]| {
             let mut row = Vec::with_capacity(self.width());
             for output in &self.outputs {
@@ -62,9 +62,10 @@ impl Study {
             }
             row
         };
-        let within = look.and_then(|look| {
-            let (row, spent) =
-                budget::within(self.budget.windows(), || told(&|output| look.value(output)));
+        let within = evaluation.and_then(|evaluation| {
+            let (row, spent) = budget::within(self.budget.windows(), || {
+                told(&|output| evaluation.value(output))
+            });
             (spent < self.budget.windows()).then_some(row)
         });
         within.unwrap_or_else(|| told(&|output| output.over_budget()))
@@ -74,24 +75,31 @@ impl Study {
     ///
     /// Points that go together may cost what one of them may: then so may each of them alone. If they cost more, they
     /// are halved, so a point's answer does not depend on the points beside it.
-    fn look<'a>(&'a self, machines: &'a [Machine]) -> Result<Vec<Option<Look<'a>>>, Failure> {
-        let (looks, spent) = budget::within(self.budget.windows(), || self.look_together(machines));
+    fn prepare<'a>(
+        &'a self,
+        machines: &'a [Machine],
+    ) -> Result<Vec<Option<PointEvaluation<'a>>>, Failure> {
+        let (prepared, spent) =
+            budget::within(self.budget.windows(), || self.prepare_together(machines));
         if interrupt::requested() {
             return Err(Failure::Interrupted);
         }
         if spent < self.budget.windows() {
-            return Ok(looks?.into_iter().map(Some).collect());
+            return Ok(prepared?.into_iter().map(Some).collect());
         }
         let (first, rest) = machines.split_at(machines.len() / 2);
         if first.is_empty() {
             return Ok(rest.iter().map(|_| None).collect());
         }
-        let mut looks = self.look(first)?;
-        looks.extend(self.look(rest)?);
-        Ok(looks)
+        let mut prepared = self.prepare(first)?;
+        prepared.extend(self.prepare(rest)?);
+        Ok(prepared)
     }
 
-    fn look_together<'a>(&'a self, machines: &'a [Machine]) -> Result<Vec<Look<'a>>, Failure> {
+    fn prepare_together<'a>(
+        &'a self,
+        machines: &'a [Machine],
+    ) -> Result<Vec<PointEvaluation<'a>>, Failure> {
         let wanted = |is: fn(Output) -> bool| self.outputs.iter().any(|output| is(*output));
         let motions: Vec<_> = machines.iter().map(|it| (&it.scene, it.start)).collect();
         let seen = match wanted(Output::is_of_motion) {
@@ -110,7 +118,7 @@ impl Study {
         };
         let mut seen = seen.into_iter().map(Result::ok);
         let mut zones = zones.into_iter().map(Result::ok);
-        let looks = machines.iter().map(|machine| Look {
+        let prepared = machines.iter().map(|machine| PointEvaluation {
             study: self,
             machine,
             is_valid: machine.validate().is_ok(),
@@ -120,12 +128,12 @@ impl Study {
             motion: OnceCell::new(),
             orbit: OnceCell::new(),
         });
-        Ok(looks.collect())
+        Ok(prepared.collect())
     }
 }
 
 /// What the outputs of a point are told from, each made when the first of them asks.
-struct Look<'a> {
+struct PointEvaluation<'a> {
     study: &'a Study,
     machine: &'a Machine,
     is_valid: bool,
@@ -139,21 +147,21 @@ struct Look<'a> {
 /// Where there is nothing.
 const NOTHING: [f64; 2] = [f64::NAN; 2];
 
-impl Look<'_> {
+impl PointEvaluation<'_> {
     /// An output, in the machine's own units.
     fn value(&self, output: Output) -> [f64; 2] {
         if !self.is_valid {
-            return match output.what {
-                What::Own(Own::Kind) => [kind(&MotionKind::Lost), f64::NAN],
+            return match output.kind {
+                OutputKind::Observable(Observable::Kind) => [kind(&MotionKind::Lost), f64::NAN],
                 _ => NOTHING,
             };
         }
-        if output.what == What::Own(Own::Z) {
+        if output.kind == OutputKind::Observable(Observable::Z) {
             return self.z().unwrap_or(NOTHING);
         }
-        let value = match output.what {
-            What::Own(own) => self.own(own),
-            What::Figure(figure) => self.figure(figure),
+        let value = match output.kind {
+            OutputKind::Observable(observable) => self.observable(observable),
+            OutputKind::Figure(figure) => self.figure(figure),
         };
         let own = |value| match output.unit {
             Unit::Own(dimension) => self.machine.to_own(dimension, value),
@@ -162,25 +170,25 @@ impl Look<'_> {
         [value.map_or(f64::NAN, own), f64::NAN]
     }
 
-    fn own(&self, own: Own) -> Option<f64> {
-        match own {
-            Own::Kind => Some(kind(self.motion().map_or(&MotionKind::Lost, |it| &it.0))),
-            Own::Z => None,
-            Own::SettledWithin => {
+    fn observable(&self, observable: Observable) -> Option<f64> {
+        match observable {
+            Observable::Kind => Some(kind(self.motion().map_or(&MotionKind::Lost, |it| &it.0))),
+            Observable::Z => None,
+            Observable::SettledWithin => {
                 let seen = self.seen.as_ref()?;
                 seen.periods.map(|_| seen.followed as f64)
             }
-            Own::Impacts => Some(self.seen.as_ref()?.impacts_per_period()),
-            Own::Exponent => match self.seen.as_ref()?.periods {
+            Observable::Impacts => Some(self.seen.as_ref()?.impacts_per_period()),
+            Observable::Exponent => match self.seen.as_ref()?.periods {
                 Some(_) => Some(Exponents::of(self.orbit()?).per_period[0]),
                 None => self.motion()?.1,
             },
-            Own::Trace => Some(self.orbit()?.trace()),
-            Own::Determinant => Some(self.orbit()?.determinant()),
-            Own::G0 => Some(grazing_frequencies(self.scene()).ok()?.1),
-            Own::Sn => Some(self.zone.as_ref()?.high.frequency),
-            Own::Pd => self.flip().filter(|flip| flip.is_finite()),
-            Own::AtSn => Some(self.zone.as_ref()?.high.point.before_impact_velocity()),
+            Observable::Trace => Some(self.orbit()?.trace()),
+            Observable::Determinant => Some(self.orbit()?.determinant()),
+            Observable::G0 => Some(grazing_frequencies(self.scene()).ok()?.1),
+            Observable::Sn => Some(self.zone.as_ref()?.high.frequency),
+            Observable::Pd => self.flip().filter(|flip| flip.is_finite()),
+            Observable::AtSn => Some(self.zone.as_ref()?.high.point.before_impact_velocity()),
         }
     }
 

@@ -8,14 +8,14 @@ use softstop_console::arguments::{MachineArguments, refuse_without_zone};
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_console::range::{require, within};
 use softstop_console::{record_log, scene_file};
 use softstop_dynamics::attractors::Region;
 use softstop_dynamics::points::MAX_DIMENSIONS;
 use softstop_dynamics::settled::Settling;
 
-use super::axis::{Axis, Stated};
+use super::axis::{Axis, AxisSettings};
 use super::outputs::Output;
 
 /// The file.
@@ -25,7 +25,7 @@ struct File {
     machine: Option<PathBuf>,
     #[serde(default)]
     set: Vec<Change>,
-    axis: Vec<Stated>,
+    axis: Vec<AxisSettings>,
     samples: Option<u64>,
     #[serde(default)]
     seed: u32,
@@ -229,7 +229,7 @@ impl Study {
 /// The machine, seen from the file's folder.
 fn machine(file: &File, folder: &Path) -> Result<Machine, Failure> {
     let named = file.machine.as_ref();
-    let named = named.map(|machine| match Regime::called(machine) {
+    let named = named.map(|machine| match PaperMachine::called(machine) {
         Some(_) => machine.clone(),
         None => folder.join(machine),
     });

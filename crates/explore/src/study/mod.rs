@@ -28,7 +28,7 @@ use softstop_console::keep::KeepArguments;
 use softstop_console::output::Format;
 use softstop_console::record::Record;
 
-use blocks::{Blocks, Run};
+use blocks::{Blocks, ShardRun};
 use report::StudyReport;
 use shard::DONE;
 
@@ -80,10 +80,10 @@ fn help() -> String {
 pub struct StudyArguments {
     /// What else to do with a study.
     #[command(subcommand)]
-    pub then: Option<Then>,
+    pub then: Option<StudyCommand>,
     /// What to compute, and where its results go.
     #[command(flatten)]
-    pub what: Option<What>,
+    pub what: Option<ResultArguments>,
     /// Compute one of N parts, the first of which is 1/N, for `softstop study merge`
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
@@ -94,7 +94,7 @@ pub struct StudyArguments {
 
 /// What to do with a study that is computed.
 #[derive(Debug, Subcommand)]
-pub enum Then {
+pub enum StudyCommand {
     /// Put the shards of a study together
     Merge(MergeArguments),
     /// Draw a map over two axes, or a slice along one
@@ -103,7 +103,7 @@ pub enum Then {
 
 /// A study, and where its results go.
 #[derive(Debug, Args)]
-pub struct What {
+pub struct ResultArguments {
     /// The study
     #[arg(value_name = "STUDY.toml")]
     pub study: PathBuf,
@@ -129,7 +129,7 @@ const FOLDER: &str = "softstop-study";
 pub struct MergeArguments {
     /// What was computed, and where its results go.
     #[command(flatten)]
-    pub what: What,
+    pub what: ResultArguments,
     /// Shards, or folders of them [default: those in the output folder]
     #[arg(value_name = "SHARDS")]
     pub shards: Vec<PathBuf>,
@@ -142,8 +142,8 @@ const MANIFEST: &str = "study.json";
 /// Computes a study or a shard of it, merges shards, or draws.
 pub fn run(arguments: &StudyArguments) -> Result<(), Failure> {
     match (&arguments.then, &arguments.what, arguments.shard) {
-        (Some(Then::Merge(arguments)), ..) => merge(arguments),
-        (Some(Then::Plot(arguments)), ..) => plot::run(arguments),
+        (Some(StudyCommand::Merge(arguments)), ..) => merge(arguments),
+        (Some(StudyCommand::Plot(arguments)), ..) => plot::run(arguments),
         (None, Some(what), Some(shard)) => part(what, shard, arguments.keep),
         (None, Some(what), None) => whole(what, arguments.keep),
         (None, None, _) => Err(Failure::usage("STUDY.toml: must say what to compute")),
@@ -165,9 +165,9 @@ impl Study {
     ///
     /// # Errors
     /// [`Failure::Run`] if a file cannot be written; [`Failure::Interrupted`].
-    pub fn measure(&self) -> Result<(), Failure> {
+    pub fn compute(&self) -> Result<(), Failure> {
         let folder = tempfile::tempdir().context("no folder for the results")?;
-        let run = Run::open(self, Shard::WHOLE, folder.path().join("study.part"), false)?;
+        let run = ShardRun::open(self, Shard::WHOLE, folder.path().join("study.part"), false)?;
         run.go_on()?;
         let file = fs::File::create(folder.path().join(TABLE)).context(TABLE)?;
         table::write(self, &mut run.done(), file, None)?;
@@ -176,11 +176,11 @@ impl Study {
 }
 
 /// The whole study.
-fn whole(what: &What, keep: KeepArguments) -> Result<(), Failure> {
+fn whole(what: &ResultArguments, keep: KeepArguments) -> Result<(), Failure> {
     let study = Study::read(&what.study, what.budget)?;
     let export = export(what)?;
     let path = what.output.join("study.part");
-    let run = Run::open(&study, Shard::WHOLE, path.clone(), keep.resume)?;
+    let run = ShardRun::open(&study, Shard::WHOLE, path.clone(), keep.resume)?;
     run.go_on()?;
     write(&study, &mut run.done(), export, what)?;
     // The results stand: what is left of the way to them harms nobody.
@@ -189,7 +189,7 @@ fn whole(what: &What, keep: KeepArguments) -> Result<(), Failure> {
 }
 
 /// One shard.
-fn part(what: &What, shard: Shard, keep: KeepArguments) -> Result<(), Failure> {
+fn part(what: &ResultArguments, shard: Shard, keep: KeepArguments) -> Result<(), Failure> {
     let study = Study::read(&what.study, what.budget)?;
     let folder = &what.output;
     let cannot = || format!("output folder {}: cannot be written", folder.display());
@@ -197,12 +197,12 @@ fn part(what: &What, shard: Shard, keep: KeepArguments) -> Result<(), Failure> {
     let done = folder.join(shard.name());
     let path = done.with_extension("part");
     if keep.resume {
-        Run::wait(&path)?;
+        ShardRun::wait(&path)?;
     }
     if !(keep.resume
         && Blocks::merged(&study, std::slice::from_ref(&done)).is_ok_and(|it| it.has(shard)))
     {
-        let run = Run::open(&study, shard, path, keep.resume)?;
+        let run = ShardRun::open(&study, shard, path, keep.resume)?;
         run.go_on()?;
         run.close(&done)?;
     }
@@ -251,13 +251,18 @@ fn shards(places: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     Ok(all)
 }
 
-fn export(what: &What) -> Result<Export, Failure> {
+fn export(what: &ResultArguments) -> Result<Export, Failure> {
     let files = &FILES[..FILES.len() - usize::from(!what.csv)];
     Export::open(&what.output, files)
 }
 
 /// Puts the results in place and prints what they are.
-fn write(study: &Study, blocks: &mut Blocks, export: Export, what: &What) -> Result<(), Failure> {
+fn write(
+    study: &Study,
+    blocks: &mut Blocks,
+    export: Export,
+    what: &ResultArguments,
+) -> Result<(), Failure> {
     let csv = what.csv.then(|| export.rows("csv")).transpose()?;
     let summaries = table::write(study, blocks, export.open_file("parquet")?, csv)?;
     let report = StudyReport::new(study, summaries);

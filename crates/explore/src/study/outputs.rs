@@ -8,7 +8,7 @@ use softstop_dynamics::figure::Figure;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Output {
     /// What it tells.
-    pub what: What,
+    pub kind: OutputKind,
     /// Its name.
     pub name: &'static str,
     /// What it is one of.
@@ -19,21 +19,21 @@ pub(super) struct Output {
 
 /// What an output tells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum What {
-    Own(Own),
+pub(super) enum OutputKind {
+    Observable(Observable),
     Figure(Figure),
 }
 
 macro_rules! outputs {
     (@unit None) => { Unit::None };
     (@unit $dimension:ident) => { Unit::Own(softstop::Dimension::$dimension) };
-    ($($own:ident $name:literal [$unit:ident], $meaning:literal;)*) => {
-        /// What no figure of a motion tells.
+    ($($observable:ident $name:literal [$unit:ident], $meaning:literal;)*) => {
+        /// What is observed of a point besides the figures that tasks know, too.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub(super) enum Own { $($own),* }
+        pub(super) enum Observable { $($observable),* }
 
-        const OWN: &[Output] = &[$(Output {
-            what: What::Own(Own::$own),
+        const OBSERVABLES: &[Output] = &[$(Output {
+            kind: OutputKind::Observable(Observable::$observable),
             name: $name,
             unit: outputs!(@unit $unit),
             meaning: $meaning,
@@ -102,12 +102,12 @@ impl Output {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
         let figures = FIGURES.iter().map(|figure| Self {
-            what: What::Figure(*figure),
+            kind: OutputKind::Figure(*figure),
             name: figure.name(),
             unit: Unit::Own(figure.dimension()),
             meaning: figure.meaning(),
         });
-        OWN.iter().copied().chain(figures)
+        OBSERVABLES.iter().copied().chain(figures)
     }
 
     /// The one of this name.
@@ -117,13 +117,16 @@ impl Output {
 
     /// True if it is a word, not a number.
     pub const fn is_word(self) -> bool {
-        matches!(self.what, What::Own(Own::Kind | Own::Z))
+        matches!(
+            self.kind,
+            OutputKind::Observable(Observable::Kind | Observable::Z)
+        )
     }
 
     /// Numbers that it takes in files of blocks.
     pub const fn width(self) -> usize {
-        match self.what {
-            What::Own(Own::Z) => 2,
+        match self.kind {
+            OutputKind::Observable(Observable::Z) => 2,
             _ => 1,
         }
     }
@@ -131,9 +134,11 @@ impl Output {
     /// True if it takes the motion from the start.
     pub const fn is_of_motion(self) -> bool {
         use Figure as F;
-        match self.what {
-            What::Own(own) => !matches!(own, Own::G0 | Own::Sn | Own::AtSn),
-            What::Figure(figure) => !matches!(
+        match self.kind {
+            OutputKind::Observable(it) => {
+                !matches!(it, Observable::G0 | Observable::Sn | Observable::AtSn)
+            }
+            OutputKind::Figure(figure) => !matches!(
                 figure,
                 F::Share | F::FrequencyG0 | F::FrequencySn | F::ClearanceG0 | F::Certainty
             ),
@@ -143,17 +148,21 @@ impl Output {
     /// True if it takes the hysteresis zone.
     pub const fn is_of_zone(self) -> bool {
         use Figure as F;
-        match self.what {
-            What::Own(own) => matches!(own, Own::Sn | Own::Pd | Own::AtSn),
-            What::Figure(figure) => matches!(figure, F::Share | F::FrequencySn | F::FrequencyPd),
+        match self.kind {
+            OutputKind::Observable(it) => {
+                matches!(it, Observable::Sn | Observable::Pd | Observable::AtSn)
+            }
+            OutputKind::Figure(figure) => {
+                matches!(figure, F::Share | F::FrequencySn | F::FrequencyPd)
+            }
         }
     }
 
     /// True if it takes other drive frequencies than that of the point.
     pub const fn is_of_other_frequencies(self) -> bool {
         let is_grazing = matches!(
-            self.what,
-            What::Own(Own::G0) | What::Figure(Figure::FrequencyG0)
+            self.kind,
+            OutputKind::Observable(Observable::G0) | OutputKind::Figure(Figure::FrequencyG0)
         );
         is_grazing || self.is_of_zone()
     }
@@ -161,19 +170,19 @@ impl Output {
     /// Its numbers at a point over the budget.
     pub fn over_budget(self) -> [f64; 2] {
         let place = KINDS.iter().position(|kind| *kind == OVER_BUDGET);
-        match (self.what, place) {
-            (What::Own(Own::Kind), Some(place)) => [place as f64, f64::NAN],
+        match (self.kind, place) {
+            (OutputKind::Observable(Observable::Kind), Some(place)) => [place as f64, f64::NAN],
             _ => [OVER; 2],
         }
     }
 
     /// Its word, from its numbers in a file of blocks.
     pub fn word(self, [first, second]: [f64; 2]) -> Option<String> {
-        match self.what {
-            What::Own(Own::Kind) if first >= 0.0 => {
+        match self.kind {
+            OutputKind::Observable(Observable::Kind) if first >= 0.0 => {
                 KINDS.get(first as usize).map(|&kind| kind.to_owned())
             }
-            What::Own(Own::Z) if second >= 1.0 => {
+            OutputKind::Observable(Observable::Z) if second >= 1.0 => {
                 let impacts = match first.is_finite() {
                     true => first.to_string(),
                     false => "∞".to_owned(),

@@ -29,7 +29,7 @@ pub(super) enum Draw {
 #[serde(untagged)]
 pub(super) enum Values {
     /// These.
-    Listed { values: Vec<f64> },
+    List { values: Vec<f64> },
     /// So many from one to the other, both included.
     Grid {
         from: f64,
@@ -50,7 +50,7 @@ impl Values {
     /// How many there are; none if they are drawn.
     pub fn count(&self) -> Option<u64> {
         match self {
-            Self::Listed { values } => Some(values.len() as u64),
+            Self::List { values } => Some(values.len() as u64),
             Self::Grid { count, .. } => Some(*count),
             Self::Drawn { .. } => None,
         }
@@ -64,7 +64,7 @@ impl Values {
     /// How they are spaced.
     pub fn scale(&self) -> Scale {
         match self {
-            Self::Listed { .. } => Scale::Linear,
+            Self::List { .. } => Scale::Linear,
             Self::Grid { scale, .. } | Self::Drawn { scale, .. } => *scale,
         }
     }
@@ -72,7 +72,7 @@ impl Values {
     /// The one of this number, if they are not drawn.
     pub fn at(&self, number: u64) -> f64 {
         match self {
-            Self::Listed { values } => values.get(number as usize).copied().unwrap_or(f64::NAN),
+            Self::List { values } => values.get(number as usize).copied().unwrap_or(f64::NAN),
             Self::Grid { count: 1, from, .. } => *from,
             Self::Grid {
                 from,

@@ -17,7 +17,6 @@ use softstop_console::arguments::CommandArguments;
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::progress::Progress;
 use softstop_console::range::{require, within};
@@ -105,7 +104,7 @@ pub struct SweepArguments {
         long,
         value_name = "VALUE,…",
         value_delimiter = ',',
-        conflicts_with = "clearance"
+        allow_hyphen_values = true
     )]
     pub clearances: Vec<f64>,
     /// Distance within which a state has returned, in units of the motion's size, > 0 and < 1
@@ -162,13 +161,9 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let export = Export::open(&arguments.output, &FILES)?;
     let of = plan.plan_identity(&chains);
     let keep = Keep::open(&arguments.output, "sweep", &of, arguments.keep)?;
-    let progress = Progress::new((plan.steps * chains.len()) as u64, "steps");
-    let watcher = |done, _| {
-        progress.at(done);
-        interrupt::go_on()
-    };
     let steps = plan.steps * chains.len();
-    let run = || match plan.run_chains_with_memory(&mut chains, &watcher, Some(&keep)) {
+    let progress = Progress::new(steps as u64, "steps");
+    let run = || match plan.run_chains_with_memory(&mut chains, &progress.watcher(), Some(&keep)) {
         true => Ok(()),
         false => Err(Failure::Interrupted),
     };

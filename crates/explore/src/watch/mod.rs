@@ -10,7 +10,7 @@ use clap::Args;
 use page::{hit, html, shown};
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
-use softstop_console::output::{Format, folder_and_file};
+use softstop_console::output::folder_and_file;
 use softstop_console::range::within;
 use strip::Strips;
 
@@ -45,10 +45,7 @@ pub struct WatchArguments {
     /// The page to write
     #[arg(long, value_name = "FILE.html", default_value = "watch.html")]
     pub output: PathBuf,
-    /// How to print the summary
-    #[arg(long, value_enum, default_value_t)]
-    pub format: Format,
-    /// The machine, and where its motion begins.
+    /// How it prints its summary, the machine, and where its motion begins.
     #[command(flatten)]
     pub motion: MotionArguments,
 }
@@ -78,7 +75,7 @@ pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
         Ok(())
     };
     let run = || plan.run(|_| Ok(()), crossed);
-    let outcome = arguments.motion.limit.budget.limit(run)?;
+    let outcome = arguments.motion.common.limit.budget.limit(run)?;
     if outcome.drawing.is_full() {
         return Err(Failure::usage(format!(
             "last = {}: too many impacts for a page; must be fewer drive periods",
@@ -87,8 +84,8 @@ pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
     }
     let last = outcome.drawing.phases.last();
     let strips = strips.zip(last).map(|(strips, last)| strips.finish(last.0));
-    let shown = shown(&plan, &outcome, &strips.unwrap_or_default(), hits);
+    let shown = shown(&outcome, &strips.unwrap_or_default(), hits);
     export.file("html", html(&shown)?.as_bytes())?;
-    let (result, text) = report(&plan, &outcome);
-    export.finish(&result, text, arguments.format)
+    let (result, text) = report(&outcome);
+    export.finish(&result, text, arguments.motion.common.format)
 }

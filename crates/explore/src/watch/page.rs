@@ -4,8 +4,6 @@ use anyhow::Context;
 use serde_json::json;
 use softstop::{Dimension, Machine, Stop};
 use softstop_console::arguments::title;
-use softstop_console::column::Column;
-use softstop_console::columns;
 use softstop_console::failure::Failure;
 use softstop_console::record::Record;
 use softstop_console::report::stated_machine;
@@ -13,34 +11,17 @@ use softstop_console::report::stated_machine;
 use super::strip::Strip;
 use crate::page::{fill, in_script};
 use crate::palette::phase_color;
-use crate::simulate::{Crossed, Outcome, Plan, chart, name};
+use crate::simulate::{Crossed, Outcome, chart, crossing_columns, name};
 
-/// What a page has of a hit, in the words of crossings.csv.
-fn hits() -> [Column<Crossed>; 6] {
-    columns! { Crossed, it;
-        "time" [Time], "when" => it.time;
-        "kind" [None], "of the crossing" => it.kind();
-        "position" [Length], "where" => it.crossing.position;
-        "velocity_before" [Velocity], "before it" => it.crossing.velocity;
-        "velocity_after" [Velocity], "after it" => it.crossing.velocity_after;
-        "impact" [None], "whether it is one" => it.crossing.kind.is_impact();
-    }
-}
-
-/// A crossing, if it is an impact or a rebound from a rigid stop.
+/// A crossing as crossings.csv has it, if it is an impact or a rebound from a rigid stop.
 pub(super) fn hit(it: &Crossed) -> Option<Record> {
     let is_hit = it.crossing.kind.is_impact() || it.kind() == "rebound";
-    is_hit.then(|| Record::of(&hits(), it))
+    is_hit.then(|| Record::of(&crossing_columns(), it))
 }
 
 /// What the page shows of a run, in the machine's own units: from when on which strip lies there, and every hit.
-pub(super) fn shown(
-    plan: &Plan<'_>,
-    outcome: &Outcome,
-    strips: &[(f64, Strip)],
-    hits: Vec<Record>,
-) -> Record {
-    let machine = &plan.begun.machine;
+pub(super) fn shown(outcome: &Outcome<'_>, strips: &[(f64, Strip)], hits: Vec<Record>) -> Record {
+    let machine = &outcome.plan.begun.machine;
     let excitation = &machine.scene.excitation;
     // The drive `amplitude` cos(2 pi t/`period` + `angle`).
     let drive = Record::default()
@@ -67,7 +48,7 @@ pub(super) fn shown(
         .hidden("labels", labels(machine))
         .hidden("drive", drive)
         .hidden("places", places(machine))
-        .hidden("span", [plan.drawn_from(), end])
+        .hidden("span", [outcome.plan.drawn_from(), end])
         .hidden("samples", samples)
         .hidden("phases", phases.collect::<Vec<_>>())
         .hidden("strips", json!(strips))

@@ -5,7 +5,7 @@ use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Sign, Stroke, aroun
 
 use crate::precision::family::{Look, short_name};
 use crate::precision::measure::Row;
-use crate::precision::report::SceneReport;
+use crate::precision::report::SceneMeasurement;
 
 /// What ignores events.
 const BLIND: Stroke = Stroke::dashed(method::BLIND, 1.2, (5.0, 4.0));
@@ -37,9 +37,9 @@ struct Curve<'a> {
     look: Look,
 }
 
-/// The diagram of a report; methods look like this, in the report's order.
-pub(super) fn chart(report: &SceneReport, looks: impl Iterator<Item = Look>) -> Chart {
-    let runs = report.rows.chunk_by(|a, b| a.method == b.method);
+/// The diagram of what was measured; methods look like this, in the order of the rows.
+pub(super) fn chart(measured: &SceneMeasurement<'_>, looks: impl Iterator<Item = Look>) -> Chart {
+    let runs = measured.rows.chunk_by(|a, b| a.method == b.method);
     let curves = runs.zip(looks).map(|(rows, look)| Curve { rows, look });
     let mut curves: Vec<Curve<'_>> = curves.collect();
     let points = curves.iter().flat_map(|curve| curve.points(|_| true));
@@ -64,11 +64,11 @@ pub(super) fn chart(report: &SceneReport, looks: impl Iterator<Item = Look>) -> 
         layers,
         ..Panel::default()
     };
-    let (title, periods) = (&report.title, report.periods);
+    let (title, periods) = (&measured.case.title, measured.case.periods);
     Chart {
         subtitle: format!("{title}, {periods} drive periods; lower left is better"),
         legend: Legend::Below,
-        ..Chart::new(&report.scene, [panel])
+        ..Chart::new(&measured.case.name, [panel])
     }
 }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// What times depend on.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Machine {
+pub struct Computer {
     /// Model of its processor.
     pub cpu: String,
     /// Cores that can be used.
@@ -19,7 +19,7 @@ pub struct Machine {
     pub softstop: String,
 }
 
-impl Machine {
+impl Computer {
     /// This one.
     pub fn this() -> Self {
         let profile = if cfg!(debug_assertions) {

@@ -17,19 +17,21 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
+use serde_json::json;
 
 use crate::filter::filter;
 use case::Case;
-use computer::Machine;
+use computer::Computer;
 use errors::Scale;
 use family::Family;
 use measure::{Bench, Effort, Row};
-use report::{LeadReport, PrecisionReport, ReferenceReport, SceneReport};
+use report::{SceneMeasurement, text};
 use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::output::{self, Folder, Format};
 use softstop_console::progress::Progress;
 use softstop_console::range::{require, within};
+use softstop_console::record::Record;
 use truth::Truth;
 
 const EXAMPLES: &str = "\
@@ -96,20 +98,27 @@ pub fn run(arguments: &PrecisionArguments) -> Result<(), Failure> {
     let names: Vec<String> = cases.iter().flat_map(|case| files(&case.name)).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let folder = Folder::open(&arguments.output, &names)?;
-    let machine = Machine::this();
+    let machine = Computer::this();
     let settings = families.iter().flatten().map(|it| it.settings.len());
     let runs = cases.len() + settings.sum::<usize>();
     let progress = Progress::new(runs as u64, "settings");
-    let mut charts = Vec::new();
+    let (mut scenes, mut charts) = (Vec::new(), Vec::new());
     for (case, families) in cases.iter().zip(&families) {
-        let mut report = measured(case, families, &machine, arguments, &progress)?;
-        write(&mut report, families, arguments.small, &folder)?;
-        charts.push(report);
+        let mut measured = measure_methods(case, families, arguments, &progress)?;
+        charts.push(write(
+            &mut measured,
+            families,
+            &machine,
+            arguments,
+            &folder,
+        )?);
+        scenes.push(measured);
     }
     drop(progress);
     folder.commit(&names)?;
-    let report = PrecisionReport { machine, charts };
-    export::print(&report, report.text(), arguments.format)
+    let result = Record::default().hidden("machine", json!(machine));
+    let result = result.hidden("charts", charts);
+    export::print(&result, text(&scenes, &machine), arguments.format)
 }
 
 fn check(arguments: &PrecisionArguments) -> Result<(), Failure> {
@@ -147,13 +156,12 @@ const fn effort(arguments: &PrecisionArguments) -> Effort {
     }
 }
 
-fn measured(
-    case: &Case,
+fn measure_methods<'a>(
+    case: &'a Case,
     families: &[Family],
-    machine: &Machine,
     arguments: &PrecisionArguments,
     progress: &Progress,
-) -> Result<SceneReport, Failure> {
+) -> Result<SceneMeasurement<'a>, Failure> {
     let name = &case.name;
     let task = &case.task();
     let scale = Scale::of(task)?;
@@ -172,44 +180,38 @@ fn measured(
         rows.extend(bench.family(family, &|| progress.more(1))?);
     }
     let exact = rows.first().map_or("", |row| row.method.as_str());
-    Ok(SceneReport {
-        scene: name.clone(),
-        title: case.title.clone(),
-        periods: case.periods,
-        machine: machine.clone(),
-        reference: ReferenceReport {
-            method: truth.method,
-            digits: truth.digits(),
-            end: truth.solution.end,
-            impacts: scale.told(&truth.solution.impacts).len(),
-            slowest: scale.slowest(),
-        },
+    Ok(SceneMeasurement {
+        case,
+        leads: lead::leads(&rows, exact),
+        truth,
         scale,
-        lead: LeadReport {
-            how: lead::HOW,
-            at: lead::leads(&rows, exact),
-        },
         rows,
         files: BTreeMap::new(),
     })
 }
 
-/// Stages chart, table and JSON.
+/// Stages chart, table and JSON; what programs read.
 fn write(
-    report: &mut SceneReport,
+    measured: &mut SceneMeasurement<'_>,
     families: &[Family],
-    small: bool,
+    machine: &Computer,
+    arguments: &PrecisionArguments,
     folder: &Folder,
-) -> Result<(), Failure> {
-    let [svg, csv, json] = files(&report.scene);
+) -> Result<Record, Failure> {
+    let [svg, csv, json] = files(&measured.case.name);
     for (kind, name) in [("svg", &svg), ("csv", &csv), ("json", &json)] {
         let place = folder.place(name).display().to_string();
-        report.files.insert(kind, place);
+        measured.files.insert(kind, place);
     }
     let looks = families.iter().map(|family| family.look);
-    let chart = chart::chart(report, looks);
-    let chart = if small { chart.small() } else { chart };
+    let chart = chart::chart(measured, looks);
+    let chart = match arguments.small {
+        true => chart.small(),
+        false => chart,
+    };
+    let record = measured.record(machine);
     folder.stage(&svg, chart.svg().as_bytes())?;
-    folder.stage(&csv, &output::csv(&report.rows)?)?;
-    folder.stage(&json, output::json(report)?.as_bytes())
+    folder.stage(&csv, &output::csv(&measured.rows)?)?;
+    folder.stage(&json, output::json(&record)?.as_bytes())?;
+    Ok(record)
 }

@@ -1,104 +1,96 @@
-//! The report of `chart precision`, whose field names are the keys of the JSON; for people best settings, leads,
-//! failures.
+//! The report of `chart precision`: a record for programs; for people best settings, leads, failures.
 
-use super::computer::Machine;
+use super::case::Case;
+use super::computer::Computer;
 use super::errors::Scale;
 use super::family::short_name;
-use super::lead::{Lead, Quantity, TARGETS};
+use super::lead::{HOW, Lead, Quantity, TARGETS};
 use super::measure::Row;
-use serde::Serialize;
+use super::truth::Truth;
+use serde_json::json;
 use softstop_console::column::{self, Column, Units};
 use softstop_console::columns;
+use softstop_console::record::Record;
 use softstop_console::table::heading;
 use std::collections::BTreeMap;
 
-/// All charts of a run.
-#[derive(Debug, Clone, Serialize)]
-pub struct PrecisionReport {
-    /// Where times were taken.
-    pub machine: Machine,
-    /// One for each scene.
-    pub charts: Vec<SceneReport>,
-}
-
-/// A scene's measurement.
-#[derive(Debug, Clone, Serialize)]
-pub struct SceneReport {
-    /// The scene's name.
-    pub scene: String,
-    /// What is special about it.
-    pub title: String,
-    /// Drive periods.
-    pub periods: f64,
-    /// Where times were taken.
-    pub machine: Machine,
+/// What was measured on a scene.
+pub struct SceneMeasurement<'a> {
+    /// The scene.
+    pub case: &'a Case,
     /// What errors are measured against.
-    pub reference: ReferenceReport,
+    pub truth: Truth,
     /// What errors are divided by.
     pub scale: Scale,
     /// One for each setting of each method.
     pub rows: Vec<Row>,
-    /// By how much the exact method leads.
-    pub lead: LeadReport,
-    /// The files written.
+    /// By how much the exact method leads, for each error and target.
+    pub leads: Vec<Lead>,
+    /// The files written, by their kinds.
     pub files: BTreeMap<&'static str, String>,
 }
 
-/// What errors are measured against.
-#[derive(Debug, Clone, Serialize)]
-pub struct ReferenceReport {
-    /// How it was found.
-    pub method: &'static str,
-    /// Decimal digits of the motion's size that two computations of it agree in, chaos included; the doubles
-    /// below have 16 of them.
-    pub digits: u32,
-    /// Position in m and velocity in m/s at the end.
-    pub end: (f64, f64),
-    /// Impacts that are compared.
-    pub impacts: usize,
-    /// Impacts so slow are not compared, in m/s.
-    pub slowest: f64,
-}
+impl SceneMeasurement<'_> {
+    /// The number of impacts that are compared.
+    fn impact_count(&self) -> usize {
+        self.scale.told(&self.truth.solution.impacts).len()
+    }
 
-/// How far ahead the exact method is.
-#[derive(Debug, Clone, Serialize)]
-pub struct LeadReport {
-    /// How the figures come about.
-    pub how: &'static str,
-    /// One for each error and target.
-    pub at: Vec<Lead>,
-}
-
-impl PrecisionReport {
-    /// What people read.
-    pub(super) fn text(&self) -> String {
-        let charts = self.charts.iter().map(|chart| scene(chart) + "\n");
-        let mut text: String = charts.collect();
-        if self.charts.len() > 1 {
-            text += &summary(self);
-        }
-        text + &format!("Machine: {}\n", self.machine.line())
+    /// For programs, with the computer on which times were taken.
+    pub(super) fn record(&self, machine: &Computer) -> Record {
+        let (case, truth) = (self.case, &self.truth);
+        let reference = Record::default()
+            .hidden("method", truth.method)
+            .hidden("digits", u64::from(truth.digits()))
+            .hidden("end", json!(truth.solution.end))
+            .hidden("impacts", self.impact_count())
+            .hidden("slowest", self.scale.slowest());
+        let lead = Record::default()
+            .hidden("how", HOW)
+            .hidden("at", json!(self.leads));
+        Record::default()
+            .hidden("scene", case.name.as_str())
+            .hidden("title", case.title.as_str())
+            .hidden("periods", case.periods)
+            .hidden("machine", json!(machine))
+            .hidden("reference", reference)
+            .hidden("scale", json!(self.scale))
+            .hidden("rows", json!(self.rows))
+            .hidden("lead", lead)
+            .hidden("files", json!(self.files))
     }
 }
 
-fn scene(chart: &SceneReport) -> String {
-    let reference = &chart.reference;
+/// What people read.
+pub(super) fn text(scenes: &[SceneMeasurement<'_>], machine: &Computer) -> String {
+    let mut text: String = scenes.iter().map(|it| scene(it) + "\n").collect();
+    if scenes.len() > 1 {
+        text += &summary(scenes);
+    }
+    text + &format!("Machine: {}\n", machine.line())
+}
+
+fn scene(measured: &SceneMeasurement<'_>) -> String {
+    let (case, truth) = (measured.case, &measured.truth);
     let title = heading(&format!(
         "Precision on {}: {}, {} drive periods, {} impacts",
-        chart.scene, chart.title, chart.periods, reference.impacts
+        case.name,
+        case.title,
+        case.periods,
+        measured.impact_count()
     ));
-    let runs = chart.rows.chunk_by(|a, b| a.method == b.method);
-    let written = chart.files.iter();
+    let runs = measured.rows.chunk_by(|a, b| a.method == b.method);
+    let written = measured.files.iter();
     let written = written.map(|(kind, path)| format!("Written: {path} ({kind})\n"));
     format!(
         "{title}Reference: {}; certain to {} digits\n\n\
          Most accurate setting of each method; errors relative to the motion\n{}\n\
          Time of the next best over that of the exact method\n{}{}\n{}",
-        reference.method,
-        reference.digits,
+        truth.method,
+        truth.digits(),
         column::text(&columns(), runs.map(best), &Units::SI),
-        leads(&chart.lead.at),
-        failures(&chart.rows),
+        leads(&measured.leads),
+        failures(&measured.rows),
         written.collect::<String>()
     )
 }
@@ -181,29 +173,29 @@ fn failures(rows: &[Row]) -> String {
 }
 
 /// The lead at each scene by the worst of all errors, as a table in Markdown for docs/accuracy.md.
-fn summary(report: &PrecisionReport) -> String {
+fn summary(scenes: &[SceneMeasurement<'_>]) -> String {
     let accuracies: Vec<String> = TARGETS.map(|target| format!("{target:.0e}")).into();
     let mut text = format!(
         "Lead at equal accuracy\n\n| scene | exact: time, error | {} |\n",
         accuracies.join(" | ")
     );
     text += &format!("|---|---|{}\n", "---|".repeat(TARGETS.len()));
-    text.extend(report.charts.iter().map(summary_line));
+    text.extend(scenes.iter().map(summary_line));
     text + "\n"
 }
 
-fn summary_line(chart: &SceneReport) -> String {
-    let leads = chart.lead.at.iter();
+fn summary_line(measured: &SceneMeasurement<'_>) -> String {
+    let leads = measured.leads.iter();
     let own = leads.filter(|lead| lead.quantity == Quantity::Worst);
     let cells = own.map(|lead| match &lead.next {
         Some(next) => format!("{} {}", ratio(lead), short_name(&next.method)),
         None => "none".to_owned(),
     });
-    let exact = chart.rows.first();
+    let exact = measured.rows.first();
     let (time, worst) = exact.map_or((None, None), |row| (row.seconds, row.worst_error()));
     format!(
         "| {} | {} s, {} | {} |\n",
-        chart.scene,
+        measured.case.name,
         figure(time),
         figure(worst),
         cells.collect::<Vec<_>>().join(" | ")

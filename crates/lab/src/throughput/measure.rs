@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use softstop_lanes::Instructions;
 
-use super::fleet::Count;
+use super::batch::Count;
 use softstop_console::failure::Failure;
 use softstop_console::median::median;
 use softstop_console::progress::Progress;

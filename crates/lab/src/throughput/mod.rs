@@ -1,12 +1,12 @@
 //! `softstop-lab throughput`: how fast the engines are.
 //!
-//! [`fleet`] says what is run, [`measure`] takes the times; [`zones`] does both for hysteresis zones, [`beside`] for studies;
+//! [`batch`] says what is run, [`measure`] takes the times; [`zones`] does both for hysteresis zones, [`study_cost`] for studies;
 //! `report` says what came of it.
 
-pub mod beside;
-pub mod fleet;
+pub mod batch;
 pub mod measure;
 mod report;
+pub mod study_cost;
 pub mod zones;
 
 use std::path::PathBuf;
@@ -16,17 +16,17 @@ use clap::Args;
 use softstop::MotionError;
 use softstop_lanes::{Instructions, run_one_by_one, run_with};
 
-use beside::Beside;
-use fleet::{Count, EachImpact, RANGE, Range};
+use batch::{Count, EachImpact, RANGE, Range};
 use measure::{ROUNDS, Way};
-use report::{Engine, ThroughputReport};
+use report::{Engine, report};
 use softstop_console::budget::Budget;
 use softstop_console::export;
 use softstop_console::failure::Failure;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_console::output::Format;
 use softstop_console::range::within;
 use softstop_explore::study::Study;
+use study_cost::StudyCost;
 use zones::Grid;
 
 const EXAMPLES: &str = "\
@@ -50,8 +50,8 @@ const WIDEST: Instructions = Instructions::Widest;
 #[command(after_help = EXAMPLES)]
 pub struct ThroughputArguments {
     /// Machine whose drive periods are counted
-    #[arg(value_enum, default_value_t = Regime::Unloaded)]
-    pub machine: Regime,
+    #[arg(value_enum, default_value_t = PaperMachine::Unloaded)]
+    pub machine: PaperMachine,
     /// Measurements that the medians are of, 1 to 1000
     #[arg(long, value_name = "R", default_value_t = 11)]
     pub repeats: usize,
@@ -82,18 +82,18 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
         machine: arguments.machine,
         ..RANGE
     };
-    let fleet = &range.fleet().context("the machines of the measurement")?;
+    let batch = &range.batch().context("the machines of the measurement")?;
     let (all, one) = (measure::pool(0)?, measure::pool(1)?);
     let grid = Grid::of(arguments.zones);
     let machines = grid.scenes().context("the machines of the zones")?;
-    let lanes = |set| way(move || fleet.batch(set));
-    let each = || fleet.follow(|machines, jobs| run_with(WIDEST, machines, jobs, &mut EachImpact));
+    let lanes = |set| way(move || batch.in_lanes(set));
+    let each = || batch.follow(|machines, jobs| run_with(WIDEST, machines, jobs, &mut EachImpact));
     let engine = |names, lanes, way| Engine { names, lanes, way };
     let of_set = |set: Instructions| Some((set.registers().lanes, set));
-    let scalar = || fleet.follow(|machines, jobs| run_one_by_one(machines, jobs, &mut ()));
+    let scalar = || batch.follow(|machines, jobs| run_one_by_one(machines, jobs, &mut ()));
     let one_lane = Some((1, Instructions::Avx2));
     let mut engines = vec![
-        engine(["safe"; 2], None, way(|| fleet.safe())),
+        engine(["safe"; 2], None, way(|| batch.safe())),
         engine(["scalar"; 2], one_lane, way(scalar)),
         engine(["batch"; 2], of_set(WIDEST), lanes(WIDEST)),
         engine(["each_impact", "each impact"], of_set(WIDEST), way(each)),
@@ -106,19 +106,20 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
         engine([key, "batch"], of_set(set), lanes(set))
     }));
     let others: [Way<'_>; 3] = [
-        way(|| all.install(|| fleet.parallel(ROUNDS))),
-        way(|| one.install(|| fleet.parallel(ROUNDS))),
+        way(|| all.install(|| batch.parallel(ROUNDS))),
+        way(|| one.install(|| batch.parallel(ROUNDS))),
         Box::new(|| zones::count(&machines, &one)),
     ];
     let ways = engines.iter().map(|engine| &engine.way).chain(&others);
     let timings = measure::measure(&ways.collect::<Vec<_>>(), repeats)?;
     let (threads, what) = (all.current_num_threads(), (range, grid, repeats));
-    let report = ThroughputReport::new(what, &engines, &timings, threads);
-    let mut report = report.context("a measurement is missing")?;
-    if let (Some(path), Some(study)) = (&arguments.study, &study) {
-        report.study = Some(Beside::measure(path, study, repeats)?);
-    }
-    export::print(&report, report.text(), arguments.format)
+    let study = arguments.study.as_ref().zip(study.as_ref());
+    let study = study
+        .map(|(path, study)| StudyCost::measure(path, study, repeats))
+        .transpose()?;
+    let report = report(what, &engines, &timings, threads, study.as_ref());
+    let (result, text) = report.context("a measurement is missing")?;
+    export::print(&result, text, arguments.format)
 }
 
 /// A way through the motions of the measurement.

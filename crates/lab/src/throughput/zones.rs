@@ -8,8 +8,7 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_dynamics::zone::hysteresis_batch;
 
-use super::fleet::Count;
-use super::measure::Timing;
+use super::batch::Count;
 
 /// Machines between two looks at whether to stop.
 const BLOCK: usize = 256;
@@ -25,19 +24,6 @@ pub struct Grid {
     pub stiffnesses: (f64, f64),
     /// Machines along each edge.
     pub edge: u32,
-}
-
-/// Zones of a grid on one core.
-#[derive(Debug, Clone, Serialize)]
-pub struct Zones {
-    /// The machines.
-    pub grid: Grid,
-    /// How many of them have a zone.
-    pub found: u64,
-    /// Machines per second, the median.
-    pub zones_per_second_per_core: f64,
-    /// Slowest and fastest measurement.
-    pub spread: [f64; 2],
 }
 
 impl Grid {
@@ -85,17 +71,4 @@ pub fn count(scenes: &[Scene], one: &ThreadPool) -> Result<Count> {
         }
     }
     Ok(count)
-}
-
-impl Zones {
-    /// What was measured on a grid.
-    pub fn new(grid: Grid, timing: &Timing) -> Self {
-        let machines = f64::from(grid.edge * grid.edge);
-        Self {
-            grid,
-            found: timing.count.found,
-            zones_per_second_per_core: machines / timing.median(),
-            spread: timing.spread(machines),
-        }
-    }
 }

@@ -7,7 +7,7 @@ use anyhow::{Error, Result};
 use softstop::Parameter;
 use softstop_console::columns;
 use softstop_console::export::csv;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_dynamics::zone::free_amplitude;
 use softstop_dynamics::{Chain, Plan, Step, orbit};
 
@@ -21,7 +21,7 @@ const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
 const RANGE: (f64, f64) = (0.8, 1.8);
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let regime: Regime = figure.get("machine")?;
+    let regime: PaperMachine = figure.get("machine")?;
     let machine = regime.ratios();
     let (steps, periods) = studio.detail.pick((1000, 200), (120, 100));
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;

@@ -7,7 +7,7 @@ use anyhow::Result;
 use softstop::{PhaseKind, Scene};
 use softstop_console::columns;
 use softstop_console::export::csv;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::{Exponents, Orbit};
 
@@ -21,7 +21,7 @@ struct Cycle {
 }
 
 impl Cycle {
-    fn of(studio: &Studio, machine: Regime) -> Result<Self> {
+    fn of(studio: &Studio, machine: PaperMachine) -> Result<Self> {
         let orbit = find(&machine.ratios().scene()?)?;
         let fineness = (studio.detail.pick(2000, 400), 24);
         let path = Path::new(&orbit.scene, orbit.state().into(), orbit.periods, fineness)?;
@@ -57,8 +57,8 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 
 /// Point A over point B.
 pub(super) fn both(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let a = Cycle::of(studio, Regime::Unloaded)?;
-    let b = Cycle::of(studio, Regime::Loaded)?;
+    let a = Cycle::of(studio, PaperMachine::Unloaded)?;
+    let b = Cycle::of(studio, PaperMachine::Loaded)?;
     let mut findings = Findings::default();
     let farther = b.orbit.max_position - a.orbit.max_position;
     findings.add("X_m of B less that of A", farther);

@@ -6,7 +6,7 @@ use softstop_dynamics::motion::MotionClass;
 use super::RegimeMap;
 use crate::boundaries::Boundaries;
 use crate::figure::Figure;
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_draw::{Align, Chart, Layer, Mark, style};
 use softstop_explore::palette::{motion_color, motion_keys};
 
@@ -24,7 +24,7 @@ pub(super) fn chart(
     boundaries: &[Boundaries; 2],
 ) -> Result<Chart> {
     let layers = maps.iter().map(|map| {
-        let own = &boundaries[usize::from(map.asked.machine == Regime::Loaded)];
+        let own = &boundaries[usize::from(map.asked.machine == PaperMachine::Loaded)];
         layers(map, own)
     });
     let mut chart = figure.picture(layers)?;

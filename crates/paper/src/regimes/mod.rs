@@ -8,7 +8,7 @@ mod report;
 use anyhow::{Error, Result};
 use serde::Deserialize;
 use softstop::{Ratios, Scene, SceneError};
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_dynamics::basin::find_largest_ball;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Axis, Direction, Grid, MotionKind};
@@ -39,7 +39,7 @@ enum Way {
 /// A map.
 #[derive(Deserialize)]
 struct Map {
-    machine: Regime,
+    machine: PaperMachine,
     way: Way,
     /// What it is called in tables and among the findings.
     names: [String; 2],

@@ -3,21 +3,18 @@
 mod chart;
 mod report;
 
-use anyhow::Error;
 use softstop::{Machine, Parameter, Scene};
 use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{BasinOptions, BasinsAt, follow_attractors};
-use softstop_dynamics::monitor::OptionalMemory;
 use softstop_dynamics::orbit::OrbitError;
 
-use super::{BasinArguments, plane};
-use report::{AttractorsReport, columns};
+use super::{BasinArguments, compute, plane};
+use report::columns;
 use softstop_console::arguments::{title, title_over_frequency};
 use softstop_console::column;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::keep::Keep;
 use softstop_console::progress::Progress;
 use softstop_console::range::require;
 
@@ -33,13 +30,13 @@ pub(super) fn help() -> String {
 }
 
 /// What was found along a parameter.
-struct Found<'a> {
+struct GlobalContinuation<'a> {
     machine: &'a Machine,
     parameter: Parameter,
     places: Vec<BasinsAt>,
 }
 
-impl Found<'_> {
+impl GlobalContinuation<'_> {
     /// What the machine is called, without the frequency along which it was looked at.
     fn title(&self) -> String {
         match self.parameter {
@@ -62,26 +59,22 @@ pub(super) fn run(
     let limit = arguments.common.limit.budget;
     let region = || region(&scenes);
     let grid = limit.limit(|| plane::grid(arguments, &scenes[0].1, region))?;
-    let of = (&scenes, grid, options);
-    let keep = Keep::open(&arguments.output, "basin", &of, arguments.keep)?;
     let cells = grid.cell_count() * scenes.len();
     let progress = Progress::new((cells + scenes.len()) as u64, "cells and values");
-    let kept: OptionalMemory<'_> = Some(&keep);
-    let places = limit.limit_many(cells, || {
-        let places = follow_attractors(&scenes, &grid, options, &progress.watcher(), kept);
-        Ok(places.map_err(Error::from)?)
+    let of = (&scenes, grid, options);
+    let (places, keep) = compute(arguments, &of, cells, progress, |monitor, kept| {
+        follow_attractors(&scenes, &grid, options, monitor, kept)
     })?;
-    drop(progress);
-    let found = Found {
+    let found = GlobalContinuation {
         machine,
         parameter,
         places,
     };
     let rows = report::rows(&found);
     let chart = chart::svg(&found, &rows);
-    let (report, text) = AttractorsReport::new(&found, &rows);
+    let (result, text) = report::report(&found, &rows);
     export.sheet(["csv", "svg"], &columns(), rows, &chart)?;
-    export.finish(&report, text, arguments.common.format)?;
+    export.finish(&result, text, arguments.common.format)?;
     keep.forget();
     Ok(())
 }

@@ -1,17 +1,16 @@
 //! What basins along a parameter came to.
 
-use serde::Serialize;
-use softstop_console::column::{Column, Unit, Units, text};
+use serde_json::json;
+use softstop_console::column::{Column, Told, Unit, Units};
 use softstop_console::columns;
-use softstop_console::record::Record;
+use softstop_console::record::{Record, below};
 use softstop_console::report::{MotionName, stated_machine};
 use softstop_console::table::heading;
 use softstop_console::units;
-use softstop_dynamics::Grid;
 use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::basin::{BasinBall, BasinsAt};
 
-use super::Found;
+use super::GlobalContinuation;
 
 /// A row of `attractors.csv`: a value, one of its basins, and the largest ball inside it.
 pub(super) struct Row<'a> {
@@ -22,7 +21,7 @@ pub(super) struct Row<'a> {
 }
 
 /// The rows, value by value, the attractors of each in the order of their numbers.
-pub(super) fn rows<'a>(found: &'a Found<'_>) -> Vec<Row<'a>> {
+pub(super) fn rows<'a>(found: &'a GlobalContinuation<'_>) -> Vec<Row<'a>> {
     let of_place = |at: &'a BasinsAt| {
         let basins = at.attractors.iter().zip(&at.basins.classes).enumerate();
         let row = |(index, (attractor, class)): (usize, (&usize, &'a Attractor))| Row {
@@ -58,8 +57,7 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 13] {
 }
 
 /// An attractor over all values.
-#[derive(Debug, Serialize)]
-pub(super) struct AttractorReport {
+pub(super) struct FollowedAttractor {
     /// Its number.
     pub(super) attractor: usize,
     /// Its motions, in the order of the values.
@@ -72,11 +70,11 @@ pub(super) struct AttractorReport {
 }
 
 /// The attractors in the order of their numbers.
-pub(super) fn attractors(rows: &[Row<'_>]) -> Vec<AttractorReport> {
-    let mut all: Vec<AttractorReport> = Vec::new();
+pub(super) fn attractors(rows: &[Row<'_>]) -> Vec<FollowedAttractor> {
+    let mut all: Vec<FollowedAttractor> = Vec::new();
     for row in rows {
         if row.attractor > all.len() {
-            all.push(AttractorReport {
+            all.push(FollowedAttractor {
                 attractor: row.attractor,
                 motions: Vec::new(),
                 from: row.at.value,
@@ -95,7 +93,7 @@ pub(super) fn attractors(rows: &[Row<'_>]) -> Vec<AttractorReport> {
     all
 }
 
-impl AttractorReport {
+impl FollowedAttractor {
     /// Its motions in words.
     pub(super) fn name(&self) -> String {
         let names = self.motions.iter().map(|motion| motion.text.as_str());
@@ -103,49 +101,33 @@ impl AttractorReport {
     }
 }
 
-fn lives() -> [Column<AttractorReport>; 5] {
-    columns! { AttractorReport, it;
+fn figures() -> [Column<FollowedAttractor>; 5] {
+    columns! { FollowedAttractor, it;
         "attractor" [None] Plain, "number" => it.attractor;
         "from" [None] Six, "first value" => it.from;
         "to" [None] Six, "last value" => it.to;
         "largest_share" [None] Percent(1), "of all starts" => it.largest_share;
-        "motions" [None] Plain, "what it is" => it.name();
+        "motions" [None] Plain, "what it is" => Told { value: json!(it.motions), words: it.name() };
     }
 }
 
-/// The attractors and basins along a parameter.
-#[derive(Debug, Serialize)]
-pub(super) struct AttractorsReport {
-    machine: Record,
-    parameter: String,
-    unit: &'static str,
-    /// Where the cells lie, at all values.
-    grid: Grid,
-    attractors: Vec<AttractorReport>,
-    /// The rows of the table.
-    basins: Vec<Record>,
-}
-
-impl AttractorsReport {
-    /// The attractors, and the text of them: a row for each.
-    pub(super) fn new(found: &Found<'_>, rows: &[Row<'_>]) -> (Self, String) {
-        let Found {
-            machine, parameter, ..
-        } = found;
-        let (units, name) = (Units::of(machine), machine.name(*parameter));
-        let unit = units::of_parameter(machine, *parameter);
-        let attractors = attractors(rows);
-        let label = units.label(name, Unit::Of(unit));
-        let title = format!("Attractors of {} along {label}", found.title());
-        let text = heading(&title) + &text(&lives(), &attractors, &units);
-        let report = Self {
-            machine: stated_machine(machine),
-            parameter: name.to_owned(),
-            unit,
-            grid: found.places[0].basins.grid,
-            attractors,
-            basins: Record::all(&columns(), rows),
-        };
-        (report, text)
-    }
+/// The attractors and basins along a parameter, and the text of them: a row for each attractor.
+pub(super) fn report(found: &GlobalContinuation<'_>, rows: &[Row<'_>]) -> (Record, String) {
+    let GlobalContinuation {
+        machine, parameter, ..
+    } = found;
+    let (units, name) = (Units::of(machine), machine.name(*parameter));
+    let unit = units::of_parameter(machine, *parameter);
+    let attractors = Record::all(&figures(), &attractors(rows));
+    let label = units.label(name, Unit::Of(unit));
+    let title = format!("Attractors of {} along {label}", found.title());
+    let text = heading(&title) + &below(&attractors, &units);
+    let result = Record::default()
+        .hidden("machine", stated_machine(machine))
+        .hidden("parameter", name)
+        .hidden("unit", unit)
+        .hidden("grid", json!(found.places[0].basins.grid))
+        .hidden("attractors", attractors)
+        .hidden("basins", Record::all(&columns(), rows));
+    (result, text)
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use serde::Serialize;
 use softstop::{Clock, MotionError, Scene, SceneError, Start};
-use softstop_console::machine::Regime;
+use softstop_console::machine::PaperMachine;
 use softstop_dynamics::internals::ImpactCounter;
 use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run_parallel, run_with};
 
@@ -11,7 +11,7 @@ use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run_par
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Range {
     /// The machine.
-    pub machine: Regime,
+    pub machine: PaperMachine,
     /// Lowest and highest frequency ratio eta.
     pub frequencies: (f64, f64),
     /// Frequencies, evenly over the range.
@@ -24,7 +24,7 @@ pub struct Range {
 
 /// The range that softstop's figures are given for.
 pub const RANGE: Range = Range {
-    machine: Regime::Unloaded,
+    machine: PaperMachine::Unloaded,
     frequencies: (0.95, 1.4),
     motions: 1000,
     periods: 200,
@@ -36,7 +36,7 @@ const PART: usize = 256;
 
 /// The machines of a range, not yet lowered.
 #[derive(Debug, Clone)]
-pub struct Fleet {
+pub struct MotionBatch {
     scenes: Vec<Scene>,
     jobs: Vec<Job>,
 }
@@ -59,7 +59,7 @@ impl Range {
     ///
     /// # Errors
     /// [`SceneError`] if a frequency is none.
-    pub fn fleet(self) -> Result<Fleet, SceneError> {
+    pub fn batch(self) -> Result<MotionBatch, SceneError> {
         let (low, high) = self.frequencies;
         let step = (high - low) / f64::from(self.motions.max(2) - 1);
         let scene = |number| {
@@ -74,7 +74,7 @@ impl Range {
             periods: self.periods,
         };
         let jobs = (0..scenes.len()).map(job).collect();
-        Ok(Fleet { scenes, jobs })
+        Ok(MotionBatch { scenes, jobs })
     }
 
     /// Drive periods of all motions together.
@@ -83,7 +83,7 @@ impl Range {
     }
 }
 
-impl Fleet {
+impl MotionBatch {
     /// One motion after the other by the safe engine, each machine lowered first.
     ///
     /// # Errors
@@ -103,15 +103,15 @@ impl Fleet {
     /// All in lanes on this thread, each machine lowered first.
     ///
     /// # Errors
-    /// As [`Fleet::safe`].
-    pub fn batch(&self, instructions: Instructions) -> Result<Count, MotionError> {
+    /// As [`MotionBatch::safe`].
+    pub fn in_lanes(&self, instructions: Instructions) -> Result<Count, MotionError> {
         self.follow(|machines, jobs| run_with(instructions, machines, jobs, &mut ()))
     }
 
     /// All by a run of the lanes on this thread, each machine lowered first.
     ///
     /// # Errors
-    /// As [`Fleet::safe`].
+    /// As [`MotionBatch::safe`].
     pub fn follow(
         &self,
         run: impl Fn(&[Machine], &[Job]) -> Vec<Outcome>,
@@ -130,7 +130,7 @@ impl Fleet {
     /// All in lanes, `rounds` times over, on the threads of the pool that this is called in.
     ///
     /// # Errors
-    /// As [`Fleet::safe`].
+    /// As [`MotionBatch::safe`].
     pub fn parallel(&self, rounds: usize) -> Result<Count, MotionError> {
         let machines = self.scenes.par_iter();
         let machines = machines.map(|scene| Ok(Machine::new(&scene.check()?)));

@@ -18,7 +18,7 @@ const TOGETHER: u64 = 1 << 13;
 
 /// A study beside the lanes alone, on all cores.
 #[derive(Debug, Clone, Serialize)]
-pub struct Beside {
+pub struct StudyCost {
     /// Its file.
     pub study: PathBuf,
     /// Its points.
@@ -31,7 +31,7 @@ pub struct Beside {
     pub times: Vec<f64>,
 }
 
-impl Beside {
+impl StudyCost {
     /// Measures the study of a file so many rounds.
     ///
     /// # Errors
@@ -44,7 +44,7 @@ impl Beside {
             alone.push(lanes(study).context("a motion of the study")?);
             progress.step()?;
             let begin = Instant::now();
-            study.measure()?;
+            study.compute()?;
             whole.push(begin.elapsed().as_secs_f64());
             progress.step()?;
         }
