@@ -30,7 +30,7 @@ pub(crate) struct Figure {
     pub(crate) chart: Chart,
     /// What is computed, by keys of its own.
     #[serde(flatten)]
-    what: toml::Table,
+    settings: toml::Table,
 }
 
 static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
@@ -72,7 +72,7 @@ impl Figure {
 
     /// What a key of its own says.
     pub(crate) fn get<T: DeserializeOwned>(&self, key: &str) -> Result<T> {
-        let value = self.what.get(key).cloned().map(T::deserialize);
+        let value = self.settings.get(key).cloned().map(T::deserialize);
         let place = || format!("{key} of figure {} in docs/paper/figures.toml", self.name);
         value.with_context(place)?.with_context(place)
     }

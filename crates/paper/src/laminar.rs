@@ -30,9 +30,9 @@ const STRETCHES: (usize, usize) = (400, 100);
 /// How far from the old motion it starts, as a share of the clearance.
 const APART: f64 = 1e-3;
 
-/// Stretches beside the end of a motion.
+/// Lengths of the stretches beside the end of a motion.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-struct Beside {
+struct LaminarLengths {
     row: usize,
     eta: f64,
     distance: f64,
@@ -52,12 +52,12 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let powers = (low * each..=high * each).map(|index| f64::from(index) / f64::from(each));
     let cases = found.flat_map(|case| powers.clone().map(move |power| (case, 10f64.powf(power))));
     let cases: Vec<((usize, &Transition), f64)> = cases.collect();
-    let beside = recall_or_compute(studio.kept, &"laminar", || all(&cases))?;
+    let lengths = recall_or_compute(studio.kept, &"laminar", || all(&cases))?;
     let mut findings = Findings::default();
     for row in ROWS {
-        let own = beside.iter().filter(|it| it.row == row);
-        let own: Vec<&Beside> = own.collect();
-        let power = |length: fn(&Beside) -> f64| {
+        let own = lengths.iter().filter(|it| it.row == row);
+        let own: Vec<&LaminarLengths> = own.collect();
+        let power = |length: fn(&LaminarLengths) -> f64| {
             let logarithms = own.iter().map(|it| [it.distance.ln(), length(it).ln()]);
             slope(&logarithms.collect::<Vec<_>>())
         };
@@ -76,13 +76,13 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         findings.group(&format!("row {row:02}: "), values);
     }
     Ok(Drawn {
-        files: vec![csv(&columns(), &beside)?],
+        files: vec![csv(&columns(), &lengths)?],
         findings,
     })
 }
 
-fn columns() -> [Column<Beside>; 6] {
-    columns! { Beside, it;
+fn columns() -> [Column<LaminarLengths>; 6] {
+    columns! { LaminarLengths, it;
         "row" [None], "of Table 1" => it.row;
         "eta" [None], "drive frequency" => it.eta;
         "distance" [None], "from where the old motion loses its stability" => it.distance;
@@ -93,7 +93,7 @@ fn columns() -> [Column<Beside>; 6] {
 }
 
 /// The stretches at all distances at which there are enough of them: the motions go together.
-fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<Beside>> {
+fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<LaminarLengths>> {
     let progress = Progress::new(cases.len() as u64, "distances");
     let (mut motions, mut machines, mut places) = (Vec::new(), Vec::new(), Vec::new());
     for ((row, transition), distance) in cases {
@@ -133,7 +133,7 @@ fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<Beside>> {
     let found = places.into_iter().zip(&motions);
     let found = found.filter_map(|((row, eta, distance), motion)| {
         let lengths = motion.lengths.get(1..).unwrap_or_default();
-        (lengths.len() >= STRETCHES.1).then(|| Beside {
+        (lengths.len() >= STRETCHES.1).then(|| LaminarLengths {
             row,
             eta,
             distance,

@@ -46,29 +46,20 @@ Examples:
   softstop-lab paper --resume             goes on after Ctrl-C or a kill
   softstop-lab paper --format json        what was drawn, and the figures found, for programs
 
-Figures of F. Peterka, Chaos, Solitons & Fractals 18 (2003) 79-88, computed anew:
-  6a, 6b   bifurcation diagrams over six clearances, unloaded and loaded, up and down
-  7a, 7b   points A and B: time series and phase trajectory, phases shaded
-  7        A over B
-  8        the diagram of rho = 10 with its four zooms and the numbered bifurcations of Table 1
-  9        the motions (A) to (L): time series, phase trajectory, Poincare points
-  table1   its Table 1
-and what it only describes:
-  regimes     map of the regimes z = p/n over eta and rho
-  exponents   the largest Lyapunov exponent under the diagram
-  basins      which start leads to which motion
-  certainty   how certainly z = 1 establishes itself, from g0 to s_SN
-  supply      whether an interrupted supply of strips ends z = 1
-  hardening   the transition of the stop's stiffness k2 from 0 to infinity
-  ways        whether slow changes of clearance lead from z = 0 to z = 2/3 or (2/4)B
-  laminar     how long the old motion lasts between bursts beside rows 3, 16 and 17 of Table 1
-
 Pictures are SVG where they are curves and PNG where they are clouds or maps, with the data of
 each beside it as CSV; files are written whole or not at all.";
 
+/// The examples, and the figures by their names.
+fn help() -> String {
+    let figures = FIGURES.iter().filter_map(|it| Figure::called(it.0).ok());
+    let lines = figures.map(|it| format!("\n  {:<11} {}", it.name, it.title));
+    let head = "\n\nFigures of F. Peterka, Chaos, Solitons & Fractals 18 (2003) 79-88, and of what it only describes:";
+    EXAMPLES.to_owned() + head + &lines.collect::<String>()
+}
+
 /// Arguments of `softstop-lab paper`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = help())]
 pub struct PaperArguments {
     /// Figures to draw [default: all]
     #[arg(value_parser = PossibleValuesParser::new(FIGURES.iter().map(|it| it.0)), value_name = "FIGURE")]

@@ -15,7 +15,7 @@ use softstop_console::columns;
 use softstop_console::export::csv;
 
 /// The whole diagram, its zooms, and sweeps side by side that show chaos while it lasts.
-struct What {
+struct Parts {
     whole: Part,
     zooms: Vec<Part>,
     fleeting: Part,
@@ -36,30 +36,30 @@ type Bifurcation<'a> = (usize, Match<'a>);
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
-    let what = What {
+    let parts = Parts {
         whole: figure.get("whole")?,
         zooms: figure.get("zooms")?,
         fleeting: figure.get("fleeting")?,
         side_by_side: figure.get("side_by_side")?,
     };
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
-    let jobs = vec![(what.whole.plan(detail)?, ways)];
+    let jobs = vec![(parts.whole.plan(detail)?, ways)];
     let whole = diagram::sweep(jobs, "steps of the sweeps", studio.kept)?;
     let mut jobs = Vec::new();
-    for zoom in &what.zooms {
+    for zoom in &parts.zooms {
         // Each way goes on from where the sweep over all frequencies is at its end.
         let plan = zoom.plan(detail)?;
         jobs.extend(whole.iter().map(|sweep| diagram::part_of(sweep, &plan)));
     }
-    jobs.push(fleeting(&what, detail)?);
+    jobs.push(fleeting(&parts, detail)?);
     let chains = diagram::sweep(jobs, "steps of the zooms", studio.kept)?;
-    let (zooms, fleeting) = chains.split_at(2 * what.zooms.len());
+    let (zooms, fleeting) = chains.split_at(2 * parts.zooms.len());
     let mut diagrams = vec![Diagram {
-        part: &what.whole,
+        part: &parts.whole,
         ways: &whole,
         fleeting: &[],
     }];
-    let zooms = what.zooms.iter().zip(zooms.chunks_exact(2));
+    let zooms = parts.zooms.iter().zip(zooms.chunks_exact(2));
     diagrams.extend(zooms.map(|(part, ways)| Diagram {
         part,
         ways,
@@ -72,7 +72,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let matches = rows.filter_map(|row| Some((row.number, matching::find(row, transitions)?)));
     let bifurcations: Vec<Bifurcation<'_>> = matches.collect();
     let mut chart = chart::chart(figure, &diagrams, &isolated, &bifurcations)?;
-    chart.subtitle = explanation(&what, detail);
+    chart.subtitle = explanation(&parts, detail);
     let mut findings = Findings::default();
     findings.add("bifurcations found", bifurcations.len() as f64);
     for (number, it) in &bifurcations {
@@ -89,28 +89,28 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.
-fn fleeting(what: &What, detail: Detail) -> Result<Job> {
+fn fleeting(parts: &Parts, detail: Detail) -> Result<Job> {
     let chain = |index: usize| -> Result<Chain> {
         let mut machine = Ratios::unloaded();
         machine.clearance *= 1.0 + 1e-14 * index as f64;
         Ok(Chain::new(machine.scene()?, Direction::Down))
     };
-    let chains = (0..what.side_by_side).map(chain).collect::<Result<_>>()?;
-    Ok((what.fleeting.plan(detail)?, chains))
+    let chains = (0..parts.side_by_side).map(chain).collect::<Result<_>>()?;
+    Ok((parts.fleeting.plan(detail)?, chains))
 }
 
-fn explanation(what: &What, detail: Detail) -> String {
-    let (steps, periods) = what.whole.size(detail);
-    let zooms = what.zooms.iter().map(|zoom| {
+fn explanation(parts: &Parts, detail: Detail) -> String {
+    let (steps, periods) = parts.whole.size(detail);
+    let zooms = parts.zooms.iter().map(|zoom| {
         let (steps, periods) = zoom.size(detail);
         format!("{} {steps} × {periods}", zoom.name)
     });
-    let (fast, short) = what.fleeting.size(detail);
+    let (fast, short) = parts.fleeting.size(detail);
     format!(
         "Peterka 2003, Fig. 8. Frequencies × drive periods, up and down: {steps} × {periods}; {}; \
          in (a) also {} fast ways down {fast} × {short}",
         zooms.collect::<Vec<String>>().join(", "),
-        what.side_by_side
+        parts.side_by_side
     )
 }
 

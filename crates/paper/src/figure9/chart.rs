@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 
-use super::found::Found;
+use super::found::FoundMotion;
 use super::{CLEARANCE, SHALLOW};
 use crate::figure::Figure;
 use crate::path::Path;
@@ -27,8 +27,8 @@ type Sample = (char, [f64; 3]);
 /// A page of motions, their time series over so many drive periods; and the points of these.
 pub(super) fn page(
     figure: &Figure,
-    motions: &[Found],
-    all: &[Found],
+    motions: &[FoundMotion],
+    all: &[FoundMotion],
     shown: u64,
 ) -> Result<(Chart, Vec<Sample>)> {
     let (mut panels, mut points) = (Vec::new(), Vec::new());
@@ -54,7 +54,7 @@ pub(super) fn page(
         let path = path.points.iter();
         points.extend(path.map(|at| (letter, [at.time / period, at.position, at.velocity])));
     }
-    let letter = |motion: Option<&Found>| motion.map_or(' ', |it| it.asked.letter);
+    let letter = |motion: Option<&FoundMotion>| motion.map_or(' ', |it| it.asked.letter);
     let (first, last) = (letter(motions.first()), letter(motions.last()));
     let chart = Chart {
         title: format!("Fig. 9({first})–({last}): motions of the unloaded machine, ρ = 10"),
@@ -64,12 +64,12 @@ pub(super) fn page(
     Ok((chart, points))
 }
 
-fn color(motion: &Found) -> &'static str {
+fn color(motion: &FoundMotion) -> &'static str {
     line_color(motion.class())
 }
 
 /// The time series, its impacts, and how long it takes to repeat.
-fn series(motion: &Found, path: &Path, shown: u64, period: f64, panel: &mut Panel) {
+fn series(motion: &FoundMotion, path: &Path, shown: u64, period: f64, panel: &mut Panel) {
     let (low, high) = around(path.points.iter().map(|at| at.position), 0.0);
     let y = (1.1 * low, 1.42 * high.max(CLEARANCE));
     let unit = y.1 - y.0;
@@ -106,13 +106,13 @@ fn series(motion: &Found, path: &Path, shown: u64, period: f64, panel: &mut Pane
     panel.layers = layers;
 }
 
-fn trajectory(motion: &Found, points: Vec<(f64, f64)>, width: f64) -> Vec<Layer> {
+fn trajectory(motion: &FoundMotion, points: Vec<(f64, f64)>, width: f64) -> Vec<Layer> {
     let width = if motion.is_chaotic() { 0.45 } else { width };
     let line = Layer::line(points, Stroke::solid(color(motion), width));
     vec![Layer::vertical(CLEARANCE, FACE, ""), line]
 }
 
-fn phase_plane(motion: &Found, points: Vec<(f64, f64)>, panel: &mut Panel) {
+fn phase_plane(motion: &FoundMotion, points: Vec<(f64, f64)>, panel: &mut Panel) {
     let (x, y) = (points.iter().map(|at| at.0), points.iter().map(|at| at.1));
     panel.x = panel.x.clone().range(around(x, 0.1));
     panel.y = panel.y.clone().range(around(y, 0.1));
@@ -120,7 +120,7 @@ fn phase_plane(motion: &Found, points: Vec<(f64, f64)>, panel: &mut Panel) {
 }
 
 /// The part of it near the stop.
-fn near_stop(motion: &Found, points: Vec<(f64, f64)>, panel: &mut Panel) {
+fn near_stop(motion: &FoundMotion, points: Vec<(f64, f64)>, panel: &mut Panel) {
     let (_, high) = around(points.iter().map(|point| point.0), 0.0);
     let depth = (high - CLEARANCE).max(SHALLOW * CLEARANCE);
     let x = (CLEARANCE - NEAR * depth, CLEARANCE + 1.6 * depth);
@@ -131,7 +131,7 @@ fn near_stop(motion: &Found, points: Vec<(f64, f64)>, panel: &mut Panel) {
 }
 
 /// The states at drive angle 0, behind them those of the other motions of the same machine.
-fn section(motion: &Found, all: &[Found]) -> Vec<Layer> {
+fn section(motion: &FoundMotion, all: &[FoundMotion]) -> Vec<Layer> {
     let asked = &motion.asked;
     let others = all.iter().map(|other| (other, OTHERS));
     let others = others

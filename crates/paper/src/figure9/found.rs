@@ -8,7 +8,7 @@ use softstop_dynamics::attractors::Attractor;
 use softstop_dynamics::motion::MotionClass;
 use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 
-use super::Asked;
+use super::WantedMotion;
 use super::section::Section;
 use crate::figure::Findings;
 use crate::path::{Path, Point};
@@ -19,8 +19,8 @@ const WANDERING: u64 = 60;
 const ENERGY: (u64, (u32, u32)) = (2000, (400, 8));
 
 /// A motion and what was asked for.
-pub struct Found {
-    pub asked: Asked,
+pub struct FoundMotion {
+    pub asked: WantedMotion,
     pub scene: Scene,
     attractor: Attractor,
     /// Its states; of transient chaos those from a start on from which it lasts.
@@ -28,8 +28,8 @@ pub struct Found {
 }
 
 /// A row for each motion; numbers that are findings are shown.
-pub fn columns() -> [Column<Found>; 13] {
-    columns! { Found, it;
+pub fn columns() -> [Column<FoundMotion>; 13] {
+    columns! { FoundMotion, it;
         "motion" [None], "its letter" => it.asked.letter.to_string();
         "eta" [None] Plain, "eta" => it.asked.eta;
         "eta_is_the_papers" [None], "whether the paper gives it" => it.asked.is_given;
@@ -46,9 +46,9 @@ pub fn columns() -> [Column<Found>; 13] {
     }
 }
 
-impl Found {
+impl FoundMotion {
     /// The motion that is asked for, if it is among those found, with so many states of what does not repeat.
-    pub fn among(asked: &Asked, survey: &Survey, most: u64) -> Result<Option<Self>> {
+    pub fn among(asked: &WantedMotion, survey: &Survey, most: u64) -> Result<Option<Self>> {
         let fits = |attractor: &&Attractor| match (&asked.impacts, attractor.motion.order()) {
             (Some(wanted), Some(order)) => order.to_string() == *wanted,
             (None, None) => attractor.motion.is_chaotic(),

@@ -10,7 +10,7 @@ use softstop::Ratios;
 use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 
 use crate::figure::{Detail, Drawn, Figure, Findings, Studio};
-use found::Found;
+use found::FoundMotion;
 use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::interrupt;
@@ -27,7 +27,7 @@ const ON_A_PAGE: usize = 6;
 
 /// A motion that the figure shows.
 #[derive(Debug, Clone, Deserialize)]
-struct Asked {
+struct WantedMotion {
     letter: char,
     /// Its frequency.
     eta: f64,
@@ -41,17 +41,17 @@ struct Asked {
 
 /// The letters at each frequency, as "A, B".
 pub(crate) fn letters() -> Result<Vec<(String, f64)>> {
-    let names = |group: &[Asked]| {
+    let names = |group: &[WantedMotion]| {
         let letters: Vec<String> = group.iter().map(|it| it.letter.to_string()).collect();
         (letters.join(", "), group[0].eta)
     };
-    let motions: Vec<Asked> = Figure::called("9")?.get("motions")?;
+    let motions: Vec<WantedMotion> = Figure::called("9")?.get("motions")?;
     let groups = motions.chunk_by(|a, b| a.eta == b.eta);
     Ok(groups.map(names).collect())
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
-    let found = found(&figure.get::<Vec<Asked>>("motions")?, studio.detail)?;
+    let found = found(&figure.get::<Vec<WantedMotion>>("motions")?, studio.detail)?;
     let (mut files, mut series, mut sections) = (Vec::new(), Vec::new(), Vec::new());
     let mut findings = Findings::default();
     for (motions, shown) in found.chunks(ON_A_PAGE).zip(SHOWN) {
@@ -84,7 +84,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 }
 
 /// All motions that are asked for, each among those at its frequency.
-fn found(asked: &[Asked], detail: Detail) -> Result<Vec<Found>> {
+fn found(asked: &[WantedMotion], detail: Detail) -> Result<Vec<FoundMotion>> {
     let progress = Progress::new(asked.len() as u64, "motions");
     let options = SearchOptions {
         starts: detail.pick(256, 96),
@@ -100,7 +100,7 @@ fn found(asked: &[Asked], detail: Detail) -> Result<Vec<Found>> {
         let scene = Ratios::unloaded().at_frequency(group[0].eta).scene()?;
         let survey = find_attractors(&scene, &options, &watcher)?;
         for asked in group {
-            let motion = Found::among(asked, &survey, detail.pick(4000, 600))?;
+            let motion = FoundMotion::among(asked, &survey, detail.pick(4000, 600))?;
             found.push(motion.ok_or_else(|| anyhow!("motion ({}) not found", asked.letter))?);
             progress.step()?;
         }

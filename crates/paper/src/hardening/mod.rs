@@ -19,7 +19,6 @@ use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
-use softstop_console::output;
 use stops::{CLEARANCE, Law, grazing};
 use swept::{Swept, sweep};
 
@@ -67,7 +66,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
             steps(&drawn)?,
             steps(&map)?,
             csv(&branches(), &folds)?,
-            output::csv(&subharmonics)?,
+            csv(&subharmonics::columns(), &subharmonics)?,
         ],
         findings,
     })

@@ -7,6 +7,8 @@ use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 
 use super::stops::{Law, grazing};
 use crate::figure::Studio;
+use softstop_console::column::Column;
+use softstop_console::columns;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
@@ -15,17 +17,26 @@ pub const RANGE: (f64, f64) = (1.5, 10.0);
 /// The clearance rho: so small that impacts go on far above the resonance.
 pub const NARROW: f64 = 0.1;
 
-/// A stable subharmonic motion that was found: a row of the table.
+/// A stable subharmonic motion that was found.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct Subharmonic {
     pub stiffness: f64,
-    #[serde(rename = "eta")]
     pub frequency: f64,
     pub impacts: u64,
     pub periods: u64,
     /// Whether the impact-less motion exists there too.
-    #[serde(rename = "beside_impactless_motion")]
     pub beside_rest: bool,
+}
+
+/// A row for each motion.
+pub fn columns() -> [Column<Subharmonic>; 5] {
+    columns! { Subharmonic, it;
+        "stiffness" [None], "k2/k1" => it.stiffness;
+        "eta" [None], "drive frequency" => it.frequency;
+        "impacts" [None], "p of z = p/n" => it.impacts;
+        "periods" [None], "n of it" => it.periods;
+        "beside_impactless_motion" [None], "whether that exists there, too" => it.beside_rest;
+    }
 }
 
 /// All that are found from scratch.

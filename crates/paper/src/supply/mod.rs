@@ -13,6 +13,7 @@ use anyhow::Result;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use softstop::{Ratios, Start};
 use softstop_dynamics::missing_strips::{StopWithoutStrip, StrokeCount};
 use softstop_dynamics::orbit::find;
@@ -20,7 +21,9 @@ use softstop_dynamics::zone::hysteresis;
 use softstop_lanes::{BatchObserver, Job, Machine};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
-use softstop_console::output;
+use softstop_console::column::Column;
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::progress::Progress;
 
 /// Mean lengths of runs with and without strips, in drive periods.
@@ -116,9 +119,21 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     }
     let chart = chart::chart(figure, &outcomes, grazing, loaded)?;
     Ok(Drawn {
-        files: vec![chart.svg().into_bytes(), output::csv(&outcomes)?],
+        files: vec![chart.svg().into_bytes(), csv(&columns(), &outcomes)?],
         findings,
     })
+}
+
+/// A row for each frequency, mean run and place of the stop.
+fn columns() -> [Column<Outcome>; 6] {
+    columns! { Outcome, it;
+        "stop_without_strip" [None], "where the stop stands while there is no strip" => json!(it.stop_without_strip);
+        "eta" [None], "drive frequency" => it.eta;
+        "mean_run" [None], "drive periods with and without strips" => it.mean_run;
+        "motions" [None], "that begin as z = 1" => it.motions;
+        "missed" [None], "those that miss a stroke" => it.missed;
+        "ended" [None], "those that are no longer z = 1 in the end" => it.ended;
+    }
 }
 
 /// The frequencies between which z = 1 is: g0, s_SN with strips, s_SN without.
