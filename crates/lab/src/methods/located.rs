@@ -49,6 +49,9 @@ impl<'a> Located<'a> {
     /// One step to `until`, or to the first crossing before.
     fn advance(&mut self, until: f64) -> Result<(), MethodError> {
         let span = until - self.at.time;
+        if self.walk.phase_id().is_none() {
+            self.machine.count_step(self.at.time)?;
+        }
         let to = self.state_after(span)?;
         match self.first_rise(span, to)? {
             Some(rise) => self.cross(rise),
@@ -63,10 +66,7 @@ impl<'a> Located<'a> {
     fn state_after(&mut self, elapsed: f64) -> Result<State, MethodError> {
         match self.walk.phase_id() {
             Some(_) => self.at.taken(self.machine, elapsed),
-            None => {
-                self.machine.count_step(self.at.time)?;
-                Ok(self.at.from)
-            }
+            None => Ok(self.at.from),
         }
     }
 
@@ -83,15 +83,16 @@ impl<'a> Located<'a> {
     fn first_rise(&mut self, span: f64, to: State) -> Result<Option<Rise>, MethodError> {
         let (mut end, mut first) = ((span, to), None);
         let from = self.at.from;
-        for (guard, law) in self.walk.guards().to_vec().iter().enumerate() {
+        for guard in 0..self.walk.guards().len() {
+            let law = self.walk.guards()[guard];
             let ends = [(0.0, from), end].map(|(at, state)| Probe {
                 at,
-                value: self.guard_value(law, at, state),
+                value: self.guard_value(&law, at, state),
                 state,
             });
             let [begin, last] = ends;
             let noise = match begin.value >= 0.0 && self.walk.phase_id().is_some() {
-                true => self.noise(law, &end),
+                true => self.noise(&law, &end),
                 false => 0.0,
             };
             if last.value <= noise {
@@ -102,7 +103,7 @@ impl<'a> Located<'a> {
             let tolerance = rounding.max(f64::EPSILON * (last.value - begin.value));
             let found = locate_rise(ends, width, tolerance, |elapsed| {
                 let state = self.state_after(elapsed)?;
-                Ok::<_, MethodError>((self.guard_value(law, elapsed, state), state))
+                Ok::<_, MethodError>((self.guard_value(&law, elapsed, state), state))
             })?;
             end = (found.at, found.state);
             first = Some(Rise {
