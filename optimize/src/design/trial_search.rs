@@ -55,14 +55,16 @@ pub(super) const RESOLUTION: Resolution = Resolution {
     place: 1.0 / (PLACES << HALVINGS) as f64,
 };
 
-/// A design near one that does not pass its trials and passes them: without the search that `check_trials` takes, and good
-/// to a per cent or so.
+/// A design near one that does not pass its trials and passes them, good to a per cent or so: the best along the zones of a few,
+/// and what linear models lead to from it alone, unless no zone holds one that passes.
 pub(super) fn nearby(
     problem: &Problem,
     from: &Candidate,
     known: &CriticalMachines,
 ) -> Option<Candidate> {
-    Trials::new(problem, known).first(from)
+    let trials = Trials::new(problem, known);
+    let along_zones = trials.improve(&trials.starts(from), None);
+    along_zones.or_else(|| trials.first(from))
 }
 
 /// The search for a design that passes its trials.
@@ -115,6 +117,13 @@ impl<'a> Trials<'a> {
     /// The best of the zone of a design, of those with wider margins, and of what linear models of the share of starts lead
     /// to from each, if that is required.
     fn first(&self, from: &Candidate) -> Option<Candidate> {
+        let starts = self.starts(from);
+        let passing = parallel::filter_map(&starts, |it| self.led_to(it));
+        self.improve(&starts, self.better_of(passing))
+    }
+
+    /// A design, and those with wider margins to which the search leads from it.
+    fn starts(&self, from: &Candidate) -> Vec<Candidate> {
         let wider = parallel::filter_map(&MARGINS, |margin| {
             let wider = Problem {
                 margin: margin.max(self.problem.margin),
@@ -123,15 +132,20 @@ impl<'a> Trials<'a> {
             let place = (&from.unit[..], from.design.place);
             ascend_from(&wider, self.known, place)
         });
-        let mut starts = vec![from.clone()];
-        starts.extend(wider);
-        let share = self.problem.least_share();
-        let led = |start: &Candidate| certain(self.problem, start, (share?, self.known));
-        let passing = parallel::filter_map(&starts, |it| led(it).filter(|it| self.passes(it)));
-        let best = self.better_of(passing);
-        let units: Vec<_> = starts.into_iter().map(|it| it.unit).collect();
-        let best = self.best_of(&units, best.as_ref()).or(best)?;
-        let further = led(&best).filter(|it| self.passes(it));
+        [from.clone()].into_iter().chain(wider).collect()
+    }
+
+    /// The design that passes to which linear models of the share of starts lead from another, if that is required.
+    fn led_to(&self, start: &Candidate) -> Option<Candidate> {
+        let share = self.problem.least_share()?;
+        certain(self.problem, start, (share, self.known)).filter(|it| self.passes(it))
+    }
+
+    /// The best of one that is known, of those along the zones of some designs, and of what linear models lead to from it.
+    fn improve(&self, starts: &[Candidate], known: Option<Candidate>) -> Option<Candidate> {
+        let units: Vec<_> = starts.iter().map(|it| it.unit.clone()).collect();
+        let best = self.best_of(&units, known.as_ref()).or(known)?;
+        let further = self.led_to(&best);
         self.better_of([best].into_iter().chain(further).collect())
     }
 
