@@ -84,7 +84,7 @@ pub(super) fn branches(
 }
 
 /// Distance, in units of the scale of the parameter, between the end of a branch that merges into another one and the special point
-/// of that.
+/// of that. Beside such a point orbits change with the root of the parameter.
 const MERGING_DISTANCE: f64 = 1e-6;
 
 /// The branches of twice the period from the flips of one, and those of asymmetric orbits from its pitchforks, each from one end
@@ -96,7 +96,6 @@ fn doubled(
     bar: &Progress,
 ) -> Result<Vec<Branch>, Failure> {
     let follower = continuation(family, branch.periods, limits)?;
-    let [scale] = family.parameter_scales();
     let mut found: Vec<Branch> = Vec::new();
     let flips = branch.critical_points(TestFunction::Flip);
     let pitchforks = branch.specials.iter();
@@ -109,10 +108,7 @@ fn doubled(
                 End::Symmetric => is_pitchfork,
                 _ => false,
             };
-            let is_near = |last: &BranchPoint| {
-                (last.parameter - point.parameter).abs() < MERGING_DISTANCE * scale
-            };
-            merges && other.points.last().is_some_and(is_near)
+            merges && ends_at(&follower, family, other, point)
         };
         if found.iter().any(merges_here) {
             continue;
@@ -123,4 +119,91 @@ fn doubled(
         });
     }
     Ok(found)
+}
+
+/// True if a branch ends in the orbit at a point of another one, whose continuation this is, whatever number of drive periods later.
+fn ends_at(
+    continuation: &Continuation<'_>,
+    family: &ParameterFamily<1>,
+    branch: &Branch,
+    point: &BranchPoint,
+) -> bool {
+    let ([scale], [length, speed]) = (family.parameter_scales(), family.state_scales());
+    // As the continuation's own, it follows a parameter that has outgrown it.
+    let scale = scale.max(0.01 * point.parameter.abs());
+    let is_beside =
+        |last: &&BranchPoint| (last.parameter - point.parameter).abs() < MERGING_DISTANCE * scale;
+    let Some(last) = branch.points.last().filter(is_beside) else {
+        return false;
+    };
+    let is_last = |state: &Vector2<f64>| {
+        let apart = last.state() - state;
+        (apart.x / length).hypot(apart.y / speed) < MERGING_DISTANCE.sqrt()
+    };
+    let orbit = continuation.orbit_at(point);
+    let states = orbit.ok().and_then(|orbit| orbit.states().ok());
+    states.is_some_and(|states| states.iter().any(is_last))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use nalgebra::Vector2;
+    use softstop::{Parameter, Ratios};
+    use softstop_dynamics::continuation::TestFunction;
+    use softstop_dynamics::{BranchPoint, Continuation, Limits, ParameterFamily};
+
+    use super::ends_at;
+
+    #[test]
+    fn orbits_at_one_value_of_the_parameter_are_told_apart_by_their_states() {
+        let scene = Ratios::unloaded().scene().expect("a scene");
+        let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a family");
+        let continuation = Continuation::new(&family, 1);
+        let limits = Limits {
+            range: (0.95, 1.2),
+            points: 500,
+        };
+        let go_on = |_: &BranchPoint| ControlFlow::Continue(());
+        let branch = continuation.branch(1.15, Vector2::new(6.9, 9.5), &limits, go_on);
+        let branch = branch.expect("a branch");
+        let mut flips = branch.critical_points(TestFunction::Flip);
+        let flip = flips.next().expect("a flip").clone();
+        let ends = |point: &BranchPoint| {
+            let mut other = branch.clone();
+            other.points = vec![point.clone()];
+            ends_at(&continuation, &family, &other, &flip)
+        };
+        assert!(ends(&flip));
+        let parameter = flip.parameter + 1e-9;
+        assert!(ends(&BranchPoint {
+            parameter,
+            ..flip.clone()
+        }));
+        let parameter = flip.parameter + 1e-5;
+        assert!(!ends(&BranchPoint {
+            parameter,
+            ..flip.clone()
+        }));
+        let position = flip.position + 0.1;
+        assert!(!ends(&BranchPoint {
+            position,
+            ..flip.clone()
+        }));
+        let doubled = continuation.double_period(&flip, &limits, go_on);
+        let mut doubled = doubled.expect("a branch of twice the period");
+        let point = doubled.points[1].clone();
+        let twice = Continuation::new(&family, 2);
+        let later = twice
+            .orbit_at(&point)
+            .and_then(|orbit| Ok(orbit.states()?[1]));
+        let later = later.expect("a motion");
+        doubled.points = vec![BranchPoint {
+            position: later.x,
+            velocity: later.y,
+            ..point.clone()
+        }];
+        assert!(ends_at(&twice, &family, &doubled, &point));
+    }
 }
