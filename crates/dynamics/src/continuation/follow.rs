@@ -66,20 +66,22 @@ impl<'a> Continuation<'a> {
         Ok(Self { settings, ..self })
     }
 
-    /// This continuation over another number of drive periods.
-    pub(super) fn over_periods(&self, periods: u64) -> Self {
+    /// This continuation by another shooting.
+    fn with_shooting(&self, shooting: Shooting<'a, 1>) -> Self {
         Self {
-            shooting: self.shooting.seen_at(self.shooting.turn, periods),
+            shooting,
             settings: self.settings,
         }
     }
 
+    /// This continuation over another number of drive periods.
+    pub(super) fn over_periods(&self, periods: u64) -> Self {
+        self.with_shooting(self.shooting.seen_at(self.shooting.turn, periods))
+    }
+
     /// This continuation with its section so many drive periods after drive angle phi.
     pub(super) fn with_turn(&self, turn: f64) -> Self {
-        Self {
-            shooting: self.shooting.seen_at(turn, self.shooting.periods),
-            settings: self.settings,
-        }
+        self.with_shooting(self.shooting.seen_at(turn, self.shooting.periods))
     }
 
     /// The point of a branch at `parameter` that Newton's method reaches from a state near it, stable or not.
@@ -214,10 +216,7 @@ impl<'a> Continuation<'a> {
             return None;
         }
         let growth = size / TYPICAL_SCALED_PARAMETER;
-        let continuation = Self {
-            shooting: self.shooting.with_grown_scales(growth),
-            settings: self.settings,
-        };
+        let continuation = self.with_shooting(self.shooting.with_grown_scales(growth));
         let [mut at, mut along] = [&node.at, direction].map(DVector::clone);
         at[2] /= growth;
         along[2] /= growth;

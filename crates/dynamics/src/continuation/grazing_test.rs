@@ -134,8 +134,8 @@ impl GrazingTest {
         });
         [(dying, true), (passing, true), (rising, false)]
             .into_iter()
-            .filter_map(|(touch, dies)| touch.map(|(touch, crossings)| (touch, crossings, dies)))
-            .filter_map(|(touch, crossings, dies)| {
+            .filter_map(|(touch, dies)| {
+                let (touch, crossings) = touch?;
                 self.grazing_at(shooting, &touch, crossings, dies).ok()
             })
             .collect()
