@@ -24,7 +24,8 @@ use motor::Motor;
 pub struct Drive {
     motor: Motor,
     time: f64,
-    state: State,
+    /// Speed in rad/s, angle in rad, and work in J: of the motor, of friction, of the load.
+    state: [f64; 5],
     voltage: Signal,
     /// Work in J that the load has taken, as it is told.
     load: Signal,
@@ -33,18 +34,15 @@ pub struct Drive {
     begun: bool,
 }
 
-/// Speed in rad/s, angle in rad, and work in J: of the motor, of friction, of the load.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-struct State {
-    speed: f64,
-    angle: f64,
-    supplied: f64,
-    dissipated: f64,
-    paid: f64,
-}
-
 const VOLTAGE: usize = 0;
 const LOAD: usize = 1;
+
+/// Places in the state.
+const SPEED: usize = 0;
+const ANGLE: usize = 1;
+const SUPPLIED: usize = 2;
+const DISSIPATED: usize = 3;
+const PAID: usize = 4;
 
 mod slot {
     use super::Slot;
@@ -102,19 +100,7 @@ static ABOUT: About<Drive> = About {
 };
 
 impl Drive {
-    /// The state as an array, for the equations.
-    fn numbers(&self) -> [f64; 5] {
-        let State {
-            speed,
-            angle,
-            supplied,
-            dissipated,
-            paid,
-        } = self.state;
-        [speed, angle, supplied, dissipated, paid]
-    }
-
-    /// How these change while the load takes a power in W.
+    /// How the state changes while the load takes a power in W.
     fn rates(&self, time: f64, speed: f64, load: f64) -> [f64; 5] {
         let torque = self.motor.torque(self.voltage_at(time), speed);
         let friction = self.motor.friction * speed;
@@ -134,20 +120,23 @@ impl Drive {
 
     /// The rates now, the load as its derivatives say.
     fn now(&self) -> [f64; 5] {
-        self.rates(self.time, self.state.speed, self.load.at(self.time, 1))
+        self.rates(self.time, self.speed(), self.load.at(self.time, 1))
+    }
+
+    fn speed(&self) -> f64 {
+        self.state[SPEED]
     }
 
     fn torque(&self) -> f64 {
-        let voltage = self.voltage_at(self.time);
-        self.motor.torque(voltage, self.state.speed)
+        self.motor.torque(self.voltage_at(self.time), self.speed())
     }
 
     fn kinetic(&self) -> f64 {
-        0.5 * self.motor.inertia * self.state.speed * self.state.speed
+        0.5 * self.motor.inertia * self.speed() * self.speed()
     }
 
     fn amplitude(&self) -> f64 {
-        self.motor.unbalance * self.state.speed * self.state.speed
+        self.motor.unbalance * self.speed() * self.speed()
     }
 
     /// Goes on without telling.
@@ -156,22 +145,13 @@ impl Drive {
         if span <= 0.0 {
             return true;
         }
-        let left = (self.load.at(time, 0) - self.state.paid) / span;
+        let left = (self.load.at(time, 0) - self.state[PAID]) / span;
         let of = &*self;
         let rates = |time: f64, y: &[f64; 5]| of.rates(time, y[0], of.load.at(time, 1) + left);
-        let Some([speed, angle, supplied, dissipated, paid]) =
-            integrate((time, until), self.numbers(), rates)
-        else {
+        let Some(state) = integrate((time, until), self.state, rates) else {
             return false;
         };
-        self.time = until;
-        self.state = State {
-            speed,
-            angle,
-            supplied,
-            dissipated,
-            paid,
-        };
+        (self.time, self.state) = (until, state);
         true
     }
 
@@ -182,8 +162,8 @@ impl Drive {
             match known {
                 Known::Signal(VOLTAGE) => drive.voltage.derivatives[0] += step * seed,
                 Known::Signal(_) => drive.load.derivatives[0] += step * seed,
-                Known::Parameter(slot::INITIAL_SPEED) => drive.state.speed += step * seed,
-                _ => drive.state.angle += step * seed,
+                Known::Parameter(slot::INITIAL_SPEED) => drive.state[SPEED] += step * seed,
+                _ => drive.state[ANGLE] += step * seed,
             }
         }
         drive.go_to(self.time).then_some(drive)
@@ -205,13 +185,13 @@ impl Unit for Drive {
         Ok(Self {
             motor: Motor::of(values),
             time,
-            state: State {
-                speed: values[slot::INITIAL_SPEED.0],
-                angle: values[slot::INITIAL_ANGLE.0],
-                supplied: 0.0,
-                dissipated: 0.0,
-                paid: 0.0,
-            },
+            state: [
+                values[slot::INITIAL_SPEED.0],
+                values[slot::INITIAL_ANGLE.0],
+                0.0,
+                0.0,
+                0.0,
+            ],
             voltage: Signal::default(),
             load: Signal::default(),
             origin: None,

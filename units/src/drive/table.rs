@@ -9,7 +9,7 @@ use softstop_fmi::variable::{Access, Dependencies, Kind, Variable};
 use softstop_fmi::{Quantity, Terminal};
 
 use super::motor::MODEL;
-use super::{Drive, LOAD, VOLTAGE, slot};
+use super::{ANGLE, DISSIPATED, Drive, LOAD, PAID, SPEED, SUPPLIED, VOLTAGE, slot};
 use crate::difference::Direction;
 
 type Row = Variable<Drive, Direction<Drive>>;
@@ -84,41 +84,37 @@ const PARAMETERS: &[Row] = &[
         "Angle at the start time"),
 ];
 
-fn speed(drive: &Drive) -> f64 {
-    drive.state.speed
-}
-
 fn angle(drive: &Drive) -> f64 {
-    drive.state.angle
+    drive.state[ANGLE]
 }
 
 fn power(drive: &Drive) -> f64 {
-    drive.torque() * drive.state.speed
+    drive.torque() * drive.speed()
 }
 
 fn supplied(drive: &Drive) -> f64 {
-    drive.state.supplied
+    drive.state[SUPPLIED]
 }
 
 fn dissipated(drive: &Drive) -> f64 {
-    drive.state.dissipated
+    drive.state[DISSIPATED]
 }
 
 fn paid(drive: &Drive) -> f64 {
-    drive.state.paid
+    drive.state[PAID]
 }
 
 #[rustfmt::skip]
 const OUTPUTS: &[Row] = &[
     continuous(200, "speed", shown_in(real(&si::ANGULAR_FREQUENCY), "Hz"), after(&["initial.speed"]),
-        (speed, |of| of.of(speed)), &[|drive| drive.now()[0]],
+        (Drive::speed, |of| of.of(Drive::speed)), &[|drive| drive.now()[SPEED]],
         "Speed w of the rotor: drive.speed of softstop.fmu"),
     continuous(201, "angle", shown_in(real(&si::ANGLE), "deg"), after(&["initial.angle"]),
-        (angle, |of| of.of(angle)), &[speed],
+        (angle, |of| of.of(angle)), &[Drive::speed],
         "Angle of the rotor, counted on over the turns"),
     continuous(202, "amplitude", shown_in(real(&si::FORCE), "kN"), after(&["initial.speed", "unbalance"]),
         (Drive::amplitude, |of| of.of(Drive::amplitude)),
-        &[|drive| 2.0 * drive.motor.unbalance * drive.state.speed * drive.now()[0]],
+        &[|drive| 2.0 * drive.motor.unbalance * drive.speed() * drive.now()[SPEED]],
         "Force of the rotating unbalance, unbalance w^2: drive.amplitude of softstop.fmu"),
     continuous(203, "torque", nominal(real(&si::TORQUE), 10.0), at_once(DRIVES),
         (Drive::torque, |of| of.of(Drive::torque)), &[],
@@ -128,15 +124,15 @@ const OUTPUTS: &[Row] = &[
         "Power of the motor"),
     continuous(205, "energy.kinetic", nominal(real(&si::ENERGY), 10.0), after(&["inertia", "initial.speed"]),
         (Drive::kinetic, |of| of.of(Drive::kinetic)),
-        &[|drive| drive.motor.inertia * drive.state.speed * drive.now()[0]],
+        &[|drive| drive.motor.inertia * drive.speed() * drive.now()[SPEED]],
         "Energy of the rotor"),
     continuous(206, "energy.supplied", nominal(real(&si::ENERGY), 10.0), after(&[]),
-        (supplied, |of| of.of(supplied)), &[|drive| drive.now()[2]],
+        (supplied, |of| of.of(supplied)), &[|drive| drive.now()[SUPPLIED]],
         "Work of the motor since the start"),
     continuous(207, "energy.dissipated", nominal(real(&si::ENERGY), 10.0), after(&[]),
-        (dissipated, |of| of.of(dissipated)), &[|drive| drive.now()[3]],
+        (dissipated, |of| of.of(dissipated)), &[|drive| drive.now()[DISSIPATED]],
         "Energy lost to friction since the start"),
     continuous(208, "energy.load", nominal(real(&si::ENERGY), 10.0), after(&[]),
-        (paid, |of| of.of(paid)), &[|drive| drive.now()[4]],
+        (paid, |of| of.of(paid)), &[|drive| drive.now()[PAID]],
         "Work that the load has taken from the rotor since the start; load.work from the end of the next step on"),
 ];
