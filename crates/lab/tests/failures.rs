@@ -6,7 +6,7 @@ use std::fs;
 
 use serde_json::Value;
 use softstop_console::progress::Progress;
-use softstop_lab::failures::{self, Atlas, Axes, Cell, Family, built_in};
+use softstop_lab::failures::{self, Atlas, Axes, Cell, SteppedMethod, built_in};
 use softstop_lab::methods::{Events, Exact, Integrator, Scheme, Task, Verdict};
 use softstop_lab::scenes::Case;
 use softstop_testing::{Program, docs, is_near};
@@ -22,7 +22,7 @@ fn find(name: &str) -> Result<Case, String> {
     failures::find(name).map_err(|failure| failure.to_string())
 }
 
-fn atlas(case: Case, axes: Axes, families: &[Family]) -> Result<Atlas, String> {
+fn atlas(case: Case, axes: Axes, families: &[SteppedMethod]) -> Result<Atlas, String> {
     Atlas::new(case, axes, families, 0.01, &Progress::new(1, "runs"))
         .map_err(|failure| failure.to_string())
 }
@@ -61,7 +61,7 @@ fn the_exact_method_agrees_with_67_digits() -> Outcome {
 #[test]
 fn maps_change_at_the_line_of_theory() -> Outcome {
     let families = [Scheme::SemiImplicitEuler, Scheme::RungeKutta4]
-        .map(|scheme| Family::FixedStep(scheme, Events::Ignored));
+        .map(|scheme| SteppedMethod::FixedStep(scheme, Events::Ignored));
     let axes = Axes {
         stiffness: vec![1e2, 1e3, 1e4, 1e5],
         step: (0..36)
@@ -94,7 +94,7 @@ fn changes_at_the_line(name: &str, limit: f64, cells: &[Cell], steps: &[f64]) {
 /// Every class occurs on the page that is there for it.
 #[test]
 fn each_page_shows_its_failure() -> Outcome {
-    let everywhere = |events| Scheme::ALL.map(|scheme| Family::FixedStep(scheme, events));
+    let everywhere = |events| Scheme::ALL.map(|scheme| SteppedMethod::FixedStep(scheme, events));
     for (name, events, failure) in [
         ("pressed", Events::Ignored, Verdict::BlownUp),
         ("bounce", Events::Ignored, Verdict::EnergyGain),

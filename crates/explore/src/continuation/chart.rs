@@ -136,17 +136,12 @@ fn pieces(branch: &Branch) -> impl Iterator<Item = (&Branch, Vec<&BranchPoint>)>
     for point in &branch.points {
         let last = pieces.len() - 1;
         pieces[last].push(point);
-        if is_special(branch, point) {
+        if branch.special_at(point).is_some() {
             pieces.push(vec![point]);
         }
     }
     pieces.retain(|piece| piece.len() > 1);
     pieces.into_iter().map(move |piece| (branch, piece))
-}
-
-fn is_special(branch: &Branch, point: &BranchPoint) -> bool {
-    let mut specials = branch.specials.iter();
-    specials.any(|special| special.point.state() == point.state())
 }
 
 /// By a point inside: the ends of a piece are on the border.

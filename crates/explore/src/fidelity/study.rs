@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::Instant;
 
 use super::models::{
-    Answers, FidelityError, Ladder, Likeness, Quantity, Rung, cheapest, from_model, from_truth,
+    Answers, FidelityError, Ladder, Likeness, Rung, cheapest, from_model, from_truth,
 };
 use anyhow::{Context, anyhow};
 use softstop::internals::Evaluations;
@@ -80,7 +80,10 @@ impl Study {
         let observed = Answers::settled(truth, None, machine.start).map_err(run)?;
         let answers = bounded(truth, observed)?;
         if answers.value(quantity).is_none() {
-            return Err(absent(quantity));
+            return Err(Failure::Run(anyhow!(
+                "quantity = {}: the scene itself has none, so no model can be measured by it",
+                quantity.name()
+            )));
         }
         let plan = plan(truth, arguments.matched.likenesses());
         let progress = Progress::new(plan.len() as u64, "models");
@@ -200,13 +203,6 @@ fn model(
 
 fn run(error: impl std::error::Error + Send + Sync + 'static) -> Failure {
     Failure::Run(anyhow!(error))
-}
-
-fn absent(quantity: Quantity) -> Failure {
-    let name = quantity.name();
-    Failure::Run(anyhow!(
-        "quantity = {name}: the scene itself has none, so no model can be measured by it"
-    ))
 }
 
 fn evaluated(scene: &Scene, start: Start, periods: u64) -> Result<Evaluations, MotionError> {

@@ -18,15 +18,13 @@ pub(super) fn report(
     options: &SearchOptions,
     survey: &Survey,
 ) -> (Record, String) {
-    let (
-        Survey {
-            region,
-            starts,
-            periods,
-            ..
-        },
-        units,
-    ) = (survey, Units::of(machine));
+    let Survey {
+        region,
+        starts,
+        periods,
+        ..
+    } = survey;
+    let units = Units::of(machine);
     let mut text = heading(&format!("All motions of {}", title(machine)));
     let mut motions = Vec::new();
     for attractor in &survey.attractors {

@@ -30,8 +30,8 @@ pub struct MotionArguments {
 
 /// A machine at the beginning of a run.
 pub(crate) struct Begun {
+    /// With the start that counts.
     pub machine: Machine,
-    pub start: Start,
     /// Drive periods without a strip, counted from 1.
     pub missing: Option<RangeInclusive<u64>>,
 }
@@ -45,7 +45,7 @@ impl MotionArguments {
                 self.common.machine.refuse_start_beside(flag)?;
             }
         }
-        let machine = self.common.machine.machine()?;
+        let mut machine = self.common.machine.machine()?;
         let missing = self.missing_strips.clone();
         if let Some(periods) = &missing {
             let given = format!("{}:{}", periods.start(), periods.end());
@@ -57,15 +57,10 @@ impl MotionArguments {
                 "left out: the machine has no strip",
             )?;
         }
-        let start = Start::new(
-            self.position.unwrap_or(machine.start.position),
-            self.velocity.unwrap_or(machine.start.velocity),
-        );
-        let begun = Begun {
-            machine,
-            start,
-            missing,
-        };
+        let Start { position, velocity } = machine.start;
+        machine.start.position = self.position.unwrap_or(position);
+        machine.start.velocity = self.velocity.unwrap_or(velocity);
+        let begun = Begun { machine, missing };
         begun.motion().map(|_| begun)
     }
 }
@@ -73,7 +68,7 @@ impl MotionArguments {
 impl Begun {
     /// The motion that begins there.
     pub(crate) fn motion(&self) -> Result<Motion, Failure> {
-        Ok(self.machine.scene.motion(self.start)?)
+        Ok(self.machine.scene.motion(self.machine.start)?)
     }
 
     /// Whether strips come in a drive period, counted from 0.

@@ -19,7 +19,7 @@ fn overview<'a>() -> [Column<Outcome<'a>>; 7] {
         "periods" [None] Plain, "drive periods" => it.plan.periods;
         "period" [Time], "drive period" => it.plan.begun.machine.scene.period();
         "duration" [Time] Seven, "time" => it.duration;
-        "start" [None] Plain, "start: position and velocity" => state(it.plan.begun.start);
+        "start" [None] Plain, "start: position and velocity" => state(it.plan.begun.machine.start);
         "end" [None] Plain, "end: position and velocity" => state(it.end);
         "pierced" [None] Plain, "strips pierced" => it.tally.pierced;
         "rest_count" [None] Plain, "rests" => it.tally.rest_count;

@@ -10,12 +10,12 @@ use anyhow::Context;
 use clap::Args;
 use softstop::Scene;
 
-use softstop_console::column::{Column, Units, text};
+use softstop_console::column::{Column, Units};
 use softstop_console::columns;
 use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::output::Format;
-use softstop_console::record::Record;
+use softstop_console::record::{Record, below};
 use stroke::Stroke;
 use zoo::{Exhibit, ZOO};
 
@@ -45,9 +45,9 @@ pub struct StopsArguments {
 /// What is told of a picture.
 fn columns() -> [Column<Exhibit>; 3] {
     columns! { Exhibit, it;
-        "picture" [None] Plain, "its file" => it.name;
-        "law" [None] Plain, "what it shows" => it.title;
-        "first_touch" [Velocity] Plain, "velocity there" => it.speed;
+        "name" [None] Plain, "its file, without ending" => it.name;
+        "title" [None] Plain, "what it shows" => it.title;
+        "velocity" [Velocity] Plain, "at the first touch" => it.speed;
     }
 }
 
@@ -60,13 +60,9 @@ pub fn run(arguments: &StopsArguments) -> Result<(), Failure> {
     for (exhibit, (kind, _)) in ZOO.iter().zip(&files) {
         export.file(kind, picture(exhibit)?.as_bytes())?;
     }
-    let picture = |it: Exhibit| {
-        let named = Record::default().hidden("name", it.name);
-        named.hidden("title", it.title).hidden("velocity", it.speed)
-    };
-    let pictures = ZOO.map(picture).to_vec();
+    let pictures = Record::all(&columns(), &ZOO);
+    let text = below(&pictures, &Units::SI);
     let result = Record::default().hidden("pictures", pictures);
-    let text = text(&columns(), ZOO, &Units::SI);
     export.finish(&result, text, arguments.format)
 }
 

@@ -4,8 +4,8 @@ use crate::methods::{Exact, Integrator, Judge, MethodError, Solution, Task, Verd
 use anyhow::Context;
 use rayon::prelude::*;
 
-use super::family::Family;
 use super::machines::{contact_mode, shortest_contact};
+use super::stepped_method::SteppedMethod;
 use crate::precision::truth::OTHER;
 use crate::scenes::Case;
 use softstop_console::failure::Failure;
@@ -56,7 +56,7 @@ pub struct Cell {
 #[derive(Debug, Clone)]
 pub struct Map {
     /// The method.
-    pub family: Family,
+    pub family: SteppedMethod,
     /// One column for each stiffness, one cell in it for each step.
     pub columns: Vec<Vec<Cell>>,
     /// For each stiffness the longest stable step in contact as a share of the drive period; none where there is no such limit.
@@ -102,7 +102,7 @@ impl Atlas {
     pub fn new(
         case: Case,
         axes: Axes,
-        families: &[Family],
+        families: &[SteppedMethod],
         tolerance: f64,
         progress: &Progress,
     ) -> Result<Self, Failure> {
@@ -178,7 +178,7 @@ impl StiffnessCase {
     /// One method with each step.
     fn judge(
         &self,
-        family: Family,
+        family: SteppedMethod,
         steps: &[f64],
         tolerance: f64,
         progress: &Progress,
@@ -198,7 +198,7 @@ impl StiffnessCase {
     }
 
     /// Longest stable step in contact as a share of the drive period.
-    fn limit(&self, family: Family) -> Option<f64> {
+    fn limit(&self, family: SteppedMethod) -> Option<f64> {
         let (frequency, ratio) = self.mode?;
         let limit = family.limit(ratio)?;
         Some(limit / frequency / self.task.scene.period())

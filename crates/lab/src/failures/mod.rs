@@ -2,13 +2,13 @@
 
 mod atlas;
 mod chart;
-mod family;
 mod machines;
 mod report;
+mod stepped_method;
 
 pub use atlas::{Atlas, Axes, Cell, Map, StiffnessCase};
-pub use family::Family;
 pub use machines::{built_in, find};
+pub use stepped_method::SteppedMethod;
 
 use std::path::PathBuf;
 
@@ -135,10 +135,10 @@ fn cases(arguments: &FailuresArguments) -> Result<Vec<Case>, Failure> {
     Ok(cases)
 }
 
-fn families(words: &[String]) -> Result<Vec<Family>, Failure> {
-    let all = Family::all();
-    let names: Vec<String> = all.iter().map(Family::name).collect();
+fn families(words: &[String]) -> Result<Vec<SteppedMethod>, Failure> {
+    let all = SteppedMethod::all();
+    let names: Vec<String> = all.iter().map(SteppedMethod::name).collect();
     let is_wanted = filter(words, &names)?;
-    let wanted = |family: &Family| is_wanted(&family.name());
+    let wanted = |family: &SteppedMethod| is_wanted(&family.name());
     Ok(all.into_iter().filter(wanted).collect())
 }

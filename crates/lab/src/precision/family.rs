@@ -1,6 +1,6 @@
 //! The methods to be measured, each with its one knob turned from coarse to fine.
 
-use crate::failures::Family as Stepped;
+use crate::failures::SteppedMethod;
 use crate::methods::{Events, Exact, Integrator, Scheme};
 use softstop::Scene;
 
@@ -46,21 +46,21 @@ pub fn short_name(method: &str) -> &str {
 pub fn all(scene: &Scene, quick: bool) -> Vec<Family> {
     let (every, period) = (if quick { 2 } else { 1 }, scene.period());
     let look = |scheme, blind| Look { scheme, blind };
-    let stepped = |name: &str, look, method: Stepped| {
+    let stepped = |name: &str, look, method: SteppedMethod| {
         let steps = (COARSEST..=FINEST).step_by(every).map(|k| 0.5_f64.powi(k));
         Family::new(name, look, steps, |knob| method.method(knob * period))
     };
     let schemes = Scheme::ALL.into_iter().enumerate();
     let both = schemes.flat_map(|(index, scheme)| {
         [Events::Located, Events::Ignored].map(|events| {
-            let method = Stepped::FixedStep(scheme, events);
+            let method = SteppedMethod::FixedStep(scheme, events);
             let look = look(1 + index, events == Events::Ignored);
             stepped(&method.name(), look, method)
         })
     });
     let moreau = scene.wall().map(|_| {
         let look = look(1 + Scheme::ALL.len(), false);
-        stepped(Stepped::Moreau.title(), look, Stepped::Moreau)
+        stepped(SteppedMethod::Moreau.title(), look, SteppedMethod::Moreau)
     });
     let schemes = AdaptiveScheme::ALL.into_iter().enumerate();
     let adaptive = schemes.map(|(index, scheme)| {

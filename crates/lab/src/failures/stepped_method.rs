@@ -7,14 +7,14 @@ const THETA: f64 = 0.5;
 
 /// A method for any step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Family {
+pub enum SteppedMethod {
     /// A scheme for smooth laws, and what it does about events.
     FixedStep(Scheme, Events),
     /// Moreau's time stepping for rigid stops.
     Moreau,
 }
 
-impl Family {
+impl SteppedMethod {
     /// All of them: those that ignore events first.
     pub fn all() -> Vec<Self> {
         let with = |events| Scheme::ALL.map(|scheme| Self::FixedStep(scheme, events));
