@@ -2,7 +2,7 @@
 
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Chart, Layer, Legend, Panel, Stroke, style};
+use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Stroke, style};
 
 use super::words::plain;
 
@@ -133,6 +133,23 @@ pub(super) fn lines(name: &str, what: &str, [x, y]: [&str; 2], curves: &[Curve])
         points.map(|(x, y)| row![&*curve.name, *x, *y])
     });
     Sheet::new(name, [what, x, y], rows)
+}
+
+/// A panel with these axes.
+pub(super) fn panel(x: Axis, y: Axis, layers: impl IntoIterator<Item = Layer>) -> Panel {
+    Panel {
+        x,
+        y,
+        layers: layers.into_iter().collect(),
+        ..Panel::default()
+    }
+}
+
+/// The pieces of a row of points between those that are none, of two points at least.
+pub(super) fn pieces<T: Copy>(points: &[Option<T>]) -> Vec<Vec<T>> {
+    let pieces = points.split(Option::is_none);
+    let pieces = pieces.map(|piece| piece.iter().copied().flatten().collect::<Vec<T>>());
+    pieces.filter(|piece| piece.len() > 1).collect()
 }
 
 /// The middles of the cells of a row or column.

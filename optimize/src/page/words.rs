@@ -33,7 +33,11 @@ pub(super) fn number(value: f64) -> String {
 
 /// A whole number, its digits in groups of three.
 pub(super) fn count(value: u64) -> String {
-    let digits = value.to_string();
+    groups(&value.to_string())
+}
+
+/// Digits in groups of three.
+fn groups(digits: &str) -> String {
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
         if index > 0 && (digits.len() - index).is_multiple_of(3) {
@@ -72,12 +76,10 @@ fn fixed(value: f64, places: i32) -> String {
 
 /// Digits before the point in groups of three, from five digits on.
 fn grouped(text: &str) -> String {
-    let (whole, rest) = text.split_once('.').unwrap_or((text, ""));
-    let split = whole.len().saturating_sub(3);
-    match (whole.len() > 4, rest) {
-        (true, "") => format!("{}\u{202f}{}", &whole[..split], &whole[split..]),
-        (true, rest) => format!("{}\u{202f}{}.{rest}", &whole[..split], &whole[split..]),
-        (false, _) => text.to_owned(),
+    let whole = text.find('.').unwrap_or(text.len());
+    match whole > 4 {
+        true => groups(&text[..whole]) + &text[whole..],
+        false => text.to_owned(),
     }
 }
 

@@ -2,12 +2,12 @@
 
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
+use softstop_draw::{Axis, Layer, Mark, Stroke, style};
 
 use crate::design::Problem;
 use crate::design::figure::Figure as Quantity;
 use crate::design::front::Front;
-use crate::page::figure::{Figure, HALF, Section};
+use crate::page::figure::{Figure, HALF, Section, panel};
 use crate::page::words::capital;
 
 const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
@@ -21,16 +21,12 @@ pub(super) fn front(problem: &Problem, front: &Front) -> Figure {
     let marks = Layer::marks(points(), Mark::Circle, style::DESIGN);
     let design = Layer::marks([place(front.design)], Mark::Triangle, style::OPTIMUM);
     let [x, y] = [front.figure, sought].map(|it| machine.label(it.meaning(), "", it.dimension()));
-    let panel = Panel {
-        x: Axis::new(&x),
-        y: Axis::new(&y),
-        layers: vec![
-            Layer::line(points(), LINED),
-            marks.sized(3.5).named("best designs"),
-            design.sized(8.0).named("this design"),
-        ],
-        ..Panel::default()
-    };
+    let layers = [
+        Layer::line(points(), LINED),
+        marks.sized(3.5).named("best designs"),
+        design.sized(8.0).named("this design"),
+    ];
+    let panel = panel(Axis::new(&x), Axis::new(&y), layers);
     let caption = format!(
         "Each point is the best design that the search found with another bound of one of the two. {}",
         front.note()
@@ -42,9 +38,6 @@ pub(super) fn front(problem: &Problem, front: &Front) -> Figure {
     ));
     let rows = points().map(|(x, y)| row![x, y]);
     let name = format!("front-{}", front.figure.name());
-    Figure::new(Section::Cost, HALF, title, [panel], caption.trim_end()).with([Sheet::new(
-        name,
-        [x, y],
-        rows,
-    )])
+    let sheet = Sheet::new(name, [x, y], rows);
+    Figure::new(Section::Cost, HALF, title, [panel], caption.trim_end()).with([sheet])
 }

@@ -3,10 +3,10 @@
 use softstop::{Dimension, Machine};
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer, Panel, style};
+use softstop_draw::{Axis, Layer, style};
 
 use crate::optimize::study::Study;
-use crate::page::figure::{AT, Figure, HALF, Section, bounds};
+use crate::page::figure::{AT, Figure, HALF, Section, bounds, panel};
 use crate::page::words::{count, quantity};
 
 /// Bars of the histogram.
@@ -24,14 +24,12 @@ pub(super) fn histogram(machine: &Machine, study: &Study) -> Figure {
     let bars =
         bars.map(|([low, high], count)| [(low, high), (0.0, 100.0 * count as f64 / counted)]);
     let (nominal, worst) = (own(study.nominal), own(study.slowest()));
-    let marks = bounds(&[("design", nominal), ("worst", worst)], AT).collect::<Vec<_>>();
+    let marks = [("design", nominal), ("worst", worst)];
+    let marks = bounds(&marks, AT);
     let x = machine.label("before-impact velocity", "", Dimension::Velocity);
-    let panel = Panel {
-        x: Axis::new(&x),
-        y: Axis::new("machines in each bar (%)").from(0.0),
-        layers: [vec![Layer::boxes(bars, style::ALLOWED, 1.0)], marks].concat(),
-        ..Panel::default()
-    };
+    let y = Axis::new("machines in each bar (%)").from(0.0);
+    let bars = [Layer::boxes(bars, style::ALLOWED, 1.0)].into_iter();
+    let panel = panel(Axis::new(&x), y, bars.chain(marks));
     let lost = match study.verdict.lost {
         0 => "none of them loses the motion".to_owned(),
         1 => "one of them loses the motion".to_owned(),

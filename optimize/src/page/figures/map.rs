@@ -4,14 +4,13 @@ use softstop::{Dimension, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::around;
-use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
+use softstop_draw::{Axis, Layer, Mark, Stroke, around, style};
 use softstop_dynamics::{Zone, parallel, zone};
 
 use super::{half_width, velocity};
 use crate::design::{Design, Problem, space};
 use crate::page::branches::Motions;
-use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles};
+use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles, panel, pieces};
 use crate::page::words::quantity;
 use crate::placed;
 
@@ -76,12 +75,7 @@ fn map(
     let boundaries = BOUNDARIES.iter().enumerate();
     let curves = boundaries.flat_map(|(index, (name, stroke))| {
         let place = |row: usize| Some((own(rows[row].as_ref()?.0[index]?), value(row)));
-        let places: Vec<Option<(f64, f64)>> = (0..CELLS.1).map(place).collect();
-        let pieces = places
-            .split(Option::is_none)
-            .map(|it| it.iter().copied().flatten());
-        let pieces = pieces.map(Iterator::collect::<Vec<_>>);
-        let pieces: Vec<_> = pieces.filter(|points| points.len() > 1).collect();
+        let pieces = pieces(&Vec::from_iter((0..CELLS.1).map(place)));
         pieces.into_iter().map(|points| Curve {
             name: (*name).to_owned(),
             stroke: *stroke,
@@ -121,17 +115,11 @@ fn map(
     }
     let mark = Layer::marks([place], Mark::Diamond, style::OPTIMUM);
     layers.push(mark.sized(MARK).named("design"));
-    let upwards = Axis::new(y).range(up);
-    let panel = Panel {
-        x: Axis::new(x).range(across),
-        y: if axis.is_log() {
-            upwards.log()
-        } else {
-            upwards
-        },
-        layers,
-        ..Panel::default()
-    };
+    let mut upwards = Axis::new(y).range(up);
+    if axis.is_log() {
+        upwards = upwards.log();
+    }
+    let panel = panel(Axis::new(x).range(across), upwards, layers);
     let names = [Parameter::Frequency, parameter].map(|it| machine.meaning_of(it).0);
     let title = format!("Before-impact velocity over {} and {}", names[0], names[1]);
     let rows = places.zip(&cells);

@@ -3,12 +3,12 @@
 use softstop::Dimension;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer, Panel};
+use softstop_draw::{Axis, Layer};
 use softstop_dynamics::CycleMetrics;
 
 use super::portrait::{Period, faces};
 use crate::design::Design;
-use crate::page::figure::{BOUND, DESIGN, Figure, Section, WIDE};
+use crate::page::figure::{BOUND, DESIGN, Figure, Section, WIDE, panel};
 use crate::page::words::quantity;
 
 /// Periods that are drawn.
@@ -41,15 +41,8 @@ pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
     let end = points.last().map_or(0.0, |it| it[0]);
     let panel = |row: usize, label: &str, layers: Vec<Layer>| {
         let line = points.iter().map(|point| (point[0], point[row]));
-        Panel {
-            x: Axis::new(&time).range((0.0, end)),
-            y: Axis::new(label),
-            layers: layers
-                .into_iter()
-                .chain([Layer::line(line, DESIGN)])
-                .collect(),
-            ..Panel::default()
-        }
+        let layers = layers.into_iter().chain([Layer::line(line, DESIGN)]);
+        panel(Axis::new(&time).range((0.0, end)), Axis::new(label), layers)
     };
     let faces = faces(&machine.scene).into_iter();
     let faces = faces

@@ -6,7 +6,7 @@ use crate::design::Problem;
 use crate::design::figure::Sense;
 use crate::design::pareto::Pareto;
 use crate::design::problem::Objective;
-use crate::page::figure::{Figure, HALF, Section, WIDE};
+use crate::page::figure::{self, Figure, HALF, Section, WIDE};
 use crate::pareto::format_tally;
 
 const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
@@ -93,10 +93,6 @@ fn panel(problem: &Problem, front: &Pareto, axes: [usize; 2]) -> Panel {
         first.named("this design"),
         nearest.named("nearest to the best of each"),
     ]);
-    Panel {
-        x: axis(axes[0]).range(ranges[0]),
-        y: axis(axes[1]).range(ranges[1]),
-        layers: layers.chain(labels).collect(),
-        ..Panel::default()
-    }
+    let [x, y] = [0, 1].map(|it| axis(axes[it]).range(ranges[it]));
+    figure::panel(x, y, layers.chain(labels))
 }

@@ -7,7 +7,9 @@ use softstop_dynamics::{Orbit, zone};
 use softstop_explore::simulate::contact_force;
 
 use crate::design::Design;
-use crate::page::figure::{BESIDE, BOUND, Curve, DESIGN, Figure, Section, WIDE, bounds, lines};
+use crate::page::figure::{
+    BESIDE, BOUND, Curve, DESIGN, Figure, Section, WIDE, bounds, lines, panel,
+};
 
 /// Points of a period, and the fewest of an arc.
 const POINTS: f64 = 400.0;
@@ -134,12 +136,8 @@ pub(super) fn portrait(design: &Design, motions: &[Period]) -> Figure {
     ];
     let [x, y, near] = labels.each_ref();
     let unnamed = faces.iter().map(|it| Layer::vertical(it.1, BOUND, ""));
-    let whole = Panel {
-        x: Axis::new(x),
-        y: Axis::new(y),
-        layers: unnamed.chain(curves.iter().map(Curve::layer)).collect(),
-        ..Panel::default()
-    };
+    let layers = unnamed.chain(curves.iter().map(Curve::layer));
+    let whole = panel(Axis::new(x), Axis::new(y), layers);
     let named = bounds(&faces, BOUND).chain(curves.iter().map(Curve::layer));
     let near = (depth.is_finite() && depth > 0.0).then(|| Panel {
         x: Axis::new(near).range((first - NEAR.0 * depth, deepest + NEAR.1 * depth)),
@@ -150,12 +148,6 @@ pub(super) fn portrait(design: &Design, motions: &[Period]) -> Figure {
                    stop, down on its way back.";
     let title = "One period of the motion in the phase plane";
     let sheet = lines("portrait", "motion", [x, y], &curves);
-    Figure::new(
-        Section::Motion,
-        WIDE,
-        title,
-        [whole].into_iter().chain(near),
-        caption,
-    )
-    .with([sheet])
+    let panels = [whole].into_iter().chain(near);
+    Figure::new(Section::Motion, WIDE, title, panels, caption).with([sheet])
 }

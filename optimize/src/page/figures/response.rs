@@ -4,7 +4,7 @@ use std::slice;
 
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
-use softstop_draw::{Axis, Layer, Mark, Panel, style};
+use softstop_draw::{Axis, Layer, Mark, style};
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::ZoneEnd;
 use softstop_dynamics::{Zone, parallel, zone};
@@ -14,7 +14,9 @@ use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
 use crate::page::branches::Motions;
-use crate::page::figure::{BESIDE, BOUND, DESIGN, Figure, Section, UNSTABLE, WIDE, bounds, lines};
+use crate::page::figure::{
+    BESIDE, BOUND, DESIGN, Figure, Section, UNSTABLE, WIDE, bounds, lines, panel, pieces,
+};
 use crate::page::words::quantity;
 use crate::placed;
 use crate::robust::{self, Tolerance, Tolerances};
@@ -84,11 +86,8 @@ pub fn response(
     layers.extend(bounds(&ends, BOUND));
     layers.extend(curves.iter().map(|it| it.layer()));
     for it in references {
-        let velocity = it.orbit.before_impact_velocity();
-        let place = it
-            .machine
-            .value(Parameter::Frequency)
-            .map(|at| (at, velocity));
+        let frequency = it.machine.value(Parameter::Frequency);
+        let place = frequency.map(|at| (at, it.orbit.before_impact_velocity()));
         layers.push(Layer::marks(place, Mark::Circle, style::REFERENCE).sized(BESIDE_MARK));
         layers.extend(place.map(|place| Layer::label(place, it.title())));
     }
@@ -96,12 +95,7 @@ pub fn response(
     layers.push(mark.sized(MARK).named("design"));
     let labels = [machine.label_of(Parameter::Frequency), velocity(machine)];
     let [x, y] = labels.each_ref();
-    let panel = Panel {
-        x: Axis::new(x),
-        y: Axis::new(y).from(0.0),
-        layers,
-        ..Panel::default()
-    };
+    let panel = panel(Axis::new(x), Axis::new(y).from(0.0), layers);
     let machines = corners.len() * usize::from(!bands.is_empty());
     let caption = caption(machine, at, &ends, machines);
     let title = "How hard the mass strikes over the drive frequency";
@@ -174,8 +168,5 @@ fn bands(problem: &Problem, machines: &[Machine]) -> Vec<Vec<[f64; 3]>> {
         let most = velocities.iter().copied().fold(0.0, f64::max);
         Some([machine.to_own(Dimension::Frequency, frequency), least, most])
     };
-    let points: Vec<Option<[f64; 3]>> = (0..=ACROSS).map(at).collect();
-    let pieces = points.split(Option::is_none);
-    let pieces = pieces.map(|piece| piece.iter().copied().flatten().collect::<Vec<_>>());
-    pieces.filter(|piece| piece.len() > 1).collect()
+    pieces(&Vec::from_iter((0..=ACROSS).map(at)))
 }

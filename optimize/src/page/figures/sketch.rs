@@ -1,9 +1,9 @@
 //! A sketch of the machine with its dimensions, from its values; lengths are not to scale.
 
 use softstop::{Machine, Parameter, Stop};
-use softstop_draw::{Align, Axis, Layer, Panel, Stroke, style};
+use softstop_draw::{Align, Axis, Layer, Stroke, style};
 
-use crate::page::figure::{Figure, Section};
+use crate::page::figure::{Figure, Section, panel};
 use crate::page::words::quantity;
 
 /// Size of the picture, whose panel is in the same units.
@@ -38,12 +38,8 @@ pub fn sketch(machine: &Machine) -> Figure {
     sketch.mass();
     let face = sketch.strip();
     sketch.stop(face);
-    let panel = Panel {
-        x: Axis::bare().range((0.0, SIZE.0)),
-        y: Axis::bare().range((0.0, SIZE.1)),
-        layers: sketch.layers,
-        ..Panel::default()
-    };
+    let [x, y] = [SIZE.0, SIZE.1].map(|end| Axis::bare().range((0.0, end)));
+    let panel = panel(x, y, sketch.layers);
     let caption = "Not to scale. The mass is drawn at position 0, where the suspension is without force; positions count to the \
                    right. All numbers are those of the design.";
     let title = "The machine and its dimensions";
@@ -56,9 +52,12 @@ struct Sketch<'a> {
 }
 
 impl Sketch<'_> {
+    fn add(&mut self, layer: Layer) {
+        self.layers.push(layer);
+    }
+
     fn line(&mut self, points: &[(f64, f64)], stroke: Stroke) {
-        self.layers
-            .push(Layer::line(points.iter().copied(), stroke));
+        self.add(Layer::line(points.iter().copied(), stroke));
     }
 
     /// Lines of letters, the first at this height: a short name, and the value of a parameter, if the machine has it.
@@ -76,7 +75,7 @@ impl Sketch<'_> {
                 "" => format!("{name} {value}"),
                 symbol => format!("{name} {symbol} = {value}"),
             };
-            self.layers.push(Layer::text((x, y), align, text));
+            self.add(Layer::text((x, y), align, text));
             y -= LINE;
         }
     }
@@ -145,8 +144,7 @@ impl Sketch<'_> {
         }
         let middle = 0.5 * (from + to);
         for end in [from, to] {
-            self.layers
-                .push(Layer::arrow((middle, DIMENSION), (end, DIMENSION), THIN));
+            self.add(Layer::arrow((middle, DIMENSION), (end, DIMENSION), THIN));
         }
         self.values(
             (middle, DIMENSION - 26.0),
@@ -160,26 +158,22 @@ impl Sketch<'_> {
         self.damper(WALL, MASS.0);
         self.spring(WALL, MASS.0);
         let middle = 0.5 * (WALL + MASS.0);
-        let values = [
-            ("damping", Parameter::Damping),
-            ("stiffness", Parameter::Suspension),
-        ];
-        self.values((middle, DAMPER + 40.0), Align::Middle, &values[..1]);
-        self.values((middle, SPRING - 32.0), Align::Middle, &values[1..]);
+        for (name, parameter, height) in [
+            ("damping", Parameter::Damping, DAMPER + 40.0),
+            ("stiffness", Parameter::Suspension, SPRING - 32.0),
+        ] {
+            self.values((middle, height), Align::Middle, &[(name, parameter)]);
+        }
     }
 
     fn mass(&mut self) {
-        self.layers
-            .push(Layer::boxes([[MASS, FRAME]], style::ALLOWED, 0.3));
+        self.add(Layer::boxes([[MASS, FRAME]], style::ALLOWED, 0.3));
         self.rectangle(MASS);
         let middle = 0.5 * (MASS.0 + MASS.1);
         self.values((middle, 140.0), Align::Middle, &[("mass", Parameter::Mass)]);
         let height = FRAME.1 + 22.0;
-        self.layers.push(Layer::arrow(
-            (middle - 45.0, height),
-            (middle + 45.0, height),
-            FORCE,
-        ));
+        let [from, to] = [middle - 45.0, middle + 45.0].map(|x| (x, height));
+        self.add(Layer::arrow(from, to, FORCE));
         let drive = [
             ("drive", Parameter::Amplitude),
             ("drive at", Parameter::Frequency),
@@ -194,8 +188,7 @@ impl Sketch<'_> {
             return FACE;
         }
         let (end, stop) = (FACE + STRIP, FACE + STRIP + GAP);
-        self.layers
-            .push(Layer::boxes([[(FACE, end), FRAME]], style::REFERENCE, 0.35));
+        self.add(Layer::boxes([[(FACE, end), FRAME]], style::REFERENCE, 0.35));
         self.rectangle((FACE, end));
         let values = [
             ("strip: stiffness", Parameter::PiercingStiffness),
@@ -226,7 +219,7 @@ impl Sketch<'_> {
         self.wall(wall, 1.0);
         let place = (wall + 16.0, FRAME.1 - 22.0);
         let model = format!("stop: {}", stop.model());
-        self.layers.push(Layer::text(place, Align::Left, model));
+        self.add(Layer::text(place, Align::Left, model));
         let values = [
             ("stiffness", Parameter::StopStiffness),
             ("preload", Parameter::Preload),
@@ -239,8 +232,7 @@ impl Sketch<'_> {
         if let Some(rigid) = self.machine.value(Parameter::RigidTravel) {
             let text = quantity(rigid, self.machine.unit_of(Parameter::RigidTravel));
             let text = format!("rigid stop {text} behind");
-            self.layers
-                .push(Layer::text((wall + 16.0, FRAME.0), Align::Left, text));
+            self.add(Layer::text((wall + 16.0, FRAME.0), Align::Left, text));
         }
     }
 }
