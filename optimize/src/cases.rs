@@ -10,6 +10,7 @@ use crate::design::operating_point::OperatingPoint;
 use crate::design::{Design, Problem};
 use crate::limits::end_name;
 use crate::optimize::study::Study;
+use crate::robust::CaseVerdict;
 
 /// A design in one operating point, and its machines within the tolerances in all of them.
 struct Row<'a> {
@@ -24,17 +25,17 @@ impl<'a> Row<'a> {
         Some(&self.problem.cases[self.point.case?])
     }
 
-    /// A quantity of the machines of the drawing or of a case.
-    fn of_machines<T>(
-        &self,
-        drawing: impl Fn(&Study) -> T,
-        case: impl Fn(&Study, usize) -> T,
-    ) -> Option<T> {
-        let study = self.study?;
-        Some(match self.point.case {
-            None => drawing(study),
-            Some(index) => case(study, index),
-        })
+    /// What its machines have shown.
+    fn verdict(&self) -> Option<&'a CaseVerdict> {
+        Some(self.study?.verdict.for_case(self.point.case))
+    }
+
+    /// The least velocity of its machines.
+    fn slowest(&self) -> Option<f64> {
+        match self.point.case {
+            None => self.study.map(|it| it.slowest),
+            Some(_) => self.verdict().map(|it| it.slowest),
+        }
     }
 }
 
@@ -52,9 +53,9 @@ fn columns<'a>() -> [Column<Row<'a>>; 15] {
         "zone_from_by" [None], "what ends it there" => end_name(&it.point.design.zone.low);
         "zone_to" [Frequency] Six, "upper end of its zone" => it.point.design.own_frequency(it.point.design.zone.high.frequency);
         "zone_to_by" [None], "what ends it there" => end_name(&it.point.design.zone.high);
-        "lost" [None] Plain, "machines within the tolerances that lose the motion" => it.of_machines(|it| it.verdict.lost, |it, case| it.verdict.cases[case].lost);
-        "worst" [Velocity] Six, "least velocity of the others" => it.of_machines(Study::slowest, |it, case| it.verdict.cases[case].slowest);
-        "factor" [None] Six, "factor by which all tolerances may grow" => it.of_machines(|it| Some(it.nearest_box.first()?.distance), |it, case| it.factors[case]).flatten();
+        "lost" [None] Plain, "machines within the tolerances that lose the motion" => it.verdict().map(|it| it.lost);
+        "worst" [Velocity] Six, "least velocity of the others" => it.slowest();
+        "factor" [None] Six, "factor by which all tolerances may grow" => it.study.and_then(|study| study.factor(it.point.case));
     }
 }
 

@@ -14,7 +14,7 @@ use crate::design::figure::Figure;
 use crate::design::{Design, Problem};
 use crate::optimize::study::{Study, Without};
 use crate::page::capital;
-use crate::robust::{Index, Manifold, Nearest, Tolerance};
+use crate::robust::{Index, Manifold, Nearest};
 
 /// The machines within the tolerances of a design.
 #[derive(Debug, Serialize)]
@@ -33,14 +33,16 @@ pub(crate) struct Tolerated {
     price: Option<String>,
 }
 
-fn machines<'a>() -> [Column<&'a Study>; 6] {
-    columns! { &'a Study, it;
-        "looked_at" [None] Plain, "machines looked at" => it.verdict.machines;
-        "lost" [None] Plain, "machines that lose the motion" => it.verdict.lost;
-        "nominal" [Velocity] Six, "before-impact velocity of the design" => it.nominal;
-        "worst" [Velocity] Six, "least within the tolerances" => it.slowest();
-        "factor" [None] Six, "factor by which all tolerances may grow" => it.nearest_box.first().map(|it| it.distance);
-        "normal_distance" [None] Six, "normal distance in units of the tolerances" => it.nearest_ball.first().map(|it| it.distance);
+type Studied<'a> = (&'a Study, &'a Design);
+
+fn machines<'a>() -> [Column<Studied<'a>>; 6] {
+    columns! { Studied<'a>, it;
+        "looked_at" [None] Plain, "machines looked at" => it.0.verdict.machines;
+        "lost" [None] Plain, "machines that lose the motion" => it.0.verdict.drawing.lost;
+        "nominal" [Velocity] Six, "before-impact velocity of the design" => it.1.before_impact_velocity();
+        "worst" [Velocity] Six, "least within the tolerances" => it.0.slowest;
+        "factor" [None] Six, "factor by which all tolerances may grow" => it.0.factor(None);
+        "normal_distance" [None] Six, "normal distance in units of the tolerances" => it.0.normal_distance;
     }
 }
 
@@ -68,7 +70,7 @@ fn manifolds<'a>() -> [Column<&'a Nearest>; 2] {
     }
 }
 
-type One<'a> = (&'a Machine, &'a Study, usize);
+type One<'a> = (&'a Machine, &'a Study, usize, &'a Problem);
 
 fn parameters<'a>() -> [Column<One<'a>>; 11] {
     columns! { One<'a>, it;
@@ -76,7 +78,7 @@ fn parameters<'a>() -> [Column<One<'a>>; 11] {
         "meaning" [None], "what it is" => it.0.meaning_of(parameter(it)).0;
         "unit" [None], "unit of value and tolerance" => it.0.unit_of(parameter(it));
         "value" [None], "its value" => it.0.value(parameter(it));
-        "tolerance" [None] Seven, "half-width" => half_width(it.0, &it.1.tolerances[it.2]);
+        "tolerance" [None] Seven, "half-width" => it.3.half_width(it.0, parameter(it));
         "velocity" [Velocity] Seven, "change of the velocity at its upper end" => it.1.sensitivities.velocity[it.2];
         "to_fold" [Frequency] Seven, "of the margin to s_SN" => margin(it, it.1.sensitivities.to_fold.as_ref());
         "to_g0" [Frequency] Seven, "of the margin to g0" => margin(it, it.1.sensitivities.to_free.as_ref());
@@ -86,29 +88,21 @@ fn parameters<'a>() -> [Column<One<'a>>; 11] {
     }
 }
 
-fn parameter((_, study, index): &One<'_>) -> Parameter {
+fn parameter((_, study, index, _): &One<'_>) -> Parameter {
     study.tolerances[*index].parameter
 }
 
 /// Sobol indices of the velocity and of the place in the zone.
-fn indices((_, study, index): &One<'_>) -> Option<[Index; 2]> {
+fn indices((_, study, index, _): &One<'_>) -> Option<[Index; 2]> {
     let all = study.scatter.as_ref()?;
     Some([all.velocity[*index], all.place[*index]])
 }
 
 /// The change of a margin in the machine's own units.
-fn margin((machine, _, index): &One<'_>, all: Option<&Vec<f64>>) -> Option<f64> {
+fn margin((machine, _, index, _): &One<'_>, all: Option<&Vec<f64>>) -> Option<f64> {
     Some(machine.to_own(Dimension::Frequency, all?[*index]))
 }
 
-/// The half-width of a tolerance in the machine's own units.
-fn half_width(machine: &Machine, tolerance: &Tolerance) -> f64 {
-    let (parameter, half_width) = (tolerance.parameter, tolerance.half_width);
-    match parameter {
-        Parameter::Preload if machine.preload_deflection.is_some() => half_width,
-        _ => machine.to_own(parameter.about().dimension, half_width),
-    }
-}
 fn withouts() -> [Column<Without>; 4] {
     columns! { Without, it;
         "velocity" [None] Six, "before-impact velocity" => it.design.before_impact_velocity();
@@ -154,8 +148,8 @@ fn price(problem: &Problem, design: &Design, study: &Study, without: &Without) -
     let told = format!(
         "{sought}Without tolerances {} {unit} nominal, {worst}; robust design {} nominal, {} worst",
         own(without.design.before_impact_velocity()),
-        own(study.nominal),
-        own(study.slowest()),
+        own(design.before_impact_velocity()),
+        own(study.slowest),
     );
     told.replace("  ", " ") + "."
 }
@@ -163,7 +157,9 @@ fn price(problem: &Problem, design: &Design, study: &Study, without: &Without) -
 impl Tolerated {
     /// Those of a study.
     pub(crate) fn of(problem: &Problem, design: &Design, study: &Study) -> Self {
+        let built = problem.as_built();
         let all = 0..study.tolerances.len();
+        let all = all.map(|index| (&design.machine, study, index, &built));
         let without = study.without.as_ref();
         let rejected = match problem.has_normal_tolerances() {
             true => Record::of(&counted(), &(study, problem)),
@@ -175,15 +171,12 @@ impl Tolerated {
             ),
         };
         Self {
-            machines: Record::of(&machines(), &study).and(rejected),
-            manifolds: study
-                .nearest_box
+            machines: Record::of(&machines(), &(study, design)).and(rejected),
+            manifolds: study.nearest[0]
                 .iter()
                 .map(|it| Record::of(&manifolds(), &it))
                 .collect(),
-            parameters: all
-                .map(|index| Record::of(&parameters(), &(&design.machine, study, index)))
-                .collect(),
+            parameters: all.map(|it| Record::of(&parameters(), &it)).collect(),
             without: without.map(|it| Record::of(&withouts(), it)),
             price: without.map(|it| price(problem, design, study, it)),
         }

@@ -145,9 +145,9 @@ fn assert_holds(problem: &Problem, design: &Design, machines: usize) -> Outcome 
     let required = problem.requirements.iter().copied();
     let required: Vec<Requirement> = required.filter(Requirement::is_of_each_motion).collect();
     let verdict = verify(&spread, &design.orbit, (settings, &required), &unmonitored)?;
-    assert_eq!(verdict.lost, 0);
+    assert_eq!(verdict.drawing.lost, 0);
     assert!(
-        verdict.violating.iter().all(|count| *count == 0),
+        verdict.drawing.violating.iter().all(|count| *count == 0),
         "{verdict:?}"
     );
     Ok(())

@@ -316,10 +316,10 @@ fn tolerances_hold_in_every_case() -> Outcome {
         assert_relative_eq!(found[0].value, design.value, max_relative = 1e-9);
         assert!(found[1].value <= 5e5 * (1.0 + 1e-9));
         let alone = verify(&spread.over(FITTED), &design.orbit, settings, unmonitored)?;
-        assert_eq!((alone.lost, alone.rejected), (0, 0));
+        assert_eq!((alone.drawing.lost, alone.rejected), (0, 0));
         if let Some(case) = index.checked_sub(1) {
             let case = &together.cases[case];
-            let slowest = alone.slowest.ok_or("machines")?.1.velocity;
+            let slowest = alone.drawing.slowest;
             assert_eq!(case.slowest.to_bits(), slowest.to_bits());
         }
     }

@@ -57,7 +57,9 @@ fn lost(problem: &Problem, design: &Design) -> Outcome<usize> {
         enough: usize::MAX,
         first: 0,
     };
-    Ok(verify(&spread, &design.orbit, (some, &[]), &unmonitored)?.lost)
+    Ok(verify(&spread, &design.orbit, (some, &[]), &unmonitored)?
+        .drawing
+        .lost)
 }
 
 /// By how much all tolerances of a design may grow until the motion is lost; infinite beyond three times.

@@ -3,7 +3,7 @@
 //! within the box, [`robustify`](super::robustify) looks for.
 
 use crate::order::sort_rising;
-use crate::spread::{ToleranceBox, critical_normal, free_normal};
+use crate::spread::{critical_normal, free_normal};
 use softstop::{Dimension, Machine, Parameter};
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::slopes::Border;

@@ -292,15 +292,23 @@ impl Problem {
         self.reserve * tolerance.distribution.over(self.deviations).1
     }
 
+    /// Half-width of the box along a parameter of a machine, in its own units; none if that is exact or the machine has none.
+    pub fn half_width(&self, machine: &Machine, parameter: Parameter) -> Option<f64> {
+        let mut tolerances = self.tolerances.iter();
+        let it = tolerances.find(|it| it.parameter == parameter)?;
+        let width = self.widening(it) * it.width.around(machine.value(parameter)?);
+        Some(width).filter(|width| *width > 0.0)
+    }
+
     /// The box of tolerances, with its reserve, about a machine whose drive runs at its frequency; none if all of it is exact.
     pub fn spread(&self, machine: &Machine) -> Option<Tolerances> {
         let half_width = |it: &Tolerance| {
-            let width = self.widening(it) * it.width.around(machine.value(it.parameter)?);
+            let width = self.half_width(machine, it.parameter)?;
             let half_width = match it.parameter {
                 Parameter::Preload if machine.preload_deflection.is_some() => width,
                 parameter => machine.to_si(parameter.about().dimension, width),
             };
-            (half_width > 0.0).then_some(robust::Tolerance {
+            Some(robust::Tolerance {
                 parameter: it.parameter,
                 half_width,
                 distribution: it.distribution.over(self.deviations).0,

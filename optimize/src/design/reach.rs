@@ -1,7 +1,7 @@
 //! Directions within the tolerances in which a search has met a loss of the motion, and how far the motion goes on in each,
 //! with derivatives.
 
-use crate::spread::{Reached, ToleranceBox, along};
+use crate::spread::{Reached, along};
 use softstop::Scene;
 use softstop_dynamics::BranchPoint;
 use softstop_dynamics::continuation::TestFunction;

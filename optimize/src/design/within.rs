@@ -1,6 +1,5 @@
 //! How machines within the tolerances of a point of the search change with its coordinates.
 
-use crate::spread::ToleranceBox;
 use softstop::{Machine, Parameter};
 use softstop_dynamics::slopes::Border;
 

@@ -15,8 +15,9 @@ use crate::design::judge::Met;
 use crate::design::problem::Problem;
 use crate::design::requirement::Requirement;
 use crate::robust::{
-    EVEN, Effort, FITTED, Manifold, Nearest, Norm, Scatter, Sensitivities, Settings, Tolerance,
-    Tolerances, Verdict, Worst, nearest, scatter, sensitivities, verify, verify_in_cases, worst,
+    CaseVerdict, EVEN, Effort, FITTED, Manifold, Nearest, Norm, Scatter, Sensitivities, Settings,
+    Tolerance, Tolerances, Verdict, nearest, scatter, sensitivities, verify, verify_in_cases,
+    worst,
 };
 
 /// A design's machines within its tolerances.
@@ -24,20 +25,17 @@ use crate::robust::{
 pub struct Study {
     /// The tolerances, in SI units.
     pub tolerances: Vec<Tolerance>,
-    /// Before-impact velocity of the design itself in m/s.
-    pub nominal: f64,
     /// What is required of each of its machines, in the order of the verdict.
     pub required: Vec<Requirement>,
     /// What the machines have shown.
     pub verdict: Verdict,
-    /// The machine that strikes the least.
-    pub worst: Worst,
-    /// Where the motion is lost as all tolerances grow, the nearest manifold first.
-    pub nearest_box: Vec<Nearest>,
-    /// The factor by which all tolerances may grow in each case until the motion is lost, if that is looked for so far.
-    pub factors: Vec<Option<f64>>,
-    /// Where the motion is lost, by the normal distance.
-    pub nearest_ball: Vec<Nearest>,
+    /// The slowest impact in m/s that was found between the bounds: by steps down from the design, or seen.
+    pub slowest: f64,
+    /// Where the motion is lost as all tolerances grow, the nearest manifold first, if that is looked for so far: of the drawing and of
+    /// each case.
+    pub nearest: Vec<Vec<Nearest>>,
+    /// The normal distance to where the motion is lost, if that is looked for so far.
+    pub normal_distance: Option<f64>,
     /// How velocity and margins change with each tolerance.
     pub sensitivities: Sensitivities,
     /// Whose scatter it is.
@@ -61,28 +59,24 @@ pub struct Without {
 }
 
 impl Study {
+    /// The factor by which all tolerances may grow in the drawing or in a case until the motion is lost, if that is looked for so far.
+    pub(crate) fn factor(&self, case: Option<usize>) -> Option<f64> {
+        let nearest = &self.nearest[case.map_or(0, |index| index + 1)];
+        Some(nearest.first()?.distance)
+    }
+
     /// Takes note of the share of the machines that violate each requirement, and of its interval.
     pub(crate) fn note_violating(&self, problem: &Problem, all: &mut [Met]) {
         let machines = self.verdict.machines;
         let is_normal = problem.has_normal_tolerances();
         for met in all {
-            let violating = match met.case {
-                None => &self.verdict.violating,
-                Some(index) => &self.verdict.cases[index].violating,
-            };
+            let violating = &self.verdict.for_case(met.case).violating;
             let mut counts = self.required.iter().zip(violating);
             if let Some((_, count)) = counts.find(|(it, _)| **it == met.requirement) {
                 met.violating = Some(*count as f64 / machines as f64);
                 met.interval = is_normal.then(|| wilson_interval(*count, machines));
             }
         }
-    }
-
-    /// The slowest impact in m/s that was found between the bounds: by steps down from the design, or seen.
-    pub fn slowest(&self) -> f64 {
-        let seen = self.verdict.slowest.as_ref().map(|(_, it)| it.velocity);
-        let found = self.worst.orbit.before_impact_velocity();
-        seen.map_or(found, |seen| seen.min(found))
     }
 }
 
@@ -120,41 +114,32 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
         found.retain(is_loss);
         Ok::<_, Failure>(found)
     };
-    let cases = problem.in_cases();
-    let factors = cases.iter().zip(&design.cases).map(|(case, it)| {
-        let Some(spread) = case.spread(&it.machine) else {
-            return Ok(None);
-        };
-        let nearest = distances((&spread, &it.orbit), Norm::Box)?;
-        Ok::<_, Failure>(nearest.first().map(|it| it.distance))
+    let points = problem.operating_points(design);
+    let nearest = points.iter().map(|it| {
+        let spread = it.problem.spread(&it.design.machine);
+        spread.map_or(Ok(Vec::new()), |spread| {
+            distances((&spread, &it.design.orbit), Norm::Box)
+        })
     });
-    let factors = factors.collect::<Result<_, _>>()?;
+    let nearest = nearest.collect::<Result<Vec<_>, Failure>>()?;
     let sensitivities =
         sensitivities(&spread, nominal, &design.zone).map_err(anyhow::Error::from)?;
+    let motions = (nominal, problem.zone);
+    let scatter = scatter(&spread.over(EVEN), motions, Effort::default(), watcher);
     let study = Study {
-        nominal: design.before_impact_velocity(),
+        slowest: slowest(&spread, nominal, &verdict).map_err(stopped)?,
         verdict,
-        worst: slowest(&spread, nominal).map_err(stopped)?,
         required,
-        nearest_box: distances((&spread, nominal), Norm::Box)?,
-        factors,
-        nearest_ball: distances((&spread, nominal), Norm::Ball)?,
+        nearest,
+        normal_distance: distances((&spread, nominal), Norm::Ball)?
+            .first()
+            .map(|it| it.distance),
         sensitivities,
-        scatter: scatter(
-            &spread.over(EVEN),
-            (nominal, problem.zone),
-            Effort::default(),
-            watcher,
-        )
-        .map_err(stopped)?,
-        without: outcome
-            .solution
-            .relaxed
-            .as_ref()
-            .map(|it| without(&problem, it))
-            .transpose()
-            .map_err(stopped)?
-            .flatten(),
+        scatter: scatter.map_err(stopped)?,
+        without: match &outcome.solution.relaxed {
+            Some(relaxed) => without(&problem, relaxed).map_err(stopped)?,
+            None => None,
+        },
         tolerances: spread.all().to_vec(),
     };
     match interrupt::requested() {
@@ -163,11 +148,12 @@ pub(super) fn study(job: &Job, outcome: &Outcome) -> Result<Option<Study>, Failu
     }
 }
 
-/// The machine that strikes the least.
-fn slowest(spread: &Tolerances, nominal: &Orbit) -> Result<Worst, OrbitError> {
+/// The slowest impact in m/s of the machines that keep the motion: by steps down from the nominal one, or seen.
+fn slowest(spread: &Tolerances, nominal: &Orbit, verdict: &Verdict) -> Result<f64, OrbitError> {
     let figures = [(Figure::Velocity, Sense::Least)];
-    let mut found = worst(spread, nominal, &figures, &interrupt::watch)?;
-    found.pop().ok_or(OrbitError::NotIsolated)
+    let found = worst(spread, nominal, &figures, &interrupt::watch)?;
+    let found = found.iter().map(|it| it.value);
+    Ok(found.fold(verdict.drawing.slowest, f64::min))
 }
 
 /// What becomes of the best design without tolerances with them; none if it has no box of them.
@@ -178,16 +164,15 @@ fn without(problem: &Problem, design: &Design) -> Result<Option<Without>, OrbitE
     let settings = Settings::of_machines(FEWER);
     let drawn = spread.over(FITTED);
     let verdict = verify(&drawn, &design.orbit, (settings, &[]), &interrupt::watch)?;
-    // Steps down end wherever the motion is lost.
-    let seen = verdict.slowest.as_ref().map(|(_, it)| it.velocity);
-    let slowest = match verdict.lost {
-        0 => slowest(&spread, &design.orbit)?.value,
-        _ => design.before_impact_velocity(),
-    };
+    let CaseVerdict { lost, slowest, .. } = verdict.drawing;
     Ok(Some(Without {
         machines: verdict.machines,
-        lost: verdict.lost,
-        slowest: seen.map_or(slowest, |seen| seen.min(slowest)),
+        lost,
+        // Steps down end wherever the motion is lost.
+        slowest: match lost {
+            0 => self::slowest(&spread, &design.orbit, &verdict)?,
+            _ => slowest.min(design.before_impact_velocity()),
+        },
         design: design.clone(),
     }))
 }

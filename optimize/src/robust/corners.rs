@@ -5,22 +5,16 @@ use softstop_dynamics::points::sobol_point;
 /// Corners of the box: all of them if they are not more than so many, otherwise those nearest to that many of the points.
 pub(crate) fn corners(dimensions: usize, most: usize) -> Vec<Vec<f64>> {
     let all = 1_usize.checked_shl(dimensions as u32);
+    let all = all.filter(|all| *all <= most);
     let sign = |is_up| if is_up { 1.0 } else { -1.0 };
-    match all.filter(|all| *all <= most) {
-        Some(all) => (0..all)
-            .map(|corner| {
-                (0..dimensions)
-                    .map(|bit| sign(corner >> bit & 1 == 1))
-                    .collect()
-            })
+    let corner = |index: usize| match all {
+        Some(_) => (0..dimensions)
+            .map(|bit| sign(index >> bit & 1 == 1))
             .collect(),
-        None => (0..most)
-            .map(|index| {
-                sobol_point(index, dimensions)
-                    .iter()
-                    .map(|at| at.signum())
-                    .collect()
-            })
+        None => sobol_point(index, dimensions)
+            .into_iter()
+            .map(f64::signum)
             .collect(),
-    }
+    };
+    (0..all.unwrap_or(most)).map(corner).collect()
 }

@@ -19,7 +19,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// The mean of values and its standard error.
-    pub(super) fn of(values: &[f64]) -> Self {
+    fn of(values: &[f64]) -> Self {
         let count = values.len() as f64;
         let value = values.iter().sum::<f64>() / count;
         let squares: f64 = values.iter().map(|one| (one - value).powi(2)).sum();

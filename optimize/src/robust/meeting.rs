@@ -2,7 +2,8 @@
 
 use std::mem::{Discriminant, discriminant};
 
-use crate::spread::{Reached, ToleranceBox, along, critical_normal, free_normal};
+use super::Tolerances;
+use crate::spread::{Reached, along, critical_normal, free_normal};
 use softstop::MotionError;
 use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::orbit::OrbitError;
@@ -56,7 +57,7 @@ impl Meeting {
 }
 
 pub(super) struct Search<'a> {
-    pub spread: &'a dyn ToleranceBox,
+    pub spread: &'a Tolerances,
     pub nominal: &'a Orbit,
     pub norm: Norm,
     pub farthest: f64,
@@ -243,6 +244,6 @@ pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
-pub(super) fn euclidean(direction: &[f64]) -> f64 {
+fn euclidean(direction: &[f64]) -> f64 {
     dot(direction, direction).sqrt()
 }

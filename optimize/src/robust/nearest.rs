@@ -7,7 +7,7 @@
 //! it ends where the tangent plane there leaves nothing to gain.
 
 use crate::order::sort_rising;
-use crate::spread::{ToleranceBox, along};
+use crate::spread::along;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
@@ -15,8 +15,9 @@ use softstop_dynamics::parallel;
 use softstop_dynamics::points::sobol_point;
 use softstop_dynamics::zone::Loss;
 
+use super::Tolerances;
 use super::corners::corners;
-use super::meeting::{Manifold, Meeting, Norm, Search, dot, euclidean, is_loss, same};
+use super::meeting::{Manifold, Meeting, Norm, Search, dot, is_loss, same};
 
 /// Steps towards a nearest point, and the least share of one.
 const STEPS: usize = 40;
@@ -34,8 +35,6 @@ pub struct Nearest {
     pub distance: f64,
     /// Its coordinates.
     pub at: Vec<f64>,
-    /// The manifold's normal there, outwards, of Euclidean length 1.
-    pub normal: Vec<f64>,
 }
 
 /// The nearest machine of each manifold that is met within a distance of `farthest`, the nearest first. The motion is lost
@@ -45,7 +44,7 @@ pub struct Nearest {
 /// # Errors
 /// [`OrbitError::Stopped`]; [`OrbitError`] if the nominal motion is not one to start from.
 pub fn nearest(
-    spread: &dyn ToleranceBox,
+    spread: &Tolerances,
     nominal: &Orbit,
     norm: Norm,
     farthest: f64,
@@ -83,7 +82,7 @@ const CORNERS: usize = 32;
 const AROUND: usize = 16;
 
 /// Where the motion is lost on the ways to corners of the box and to places all over it.
-pub(crate) fn first_losses(spread: &dyn ToleranceBox, nominal: &Orbit) -> Vec<(Vec<f64>, Loss)> {
+pub(crate) fn first_losses(spread: &Tolerances, nominal: &Orbit) -> Vec<(Vec<f64>, Loss)> {
     let dimensions = spread.dimensions();
     let mut ends = corners(dimensions, CORNERS);
     ends.extend((0..AROUND).map(|index| sobol_point(index, dimensions)));
@@ -150,15 +149,9 @@ impl Search<'_> {
             normal = self.normal(&next);
             here = next;
         }
-        let size = euclidean(&normal);
         Ok(Nearest {
             distance: here.share,
-            at: here
-                .direction
-                .iter()
-                .map(|part| here.share * part)
-                .collect(),
-            normal: normal.iter().map(|part| part / size).collect(),
+            at: here.at(),
             manifold: here.manifold,
         })
     }

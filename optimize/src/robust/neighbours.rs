@@ -1,6 +1,6 @@
 //! Motions of machines near one whose motion is known.
 
-use crate::spread::{Settled, ToleranceBox, along, in_coordinates, varied};
+use crate::spread::{Settled, along, in_coordinates, varied};
 use nalgebra::Vector2;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::Figure;

@@ -1,8 +1,6 @@
 //! Which tolerance eats the margin.
 
-use crate::spread::{
-    MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, critical_normal, free_normal,
-};
+use crate::spread::{MotionOutcome, PolynomialModel, Surrogate, critical_normal, free_normal};
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
@@ -24,12 +22,6 @@ pub struct Sensitivities {
     pub to_fold: Option<Vec<f64>>,
     /// Of the margin w - g0, in rad/s, if there is a g0.
     pub to_free: Option<Vec<f64>>,
-}
-
-/// The shares of all coordinates in what a linear figure may change at most.
-pub fn shares(slopes: &[f64]) -> Vec<f64> {
-    let sum: f64 = slopes.iter().map(|slope| slope.abs()).sum();
-    slopes.iter().map(|slope| slope.abs() / sum).collect()
 }
 
 /// The sensitivities of a motion and of the zone of its machine.
@@ -73,7 +65,7 @@ pub struct Scatter {
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from; [`OrbitError::Stopped`].
 pub fn scatter(
-    spread: &dyn ToleranceBox,
+    spread: &Tolerances,
     (nominal, kind): (&Orbit, ZoneKind),
     effort: Effort,
     watcher: Monitor<'_>,

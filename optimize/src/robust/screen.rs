@@ -1,6 +1,6 @@
 //! Whether machines are as required: by polynomials fitted to some of them where these leave no doubt, else by the motion.
 
-use crate::spread::{MotionOutcome, PolynomialModel, Surrogate, ToleranceBox, is_inside};
+use crate::spread::{MotionOutcome, PolynomialModel, Surrogate, is_inside};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
 use softstop_dynamics::{CycleMetrics, Orbit};

@@ -3,24 +3,20 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::spread::{MotionOutcome, PolynomialModel, Settled, ToleranceBox};
+use crate::spread::{MotionOutcome, PolynomialModel};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
 use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
-use softstop_dynamics::zone::Loss;
 
 use super::Tolerances;
-use super::indices::Estimate;
 use super::screen::Screen;
 use crate::design::requirement::Requirement;
 
 /// Machines between two looks at how many are lost, and those that one thread looks at in a row.
 const GROUP: usize = 1 << 14;
 const ROW: usize = 1 << 8;
-/// Lost machines that are told of one by one.
-const TOLD: usize = 8;
 
 /// How many machines are looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,53 +50,23 @@ impl Settings {
     }
 }
 
-/// A machine that has lost the motion.
-#[derive(Debug, Clone)]
-pub struct LostMachine {
-    /// Its coordinates in the box.
-    pub at: Vec<f64>,
-    /// Share of the way there from the nominal machine up to which the motion goes on.
-    pub share: f64,
-    /// What ends it there.
-    pub loss: Loss,
-}
-
-/// A range of velocities and how many machines lie in it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bin {
-    /// Its lower end in m/s.
-    pub low: f64,
-    /// Its upper end.
-    pub high: f64,
-    /// Machines.
-    pub machines: usize,
-}
-
 /// What the machines have shown.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Verdict {
     /// Machines looked at: fewer than asked for if enough were lost, or somebody asked to stop.
     pub machines: usize,
-    /// Those without a stable z = 1 motion that goes on from the nominal one.
-    pub lost: usize,
-    /// The first of them.
-    pub examples: Vec<LostMachine>,
-    /// Machines that violate each requirement, those that are lost among them.
-    pub violating: Vec<usize>,
-    /// Machines that are lost or violate any of them, in any case.
+    /// Machines that are lost or violate any requirement, in any case.
     pub rejected: usize,
-    /// What the same machines have shown in each case.
+    /// What they have shown in the drawing's operating point.
+    pub drawing: CaseVerdict,
+    /// What they have shown in each case.
     pub cases: Vec<CaseVerdict>,
-    /// Where the slowest impact was, if all are not lost.
-    pub slowest: Option<(Vec<f64>, Settled)>,
     /// Before-impact velocities in m/s of all that are not lost, in rising order.
-    velocities: Vec<f64>,
-    /// The same of each sequence of points.
-    sequences: Vec<Vec<f64>>,
+    pub velocities: Vec<f64>,
 }
 
-/// What the machines have shown in a case.
+/// What the machines have shown in an operating point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseVerdict {
     /// Those without a stable z = 1 motion that goes on from the nominal one.
@@ -112,51 +78,31 @@ pub struct CaseVerdict {
 }
 
 impl CaseVerdict {
-    fn take(&mut self, (fate, violated): (MotionOutcome, Vec<bool>)) {
+    fn take(&mut self, fate: &MotionOutcome, violated: &[bool]) {
         match fate {
             MotionOutcome::Lost { .. } => self.lost += 1,
             MotionOutcome::Kept(settled) => self.slowest = self.slowest.min(settled.velocity),
         }
-        count(&mut self.violating, &violated);
-    }
-}
-
-fn count(violating: &mut [usize], violated: &[bool]) {
-    for (count, is_violated) in violating.iter_mut().zip(violated) {
-        *count += usize::from(*is_violated);
+        for (count, is_violated) in self.violating.iter_mut().zip(violated) {
+            *count += usize::from(*is_violated);
+        }
     }
 }
 
 impl Verdict {
-    /// The velocity in m/s that this share of the machines stays below, with its standard error, which is none for
-    /// fewer than two sequences of points; none if all are lost.
-    pub fn quantile(&self, share: f64) -> Option<(f64, Option<f64>)> {
-        let of = |velocities: &[f64]| {
-            let last = velocities.len().checked_sub(1)?;
-            let index = (share.clamp(0.0, 1.0) * last as f64).round() as usize;
-            velocities.get(index).copied()
-        };
-        self.figure(of)
+    /// Machines that lose the motion, counted in each case.
+    fn all_lost(&self) -> usize {
+        let cases = self.cases.iter().map(|it| it.lost);
+        self.drawing.lost + cases.sum::<usize>()
     }
 
-    /// The mean velocity in m/s, and its standard error.
-    pub fn mean(&self) -> Option<(f64, Option<f64>)> {
-        let of = |velocities: &[f64]| {
-            let sum: f64 = velocities.iter().sum();
-            (!velocities.is_empty()).then(|| sum / velocities.len() as f64)
-        };
-        self.figure(of)
+    /// What they have shown in the drawing's operating point or in a case.
+    pub fn for_case(&self, case: Option<usize>) -> &CaseVerdict {
+        case.map_or(&self.drawing, |index| &self.cases[index])
     }
 
-    fn figure(&self, of: impl Fn(&[f64]) -> Option<f64>) -> Option<(f64, Option<f64>)> {
-        let whole = of(&self.velocities)?;
-        let each: Vec<f64> = self.sequences.iter().filter_map(|one| of(one)).collect();
-        let error = (each.len() > 1).then(|| Estimate::of(&each).error);
-        Some((whole, error))
-    }
-
-    /// How many machines lie in each of so many equal ranges of the velocity.
-    pub fn histogram(&self, bins: usize) -> Vec<Bin> {
+    /// So many equal ranges of the velocity in m/s, and how many machines lie in each.
+    pub fn histogram(&self, bins: usize) -> Vec<([f64; 2], usize)> {
         let (Some(low), Some(high)) = (self.velocities.first(), self.velocities.last()) else {
             return Vec::new();
         };
@@ -168,12 +114,7 @@ impl Verdict {
                 true => self.velocities.len(),
                 false => self.velocities.partition_point(|velocity| *velocity < high),
             };
-            let machines = until - std::mem::replace(&mut counted, until);
-            Bin {
-                low,
-                high,
-                machines,
-            }
+            ([low, high], until - std::mem::replace(&mut counted, until))
         };
         (0..bins).map(bin).collect()
     }
@@ -210,10 +151,9 @@ pub fn verify_in_cases(
     let first = settings.first + settings.machines.next_multiple_of(SEQUENCE_LENGTH);
     let known = first..first + PolynomialModel::wanted(dimensions);
     let known: Vec<Vec<f64>> = known.map(|index| sobol_point(index, dimensions)).collect();
-    let screen = |(spread, nominal)| Screen::new((spread, nominal), (&known, required));
-    let screens = points
-        .iter()
-        .map(|(spread, nominal)| screen((spread, *nominal)));
+    let screens = points.iter();
+    let screens =
+        screens.map(|(spread, nominal)| Screen::new((spread, nominal), (&known, required)));
     let screens: Vec<Screen<'_>> = screens.collect::<Result<_, _>>()?;
     let case = CaseVerdict {
         lost: 0,
@@ -222,14 +162,10 @@ pub fn verify_in_cases(
     };
     let mut verdict = Verdict {
         machines: 0,
-        lost: 0,
-        examples: Vec::new(),
-        violating: vec![0; required.len()],
         rejected: 0,
-        cases: vec![case; points.len() - 1],
-        slowest: None,
+        cases: vec![case.clone(); points.len() - 1],
+        drawing: case,
         velocities: Vec::new(),
-        sequences: Vec::new(),
     };
     let done = AtomicU64::new(0);
     while verdict.machines < settings.machines && verdict.all_lost() < settings.enough {
@@ -238,7 +174,7 @@ pub fn verify_in_cases(
         let fates = parallel::try_map(&rows, |first| {
             let row = *first..(first + ROW).min(machines.end);
             let fate = |index| {
-                let at = drawn(spread, settings.first + index);
+                let at = spread.draw(&sobol_point(settings.first + index, dimensions));
                 screens.iter().map(|it| it.judge(&at)).collect::<Vec<_>>()
             };
             let fates: Vec<_> = row.clone().map(fate).collect();
@@ -250,63 +186,21 @@ pub fn verify_in_cases(
         let Ok(fates) = fates else {
             break;
         };
-        for (index, judged) in machines.zip(fates.into_iter().flatten()) {
+        for judged in fates.into_iter().flatten() {
             let is_rejected = |(fate, violated): &(MotionOutcome, Vec<bool>)| {
                 matches!(fate, MotionOutcome::Lost { .. }) || violated.contains(&true)
             };
+            verdict.machines += 1;
             verdict.rejected += usize::from(judged.iter().any(is_rejected));
-            let mut judged = judged.into_iter();
-            if let Some((fate, violated)) = judged.next() {
-                verdict.take(settings.first + index, spread, fate);
-                count(&mut verdict.violating, &violated);
+            if let Some((MotionOutcome::Kept(settled), _)) = judged.first() {
+                verdict.velocities.push(settled.velocity);
             }
-            for (case, judged) in verdict.cases.iter_mut().zip(judged) {
-                case.take(judged);
+            let points = [&mut verdict.drawing].into_iter().chain(&mut verdict.cases);
+            for (point, (fate, violated)) in points.zip(judged) {
+                point.take(&fate, &violated);
             }
         }
     }
-    verdict.velocities = verdict.sequences.concat();
     verdict.velocities.sort_by(f64::total_cmp);
-    for sequence in &mut verdict.sequences {
-        sequence.sort_by(f64::total_cmp);
-    }
     Ok(verdict)
-}
-
-/// The coordinates of a machine that is drawn.
-fn drawn(spread: &dyn ToleranceBox, index: usize) -> Vec<f64> {
-    spread.draw(&sobol_point(index, spread.dimensions()))
-}
-
-impl Verdict {
-    /// Machines that lose the motion, counted in each case.
-    fn all_lost(&self) -> usize {
-        self.lost + self.cases.iter().map(|it| it.lost).sum::<usize>()
-    }
-
-    fn take(&mut self, index: usize, spread: &dyn ToleranceBox, fate: MotionOutcome) {
-        if index.is_multiple_of(SEQUENCE_LENGTH) {
-            self.sequences.push(Vec::new());
-        }
-        self.machines += 1;
-        let here = || drawn(spread, index);
-        match fate {
-            MotionOutcome::Lost { share, loss } => {
-                self.lost += 1;
-                if self.examples.len() < TOLD {
-                    let at = here();
-                    self.examples.push(LostMachine { at, share, loss });
-                }
-            }
-            MotionOutcome::Kept(settled) => {
-                let slowest = self.slowest.as_ref();
-                if slowest.is_none_or(|(_, slowest)| settled.velocity < slowest.velocity) {
-                    self.slowest = Some((here(), settled));
-                }
-                if let Some(sequence) = self.sequences.last_mut() {
-                    sequence.push(settled.velocity);
-                }
-            }
-        }
-    }
 }

@@ -1,7 +1,7 @@
 //! The worst machine between the bounds.
 
 use crate::order::sort_rising;
-use crate::spread::{ToleranceBox, in_coordinates, varied};
+use crate::spread::{in_coordinates, varied};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::{Figure, Sense};
 use softstop_dynamics::monitor::Monitor;

@@ -7,7 +7,7 @@ use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 use softstop_dynamics::zone::Loss;
 
-use super::ToleranceBox;
+use super::Tolerances;
 
 /// Typical change of the share of the way, the unit of steps.
 const TYPICAL: f64 = 2.0;
@@ -29,7 +29,7 @@ pub struct Reached {
 /// # Errors
 /// [`OrbitError`] if the nominal motion is not one to start from.
 pub fn along(
-    spread: &dyn ToleranceBox,
+    spread: &Tolerances,
     nominal: &Orbit,
     to: &[f64],
     farthest: f64,
@@ -56,7 +56,7 @@ pub fn along(
 /// The machines on a way.
 #[derive(Debug)]
 struct Homotopy<'a> {
-    spread: &'a dyn ToleranceBox,
+    spread: &'a Tolerances,
     to: &'a [f64],
     state_scales: [f64; 2],
 }

@@ -1,6 +1,6 @@
 //! Exact derivatives by the coordinates of a spread: normals of borders, and the chain rule for all else.
 
-use super::ToleranceBox;
+use super::Tolerances;
 use softstop::{Parameter, Scene};
 use softstop_dynamics::continuation::{BranchPoint, TestFunction};
 use softstop_dynamics::orbit::OrbitError;
@@ -15,7 +15,7 @@ const CHANGE: f64 = 0.125;
 ///
 /// # Errors
 /// [`ZoneError`] as of [`Border::at_g0`].
-pub fn free_normal(spread: &dyn ToleranceBox, at: &[f64]) -> Result<Vec<f64>, ZoneError> {
+pub fn free_normal(spread: &Tolerances, at: &[f64]) -> Result<Vec<f64>, ZoneError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
     let border = Border::at_g0(&scene, true, &parameters)?;
     Ok(normal(spread, at, &border))
@@ -27,7 +27,7 @@ pub fn free_normal(spread: &dyn ToleranceBox, at: &[f64]) -> Result<Vec<f64>, Zo
 /// # Errors
 /// [`OrbitError`] as of [`Border::at_critical`].
 pub fn critical_normal(
-    spread: &dyn ToleranceBox,
+    spread: &Tolerances,
     at: &[f64],
     (test, point): (TestFunction, &BranchPoint),
 ) -> Result<Vec<f64>, OrbitError> {
@@ -36,12 +36,12 @@ pub fn critical_normal(
     Ok(normal(spread, at, &border))
 }
 
-fn normal(spread: &dyn ToleranceBox, at: &[f64], border: &Border) -> Vec<f64> {
+fn normal(spread: &Tolerances, at: &[f64], border: &Border) -> Vec<f64> {
     in_coordinates(spread, at, &border.parameters, &border.normal)
 }
 
 /// The machines on both sides of one along a coordinate.
-fn beside(spread: &dyn ToleranceBox, at: &[f64], index: usize) -> [Scene; 2] {
+fn beside(spread: &Tolerances, at: &[f64], index: usize) -> [Scene; 2] {
     [-CHANGE, CHANGE].map(|change| {
         let mut at = at.to_vec();
         at[index] += change;
@@ -56,7 +56,7 @@ fn rate([below, above]: &[Scene; 2], parameter: Parameter) -> f64 {
 }
 
 /// The parameters that change with the coordinates, in the order of [`Parameter::ALL`].
-pub fn varied(spread: &dyn ToleranceBox, at: &[f64]) -> Vec<Parameter> {
+pub fn varied(spread: &Tolerances, at: &[f64]) -> Vec<Parameter> {
     let pairs: Vec<_> = (0..at.len())
         .map(|index| beside(spread, at, index))
         .collect();
@@ -66,7 +66,7 @@ pub fn varied(spread: &dyn ToleranceBox, at: &[f64]) -> Vec<Parameter> {
 
 /// Derivatives by parameters as derivatives by the coordinates, at some coordinates.
 pub fn in_coordinates(
-    spread: &dyn ToleranceBox,
+    spread: &Tolerances,
     at: &[f64],
     parameters: &[Parameter],
     by: &[f64],

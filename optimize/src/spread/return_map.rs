@@ -75,8 +75,6 @@ pub struct Settled {
     pub state: Vector2<f64>,
     /// Before-impact velocity in m/s.
     pub velocity: f64,
-    /// Modulus of its largest multiplier.
-    pub multiplier: f64,
 }
 
 impl Settled {
@@ -85,7 +83,6 @@ impl Settled {
         Self {
             state: point.state(),
             velocity: point.before_impact_velocity(),
-            multiplier: point.monodromy.multipliers()[0].norm(),
         }
     }
 
@@ -110,7 +107,6 @@ impl Settled {
                 return Some(Self {
                     state,
                     velocity: once.velocity + (once.by_state * step).x,
-                    multiplier: monodromy.multipliers()[0].norm(),
                 });
             }
         }

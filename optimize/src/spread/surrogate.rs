@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::{PolynomialModel, Reached, Settled, ToleranceBox, along};
+use super::{PolynomialModel, Reached, Settled, Tolerances, along};
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 use softstop_dynamics::parallel;
 use softstop_dynamics::zone::Loss;
@@ -17,7 +17,7 @@ const FIRST_MACHINES: usize = 64;
 /// Knows the z = 1 motions of some machines of a spread, and by them where those of the others are.
 #[derive(Debug)]
 pub struct Surrogate<'a> {
-    spread: &'a dyn ToleranceBox,
+    spread: &'a Tolerances,
     nominal: &'a Orbit,
     states: PolynomialModel,
     /// How far from where a motion should be it may be found, in the scales of the motion.
@@ -50,7 +50,7 @@ impl<'a> Surrogate<'a> {
     /// # Errors
     /// [`OrbitError::NotIsolated`] if the nominal motion is not one to start from.
     pub fn new(
-        spread: &'a dyn ToleranceBox,
+        spread: &'a Tolerances,
         nominal: &'a Orbit,
         places: &[Vec<f64>],
     ) -> Result<Self, OrbitError> {

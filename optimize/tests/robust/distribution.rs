@@ -14,7 +14,6 @@ use softstop_optimize::design::search::{SearchError, Settings, Unwatched};
 use softstop_optimize::design::solution::{Beside, Solution};
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::robust::{self, Distribution, FITTED, Tolerances, normal_quantile, verify};
-use softstop_optimize::spread::ToleranceBox;
 
 use super::{Outcome, press};
 

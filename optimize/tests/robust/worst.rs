@@ -8,10 +8,8 @@ use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::points::sobol_point;
 use softstop_dynamics::{CycleMetrics, Orbit, zone};
 use softstop_optimize::design::figure::{Figure, Sense};
-use softstop_optimize::robust::{
-    Settings, Tolerances, Worst, sensitivities, shares, verify, worst,
-};
-use softstop_optimize::spread::{ToleranceBox, along};
+use softstop_optimize::robust::{Settings, Tolerances, Worst, sensitivities, verify, worst};
+use softstop_optimize::spread::along;
 
 use super::{Outcome, machines, press, shop, spread};
 
@@ -66,7 +64,7 @@ fn no_machine_strikes_less_than_the_worst() -> Outcome {
             let least = worst.orbit.before_impact_velocity();
             assert!(worst.at.iter().all(|at| at.abs() <= 1.0));
             let sampled = verify(&tolerances, &nominal, (few, &[]), &unmonitored)?;
-            let (sampled, _) = sampled.quantile(0.0).ok_or("machines")?;
+            let sampled = sampled.drawing.slowest;
             let loss = nominal.before_impact_velocity() - least;
             assert!(least <= sampled, "{least} {sampled}");
             assert!(sampled - least < 0.5 * loss, "{least} {sampled}");
@@ -125,11 +123,6 @@ fn sensitivities_are_those_of_machines_beside() -> Outcome {
                 assert_relative_eq!(exact[index], slope, epsilon = 2e-6 * size);
             }
         }
-        assert_relative_eq!(
-            shares(&found.to_fold.ok_or("a fold")?).iter().sum::<f64>(),
-            1.0,
-            epsilon = 1e-12
-        );
     }
     Ok(())
 }

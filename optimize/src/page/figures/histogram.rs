@@ -1,10 +1,11 @@
 //! How often a velocity occurs among machines within the tolerances.
 
-use softstop::{Dimension, Machine};
+use softstop::Dimension;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, style};
 
+use crate::design::Design;
 use crate::optimize::study::Study;
 use crate::page::figure::{AT, Figure, HALF, Section, bounds, panel};
 use crate::page::words::{count, quantity};
@@ -13,24 +14,26 @@ use crate::page::words::{count, quantity};
 const BARS: usize = 40;
 
 /// The picture.
-pub(super) fn histogram(machine: &Machine, study: &Study) -> Figure {
+pub(super) fn histogram(design: &Design, study: &Study) -> Figure {
+    let machine = &design.machine;
     let own = |value: f64| machine.to_own(Dimension::Velocity, value);
     let bins = study.verdict.histogram(BARS);
     let ends = bins
         .iter()
-        .map(|it| ([own(it.low), own(it.high)], it.machines as u64));
-    let counted = bins.iter().map(|it| it.machines).sum::<usize>().max(1) as f64;
+        .map(|(ends, machines)| (ends.map(own), *machines as u64));
+    let counted = bins.iter().map(|it| it.1).sum::<usize>().max(1) as f64;
     let bars = ends.clone();
     let bars =
         bars.map(|([low, high], count)| [(low, high), (0.0, 100.0 * count as f64 / counted)]);
-    let (nominal, worst) = (own(study.nominal), own(study.slowest()));
+    let nominal = own(design.before_impact_velocity());
+    let worst = own(study.slowest);
     let marks = [("design", nominal), ("worst", worst)];
     let marks = bounds(&marks, AT);
     let x = machine.label("before-impact velocity", "", Dimension::Velocity);
     let y = Axis::new("machines in each bar (%)").from(0.0);
     let bars = [Layer::boxes(bars, style::ALLOWED, 1.0)].into_iter();
     let panel = panel(Axis::new(&x), y, bars.chain(marks));
-    let lost = match study.verdict.lost {
+    let lost = match study.verdict.drawing.lost {
         0 => "none of them loses the motion".to_owned(),
         1 => "one of them loses the motion".to_owned(),
         lost => format!("{} of them lose the motion", count(lost as u64)),

@@ -7,7 +7,7 @@ use softstop_console::sheet::Sheet;
 use softstop_draw::{Axis, Layer, Mark, Stroke, around, style};
 use softstop_dynamics::{Zone, parallel, zone};
 
-use super::{half_width, velocity};
+use super::velocity;
 use crate::design::{Design, Problem, space};
 use crate::page::branches::Motions;
 use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles, panel, pieces};
@@ -103,7 +103,9 @@ fn map(
         design.frequency(),
         machine.value(parameter).unwrap_or(f64::NAN),
     );
-    let widths = [Parameter::Frequency, parameter].map(|it| half_width(problem, design, it));
+    let built = problem.as_built();
+    let width = |it| built.half_width(machine, it).unwrap_or(0.0);
+    let widths = [Parameter::Frequency, parameter].map(width);
     let shades = cells.iter().map(|value| value.unwrap_or(f64::NAN));
     let mut layers = vec![Layer::shades(CELLS.0, shades, &shade)];
     layers.extend(curves.iter().map(|curve| {

@@ -13,11 +13,11 @@ mod response;
 mod sketch;
 
 use rayon::join;
-use softstop::{Dimension, Machine, Parameter};
+use softstop::{Dimension, Machine};
 
 use super::figure::Figure;
+use crate::design::Problem;
 use crate::design::share_of_starts::settles_slowly;
-use crate::design::{Design, Problem};
 use crate::optimize::outcome::{Outcome, for_picture};
 use crate::optimize::study::Study;
 
@@ -58,7 +58,7 @@ pub fn figures(
     figures.extend(basin);
     figures.extend(erosion.map(|it| erosion::erosion(problem, design, it)));
     figures.extend(fronts.map(|it| front::front(problem, it)));
-    figures.extend(study.map(|it| histogram::histogram(&design.machine, it)));
+    figures.extend(study.map(|it| histogram::histogram(design, it)));
     figures.extend(study.map(|it| effects::effects(&design.machine, it)));
     (figures, missing.into_iter().flatten().collect())
 }
@@ -66,16 +66,4 @@ pub fn figures(
 /// The label of the before-impact velocity.
 fn velocity(machine: &Machine) -> String {
     machine.label("before-impact velocity", "X′₋", Dimension::Velocity)
-}
-
-/// Half-width of the tolerance of a parameter, in the machine's own units; 0 if it has none.
-fn half_width(problem: &Problem, design: &Design, parameter: Parameter) -> f64 {
-    let mut tolerances = problem.tolerances.iter();
-    let tolerance = tolerances.find(|it| it.parameter == parameter);
-    let value = design.machine.value(parameter);
-    let width = tolerance.zip(value);
-    let problem = problem.as_built();
-    width.map_or(0.0, |(it, value)| {
-        problem.widening(it) * it.width.around(value)
-    })
 }

@@ -9,7 +9,7 @@ use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::ZoneEnd;
 use softstop_dynamics::{Zone, parallel, zone};
 
-use super::{half_width, velocity};
+use super::velocity;
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
@@ -66,8 +66,8 @@ pub fn response(
         layers.push(stripe((low, high), MARGIN).named(name));
     }
     let at = (design.frequency(), design.before_impact_velocity());
-    let width = half_width(problem, design, Parameter::Frequency);
-    if width > 0.0 {
+    let built = problem.as_built();
+    if let Some(width) = built.half_width(machine, Parameter::Frequency) {
         let ends = (at.0 - width, at.0 + width);
         layers.push(stripe(ends, ALLOWED).named("tolerance of the frequency"));
     }
