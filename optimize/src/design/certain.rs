@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use cobyla::{Func, RhoBeg, StopTols, minimize};
 
 use super::Design;
-use super::coordinates::{Candidate, Coordinates};
+use super::coordinates::{Candidate, Coordinates, keep_best};
 use super::critical::CriticalMachines;
 use super::problem::Problem;
 
@@ -14,11 +14,25 @@ use super::problem::Problem;
 const MOST: usize = 40;
 const FIRST: f64 = 0.15;
 const LAST: f64 = 1e-3;
+/// Share that is none: of less than the starts that are counted.
+const LEAST: f64 = 1e-9;
 /// What stands where there is no motion: far from every score, which are about 1, and from every share.
 const NOWHERE: f64 = 10.0;
 
-/// What is known of a point: the score, in units of that at the start, the share of starts beyond what is asked for, and
-/// how far it is within all else, which is negative beyond that.
+/// Which share of starts is sought.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ShareGoal<'a> {
+    /// The least share.
+    pub share: f64,
+    /// Machines within the tolerances that have it too.
+    pub known: &'a CriticalMachines,
+    /// Whether designs are left out about which motions settle so slowly that to count their starts takes minutes, and those to
+    /// whose motion none leads.
+    pub leaves_out_slow: bool,
+}
+
+/// What is known of a point: the score, in units of that at the start, the share of starts beyond what is asked for, negative also
+/// where that is left out, and how far it is within all else, which is negative beyond that.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
     score: f64,
@@ -30,7 +44,7 @@ struct Sample {
 pub(super) fn certain(
     problem: &Problem,
     from: &Candidate,
-    (share, known): (f64, &CriticalMachines),
+    goal: ShareGoal<'_>,
 ) -> Option<Candidate> {
     let coordinates = Coordinates::new(problem, &from.unit);
     let unit = problem.score(&from.design);
@@ -41,19 +55,25 @@ pub(super) fn certain(
         let design = Design::find(problem, &coordinates.at(&unit_cube, at))?;
         let design = design.with_own_values(problem)?;
         let (score, outside) = (problem.score(&design), design.violation(problem)?);
+        let decay = design.relative_decay();
+        let share = match goal.leaves_out_slow {
+            true if decay < 1.0 => decay.max(0.0).ln().max(-NOWHERE) - 1.0,
+            _ => match problem.least_certainty(&design, goal.known)? {
+                // Faster decay leads to where some do.
+                none if goal.leaves_out_slow && none < LEAST => -decay.recip(),
+                share => share,
+            },
+        };
         let known = Sample {
             score: score / unit,
-            share: problem.least_certainty(&design, known)? - share,
+            share: share - goal.share,
             within: -outside,
         };
-        let mut best = best.borrow_mut();
-        let is_better = best
-            .as_ref()
-            .is_none_or(|best| problem.score(&best.design) < score);
-        if known.share >= 0.0 && outside == 0.0 && is_better {
-            *best = Some(Candidate {
-                unit: unit_cube.clone(),
-                design,
+        if known.share >= 0.0 && outside == 0.0 {
+            let unit = unit_cube.clone();
+            let candidate = Candidate { unit, design };
+            keep_best(&mut best.borrow_mut(), candidate, |it| {
+                problem.score(&it.design)
             });
         }
         Some(known)

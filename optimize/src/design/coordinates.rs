@@ -55,6 +55,13 @@ pub(super) fn best_by<T>(all: impl IntoIterator<Item = T>, score: impl Fn(&T) ->
     )
 }
 
+/// Keeps the one of the higher score, of equals what is known.
+pub(super) fn keep_best<T>(best: &mut Option<T>, other: T, score: impl Fn(&T) -> f64) {
+    if best.as_ref().is_none_or(|best| score(best) < score(&other)) {
+        *best = Some(other);
+    }
+}
+
 /// Distance from the ends of the cube that is none: a solver comes as near to them as that.
 const AT_END: f64 = 1e-9;
 
@@ -135,10 +142,9 @@ impl Coordinates {
             let own = |axis| if axis == index / 2 { sign } else { 0.0 };
             (0..count).map(own).collect()
         });
-        let corners = if (2..=FEW).contains(&count) {
-            1 << count
-        } else {
-            0
+        let corners = match count {
+            2..=FEW => 1 << count,
+            _ => 0,
         };
         let across = (0..corners).map(|corner| {
             let sign = |axis| if corner >> axis & 1 == 1 { step } else { -step };

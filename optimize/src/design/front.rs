@@ -4,20 +4,19 @@
 use softstop::Parameter;
 use softstop_dynamics::parallel;
 
-use super::Design;
 use super::ascent::{ascend, ascend_from};
-use super::certain::certain;
+use super::certain::{ShareGoal, certain};
 use super::coordinates::{Candidate, best_by};
 use super::critical::CriticalMachines;
 use super::figure::{Figure, Sense};
 use super::non_dominated::non_dominated;
 use super::problem::{Objective, Problem};
 use super::requirement::{Scope, sign};
-use super::robustify::enforce;
+use super::robustify::{enforce, keep_as_is};
 use super::search::Found;
-use super::share_of_starts::settles_slowly;
 use super::trial::{ROUGH, STARTS};
-use super::trial_search::nearby;
+use super::trial_search::Trials;
+use super::{Design, GAIN};
 use crate::order::sort_rising;
 
 /// What is given up for more of what is sought.
@@ -72,36 +71,38 @@ const WIDEST: f64 = 0.5;
 const WIDENING: f64 = 0.1;
 /// Shares of starts between that of the design and all of them.
 const SHARES: usize = 4;
-/// Change of what is sought, relative, below which the bound no longer holds the design, and below which it is none.
+/// Why certainty is not traded where motions of all designs settle slowly.
+const SLOW: &str = "motions settle so slowly that the starts of as many designs are not counted";
+/// Change of what is sought, relative, below which the bound no longer holds the design.
 const FREE: f64 = 1e-6;
-const GAIN: f64 = 1e-9;
 
-/// What a figure costs of what is sought, around a design; none if the design has no such figure, or that is certainty and
-/// motions settle so slowly that no starts of many designs are counted. The others are sought without requirements that take
-/// many motions; those that fail them give way to ones near them, and are left out if there is none. With the best design on the way that solves the problem itself better than the design, if there is one: then the
-/// search can go on from there.
+/// What a figure costs of what is sought, around a design. The others are sought without requirements that take many motions;
+/// those that fail them give way to ones near them, and are left out if there is none. With the best design on the way that solves
+/// the problem itself better than the design, if there is one: then the search can go on from there.
+///
+/// # Errors
+/// Why there is no other design, in words; none if the design has no such figure.
 pub fn front(
     problem: &Problem,
     found: &Found,
     figure: Figure,
-) -> Option<(Front, Option<Candidate>)> {
+) -> Result<(Front, Option<Candidate>), Option<&'static str>> {
     let start = found.candidate();
     let known = &found.known;
-    if figure == Figure::Certainty && settles_slowly(&start.design.orbit) {
-        return None;
-    }
-    let own = place(problem, figure, &start)?;
+    let shares = (figure == Figure::Certainty).then(|| shares(problem, &start));
+    let shares = shares.transpose()?;
+    let own = place(problem, figure, &start).ok_or(None)?;
     let is_held = |parameter| problem.axes.iter().all(|axis| axis.parameter != parameter);
     let is_of_force = figure == Figure::DriveForce && is_held(Parameter::Amplitude);
     let others = match figure {
         Figure::Share => margins(problem, start),
-        Figure::Certainty => shares(problem, &start, own.0),
+        Figure::Certainty => shares.unwrap_or_default(),
         _ if is_of_force => forces(problem, (&start, known)),
         _ => both_ways((&start, known), own.0, |bound| {
             bounded(problem, figure, bound)
         }),
     };
-    let tried: Vec<Tried> = parallel::filter_map(&others, |it| tried(figure, it, known));
+    let tried: Vec<Tried> = parallel::filter_map(&others, |it| tried(figure, it, found));
     // Another drive amplitude is another problem.
     let score = |it: &Candidate| problem.score(&it.design);
     let is_above = |it: &Tried| {
@@ -132,7 +133,7 @@ pub fn front(
         moved: best.iter().filter(|it| it.is_moved).count(),
         left_out,
     };
-    Some((front, better))
+    Ok((front, better))
 }
 
 /// Whether a figure and what is sought are both better at one place than at another.
@@ -164,17 +165,18 @@ struct Tried {
     candidate: Candidate,
 }
 
-/// A design on the way, or one near it that passes; none if there is none.
-fn tried(
-    figure: Figure,
-    (problem, candidate): &Bounded,
-    known: &CriticalMachines,
-) -> Option<Tried> {
-    let held = enforce(problem, candidate, known.clone()).ok()?;
+/// A design on the way from one that was found, or one near it that passes; none if there is none.
+fn tried(figure: Figure, (problem, candidate): &Bounded, found: &Found) -> Option<Tried> {
+    let (known, is_slow) = (&found.known, found.design.relative_decay() < 1.0);
+    // A share has no derivative: an ascent from it may lead back to the design that settles slowly.
+    let held = match figure == Figure::Certainty && is_slow {
+        true => keep_as_is(problem, candidate)?,
+        false => enforce(problem, candidate, known.clone()).ok()?,
+    };
     let is_moved = !problem.passes(&held.candidate.design, known, ROUGH);
     let candidate = match is_moved {
         true => {
-            let moved = nearby(problem, &held.candidate, &held.known)?;
+            let moved = Trials::new(problem, &held.known).nearby(&held.candidate)?;
             problem.has_box(&moved.design).ok()?;
             moved
         }
@@ -230,15 +232,34 @@ fn margins(problem: &Problem, mut from: Candidate) -> Vec<Bounded> {
     steps.collect()
 }
 
-/// Over the share of starts that lead to the motion, from that of the design towards all of them.
-fn shares(problem: &Problem, start: &Candidate, own: f64) -> Vec<Bounded> {
-    let mut from = start.clone();
+/// Over the share of starts that lead to the motion, from that of the design towards all of them; where that settles slowly, from
+/// that of the best one that does not.
+///
+/// # Errors
+/// Why there is none, if that is known.
+fn shares(problem: &Problem, start: &Candidate) -> Result<Vec<Bounded>, Option<&'static str>> {
+    let known = &CriticalMachines::default();
+    let with_share = |from: &Candidate, share: f64| {
+        let goal = ShareGoal {
+            share,
+            known,
+            leaves_out_slow: true,
+        };
+        certain(problem, from, goal)
+    };
+    let is_slow = start.design.relative_decay() < 1.0;
+    let (mut from, mut all) = (start.clone(), Vec::new());
+    if is_slow {
+        from = with_share(start, 0.0).ok_or(Some(SLOW))?;
+        all.push((problem.clone(), from.clone()));
+    }
+    let (own, _) = place(problem, Figure::Certainty, &from).ok_or(None)?;
     let shares = (1..=SHARES).map(|step| own + (1.0 - own) * step as f64 / (SHARES + 1) as f64);
-    let all = shares.map_while(|share| {
-        from = certain(problem, &from, (share, &CriticalMachines::default()))?;
+    all.extend(shares.map_while(|share| {
+        from = with_share(&from, share)?;
         Some((problem.clone(), from.clone()))
-    });
-    all.collect()
+    }));
+    Ok(all)
 }
 
 /// Over the drive's amplitude that the task holds.

@@ -296,6 +296,8 @@ fn distance_from_zones(scene: &Scene, error: &ZoneError) -> f64 {
 
 /// The gap of a point of which nothing better is known.
 const DISTANT: f64 = 10.0;
+/// Relative gain of a score that is none.
+const GAIN: f64 = 1e-9;
 
 fn finite_or(value: f64, otherwise: f64) -> f64 {
     if value.is_finite() { value } else { otherwise }

@@ -119,9 +119,22 @@ impl OperatingPoint<'_> {
 
 /// Whether motions near an orbit decay so slowly that a basin test does not follow all of them to their end: a start then takes so
 /// many periods that a share far too small is told by the first ones.
-pub fn settles_slowly(orbit: &Orbit) -> bool {
+fn settles_slowly(orbit: &Orbit) -> bool {
+    relative_decay(orbit) < 1.0
+}
+
+/// The decay of motions near an orbit, in units of the least with which a basin test follows all of them to their end.
+fn relative_decay(orbit: &Orbit) -> f64 {
     let slowest = orbit.multipliers()[0].norm();
-    -slowest.ln() < SLOW_DECAY * orbit.periods as f64
+    -slowest.ln() / (SLOW_DECAY * orbit.periods as f64)
+}
+
+impl Design {
+    /// The relative decay of the motions near its own, the least of all cases.
+    pub(super) fn relative_decay(&self) -> f64 {
+        let all = self.points().map(|it| relative_decay(&it.orbit));
+        all.fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// Whether so small a share of so many starts would be met with a probability of less than `e^-14` if a share of all that is

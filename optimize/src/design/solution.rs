@@ -50,6 +50,8 @@ pub struct Solution {
     pub relaxed: Option<Design>,
     /// What more of one good costs of another, where it costs something.
     pub fronts: Vec<Front>,
+    /// Trade-offs of which there is none, each with the reason, in words.
+    pub missing: Vec<String>,
     /// The designs among which one can choose, if more than one thing is sought; the first of them is the design.
     pub pareto: Option<Pareto>,
 }
@@ -115,13 +117,14 @@ impl Solution {
         if let Some(best) = best.filter(|it| !is_rejected(&it.found)) {
             found.take_design(problem, &best.found);
         }
-        let mut fronts = Vec::new();
+        let (mut fronts, mut missing) = (Vec::new(), Vec::new());
         for _ in 0..ROUNDS {
             if !beside.fronts || interrupt::requested() {
                 break;
             }
-            let (traded, better): (Vec<Front>, Vec<_>) =
-                traded(problem, &found).into_iter().unzip();
+            let traded;
+            (traded, missing) = self::traded(problem, &found);
+            let (traded, better): (Vec<Front>, Vec<_>) = traded.into_iter().unzip();
             let better = best_by(better.into_iter().flatten(), |it| problem.score(&it.design));
             fronts = traded;
             if !better.is_some_and(|better| go_on(&mut found, &better)) {
@@ -135,7 +138,7 @@ impl Solution {
             let (figure, own) = (front.figure, front.design);
             front.points.retain(|it| !beats(problem, figure, *it, own));
         }
-        fronts.retain(|it| it.points.len() > 2 || it.left_out > 0);
+        fronts.retain(|it| it.points.len() > 1 || it.left_out > 0);
         let pareto = pareto.map(|it| it.with(problem, &found));
         Ok(Self {
             pareto,
@@ -144,38 +147,25 @@ impl Solution {
             is_settled,
             relaxed: relaxed.map(|it| it.design),
             fronts,
+            missing,
         })
-    }
-
-    /// What contradicts the design, in words: must be nothing.
-    pub fn contradictions(&self, problem: &Problem) -> Vec<String> {
-        let own = problem.score(&self.found.design);
-        let relaxed = self.relaxed.iter().filter_map(|it| {
-            let score = problem.relaxed().score(it);
-            (score < (1.0 - ROUNDING) * own)
-                .then(|| format!("without tolerances {score}, with them {own}"))
-        });
-        let fronts = self.fronts.iter().flat_map(|front| {
-            let better = front.points.iter();
-            let better = better.filter(|it| beats(problem, front.figure, **it, front.design));
-            better.map(|it| format!("{}: {it:?} against {:?}", front.figure.name(), front.design))
-        });
-        let rivals = self.found.rivals.iter().filter_map(|it| {
-            let score = problem.score(it);
-            (score > (1.0 + ROUNDING) * own).then(|| format!("a rival with {score}, not {own}"))
-        });
-        relaxed.chain(fronts).chain(rivals).collect()
     }
 }
 
-/// Relative difference between scores that is none.
-const ROUNDING: f64 = 1e-9;
-
-/// All trade-offs of a design.
-fn traded(problem: &Problem, found: &Found) -> Vec<(Front, Option<Candidate>)> {
-    let sought = problem.objective.figure;
-    parallel::filter_map(&TRADED, |figure| {
-        let front = || front(problem, found, *figure);
-        (*figure != sought).then(front).flatten()
-    })
+/// All trade-offs of a design, and those of which there is none, each with the reason.
+fn traded(problem: &Problem, found: &Found) -> (Vec<(Front, Option<Candidate>)>, Vec<String>) {
+    let figures = TRADED.iter().filter(|it| **it != problem.objective.figure);
+    let figures: Vec<&Figure> = figures.collect();
+    let traded = parallel::map(&figures, |figure| front(problem, found, **figure));
+    let (mut fronts, mut missing) = (Vec::new(), Vec::new());
+    for (traded, figure) in traded.into_iter().zip(figures) {
+        match traded {
+            Ok(front) => fronts.push(front),
+            Err(why) => missing.extend(why.map(|why| {
+                let name = figure.name();
+                format!("the trade-off with {name}: {why}")
+            })),
+        }
+    }
+    (fronts, missing)
 }

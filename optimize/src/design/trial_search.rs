@@ -6,15 +6,15 @@ use serde::Serialize;
 use softstop_console::interrupt;
 use softstop_dynamics::parallel;
 
-use super::Design;
 use super::ascent::ascend_from;
-use super::certain::certain;
+use super::certain::{ShareGoal, certain};
 use super::coordinates::{Candidate, Coordinates, best_by};
 use super::critical::CriticalMachines;
 use super::problem::{Objective, Problem};
 use super::space::digits;
 use super::trial::FULL;
 use super::zoned::Zoned;
+use super::{Design, GAIN};
 use crate::order::sort_rising;
 
 /// Zones of the lattice, at most.
@@ -35,8 +35,6 @@ const SECANTS: usize = 4;
 /// Places of a zone that are tried to find one that passes, if none is known elsewhere, and if one is, or beyond the last.
 const TRIES: usize = 8;
 const FEW_TRIES: usize = 3;
-/// Share of a score that is no gain.
-const GAIN: f64 = 1e-9;
 /// Margins with which a design is sought that passes: motions are established the more surely, the farther from the fold.
 const MARGINS: [f64; 2] = [0.2, 0.4];
 
@@ -55,18 +53,6 @@ pub(super) const RESOLUTION: Resolution = Resolution {
     place: 1.0 / (PLACES << HALVINGS) as f64,
 };
 
-/// A design near one that does not pass its trials and passes them, good to a per cent or so: the best along the zones of a few,
-/// and what linear models lead to from it alone, unless no zone holds one that passes.
-pub(super) fn nearby(
-    problem: &Problem,
-    from: &Candidate,
-    known: &CriticalMachines,
-) -> Option<Candidate> {
-    let trials = Trials::new(problem, known);
-    let along_zones = trials.improve(&trials.starts(from), None);
-    along_zones.or_else(|| trials.first(from))
-}
-
 /// The search for a design that passes its trials.
 pub(super) struct Trials<'a> {
     problem: &'a Problem,
@@ -77,6 +63,13 @@ impl<'a> Trials<'a> {
     /// The search with machines within the tolerances on which trials are made.
     pub(super) const fn new(problem: &'a Problem, known: &'a CriticalMachines) -> Self {
         Self { problem, known }
+    }
+
+    /// A design near one that does not pass its trials and passes them, good to a per cent or so: the best along the zones of a
+    /// few, and what linear models lead to from it alone, unless no zone holds one that passes.
+    pub(super) fn nearby(&self, from: &Candidate) -> Option<Candidate> {
+        let along_zones = self.improve(&self.starts(from), None);
+        along_zones.or_else(|| self.first(from))
     }
 
     fn score(&self, design: &Design) -> f64 {
@@ -138,7 +131,12 @@ impl<'a> Trials<'a> {
     /// The design that passes to which linear models of the share of starts lead from another, if that is required.
     fn led_to(&self, start: &Candidate) -> Option<Candidate> {
         let share = self.problem.least_share()?;
-        certain(self.problem, start, (share, self.known)).filter(|it| self.passes(it))
+        let goal = ShareGoal {
+            share,
+            known: self.known,
+            leaves_out_slow: false,
+        };
+        certain(self.problem, start, goal).filter(|it| self.passes(it))
     }
 
     /// The best of one that is known, of those along the zones of some designs, and of what linear models lead to from it.

@@ -43,6 +43,7 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
             is_settled: false,
             relaxed: None,
             fronts: Vec::new(),
+            missing: Vec::new(),
             pareto: None,
         },
         Err(SearchError::Stopped(None)) => return Err(interrupted_without_design()),
@@ -72,23 +73,21 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
     let design = &solution.found.design;
     let watcher = &interrupt::watch;
     let is_required = met.iter().any(|it| it.requirement.figure == Figure::RunUp);
-    let (erosion, run_up) = match interrupted.is_none() {
-        false => (None, None),
-        true => {
-            let ways = RunUpSettings {
-                with_peaks: true,
-                ..job.problem.run_up.clone()
-            };
-            let up = || RunUp::of(&design.orbit, &ways, ANGLES, watcher).ok();
-            rayon::join(
-                || {
-                    job.report
-                        .then(|| for_picture("the basin along the zone", || erosion(design)))
-                },
-                || (job.report || is_required).then(up).flatten(),
-            )
-        }
+    let is_finished = interrupted.is_none();
+    let ways = RunUpSettings {
+        with_peaks: true,
+        ..job.problem.run_up.clone()
     };
+    let basin = || for_picture("the basin along the zone", || erosion(design));
+    let up = || RunUp::of(&design.orbit, &ways, ANGLES, watcher).ok();
+    let (erosion, run_up) = rayon::join(
+        || (is_finished && job.report).then(basin),
+        || {
+            (is_finished && (job.report || is_required))
+                .then(up)
+                .flatten()
+        },
+    );
     Ok(Outcome {
         met,
         without_effect: solution.found.without_effect(problem),

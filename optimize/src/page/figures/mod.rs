@@ -17,17 +17,12 @@ use softstop::{Dimension, Machine};
 
 use super::figure::Figure;
 use crate::design::Problem;
-use crate::design::share_of_starts::settles_slowly;
 use crate::optimize::outcome::{Outcome, for_picture};
 use crate::optimize::study::Study;
 
 pub use pareto::pareto;
 pub use response::response;
 pub use sketch::sketch;
-
-/// Why there is no trade-off with certainty.
-const UNTRADED: &str = "the report goes without the trade-off with certainty: motions settle so slowly that the starts of as many \
-                        designs are not counted";
 
 /// The pictures of what a run has found, but for the response, and why some are missing.
 pub fn figures(
@@ -44,11 +39,14 @@ pub fn figures(
         },
     );
     let erosion = outcome.erosion.as_ref();
-    let missing = [
-        settles_slowly(&design.orbit).then(|| UNTRADED.to_owned()),
-        erosion.and_then(|it| it.as_ref().err().cloned()),
-        basin.as_ref().err().cloned(),
+    let undrawn = [
+        erosion.and_then(|it| it.as_ref().err()),
+        basin.as_ref().err(),
     ];
+    let missing = outcome.solution.missing.iter();
+    let missing = missing.chain(undrawn.into_iter().flatten());
+    let missing = missing.map(|it| format!("the report goes without {it}"));
+    let missing = missing.collect();
     let erosion = erosion.and_then(|it| it.as_ref().ok());
     let fronts = outcome.solution.fronts.iter();
     let mut figures = maps;
@@ -60,7 +58,7 @@ pub fn figures(
     figures.extend(fronts.map(|it| front::front(problem, it)));
     figures.extend(study.map(|it| histogram::histogram(design, it)));
     figures.extend(study.map(|it| effects::effects(&design.machine, it)));
-    (figures, missing.into_iter().flatten().collect())
+    (figures, missing)
 }
 
 /// The label of the before-impact velocity.
