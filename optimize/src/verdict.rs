@@ -20,7 +20,7 @@ fn columns<'a>() -> [Column<Required<'a>>; 10] {
         "name" [None] Plain, "as in the task" => it.1.requirement.figure.name();
         "required" [None] Plain, "what is required" => bound(it.0, &it.1.requirement);
         "value" [None] Seven, "what the design has" => own_of(it, it.1.value);
-        "worst" [None] Seven, "what the worst machine within the tolerances has" => it.1.within.as_ref().and_then(|within| own_of(it, within.worst));
+        "worst" [None] Seven, "what the worst machine within the tolerances has" => it.1.worst.and_then(|worst| own_of(it, worst));
         "violating" [None] Plain, "share of the machines within the tolerances that violate it" => it.1.violating;
         "margin" [None] Seven, "distance to the bound, of the worst machine if there are tolerances; negative beyond it" => own_of(it, it.1.margin());
         "unit" [None] Plain, "unit of value and margin" => it.0.unit(it.1.requirement.figure.dimension());

@@ -2,9 +2,11 @@
 
 use softstop::{Machine, Parameter};
 use softstop_optimize::design::Problem;
+use softstop_optimize::design::conflict::stated;
 use softstop_optimize::design::coordinates::Candidate;
 use softstop_optimize::design::figure::Figure;
 use softstop_optimize::design::front::front;
+use softstop_optimize::design::problem::{Tolerance, Width};
 use softstop_optimize::design::requirement::Requirement;
 use softstop_optimize::design::search::{Found, SearchError, Settings, Unwatched, search};
 use softstop_optimize::design::space::{Axis, Interval};
@@ -50,16 +52,46 @@ fn what_passes_is_kept_where_the_top_fails() -> Outcome {
     Ok(())
 }
 
-/// A catalogue of dampings, and the one of its values that passes: it is found, with a design as hard as where it alone is allowed.
-fn finds_the_damping_that_passes(catalogue: Vec<f64>, passing: f64) -> Outcome {
+/// Of designs that fail their trials the place is told at which the values lie that are told: within tolerances not that of the
+/// best motion.
+#[test]
+fn what_fails_its_trials_is_told_with_its_own_place() -> Outcome {
+    let mut problem = problem(vec![CLEARANCE], 1.0);
+    // The fold comes down to this frequency at a clearance of 12.6.
+    (problem.margin, problem.frequency) = (0.0, Interval::held(1.3));
+    problem.tolerances = vec![Tolerance::new(Parameter::Clearance, Width::Own(0.3))];
+    let Err(SearchError::NoDesign { place, reason, .. }) = solve(&problem) else {
+        return Err("no design is certain".into());
+    };
+    assert!(reason.contains("certainty = "), "{reason}");
+    let top = solve(&problem.relaxed())?;
+    problem.requirements.clear();
+    let places = [solve(&problem)?, top].map(|found| {
+        let clearance = found.design.machine.value(Parameter::Clearance);
+        let clearance = clearance.expect("a clearance");
+        format!(
+            ", at {}",
+            stated(&problem.machine, Parameter::Clearance, clearance)
+        )
+    });
+    assert_eq!(place, places[0]);
+    assert_ne!(place, places[1]);
+    Ok(())
+}
+
+/// A catalogue of dampings, and the one of its values that passes: it is found, with a design as hard as where it alone is allowed,
+/// and with the fineness of the search from better values where there was one from each.
+fn finds_the_damping_that_passes(catalogue: Vec<f64>, passing: f64, is_resolved: bool) -> Outcome {
     let designs = [catalogue, vec![passing]].map(|damping| {
         let axis = Axis::of_catalogue(Parameter::Damping, damping);
         let mut problem = problem(vec![axis, CLEARANCE], 0.2);
         problem.machine.set(Parameter::ContactDamping, 0.0);
-        solve(&problem).map(|found| found.design)
+        solve(&problem)
     });
     let [listed, held] = designs;
-    let (listed, held) = (listed?, held?);
+    let (listed, held) = (listed?, held?.design);
+    assert_eq!(listed.resolution.is_some(), is_resolved);
+    let listed = listed.design;
     assert_eq!(listed.machine.value(Parameter::Damping), Some(passing));
     assert!(listed.value >= (1.0 - 1e-9) * held.value, "{listed:?}");
     Ok(())
@@ -68,14 +100,14 @@ fn finds_the_damping_that_passes(catalogue: Vec<f64>, passing: f64) -> Outcome {
 /// Without damping no motion is established, and the mass strikes the hardest.
 #[test]
 fn values_of_catalogues_are_tried() -> Outcome {
-    finds_the_damping_that_passes(vec![0.0, 0.02], 0.02)
+    finds_the_damping_that_passes(vec![0.0, 0.02], 0.02, true)
 }
 
 /// Values far from those of the best designs are tried where these fail their trials, and then those between.
 #[test]
 fn far_values_of_catalogues_are_tried() -> Outcome {
     let slow = (0..14).map(|step| f64::from(step) * 1e-6);
-    finds_the_damping_that_passes(slow.chain([0.018, 0.02]).collect(), 0.018)
+    finds_the_damping_that_passes(slow.chain([0.018, 0.02]).collect(), 0.018, false)
 }
 
 /// With hardly any damping the starts of many designs are not counted: where the best design has little, certainty is traded

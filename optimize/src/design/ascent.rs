@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use argmin::core::{CostFunction, Error, Executor, Gradient, Jacobian, Operator};
 
 use super::Design;
-use super::coordinates::{Candidate, Coordinates};
+use super::coordinates::{Candidate, Coordinates, keep_best};
 use super::critical::CriticalMachines;
 use super::local::{Local, local};
 use super::problem::Problem;
@@ -177,13 +177,9 @@ impl<'a> Program<'a> {
         let unit = self.coordinates.unit(at);
         let mut found = local(self.problem, &self.coordinates.at(&unit, at), self.known)?;
         if let Some(design) = found.design.take() {
-            let mut best = self.best.borrow_mut();
-            if best
-                .as_ref()
-                .is_none_or(|best| self.problem.score(&design) > self.problem.score(&best.design))
-            {
-                *best = Some(Candidate { unit, design });
-            }
+            let candidate = Candidate { unit, design };
+            let score = |it: &Candidate| self.problem.score(&it.design);
+            keep_best(&mut self.best.borrow_mut(), candidate, score);
         }
         Some(found)
     }

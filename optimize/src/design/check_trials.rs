@@ -1,11 +1,8 @@
-//! Which of the designs that a search has found pass their trials; from one that fails, one that passes is sought
+//! Designs that a search has found, and which of them pass their trials; from one that fails, one that passes is sought
 //! (`trial_search`).
 
-use std::collections::HashSet;
-
 use super::Infeasible;
-use super::coordinates::SearchStart;
-use super::improve_catalogue::Catalogues;
+use super::coordinates::{SearchStart, best_by};
 use super::judge::Met;
 use super::problem::Problem;
 use super::robustify::{Robust, look};
@@ -24,161 +21,132 @@ pub(super) struct Passed {
     pub resolution: Option<Resolution>,
 }
 
-impl Passed {
-    /// A design that passes as it is.
-    pub(super) const fn as_is(robust: Robust, tried: Vec<Met>) -> Self {
-        Self {
-            robust,
-            tried,
-            resolution: None,
-        }
-    }
-}
-
-/// Why no design passes its trials.
-pub(super) struct Refusal {
-    /// What the one that lacks least lacks.
+/// A design that fails its trials.
+pub(super) struct Failed {
+    pub robust: Robust,
     pub lack: Infeasible,
-    /// Its point of the unit cube, if it was looked at.
-    pub unit: Option<Vec<f64>>,
-    /// Choices from catalogues with which trials were made, and all; none if nothing is chosen, or no trials were made.
-    pub choices: Option<[usize; 2]>,
-}
-
-impl From<Infeasible> for Refusal {
-    fn from(lack: Infeasible) -> Self {
-        Self {
-            lack,
-            unit: None,
-            choices: None,
-        }
-    }
-}
-
-/// The best design that passes its trials: this one if it does, otherwise one that is sought from it, unless that was done from
-/// its place before. Adds its place to those from which one was sought, unless that ended with machines to take note of: with
-/// others known it may end elsewhere.
-///
-/// # Errors
-/// [`Infeasible`] if none was met: what this design fails.
-pub(super) fn check_trials(
-    problem: &Problem,
-    held: &mut Robust,
-    sought_from: &mut Vec<SearchStart>,
-) -> Result<Passed, Infeasible> {
-    let passed = problem.pass_trials(&held.candidate.design, &mut held.known);
-    let lack = match passed {
-        Ok(tried) => return Ok(Passed::as_is(held.clone(), tried)),
-        Err(lack) => lack,
-    };
-    let mut from = held.candidate.clone();
-    if sought_from
-        .iter()
-        .any(|(unit, place)| from.is_at((unit, *place)))
-    {
-        return Err(lack);
-    }
-    let start = from.start();
-    for round in 0..ROUNDS {
-        let trials = Trials::new(problem, &held.known);
-        let found = match round {
-            0 => trials.best(&from),
-            _ => trials.best_near(&from),
-        };
-        let Some(mut candidate) = found else {
-            sought_from.push(start);
-            return Err(lack);
-        };
-        from = candidate.clone();
-        let seen = look(problem, &mut candidate.design, &mut held.known);
-        if seen.lack.is_some() {
-            continue;
-        }
-        if let Ok(tried) = problem.pass_trials(&candidate.design, &mut held.known) {
-            let known = held.known.clone();
-            sought_from.push(start);
-            return Ok(Passed {
-                robust: Robust { candidate, known },
-                tried,
-                resolution: Some(RESOLUTION),
-            });
-        }
-    }
-    Err(lack)
+    /// Whether one that passes was sought from it.
+    pub is_sought: bool,
 }
 
 /// Designs whose trials were made.
-pub(super) struct Checked<'a> {
+pub(super) struct TriedDesigns<'a> {
     pub problem: &'a Problem,
+    /// The score that a design must exceed.
     pub bound: f64,
     pub passing: Vec<Passed>,
-    pub failed: Vec<(Robust, Infeasible)>,
+    pub failed: Vec<Failed>,
+    /// Places of designs that fail, from which one that passes was sought.
+    pub sought_from: &'a mut Vec<SearchStart>,
 }
 
-impl Checked<'_> {
+impl TriedDesigns<'_> {
     pub fn score(&self, it: &Robust) -> f64 {
         self.problem.score(&it.candidate.design)
     }
 
+    /// The best design that passes.
+    pub fn best(&self) -> Option<&Robust> {
+        let passing = self.passing.iter().map(|it| &it.robust);
+        best_by(passing, |it| self.score(it))
+    }
+
     /// The score that another design must exceed.
     pub fn least(&self) -> f64 {
-        let passing = self.passing.iter().map(|it| self.score(&it.robust));
-        passing.fold(self.bound, f64::max)
+        let best = self.best().map_or(self.bound, |it| self.score(it));
+        best.max(self.bound)
     }
 
-    /// Takes note of a design's trials; true if it passes as it is.
-    pub fn note(&mut self, design: Robust, passed: Result<Passed, Infeasible>) -> bool {
-        let mut passed = match passed {
-            Ok(passed) => passed,
-            Err(lack) => {
-                self.failed.push((design, lack));
-                return false;
+    /// Makes the trials of a design: true if it passes.
+    pub fn try_as_is(&mut self, mut robust: Robust) -> bool {
+        let design = &robust.candidate.design;
+        let passed = self.problem.pass_trials(design, &mut robust.known);
+        let is_passed = passed.is_ok();
+        match passed {
+            Ok(tried) => self.passing.push(Passed {
+                robust,
+                tried,
+                resolution: None,
+            }),
+            Err(lack) => self.failed.push(Failed {
+                lack: lack.at(&robust.candidate.unit),
+                robust,
+                is_sought: false,
+            }),
+        }
+        is_passed
+    }
+
+    /// Seeks one that passes from a design that fails, unless that was done from its place before. Adds its place to those from
+    /// which one was sought, unless that ended with machines to take note of: with others known it may end elsewhere.
+    pub fn seek_from(&mut self, index: usize) {
+        let Failed {
+            robust, is_sought, ..
+        } = &mut self.failed[index];
+        *is_sought = true;
+        let mut from = robust.candidate.clone();
+        let mut before = self.sought_from.iter();
+        if before.any(|(unit, place)| from.is_at((unit, *place))) {
+            return;
+        }
+        let start = from.start();
+        for round in 0..ROUNDS {
+            let trials = Trials::new(self.problem, &robust.known);
+            let found = match round {
+                0 => trials.best(&from),
+                _ => trials.best_near(&from),
+            };
+            let Some(mut candidate) = found else {
+                self.sought_from.push(start);
+                return;
+            };
+            from = candidate.clone();
+            let seen = look(self.problem, &mut candidate.design, &mut robust.known);
+            if seen.lack.is_some() {
+                continue;
             }
-        };
-        let is_unmoved = passed.resolution.is_none();
-        let own = self.score(&passed.robust);
-        for (better, _) in self.failed.iter().filter(|(it, _)| self.score(it) > own) {
-            passed.robust.known.note_failed(&better.known);
-            passed.resolution = Some(RESOLUTION);
+            let passed = self
+                .problem
+                .pass_trials(&candidate.design, &mut robust.known);
+            if let Ok(tried) = passed {
+                let known = robust.known.clone();
+                self.sought_from.push(start);
+                self.passing.push(Passed {
+                    robust: Robust { candidate, known },
+                    tried,
+                    resolution: Some(RESOLUTION),
+                });
+                return;
+            }
         }
-        self.passing.push(passed);
-        is_unmoved
     }
 
-    /// The designs that pass, in falling order.
-    pub fn into_passing(mut self) -> Result<Vec<Passed>, Refusal> {
+    /// The best design that passes, and the others, each with the trials that better ones fail, and with the fineness of the search from
+    /// these, if there was one from each.
+    ///
+    /// # Errors
+    /// What each design lacks if none passes.
+    pub fn into_passing(mut self) -> Result<(Passed, Vec<Passed>), Vec<Infeasible>> {
+        if self.passing.is_empty() {
+            return Err(self.failed.into_iter().map(|it| it.lack).collect());
+        }
         let problem = self.problem;
-        sort_falling(&mut self.passing, |it| {
-            problem.score(&it.robust.candidate.design)
-        });
-        match self.passing.is_empty() {
-            true => Err(self.into_refusal()),
-            false => Ok(self.passing),
+        let score = |it: &Robust| problem.score(&it.candidate.design);
+        for Passed {
+            robust, resolution, ..
+        } in &mut self.passing
+        {
+            let own = score(robust);
+            let better = self.failed.iter().filter(|it| score(&it.robust) > own);
+            for it in better.clone() {
+                robust.known.note_failed(&it.robust.known);
+            }
+            let sought = better.map(|it| it.is_sought);
+            if sought.reduce(|all, it| all && it) == Some(true) {
+                *resolution = Some(RESOLUTION);
+            }
         }
-    }
-
-    /// Why none passes: what the first lacks, or, of several choices from catalogues, the one that lacks least.
-    fn into_refusal(self) -> Refusal {
-        let catalogues = Catalogues::of(self.problem);
-        let failed = self.failed.iter();
-        let choices: HashSet<_> = failed
-            .map(|(it, _)| catalogues.places(&it.candidate.unit))
-            .collect();
-        let choices = [choices.len(), catalogues.count()];
-        let least = self.failed.into_iter();
-        let least = least.reduce(
-            |one, other| match choices[1] > 1 && other.1.gap < one.1.gap {
-                true => other,
-                false => one,
-            },
-        );
-        let Some((design, lack)) = least else {
-            return Infeasible::unknown("stopped").into();
-        };
-        Refusal {
-            lack,
-            unit: Some(design.candidate.unit),
-            choices: Some(choices).filter(|[_, all]| *all > 1),
-        }
+        sort_falling(&mut self.passing, |it| score(&it.robust));
+        Ok((self.passing.remove(0), self.passing))
     }
 }

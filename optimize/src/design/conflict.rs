@@ -18,13 +18,10 @@ pub fn conflict(machine: &Machine, met: &[Met]) -> String {
         it.is_met() && it.margin() <= AT_BOUND * bound.abs()
     });
     let held: Vec<&str> = held.map(|it| it.requirement.figure.name()).collect();
+    let violated = violated.join("; ");
     match &held[..] {
-        [] => violated.join("; "),
-        held => format!(
-            "{}; against it stands {}",
-            violated.join("; "),
-            held.join(", ")
-        ),
+        [] => violated,
+        held => format!("{violated}; against it stands {}", held.join(", ")),
     }
 }
 
@@ -32,20 +29,19 @@ pub fn conflict(machine: &Machine, met: &[Met]) -> String {
 fn words(machine: &Machine, met: &Met) -> String {
     let figure = met.requirement.figure;
     let own = |value: f64| format_in_own_unit(machine, figure.dimension(), value);
-    let (bound, value, missing) = (bound(machine, &met.requirement), met.value, -met.margin());
-    if value.is_nan() {
-        return format!("{} has no value: must be {bound}", figure.name());
+    let (name, bound) = (figure.name(), bound(machine, &met.requirement));
+    match met.value {
+        value if value.is_nan() => format!("{name} has no value: must be {bound}"),
+        value if value.is_infinite() => {
+            let why = figure.unbounded_reason();
+            format!("{name} has no bound ({why}): must be {bound}")
+        }
+        value => format!(
+            "{name} = {}: must be {bound}, by {}",
+            own(value),
+            own(-met.margin())
+        ),
     }
-    if value.is_infinite() {
-        let why = figure.unbounded_reason();
-        return format!("{} has no bound ({why}): must be {bound}", figure.name());
-    }
-    format!(
-        "{} = {}: must be {bound}, by {}",
-        figure.name(),
-        own(value),
-        own(missing)
-    )
 }
 
 /// `within the tolerances stop_force goes to 528 N: must be at most 500 N`.
@@ -84,10 +80,10 @@ pub fn bound(machine: &Machine, requirement: &Requirement) -> String {
     let figure = requirement.figure;
     let unit = machine.unit(figure.dimension());
     let own = |value: f64| short(machine.to_own(figure.dimension(), value));
-    let text = match (requirement.least, requirement.most) {
-        (Some(least), Some(most)) => format!("from {} to {} {unit}", own(least), own(most)),
-        (Some(least), None) => format!("at least {} {unit}", own(least)),
-        (None, Some(most)) => format!("at most {} {unit}", own(most)),
+    let text = match (requirement.least.map(own), requirement.most.map(own)) {
+        (Some(least), Some(most)) => format!("from {least} to {most} {unit}"),
+        (Some(least), None) => format!("at least {least} {unit}"),
+        (None, Some(most)) => format!("at most {most} {unit}"),
         (None, None) => String::new(),
     };
     text.trim_end().to_owned()

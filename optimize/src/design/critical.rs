@@ -191,7 +191,7 @@ pub(super) struct CriticalSlopes {
 
 impl Problem {
     /// The figure of a target, and the requirement if it is one; none if the problem does not ask for it.
-    fn asked(&self, target: Target) -> Option<(Figure, Option<&Requirement>)> {
+    pub(super) fn asked(&self, target: Target) -> Option<(Figure, Option<&Requirement>)> {
         match target {
             Target::Objective => {
                 let is_asked = self.objective.scope == Scope::Tolerances;
@@ -205,22 +205,23 @@ impl Problem {
         }
     }
 
-    /// What is asked of every machine within the tolerances, by the side that is good.
-    pub(super) fn targets(&self) -> Vec<(Target, Figure, Sense)> {
+    /// What is asked of every machine within the tolerances.
+    pub(super) fn targets(&self) -> Vec<Target> {
         let required = self.requirements.iter().filter(|it| it.is_of_each_motion());
-        let bound = |it: &Requirement| {
-            let figure = it.figure;
-            it.sides()
-                .map(move |(side, _)| (Target::Bound(figure, side), figure, side))
-                .collect::<Vec<_>>()
-        };
-        let sought = self.objective;
-        let worst = (sought.scope == Scope::Tolerances).then_some((
-            Target::Objective,
-            sought.figure,
-            sought.sense,
-        ));
-        required.flat_map(bound).chain(worst).collect()
+        let sides = required.flat_map(|it| it.sides().map(|(side, _)| (it.figure, side)));
+        let bounds = sides.map(|(figure, side)| Target::Bound(figure, side));
+        let is_worst_sought = self.objective.scope == Scope::Tolerances;
+        bounds
+            .chain(is_worst_sought.then_some(Target::Objective))
+            .collect()
+    }
+
+    /// The figure of a target, and its good side.
+    pub(super) fn figure_of(&self, target: Target) -> (Figure, Sense) {
+        match target {
+            Target::Objective => (self.objective.figure, self.objective.sense),
+            Target::Bound(figure, side) => (figure, side),
+        }
     }
 }
 

@@ -5,8 +5,8 @@
 use softstop_console::interrupt;
 use softstop_dynamics::parallel;
 
-use super::check_trials::{Checked, Passed, check_trials};
-use super::coordinates::{SearchStart, best_by};
+use super::check_trials::TriedDesigns;
+use super::coordinates::best_by;
 use super::improve_catalogue::Catalogues;
 use super::robustify::Robust;
 use crate::order::{sort_falling, sort_rising};
@@ -21,48 +21,44 @@ const SOUGHT: usize = 2;
 /// What these lack at most where another passes, in units of the bound.
 const SMALL_GAP: f64 = 0.5;
 
-/// Takes note of designs with choices from catalogues far from those that were tried.
-pub(super) fn check_distant_values(checked: &mut Checked<'_>, sought_from: &mut Vec<SearchStart>) {
-    let catalogues = Catalogues::of(checked.problem);
-    let Some((from, _)) = checked.failed.first().cloned() else {
+/// Tries designs with choices from catalogues far from those that were tried.
+pub(super) fn try_distant_values(tried: &mut TriedDesigns<'_>) {
+    let catalogues = Catalogues::of(tried.problem);
+    let Some(first) = tried.failed.first() else {
         return;
     };
-    let tried = checked.failed.iter();
-    let tried = tried.map(|(it, _)| catalogues.places(&it.candidate.unit));
-    let known = checked.failed.len();
+    let known = tried.failed.len();
+    let choices = tried.failed.iter();
+    let choices = choices.map(|it| catalogues.places(&it.robust.candidate.unit));
     let mut distant = DistantValues {
-        tried: tried.collect(),
+        from: first.robust.clone(),
+        choices: choices.collect(),
         catalogues,
-        checked,
-        from,
+        tried,
     };
     distant.try_farthest();
     distant.try_between();
     distant.try_beside();
-    let sought = distant.checked.failed.split_off(known);
-    let least = checked.least();
-    let is_any = !checked.passing.is_empty();
-    let (mut better, others): (Vec<_>, Vec<_>) = sought
-        .into_iter()
-        .partition(|(it, lack)| checked.score(it) > least && !(is_any && lack.gap > SMALL_GAP));
-    sort_rising(&mut better, |(_, lack)| lack.gap);
-    let rest = better.split_off(SOUGHT.min(better.len()));
-    for (mut design, lack) in better {
-        let is_over = interrupt::requested() || checked.score(&design) <= checked.least();
-        let passed = match is_over {
-            true => Err(lack),
-            false => check_trials(checked.problem, &mut design, sought_from),
-        };
-        checked.note(design, passed);
+    let (least, is_any) = (tried.least(), !tried.passing.is_empty());
+    let is_near = |index: &usize| {
+        let failed = &tried.failed[*index];
+        tried.score(&failed.robust) > least && !(is_any && failed.lack.gap > SMALL_GAP)
+    };
+    let mut near: Vec<usize> = (known..tried.failed.len()).filter(is_near).collect();
+    sort_rising(&mut near, |index| tried.failed[*index].lack.gap);
+    for index in near.into_iter().take(SOUGHT) {
+        let score = tried.score(&tried.failed[index].robust);
+        if !interrupt::requested() && score > tried.least() {
+            tried.seek_from(index);
+        }
     }
-    checked.failed.extend(rest.into_iter().chain(others));
 }
 
 struct DistantValues<'a, 'b> {
-    checked: &'a mut Checked<'b>,
+    tried: &'a mut TriedDesigns<'b>,
     catalogues: Catalogues,
     /// Choices that were tried.
-    tried: Vec<Vec<usize>>,
+    choices: Vec<Vec<usize>>,
     /// The best design that fails, from which those with other choices are sought.
     from: Robust,
 }
@@ -72,17 +68,17 @@ impl DistantValues<'_, '_> {
     fn try_farthest(&mut self) {
         let all = self.catalogues.all();
         for _ in 0..DISTANT {
-            let is_new = |it: &&Vec<usize>| !self.tried.contains(it);
+            let is_new = |it: &&Vec<usize>| !self.choices.contains(it);
             let distance = |it: &&Vec<usize>| {
-                let tried = self.tried.iter();
-                let each = tried.map(|other| self.catalogues.distance(it, other));
+                let choices = self.choices.iter();
+                let each = choices.map(|other| self.catalogues.distance(it, other));
                 each.fold(f64::INFINITY, f64::min)
             };
             let Some(next) = best_by(all.iter().filter(is_new).rev(), distance) else {
                 return;
             };
             self.try_choice(next.clone());
-            if !self.checked.passing.is_empty() || interrupt::requested() {
+            if !self.tried.passing.is_empty() || interrupt::requested() {
                 return;
             }
         }
@@ -91,18 +87,16 @@ impl DistantValues<'_, '_> {
     /// Tries what lies in the middle between the best design that passes and the nearest better one that fails, until nothing
     /// does.
     fn try_between(&mut self) {
-        while let Some(best) = self.best_places() {
-            let least = self.checked.least();
-            let failed = self.checked.failed.iter().map(|(it, _)| it);
-            let better = failed.filter(|it| self.checked.score(it) > least);
-            let better = better.map(|it| self.catalogues.places(&it.candidate.unit));
-            let distance = |it: &Vec<usize>| -self.catalogues.distance(it, &best);
-            let Some(nearest) = best_by(better, distance) else {
-                return;
-            };
-            let middle = best.iter().zip(nearest);
-            let middle: Vec<usize> = middle.map(|(one, other)| one.midpoint(other)).collect();
-            if self.tried.contains(&middle) || interrupt::requested() {
+        while let Some(best) = self.tried.best() {
+            let (least, best) = (self.tried.least(), self.choice_of(best));
+            let failed = self.tried.failed.iter().map(|it| &it.robust);
+            let better = failed.filter(|it| self.tried.score(it) > least);
+            let better = better.map(|it| self.choice_of(it));
+            let nearest = best_by(better, |it| -self.catalogues.distance(it, &best));
+            let Some(nearest) = nearest else { return };
+            let pairs = best.iter().zip(nearest);
+            let middle: Vec<usize> = pairs.map(|(one, other)| one.midpoint(other)).collect();
+            if self.choices.contains(&middle) || interrupt::requested() {
                 return;
             }
             self.try_choice(middle);
@@ -112,21 +106,21 @@ impl DistantValues<'_, '_> {
     /// Tries the best of the choices beside the best design that passes, until none is better.
     fn try_beside(&mut self) {
         for _ in 0..BETTERED {
-            let Some(best) = self.best_unit() else {
+            let Some(best) = self.tried.best() else {
                 return;
             };
-            let beside = self.catalogues.beside(&best).into_iter();
-            let new: Vec<_> = beside.filter(|it| !self.tried.contains(it)).collect();
-            let (checked, least) = (&*self.checked, self.checked.least());
+            let (tried, least) = (&*self.tried, self.tried.least());
+            let beside = self.catalogues.beside(&best.candidate.unit).into_iter();
+            let new: Vec<_> = beside.filter(|it| !self.choices.contains(it)).collect();
             let mut better = parallel::filter_map(&new, |it| {
-                let design = self.catalogues.design_at(checked.problem, &self.from, it)?;
-                (checked.score(&design) > least).then_some((it.clone(), design))
+                let design = self.catalogues.design_at(tried.problem, &self.from, it)?;
+                (tried.score(&design) > least).then_some((it.clone(), design))
             });
-            sort_falling(&mut better, |(_, it)| checked.score(it));
+            sort_falling(&mut better, |(_, it)| tried.score(it));
             better.truncate(TRIED_BESIDE);
-            let passes = better.into_iter().any(|(places, design)| {
-                self.tried.push(places);
-                !interrupt::requested() && self.try_design(design)
+            let passes = better.into_iter().any(|(choice, design)| {
+                self.choices.push(choice);
+                !interrupt::requested() && self.tried.try_as_is(design)
             });
             if !passes {
                 return;
@@ -134,35 +128,18 @@ impl DistantValues<'_, '_> {
         }
     }
 
-    /// The point of the best design that passes, in the unit cube.
-    fn best_unit(&self) -> Option<Vec<f64>> {
-        let all = self.checked.passing.iter().map(|it| &it.robust);
-        let best = best_by(all, |it| self.checked.score(it))?;
-        Some(best.candidate.unit.clone())
-    }
-
-    /// The choice of the best design that passes.
-    fn best_places(&self) -> Option<Vec<usize>> {
-        Some(self.catalogues.places(&self.best_unit()?))
+    /// The choice of a design.
+    fn choice_of(&self, it: &Robust) -> Vec<usize> {
+        self.catalogues.places(&it.candidate.unit)
     }
 
     /// Makes the trials of the best design with a choice, if there is one.
-    fn try_choice(&mut self, places: Vec<usize>) {
-        let problem = self.checked.problem;
-        let design = self.catalogues.design_at(problem, &self.from, &places);
-        self.tried.push(places);
+    fn try_choice(&mut self, choice: Vec<usize>) {
+        let problem = self.tried.problem;
+        let design = self.catalogues.design_at(problem, &self.from, &choice);
+        self.choices.push(choice);
         if let Some(design) = design {
-            self.try_design(design);
+            self.tried.try_as_is(design);
         }
-    }
-
-    /// Makes the trials of a design: true if it passes.
-    fn try_design(&mut self, mut design: Robust) -> bool {
-        let problem = self.checked.problem;
-        let passed = problem.pass_trials(&design.candidate.design, &mut design.known);
-        let passed = passed.map(|tried| Passed::as_is(design.clone(), tried));
-        let is_passed = passed.is_ok();
-        self.checked.note(design, passed);
-        is_passed
     }
 }

@@ -12,13 +12,11 @@ use super::judge::Met;
 use super::multipliers::{Held, held};
 use super::robustify::{Robust, enforce_tolerance_box, keep_as_is};
 use super::trial_search::Resolution;
-use super::{Design, Problem};
+use super::{Design, GAIN, Problem};
 use crate::order::sort_falling;
 
 /// Share of the best score from which another design is a rival.
 pub(super) const RIVAL: f64 = 0.97;
-/// Relative gain of a score that is none.
-pub(super) const GAIN: f64 = 1e-9;
 /// Relative gain of a score that is none where trials hold the design back: what is counted is not resolved as fine.
 const COUNTED_GAIN: f64 = 1e-6;
 /// Distance along an axis, as a share of its range, from which on two designs are different hills.
@@ -61,18 +59,16 @@ pub struct Ascents {
 }
 
 impl Found {
-    /// The best of some designs, and those that are its rivals.
-    pub(super) fn new(problem: &Problem, passed: Passed, others: &[Candidate]) -> Self {
+    /// The best of some designs, and those of the others that are its rivals.
+    pub(super) fn new(problem: &Problem, passed: Passed, others: Vec<Design>) -> Self {
         let score = |it: &Design| problem.score(it);
         let best = passed.robust;
         let Held { limits, residue } = held(problem, &best.candidate, &best.known);
         let mut all = vec![best.candidate.design];
         for other in others {
-            let is_new = all
-                .iter()
-                .all(|known| is_another(problem, known, &other.design));
-            if is_new && score(&other.design) > RIVAL * score(&all[0]) {
-                all.push(other.design.clone());
+            let is_new = all.iter().all(|known| is_another(problem, known, &other));
+            if is_new && score(&other) > RIVAL * score(&all[0]) {
+                all.push(other);
             }
         }
         let rivals = all.split_off(1);
@@ -130,33 +126,24 @@ impl Found {
         let robust = starts.filter_map(|it| enforce_tolerance_box(problem, &it).ok());
         let robust = unmoved.into_iter().chain(robust);
         let score = |it: &Robust| problem.score(&it.candidate.design);
-        let gain = if self.resolution.is_some() {
-            COUNTED_GAIN
-        } else {
-            GAIN
-        };
+        let is_counted = self.known.all_failed().next().is_some();
+        let gain = if is_counted { COUNTED_GAIN } else { GAIN };
         let least = (1.0 + gain) * problem.score(&self.design);
         let mut finalists: Vec<Robust> = robust.filter(|it| score(it) > least).collect();
         finalists.reverse();
         sort_falling(&mut finalists, score);
         finalists.dedup_by(|it, known| it.candidate.is_same(&known.candidate));
         let passing = check_finalists(problem, finalists, least, &mut self.sought_from);
-        let passing = passing.ok().and_then(|all| all.into_iter().next());
-        let Some(passed) = passing.filter(|it| score(&it.robust) > least) else {
+        let passed = passing.ok().map(|(best, _)| best);
+        let Some(passed) = passed.filter(|it| score(&it.robust) > least) else {
             return false;
         };
-        let rivals = std::mem::take(&mut self.rivals);
-        let others = rivals.into_iter().chain([self.design.clone()]);
-        let unit = self.unit.clone();
-        let others = others.map(|design| Candidate {
-            unit: unit.clone(),
-            design,
-        });
-        let others: Vec<Candidate> = others.collect();
+        let mut others = std::mem::take(&mut self.rivals);
+        others.push(self.design.clone());
         *self = Self {
             ascents: self.ascents,
             sought_from: std::mem::take(&mut self.sought_from),
-            ..Self::new(problem, passed, &others)
+            ..Self::new(problem, passed, others)
         };
         true
     }

@@ -12,7 +12,7 @@ use super::problem::Problem;
 use super::robustify::{Robust, enforce};
 
 /// How far along one catalogue values are tried; of two, both neighbours at once.
-const FAR: usize = 3;
+const FAR: isize = 3;
 /// Choices from catalogues that are listed, at most.
 const MAX_CHOICES: usize = 4096;
 /// A prime that is larger than any catalogue: Knuth's multiplicative hash.
@@ -151,33 +151,23 @@ impl Catalogues {
     /// The values beside those of a point.
     pub(super) fn beside(&self, unit: &[f64]) -> Vec<Vec<usize>> {
         let own = self.places(unit);
-        let moved = |steps: &[(usize, isize)]| {
+        let moved = |steps: Vec<(usize, isize)>| {
             let mut places = own.clone();
             for (axis, step) in steps {
-                let place = places[*axis].checked_add_signed(*step)?;
-                places[*axis] = (place < self.0[*axis].1).then_some(place)?;
+                let place = places[axis].checked_add_signed(step)?;
+                places[axis] = (place < self.0[axis].1).then_some(place)?;
             }
             Some(places)
         };
         let axes = 0..own.len();
-        let far = FAR as isize;
-        let along = axes.clone().flat_map(|axis| {
-            let steps = (-far..=far).filter(|step| *step != 0);
-            steps
-                .filter_map(move |step| moved(&[(axis, step)]))
-                .collect::<Vec<_>>()
-        });
-        let pairs = axes
+        let along = axes
             .clone()
-            .flat_map(|one| (one + 1..own.len()).map(move |other| (one, other)));
-        let both = pairs.flat_map(|(one, other)| {
-            let signs = [(-1, -1), (-1, 1), (1, -1), (1, 1)];
-            signs
-                .into_iter()
-                .filter_map(move |(a, b)| moved(&[(one, a), (other, b)]))
-                .collect::<Vec<_>>()
-        });
-        along.chain(both).collect()
+            .flat_map(|axis| (-FAR..=FAR).map(move |step| vec![(axis, step)]));
+        let signs = [(-1, -1), (-1, 1), (1, -1), (1, 1)];
+        let pairs = axes.flat_map(|one| (one + 1..own.len()).map(move |other| (one, other)));
+        let both = pairs.flat_map(|(one, other)| signs.map(|(a, b)| vec![(one, a), (other, b)]));
+        let all = along.chain(both).filter_map(moved);
+        all.filter(|it| *it != own).collect()
     }
 }
 

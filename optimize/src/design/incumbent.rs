@@ -39,19 +39,19 @@ impl<'a> Incumbent<'a> {
     /// True if a motion of this score would be the best so far.
     pub(super) fn is_beaten_by(&self, score: f64) -> bool {
         let best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        best.as_ref()
-            .is_none_or(|(rank, best, _)| (*rank, *best) < (Rank::Motion, score))
+        is_below(best.as_ref(), (Rank::Motion, score))
     }
 
     /// Replaces the best design by a better one, or by one of a higher rank.
     pub(super) fn update(&self, candidate: &Candidate, rank: Rank) {
         let score = self.problem.score(&candidate.design);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        if best
-            .as_ref()
-            .is_none_or(|(own, best, _)| (*own, *best) < (rank, score))
-        {
+        if is_below(best.as_ref(), (rank, score)) {
             *best = Some((rank, score, candidate.clone()));
         }
     }
+}
+
+fn is_below(best: Option<&(Rank, f64, Candidate)>, other: (Rank, f64)) -> bool {
+    best.is_none_or(|(rank, score, _)| (*rank, *score) < other)
 }

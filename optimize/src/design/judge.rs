@@ -1,7 +1,9 @@
 //! Figures of one motion, and whether they are as a task requires.
 
+use std::convert::Infallible;
 use std::slice;
 
+use softstop::internals::narrow_root;
 use softstop::{Machine, MotionError, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_dynamics::basin::Establishment;
@@ -132,28 +134,12 @@ impl<'a> Judged<'a> {
                 }
             }
         }
-        let Some(mut high) = high else {
+        let Some(high) = high else {
             return low.0 - from;
         };
-        // Illinois: the end that stays twice counts half.
-        let mut stayed = 0;
-        for _ in 0..NARROWINGS {
-            let middle = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            let value = above(middle);
-            if value.abs() <= f64::EPSILON * frequency || high.0 - low.0 <= f64::EPSILON * from {
-                return middle - from;
-            }
-            if value > 0.0 {
-                low = (middle, value);
-                high.1 *= if stayed > 0 { 0.5 } else { 1.0 };
-                stayed = 1;
-            } else {
-                high = (middle, value);
-                low.1 *= if stayed < 0 { 0.5 } else { 1.0 };
-                stayed = -1;
-            }
-        }
-        low.0 - from
+        let width = 4.0 * f64::EPSILON * from;
+        let found = narrow_root(low, high, width, |at| Ok::<_, Infallible>(above(at)));
+        found.map_or(f64::NAN, |it| it.ends.0 - from)
     }
 
     /// Distance along a parameter, in SI units, to where the motion is lost, by this or by anything else; infinite if it
@@ -175,11 +161,9 @@ impl<'a> Judged<'a> {
     }
 }
 
-/// First step in search of the clearance of a fold, in units of the clearance, how many of them, each twice the one before,
-/// and how often it is narrowed.
+/// First step in search of the clearance of a fold, in units of the clearance, and how many of them, each twice the one before.
 const WIDER: f64 = 0.5;
 const REACH: usize = 6;
-const NARROWINGS: usize = 24;
 /// Share of the zone within which the fold is too near to follow the stable branch away from it.
 const AT_FOLD: f64 = 1e-6;
 
@@ -194,21 +178,12 @@ pub struct Met {
     pub value: f64,
     /// The starts that tell it, if it takes many.
     pub starts: Option<Establishment>,
-    /// What the worst machine within the tolerances has, if they count.
-    pub within: Option<Within>,
+    /// What the worst machine within the tolerances has, if they count; of a share that is counted, the lower end of its interval.
+    pub worst: Option<f64>,
     /// Share of the machines within the tolerances that violate it, if they were looked at.
     pub violating: Option<f64>,
     /// The 95 % interval of that share, if the machines are drawn from normal tolerances.
     pub interval: Option<[f64; 2]>,
-}
-
-/// The worst machine within the tolerances.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Within {
-    /// What it has, in SI units; of a share that is counted, the lower end of its interval.
-    pub worst: f64,
-    /// Its coordinates in the box.
-    pub at: Vec<f64>,
 }
 
 impl Met {
@@ -219,7 +194,7 @@ impl Met {
             case: None,
             value: f64::NAN,
             starts: None,
-            within: None,
+            worst: None,
             violating: None,
             interval: None,
         }
@@ -236,10 +211,8 @@ impl Met {
     /// Distance to the nearer bound in SI units, of the worst machine within the tolerances if they count; negative beyond it.
     pub fn margin(&self) -> f64 {
         let own = self.requirement.margin(self.judged());
-        let within = self.within.as_ref();
-        let within = within.map(|it| self.requirement.margin(it.worst));
-        // NaN stays.
-        match within {
+        match self.worst.map(|worst| self.requirement.margin(worst)) {
+            // NaN stays.
             Some(within) if within.is_nan() || within < own => within,
             _ => own,
         }
@@ -301,12 +274,11 @@ impl Problem {
 
     /// The requirements that one motion tells, and what it has of them.
     pub fn met(&self, motion: &Judged<'_>) -> Vec<Met> {
-        let all = self.requirements.iter().filter(|it| !it.figure.is_trial());
-        all.map(|requirement| Met {
+        let all = self.single().map(|requirement| Met {
             value: self.value(motion, requirement.figure),
             ..Met::of(*requirement)
-        })
-        .collect()
+        });
+        all.collect()
     }
 
     /// The margin M and what the motion has of it; none if none is asked for.

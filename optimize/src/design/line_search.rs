@@ -78,10 +78,8 @@ impl Line<'_> {
             }
             Err(found) => {
                 let gap = found.gap;
-                let mut lack = self.lack.borrow_mut();
-                if lack.as_ref().is_none_or(|known| gap < known.gap) {
-                    *lack = Some(found);
-                }
+                let known = self.lack.take();
+                self.lack.replace(Some(found.nearer(known)));
                 gap
             }
         }
@@ -108,10 +106,8 @@ impl Line<'_> {
         // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
         let is_stable = point.is_stable() || place >= 1.0;
         if !is_stable || !point.before_impact_velocity().is_finite() {
-            return Err(Infeasible {
-                gap: instability(&point),
-                reason: "the z = 1 motion is not stable there".to_owned(),
-            });
+            let reason = "the z = 1 motion is not stable there";
+            return Err(Infeasible::new(instability(&point), reason));
         }
         Ok(point)
     }
@@ -130,9 +126,12 @@ impl Line<'_> {
         let own = as_required(problem, own)?;
         let in_case = |(case, stated): (&Zoned<'_>, _)| {
             let place = case.place_of(frequency);
-            let design = case.at(place).ok_or_else(|| Infeasible {
-                gap: (-place).max(place - 1.0).clamp(0.0, DISTANT),
-                reason: "there is no stable z = 1 motion of its zone at this frequency".to_owned(),
+            let design = case.at(place).ok_or_else(|| {
+                let gap = (-place).max(place - 1.0).clamp(0.0, DISTANT);
+                Infeasible::new(
+                    gap,
+                    "there is no stable z = 1 motion of its zone at this frequency",
+                )
             });
             let design = design.and_then(|it| as_required(case.problem, it));
             design.map_err(|lack| lack.in_case(stated))
@@ -196,10 +195,7 @@ fn sought(problem: &Problem, motion: &Judged<'_>) -> Result<f64, Infeasible> {
                 _ => format!("{name} has no value"),
             })
         }),
-        gap => Err(Infeasible {
-            gap,
-            reason: conflict(motion.machine, &met),
-        }),
+        gap => Err(Infeasible::new(gap, conflict(motion.machine, &met))),
     }
 }
 

@@ -3,6 +3,7 @@
 use softstop::Dimension;
 
 use super::Design;
+use super::box_window::BoxWindow;
 use super::constraint::{Constraint, Limit};
 use super::critical::CriticalMachines;
 use super::differences::differences;
@@ -12,7 +13,7 @@ use super::judge::Judged;
 use super::operating_point::At;
 use super::problem::{Objective, Problem};
 use super::reach::inside;
-use super::requirement::{Requirement, sign};
+use super::requirement::sign;
 use super::slope::Slope;
 use super::space::End;
 
@@ -124,14 +125,14 @@ fn of_point(
         let limit = limit.into();
         constraints.push(Constraint { limit, slope });
     };
-    for (it, slope) in single(problem).zip(required) {
+    for (it, slope) in problem.single().zip(required) {
         for (side, bound) in it.sides() {
             let inside = slope.beyond(bound, sign(side));
             keep(Limit::Required(it.figure, side), inside);
         }
     }
     let si = |end: f64| problem.machine.to_si(Dimension::Frequency, end);
-    match required.get(single(problem).count()) {
+    match required.get(problem.single().count()) {
         Some(share) => keep(
             Limit::Required(Figure::Share, Sense::Least),
             share.beyond(problem.margin, 1.0),
@@ -148,7 +149,7 @@ fn of_point(
             }
         }
     }
-    let edges = here.box_window(problem)?;
+    let edges = BoxWindow::of(problem, &here.machine, &here.zone).ok()?;
     if let Some(edges) = &edges {
         let exact = exact?;
         let none = || Slope::free(exact.frequency.len());
@@ -169,7 +170,7 @@ fn of_point(
         keep(limit, slope);
     }
     // What rounding puts beyond a bound is at it elsewhere; here nobody is led there.
-    let mut required = constraints.iter().take(2 * single(problem).count());
+    let mut required = constraints.iter().take(2 * problem.single().count());
     let is_met =
         required.all(|it| !matches!(it.limit.limit, Limit::Required(..)) || it.slope.value >= 0.0);
     let scores = Scores {
@@ -178,9 +179,10 @@ fn of_point(
         worst: critical.scores,
     };
     let score = scores.least().value;
+    let window = problem.window_within(&here.zone, edges.as_ref());
     let is_good = is_met
         && is_kept
-        && here.is_within(problem, edges.as_ref())
+        && window.is_ok_and(|it| it.contains(here.place))
         && score > 0.0
         && score.is_finite();
     let value = match scores.worst.is_empty() {
@@ -190,30 +192,23 @@ fn of_point(
     Some(Local {
         scores: vec![scores],
         constraints,
-        design: is_good.then(|| here.without_cases(value)),
+        design: is_good.then(|| Design {
+            value,
+            cases: Vec::new(),
+            ..here.clone()
+        }),
     })
 }
 
 /// How far outside a bound the solver may leave what it holds.
 const ROUNDING: f64 = 1e-9;
 
-/// The requirements that a single motion tells.
-fn single(problem: &Problem) -> impl Iterator<Item = &Requirement> {
-    problem
-        .requirements
-        .iter()
-        .filter(|it| !it.figure.is_trial())
-}
-
 /// The figures of a point: what is sought, what is required, and the share of the zone if the frequency is given.
 fn figures(problem: &Problem) -> Vec<Figure> {
-    let required = single(problem).map(|it| it.figure);
+    let required = problem.single().map(|it| it.figure);
     let share = problem.has_given_frequency().then_some(Figure::Share);
-    let all = [problem.objective.figure]
-        .into_iter()
-        .chain(required)
-        .chain(share);
-    all.collect()
+    let sought = [problem.objective.figure].into_iter();
+    sought.chain(required).chain(share).collect()
 }
 
 /// The same with their derivatives, and the drive's frequency: exact ones where the motion has them, differences for the
@@ -231,17 +226,10 @@ fn slopes(
     let value = |here: &Design| {
         let motion = &here.judged().ok()?;
         let sought = problem.sought(motion)?;
-        let rest = figures[1..]
-            .iter()
-            .map(|figure| problem.value(motion, *figure));
-        let frequency = motion.orbit.scene.excitation.frequency;
-        Some(
-            [sought]
-                .into_iter()
-                .chain(rest)
-                .chain([frequency])
-                .collect::<Vec<f64>>(),
-        )
+        let mut all = vec![sought];
+        all.extend(figures[1..].iter().map(|it| problem.value(motion, *it)));
+        all.push(motion.orbit.scene.excitation.frequency);
+        Some(all)
     };
     let values = value(here)?;
     if all.iter().any(Option::is_none) {

@@ -30,6 +30,7 @@ mod line_search;
 pub mod local;
 mod multipliers;
 mod nearest_miss;
+mod no_design;
 mod non_dominated;
 pub mod operating_point;
 pub mod pareto;
@@ -124,14 +125,43 @@ pub struct Infeasible {
     pub gap: f64,
     /// Why, in words.
     pub reason: String,
+    /// The point of the unit cube, if whoever looked there knows it.
+    pub unit: Option<Vec<f64>>,
 }
 
 impl Infeasible {
+    /// A point so far from feasible, for this reason.
+    fn new(gap: f64, reason: impl Into<String>) -> Self {
+        Self {
+            gap,
+            reason: reason.into(),
+            unit: None,
+        }
+    }
+
     /// A point of which no more is known than that it cannot be computed.
     fn unknown(error: impl ToString) -> Self {
+        Self::new(DISTANT, error.to_string())
+    }
+
+    /// What a search lacks that was stopped before it met anything.
+    fn stopped() -> Self {
+        Self::unknown("stopped")
+    }
+
+    /// At a point of the unit cube.
+    fn at(self, unit: &[f64]) -> Self {
         Self {
-            gap: DISTANT,
-            reason: error.to_string(),
+            unit: Some(unit.to_vec()),
+            ..self
+        }
+    }
+
+    /// The nearer to feasible of it and what is known; of equals what is known.
+    fn nearer(self, known: Option<Self>) -> Self {
+        match known {
+            Some(known) if known.gap <= self.gap => known,
+            _ => self,
         }
     }
 
@@ -238,11 +268,6 @@ impl Problem {
         })
     }
 
-    /// What ends the motion inside the zone where the tolerances of a design touch that, in words.
-    pub fn border_within(&self, design: &Design) -> Option<String> {
-        robustify::touched(self, design)
-    }
-
     /// The places s that margin, frequency bounds and tolerances leave of a zone.
     fn window(&self, machine: &Machine, zone: &Zone) -> Result<Interval, Infeasible> {
         self.window_within(zone, BoxWindow::of(self, machine, zone)?.as_ref())
@@ -267,18 +292,16 @@ impl Problem {
         if low <= high {
             return Ok(Interval { low, high });
         }
-        Err(Infeasible {
-            gap: finite_or(low - high, DISTANT),
-            reason: format!(
-                "bounds ({}), margin and tolerances leave no frequency in the zone {:.6} to {:.6}: it would have to be \
-                 at least {:.6} and at most {:.6}",
-                self.frequency,
-                own(zone.low.frequency),
-                own(zone.high.frequency),
-                own(zone.frequency_at(low)),
-                own(zone.frequency_at(high))
-            ),
-        })
+        let reason = format!(
+            "bounds ({}), margin and tolerances leave no frequency in the zone {:.6} to {:.6}: it would have to be \
+             at least {:.6} and at most {:.6}",
+            self.frequency,
+            own(zone.low.frequency),
+            own(zone.high.frequency),
+            own(zone.frequency_at(low)),
+            own(zone.frequency_at(high))
+        );
+        Err(Infeasible::new(finite_or(low - high, DISTANT), reason))
     }
 }
 

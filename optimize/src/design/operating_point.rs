@@ -6,7 +6,6 @@ use softstop::Machine;
 use softstop_dynamics::{Orbit, Zone};
 
 use super::Design;
-use super::box_window::BoxWindow;
 use super::judge::violation;
 use super::problem::Problem;
 use super::space::{Axis, ROUNDING};
@@ -91,12 +90,6 @@ impl Design {
         self.zone.frequency_at(self.place)
     }
 
-    /// True if margin, bounds of the frequency and tolerances allow the place.
-    pub(super) fn is_within(&self, problem: &Problem, tolerated: Option<&BoxWindow>) -> bool {
-        let window = problem.window_within(&self.zone, tolerated);
-        window.is_ok_and(|it| it.contains(self.place))
-    }
-
     /// How far the place is outside of what margin, bounds of the frequency and tolerances allow, and its motion from what is
     /// required of it, in all cases; none if they allow no place.
     pub(super) fn violation(&self, problem: &Problem) -> Option<f64> {
@@ -109,18 +102,6 @@ impl Design {
             Some(outside + violation(&problem.met(&design.judged().ok()?)))
         };
         problem.operating_points(self).iter().map(of_point).sum()
-    }
-
-    /// Where the tolerances stay inside the zone; none of that if all is exact.
-    pub(super) fn box_window(&self, problem: &Problem) -> Option<Option<BoxWindow>> {
-        BoxWindow::of(problem, &self.machine, &self.zone).ok()
-    }
-
-    /// The design without its cases, with this value of what is sought.
-    pub(super) fn without_cases(&self, value: f64) -> Self {
-        let (machine, orbit) = (self.machine.clone(), self.orbit.clone());
-        let design = Self::of_orbit(machine, (&self.zone, self.place), orbit);
-        Self { value, ..design }
     }
 
     /// The design with a value of what is sought in each operating point; none if one has none.

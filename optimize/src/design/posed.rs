@@ -65,14 +65,11 @@ impl Ranges {
             let new = [wider, 1 - wider].map(of).into_iter();
             let mut new = new.filter(|it| !posed.contains(it));
             let width = widths[0].hypot(widths[1]);
-            gaps.extend(
-                new.next()
-                    .filter(|_| width > SMALL_GAP)
-                    .map(|it| (width, it)),
-            );
+            if width > SMALL_GAP {
+                gaps.extend(new.next().map(|it| (width, it)));
+            }
         }
-        sort_falling(&mut gaps, |it| it.0);
-        gaps.into_iter().map(|(_, it)| it).collect()
+        widest_first(gaps)
     }
 
     /// Problems in the middle of the gaps between the values that designs of several objectives have of each, the widest first,
@@ -100,8 +97,7 @@ impl Ranges {
                 }
             }
         }
-        sort_falling(&mut gaps, |it| it.0);
-        gaps.into_iter().map(|(_, it)| it).collect()
+        widest_first(gaps)
     }
 
     /// Problems of the first objective with so many bounds of each other one, by the sums of their levels.
@@ -125,4 +121,9 @@ impl Ranges {
         }
         sums
     }
+}
+
+fn widest_first(mut gaps: Vec<(f64, Posed)>) -> Vec<Posed> {
+    sort_falling(&mut gaps, |it| it.0);
+    gaps.into_iter().map(|(_, it)| it).collect()
 }

@@ -8,12 +8,12 @@ use softstop_explore::zone::lost_by;
 
 use super::ascent::ascend_from;
 use super::conflict::violated_within;
-use super::coordinates::{Candidate, best_by};
+use super::coordinates::{Candidate, best_by, keep_best};
 use super::critical::{CriticalMachines, Target};
 use super::figure::{Figure, Sense};
 use super::multipliers::held;
 use super::problem::Problem;
-use super::{Design, Infeasible};
+use super::{Design, GAIN, Infeasible};
 use crate::order::sort_rising;
 use crate::robust::{Manifold, Norm, Tolerances, Worst, first_losses, nearest, worst};
 
@@ -21,8 +21,6 @@ use crate::robust::{Manifold, Norm, Tolerances, Worst, first_losses, nearest, wo
 const ROUNDS: usize = 16;
 /// Share of the tolerances that is rounding.
 const ROUNDING: f64 = 1e-7;
-/// Relative change of what is sought that is none.
-const GAIN: f64 = 1e-9;
 /// Rate of the score by the edges of the cube, relative, that is none at a maximum.
 const STUCK: f64 = 1e-3;
 /// Directions that are added at once, at most.
@@ -73,19 +71,13 @@ pub(super) fn enforce(
     for _ in 0..ROUNDS {
         let Look { is_new, lack: lost } = look(problem, &mut candidate.design, &mut known);
         match lost {
-            Some(lost) if lack.as_ref().is_none_or(|it| lost.gap < it.gap) => lack = Some(lost),
-            Some(_) => {}
+            Some(lost) => lack = Some(lost.at(&candidate.unit).nearer(lack)),
             None => {
                 let found = Robust {
                     candidate: candidate.clone(),
                     known: known.clone(),
                 };
-                if best
-                    .as_ref()
-                    .is_none_or(|best| score(&best.candidate) < score(&candidate))
-                {
-                    best = Some(found);
-                }
+                keep_best(&mut best, found, |it| score(&it.candidate));
             }
         }
         let next = match is_new {
@@ -100,7 +92,7 @@ pub(super) fn enforce(
         let Some(next) = next else { break };
         candidate = next;
     }
-    best.ok_or_else(|| lack.unwrap_or_else(not_computed))
+    best.ok_or_else(|| lack.unwrap_or_else(Infeasible::stopped))
 }
 
 /// A design as it is, if no machine within the tolerances loses the motion or violates a requirement.
@@ -157,14 +149,8 @@ fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachine
         return (seen, value);
     };
     let unknown = |lack| {
-        let lack = Some(lack);
-        (
-            Look {
-                lack,
-                ..Look::default()
-            },
-            design.value,
-        )
+        let (is_new, lack) = (false, Some(lack));
+        (Look { is_new, lack }, design.value)
     };
     let lost = match lost(&spread, design) {
         Ok(lost) => lost,
@@ -176,11 +162,11 @@ fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachine
         return (Look { is_new: true, lack }, value);
     }
     let targets = problem.targets();
-    let all = match extremes(&spread, design, &targets) {
+    let all = match extremes(problem, (&spread, design), &targets) {
         Ok(all) => all,
         Err(error) => return unknown(error),
     };
-    for ((target, ..), found) in targets.iter().zip(&all) {
+    for (target, found) in targets.iter().zip(&all) {
         // What is worst in the drawing's machine is known anyway.
         let is_own = found.at.iter().all(|at| *at == 0.0);
         let is_new = !is_own && known.note(*target, &found.at);
@@ -191,16 +177,14 @@ fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachine
                 let loss = claimed - problem.objective.score(value);
                 seen.is_new |= is_new && loss > GAIN * claimed.abs();
             }
-            Target::Bound(figure, _) => {
-                let mut required = problem.requirements.iter();
-                let broken = required.find(|it| it.figure == *figure && it.is_of_each_motion());
-                let broken = broken.filter(|it| it.margin(found.value) < 0.0);
+            Target::Bound(..) => {
+                let required = problem.asked(*target).and_then(|(_, it)| it);
+                let broken = required.filter(|it| it.margin(found.value) < 0.0);
                 if let Some(requirement) = broken {
                     seen.is_new |= is_new;
-                    seen.note(Some(Infeasible {
-                        gap: requirement.violation(found.value),
-                        reason: violated_within(&design.machine, requirement, found.value),
-                    }));
+                    let reason = violated_within(&design.machine, requirement, found.value);
+                    let gap = requirement.violation(found.value);
+                    seen.note(Some(Infeasible::new(gap, reason)));
                 }
             }
         }
@@ -210,14 +194,14 @@ fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachine
 
 /// The worst machine of each target.
 fn extremes(
-    spread: &Tolerances,
-    design: &Design,
-    targets: &[(Target, Figure, Sense)],
+    problem: &Problem,
+    (spread, design): (&Tolerances, &Design),
+    targets: &[Target],
 ) -> Result<Vec<Worst>, Infeasible> {
     if targets.is_empty() {
         return Ok(Vec::new());
     }
-    let figures = targets.iter().map(|(_, figure, side)| (*figure, *side));
+    let figures = targets.iter().map(|it| problem.figure_of(*it));
     let figures: Vec<(Figure, Sense)> = figures.collect();
     let found = worst(spread, &design.orbit, &figures, &interrupt::watch);
     found.map_err(Infeasible::unknown)
@@ -233,6 +217,24 @@ impl Problem {
         seen.lack.map_or(Ok(()), Err)
     }
 
+    /// What ends the motion inside the zone where the tolerances of a design touch that, in words.
+    pub fn border_within(&self, design: &Design) -> Option<String> {
+        let spread = self.spread(&design.machine)?;
+        let farthest = 1.0 + ROUNDING;
+        let found = nearest(
+            &spread,
+            &design.orbit,
+            Norm::Box,
+            farthest,
+            &interrupt::watch,
+        )
+        .ok()?;
+        found.into_iter().find_map(|it| match it.manifold {
+            Manifold::Motion(loss) => Some(lost_by(&loss)),
+            Manifold::Hysteresis => None,
+        })
+    }
+
     /// The machines within the tolerances that are worst in each figure that is required of all of them, by the side that is
     /// good, without cases; none if nothing is, or where they cannot be computed.
     pub fn worst_of_required(&self, design: &Design) -> Vec<(Figure, Sense, Worst)> {
@@ -240,26 +242,23 @@ impl Problem {
             return Vec::new();
         };
         let mut targets = self.targets();
-        targets.retain(|(target, ..)| *target != Target::Objective);
-        let found = extremes(&spread, design, &targets).unwrap_or_default();
+        targets.retain(|target| *target != Target::Objective);
+        let found = extremes(self, (&spread, design), &targets).unwrap_or_default();
         let pairs = targets.into_iter().zip(found);
-        let each = pairs.map(|((_, figure, side), worst)| (figure, side, worst));
+        let each = pairs.map(|(target, worst)| {
+            let (figure, side) = self.figure_of(target);
+            (figure, side, worst)
+        });
         each.collect()
     }
 }
 
-fn not_computed() -> Infeasible {
-    Infeasible::unknown("the machines within the tolerances could not be computed")
-}
-
 fn lacking(lost: &Lost) -> Infeasible {
-    Infeasible {
-        gap: 1.0 - lost.share,
-        reason: format!(
-            "within the tolerances the motion is lost ({}): it goes on over {:.4} of them only",
-            lost.by, lost.share
-        ),
-    }
+    let reason = format!(
+        "within the tolerances the motion is lost ({}): it goes on over {:.4} of them only",
+        lost.by, lost.share
+    );
+    Infeasible::new(1.0 - lost.share, reason)
 }
 
 /// The best designs with what is known of the box, from one, and from other places of its zone.
@@ -287,24 +286,6 @@ fn lost(spread: &Tolerances, design: &Design) -> Result<Vec<Lost>, Infeasible> {
     sort_rising(&mut all, |it| it.share);
     all.truncate(MOST);
     Ok(all)
-}
-
-/// What ends the motion where the box touches it, in words.
-pub(super) fn touched(problem: &Problem, design: &Design) -> Option<String> {
-    let spread = problem.spread(&design.machine)?;
-    let farthest = 1.0 + ROUNDING;
-    let found = nearest(
-        &spread,
-        &design.orbit,
-        Norm::Box,
-        farthest,
-        &interrupt::watch,
-    )
-    .ok()?;
-    found.into_iter().find_map(|it| match it.manifold {
-        Manifold::Motion(loss) => Some(lost_by(&loss)),
-        Manifold::Hysteresis => None,
-    })
 }
 
 /// What is lost at these places of the box, but at its border.

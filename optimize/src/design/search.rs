@@ -9,28 +9,25 @@
 //! The survey sees the unit cube, whose boundary is part of its lattice: many optima stand there. `&Problem` is the cost
 //! function of every solver of `argmin` that needs no derivatives.
 
-use softstop::internals::plain_number;
 use softstop_dynamics::monitor::OptionalMemory;
 use softstop_dynamics::parallel;
-use softstop_dynamics::zone::ZoneKind;
 
 use super::ascent::{ascend, ascend_from};
 use super::check_finalists::check_finalists;
-use super::check_trials::{Passed, Refusal};
-use super::conflict::stated;
+use super::check_trials::Passed;
 use super::coordinates::Candidate;
 use super::critical::CriticalMachines;
-use super::found::{APART, GAIN, RIVAL, is_another};
+use super::found::{APART, RIVAL, is_another};
 pub use super::found::{Ascents, Found};
 use super::incumbent::{Incumbent, Rank};
 use super::nearest_miss::nearest_miss;
+pub use super::no_design::SearchError;
 use super::robustify::{Robust, enforce_tolerance_box};
-use super::space::{Axis, Interval};
 use super::survey::{Point, Survey};
 pub use super::survey::{Quiet, Unwatched, Watch};
 use super::trial::FULL;
 pub use super::trial_search::Resolution;
-use super::{Infeasible, Problem};
+use super::{DISTANT, Design, GAIN, Infeasible, Problem};
 use crate::order::sort_falling;
 
 /// Fewest zones a search makes sense with.
@@ -42,8 +39,6 @@ const LARGEST_SURVEY: u64 = 3;
 const STARTS: usize = 4;
 /// What each ascent counts of the evaluations that the survey leaves.
 pub const EVALUATIONS_PER_START: u64 = 80;
-/// The cost of a point that has no motion to begin with.
-const DISTANT: f64 = 10.0;
 /// Designs whose catalogues and trials are looked at, at most, until one passes.
 const FINALISTS: usize = 3;
 
@@ -52,76 +47,6 @@ const FINALISTS: usize = 3;
 pub struct Settings {
     /// Zones to compute at most, at least [`LEAST_EVALUATIONS`].
     pub evaluations: u64,
-}
-
-/// Why a search has no design to show.
-#[derive(Debug, thiserror::Error)]
-pub enum SearchError {
-    /// Nothing that was met within the bounds is feasible.
-    #[error("{found}; nearest try{place}: {reason}")]
-    NoDesign {
-        /// What was looked for and where, in words.
-        found: String,
-        /// The least infeasible point: names and values.
-        place: String,
-        /// What is wrong there.
-        reason: String,
-    },
-    /// The watcher said stop; the best design until then, if there was one that is as asked as far as was looked at.
-    #[error("stopped")]
-    Stopped(Option<Box<Found>>),
-    /// The survey and the ascents from it cost more than they may.
-    #[error("over its budget")]
-    OverBudget,
-}
-
-impl SearchError {
-    /// Nothing feasible was met of a problem whose survey saw so many machines, if it was that which met nothing, and of which
-    /// trials were made with so many of all choices from catalogues: more is not said than that.
-    pub(super) fn no_design(
-        problem: &Problem,
-        surveyed: Option<usize>,
-        choices: Option<[usize; 2]>,
-        (place, reason): (String, String),
-    ) -> Self {
-        let zone = match problem.zone {
-            ZoneKind::Hysteresis => "in a hysteresis zone ",
-            ZoneKind::SingleImpact { .. } => "",
-        };
-        let sought = format!("stable z = 1 motion {zone}");
-        let found = match surveyed.zip(widest(problem)) {
-            Some((surveyed, widest)) => format!(
-                "found no {sought}that is as the task asks; the survey saw {surveyed} machines on a logarithmic lattice: narrow {widest}"
-            ),
-            None => match choices {
-                Some([tried, all]) => format!(
-                    "found no {sought}that is as the task asks; what takes many motions was tried with {tried} of {all} choices from \
-                     catalogues"
-                ),
-                None => format!("no {sought}is as the task asks within the bounds"),
-            },
-        };
-        Self::NoDesign {
-            found,
-            place,
-            reason,
-        }
-    }
-}
-
-/// The axes that are searched by their logarithms, the widest first; none if there are none.
-fn widest(problem: &Problem) -> Option<String> {
-    let axes = problem.axes.iter();
-    let wide = axes.filter_map(|axis| Some((axis, axis.decades()?)));
-    let mut wide: Vec<(&Axis, f64)> = wide.collect();
-    sort_falling(&mut wide, |it| it.1);
-    let stated = |(axis, _): &(&Axis, f64)| {
-        let Interval { low, high } = axis.range;
-        let name = problem.machine.name(axis.parameter);
-        format!("{name} = [{}, {}]", plain_number(low), plain_number(high))
-    };
-    let stated: Vec<String> = wide.iter().map(stated).collect();
-    (!stated.is_empty()).then(|| stated.join(", "))
 }
 
 /// The feasible design that is best by the problem's objective. What is known of the search is recalled.
@@ -157,8 +82,12 @@ pub fn search_from(
     if watch.stop() {
         let best = incumbent.take().map(|candidate| {
             let known = CriticalMachines::default();
-            let untried = Passed::as_is(Robust { candidate, known }, Vec::new());
-            Box::new(Found::new(problem, untried, &[]))
+            let untried = Passed {
+                robust: Robust { candidate, known },
+                tried: Vec::new(),
+                resolution: None,
+            };
+            Box::new(Found::new(problem, untried, Vec::new()))
         });
         return Err(SearchError::Stopped(best));
     }
@@ -254,11 +183,8 @@ impl<'a> Search<'a> {
         self.survey.incumbent.update(&self.tops[0], Rank::Motion);
         self.make_robust();
         if self.robust.is_empty() {
-            let unknown = Infeasible {
-                gap: 0.0,
-                reason: "the search has met nothing".to_owned(),
-            };
-            return Err(self.no_design(self.lack.clone().unwrap_or(unknown)));
+            let lack = self.lack.take().unwrap_or_else(Infeasible::stopped);
+            return Err(self.no_design(lack));
         }
         let mut finalists: Vec<&Robust> = Vec::new();
         for robust in &self.robust {
@@ -271,28 +197,23 @@ impl<'a> Search<'a> {
         let mut sought_from = Vec::new();
         let finalists = finalists.into_iter().cloned();
         let passing = check_finalists(problem, finalists, 0.0, &mut sought_from);
-        let mut passing = passing
-            .map_err(|refusal| self.no_design(refusal))?
-            .into_iter();
-        let Some(passed) = passing.next() else {
-            return Err(self.no_design(Infeasible::unknown("stopped")));
-        };
+        let failed = |failed| SearchError::none_passes(problem, self.surveyed, failed);
+        let (passed, others) = passing.map_err(failed)?;
         let best = &passed.robust;
-        let others = passing.map(|it| it.robust.candidate);
-        let rivals = self.robust.iter();
-        let rivals = rivals.filter(|it| {
-            let score = self.score(&it.candidate);
-            (RIVAL * self.score(&best.candidate)..=self.score(&best.candidate)).contains(&score)
+        let score = self.score(&best.candidate);
+        let others = others.into_iter().map(|it| it.robust.candidate.design);
+        let mut others: Vec<Design> = others.collect();
+        let rivals = self.robust.iter().filter(|it| {
+            (RIVAL * score..=score).contains(&self.score(&it.candidate))
                 && problem.passes(&it.candidate.design, &best.known, FULL)
         });
-        let rivals = rivals.map(|it| it.candidate.clone());
-        let others: Vec<Candidate> = others.chain(rivals).collect();
+        others.extend(rivals.map(|it| it.candidate.design.clone()));
         let incumbent = self.survey.incumbent;
         incumbent.update(&best.candidate, Rank::Trials);
         Ok(Found {
             ascents: self.ascents,
             sought_from,
-            ..Found::new(problem, passed, &others)
+            ..Found::new(problem, passed, others)
         })
     }
 
@@ -306,8 +227,8 @@ impl<'a> Search<'a> {
         let values = problem.axis_values(&self.nearest.unit);
         let design = problem.at(&values);
         let design = design.or_else(|_| problem.at_batch(&[values]).remove(0));
-        let design = design.map_err(|it| self.no_design(it))?;
         let unit = self.nearest.unit.clone();
+        let design = design.map_err(|lack| self.no_design(lack.at(&unit)))?;
         self.tops.extend(ascend(problem, &unit));
         self.tops.push(Candidate { unit, design });
         self.sort();
@@ -328,11 +249,8 @@ impl<'a> Search<'a> {
                 }
             }
             let is_better = self.best_robust() > (1.0 + GAIN) * before;
-            self.ascents.idle = if is_better {
-                0
-            } else {
-                STARTS.min(self.ascents.made)
-            };
+            let idle = STARTS.min(self.ascents.made);
+            self.ascents.idle = if is_better { 0 } else { idle };
             let is_stopped = self.survey.watch.stop() || self.survey.is_over_budget();
             if !is_better || is_stopped || !self.ascend_from_spare() {
                 break;
@@ -343,6 +261,10 @@ impl<'a> Search<'a> {
         sort_falling(&mut self.robust, |it| problem.score(&it.candidate.design));
         self.robust
             .dedup_by(|it, known| it.candidate.is_same(&known.candidate));
+    }
+
+    fn no_design(&self, lack: Infeasible) -> SearchError {
+        SearchError::no_design(self.survey.problem, Some(self.surveyed), None, lack)
     }
 
     fn best_robust(&self) -> f64 {
@@ -358,32 +280,8 @@ impl<'a> Search<'a> {
                     .update(&it.candidate, Rank::Tolerances);
                 self.robust.push(it);
             }
-            Err(error) if self.lack.as_ref().is_none_or(|it| error.gap < it.gap) => {
-                self.lack = Some(error);
-            }
-            Err(_) => {}
+            Err(lack) => self.lack = Some(lack.nearer(self.lack.take())),
         }
-    }
-
-    /// What the nearest point lacks.
-    fn no_design(&self, refusal: impl Into<Refusal>) -> SearchError {
-        let problem = self.survey.problem;
-        let Refusal {
-            lack,
-            unit,
-            choices,
-        } = refusal.into();
-        let top = self.tops.first().map_or(&self.nearest.unit, |it| &it.unit);
-        let values =
-            problem.axis_values(unit.as_ref().filter(|_| choices.is_some()).unwrap_or(top));
-        let values = problem.axes.iter().zip(values);
-        let all = values.map(|(axis, value)| stated(&problem.machine, axis.parameter, value));
-        let all = all.collect::<Vec<_>>().join(", ");
-        let place = match problem.axes.is_empty() {
-            true => String::new(),
-            false => format!(", at {all}"),
-        };
-        SearchError::no_design(problem, Some(self.surveyed), choices, (place, lack.reason))
     }
 }
 
@@ -391,26 +289,4 @@ impl<'a> Search<'a> {
 fn is_apart(one: &[f64], other: &[f64]) -> bool {
     let far = |(a, b): (&f64, &f64)| (a - b).abs() > APART;
     one.iter().zip(other).any(far)
-}
-
-#[cfg(test)]
-mod tests {
-    use softstop::{Machine, Parameter};
-
-    use super::{Axis, Problem, SearchError};
-
-    #[test]
-    fn of_catalogues_and_trials_no_more_is_said_than_what_was_tried() {
-        let machine = Machine::named("unloaded").expect("the paper's machine");
-        let axis = Axis::of_catalogue(Parameter::Damping, vec![1e-6, 0.02]);
-        let problem = Problem::of(machine, vec![axis]);
-        let says = |choices| {
-            let nowhere = (String::new(), String::new());
-            SearchError::no_design(&problem, Some(9), choices, nowhere).to_string()
-        };
-        assert!(says(None).starts_with("no stable z = 1 motion"));
-        let words = says(Some([1, 2]));
-        assert!(words.starts_with("found no"), "{words}");
-        assert!(words.contains("tried with 1 of 2 choices from catalogues"));
-    }
 }

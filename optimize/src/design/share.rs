@@ -9,11 +9,11 @@ use softstop_console::interrupt;
 use softstop_dynamics::basin::wilson_interval;
 use softstop_dynamics::monitor::OptionalMemory;
 
-use super::Design;
 use super::conflict::short;
 use super::problem::{Problem, Tolerance};
 use super::requirement::{Requirement, Scope};
 use super::search::{Found, Quiet, SearchError, Settings, Watch, search, search_from};
+use super::{Design, Infeasible};
 use crate::robust::{self, Verdict, normal_quantile, verify_in_cases};
 
 /// Boxes that are tried at most, and the widest in standard deviations.
@@ -157,19 +157,14 @@ pub(super) fn search_with_share(
     let failure = match lack.filter(|_| starts.is_empty()) {
         _ if interrupt::requested() => SearchError::Stopped(None),
         Some(lack) => lack,
-        None => SearchError::no_design(
-            problem,
-            None,
-            None,
-            (
-                String::new(),
-                format!(
-                    "a share of {} of the machines as they are built loses the motion or violates a requirement: may be {} at most",
-                    short(least_share),
-                    short(problem.violating)
-                ),
-            ),
-        ),
+        None => {
+            let reason = format!(
+                "a share of {} of the machines as they are built loses the motion or violates a requirement: may be {} at most",
+                short(least_share),
+                short(problem.violating)
+            );
+            SearchError::no_design(problem, None, None, Infeasible::unknown(reason))
+        }
     };
     let best = best.map(|(found, deviations)| (found, deviations, is_settled));
     best.ok_or(failure)

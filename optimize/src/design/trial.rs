@@ -12,7 +12,7 @@ use softstop_dynamics::run_up::RunUp;
 use super::conflict::{conflict, violated_within};
 use super::critical::CriticalMachines;
 use super::figure::Figure;
-use super::judge::{Met, Within, violation};
+use super::judge::{Met, violation};
 use super::operating_point::OperatingPoint;
 use super::problem::Problem;
 use super::requirement::{Requirement, Scope};
@@ -45,6 +45,11 @@ pub(super) const ROUGH: Effort = Effort {
 const CORNERS: usize = 16;
 
 impl Problem {
+    /// The requirements that one motion tells.
+    pub(super) fn single(&self) -> impl Iterator<Item = &Requirement> {
+        self.requirements.iter().filter(|it| !it.figure.is_trial())
+    }
+
     /// The requirements that take many motions.
     pub(super) fn trials(&self) -> impl Iterator<Item = &Requirement> {
         self.requirements.iter().filter(|it| it.figure.is_trial())
@@ -59,8 +64,9 @@ impl Problem {
         for it in self.operating_points(design) {
             let corners = it.problem.corners(it.design);
             for own in it.tried()? {
-                let within = it.problem.tried_within(&own.requirement, &corners)?;
-                tried.push(Met { within, ..own });
+                let worst = it.problem.tried_within(&own.requirement, &corners)?;
+                let worst = worst.map(|(worst, _)| worst);
+                tried.push(Met { worst, ..own });
             }
         }
         Ok(tried)
@@ -77,27 +83,28 @@ impl Problem {
         })
     }
 
-    /// What the worst of some machines has of a requirement; none if there are none, or it asks for nothing of them.
+    /// What the worst of some machines has of a requirement, and its coordinates; none if there are none, or it asks for nothing of
+    /// them.
     fn tried_within(
         &self,
         requirement: &Requirement,
         corners: &[(Vec<f64>, Option<Orbit>)],
-    ) -> Result<Option<Within>, OrbitError> {
+    ) -> Result<Option<(f64, Vec<f64>)>, OrbitError> {
         if requirement.scope == Scope::Drawing {
             return Ok(None);
         }
         let each = parallel::try_map(corners, |(at, orbit)| {
             let orbit = orbit.as_ref();
             let met = orbit.map(|orbit| self.tried_of(requirement, orbit, FULL));
-            let worst = met.transpose()?.map_or(f64::NAN, |met| met.judged());
-            let at = at.clone();
-            Ok::<_, OrbitError>(Within { worst, at })
+            let value = met.transpose()?.map_or(f64::NAN, |met| met.judged());
+            Ok::<_, OrbitError>((value, at.clone()))
         });
-        let lacking = |it: &Within| -requirement.violation(it.worst);
-        let margin = |it: &Within| requirement.margin(it.worst);
-        let order = |a: &Within, b: &Within| {
-            let by_violation = lacking(a).total_cmp(&lacking(b));
-            by_violation.then(margin(a).total_cmp(&margin(b)))
+        let order = |(a, _): &(f64, Vec<f64>), (b, _): &(f64, Vec<f64>)| {
+            let [one, other] = [a, b].map(|it| requirement.violation(*it));
+            let margins = [a, b].map(|it| requirement.margin(*it));
+            other
+                .total_cmp(&one)
+                .then(margins[0].total_cmp(&margins[1]))
         };
         Ok(each?.into_iter().min_by(order))
     }
@@ -231,25 +238,23 @@ impl OperatingPoint<'_> {
             known.note_failed_trial(met.requirement.figure);
         }
         if !own.iter().all(Met::is_met) {
-            return Err(Infeasible {
-                gap: violation(&own),
-                reason: conflict(&design.machine, &own),
-            });
+            let reason = conflict(&design.machine, &own);
+            return Err(Infeasible::new(violation(&own), reason));
         }
         let corners = problem.corners(design);
         for met in &mut own {
             let requirement = &met.requirement;
-            let within = problem.tried_within(requirement, &corners);
-            met.within = within.map_err(Infeasible::unknown)?;
-            let mut within = met.within.iter();
-            if let Some(Within { worst, at }) = within.find(|it| !requirement.is_met(it.worst)) {
-                known.tried.push(at.clone());
+            let worst = problem.tried_within(requirement, &corners);
+            let Some((worst, at)) = worst.map_err(Infeasible::unknown)? else {
+                continue;
+            };
+            if !requirement.is_met(worst) {
+                known.tried.push(at);
                 known.note_failed_trial(requirement.figure);
-                return Err(Infeasible {
-                    gap: requirement.violation(*worst),
-                    reason: violated_within(&design.machine, requirement, *worst),
-                });
+                let reason = violated_within(&design.machine, requirement, worst);
+                return Err(Infeasible::new(requirement.violation(worst), reason));
             }
+            met.worst = Some(worst);
         }
         Ok(own)
     }

@@ -39,9 +39,9 @@ impl<'a> Zoned<'a> {
         machine: Machine,
         zone: Result<Zone, ZoneError>,
     ) -> Result<Self, Infeasible> {
-        let zone = zone.map_err(|error| Infeasible {
-            gap: distance_from_zones(&machine.scene, &error),
-            reason: error.in_units_of(&machine).to_string(),
+        let zone = zone.map_err(|error| {
+            let gap = distance_from_zones(&machine.scene, &error);
+            Infeasible::new(gap, error.in_units_of(&machine).to_string())
         })?;
         Ok(Self {
             problem,
@@ -99,12 +99,9 @@ impl<'a> Zoned<'a> {
             window.low = window.low.max(low);
             window.high = window.high.min(high);
             if window.low > window.high {
-                return Err(Infeasible {
-                    gap: finite_or(window.low - window.high, super::DISTANT),
-                    reason: "there is no frequency that bounds, margin and tolerances allow in the drawing too"
-                        .to_owned(),
-                }
-                .in_case(stated));
+                let gap = finite_or(window.low - window.high, super::DISTANT);
+                let reason = "there is no frequency that bounds, margin and tolerances allow in the drawing too";
+                return Err(Infeasible::new(gap, reason).in_case(stated));
             }
         }
         Ok(window)

@@ -2,11 +2,10 @@
 
 use softstop_console::failure::Failure;
 
-use crate::design::judge::{Met, Within};
+use crate::design::judge::Met;
 use crate::design::operating_point::OperatingPoint;
 use crate::design::search::Found;
 use crate::design::{Design, Problem};
-use crate::robust::Worst;
 
 /// What a design has of all that is required, in its own machine and in the worst within the tolerances, in all cases.
 pub(super) fn met(problem: &Problem, found: &Found) -> Result<Vec<Met>, Failure> {
@@ -34,18 +33,13 @@ fn of_motion(problem: &Problem, design: &Design) -> Result<Vec<Met>, Failure> {
     let mut met = Vec::from_iter(problem.share(&motion));
     let worst = problem.worst_of_required(design);
     met.extend(problem.met(&motion).into_iter().map(|met| {
-        let own = worst
-            .iter()
-            .filter(|(figure, ..)| *figure == met.requirement.figure);
-        let own = own.map(|(.., worst)| worst);
-        let margin = |it: &&Worst| met.requirement.margin(it.value);
-        let nearest = own.min_by(|a, b| margin(a).total_cmp(&margin(b)));
         let is_asked = met.requirement.is_of_each_motion();
-        let within = nearest.filter(|_| is_asked).map(|it| Within {
-            worst: it.value,
-            at: it.at.clone(),
-        });
-        Met { within, ..met }
+        let own = worst.iter();
+        let own = own.filter(|(figure, ..)| is_asked && *figure == met.requirement.figure);
+        let margin = |it: &f64| met.requirement.margin(*it);
+        let values = own.map(|(.., worst)| worst.value);
+        let worst = values.min_by(|a, b| margin(a).total_cmp(&margin(b)));
+        Met { worst, ..met }
     }));
     Ok(met)
 }
