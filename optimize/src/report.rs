@@ -215,9 +215,7 @@ impl OptimizeReport {
         }
         text
     }
-}
 
-impl OptimizeReport {
     /// What people read.
     pub fn text(&self) -> String {
         let units = Units::of(&self.machine);

@@ -37,6 +37,7 @@ use softstop_explore::prove::{ProofReport, can_be_proven};
 
 use crate::design::share::MAX_MACHINES;
 use crate::fmu::{Standard, archive, library, parameters};
+use crate::page::figure::Figure;
 use crate::page::figures::{self, figures, response};
 use crate::page::html;
 use crate::report::OptimizeReport;
@@ -219,47 +220,41 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     // The same machine to the last bit, though no number of Hz may give the frequency that was found.
     let machine = Machine::from_toml(&text).map_err(anyhow::Error::from)?;
     // The files of a design are written even if its motion cannot be proven.
-    let mut unproven = None;
-    match arguments
+    let proof = arguments
         .prove
-        .then(|| ProofReport::of_single(&machine, state))
-    {
-        Some(Ok(proof)) => {
-            export.file("proof_json", output::json(&proof)?.as_bytes())?;
-            report.proof = Some(proof.figures());
-        }
-        Some(Err(failure)) => {
-            export.forgo("proof_json");
-            unproven = Some(failure);
-        }
-        None => export.forgo("proof_json"),
-    }
-    if let Some(front) = &report.pareto {
-        export.sheets([&front.sheet])?;
-    }
+        .then(|| ProofReport::of_single(&machine, state));
+    let (proof, unproven) = match proof.transpose() {
+        Ok(proof) => (proof, None),
+        Err(failure) => (None, Some(failure)),
+    };
+    report.proof = proof.as_ref().map(ProofReport::figures);
     let name = job.problem.machine.name.as_deref().unwrap_or_default();
-    if let Some(picture) = &report.response {
-        export.file("svg", picture.document(name).as_bytes())?;
-    }
-    match &report.front {
-        Some(picture) => export.file("pareto_svg", picture.document(name).as_bytes())?,
-        None => export.forgo("pareto_svg"),
+    let page = (!report.figures.is_empty()).then(|| html(&report));
+    let drawn = |it: &Option<Figure>| it.as_ref().map(|it| it.document(name));
+    for (kind, text) in [
+        ("proof_json", proof.map(|it| output::json(&it)).transpose()?),
+        ("svg", drawn(&report.response)),
+        ("pareto_svg", drawn(&report.front)),
+        ("html", page.transpose().map_err(anyhow::Error::from)?),
+    ] {
+        match text {
+            Some(text) => export.file(kind, text.as_bytes())?,
+            None => export.forgo(kind),
+        }
     }
     export.file("fmu", &archive(&library, &machine, start)?)?;
     export.file("ssv", parameters(&machine, start)?.as_bytes())?;
-    match report.figures.is_empty() {
-        false => {
-            let page = html(&report).map_err(anyhow::Error::from)?;
-            export.file("html", page.as_bytes())?;
-            export.sheets(&report.sheets())?;
-            for figure in &report.figures {
-                // What has no data of its own stands in the page alone.
-                if let Some(sheet) = figure.sheets.first() {
-                    export.picture(&sheet.name, &figure.document(name))?;
-                }
-            }
+    if let Some(front) = &report.pareto {
+        export.sheets([&front.sheet])?;
+    }
+    if !report.figures.is_empty() {
+        export.sheets(&report.sheets())?;
+    }
+    // What has no data of its own stands in the page alone.
+    for figure in &report.figures {
+        if let Some(sheet) = figure.sheets.first() {
+            export.picture(&sheet.name, &figure.document(name))?;
         }
-        true => export.forgo("html"),
     }
     export.finish(&report, report.text(), job.format)?;
     if let Some(interrupted) = outcome.interrupted {

@@ -120,14 +120,14 @@ fn sought(
         true if figure == Figure::Share && sense == Sense::Most => {
             return Err(wrong("a margin can only be maximised"));
         }
-        false if !is_sought(figure) => {
+        false if !SOUGHT.contains(&figure) && figure != Figure::Cost => {
             let further = match is_traded(figure) {
                 true => ", or into lists of two figures or more: a front trades it",
                 false => "",
             };
+            let names = SOUGHT.map(Figure::name).join(", ");
             return Err(wrong(&format!(
-                "must be velocity, impact_energy, impact_power, stroke_work, drive_force, drive_power, stop_force or cost; \
-                 what else counts goes to [require]{further}"
+                "must be {names} or cost; what else counts goes to [require]{further}"
             )));
         }
         _ => {}
@@ -138,20 +138,16 @@ fn sought(
     }
 }
 
-/// Whether a figure can be the only one that is sought.
-const fn is_sought(figure: Figure) -> bool {
-    matches!(
-        figure,
-        Figure::Velocity
-            | Figure::ImpactEnergy
-            | Figure::ImpactPower
-            | Figure::StrokeWork
-            | Figure::DriveForce
-            | Figure::DrivePower
-            | Figure::StopForce
-            | Figure::Cost
-    )
-}
+/// The figures that can be the only one that is sought, beside the cost.
+const SOUGHT: [Figure; 7] = [
+    Figure::Velocity,
+    Figure::ImpactEnergy,
+    Figure::ImpactPower,
+    Figure::StrokeWork,
+    Figure::DriveForce,
+    Figure::DrivePower,
+    Figure::StopForce,
+];
 
 /// Whether a figure can be one of those that a front trades: one motion and its zone tell it, and it is finite.
 pub(super) const fn is_traded(figure: Figure) -> bool {

@@ -11,10 +11,9 @@ use softstop_console::progress::Progress;
 /// Watches a search.
 pub(super) struct Best<'a> {
     problem: &'a Problem,
-    /// None once a front is searched.
-    zones: Mutex<Option<Progress>>,
+    /// The progress over zones, and the best value; none once a front is searched.
+    zones: Mutex<Option<(Progress, Option<f64>)>>,
     front: OnceLock<Progress>,
-    best: Mutex<Option<f64>>,
     evaluations: AtomicU64,
     budget: u64,
 }
@@ -23,9 +22,8 @@ impl<'a> Best<'a> {
     pub(super) fn new(problem: &'a Problem, evaluations: u64, budget: u64) -> Self {
         Self {
             problem,
-            zones: Mutex::new(Some(Progress::at_most(evaluations, "zones"))),
+            zones: Mutex::new(Some((Progress::at_most(evaluations, "zones"), None))),
             front: OnceLock::new(),
-            best: Mutex::new(None),
             evaluations: AtomicU64::new(0),
             budget,
         }
@@ -40,17 +38,18 @@ impl<'a> Best<'a> {
 impl Watch for Best<'_> {
     fn evaluated(&self, value: Option<f64>) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
-        let (Ok(zones), Ok(mut best)) = (self.zones.lock(), self.best.lock()) else {
+        let Ok(mut zones) = self.zones.lock() else {
             return;
         };
-        let Some(zones) = &*zones else { return };
+        let Some((zones, best)) = &mut *zones else {
+            return;
+        };
         zones.more(1);
         let Some(value) = value else { return };
         let Problem {
             objective, machine, ..
         } = self.problem;
-        let score = |value| objective.score(value);
-        if best.is_none_or(|best| score(value) > score(best)) {
+        if best.is_none_or(|best| objective.score(value) > objective.score(best)) {
             *best = Some(value);
             let unit = machine.unit(objective.figure.dimension());
             let what = self.problem.words();

@@ -92,7 +92,7 @@ pub(super) fn read_requirements(
         {
             return Err(wrong("least must be <= most"));
         }
-        allowed(figure, given).map_err(wrong)?;
+        allowed(figure, given).map_err(|what| wrong(&what))?;
         if figure == Figure::RunUp && least > Some(run_up.ways.len() as f64) {
             return Err(wrong(&format!(
                 "only {} ways are permitted; ways = [...] says which",
@@ -167,26 +167,26 @@ fn is_share(figure: Figure) -> bool {
 }
 
 /// Where bounds of a figure can lie.
-fn allowed(figure: Figure, bounds: impl Iterator<Item = f64>) -> Result<(), &'static str> {
-    let (low, high, words) = match figure {
-        Figure::Share => (0.0, 0.5, "must be in [0, 0.5]"),
-        Figure::Certainty => (0.0, 1.0, "must be in [0, 1]"),
-        Figure::Multiplier => (0.0, 1.0, "must be in [0, 1]"),
-        Figure::RunUp => (
-            0.0,
-            Way::ALL.len() as f64,
-            "must be true or false, or how many ways there must be, 6 at most",
-        ),
-        Figure::MissingStrips => (0.0, 100.0, "must be in [0, 100]"),
+fn allowed(figure: Figure, bounds: impl Iterator<Item = f64>) -> Result<(), String> {
+    let most = match figure {
+        Figure::Share => 0.5,
+        Figure::Certainty | Figure::Multiplier => 1.0,
+        Figure::RunUp => Way::ALL.len() as f64,
+        Figure::MissingStrips => 100.0,
         _ => return Ok(()),
     };
     for bound in bounds {
-        if !(low..=high).contains(&bound) {
-            return Err(words);
+        if !(0.0..=most).contains(&bound) {
+            return Err(match figure {
+                Figure::RunUp => {
+                    format!("must be true or false, or how many ways there must be, {most} at most")
+                }
+                _ => format!("must be in [0, {most}]"),
+            });
         }
         let is_count = matches!(figure, Figure::MissingStrips | Figure::RunUp);
         if is_count && bound.fract() != 0.0 {
-            return Err("must be a whole number");
+            return Err("must be a whole number".to_owned());
         }
     }
     Ok(())

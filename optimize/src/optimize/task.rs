@@ -68,7 +68,8 @@ impl Job {
             None => failure,
         };
         let place = place(arguments, &task);
-        let machine = machine(arguments, &task, place.clone())?;
+        arguments.machine.refuse_start()?;
+        let machine = arguments.machine.machine_over(place.clone(), &task.set)?;
         let sources = Source::all(arguments, place.as_deref())?;
         let (mut problem, share) = stated(&machine, &task).map_err(located)?;
         refuse_without_zone(&machine).map_err(located)?;
@@ -105,24 +106,16 @@ impl Job {
             let highest = axis.map(|it| it.range.high);
             let (_, factor) = tolerance.distribution.over(deviations);
             let widened = (tolerance, problem.reserve * factor);
-            leaves_machines(&machine, widened, highest).map_err(located)?;
-            for case in &problem.cases {
-                let Some(value) = case.value(tolerance.parameter) else {
-                    continue;
-                };
-                let in_case = |failure| match failure {
-                    Failure::Usage(words) => {
-                        Failure::Usage(format!("{words} (case {})", case.name))
-                    }
-                    failure => failure,
-                };
-                let left = leaves_machines(&machine, widened, Some(value));
-                left.map_err(in_case).map_err(located)?;
+            let cases = problem.cases.iter().filter_map(|case| {
+                let value = case.value(tolerance.parameter)?;
+                Some((Some(value), format!(" (case {})", case.name)))
+            });
+            for (value, place) in [(highest, String::new())].into_iter().chain(cases) {
+                let left = leaves_machines(&machine, widened, value);
+                left.map_err(|words| located(Failure::usage(words + &place)))?;
             }
         }
-        for axis in &axes {
-            has_effect(&machine, axis)?;
-        }
+        has_effect(&machine, &axes)?;
         let Search { evaluations, zone } = task.search;
         let evaluations = arguments.evaluations.or(evaluations).unwrap_or(EVALUATIONS);
         let least = format!(">= {LEAST_EVALUATIONS}");
@@ -139,6 +132,7 @@ impl Job {
                 between: (si(frequency.low), si(frequency.high)),
             },
         };
+        let output = arguments.output.clone().or(task.output);
         problem = Problem {
             zone,
             margin,
@@ -154,11 +148,7 @@ impl Job {
             samples: arguments.samples,
             budget: arguments.budget,
             report: !arguments.no_report,
-            output: arguments
-                .output
-                .clone()
-                .or(task.output)
-                .unwrap_or_else(|| OUTPUT.into()),
+            output: output.unwrap_or_else(|| OUTPUT.into()),
             format: arguments.format.or(task.format).unwrap_or_default(),
             title: task.report,
             sources,
@@ -261,8 +251,7 @@ fn stated(machine: &Machine, task: &TaskSpec) -> Result<(Problem, Option<f64>), 
     problem.traded = objectives.split_off(1);
     problem.objective = objectives.remove(0);
     let searched = searched(machine, &[variables(&task.vary)?], false)?;
-    let mut axes = searched.axes.iter();
-    axes.try_for_each(|axis| has_effect(machine, axis))?;
+    has_effect(machine, &searched.axes)?;
     Ok((problem, margin))
 }
 
@@ -280,7 +269,7 @@ fn searched_by(
         variables(&task.vary)?,
         held(machine, task.set.iter().map(Change::key)),
     ];
-    let layers = [line.concat(), below.concat()];
+    let layers = [line, below].map(|layer| layer.concat());
     searched(machine, &layers, task.vary.is_empty())
 }
 
@@ -289,7 +278,7 @@ fn leaves_machines(
     machine: &Machine,
     (tolerance, factor): (&Tolerance, f64),
     highest: Option<f64>,
-) -> Result<(), Failure> {
+) -> Result<(), String> {
     let (parameter, name) = (tolerance.parameter, machine.name(tolerance.parameter));
     let is_searched = highest.is_none() && parameter == Parameter::Frequency;
     let Some(value) = highest
@@ -309,28 +298,26 @@ fn leaves_machines(
     let width = factor * tolerance.width.around(value);
     if value > 0.0 && width >= value {
         let value = plain_number(value);
-        return Err(Failure::usage(format!(
+        return Err(format!(
             "tolerance.{name} = {stated}: {wider}is as large as the value, {value} at most, or larger"
-        )));
+        ));
     }
     let least = parameter.about().allowed.check(name, value - width);
-    least.map(|_| ()).map_err(|error| {
-        Failure::usage(format!(
-            "tolerance.{name} = {stated}: {wider}is too wide about {}: {error}",
-            plain_number(value)
-        ))
+    least.map(drop).map_err(|error| {
+        let value = plain_number(value);
+        format!("tolerance.{name} = {stated}: {wider}is too wide about {value}: {error}")
     })
 }
 
 /// Refuses to search a parameter without effect.
-fn has_effect(machine: &Machine, axis: &Axis) -> Result<(), Failure> {
-    let is_searched = !axis.range.is_held();
-    match axis.parameter {
-        Parameter::Phase if is_searched => Err(Failure::usage(format!(
+fn has_effect(machine: &Machine, axes: &[Axis]) -> Result<(), Failure> {
+    let is_idle = |it: &Axis| it.parameter == Parameter::Phase && !it.range.is_held();
+    match axes.iter().any(is_idle) {
+        true => Err(Failure::usage(format!(
             "vary.{}: has no effect: it shifts the drive in time alone",
-            machine.name(axis.parameter)
+            machine.name(Parameter::Phase)
         ))),
-        _ => Ok(()),
+        false => Ok(()),
     }
 }
 
@@ -353,10 +340,13 @@ fn task(arguments: &OptimizeArguments) -> Result<(TaskSpec, Option<Text>), Failu
             "--config {}: the machine's file has a task of its own; only one of the two can be given",
             path.display()
         ))),
-        (Some(path), None) => read(path).map(|(task, text)| (task, Some((path.clone(), text)))),
-        (None, beside) => Ok(beside
-            .map(|(task, file)| (task, Some(file)))
-            .unwrap_or_default()),
+        (Some(path), None) => {
+            let text = scene_file::text(path)?;
+            let task = scene_file::parse(path, &text)?;
+            Ok((task, Some((path.clone(), text))))
+        }
+        (None, Some((task, file))) => Ok((task, Some(file))),
+        (None, None) => Ok(Default::default()),
     }
 }
 
@@ -371,23 +361,4 @@ fn place(arguments: &OptimizeArguments, task: &TaskSpec) -> Option<PathBuf> {
                 _ => machine.clone(),
             });
     arguments.machine.machine.clone().or(of_task)
-}
-
-/// The machine at its place, changed as the task and the command line say.
-fn machine(
-    arguments: &OptimizeArguments,
-    task: &TaskSpec,
-    place: Option<PathBuf>,
-) -> Result<Machine, Failure> {
-    arguments.machine.refuse_start()?;
-    arguments.machine.machine_over(place, &task.set)
-}
-
-/// The task of a file and its text.
-///
-/// # Errors
-/// [`Failure::Usage`] naming the file, and line and key of what is wrong in it.
-fn read(path: &Path) -> Result<(TaskSpec, String), Failure> {
-    let text = scene_file::text(path)?;
-    Ok((scene_file::parse(path, &text)?, text))
 }

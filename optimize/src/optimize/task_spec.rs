@@ -155,7 +155,7 @@ fn requirements_schema() -> serde_json::Value {
             "additionalProperties": false,
             "anyOf": [{ "required": ["least"] }, { "required": ["most"] }]
         });
-        let value = match figure {
+        let any_of = match figure {
             Figure::RunUp => {
                 let positive = json!({ "type": "number", "exclusiveMinimum": 0 });
                 let ways = json!({
@@ -167,43 +167,46 @@ fn requirements_schema() -> serde_json::Value {
                     },
                     "additionalProperties": false
                 });
-                json!({ "anyOf": [{ "type": "boolean" }, number, ways], "description": figure.meaning() })
+                json!([{ "type": "boolean" }, number, ways])
             }
             Figure::Certainty | Figure::Share => {
-                let share = json!({ "type": "string", "pattern": "%\\s*$" });
-                json!({ "anyOf": [number, share, bounds], "description": figure.meaning() })
+                json!([number, { "type": "string", "pattern": "%\\s*$" }, bounds])
             }
-            _ => json!({ "anyOf": [number, bounds], "description": figure.meaning() }),
+            _ => json!([number, bounds]),
         };
+        let value = json!({ "anyOf": any_of, "description": figure.meaning() });
         (figure.name().to_owned(), value)
     };
     let mut figures: serde_json::Map<_, _> = Figure::ALL.iter().map(bound).collect();
-    figures.insert(
-        RESERVE.to_owned(),
-        json!({
-            "type": "number", "minimum": 1, "maximum": 10,
-            "description": "how many times as wide as the tolerances the box is that must hold"
-        }),
-    );
-    figures.insert(
-        SHARE.to_owned(),
-        json!({
-            "anyOf": [{ "type": "number", "minimum": 1e-5, "maximum": 0.5 }, { "type": "string", "pattern": "%\\s*$" }],
-            "description": "share of the machines with normal tolerances that may lose the motion or violate a requirement"
-        }),
-    );
     let range =
         json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
-    figures.insert(
-        STARTS.to_owned(),
-        json!({
-            "type": "object",
-            "properties": { "position": range, "velocity": range },
-            "required": ["position", "velocity"],
-            "additionalProperties": false,
-            "description": "box of starts of which certainty and integrity are told, at drive angle phi"
-        }),
-    );
+    let others = [
+        (
+            RESERVE,
+            json!({
+                "type": "number", "minimum": 1, "maximum": 10,
+                "description": "how many times as wide as the tolerances the box is that must hold"
+            }),
+        ),
+        (
+            SHARE,
+            json!({
+                "anyOf": [{ "type": "number", "minimum": 1e-5, "maximum": 0.5 }, { "type": "string", "pattern": "%\\s*$" }],
+                "description": "share of the machines with normal tolerances that may lose the motion or violate a requirement"
+            }),
+        ),
+        (
+            STARTS,
+            json!({
+                "type": "object",
+                "properties": { "position": range, "velocity": range },
+                "required": ["position", "velocity"],
+                "additionalProperties": false,
+                "description": "box of starts of which certainty and integrity are told, at drive angle phi"
+            }),
+        ),
+    ];
+    figures.extend(others.map(|(key, value)| (key.to_owned(), value)));
     json!({ "type": "object", "properties": figures, "additionalProperties": false })
 }
 

@@ -16,7 +16,7 @@ const DEVIATIONS: f64 = 3.0;
 /// `{ half_width = 1e-4, distribution = "normal", cpk = 1.33 }` or `{ sigma = 3e-5 }`.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Stated {
+struct ToleranceTable {
     half_width: Option<Value>,
     sigma: Option<Value>,
     distribution: Option<Shape>,
@@ -33,31 +33,19 @@ enum Shape {
     Normal,
 }
 
-impl Stated {
+impl ToleranceTable {
     /// The width as it is stated, and what it is the half of.
     fn read(self) -> Option<(Value, Distribution)> {
-        match self {
-            Self {
-                half_width: None,
-                sigma: Some(sigma),
-                distribution: None | Some(Shape::Normal),
-                cpk: None,
-            } => Some((sigma, Distribution::Normal(1.0))),
-            Self {
-                half_width: Some(half_width),
-                sigma: None,
-                distribution: Some(Shape::Normal),
-                cpk,
-            } => {
+        let shape = self.distribution;
+        match (self.half_width, self.sigma, self.cpk) {
+            (None, Some(sigma), None) if shape != Some(Shape::Box) => {
+                Some((sigma, Distribution::Normal(1.0)))
+            }
+            (Some(half_width), None, cpk) if shape == Some(Shape::Normal) => {
                 let cpk = Some(cpk.unwrap_or(1.0)).filter(|cpk| (0.1..=10.0).contains(cpk))?;
                 Some((half_width, Distribution::Normal(DEVIATIONS * cpk)))
             }
-            Self {
-                half_width: Some(half_width),
-                sigma: None,
-                distribution: None | Some(Shape::Box),
-                cpk: None,
-            } => Some((half_width, Distribution::Box)),
+            (Some(half_width), None, None) => Some((half_width, Distribution::Box)),
             _ => None,
         }
     }
@@ -73,8 +61,9 @@ pub(super) fn tolerances(machine: &Machine, table: &Table) -> Result<Vec<Toleran
         let wrong = |what: &str| Failure::usage(format!("tolerance.{name} = {said}: {what}"));
         let (stated, distribution) = match value {
             Value::Table(words) => {
-                let stated: Option<Stated> = read_words(&format!("tolerance.{name}"), words)?;
-                stated.and_then(Stated::read).ok_or_else(|| {
+                let stated: Option<ToleranceTable> =
+                    read_words(&format!("tolerance.{name}"), words)?;
+                stated.and_then(ToleranceTable::read).ok_or_else(|| {
                     wrong(
                         "must be { half_width = NUMBER, distribution = \"normal\", cpk = NUMBER }, Cpk from 0.1 to 10 and 1 \
                          if it is not stated, { half_width = NUMBER } or { sigma = NUMBER }",

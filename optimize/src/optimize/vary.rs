@@ -80,7 +80,7 @@ impl fmt::Display for Variable {
 /// `{ values = [5, 7, 9] }`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Listed {
+struct CatalogueTable {
     values: Vec<f64>,
 }
 
@@ -90,13 +90,14 @@ impl Values {
         let key = format!("vary.{key}");
         let range = || value.clone().try_into().ok().map(Self::Range);
         Ok(match value {
-            Value::Table(words) if words.contains_key("values") => {
-                read_words::<Listed>(&key, words)?.and_then(|Listed { mut values }| {
-                    values.sort_by(f64::total_cmp);
-                    values.dedup();
-                    (!values.is_empty()).then_some(Self::Catalogue(values))
-                })
-            }
+            Value::Table(words) if words.contains_key("values") => read_words::<CatalogueTable>(
+                &key, words,
+            )?
+            .and_then(|CatalogueTable { mut values }| {
+                values.sort_by(f64::total_cmp);
+                values.dedup();
+                (!values.is_empty()).then_some(Self::Catalogue(values))
+            }),
             Value::Table(words) => read_words(&key, words)?.map(Self::Follows),
             Value::Array(_) => range(),
             value => number(value).map(|held| Self::Range([held, held])),

@@ -22,7 +22,7 @@ pub(super) struct Bounds {
 /// `run_up = { ways = ["frequency_raised"], ramp_rate = 0.2 }`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Stated {
+struct RunUpTable {
     ways: Option<Vec<Way>>,
     ramp_rate: Option<f64>,
     force: Option<f64>,
@@ -42,7 +42,7 @@ pub(super) fn ways(
         return Ok((usual, None));
     };
     let usage = |what: &str| Failure::usage(format!("require.run_up{what}"));
-    let words: Stated = words
+    let words: RunUpTable = words
         .clone()
         .try_into()
         .map_err(|error: Error| usage(&format!(": {}", with_near_word(error.message()))))?;
