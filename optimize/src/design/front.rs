@@ -167,11 +167,13 @@ struct Tried {
 
 /// A design on the way from one that was found, or one near it that passes; none if there is none.
 fn tried(figure: Figure, (problem, candidate): &Bounded, found: &Found) -> Option<Tried> {
-    let (known, is_slow) = (&found.known, found.design.relative_decay() < 1.0);
-    // A share has no derivative: an ascent from it may lead back to the design that settles slowly.
-    let held = match figure == Figure::Certainty && is_slow {
-        true => keep_as_is(problem, candidate)?,
-        false => enforce(problem, candidate, known.clone()).ok()?,
+    let (known, is_of_share) = (&found.known, figure == Figure::Certainty);
+    // A share has no derivative: an ascent may lead back to the design, where to count starts may take minutes.
+    let as_is = is_of_share.then(|| keep_as_is(problem, candidate));
+    let held = match as_is.flatten() {
+        Some(held) => held,
+        None if is_of_share && found.design.relative_decay() < 1.0 => return None,
+        None => enforce(problem, candidate, known.clone()).ok()?,
     };
     let is_moved = !problem.passes(&held.candidate.design, known, ROUGH);
     let candidate = match is_moved {
