@@ -207,7 +207,8 @@ impl RangeCandidate {
             causes.reverse();
         }
         let [low, high] = [points[0].parameter, points[points.len() - 1].parameter];
-        if high - low <= ROUNDING * high {
+        // Each end is known to rounding.
+        if high - low <= 2.0 * ROUNDING * high {
             return None;
         }
         let [below, above] = causes;

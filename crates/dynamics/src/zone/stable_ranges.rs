@@ -32,7 +32,7 @@ const MAX_BRANCHES: usize = 200;
 /// At each of a row of frequencies all z = 1 motions are found; those that lie on no branch known so far are followed
 /// both ways, through folds. So branches that no motion at g0 leads to, isolas among them, come to light. Where a branch
 /// ends in a border collision, motions are looked for on both sides of it: what goes on there is another branch. Ranges narrower
-/// than 1e-9 of their frequency are left out: their ends are known no better, as at resonances with hardly any damping.
+/// than 2e-9 of their frequency are left out: each end is known to 1e-9, as at resonances with hardly any damping.
 ///
 /// # Errors
 /// [`ZoneError::Orbit`] for a scene that is none.
