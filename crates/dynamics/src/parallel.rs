@@ -1,4 +1,4 @@
-//! Work on all threads whose outcome does not depend on them, and which is charged to the [budget](softstop::internals::budget)
+//! Work on all threads whose outcome does not depend on them, and which is charged to the [`budget`]
 //! of the thread that asks for it. An iterator of `rayon` is compiled anew wherever it stands, some 2,000 lines of LLVM each;
 //! here the work is a `dyn Fn` and the threads are shared out in one place.
 
