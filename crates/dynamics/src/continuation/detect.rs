@@ -91,9 +91,9 @@ impl Continuation<'_> {
         Ok((share, Special { kind, point }))
     }
 
-    /// The two flips of a step on which a multiplier goes beyond -1 and comes back: at little damping, in narrow windows of
-    /// frequency. Either the multipliers meet on the negative real axis and part in the other sense, or the test falls at
-    /// first and rises at last, so steeply that its tangents meet below zero.
+    /// The two flips of a step on which a multiplier passes -1 and comes back, from either side of it: in narrow windows of
+    /// frequency. Either the multipliers meet on the negative real axis and part in the other sense, or the test approaches zero
+    /// at first and leaves it at last, so steeply that its tangents meet beyond zero.
     fn flips_there_and_back(
         &self,
         from: &Node<PeriodMap>,
@@ -102,6 +102,8 @@ impl Continuation<'_> {
         let value =
             |node: &Node<PeriodMap>| TestFunction::Flip.scaled_value(&node.here.point.monodromy);
         let [a, b] = [from, to].map(|node| &node.here.point.monodromy);
+        let side = value(from).signum();
+        let value = |node: &Node<PeriodMap>| side * value(node);
         let (begins, ends) = (value(from), value(to));
         if a.trace() > 0.0 || begins.min(ends) <= 0.0 {
             return Ok(Vec::new());
