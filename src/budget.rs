@@ -72,8 +72,8 @@ pub fn is_spent() -> bool {
     LEFT.get() == 0
 }
 
-/// Parts of one piece of work that go on several threads. Each may cost what was left before, and tells what it has cost; who
-/// charges them all in the end spends the budget or not as the work alone says, not the threads.
+/// Parts of one piece of work that go on several threads. Each may cost what was left before; all are charged together
+/// in the end. So whether the budget is spent depends on the work alone, not on the threads.
 #[derive(Debug)]
 pub struct SharedBudget {
     left: u64,
@@ -89,16 +89,20 @@ impl SharedBudget {
         }
     }
 
-    /// Does a part, on any thread; what came of it, and what it cost. Where the others have spent all, it has nothing: it is
-    /// discarded with them.
-    pub fn run_part<T>(&self, work: impl FnOnce() -> T) -> (T, u64) {
+    /// Does a part, on any thread. Where the others have spent all, it has nothing: it is discarded with them.
+    pub fn run_part<T>(&self, work: impl FnOnce() -> T) -> T {
         let is_open = self.spent.load(Ordering::Relaxed) < self.left;
         let (done, spent) = within(if is_open { self.left } else { 0 }, work);
         let add = |sum: u64| Some(sum.saturating_add(spent));
         let _ = self
             .spent
             .fetch_update(Ordering::Relaxed, Ordering::Relaxed, add);
-        (done, spent)
+        done
+    }
+
+    /// Charges what all parts have cost, once they have ended.
+    pub fn charge_parts(self) {
+        charge(self.spent.into_inner());
     }
 }
 
@@ -126,7 +130,8 @@ mod tests {
                 let fork = SharedBudget::of_this_thread();
                 let part = |cost| fork.run_part(|| charge(cost));
                 let ends = parts.map(part);
-                (ends.map(|(end, spent)| charge(spent) && end), is_spent())
+                fork.charge_parts();
+                (ends, is_spent())
             };
             within(10, all).0
         };

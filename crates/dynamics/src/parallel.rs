@@ -1,4 +1,4 @@
-//! Work on all threads whose outcome does not depend on them, and which is charged to the [`budget`]
+//! Work on all threads whose outcome does not depend on them, and which is charged to the [budget](softstop::internals::budget)
 //! of the thread that asks for it. An iterator of `rayon` is compiled anew wherever it stands, some 2,000 lines of LLVM each;
 //! here the work is a `dyn Fn` and the threads are shared out in one place.
 
@@ -6,33 +6,26 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use rayon::prelude::*;
-use softstop::internals::budget::{self, SharedBudget};
+use softstop::internals::budget::SharedBudget;
 
 /// Does work with each number below `count`.
 fn for_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
-    (0..count).into_par_iter().for_each(work);
-}
-
-/// The values of a function of the numbers below `count`, in order, each with what it costs, which is not charged.
-fn map_with_costs<T: Send + Sync>(
-    count: usize,
-    of: &(dyn Fn(usize) -> T + Sync),
-) -> impl Iterator<Item = (T, u64)> + use<T> {
     let budget = SharedBudget::of_this_thread();
-    let mut values: Vec<OnceLock<(T, u64)>> = Vec::new();
-    values.resize_with(count, OnceLock::new);
-    for_each(count, &|index| {
-        values[index].get_or_init(|| budget.run_part(|| of(index)));
-    });
-    values.into_iter().filter_map(OnceLock::into_inner)
+    let part = |index| budget.run_part(|| work(index));
+    (0..count).into_par_iter().for_each(part);
+    budget.charge_parts();
 }
 
 /// The values of a function of the numbers below `count`, in order.
 pub fn map_indices<T: Send + Sync>(count: usize, of: &(dyn Fn(usize) -> T + Sync)) -> Vec<T> {
+    let mut values: Vec<OnceLock<T>> = Vec::new();
+    values.resize_with(count, OnceLock::new);
+    for_each(count, &|index| {
+        values[index].get_or_init(|| of(index));
+    });
     let mut found = Vec::with_capacity(count);
-    for (value, cost) in map_with_costs(count, of) {
-        budget::charge(cost);
-        found.push(value);
+    for value in values {
+        found.extend(value.into_inner());
     }
     found
 }
@@ -54,8 +47,7 @@ pub fn filter_map<A: Sync, T: Send + Sync>(
     found
 }
 
-/// The values of a function of the numbers below `count`, in order; after a failure no larger ones are begun, and none is
-/// charged. Only where larger ones, begun before, spend the whole budget does it depend on the threads which failure comes first.
+/// The values of a function of the numbers below `count`, in order; after a failure no larger ones are begun.
 ///
 /// # Errors
 /// The failure at the least number that has one.
@@ -64,7 +56,7 @@ pub fn try_map_indices<T: Send + Sync, E: Send + Sync>(
     of: &(dyn Fn(usize) -> Result<T, E> + Sync),
 ) -> Result<Vec<T>, E> {
     let least_failed = AtomicUsize::new(usize::MAX);
-    let values = map_with_costs(count, &|index| {
+    let values = map_indices(count, &|index| {
         if index > least_failed.load(Ordering::Relaxed) {
             return None;
         }
@@ -75,11 +67,8 @@ pub fn try_map_indices<T: Send + Sync, E: Send + Sync>(
         Some(value)
     });
     let mut found = Vec::with_capacity(count);
-    for (value, cost) in values {
-        budget::charge(cost);
-        if let Some(value) = value {
-            found.push(value?);
-        }
+    for value in values.into_iter().flatten() {
+        found.push(value?);
     }
     Ok(found)
 }
@@ -129,7 +118,6 @@ mod tests {
     use std::time::Duration;
 
     use super::{filter_map, map, try_map};
-    use softstop::internals::budget::{charge, within};
 
     #[test]
     fn values_come_in_order_and_the_first_failure_ends_it() {
@@ -145,18 +133,15 @@ mod tests {
     }
 
     #[test]
-    fn the_first_failure_and_what_is_charged_do_not_depend_on_threads() {
+    fn the_first_failure_does_not_depend_on_threads() {
         let all: Vec<usize> = (0..100).collect();
-        let work = |it: &usize| {
-            charge(1);
-            match it {
-                0..30 => {
-                    thread::sleep(Duration::from_millis(1));
-                    Ok(())
-                }
-                _ => Err(*it),
+        let found = try_map(&all, |it| match it {
+            0..30 => {
+                thread::sleep(Duration::from_millis(1));
+                Ok(())
             }
-        };
-        assert_eq!(within(1000, || try_map(&all, work)), (Err(30), 31));
+            _ => Err(*it),
+        });
+        assert_eq!(found, Err(30));
     }
 }
