@@ -267,8 +267,8 @@ impl Constants {
         (self.rate_sixth_x, self.rate_sixth_v) = (scale * s * sixth.0, scale * s * sixth.1);
     }
 
-    /// Sets the distances from a guard, and the velocities there before and after an impact, below which rounding may decide:
-    /// the safe engine does. It tells faint bounces from rest only where it has seen the impact before them.
+    /// Sets the distances from a guard, and the velocities there, below which rounding may decide: the safe engine does. It tells
+    /// rest from a faint bounce by the velocity after the impact before, so velocities after an impact count, too.
     fn set_ambiguity(&mut self, fastest: f64) {
         let finite = |level: f64| if level.is_finite() { level.abs() } else { 0.0 };
         let size = finite(self.low)
@@ -276,9 +276,10 @@ impl Constants {
             .max(self.swing + self.offset.abs());
         self.ambiguity = AMBIGUOUS_DISTANCE * size;
         let ends = [(self.low, self.bounce_low), (self.high, self.bounce)].into_iter();
-        let kept = ends.filter(|(end, _)| end.is_finite());
-        let kept = kept.fold(1.0, |kept: f64, (_, bounce)| kept.min(bounce.abs()));
-        self.slow = AMBIGUOUS_SPEED * size * fastest / kept;
+        let walls = ends.filter(|(end, _)| end.is_finite());
+        let restitution = walls.fold(1.0, |least: f64, (_, bounce)| least.min(bounce.abs()));
+        // Where nothing is left after an impact, all are slow.
+        self.slow = (AMBIGUOUS_SPEED * size * fastest / restitution).min(f64::MAX);
         self.guard_scale = self.by_position.abs() + self.by_velocity.abs() * fastest;
     }
 

@@ -65,11 +65,12 @@ impl<'a> Trials<'a> {
         Self { problem, known }
     }
 
-    /// A design near one that does not pass its trials and passes them, good to a per cent or so: the best along the zones of a
-    /// few, and what linear models lead to from it alone, unless no zone holds one that passes.
+    /// A design near one that does not pass its trials and passes them, good to a per cent or so: the best along the zones of the
+    /// design and of some with wider margins, improved by linear models; only if none passes, linear models start from each.
     pub(super) fn nearby(&self, from: &Candidate) -> Option<Candidate> {
-        let along_zones = self.improve(&self.starts(from), None);
-        along_zones.or_else(|| self.first(from))
+        let starts = self.starts(from);
+        let along_zones = self.improve(&starts, None);
+        along_zones.or_else(|| self.improve(&starts, Some(self.best_led_to(&starts)?)))
     }
 
     fn score(&self, design: &Design) -> f64 {
@@ -107,12 +108,10 @@ impl<'a> Trials<'a> {
         Some(best)
     }
 
-    /// The best of the zone of a design, of those with wider margins, and of what linear models of the share of starts lead
-    /// to from each, if that is required.
+    /// As [`Trials::nearby`], but from what linear models lead to from each first.
     fn first(&self, from: &Candidate) -> Option<Candidate> {
         let starts = self.starts(from);
-        let passing = parallel::filter_map(&starts, |it| self.led_to(it));
-        self.improve(&starts, self.better_of(passing))
+        self.improve(&starts, self.best_led_to(&starts))
     }
 
     /// A design, and those with wider margins to which the search leads from it.
@@ -139,7 +138,12 @@ impl<'a> Trials<'a> {
         certain(self.problem, start, goal).filter(|it| self.passes(it))
     }
 
-    /// The best of one that is known, of those along the zones of some designs, and of what linear models lead to from it.
+    /// The best of the designs to which linear models of the share of starts lead from some, if that is required.
+    fn best_led_to(&self, starts: &[Candidate]) -> Option<Candidate> {
+        self.better_of(parallel::filter_map(starts, |it| self.led_to(it)))
+    }
+
+    /// The best of a known design and of those along the zones of some, or what linear models lead to from it, if that is better.
     fn improve(&self, starts: &[Candidate], known: Option<Candidate>) -> Option<Candidate> {
         let units: Vec<_> = starts.iter().map(|it| it.unit.clone()).collect();
         let best = self.best_of(&units, known.as_ref()).or(known)?;

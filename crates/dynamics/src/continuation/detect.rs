@@ -146,17 +146,19 @@ impl Continuation<'_> {
         if a == b && before == after {
             return Ok(Vec::new());
         }
-        let touches = Face::ALL.map(|face| {
+        let touches_of_faces = Face::ALL.map(|face| {
             let [a, b] = [before, after].map(|(faces, _)| faces[face as usize]);
             a.abs_diff(b).div_ceil(MAX_TOUCH_CROSSINGS)
         });
-        let all: usize = touches.iter().sum();
+        let touches: usize = touches_of_faces.iter().sum();
         let is_whole = |graze: &Graze| {
             let own = match graze.is_symmetric {
-                true => all,
-                false => touches[graze.face as usize],
+                true => touches,
+                false => touches_of_faces[graze.face as usize],
             };
-            own == all && all <= 1 + usize::from(graze.is_symmetric) && graze.crossings == a.min(b)
+            own == touches
+                && touches <= 1 + usize::from(graze.is_symmetric)
+                && graze.crossings == a.min(b)
         };
         let (found, is_whole) = self.grazes_of_ends((from, to), 0.0, is_whole)?;
         let least = (4.0 * f64::EPSILON * to.at.norm()).max(self.settings.smallest_step);
@@ -175,8 +177,8 @@ impl Continuation<'_> {
         Ok(grazes)
     }
 
-    /// The grazings between two nodes, or as many of their distances beyond them, that Newton's method reaches from them: the
-    /// first that is the whole difference, and whether it is, or one at each face.
+    /// The grazing orbits that Newton's method reaches from either of two nodes, between them or within as many of their distances
+    /// beyond: the one that accounts for all crossings by which they differ, and true, or the first of each face, and false.
     pub(super) fn grazes_of_ends(
         &self,
         (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
@@ -208,6 +210,10 @@ impl Continuation<'_> {
                 if !faces.contains(&graze.face) {
                     faces.push(graze.face);
                     found.push((share, special));
+                }
+                // Past a corner the steps that follow find the others.
+                if beyond > 0.0 {
+                    break;
                 }
             }
         }

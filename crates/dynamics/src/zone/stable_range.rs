@@ -182,30 +182,31 @@ impl RangeCandidate {
         }
     }
 
-    /// The stable range, if the motions between the ends of the part are stable and have one impact, and the ends are told apart.
+    /// The stable range, if most motions between the ends of the part are stable, all have one impact, and the ends are told apart.
     fn into_range(self, continuation: &Continuation<'_>, ends: RangeEnd) -> Option<StableRange> {
         let Self { begins, mut points } = self;
         let end = points.pop()?;
         let mut inner = points.split_off(points.len().min(1));
         let begin = points.pop()?;
         let middle = 0.5 * (begin.parameter + end.parameter);
+        let off = |point: &BranchPoint| (point.parameter - middle).abs();
+        // At hardly any damping rounding puts motions beyond an end, and onto the other side of it: most of them tell.
+        inner.retain(|point| off(point) <= off(&end));
         // Both ends may lie on one step.
         if inner.is_empty() {
             inner.push(continuation.point_between(&begin, &end, middle).ok()?);
         }
-        // No test passes zero in between, but at hardly any damping rounding puts motions onto the other side of an end.
         let stable = inner.iter().filter(|point| point.is_stable()).count();
         if 2 * stable <= inner.len() || inner.iter().any(|point| point.impacts.len() != 1) {
             return None;
         }
-        let off = |point: &BranchPoint| (point.parameter - middle).abs();
-        inner.retain(|point| point.is_stable() && off(point) <= off(&end));
+        inner.retain(BranchPoint::is_stable);
         let mut points = [vec![begin], inner, vec![end]].concat();
         let mut causes = [begins, ends];
         if points[0].parameter > points[points.len() - 1].parameter {
-            points.reverse();
             causes.reverse();
         }
+        points.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
         let [low, high] = [points[0].parameter, points[points.len() - 1].parameter];
         // Each end is known to rounding.
         if high - low <= 2.0 * ROUNDING * high {
