@@ -72,7 +72,7 @@ mod tests {
                 value: function(at),
                 state: (),
             };
-            let found = locate_rise([probe(0.0), probe(1.0)], 1e-15, 1e-16, |at| {
+            let found = locate_rise([probe(0.0), probe(1.0)], 1e-15, 1e-18, |at| {
                 Ok::<_, ()>((function(at), ()))
             });
             let at = found.expect("a zero").at;
