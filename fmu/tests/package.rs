@@ -135,7 +135,7 @@ fn packed_library_has_its_own_name_and_values() {
     fs::write(&path, entry(&archive, &name)).expect("a written library");
     let guids = [guid, library_guid().expect("a GUID")];
     let guids = guids.map(|guid| CString::new(guid).expect("no NUL"));
-    // SAFETY: the library is ours, and the types are those of the standard (see abi.rs).
+    // SAFETY: the library is ours, and the types are those of the standard.
     unsafe {
         let library = libloading::Library::new(&path).expect("a library that loads");
         let instantiate = library

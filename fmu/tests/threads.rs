@@ -1,12 +1,14 @@
 //! Instances that wander between threads: made in one, stepped in others, freed in the last.
 #![allow(unsafe_code, reason = "calls the C functions as an importer does")]
 
+use std::ops::Range;
 use std::thread;
 
 use crate::common::{OK, Unit};
 
 const THREADS: usize = 4;
-const UNITS: usize = 200;
+/// Units of each.
+const SHARE: usize = 50;
 const STEPS: usize = 30;
 
 /// An instance on its way to another thread.
@@ -24,8 +26,8 @@ fn make(number: usize) -> Parcel {
     Parcel(unit)
 }
 
-fn advance(Parcel(unit): &Parcel, from: usize, to: usize) {
-    for k in from..to {
+fn advance(Parcel(unit): &Parcel, steps: Range<usize>) {
+    for k in steps {
         assert_eq!(unit.set("force", 0.01 * (k % 7) as f64), OK);
         assert_eq!(unit.step(0.7 * k as f64, 0.7), OK);
     }
@@ -39,55 +41,48 @@ fn outputs(Parcel(unit): &Parcel) -> Vec<u64> {
         "energy.dissipated",
         "impact.time",
     ];
-    let values = names.map(|name| unit.get(name).to_bits());
     assert!(unit.take_log().is_empty());
-    values.to_vec()
+    names.map(|name| unit.get(name).to_bits()).to_vec()
 }
 
-/// Runs `work` on shares of the units in several threads; the shares come back in order.
-fn in_threads<T: Send, U: Send>(all: Vec<T>, work: impl Fn(T) -> U + Sync) -> Vec<U> {
-    let mut shares: Vec<Vec<T>> = (0..THREADS).map(|_| Vec::new()).collect();
-    for (number, one) in all.into_iter().enumerate() {
-        shares[number % THREADS].push(one);
-    }
-    let done = thread::scope(|scope| {
-        let running: Vec<_> = shares
+/// Units of one thread each, made by it.
+fn made_in_threads() -> Vec<Parcel> {
+    thread::scope(|scope| {
+        let share = |thread: usize| (thread * SHARE..(thread + 1) * SHARE).map(make);
+        let spawn = |thread| scope.spawn(move || share(thread).collect::<Vec<_>>());
+        let running: Vec<_> = (0..THREADS).map(spawn).collect();
+        let made = running
             .into_iter()
-            .map(|share| scope.spawn(|| share.into_iter().map(&work).collect::<Vec<_>>()))
-            .collect();
-        running
-            .into_iter()
-            .map(|thread| thread.join().expect("no panic"))
-            .collect::<Vec<_>>()
-    });
-    let mut shares: Vec<_> = done.into_iter().map(Vec::into_iter).collect();
-    let count = shares.iter().map(|share| share.len()).sum();
-    (0..count)
-        .map(|number| shares[number % THREADS].next().expect("as many as before"))
-        .collect()
+            .map(|thread| thread.join().expect("no panic"));
+        made.flatten().collect()
+    })
 }
 
 #[test]
 fn results_do_not_depend_on_threads() {
-    let alone: Vec<_> = (0..UNITS)
+    let alone: Vec<_> = (0..THREADS * SHARE)
         .map(|number| {
             let unit = make(number);
-            advance(&unit, 0, STEPS);
+            advance(&unit, 0..STEPS);
             outputs(&unit)
         })
         .collect();
     assert_ne!(alone[0], alone[1]);
 
-    let mut units = in_threads((0..UNITS).collect(), make);
+    let mut units = made_in_threads();
     // Each turn hands every unit to another thread.
     for turn in 0..3 {
-        units.rotate_left(1);
-        units = in_threads(units, |unit| {
-            advance(&unit, STEPS * turn / 3, STEPS * (turn + 1) / 3);
-            unit
+        units.rotate_left(SHARE);
+        let steps = STEPS * turn / 3..STEPS * (turn + 1) / 3;
+        thread::scope(|scope| {
+            for share in units.chunks_mut(SHARE) {
+                let steps = steps.clone();
+                scope.spawn(move || share.iter_mut().for_each(|it| advance(it, steps.clone())));
+            }
         });
     }
-    units.rotate_right(3);
-    let together = in_threads(units, |unit| outputs(&unit));
+    units.rotate_right(3 * SHARE);
+    let freed = thread::spawn(move || units.into_iter().map(|unit| outputs(&unit)).collect());
+    let together: Vec<_> = freed.join().expect("no panic");
     assert!(together == alone);
 }

@@ -4,13 +4,33 @@
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 
+use softstop_fmi::Row;
 use softstop_fmi::variable::Kind;
 use softstop_fmi2::*;
-use softstop_fmu::{library_guid, table};
+use softstop_fmu::{Machine, library_guid, table};
 
 pub const OK: c_int = 0;
 pub const DISCARD: c_int = 2;
 pub const ERROR: c_int = 3;
+
+/// What may come of a call.
+pub type Statuses = &'static [c_int];
+
+/// A call is carried out if all of these hold, else refused.
+pub fn if_all(conditions: &[bool]) -> Statuses {
+    match conditions.iter().all(|holds| *holds) {
+        true => &[OK],
+        false => &[ERROR],
+    }
+}
+
+/// Name and status of a C call.
+macro_rules! call {
+    ($function:ident($($argument:expr),* $(,)?)) => {
+        (stringify!($function), $function($($argument),*))
+    };
+}
+pub(crate) use call;
 
 /// All real outputs.
 pub const OUTPUTS: [&str; 9] = [
@@ -62,6 +82,30 @@ pub fn callbacks(log: *mut Log) -> CallbackFunctions {
     }
 }
 
+/// What an importer says when it asks for an instance.
+#[derive(Debug, Clone)]
+pub struct Birth {
+    pub name: Option<&'static CStr>,
+    pub kind: c_int,
+    pub guid: Option<String>,
+    pub has_callbacks: bool,
+    pub has_logger: bool,
+    pub logging_on: bool,
+}
+
+impl Birth {
+    pub fn plain() -> Self {
+        Self {
+            name: Some(c"unit"),
+            kind: 1,
+            guid: library_guid(),
+            has_callbacks: true,
+            has_logger: true,
+            logging_on: false,
+        }
+    }
+}
+
 /// An instance of the unit, made and freed through the C functions.
 pub struct Unit {
     pub component: *mut c_void,
@@ -70,20 +114,25 @@ pub struct Unit {
 
 impl Unit {
     pub fn new() -> Self {
-        let guid = library_guid().expect("a GUID");
-        Self::with(Some("unit"), 1, Some(&guid)).expect("an instance")
+        Self::born(&Birth::plain()).expect("an instance")
     }
 
     /// The instance, or the log of its refusal.
-    pub fn with(name: Option<&str>, kind: c_int, guid: Option<&str>) -> Result<Self, Vec<String>> {
+    pub fn born(birth: &Birth) -> Result<Self, Vec<String>> {
         let log = Box::into_raw(Box::<Log>::default());
-        let strings = [name, guid].map(|text| text.map(|t| CString::new(t).expect("no NUL")));
-        let [name, guid] = strings
-            .each_ref()
-            .map(|s| s.as_ref().map_or(ptr::null(), |s| s.as_ptr()));
-        let functions = callbacks(log);
+        let name = birth.name.map_or(ptr::null(), CStr::as_ptr);
+        let guid = birth.guid.as_deref();
+        let guid = guid.map(|guid| CString::new(guid).expect("no NUL"));
+        let guid = guid.as_ref().map_or(ptr::null(), |guid| guid.as_ptr());
+        let mut functions = callbacks(log);
+        functions.logger = functions.logger.filter(|_| birth.has_logger);
+        let functions = match birth.has_callbacks {
+            true => &raw const functions,
+            false => ptr::null(),
+        };
+        let (kind, logging_on) = (birth.kind, birth.logging_on.into());
         let component =
-            unsafe { fmi2Instantiate(name, kind, guid, ptr::null(), &raw const functions, 0, 0) };
+            unsafe { fmi2Instantiate(name, kind, guid, ptr::null(), functions, 0, logging_on) };
         let unit = Self { component, log };
         if component.is_null() {
             Err(unit.take_log())
@@ -128,28 +177,24 @@ impl Unit {
     }
 
     pub fn set(&self, name: &str, value: f64) -> c_int {
-        let reference = reference(name);
-        unsafe { fmi2SetReal(self.component, &raw const reference, 1, &raw const value) }
+        let variable = variable(name);
+        let (component, of, number) = (
+            self.component,
+            &raw const variable.reference,
+            value as c_int,
+        );
+        unsafe {
+            match variable.kind {
+                Kind::Real(_) => fmi2SetReal(component, of, 1, &raw const value),
+                Kind::Boolean => fmi2SetBoolean(component, of, 1, &raw const number),
+                _ => fmi2SetInteger(component, of, 1, &raw const number),
+            }
+        }
     }
 
-    pub fn set_integer(&self, name: &str, value: c_int) -> c_int {
-        let reference = reference(name);
-        unsafe { fmi2SetInteger(self.component, &raw const reference, 1, &raw const value) }
-    }
-
-    pub fn set_boolean(&self, name: &str, value: c_int) -> c_int {
-        let reference = reference(name);
-        unsafe { fmi2SetBoolean(self.component, &raw const reference, 1, &raw const value) }
-    }
-
-    /// Sets values of any type.
     pub fn set_all(&self, values: &[(&str, f64)]) {
         for (name, value) in values {
-            let status = match table().by_name(name).expect("a variable").kind {
-                Kind::Real(_) => self.set(name, *value),
-                Kind::Boolean => self.set_boolean(name, *value as c_int),
-                _ => self.set_integer(name, *value as c_int),
-            };
+            let status = self.set(name, *value);
             assert_eq!(status, OK, "{name}: {:?}", self.take_log());
         }
     }
@@ -175,27 +220,31 @@ impl Unit {
         time
     }
 
+    pub fn step_status(&self) -> c_int {
+        let mut status = -1;
+        let asked = unsafe { fmi2GetStatus(self.component, 0, &raw mut status) };
+        assert_eq!(asked, OK);
+        status
+    }
+
     pub fn get(&self, name: &str) -> f64 {
-        let (reference, mut value) = (reference(name), f64::NAN);
-        let status =
-            unsafe { fmi2GetReal(self.component, &raw const reference, 1, &raw mut value) };
-        assert_eq!(status, OK, "{:?}", self.take_log());
-        value
-    }
-
-    pub fn get_integer(&self, name: &str) -> c_int {
-        let (reference, mut value) = (reference(name), -1);
-        let status =
-            unsafe { fmi2GetInteger(self.component, &raw const reference, 1, &raw mut value) };
-        assert_eq!(status, OK, "{:?}", self.take_log());
-        value
-    }
-
-    pub fn get_boolean(&self, name: &str) -> c_int {
-        let (reference, mut value) = (reference(name), -1);
-        let status =
-            unsafe { fmi2GetBoolean(self.component, &raw const reference, 1, &raw mut value) };
-        assert_eq!(status, OK, "{:?}", self.take_log());
+        let variable = variable(name);
+        let (component, of) = (self.component, &raw const variable.reference);
+        let (mut real, mut number) = (f64::NAN, -1);
+        let (status, value) = unsafe {
+            match variable.kind {
+                Kind::Real(_) => (fmi2GetReal(component, of, 1, &raw mut real), real),
+                Kind::Boolean => (
+                    fmi2GetBoolean(component, of, 1, &raw mut number),
+                    number.into(),
+                ),
+                _ => (
+                    fmi2GetInteger(component, of, 1, &raw mut number),
+                    number.into(),
+                ),
+            }
+        };
+        assert_eq!(status, OK, "{name}: {:?}", self.take_log());
         value
     }
 
@@ -250,15 +299,20 @@ impl Unit {
 
     /// Its state as bytes.
     pub fn serialized(&self) -> Vec<u8> {
-        let (state, mut size) = (self.keep(), 0);
+        let state = self.keep();
+        let bytes = self.bytes_of(state);
+        self.free(state);
+        bytes
+    }
+
+    pub fn bytes_of(&self, state: *mut c_void) -> Vec<u8> {
+        let (component, mut size) = (self.component, 0);
         unsafe {
-            let status = fmi2SerializedFMUstateSize(self.component, state, &raw mut size);
+            let status = fmi2SerializedFMUstateSize(component, state, &raw mut size);
             assert_eq!(status, OK);
-            let mut bytes = vec![0u8; size];
-            let place = bytes.as_mut_ptr().cast::<c_char>();
-            let status = fmi2SerializeFMUstate(self.component, state, place, size);
+            let mut bytes = vec![0xAAu8; size];
+            let status = fmi2SerializeFMUstate(component, state, bytes.as_mut_ptr().cast(), size);
             assert_eq!(status, OK);
-            self.free(state);
             bytes
         }
     }
@@ -290,6 +344,15 @@ impl Drop for Unit {
     }
 }
 
+/// Makes a state one of another FMU, or one of this FMU again: its GUID begins there.
+pub fn switch_guid(state: *mut c_void) {
+    unsafe { *state.cast::<u8>().add(8) ^= 1 };
+}
+
+pub fn variable(name: &str) -> &'static Row<Machine> {
+    table().by_name(name).expect("a variable")
+}
+
 pub fn reference(name: &str) -> u32 {
-    table().by_name(name).expect("a variable").reference
+    variable(name).reference
 }

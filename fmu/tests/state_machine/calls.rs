@@ -2,7 +2,7 @@
 
 use std::ffi::c_int;
 
-use softstop_fmu::table;
+use crate::common::Birth;
 
 /// Instances and snapshots that a sequence works with.
 pub const UNITS: usize = 3;
@@ -16,26 +16,31 @@ pub enum Null {
     Second,
 }
 
+impl Null {
+    /// The pointer to the first argument.
+    pub fn first<T>(self, pointer: *const T) -> *const T {
+        self.unless(Self::First, pointer)
+    }
+
+    /// The pointer to the second argument.
+    pub fn second<T>(self, pointer: *const T) -> *const T {
+        self.unless(Self::Second, pointer)
+    }
+
+    fn unless<T>(self, place: Self, pointer: *const T) -> *const T {
+        match self == place {
+            true => std::ptr::null(),
+            false => pointer,
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Type {
     Real,
     Integer,
     Boolean,
     String,
-}
-
-/// How an instance is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Birth {
-    Plain,
-    LoggingOn,
-    NoCallbacks,
-    NoLogger,
-    NullName,
-    EmptyName,
-    NullGuid,
-    OtherGuid,
-    Kind(c_int),
 }
 
 /// Where a step is said to begin.
@@ -97,8 +102,4 @@ pub enum Call {
     DoStep(Point, f64),
     CancelStep,
     Status(StatusOf, c_int, Null),
-}
-
-pub fn reference(name: &str) -> u32 {
-    table().by_name(name).expect("a variable").reference
 }

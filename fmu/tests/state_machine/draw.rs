@@ -6,7 +6,10 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use super::calls::{Birth, Call, Damage, Null, Point, STATES, StatusOf, Type, UNITS, reference};
+use softstop_fmu::library_guid;
+
+use super::calls::{Call, Damage, Null, Point, STATES, StatusOf, Type, UNITS};
+use crate::common::{Birth, reference};
 
 fn null() -> impl Strategy<Value = Null> {
     prop_oneof![20 => Just(Null::Nothing), 1 => Just(Null::First), 1 => Just(Null::Second)]
@@ -189,14 +192,26 @@ fn step() -> impl Strategy<Value = Call> {
 }
 
 fn birth() -> impl Strategy<Value = Call> {
-    prop_oneof![
-        12 => Just(Birth::Plain),
-        4 => Just(Birth::LoggingOn),
-        2 => select(vec![Birth::NoCallbacks, Birth::NoLogger]),
-        1 => select(vec![Birth::NullName, Birth::EmptyName, Birth::NullGuid, Birth::OtherGuid]),
-        1 => select(vec![Birth::Kind(0), Birth::Kind(2), Birth::Kind(-1), Birth::Kind(c_int::MAX)]),
-    ]
-    .prop_map(Call::Instantiate)
+    let names = prop_oneof![18 => Just(Some(c"unit")), 1 => Just(None), 1 => Just(Some(c""))];
+    let kinds = prop_oneof![18 => Just(1), 1 => select(vec![0, 2, -1, c_int::MAX])];
+    let guids = prop_oneof![
+        18 => Just(library_guid()),
+        1 => select(vec![None, Some("{other}".to_owned())]),
+    ];
+    let usually = || proptest::bool::weighted(0.9);
+    let parts = (names, kinds, guids, usually(), usually(), any::<bool>());
+    parts.prop_map(
+        |(name, kind, guid, has_callbacks, has_logger, logging_on)| {
+            Call::Instantiate(Birth {
+                name,
+                kind,
+                guid,
+                has_callbacks,
+                has_logger,
+                logging_on,
+            })
+        },
+    )
 }
 
 fn life() -> impl Strategy<Value = Call> {

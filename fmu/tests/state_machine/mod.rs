@@ -11,66 +11,41 @@ mod perform;
 mod probe;
 mod slot;
 mod snapshots;
-mod variables;
 mod world;
 
-use std::ffi::c_void;
-
-use crate::common::OK;
-use calls::{Call, UNITS};
-use perform::perform;
+use crate::common::{OK, Unit};
+use calls::Call;
 use probe::{Probe, silent};
-use softstop_fmi2::*;
 use world::World;
 
 /// Three steps from the beginning: all that can be read after each.
-fn three_steps(probe: &Probe, component: *mut c_void) -> Vec<Vec<(i32, u64)>> {
-    for call in [
-        Call::Reset,
-        Call::SetupExperiment(None, 0.0, None),
-        Call::EnterInitializationMode,
-        Call::ExitInitializationMode,
-    ] {
-        assert_eq!(perform(component, &call).0, OK, "{call:?}");
-    }
-    (0..3)
-        .map(|k| {
-            // SAFETY: the instance is alive.
-            let status = unsafe { fmi2DoStep(component, 4.0 * f64::from(k), 4.0, 1) };
-            assert_eq!(status, OK);
-            probe.everything(component)
-        })
-        .collect()
+fn three_steps(probe: &Probe, unit: &Unit) -> Vec<Vec<(i32, Vec<u64>)>> {
+    assert_eq!(unit.reset(), OK);
+    unit.begin();
+    let steps = (0..3).map(|k| {
+        assert_eq!(unit.step(4.0 * f64::from(k), 4.0), OK);
+        probe.everything(unit)
+    });
+    steps.collect()
 }
 
 impl World {
-    /// Each unit is as its shadow, and after a reset as a fresh one; then everything is freed.
-    fn end(mut self) {
+    /// Each unit is as its shadow, and after a reset as a fresh one; snapshots are freed.
+    fn end(self) {
         let fresh = silent();
-        let expected = three_steps(&self.probe, fresh);
+        let expected = three_steps(&self.probe, &fresh);
         for slot in self.units.iter().flatten() {
-            let own = self.probe.everything(slot.component);
-            let same = own == self.probe.everything(slot.shadow);
-            assert!(
-                same,
-                "a read or a refused call left a trace: {:?}",
-                slot.model
-            );
-            assert!(
-                three_steps(&self.probe, slot.component) == expected,
-                "reset is not fresh"
-            );
+            let own = self.probe.everything(&slot.unit);
+            let same = own == self.probe.everything(&slot.shadow);
+            let model = &slot.model;
+            assert!(same, "a read or a refused call left a trace: {model:?}");
+            let again = three_steps(&self.probe, &slot.unit);
+            assert!(again == expected, "reset is not fresh");
         }
-        for mut kept in self.states.iter_mut().filter_map(Option::take) {
-            // SAFETY: each snapshot is freed once, by any instance.
-            unsafe {
-                assert_eq!(fmi2FreeFMUstate(fresh, &raw mut kept.state), OK);
-                assert_eq!(fmi2FreeFMUstate(fresh, &raw mut kept.shadow), OK);
-            }
+        for kept in self.states.into_iter().flatten() {
+            fresh.free(kept.state);
+            fresh.free(kept.shadow);
         }
-        (0..UNITS).for_each(|index| self.free(index));
-        // SAFETY: made above and freed once.
-        unsafe { fmi2FreeInstance(fresh) };
     }
 }
 
@@ -80,9 +55,6 @@ impl World {
 /// If one does other than the model says.
 pub fn run(calls: &[(usize, Call)]) {
     let mut world = World::new();
-    for index in 0..UNITS {
-        world.run(index, &Call::Instantiate(calls::Birth::Plain));
-    }
     for (index, call) in calls {
         world.run(*index, call);
     }

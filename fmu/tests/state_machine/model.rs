@@ -2,19 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use softstop_fmi::variable::Access;
-use softstop_fmu::{StartValues, table};
+use softstop_fmi::Row;
+use softstop_fmi::variable::{Access, Kind};
+use softstop_fmu::{Machine, StartValues, library_guid, table};
 
-use super::calls::{Call, Null, StatusOf, Type, reference};
-use super::variables::{find, in_range, is_initial};
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Expected {
-    Ok,
-    Refused,
-    /// Whether a derivative by the initial state is there depends on the motion.
-    Either,
-}
+use super::calls::{Call, Null, StatusOf, Type};
+use crate::common::{Birth, ERROR, OK, Statuses, if_all, reference};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Life {
@@ -49,11 +42,45 @@ pub struct Model {
     pub material: bool,
 }
 
-fn if_all(conditions: &[bool]) -> Expected {
-    if conditions.iter().all(|holds| *holds) {
-        Expected::Ok
-    } else {
-        Expected::Refused
+pub fn is(kind: &Kind, wanted: Type) -> bool {
+    match kind {
+        Kind::Real(_) => wanted == Type::Real,
+        Kind::Count { .. } | Kind::Enumeration(_) => wanted == Type::Integer,
+        Kind::Boolean => wanted == Type::Boolean,
+    }
+}
+
+fn find(reference: u32, wanted: Type) -> Option<&'static Row<Machine>> {
+    let row = table().by_reference(reference);
+    row.filter(|row| is(&row.kind, wanted))
+}
+
+fn is_in_range(kind: &Kind, value: f64) -> bool {
+    match kind {
+        Kind::Real(_) => kind.contains(value),
+        Kind::Count { min, max } => {
+            value >= f64::from(*min) && max.is_none_or(|max| value <= f64::from(max))
+        }
+        Kind::Enumeration(items) => items.items.iter().any(|i| f64::from(i.value) == value),
+        Kind::Boolean => true,
+    }
+}
+
+fn is_initial(vr: u32) -> bool {
+    ["initial.position", "initial.velocity"]
+        .map(reference)
+        .contains(&vr)
+}
+
+/// What the refusal of an instance is about.
+pub fn refusal(birth: &Birth) -> Option<String> {
+    let name = birth.name.filter(|name| !name.is_empty());
+    match &birth.guid {
+        _ if name.is_none() => Some("instanceName".to_owned()),
+        None => Some("fmuGUID".to_owned()),
+        _ if birth.kind != 1 => Some(format!("fmuType = {}", birth.kind)),
+        own if *own == library_guid() => None,
+        other => other.clone(),
     }
 }
 
@@ -110,7 +137,7 @@ impl Model {
     }
 
     /// What will come of a call on the instance alone; the mass is at `position`.
-    pub fn expected(&self, call: &Call, position: f64) -> Expected {
+    pub fn expected(&self, call: &Call, position: f64) -> Statuses {
         match call {
             Call::SetDebugLogging(_, names, null) => if_all(&[
                 names.is_empty() || *null != Null::First,
@@ -129,7 +156,7 @@ impl Model {
                 if_all(&[self.life == Life::Initializing, self.is_sound()])
             }
             Call::Terminate => if_all(&[self.life == Life::Running]),
-            Call::Reset => Expected::Ok,
+            Call::Reset => &[OK],
             Call::Get(kind, references, null) => self.get(*kind, references, *null),
             Call::Set(kind, pairs, null) => self.set(*kind, pairs, *null, position),
             Call::Directional(unknowns, knowns, null) => self.directional(unknowns, knowns, *null),
@@ -161,12 +188,12 @@ impl Model {
                     (StatusOf::Step, 0) | (StatusOf::Real, 2) | (StatusOf::Boolean, 3)
                 ),
             ]),
-            Call::CancelStep => Expected::Refused,
+            Call::CancelStep => &[ERROR],
             other => unreachable!("{other:?} is judged elsewhere"),
         }
     }
 
-    fn get(&self, kind: Type, references: &[u32], null: Null) -> Expected {
+    fn get(&self, kind: Type, references: &[u32], null: Null) -> Statuses {
         let outputs = references.iter().any(|vr| {
             table()
                 .by_reference(*vr)
@@ -179,13 +206,13 @@ impl Model {
         ])
     }
 
-    fn set(&self, kind: Type, pairs: &[(u32, f64)], null: Null, position: f64) -> Expected {
+    fn set(&self, kind: Type, pairs: &[(u32, f64)], null: Null, position: f64) -> Statuses {
         if kind == Type::String {
             return if_all(&[pairs.is_empty()]);
         }
         let may_be_set = |(vr, value): &(u32, f64)| {
             find(*vr, kind).is_some_and(|variable| {
-                in_range(&variable.kind, *value)
+                is_in_range(&variable.kind, *value)
                     && match variable.access {
                         Access::Parameter { tunable, .. } => tunable || self.life != Life::Running,
                         Access::Signal(_) | Access::Input(_) => true,
@@ -204,7 +231,7 @@ impl Model {
         ])
     }
 
-    fn directional(&self, unknowns: &[u32], knowns: &[(u32, f64)], null: Null) -> Expected {
+    fn directional(&self, unknowns: &[u32], knowns: &[(u32, f64)], null: Null) -> Statuses {
         let output = |vr: &u32| find(*vr, Type::Real).is_some_and(|variable| variable.is_output());
         let known = |(vr, seed): &(u32, f64)| {
             seed.is_finite()
@@ -222,14 +249,14 @@ impl Model {
             knowns.iter().all(known),
         ]);
         let by_start = knowns.iter().any(|(vr, _)| is_initial(*vr));
-        if answered == Expected::Ok && by_start && self.life != Life::Initializing {
-            return Expected::Either;
+        if answered == [OK] && by_start && self.life != Life::Initializing {
+            return &[OK, ERROR];
         }
         answered
     }
 
     /// Whether a step from `point` is carried out.
-    pub fn expected_step(&self, point: f64, size: f64) -> Expected {
+    pub fn expected_step(&self, point: f64, size: f64) -> Statuses {
         let end = point + size;
         // The unit's contract: within a billionth of the time, and half a step at most.
         let counting = 1e-9 * self.time.abs().max(1.0);

@@ -1,111 +1,71 @@
 //! All that can be read of an instance, read without touching it.
 
-use std::ffi::c_void;
-use std::ptr;
-
-use softstop_fmi::variable::Kind;
 use softstop_fmi2::*;
-use softstop_fmu::{library_guid, table};
+use softstop_fmu::table;
 
-use super::calls::{Call, Null, Type, reference};
+use super::calls::{Call, Null, Type};
+use super::model::is;
 use super::perform::perform;
+use crate::common::{Birth, OK, Unit, reference};
 
 /// An instance without a log.
-pub fn silent() -> *mut c_void {
-    let guid = std::ffi::CString::new(library_guid().expect("a GUID")).expect("no NUL");
-    // SAFETY: strings outlive the call; callbacks may be NULL.
-    let made = unsafe {
-        fmi2Instantiate(
-            c"silent".as_ptr(),
-            1,
-            guid.as_ptr(),
-            ptr::null(),
-            ptr::null(),
-            0,
-            0,
-        )
+pub fn silent() -> Unit {
+    let birth = Birth {
+        has_callbacks: false,
+        ..Birth::plain()
     };
-    assert!(!made.is_null());
-    made
+    Unit::born(&birth).expect("an instance")
 }
 
 /// An instance that takes up the state of another one to be read in its place.
-pub struct Probe(*mut c_void);
+pub struct Probe {
+    unit: Unit,
+    calls: Vec<Call>,
+}
 
 impl Probe {
     pub fn new() -> Self {
-        Self(silent())
-    }
-
-    fn take_up(&self, component: *mut c_void) {
-        let mut state = ptr::null_mut();
-        // SAFETY: both instances are alive; the state is freed once.
-        unsafe {
-            assert_eq!(fmi2GetFMUstate(component, &raw mut state), 0);
-            assert_eq!(fmi2SetFMUstate(self.0, state), 0);
-            assert_eq!(fmi2FreeFMUstate(self.0, &raw mut state), 0);
+        let mut calls = Vec::new();
+        for kind in [Type::Real, Type::Integer, Type::Boolean] {
+            // Apart from each other, since outputs cannot always be read.
+            for is_calculated in [false, true] {
+                let rows = table().rows().filter(|row| is(&row.kind, kind));
+                let rows = rows.filter(|row| row.is_calculated() == is_calculated);
+                let references = rows.map(|row| row.reference).collect();
+                calls.push(Call::Get(kind, references, Null::Nothing));
+            }
+        }
+        let (velocity, by) = (reference("velocity"), (reference("force"), 1.0));
+        let none = Null::Nothing;
+        calls.push(Call::GetOutputDerivatives(vec![(velocity, 2)], none));
+        calls.push(Call::Directional(vec![velocity], vec![by], none));
+        Self {
+            unit: silent(),
+            calls,
         }
     }
 
+    fn take_up(&self, unit: &Unit) {
+        let state = unit.keep();
+        // SAFETY: both are alive.
+        assert_eq!(unsafe { fmi2SetFMUstate(self.unit.component, state) }, OK);
+        unit.free(state);
+    }
+
     /// Status and bits of everything that can be read.
-    pub fn everything(&self, component: *mut c_void) -> Vec<(i32, u64)> {
-        self.take_up(component);
-        let mut calls: Vec<_> = table()
-            .rows()
-            .map(|variable| {
-                let kind = match variable.kind {
-                    Kind::Real(_) => Type::Real,
-                    Kind::Boolean => Type::Boolean,
-                    _ => Type::Integer,
-                };
-                Call::Get(kind, vec![variable.reference], Null::Nothing)
-            })
-            .collect();
-        let velocity = reference("velocity");
-        calls.push(Call::GetOutputDerivatives(
-            vec![(velocity, 2)],
-            Null::Nothing,
-        ));
-        let by = vec![(reference("force"), 1.0)];
-        calls.push(Call::Directional(vec![velocity], by, Null::Nothing));
-        let mut read: Vec<_> = calls
-            .iter()
-            .map(|call| {
-                let (status, values) = perform(self.0, call);
-                (status, values[0].to_bits())
-            })
-            .collect();
-        read.push((0, self.time_of(self.0).to_bits()));
-        read.push((step_status(self.0), 0));
-        read
+    pub fn everything(&self, unit: &Unit) -> Vec<(i32, Vec<u64>)> {
+        self.take_up(unit);
+        let read = self.calls.iter().map(|call| {
+            let ((_, status), values) = perform(self.unit.component, call);
+            (status, values.into_iter().map(f64::to_bits).collect())
+        });
+        let time = self.unit.last_successful_time().to_bits();
+        read.chain([(self.unit.step_status(), vec![time])])
+            .collect()
     }
 
-    /// The position, if it can be read.
-    pub fn position(&self, component: *mut c_void) -> f64 {
-        self.take_up(component);
-        let call = Call::Get(Type::Real, vec![reference("position")], Null::Nothing);
-        perform(self.0, &call).1[0]
-    }
-
-    /// The last successful time.
-    pub fn time_of(&self, component: *mut c_void) -> f64 {
-        let mut time = f64::NAN;
-        // SAFETY: the instance is alive.
-        assert_eq!(unsafe { fmi2GetRealStatus(component, 2, &raw mut time) }, 0);
-        time
-    }
-}
-
-fn step_status(component: *mut c_void) -> i32 {
-    let mut status = -1;
-    // SAFETY: the instance is alive.
-    assert_eq!(unsafe { fmi2GetStatus(component, 0, &raw mut status) }, 0);
-    status
-}
-
-impl Drop for Probe {
-    fn drop(&mut self) {
-        // SAFETY: made by `silent` and freed once.
-        unsafe { fmi2FreeInstance(self.0) };
+    pub fn position(&self, unit: &Unit) -> f64 {
+        self.take_up(unit);
+        self.unit.get("position")
     }
 }

@@ -4,18 +4,17 @@
 //! were carried out. In the end both must be the same bit for bit: neither reading nor what was refused
 //! nor a way over bytes leaves a trace.
 
-use std::ffi::{CString, c_int, c_void};
+use std::ffi::{CStr, c_int, c_void};
 use std::ptr;
 
 use softstop_fmi2::*;
-use softstop_fmu::library_guid;
 
-use super::calls::{Birth, Call, Point, STATES, UNITS};
-use super::model::{Expected, Life, Model};
+use super::calls::{Call, Point, STATES, UNITS};
+use super::model::{Life, Model, refusal};
 use super::perform::perform;
 use super::probe::{Probe, silent};
 use super::slot::Slot;
-use crate::common::{ERROR, Log, OK, callbacks};
+use crate::common::{Birth, ERROR, OK, Statuses, Unit, call};
 
 pub struct Kept {
     pub state: *mut c_void,
@@ -32,9 +31,10 @@ pub struct World {
 
 impl World {
     pub fn new() -> Self {
+        let slot = || Slot::new(Unit::new(), &Birth::plain());
         Self {
-            units: std::array::from_fn(|_| None),
-            states: std::array::from_fn(|_| None),
+            units: std::array::from_fn(|_| Some(slot())),
+            states: [const { None }; STATES],
             probe: Probe::new(),
         }
     }
@@ -42,9 +42,11 @@ impl World {
     pub fn run(&mut self, index: usize, call: &Call) {
         match call {
             Call::Texts => texts(),
-            Call::Instantiate(birth) if index < UNITS => self.instantiate(index, *birth),
+            Call::Instantiate(birth) if index < UNITS => self.instantiate(index, birth),
             Call::Instantiate(_) => {}
-            Call::FreeInstance => self.free(index),
+            Call::FreeInstance if index < UNITS => self.units[index] = None,
+            // SAFETY: NULL is allowed.
+            Call::FreeInstance => unsafe { fmi2FreeInstance(ptr::null_mut()) },
             Call::DoStep(point, size) => self.step(index, *point, *size),
             Call::GetState(..)
             | Call::SetState(_)
@@ -56,10 +58,9 @@ impl World {
         }
     }
 
-    /// The instance, or NULL.
-    pub fn component(&self, index: usize) -> *mut c_void {
-        let slot = self.units.get(index).and_then(Option::as_ref);
-        slot.map_or(ptr::null_mut(), |slot| slot.component)
+    /// The instance, unless there is none of this number.
+    pub fn slot(&mut self, index: usize) -> Option<&mut Slot> {
+        self.units.get_mut(index)?.as_mut()
     }
 
     /// Makes a call and judges its status, its log and, if it was refused, what it left behind.
@@ -67,52 +68,45 @@ impl World {
         &mut self,
         index: usize,
         call: &Call,
-        expected: Expected,
-        action: impl FnOnce(*mut c_void) -> c_int,
+        expected: Statuses,
+        action: impl FnOnce(*mut c_void) -> (&'static str, c_int),
     ) -> bool {
-        let component = self.component(index);
-        if component.is_null() {
-            assert_eq!(action(component), ERROR, "{call:?} of no instance");
+        let Some(Some(slot)) = self.units.get(index) else {
+            assert_eq!(action(ptr::null_mut()).1, ERROR, "{call:?} of no instance");
             return false;
-        }
-        let before = (expected != Expected::Ok).then(|| self.probe.everything(component));
-        let status = action(component);
-        let slot = self.units[index].as_ref().expect("an instance");
-        slot.check_log(call, status);
-        let context = || format!("{call:?}: {:?}", slot.model);
-        match expected {
-            Expected::Ok => assert_eq!(status, OK, "{}", context()),
-            Expected::Refused => assert_eq!(status, ERROR, "{}", context()),
-            Expected::Either => assert!(status == OK || status == ERROR, "{}", context()),
-        }
+        };
+        let before = (expected != [OK]).then(|| self.probe.everything(&slot.unit));
+        let (name, status) = action(slot.unit.component);
+        slot.check_log(call, (name, status));
+        let model = &slot.model;
+        assert!(expected.contains(&status), "{status} {call:?}: {model:?}");
         if status == ERROR {
-            let after = self.probe.everything(component);
-            assert_eq!(before, Some(after), "{} left a trace", context());
+            let after = self.probe.everything(&slot.unit);
+            assert!(before == Some(after), "{call:?} left a trace: {model:?}");
         }
         status == OK
     }
 
     fn run_plain(&mut self, index: usize, call: &Call) {
-        let expected = match self.units.get(index).and_then(Option::as_ref) {
-            Some(slot) => {
-                let running = slot.model.life == Life::Running;
-                let asks = running && matches!(call, Call::Set(..));
+        let expected = match self.units.get(index) {
+            Some(Some(slot)) => {
+                let asks = slot.model.life == Life::Running && matches!(call, Call::Set(..));
                 let position = if asks {
-                    self.probe.position(slot.component)
+                    self.probe.position(&slot.unit)
                 } else {
                     0.0
                 };
                 slot.model.expected(call, position)
             }
-            None => Expected::Refused,
+            _ => &[ERROR],
         };
         let mut values = Vec::new();
         let done = self.judged(index, call, expected, |component| {
-            let (status, read) = perform(component, call);
+            let (done, read) = perform(component, call);
             values = read;
-            status
+            done
         });
-        let Some(slot) = self.units.get_mut(index).and_then(Option::as_mut) else {
+        let Some(slot) = self.slot(index) else {
             return;
         };
         slot.note_look(call, done);
@@ -120,91 +114,34 @@ impl World {
             slot.note(call, &values);
         }
         if done && matches!(call, Call::Reset) {
-            let fresh = silent();
-            let same = self.probe.everything(slot.component) == self.probe.everything(fresh);
+            let own = &self.units[index].as_ref().expect("an instance").unit;
+            let same = self.probe.everything(own) == self.probe.everything(&silent());
             assert!(same, "a reset unit is not as a fresh one");
-            // SAFETY: made above and freed once.
-            unsafe { fmi2FreeInstance(fresh) };
         }
     }
 
-    fn instantiate(&mut self, index: usize, birth: Birth) {
-        self.free(index);
-        let log = Box::into_raw(Box::<Log>::default());
-        let guid = CString::new(library_guid().expect("a GUID")).expect("no NUL");
-        let mut functions = callbacks(log);
-        let name = match birth {
-            Birth::NullName => ptr::null(),
-            Birth::EmptyName => c"".as_ptr(),
-            _ => c"unit".as_ptr(),
-        };
-        let given = match birth {
-            Birth::NullGuid => ptr::null(),
-            Birth::OtherGuid => c"{other}".as_ptr(),
-            _ => guid.as_ptr(),
-        };
-        let kind = if let Birth::Kind(kind) = birth {
-            kind
-        } else {
-            1
-        };
-        if birth == Birth::NoLogger {
-            functions.logger = None;
-        }
-        let functions = if birth == Birth::NoCallbacks {
-            ptr::null()
-        } else {
-            &raw const functions
-        };
-        let logging_on = c_int::from(birth == Birth::LoggingOn);
-        // SAFETY: NULL, or what the standard says.
-        let component =
-            unsafe { fmi2Instantiate(name, kind, given, ptr::null(), functions, 0, logging_on) };
-        // SAFETY: nothing else holds the log now.
-        let lines = unsafe { std::mem::take(&mut (*log).lines) };
-        let good = matches!(
-            birth,
-            Birth::Plain | Birth::LoggingOn | Birth::NoCallbacks | Birth::NoLogger
-        );
-        assert_eq!(!component.is_null(), good, "{birth:?}");
-        assert_eq!(lines.len(), usize::from(!good), "{birth:?}: {lines:?}");
-        if good {
-            self.units[index] = Some(Slot {
-                component,
-                shadow: silent(),
-                log,
-                has_log: !matches!(birth, Birth::NoCallbacks | Birth::NoLogger),
-                model: Model::new(),
-                unsettled: false,
-            });
-        } else {
-            assert!(
-                lines[0].starts_with("3 errors fmi2Instantiate: "),
-                "{lines:?}"
-            );
-            // SAFETY: made above, and no instance holds it.
-            drop(unsafe { Box::from_raw(log) });
-        }
-    }
-
-    pub fn free(&mut self, index: usize) {
-        // SAFETY: instances are freed once; NULL is allowed.
-        unsafe { fmi2FreeInstance(self.component(index)) };
-        if let Some(slot) = self.units.get_mut(index).and_then(Option::take) {
-            // SAFETY: as above; the log's instance is gone.
-            unsafe {
-                fmi2FreeInstance(slot.shadow);
-                drop(Box::from_raw(slot.log));
+    fn instantiate(&mut self, index: usize, birth: &Birth) {
+        self.units[index] = None;
+        let born = Unit::born(birth);
+        match (born, refusal(birth)) {
+            (Ok(unit), None) => {
+                assert!(unit.take_log().is_empty());
+                self.units[index] = Some(Slot::new(unit, birth));
             }
+            (Err(lines), Some(word)) => {
+                let is_told = |line: &String| {
+                    line.starts_with("3 errors fmi2Instantiate: ") && line.contains(&word)
+                };
+                let count = usize::from(birth.has_callbacks && birth.has_logger);
+                let is_right = lines.len() == count && lines.iter().all(is_told);
+                assert!(is_right, "{birth:?}: {lines:?}");
+            }
+            (born, refusal) => panic!("{birth:?}: {:?}, {refusal:?}", born.err()),
         }
     }
 
     fn step(&mut self, index: usize, point: Point, size: f64) {
-        let model = self
-            .units
-            .get(index)
-            .and_then(Option::as_ref)
-            .map(|slot| &slot.model);
+        let model = self.slot(index).map(|slot| &slot.model);
         let (time, previous) = model.map_or((0.0, 0.0), |model| (model.time, model.previous));
         let point = match point {
             Point::Present => time,
@@ -213,27 +150,26 @@ impl World {
             Point::Beyond => time + 77.0,
             Point::Number(number) => number,
         };
-        let expected = model.map_or(Expected::Refused, |model| model.expected_step(point, size));
+        let expected = model.map_or(&[ERROR][..], |model| model.expected_step(point, size));
         let call = Call::DoStep(Point::Number(point), size);
         // SAFETY: the component is NULL or alive.
-        let action = |component| unsafe { fmi2DoStep(component, point, size, 0) };
-        let done = self.judged(index, &call, expected, action);
-        if !done {
+        let action = |component| unsafe { call!(fmi2DoStep(component, point, size, 0)) };
+        if !self.judged(index, &call, expected, action) {
             return;
         }
-        let slot = self.units[index].as_mut().expect("an instance");
-        assert_eq!(action(slot.shadow), OK);
+        let slot = self.slot(index).expect("an instance");
+        assert_eq!(slot.shadow.step(point, size), OK);
         slot.unsettled = false;
         slot.model.previous = time;
         slot.model.time = time.max(point + size);
-        assert_eq!(self.probe.time_of(slot.component), slot.model.time);
+        assert_eq!(slot.unit.last_successful_time(), slot.model.time);
     }
 }
 
 fn texts() {
     // SAFETY: both return constant strings.
     unsafe {
-        assert_eq!(std::ffi::CStr::from_ptr(fmi2GetVersion()), c"2.0");
-        assert_eq!(std::ffi::CStr::from_ptr(fmi2GetTypesPlatform()), c"default");
+        assert_eq!(CStr::from_ptr(fmi2GetVersion()), c"2.0");
+        assert_eq!(CStr::from_ptr(fmi2GetTypesPlatform()), c"default");
     }
 }

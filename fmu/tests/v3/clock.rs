@@ -1,14 +1,12 @@
 //! The clock of impacts: it ticks in event mode, before the update that brings the state after an impact.
 
-use std::ptr;
-
 use softstop_fmi3::*;
 use softstop_fmu::Options;
 
 use super::events::MACHINES;
 use super::exchange::Integrator;
 use super::unit::{CLOCK, Unit};
-use crate::common::{ERROR, OK};
+use crate::common::ERROR;
 
 const PERIOD: f64 = std::f64::consts::TAU / 1.15;
 const END: f64 = 10.0 * PERIOD;
@@ -86,7 +84,7 @@ fn in_model_exchange_it_ticks_alike() {
                 importer.step(size);
                 assert!(!importer.unit.ticks());
             }
-            importer.enter_event_mode();
+            importer.unit.enter_event_mode();
             let before = importer.unit.get("impact.count");
             let ticks = importer.unit.ticks();
             importer.leave_event_mode();
@@ -102,37 +100,29 @@ fn in_model_exchange_it_ticks_alike() {
 fn a_kept_state_ticks_as_well() {
     let (one, other) = (begun(true, &[]), begun(true, &[]));
     one.step(0.0, END);
-    let mut state = ptr::null_mut();
     one.enter_event_mode();
-    // SAFETY: the instances are alive, the state freed once.
-    unsafe {
-        assert_eq!(fmi3GetFMUState(one.instance, &raw mut state), OK);
-        one.update();
-        assert!(!one.ticks());
-        for unit in [&one, &other] {
-            assert_eq!(fmi3SetFMUState(unit.instance, state), OK);
-            assert!(unit.ticks());
-        }
-        assert_eq!(fmi3FreeFMUState(one.instance, &raw mut state), OK);
+    let state = one.keep();
+    one.update();
+    assert!(!one.ticks());
+    for unit in [&one, &other] {
+        unit.go_back(state);
+        assert!(unit.ticks());
     }
+    one.free(state);
 }
 
 #[test]
 fn it_cannot_be_set_has_no_interval_and_is_of_units_that_tell_of_it() {
     let made = [(); 3].map(|()| begun(true, &[]));
+    let [one, two, three] = made.each_ref().map(|unit| unit.instance);
     let (mut interval, mut qualifier) = (0.0, 0);
+    let (interval, qualifier) = (&raw mut interval, &raw mut qualifier);
     // SAFETY: one reference and one value.
     let statuses = unsafe {
         [
-            fmi3SetClock(made[0].instance, &CLOCK, 1, &1),
-            fmi3GetIntervalDecimal(
-                made[1].instance,
-                &CLOCK,
-                1,
-                &raw mut interval,
-                &raw mut qualifier,
-            ),
-            fmi3SetIntervalDecimal(made[2].instance, &CLOCK, 1, &1.0),
+            fmi3SetClock(one, &CLOCK, 1, &1),
+            fmi3GetIntervalDecimal(two, &CLOCK, 1, interval, qualifier),
+            fmi3SetIntervalDecimal(three, &CLOCK, 1, &1.0),
         ]
     };
     assert_eq!(statuses, [ERROR; 3]);

@@ -3,7 +3,8 @@
 use softstop_fmi::variable::{Access, Kind};
 use softstop_fmu::table;
 
-use super::unit::{Unit, reference};
+use super::unit::Unit;
+use crate::common::reference;
 
 const KNOWNS: [&str; 4] = [
     "initial.position",

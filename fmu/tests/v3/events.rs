@@ -1,11 +1,10 @@
 //! Every event is where it is, whatever the importer's step and whatever it can do with events.
 
-use std::ptr;
-
 use softstop_fmi3::*;
 
 use super::unit::{HANDLINGS, Unit};
-use crate::common;
+use crate::common::{self, call};
+use crate::discard::BUSY;
 
 const PERIOD: f64 = std::f64::consts::TAU / 1.15;
 const SIZES: [f64; 5] = [1e-2, PERIOD / 100.0, 0.7, PERIOD, 10.0 * PERIOD];
@@ -220,18 +219,8 @@ fn events_under_a_drive_that_is_followed_in_pieces() {
 fn a_state_at_an_event_leads_on_bit_for_bit() {
     let (one, other) = (Unit::begun((true, true), &[]), Unit::new((true, true)));
     let ending = one.step(0.0, 50.0);
-    let (mut state, mut copy, mut size) = (ptr::null_mut(), ptr::null_mut(), 0);
-    // SAFETY: both are alive, places as long as is said, each state is freed once.
-    unsafe {
-        assert_eq!(fmi3GetFMUState(one.instance, &raw mut state), common::OK);
-        fmi3SerializedFMUStateSize(one.instance, state, &raw mut size);
-        let mut bytes = vec![0u8; size];
-        fmi3SerializeFMUState(one.instance, state, bytes.as_mut_ptr(), size);
-        let read = bytes.as_ptr();
-        let copied = fmi3DeserializeFMUState(other.instance, read, size, &raw mut copy);
-        assert_eq!(copied, common::OK);
-        assert_eq!(fmi3SetFMUState(other.instance, copy), common::OK);
-    }
+    other.take_up(&one);
+    let state = one.keep();
     let mut ends = Vec::new();
     for unit in [&one, &other] {
         unit.enter_event_mode();
@@ -243,10 +232,59 @@ fn a_state_at_an_event_leads_on_bit_for_bit() {
     assert_eq!(ends[0], ends[1]);
     // Without event mode there is no such state.
     let without = Unit::new((false, true));
-    // SAFETY: as above.
-    unsafe {
-        assert_eq!(fmi3SetFMUState(without.instance, state), common::ERROR);
-        fmi3FreeFMUState(one.instance, &raw mut state);
-        fmi3FreeFMUState(one.instance, &raw mut copy);
+    // SAFETY: both are alive.
+    let status = unsafe { fmi3SetFMUState(without.instance, state) };
+    assert_eq!(status, common::ERROR);
+    one.free(state);
+}
+
+#[test]
+fn states_of_another_fmu_are_refused() {
+    let unit = Unit::begun((false, false), &[]);
+    let (mut foreign, before) = (unit.keep(), unit.everything());
+    let (instance, state, mut size) = (unit.instance, foreign, 0);
+    let mut bytes = unit.bytes_of(state);
+    common::switch_guid(state);
+    // SAFETY: the instance and the state are alive, a place as long as is said.
+    let calls = unsafe {
+        [
+            call!(fmi3GetFMUState(instance, &raw mut foreign)),
+            call!(fmi3SetFMUState(instance, state)),
+            call!(fmi3FreeFMUState(instance, &raw mut foreign)),
+            call!(fmi3SerializedFMUStateSize(instance, state, &raw mut size)),
+            call!(fmi3SerializeFMUState(
+                instance,
+                state,
+                bytes.as_mut_ptr(),
+                bytes.len()
+            )),
+        ]
+    };
+    let lines = unit.take_log();
+    assert_eq!(lines.len(), calls.len(), "{lines:?}");
+    for ((function, status), line) in calls.iter().zip(lines) {
+        let words = format!("{function}: the FMU state is of another FMU, or is none");
+        assert!(*status == common::ERROR && line.contains(&words), "{line}");
     }
+    assert_eq!((foreign, size), (state, 0));
+    bytes[12] ^= 1;
+    assert_eq!(unit.try_state_of(&bytes).0, common::ERROR);
+    assert!(unit.take_log()[0].contains("another GUID"));
+    common::switch_guid(state);
+    unit.go_back(state);
+    assert_eq!(unit.everything(), before);
+    unit.free(state);
+}
+
+/// Other than in FMI 2.0, where it is carried out in part.
+#[test]
+fn a_step_of_too_many_impacts_is_taken_back() {
+    let [unit, direct] = [(); 2].map(|()| Unit::begun((false, false), &BUSY));
+    let before = unit.everything();
+    assert_eq!(unit.try_step(0.0, 1e9).0, common::DISCARD);
+    assert_eq!(unit.everything(), before);
+    for unit in [&unit, &direct] {
+        unit.step(0.0, 1.0);
+    }
+    assert_eq!(unit.everything(), direct.everything());
 }

@@ -1,5 +1,7 @@
 //! Model exchange: a small integrator beside the unit's own motion.
 
+use std::ffi::{c_int, c_void};
+
 use softstop_fmi3::*;
 use softstop_fmu::Options;
 
@@ -10,6 +12,9 @@ use crate::common::{DISCARD, OK};
 const PERIOD: f64 = std::f64::consts::TAU / 1.15;
 
 type States = [f64; 2];
+
+/// Reads a vector of the model.
+pub type Vector = unsafe extern "C" fn(*mut c_void, *mut f64, usize) -> c_int;
 
 /// An importer that integrates with steps of one size by the method of Runge and Kutta, and steps to each event that it is
 /// told of.
@@ -39,50 +44,38 @@ impl Integrator {
         begun
     }
 
-    fn check(&self, status: i32) {
-        assert_eq!(status, OK, "{:?}", self.unit.take_log());
+    /// A vector of the model.
+    fn vector<const COUNT: usize>(&self, function: Vector) -> [f64; COUNT] {
+        let mut values = [f64::NAN; COUNT];
+        // SAFETY: a place for so many numbers.
+        let status = unsafe { function(self.unit.instance, values.as_mut_ptr(), COUNT) };
+        self.unit.check(status);
+        values
     }
 
     pub fn states(&self) -> States {
-        let mut states = [f64::NAN; 2];
-        // SAFETY: a place for two numbers.
-        self.check(unsafe { fmi3GetContinuousStates(self.unit.instance, states.as_mut_ptr(), 2) });
-        states
+        self.vector(fmi3GetContinuousStates)
     }
 
     fn derivatives(&self) -> States {
-        let mut derivatives = [f64::NAN; 2];
-        let place = derivatives.as_mut_ptr();
-        // SAFETY: a place for two numbers.
-        self.check(unsafe { fmi3GetContinuousStateDerivatives(self.unit.instance, place, 2) });
-        derivatives
+        self.vector(fmi3GetContinuousStateDerivatives)
     }
 
     fn nominals(&self) -> States {
-        let mut nominals = [f64::NAN; 2];
-        let place = nominals.as_mut_ptr();
-        // SAFETY: a place for two numbers.
-        self.check(unsafe { fmi3GetNominalsOfContinuousStates(self.unit.instance, place, 2) });
-        nominals
+        self.vector(fmi3GetNominalsOfContinuousStates)
     }
 
     fn indicators(&self) -> [f64; 3] {
-        let mut indicators = [f64::NAN; 3];
-        let place = indicators.as_mut_ptr();
-        // SAFETY: a place for three numbers.
-        self.check(unsafe { fmi3GetEventIndicators(self.unit.instance, place, 3) });
-        indicators
+        self.vector(fmi3GetEventIndicators)
     }
 
     pub fn put(&self, time: f64, states: States) {
         // SAFETY: two numbers.
         unsafe {
-            self.check(fmi3SetTime(self.unit.instance, time));
-            self.check(fmi3SetContinuousStates(
-                self.unit.instance,
-                states.as_ptr(),
-                2,
-            ));
+            let instance = self.unit.instance;
+            self.unit.check(fmi3SetTime(instance, time));
+            self.unit
+                .check(fmi3SetContinuousStates(instance, states.as_ptr(), 2));
         }
     }
 
@@ -102,25 +95,22 @@ impl Integrator {
         self.time = from + size;
         self.put(self.time, moved(size, mean));
         let (mut enter, mut terminate) = (7, 7);
-        let places = (&raw mut enter, &raw mut terminate);
+        let (instance, enter_place) = (self.unit.instance, &raw mut enter);
         // SAFETY: places for the answers.
-        self.check(unsafe {
-            fmi3CompletedIntegratorStep(self.unit.instance, 1, places.0, places.1)
-        });
+        let status =
+            unsafe { fmi3CompletedIntegratorStep(instance, 1, enter_place, &raw mut terminate) };
+        self.unit.check(status);
         enter == 1
-    }
-
-    pub fn enter_event_mode(&self) {
-        self.unit.enter_event_mode();
     }
 
     /// Lets events happen and goes on; whether the states have changed.
     pub fn leave_event_mode(&mut self) -> bool {
         let (status, next, has_new_states) = self.unit.try_update_states();
-        self.check(status);
+        self.unit.check(status);
         self.next = next;
         // SAFETY: the instance is alive.
-        self.check(unsafe { fmi3EnterContinuousTimeMode(self.unit.instance) });
+        self.unit
+            .check(unsafe { fmi3EnterContinuousTimeMode(self.unit.instance) });
         assert!(self.indicators().iter().all(|indicator| *indicator != 0.0));
         has_new_states
     }
@@ -137,7 +127,7 @@ impl Integrator {
             }
             if is_asked || self.next == Some(self.time) {
                 let before = self.states();
-                self.enter_event_mode();
+                self.unit.enter_event_mode();
                 self.leave_event_mode();
                 self.events.push((self.time, before, self.states()));
             }
@@ -263,7 +253,7 @@ fn what_is_set_in_event_mode_is_predicted_as_in_co_simulation() {
     ] {
         let (mut importer, unit) = (Integrator::begun(&[]), Unit::begun((true, false), &[]));
         importer.run(2.0, 0.01);
-        importer.enter_event_mode();
+        importer.unit.enter_event_mode();
         unit.step(0.0, 2.0);
         unit.enter_event_mode();
         assert_eq!(
@@ -289,14 +279,16 @@ fn what_is_set_in_event_mode_is_predicted_as_in_co_simulation() {
 fn what_is_set_after_the_update_holds_as_well() {
     let mut importer = Integrator::begun(&[]);
     importer.run(2.0, 0.01);
-    importer.enter_event_mode();
+    importer.unit.enter_event_mode();
     importer.unit.update();
     assert_eq!(importer.unit.set("force", 0.5), OK);
     // SAFETY: the instance is alive.
-    importer.check(unsafe { fmi3EnterContinuousTimeMode(importer.unit.instance) });
+    importer
+        .unit
+        .check(unsafe { fmi3EnterContinuousTimeMode(importer.unit.instance) });
     importer.run(2.5, 0.01);
     let states = importer.states();
-    importer.enter_event_mode();
+    importer.unit.enter_event_mode();
     importer.leave_event_mode();
     let missed = (importer.states()[0] - states[0]).abs();
     assert!(missed > 0.0 && missed < 1e-8, "{missed}");
@@ -310,7 +302,7 @@ fn an_input_that_changes_between_events_is_predicted_anew() {
     // Later than it was told, if at all: nothing is asked for.
     assert_eq!(importer.unit.set("force", -2.0), OK);
     assert!(!importer.step(0.01));
-    importer.enter_event_mode();
+    importer.unit.enter_event_mode();
     importer.leave_event_mode();
     assert!(importer.next.is_none_or(|next| next > told));
     // Sooner, and soon.
@@ -319,7 +311,7 @@ fn an_input_that_changes_between_events_is_predicted_anew() {
     let asked = (0..100)
         .find(|_| importer.step(0.01))
         .expect("an event is asked for");
-    importer.enter_event_mode();
+    importer.unit.enter_event_mode();
     importer.leave_event_mode();
     let next = importer.next.expect("an event");
     assert!(next - importer.time < 0.11, "{asked} {next}");
@@ -346,7 +338,7 @@ fn discrete_inputs_and_parameters_wait_for_event_mode() {
         assert_eq!(importer.unit.set(name, value), DISCARD, "{name}");
         assert_eq!(importer.unit.everything(), before, "{name}");
     }
-    importer.enter_event_mode();
+    importer.unit.enter_event_mode();
     assert_eq!(importer.unit.set("clearance", 9.5), OK);
     importer.leave_event_mode();
     assert_eq!(importer.unit.get("clearance"), 9.5);
@@ -359,7 +351,7 @@ fn the_unit_goes_on_from_states_that_are_not_its_own() {
     let states = importer.states();
     for (miss, is_taken) in [(0.01, false), (3.0, true)] {
         importer.put(1.0, [states[0], states[1] - miss]);
-        importer.enter_event_mode();
+        importer.unit.enter_event_mode();
         let has_new_states = importer.leave_event_mode();
         assert_eq!(has_new_states, !is_taken);
         assert_eq!(importer.states()[1] == states[1] - miss, is_taken);
@@ -373,22 +365,7 @@ fn a_kept_state_leads_on_bit_for_bit() {
     // Beyond the rigid stop, where an integrator may try a step.
     one.put(one.time, [-0.5 + 1e-4, one.states()[1]]);
     assert_eq!(one.unit.get("position"), -0.5 + 1e-4);
-    let (mut state, mut copy, mut size) = (std::ptr::null_mut(), std::ptr::null_mut(), 0);
-    // SAFETY: both are alive, places as long as is said; each state is freed once.
-    unsafe {
-        one.check(fmi3GetFMUState(one.unit.instance, &raw mut state));
-        let measured = fmi3SerializedFMUStateSize(one.unit.instance, state, &raw mut size);
-        one.check(measured);
-        let mut bytes = vec![0u8; size];
-        let place = bytes.as_mut_ptr();
-        one.check(fmi3SerializeFMUState(one.unit.instance, state, place, size));
-        let copied = fmi3DeserializeFMUState(other.unit.instance, place, size, &raw mut copy);
-        other.check(copied);
-        other.check(fmi3SetFMUState(other.unit.instance, copy));
-        for state in [&raw mut state, &raw mut copy] {
-            one.check(fmi3FreeFMUState(one.unit.instance, state));
-        }
-    }
+    other.unit.take_up(&one.unit);
     (other.time, other.next) = (one.time, one.next);
     assert_eq!(one.unit.everything(), other.unit.everything());
     for importer in [&mut one, &mut other] {

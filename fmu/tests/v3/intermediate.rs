@@ -8,8 +8,8 @@ use softstop_fmi3::*;
 use softstop_fmu::Options;
 
 use super::events::MACHINES;
-use super::unit::{Unit, reference};
-use crate::common::{ERROR, OK};
+use super::unit::Unit;
+use crate::common::{ERROR, OK, reference};
 
 const END: f64 = 40.0;
 

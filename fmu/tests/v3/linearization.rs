@@ -1,17 +1,15 @@
 //! Model exchange: derivatives of the present outputs by states, inputs and tunable parameters.
 
 use std::collections::BTreeSet;
-use std::ptr;
 
 use softstop_fmi::variable::Access;
-use softstop_fmi3::*;
 use softstop_fmu::table;
 
 use super::derivatives::assert_close;
 use super::events::MACHINES;
 use super::exchange::{Integrator, RESTING};
-use super::unit::{Unit, reference};
-use crate::common::{ERROR, OK};
+use super::unit::Unit;
+use crate::common::{ERROR, OK, reference};
 
 const STATES: [&str; 2] = ["position", "velocity"];
 const INPUTS: [&str; 4] = [
@@ -53,23 +51,16 @@ fn outputs() -> Vec<u32> {
     continuous.map(|row| row.reference).collect()
 }
 
-fn values(unit: &Unit, references: &[u32]) -> Vec<f64> {
-    let mut values = vec![f64::NAN; references.len()];
-    let (of, count, place) = (references.as_ptr(), references.len(), values.as_mut_ptr());
-    // SAFETY: arrays as long as is said.
-    let status = unsafe { fmi3GetFloat64(unit.instance, of, count, place, count) };
-    assert_eq!(status, OK, "{:?}", unit.take_log());
-    values
-}
-
-/// Derivatives by central differences of what is set.
+/// Derivatives by central differences of what is set, from a state that is kept.
 fn differences(unit: &Unit, of: &[u32], name: &str) -> Vec<f64> {
-    let (value, width) = (unit.get(name), 1e-5);
+    let (kept, value, width) = (unit.keep(), unit.get(name), 1e-5);
     let [high, low] = [width, -width].map(|by| {
-        assert_eq!(unit.set(name, value + by), OK, "{:?}", unit.take_log());
-        values(unit, of)
+        unit.check(unit.set(name, value + by));
+        let values = unit.reals(of);
+        unit.go_back(kept);
+        values
     });
-    assert_eq!(unit.set(name, value), OK);
+    unit.free(kept);
     let pairs = high.iter().zip(low);
     pairs
         .map(|(high, low)| (high - low) / (2.0 * width))
@@ -77,13 +68,13 @@ fn differences(unit: &Unit, of: &[u32], name: &str) -> Vec<f64> {
 }
 
 /// Directional derivatives are those of differences, and adjoint ones the transposed of directional ones.
-fn check(unit: &Unit, names: &[&str], differences: impl Fn(&[u32], &str) -> Vec<f64>) {
+fn check<'a>(unit: &Unit, names: impl IntoIterator<Item = &'a &'a str>) {
     let of = outputs();
     let weights: Vec<_> = (0..of.len()).map(|k| 0.3 - 0.1 * k as f64).collect();
     for &name in names {
         let by = reference(name);
         let column = unit.directional(&of, &[by], &[1.0]);
-        for ((of, exact), expected) in of.iter().zip(&column).zip(differences(&of, name)) {
+        for ((of, exact), expected) in of.iter().zip(&column).zip(differences(unit, &of, name)) {
             let off = (exact - expected).abs();
             let phase = unit.get("phase");
             assert!(
@@ -105,13 +96,11 @@ fn by_states_and_inputs_in_every_phase() {
     let mut phases = BTreeSet::new();
     for values in MACHINES.iter().chain(&FURTHER).chain([&&RESTING[..]]) {
         let mut importer = Integrator::begun(values);
-        for number in 1..=120 {
-            importer.run(0.11 * f64::from(number), 0.01);
+        for number in 1..=60 {
+            importer.run(0.22 * f64::from(number), 0.01);
             let unit = &importer.unit;
             phases.insert(unit.get("phase") as i32);
-            for names in [&STATES[..], &INPUTS] {
-                check(unit, names, |of, name| differences(unit, of, name));
-            }
+            check(unit, STATES.iter().chain(&INPUTS));
         }
     }
     // Chatter is over at once.
@@ -127,49 +116,22 @@ fn beyond_the_end_of_a_law_where_an_integrator_tries_a_step() {
             let states = importer.states();
             importer.put(importer.time + 0.05, [states[0] + 0.3, states[1] - 2.0]);
             let unit = &importer.unit;
-            for names in [&STATES[..], &INPUTS] {
-                check(unit, names, |of, name| differences(unit, of, name));
-            }
+            check(unit, STATES.iter().chain(&INPUTS));
             importer.put(importer.time, states);
         }
     }
-}
-
-/// Derivatives by central differences of a parameter that is set in event mode, from a state that is kept.
-fn differences_in_event_mode(unit: &Unit, of: &[u32], name: &str) -> Vec<f64> {
-    let mut kept = ptr::null_mut();
-    // SAFETY: the instance is alive, the state freed once.
-    let column = unsafe {
-        assert_eq!(fmi3GetFMUState(unit.instance, &raw mut kept), OK);
-        let (value, width) = (unit.get(name), 1e-5);
-        let [high, low] = [width, -width].map(|by| {
-            assert_eq!(unit.set(name, value + by), OK, "{:?}", unit.take_log());
-            let values = values(unit, of);
-            assert_eq!(fmi3SetFMUState(unit.instance, kept), OK);
-            values
-        });
-        assert_eq!(fmi3FreeFMUState(unit.instance, &raw mut kept), OK);
-        high.into_iter()
-            .zip(low)
-            .map(move |(high, low)| (high - low) / (2.0 * width))
-    };
-    column.collect()
 }
 
 #[test]
 fn by_parameters_and_inputs_in_event_mode() {
     for values in MACHINES {
         let mut importer = Integrator::begun(values);
-        for number in 1..=60 {
-            importer.run(0.23 * f64::from(number), 0.01);
-            importer.enter_event_mode();
+        for number in 1..=30 {
+            importer.run(0.46 * f64::from(number), 0.01);
+            importer.unit.enter_event_mode();
             let unit = &importer.unit;
             unit.update();
-            for names in [&TUNABLE[..], &INPUTS] {
-                check(unit, names, |of, name| {
-                    differences_in_event_mode(unit, of, name)
-                });
-            }
+            check(unit, TUNABLE.iter().chain(&INPUTS));
             importer.leave_event_mode();
         }
     }
@@ -187,7 +149,7 @@ fn states_can_be_set_and_are_knowns_where_the_importer_integrates() {
     assert_eq!(importer.unit.set("velocity", 3.0), OK);
     assert_eq!(importer.unit.everything(), put);
     assert_eq!(importer.states(), [7.0, 3.0]);
-    importer.enter_event_mode();
+    importer.unit.enter_event_mode();
     // The unit sets them itself there.
     assert_eq!(importer.unit.set("position", 7.0), ERROR);
 }

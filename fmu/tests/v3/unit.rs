@@ -2,12 +2,14 @@
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
+use std::sync::OnceLock;
 
+use softstop_fmi::Row;
 use softstop_fmi::variable::Kind;
 use softstop_fmi3::*;
-use softstop_fmu::{Imprint, Options, Standard, guid_of, table};
+use softstop_fmu::{Imprint, Machine, Options, Standard, guid_of, table};
 
-use crate::common::OK;
+use crate::common::{OK, variable};
 
 unsafe extern "C" fn log_message(
     environment: *mut c_void,
@@ -21,6 +23,19 @@ unsafe extern "C" fn log_message(
         (*environment.cast::<Vec<String>>()).push(format!("{status} {category} {text}"));
     }
 }
+
+/// Derivatives along a direction, or of a weighted sum.
+type Derivatives = unsafe extern "C" fn(
+    *mut c_void,
+    *const u32,
+    usize,
+    *const u32,
+    usize,
+    *const f64,
+    usize,
+    *mut f64,
+    usize,
+) -> c_int;
 
 /// What an importer can do with events: whether it handles them, and whether a step may end early.
 pub type Handling = (bool, bool);
@@ -54,64 +69,77 @@ impl Unit {
 
     /// An instance with a callback for intermediate update, of an FMU that tells of more.
     pub fn made(handling: Handling, update: IntermediateUpdateCallback, options: Options) -> Self {
-        let log = Box::into_raw(Box::<Vec<String>>::default());
-        let token = token(options);
-        let (name, nothing) = (c"unit".as_ptr(), ptr::null());
-        let (event_mode, early) = (u8::from(handling.0), u8::from(handling.1));
+        let (log, token) = (Box::into_raw(Box::<Vec<String>>::default()), token(options));
+        let (name, token, nothing) = (c"unit".as_ptr(), token.as_ptr(), ptr::null());
+        let (event_mode, early) = (handling.0.into(), handling.1.into());
+        let (environment, none) = (log.cast(), ptr::null());
         // SAFETY: strings outlive the call, the log the instance.
         let instance = unsafe {
             fmi3InstantiateCoSimulation(
                 name,
-                token.as_ptr(),
+                token,
                 nothing,
                 0,
                 0,
                 event_mode,
                 early,
-                ptr::null(),
+                none,
                 0,
-                log.cast(),
+                environment,
                 Some(log_message),
                 update,
             )
         };
-        assert!(!instance.is_null());
-        Self {
-            instance,
-            handling,
-            is_for_exchange: false,
-            log,
-        }
+        Self::of(instance, handling, false, log)
     }
 
     /// An instance for model exchange, of an FMU that tells of more.
     pub fn for_exchange(options: Options) -> Self {
-        let log = Box::into_raw(Box::<Vec<String>>::default());
-        let token = token(options);
+        let (log, token) = (Box::into_raw(Box::<Vec<String>>::default()), token(options));
         let (name, token, nothing) = (c"unit".as_ptr(), token.as_ptr(), ptr::null());
         // SAFETY: strings outlive the call, the log the instance.
         let instance = unsafe {
             fmi3InstantiateModelExchange(name, token, nothing, 0, 0, log.cast(), Some(log_message))
         };
+        Self::of(instance, (true, false), true, log)
+    }
+
+    fn of(
+        instance: *mut c_void,
+        handling: Handling,
+        is_for_exchange: bool,
+        log: *mut Vec<String>,
+    ) -> Self {
         assert!(!instance.is_null());
         Self {
             instance,
-            handling: (true, false),
-            is_for_exchange: true,
+            handling,
+            is_for_exchange,
             log,
         }
+    }
+
+    /// Asserts that a call was carried out.
+    pub fn check(&self, status: c_int) {
+        assert_eq!(status, OK, "{:?}", self.take_log());
     }
 
     /// Sets these values and leaves initialisation at time 0.
     pub fn initialize(&self, values: &[(&str, f64)]) {
         for (name, value) in values {
-            assert_eq!(self.set(name, *value), OK, "{name}: {:?}", self.take_log());
+            self.check(self.set(name, *value));
         }
         // SAFETY: the instance is alive.
         unsafe {
-            let entered = fmi3EnterInitializationMode(self.instance, 0, 0.0, 0.0, 0, 0.0);
-            assert_eq!(entered, OK);
-            assert_eq!(fmi3ExitInitializationMode(self.instance), OK);
+            self.check(fmi3EnterInitializationMode(
+                self.instance,
+                0,
+                0.0,
+                0.0,
+                0,
+                0.0,
+            ));
+            self.check(fmi3ExitInitializationMode(self.instance));
         }
     }
 
@@ -137,58 +165,114 @@ impl Unit {
     }
 
     pub fn set(&self, name: &str, value: f64) -> c_int {
-        let variable = table().by_name(name).expect("a variable");
-        let (reference, instance) = (&raw const variable.reference, self.instance);
+        let row = variable(name);
+        let (reference, instance) = (&raw const row.reference, self.instance);
         // SAFETY: one reference and one value.
         unsafe {
-            match variable.kind {
+            match row.kind {
                 Kind::Real(_) => fmi3SetFloat64(instance, reference, 1, &raw const value, 1),
                 Kind::Count { .. } => fmi3SetInt32(instance, reference, 1, &(value as i32), 1),
                 Kind::Enumeration(_) => fmi3SetInt64(instance, reference, 1, &(value as i64), 1),
-                Kind::Boolean => fmi3SetBoolean(instance, reference, 1, &u8::from(value != 0.0), 1),
+                Kind::Boolean => fmi3SetBoolean(instance, reference, 1, &(value != 0.0).into(), 1),
             }
         }
     }
 
     pub fn get(&self, name: &str) -> f64 {
-        let variable = table().by_name(name).expect("a variable");
-        let (status, value) = self.read(&variable.kind, variable.reference);
-        assert_eq!(status, OK, "{name}: {:?}", self.take_log());
+        let (status, value) = self.read(variable(name));
+        self.check(status);
         value
     }
 
-    /// Status and value of a variable of this kind.
-    pub fn read(&self, kind: &Kind, reference: u32) -> (c_int, f64) {
-        let (reference, instance) = (&raw const reference, self.instance);
+    /// Status and value of a variable.
+    pub fn read(&self, row: &Row<Machine>) -> (c_int, f64) {
+        let (of, instance) = (&raw const row.reference, self.instance);
         let (mut real, mut count, mut item, mut truth) = (f64::NAN, 0, 0, 0);
         // SAFETY: one reference and one value.
-        unsafe {
-            match kind {
-                Kind::Real(_) => {
-                    let status = fmi3GetFloat64(instance, reference, 1, &raw mut real, 1);
-                    (status, real)
-                }
-                Kind::Count { .. } => {
-                    let status = fmi3GetInt32(instance, reference, 1, &raw mut count, 1);
-                    (status, count.into())
-                }
-                Kind::Enumeration(_) => {
-                    let status = fmi3GetInt64(instance, reference, 1, &raw mut item, 1);
-                    (status, item as f64)
-                }
-                Kind::Boolean => {
-                    let status = fmi3GetBoolean(instance, reference, 1, &raw mut truth, 1);
-                    (status, truth.into())
-                }
+        let status = unsafe {
+            match row.kind {
+                Kind::Real(_) => return (fmi3GetFloat64(instance, of, 1, &raw mut real, 1), real),
+                Kind::Count { .. } => fmi3GetInt32(instance, of, 1, &raw mut count, 1),
+                Kind::Enumeration(_) => fmi3GetInt64(instance, of, 1, &raw mut item, 1),
+                Kind::Boolean => fmi3GetBoolean(instance, of, 1, &raw mut truth, 1),
             }
+        };
+        // Only one of them was read.
+        (status, f64::from(count) + item as f64 + f64::from(truth))
+    }
+
+    /// Values of real variables.
+    pub fn reals(&self, references: &[u32]) -> Vec<f64> {
+        let (of, count) = (references.as_ptr(), references.len());
+        let mut values = vec![f64::NAN; count];
+        // SAFETY: arrays as long as is said.
+        self.check(unsafe { fmi3GetFloat64(self.instance, of, count, values.as_mut_ptr(), count) });
+        values
+    }
+
+    /// Its state, to be freed.
+    pub fn keep(&self) -> *mut c_void {
+        let mut state = ptr::null_mut();
+        // SAFETY: a place for a state.
+        self.check(unsafe { fmi3GetFMUState(self.instance, &raw mut state) });
+        state
+    }
+
+    pub fn go_back(&self, state: *mut c_void) {
+        // SAFETY: the state is alive.
+        self.check(unsafe { fmi3SetFMUState(self.instance, state) });
+    }
+
+    pub fn free(&self, mut state: *mut c_void) {
+        // SAFETY: the state is alive.
+        self.check(unsafe { fmi3FreeFMUState(self.instance, &raw mut state) });
+        assert!(state.is_null());
+    }
+
+    /// A state as bytes.
+    pub fn bytes_of(&self, state: *mut c_void) -> Vec<u8> {
+        let mut size = 0;
+        // SAFETY: the state is alive, a place as long as is said.
+        unsafe {
+            self.check(fmi3SerializedFMUStateSize(
+                self.instance,
+                state,
+                &raw mut size,
+            ));
+            let mut bytes = vec![0; size];
+            self.check(fmi3SerializeFMUState(
+                self.instance,
+                state,
+                bytes.as_mut_ptr(),
+                size,
+            ));
+            bytes
         }
+    }
+
+    /// Status and state of bytes.
+    pub fn try_state_of(&self, bytes: &[u8]) -> (c_int, *mut c_void) {
+        let (of, count, mut state) = (bytes.as_ptr(), bytes.len(), ptr::null_mut());
+        // SAFETY: a place for a state.
+        let status = unsafe { fmi3DeserializeFMUState(self.instance, of, count, &raw mut state) };
+        (status, state)
+    }
+
+    /// Goes on from the state of another instance, by way of bytes.
+    pub fn take_up(&self, other: &Self) {
+        let kept = other.keep();
+        let (status, state) = self.try_state_of(&other.bytes_of(kept));
+        self.check(status);
+        self.go_back(state);
+        self.free(state);
+        other.free(kept);
     }
 
     /// The bits of everything that can be read, but for arrays.
     pub fn everything(&self) -> Vec<(c_int, u64)> {
         let scalars = table().rows().filter(|row| row.element().is_none());
-        let read = scalars.map(|variable| {
-            let (status, value) = self.read(&variable.kind, variable.reference);
+        let read = scalars.map(|row| {
+            let (status, value) = self.read(row);
             (status, value.to_bits())
         });
         read.collect()
@@ -205,7 +289,7 @@ impl Unit {
 
     pub fn ticks(&self) -> bool {
         let (status, ticks) = self.try_clock();
-        assert_eq!(status, OK, "{:?}", self.take_log());
+        self.check(status);
         ticks
     }
 
@@ -214,17 +298,16 @@ impl Unit {
         let (mut event, mut end, mut early, mut time) = (7, 7, 7, f64::NAN);
         // SAFETY: places for the answers.
         let status = unsafe {
-            let places = (&raw mut event, &raw mut end, &raw mut early);
-            let time = &raw mut time;
+            let (event, end, early) = (&raw mut event, &raw mut end, &raw mut early);
             fmi3DoStep(
                 self.instance,
                 point,
                 size,
                 1,
-                places.0,
-                places.1,
-                places.2,
-                time,
+                event,
+                end,
+                early,
+                &raw mut time,
             )
         };
         let ending = Ending {
@@ -237,34 +320,24 @@ impl Unit {
 
     pub fn step(&self, point: f64, size: f64) -> Ending {
         let (status, ending) = self.try_step(point, size);
-        assert_eq!(status, OK, "{:?}", self.take_log());
+        self.check(status);
         ending
     }
 
     pub fn enter_event_mode(&self) {
         // SAFETY: the instance is alive.
-        assert_eq!(
-            unsafe { fmi3EnterEventMode(self.instance) },
-            OK,
-            "{:?}",
-            self.take_log()
-        );
+        self.check(unsafe { fmi3EnterEventMode(self.instance) });
     }
 
     pub fn leave_event_mode(&self) {
         // SAFETY: the instance is alive.
-        assert_eq!(
-            unsafe { fmi3EnterStepMode(self.instance) },
-            OK,
-            "{:?}",
-            self.take_log()
-        );
+        self.check(unsafe { fmi3EnterStepMode(self.instance) });
     }
 
     /// Lets the event happen; when the next one comes.
     pub fn update(&self) -> Option<f64> {
         let (status, next) = self.try_update();
-        assert_eq!(status, OK, "{:?}", self.take_log());
+        self.check(status);
         next
     }
 
@@ -310,23 +383,8 @@ impl Unit {
 
     /// Derivatives of outputs along a direction.
     pub fn directional(&self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
-        let mut values = vec![f64::NAN; unknowns.len()];
-        // SAFETY: arrays as long as is said.
-        let status = unsafe {
-            fmi3GetDirectionalDerivative(
-                self.instance,
-                unknowns.as_ptr(),
-                unknowns.len(),
-                knowns.as_ptr(),
-                knowns.len(),
-                seed.as_ptr(),
-                seed.len(),
-                values.as_mut_ptr(),
-                values.len(),
-            )
-        };
-        assert_eq!(status, OK, "{:?}", self.take_log());
-        values
+        let function = fmi3GetDirectionalDerivative;
+        self.derivatives(function, unknowns, knowns, seed, unknowns.len())
     }
 
     /// Derivatives of a weighted sum of outputs.
@@ -342,22 +400,36 @@ impl Unit {
         seed: &[f64],
         count: usize,
     ) -> Vec<f64> {
+        self.derivatives(fmi3GetAdjointDerivative, unknowns, knowns, seed, count)
+    }
+
+    fn derivatives(
+        &self,
+        function: Derivatives,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        count: usize,
+    ) -> Vec<f64> {
+        let (of, of_count) = (unknowns.as_ptr(), unknowns.len());
+        let (by, by_count) = (knowns.as_ptr(), knowns.len());
+        let (seed, seed_count) = (seed.as_ptr(), seed.len());
         let mut values = vec![f64::NAN; count];
+        let place = values.as_mut_ptr();
         // SAFETY: arrays as long as is said.
-        let status = unsafe {
-            fmi3GetAdjointDerivative(
+        self.check(unsafe {
+            function(
                 self.instance,
-                unknowns.as_ptr(),
-                unknowns.len(),
-                knowns.as_ptr(),
-                knowns.len(),
-                seed.as_ptr(),
-                seed.len(),
-                values.as_mut_ptr(),
-                values.len(),
+                of,
+                of_count,
+                by,
+                by_count,
+                seed,
+                seed_count,
+                place,
+                count,
             )
-        };
-        assert_eq!(status, OK, "{:?}", self.take_log());
+        });
         values
     }
 }
@@ -372,14 +444,13 @@ impl Drop for Unit {
     }
 }
 
-/// The token of an FMU with this library.
-fn token(options: Options) -> CString {
-    let imprint = Imprint::library().with_standard(Standard::Fmi3);
-    let token = guid_of(&imprint.with_options(options)).expect("a token");
-    CString::new(token).expect("no NUL")
-}
-
-/// The value reference of a variable.
-pub fn reference(name: &str) -> u32 {
-    table().by_name(name).expect("a variable").reference
+/// The token of an FMU with this library, which takes a while to compute.
+fn token(options: Options) -> &'static CStr {
+    static TOKENS: [OnceLock<CString>; 4] = [const { OnceLock::new() }; 4];
+    let number = usize::from(options.clock) + 2 * usize::from(options.arrays);
+    TOKENS[number].get_or_init(|| {
+        let imprint = Imprint::library().with_standard(Standard::Fmi3);
+        let token = guid_of(&imprint.with_options(options)).expect("a token");
+        CString::new(token).expect("no NUL")
+    })
 }

@@ -1,9 +1,7 @@
 //! The state machine of the standard: what may come of each call.
 
-use std::ffi::c_int;
-
 use super::call::{Call, Vector, Where};
-use crate::common::{DISCARD, ERROR, OK};
+use crate::common::{DISCARD, ERROR, OK, Statuses, if_all};
 use crate::v3::arrays::ELEMENTS;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,33 +31,19 @@ pub struct Model {
     pub updated: bool,
 }
 
-pub const FRESH: Model = Model {
-    life: Instantiated,
-    time: 0.0,
-    awaits: false,
-    begun: false,
-    is_for_exchange: false,
-    event: 0.0,
-    updated: true,
-};
-
-pub const FRESH_FOR_EXCHANGE: Model = Model {
-    is_for_exchange: true,
-    ..FRESH
-};
-
-/// What may come of a call.
-pub type Statuses = &'static [c_int];
-
-fn if_all(conditions: &[bool]) -> Statuses {
-    if conditions.iter().all(|holds| *holds) {
-        &[OK]
-    } else {
-        &[ERROR]
-    }
-}
-
 impl Model {
+    pub fn new(is_for_exchange: bool) -> Self {
+        Self {
+            life: Instantiated,
+            time: 0.0,
+            awaits: false,
+            begun: false,
+            is_for_exchange,
+            event: 0.0,
+            updated: true,
+        }
+    }
+
     fn is(&self, lives: &[Life]) -> bool {
         lives.contains(&self.life)
     }

@@ -8,10 +8,10 @@ use softstop_fmu::Options;
 
 use super::call::{Call, Vector, Where};
 use super::model::Life::{Continuous, Event, Initializing, Step, Terminated};
-use super::model::{FRESH, FRESH_FOR_EXCHANGE, Model};
-use crate::common::{DISCARD, ERROR, OK};
+use super::model::Model;
+use crate::common::{DISCARD, ERROR, OK, reference, variable};
 use crate::v3::arrays::STIFFNESS;
-use crate::v3::unit::{CLOCK, HANDLINGS, Unit, reference};
+use crate::v3::unit::{CLOCK, HANDLINGS, Unit};
 
 /// How many states can be kept.
 pub const STATES: usize = 3;
@@ -49,8 +49,8 @@ impl World {
     pub fn new() -> Self {
         Self {
             units: std::array::from_fn(|index| match HANDLINGS.get(index) {
-                Some(handling) => (Unit::made(*handling, None, OPTIONS), FRESH),
-                None => (Unit::for_exchange(OPTIONS), FRESH_FOR_EXCHANGE),
+                Some(handling) => (Unit::made(*handling, None, OPTIONS), Model::new(false)),
+                None => (Unit::for_exchange(OPTIONS), Model::new(true)),
             }),
             states: [None; STATES],
         }
@@ -168,16 +168,10 @@ impl World {
                     fmi3Terminate(instance)
                 }
                 Call::Reset => {
-                    after = match model.is_for_exchange {
-                        true => FRESH_FOR_EXCHANGE,
-                        false => FRESH,
-                    };
+                    after = Model::new(model.is_for_exchange);
                     fmi3Reset(instance)
                 }
-                Call::Get(name) => {
-                    let variable = softstop_fmu::table().by_name(name).expect("a variable");
-                    unit.read(&variable.kind, variable.reference).0
-                }
+                Call::Get(name) => unit.read(variable(name)).0,
                 Call::Set(name, value) => unit.set(name, value),
                 Call::GetClock => {
                     let (status, ticks) = unit.try_clock();
@@ -254,8 +248,8 @@ impl World {
                     }
                     fmi3SetFMUState(instance, self.state(number))
                 }
-                Call::Copy(number) => self.copy(instance, number, false),
-                Call::DamagedBytes(number) => self.copy(instance, number, true),
+                Call::Copy(number) => self.copy(index, number, false),
+                Call::DamagedBytes(number) => self.copy(index, number, true),
                 Call::Logging(right) => {
                     let name = if right { c"events" } else { c"nonsense" }.as_ptr();
                     fmi3SetDebugLogging(instance, 0, 1, &raw const name)
@@ -267,38 +261,33 @@ impl World {
     }
 
     /// Takes a state over bytes to another place.
-    fn copy(&mut self, instance: *mut c_void, number: usize, damaged: bool) -> c_int {
-        let (state, mut size, mut copy) = (self.state(number), 0, ptr::null_mut());
-        // SAFETY: the state is NULL or alive; the old one is freed once.
-        unsafe {
-            let status = fmi3SerializedFMUStateSize(instance, state, &raw mut size);
-            if status != OK {
-                return status;
-            }
-            let mut bytes = vec![0u8; size];
-            assert_eq!(
-                fmi3SerializeFMUState(instance, state, bytes.as_mut_ptr(), size),
-                OK
-            );
-            if damaged {
-                bytes[size / 2] ^= 8;
-            }
-            let place = &raw mut copy;
-            let status = fmi3DeserializeFMUState(instance, bytes.as_ptr(), size, place);
-            if let Some((state, _)) = self.states[number].as_mut().filter(|_| status == OK) {
-                assert_eq!(fmi3FreeFMUState(instance, &raw mut *state), OK);
-                *state = copy;
-            }
-            status
+    fn copy(&mut self, unit: usize, number: usize, damaged: bool) -> c_int {
+        let (unit, mut size) = (&self.units[unit].0, 0);
+        let Some((state, _)) = &mut self.states[number] else {
+            // SAFETY: NULL is refused.
+            return unsafe {
+                fmi3SerializedFMUStateSize(unit.instance, ptr::null_mut(), &raw mut size)
+            };
+        };
+        let mut bytes = unit.bytes_of(*state);
+        if damaged {
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 8;
         }
+        let (status, copy) = unit.try_state_of(&bytes);
+        if status == OK {
+            unit.free(*state);
+            *state = copy;
+        }
+        status
     }
 }
 
 impl Drop for World {
     fn drop(&mut self) {
-        for mut state in self.states.iter().flatten().map(|(state, _)| *state) {
-            // SAFETY: each is freed once, by any instance.
-            unsafe { fmi3FreeFMUState(self.units[0].0.instance, &raw mut state) };
+        // Each is freed once, by any instance.
+        for (state, _) in self.states.iter().flatten() {
+            self.units[0].0.free(*state);
         }
     }
 }
