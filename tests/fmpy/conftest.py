@@ -19,17 +19,6 @@ from fmpy.fmi2 import (
 from fmpy.logging import addLoggerProxy
 from packages import TOP, UNITS, package
 
-PERIOD = 2 * np.pi / 1.15
-"""Drive period of the default unit in s."""
-
-UNLOADED = {
-    "piercing.thickness": 0.0,
-    "piercing.travel": 0.0,
-    "initial.position": 6.901267951548,
-    "initial.velocity": 9.516655745459,
-}
-"""The z = 1 orbit of the unloaded machine at drive angle 0."""
-
 
 class Unit:
     """One instance, driven through FMPy's low-level interface."""

@@ -3,6 +3,17 @@
 import numpy as np
 from scipy.integrate import solve_ivp
 
+PERIOD = 2 * np.pi / 1.15
+"""Drive period of the default unit in s."""
+
+UNLOADED = {
+    "piercing.thickness": 0.0,
+    "piercing.travel": 0.0,
+    "initial.position": 6.901267951548,
+    "initial.velocity": 9.516655745459,
+}
+"""The z = 1 orbit of the unloaded machine at drive angle 0."""
+
 DEFAULTS = dict(
     m=1.0, k1=1.0, b1=0.04, amplitude=1.0, frequency=1.15, clearance=10.0, b=0.18,
     k4=7.0, preload=70.0, k2=21.0, k3=23.0, s=0.4, v=0.5, force=0.0, rate=0.0,

@@ -16,7 +16,7 @@ import zipfile
 
 import fmpy
 import numpy as np
-from conftest import PERIOD, UNLOADED
+from reference import PERIOD, UNLOADED
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2] / "fmu/tests/c"
 PERIODS = 200

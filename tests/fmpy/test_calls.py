@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from conftest import PERIOD, UNLOADED
+from reference import PERIOD, UNLOADED
 
 
 def test_fixed_parameter_after_initialisation(unit):

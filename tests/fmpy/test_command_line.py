@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import PERIOD, UNLOADED
+from reference import PERIOD, UNLOADED
 
 
 def fmpy(*arguments):

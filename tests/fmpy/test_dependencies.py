@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from conftest import PERIOD
 from fmpy.fmi1 import FMICallException
+from reference import PERIOD
 from test_description import initial_values
 from test_stops import chattering
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import PERIOD
+from reference import PERIOD
 from scipy.integrate import solve_ivp
 from test_dependencies import LED
 

@@ -3,11 +3,12 @@
 import fmpy
 import numpy as np
 import pytest
-from conftest import UNLOADED, Unit
+from conftest import Unit
 from fmpy.fmi2 import FMU2Model
 from fmpy.validation import validate_fmu
 from grazing import missed
 from packages import package_3, package_exchange
+from reference import UNLOADED
 
 GEOMETRY = {"piercing.thickness": 0.0, "piercing.travel": 0.0}
 MACHINES = {  # values, and how far CVODE may be off at a tolerance of 1e-8

@@ -3,8 +3,9 @@
 import fmpy
 import numpy as np
 import pytest
-from conftest import PERIOD, maker
+from conftest import maker
 from packages import package
+from reference import PERIOD
 
 RANDOM = {"supply.model": 3, "supply.probability": 0.7, "supply.seed": 20}
 

@@ -8,10 +8,10 @@ import fmpy
 import lxml.etree
 import numpy as np
 import pytest
-from conftest import PERIOD, UNLOADED
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 from packages import TOP, UNITS, package, package_3, package_exchange
+from reference import PERIOD, UNLOADED
 
 FMPY = pathlib.Path(fmpy.__file__).parent
 NAMES = ["position", "velocity", "acceleration", "contact.force", "impact.time", "impact.velocity",

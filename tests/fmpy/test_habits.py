@@ -11,7 +11,7 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from conftest import PERIOD
+from reference import PERIOD
 
 START = [4.818747634046, 11.908301592746]
 

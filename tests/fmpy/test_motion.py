@@ -5,8 +5,7 @@ import math
 import fmpy
 import numpy as np
 import pytest
-from conftest import PERIOD, UNLOADED
-from reference import simulate
+from reference import PERIOD, UNLOADED, simulate
 
 FREE = {"stop.model": 1, "piercing.thickness": 0.0, "piercing.travel": 0.0}
 

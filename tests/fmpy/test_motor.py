@@ -1,8 +1,8 @@
 """The unit on a motor of finite power: roll back, energy, and steps of any size."""
 
 import numpy as np
-from conftest import PERIOD, UNLOADED
 from master import Coupled, Motor
+from reference import PERIOD, UNLOADED
 
 START = (UNLOADED["initial.position"] ** 2 + UNLOADED["initial.velocity"] ** 2) / 2
 MOTOR = Motor(stall=60.0, idle=1.2, inertia=40.0, unbalance=1 / 1.15**2)

@@ -8,10 +8,10 @@ import zipfile
 import fmpy
 import lxml.etree
 import pytest
-from conftest import PERIOD
 from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 from packages import TOP
+from reference import PERIOD
 
 PROGRAM = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")) / "release" / "softstop"
 SCHEMA = pathlib.Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3ModelDescription.xsd"

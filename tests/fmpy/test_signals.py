@@ -3,7 +3,7 @@
 import fmpy
 import numpy as np
 import pytest
-from conftest import PERIOD
+from reference import PERIOD
 
 NAMES = ["position", "velocity", "impact.count", "pierce.count"]
 END = 8 * PERIOD

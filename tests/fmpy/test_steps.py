@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import PERIOD, UNLOADED
+from reference import PERIOD, UNLOADED
 
 NAMES = ["position", "velocity", "acceleration", "contact.force", "impact.time",
          "impact.velocity", "impact.count", "pierce.count", "energy.mechanical",

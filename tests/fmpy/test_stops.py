@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import PERIOD
+from reference import PERIOD
 from stops import Chain, Hertz, Rigid, Spring, simulate
 
 START = (0.5, 4.0)

@@ -3,7 +3,8 @@
 import fmpy
 import numpy as np
 import pytest
-from conftest import PERIOD, Unit
+from conftest import Unit
+from reference import PERIOD
 
 RUNS = 3000
 NAMES = ["position", "velocity", "impact.count", "impact.time", "energy.supplied"]

@@ -8,21 +8,10 @@ import numpy as np
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "fmpy"))
 
 from packages import TOP, UNITS, package, package_3, package_exchange  # noqa: E402, F401
-from reference import simulate  # noqa: E402
-
-PERIOD = 2 * np.pi / 1.15
-"""Drive period of the default unit in s."""
+from reference import PERIOD, UNLOADED, simulate  # noqa: E402
 
 LOADED = {"initial.position": 4.818747634046, "initial.velocity": 11.908301592746}
 """Start of the loaded machine's orbit, the unit's own default."""
-
-UNLOADED = {
-    "piercing.thickness": 0.0,
-    "piercing.travel": 0.0,
-    "initial.position": 6.901267951548,
-    "initial.velocity": 9.516655745459,
-}
-"""The unloaded machine on its orbit with one impact in each drive period."""
 
 IMPACT_VELOCITY = {"loaded": 8.39868, "unloaded": 6.49463}
 """Velocity of the impacts on the two orbits, in m/s and to five decimals."""
