@@ -42,9 +42,7 @@ pub(crate) const PRESS: &str = "name = \"press\"\nmass = 120.0\nstiffness = 2.4e
                      contact.damping = 3060.0\n[excitation]\namplitude = 9000.0\nfrequency_hz = 27.0\n[stop]\n\
                      model = \"preloaded\"\nstiffness = 1.68e7\npreload_deflection = 0.01\n[piercing]\n\
                      stiffness = 4.8e6\nfriction = 2.4e6\nthickness = 0.002\ntravel = 0.001\n";
-const HAMMER: &str = "name = \"hammer\"\nmass = 0.2\nstiffness = 8000.0\ndamping = 1.6\nclearance = 0.004\n\
-                      contact.damping = 12.0\n[excitation]\namplitude = 15.0\nfrequency_hz = 40.0\n[stop]\n\
-                      model = \"preloaded\"\nstiffness = 6e4\npreload_deflection = 0.002\n";
+const HAMMER: &str = include_str!("tasks/hammer.toml");
 
 fn machine(index: usize) -> Machine {
     match index {

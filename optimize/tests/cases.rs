@@ -19,9 +19,10 @@ use softstop_optimize::design::search::{Found, SearchError, Settings, Unwatched,
 use softstop_optimize::design::space::{Axis, Interval};
 use softstop_optimize::design::{Design, Problem};
 use softstop_optimize::robust::{self, FITTED, verify, verify_in_cases, worst};
-use softstop_testing::{docs, words};
+use softstop_testing::{docs, number};
 
-use crate::{Outcome, SOFTSTOP};
+use crate::Outcome;
+use crate::report::{Written, design};
 
 const SETTINGS: Settings = Settings { evaluations: 300 };
 const MARGIN: f64 = 0.2;
@@ -386,18 +387,15 @@ fn trials_are_made_in_every_case() -> Outcome {
 /// What a user reads of them, in every form; without them there is none of it.
 #[test]
 fn reports_tell_every_case() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let path = |name: &str| folder.path().join(name).display().to_string();
     let task = "machine = \"unloaded\"\n[vary]\nstop.stiffness = 7\nclearance = [2, 22]\n[tolerance]\nclearance = 0.02\n\
                 [require]\nstop_force = 150\n[[case]]\nname = \"more <damping>\"\nweight = 0.5\ndamping = 0.06\n\
                 [[case]]\nweight = 0\nstop.preload = 80\n";
-    std::fs::write(path("task.toml"), task)?;
-    let line = format!(
-        "optimize --evaluations 100 --samples 4096 --config {} --output {}",
-        path("task.toml"),
-        path("out")
-    );
-    let text = SOFTSTOP.text(&words(&line));
+    let file = tempfile::NamedTempFile::with_suffix(".toml")?;
+    std::fs::write(&file, task)?;
+    let Written { text, page, report } = design(&format!(
+        "--evaluations 100 --samples 4096 --config {}",
+        file.path().display()
+    ))?;
     for told in [
         "Hardest impact, weighted mean of 2 operating points",
         "In each case",
@@ -406,24 +404,20 @@ fn reports_tell_every_case() -> Outcome {
     ] {
         assert!(text.contains(told), "{told}: {text}");
     }
-    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name));
-    let json: serde_json::Value = serde_json::from_str(&read("design.json")?)?;
-    let cases = json["cases"].as_array().ok_or("cases")?;
+    let cases = report.list("cases");
     let names: Vec<&str> = cases.iter().filter_map(|it| it["case"].as_str()).collect();
     assert_eq!(names, ["drawing", "more <damping>", "2"]);
-    let value = |index: usize| cases[index]["value"].as_f64().ok_or("a value");
-    let mean = (value(0)? + 0.5 * value(1)?) / 1.5;
-    let sought = json["objective"]["value"].as_f64().ok_or("a value")?;
-    assert_relative_eq!(sought, mean, max_relative = 1e-14);
-    let requirements = json["requirements"].as_array().ok_or("requirements")?;
+    let [drawing, damped] = [0, 1].map(|index: usize| number(&cases[index], "value"));
+    let mean = (drawing + 0.5 * damped) / 1.5;
+    assert_relative_eq!(report.number("objective/value"), mean, max_relative = 1e-14);
+    let requirements = report.list("requirements");
     assert_eq!(requirements.len(), 3);
     for it in requirements {
         assert_eq!((&it["met"], &it["violating"]), (&true.into(), &0.0.into()));
     }
-    assert_eq!(json["tolerances"]["machines"]["rejected"], 0);
-    assert!(read("cases.csv")?.starts_with("case,changes,weight"));
-    assert!(read("requirements.csv")?.starts_with("case,name,"));
-    let page = read("report.html")?;
+    assert_eq!(report.at("tolerances/machines/rejected"), 0);
+    assert!(report.text("cases.csv").starts_with("case,changes,weight"));
+    assert!(report.text("requirements.csv").starts_with("case,name,"));
     assert!(page.contains("more &lt;damping&gt;") && page.contains("id=\"cases\""));
     Ok(())
 }

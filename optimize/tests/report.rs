@@ -1,12 +1,12 @@
 //! The report of a run: text, JSON, tables and the page state the same; the page is whole, alone, and of what there is.
 
 use std::fs;
-use std::path::Path;
 
+use approx::assert_relative_eq;
 use quick_xml::Reader;
 use quick_xml::events::Event;
-use serde_json::Value;
-use softstop_testing::{files, words};
+use serde_json::json;
+use softstop_testing::{Report, files, number, words};
 
 use crate::{Outcome, SOFTSTOP};
 
@@ -41,25 +41,30 @@ date = 2026-11-26
 /// Of these bytes, by `sha256sum`.
 const HASH: &str = "1fd602f7e28bfe7991bfb240022e846c75f81bde1e874c21fbdacdb3959baece";
 
-/// What a run has written.
-struct Written {
-    page: String,
-    text: String,
-    report: Value,
-    folder: tempfile::TempDir,
+/// What a run has told, and written.
+pub struct Written {
+    pub text: String,
+    pub page: String,
+    pub report: Report,
 }
 
-fn optimize(more: &[&str]) -> Outcome<Written> {
+fn optimize(line: &str) -> Outcome<Written> {
+    design(&format!("{line} --evaluations 100 --samples 256"))
+}
+
+pub fn design(line: &str) -> Outcome<Written> {
     let folder = tempfile::tempdir()?;
-    let path = folder.path().to_str().ok_or("path")?;
-    let few = ["--evaluations", "100", "--samples", "256", "--output", path];
-    let text = SOFTSTOP.text(&[&["optimize"], more, &few[..]].concat());
+    let path = folder.path().display();
+    let line = format!("optimize {line} --output {path}");
+    let text = SOFTSTOP.text(&words(&line));
     let read = |name: &str| fs::read_to_string(folder.path().join(name));
     Ok(Written {
-        page: read("report.html").unwrap_or_default(),
-        report: serde_json::from_str(&read("design.json")?)?,
         text,
-        folder,
+        page: read("report.html").unwrap_or_default(),
+        report: Report {
+            value: serde_json::from_str(&read("design.json")?)?,
+            folder,
+        },
     })
 }
 
@@ -98,8 +103,8 @@ fn stands_alone(page: &str) {
 }
 
 /// A table as rows of cells under their heads.
-fn table(folder: &Path, name: &str) -> Outcome<Vec<csv::StringRecord>> {
-    let mut reader = csv::Reader::from_path(folder.join(name))?;
+fn table(report: &Report, name: &str) -> Outcome<Vec<csv::StringRecord>> {
+    let mut reader = csv::Reader::from_path(report.path(name))?;
     let head = reader.headers()?.clone();
     let rows = reader.records().collect::<Result<Vec<_>, _>>()?;
     assert!(!rows.is_empty(), "{name}");
@@ -111,13 +116,9 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
     let folder = tempfile::tempdir()?;
     let file = folder.path().join("press.toml");
     fs::write(&file, PRESS)?;
-    let written = optimize(&[file.to_str().ok_or("path")?])?;
-    let (page, report) = (&written.page, &written.report);
+    let Written { text, page, report } = &optimize(&file.display().to_string())?;
     // Kept to be looked at.
-    fs::write(
-        Path::new(env!("CARGO_TARGET_TMPDIR")).join("report.html"),
-        page,
-    )?;
+    fs::write(concat!(env!("CARGO_TARGET_TMPDIR"), "/report.html"), page)?;
     stands_alone(page);
     // The policy comes before what it allows: styles in the page, and nothing from elsewhere.
     let policy = page.find("content=\"default-src 'none'; style-src 'unsafe-inline'");
@@ -125,17 +126,14 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
         policy.is_some() && policy < page.find("<style>"),
         "{policy:?}"
     );
-    let requirements = report["requirements"].as_array().ok_or("requirements")?;
-    assert_eq!(requirements.len(), 2);
+    assert_eq!(report.list("requirements").len(), 2);
     assert_eq!(page.matches("class=\"requirement\"").count(), 2);
     assert_eq!(count(page, "section")?, 11);
-    let (pictures, sources) = (
-        count(page, "svg")? - page.matches("class=\"narrow\"").count(),
-        page.matches("class=\"source\"").count(),
-    );
-    assert_eq!((count(page, "figure")?, sources), (pictures + 2, 2));
     // Response, motion and portrait are drawn for narrow screens, too.
-    assert_eq!(page.matches("class=\"narrow\"").count(), 3);
+    let [narrow, sources] =
+        ["narrow", "source"].map(|it| page.matches(&format!("class=\"{it}\"")).count());
+    assert_eq!((narrow, sources), (3, 2));
+    assert_eq!(count(page, "figure")?, count(page, "svg")? - narrow + 2);
     for told in [
         "<h1>press &lt;1&gt; &amp; co</h1>",
         "s<sub>SN</sub>",
@@ -149,49 +147,37 @@ fn a_report_of_a_press_is_whole_and_stands_alone() -> Outcome {
     ] {
         assert!(page.contains(told), "{told}");
     }
-    assert_eq!(report["report"]["date"], "2026-11-26");
-    assert_eq!(report["objective"]["figure"], "impact_energy");
+    assert_eq!(report.at("report/date"), "2026-11-26");
+    assert_eq!(report.at("objective/figure"), "impact_energy");
     for told in [
         "follows stop.stiffness",
         "kinetic energy before the impact",
         "Kinetic energy before the impact: without tolerances ",
         "sought",
     ] {
-        assert!(written.text.contains(told), "{told}");
+        assert!(text.contains(told), "{told}");
     }
-    tables(written.folder.path(), report)
+    tables(report)
 }
 
 /// The tables hold what JSON does, rows have all columns, and numbers in them are numbers.
-fn tables(folder: &Path, report: &Value) -> Outcome {
-    for file in fs::read_dir(folder)? {
-        let name = file?.file_name().to_string_lossy().into_owned();
-        if name.ends_with(".csv") {
-            table(folder, &name)?;
-            let text = fs::read_to_string(folder.join(&name))?;
-            assert!(!text.contains("NaN") && !text.contains("inf"), "{name}");
-        }
+fn tables(report: &Report) -> Outcome {
+    for name in report.names().iter().filter(|name| name.ends_with(".csv")) {
+        table(report, name)?;
+        let text = report.text(name);
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{name}");
     }
-    let comparison = table(folder, "comparison.csv")?;
-    let records = report["comparison"].as_array().ok_or("comparison")?;
-    assert_eq!(comparison.len(), records.len() + 1);
-    let requirements = table(folder, "requirements.csv")?;
+    let comparison = table(report, "comparison.csv")?;
+    assert_eq!(comparison.len(), report.list("comparison").len() + 1);
+    let requirements = table(report, "requirements.csv")?;
     assert_eq!(&requirements[0][0], "name");
     // Two periods of the drive, in each of which the force reaches its peak.
-    let frequency = report["design"]["frequency"].as_f64().ok_or("frequency")?;
-    let motion = table(folder, "motion.csv")?;
+    let motion = table(report, "motion.csv")?;
     let number = |row: &csv::StringRecord, column: usize| row[column].parse::<f64>();
     let end = number(&motion[motion.len() - 1], 0)?;
-    assert!((end * frequency - 2.0).abs() < 1e-9, "{end}");
-    let figure = |name: &str| {
-        report["requirements"]
-            .as_array()?
-            .iter()
-            .find(|it| it["name"] == name)
-    };
-    let peak = figure("stop_force")
-        .and_then(|it| it["value"].as_f64())
-        .ok_or("peak")?;
+    let periods = end * report.number("design/frequency");
+    assert!((periods - 2.0).abs() < 1e-9, "{periods}");
+    let peak = value_of(report, "stop_force")?;
     let mut peaks = [0.0f64; 2];
     for row in &motion[1..] {
         let period = usize::from(number(row, 0)? > 0.5 * end);
@@ -209,48 +195,27 @@ fn tables(folder: &Path, report: &Value) -> Outcome {
 /// A task makes the same page at any time.
 #[test]
 fn what_is_absent_is_left_out_with_its_heading() -> Outcome {
-    let line = [
-        "unloaded",
-        "--vary",
-        "stop.stiffness=7",
-        "--vary",
-        "clearance=9:11",
-        "--margin",
-        "0",
-    ];
-    let [written, again] = [optimize(&line)?, optimize(&line)?];
-    assert_eq!(written.page, again.page);
-    stands_alone(&written.page);
+    let line = "unloaded --vary stop.stiffness=7 --vary clearance=9:11 --margin 0";
+    let [Written { page, report, .. }, again] = [optimize(line)?, optimize(line)?];
+    assert_eq!(page, again.page);
+    stands_alone(&page);
     for id in ["requirements", "tolerances", "sensitivities"] {
-        assert!(!written.page.contains(&format!("id=\"{id}\"")), "{id}");
-        assert!(
-            !written.folder.path().join(format!("{id}.csv")).exists(),
-            "{id}"
-        );
+        assert!(!page.contains(&format!("id=\"{id}\"")), "{id}");
+        assert!(!report.path(&format!("{id}.csv")).exists(), "{id}");
     }
-    assert!(written.page.contains("--vary clearance=9:11"));
-    assert!(written.page.contains("paper&#x27;s A"));
+    assert!(page.contains("--vary clearance=9:11"));
+    assert!(page.contains("paper&#x27;s A"));
     Ok(())
 }
 
 /// In ratios, with m = k1 = F0 = 1, a preload is the deflection times the stiffness of the stop, in every column.
 #[test]
 fn preloads_of_ratio_machines_are_of_one_kind_in_a_row() -> Outcome {
+    let vary = "--vary stop.stiffness=2:3 --vary clearance=10:12 --no-report";
     for (machine, deflection) in [("unloaded", 10.0), ("loaded", 4.0), ("loaded", 0.0)] {
         let set = format!("stop.preload_deflection={deflection}");
-        let written = optimize(&[
-            machine,
-            "--set",
-            &set,
-            "--vary",
-            "stop.stiffness=2:3",
-            "--vary",
-            "clearance=10:12",
-            "--no-report",
-        ])?;
-        let rows = written.report["comparison"]
-            .as_array()
-            .ok_or("comparison")?;
+        let report = optimize(&format!("{machine} --set {set} {vary}"))?.report;
+        let rows = report.list("comparison");
         let row = |name: &str| {
             rows.iter()
                 .find(|row| row["quantity"] == name)
@@ -261,20 +226,14 @@ fn preloads_of_ratio_machines_are_of_one_kind_in_a_row() -> Outcome {
             row("preload of the stop")?,
             row("preload of the stop as a deflection")?,
         );
-        for (column, expected) in [("design", None), ("A", Some(70.0)), ("B", Some(70.0))] {
-            let number = |row: &Value| row[column].as_f64().ok_or("a number");
-            let product = number(bend)? * number(stiffness)?;
-            assert!(
-                (number(force)? - product).abs() <= 1e-12 * product,
-                "{column}"
-            );
-            assert!(expected.is_none_or(|it| (number(force).unwrap_or(0.0) - it).abs() < 1e-12));
+        for column in ["design", "A", "B"] {
+            let [force, bend, stiffness] = [force, bend, stiffness].map(|row| number(row, column));
+            assert_relative_eq!(force, bend * stiffness, max_relative = 1e-12);
+            assert!(column == "design" || (force - 70.0).abs() < 1e-12);
         }
         assert_eq!(bend["design"], deflection);
-        assert_eq!(
-            written.report["design"]["at_limits"][0],
-            "stop.stiffness: lower bound"
-        );
+        let limit = report.at("design/at_limits/0");
+        assert_eq!(limit, "stop.stiffness: lower bound");
     }
     Ok(())
 }
@@ -282,9 +241,9 @@ fn preloads_of_ratio_machines_are_of_one_kind_in_a_row() -> Outcome {
 /// Where a range spans decades, so does the axis of its map, whose rows are a constant factor apart.
 #[test]
 fn maps_of_decades_are_logarithmic() -> Outcome {
-    let line = ["unloaded", "--vary", "stop.stiffness=1:2000", "--vary"];
-    let written = optimize(&[&line[..], &["clearance=10"]].concat())?;
-    let map = table(written.folder.path(), "map-1.csv")?;
+    let line = "unloaded --vary stop.stiffness=1:2000 --vary clearance=10";
+    let report = optimize(line)?.report;
+    let map = table(&report, "map-1.csv")?;
     let stiffness = map[1..].iter().map(|row| row[1].parse::<f64>());
     let mut stiffness = stiffness.collect::<Result<Vec<_>, _>>()?;
     stiffness.dedup();
@@ -293,10 +252,10 @@ fn maps_of_decades_are_logarithmic() -> Outcome {
         let rows = (pair[1] / pair[0]).ln() / 2000f64.ln();
         assert!((rows * 40.0 - 1.0).abs() < 1e-9, "{pair:?}");
     }
-    let picture = fs::read_to_string(written.folder.path().join("map-1.svg"))?;
-    for power in ["10⁰", "10¹", "10²", "10³"] {
-        assert!(picture.contains(&format!(">{power}</text>")), "{power}");
-    }
+    report.shows(
+        "map-1.svg",
+        &[">10⁰</text>", ">10¹</text>", ">10²</text>", ">10³</text>"],
+    );
     Ok(())
 }
 
@@ -323,89 +282,79 @@ fn files_in_place_of_older_ones_and_removed_ones_are_told() -> Outcome {
 /// A soft stop without preload: a zone of 3e-4 of its frequency.
 #[test]
 fn a_zone_that_hardly_a_drive_can_hold_is_warned_of() -> Outcome {
-    let machine = "loaded --vary clearance=12 --vary stop.stiffness=1 --set stop.preload=0";
-    let written = optimize(&words(machine))?;
-    let warning = written.report["warnings"][0].as_str().ok_or("a warning")?;
-    assert!(warning.starts_with("the zone is "), "{warning}");
-    assert!(warning.contains("of its frequency: hardly a drive keeps within it"));
-    assert!(warning.contains("require.margin_g0"), "{warning}");
-    assert!(written.text.contains(&format!("Warning: {warning}.")));
-    assert_eq!(
-        written
-            .page
-            .matches("hardly a drive keeps within it")
-            .count(),
-        1
+    let line = "loaded --vary clearance=12 --vary stop.stiffness=1 --set stop.preload=0";
+    let Written { text, page, report } = optimize(line)?;
+    let warning = report.at("warnings/0").as_str().ok_or("a warning")?;
+    let told = "of its frequency: hardly a drive keeps within it";
+    assert!(
+        warning.starts_with("the zone is ") && warning.contains(told),
+        "{warning}"
     );
+    assert!(warning.contains("require.margin_g0"), "{warning}");
+    assert!(text.contains(&format!("Warning: {warning}.")));
+    assert_eq!(page.matches(told).count(), 1);
     Ok(())
 }
 
 #[test]
 fn starts_that_the_evaluations_leave_out_are_counted() -> Outcome {
-    let written = optimize(&["loaded", "--no-report"])?;
-    assert_eq!(written.report["search"]["ascents"]["left_out"], 2);
+    let Written { text, report, .. } = optimize("loaded --no-report")?;
+    assert_eq!(report.number("search/ascents/left_out"), 2.0);
     let told = "each ascent counts as 80 zones, so that 2 further starts are left out";
-    assert!(written.text.contains(told), "{}", written.text);
-    assert_eq!(written.report.get("warnings"), None);
+    assert!(text.contains(told), "{text}");
+    assert_eq!(report.value.get("warnings"), None);
     Ok(())
 }
 
 /// Nothing is ever in contact with a rigid stop, so its damping there changes nothing; the clearance does.
 #[test]
 fn what_is_searched_without_effect_is_named() -> Outcome {
-    let machine = "../docs/scenes/rigid.toml";
-    let line = [machine, "--no-report", "--vary", "clearance=5:20"];
-    let idle = ["--vary", "contact.damping=0:1"];
-    let written = optimize(&[&line[..], &idle].concat())?;
-    assert_eq!(
-        written.report["without_effect"],
-        serde_json::json!(["contact.damping"])
-    );
+    let line = "../docs/scenes/rigid.toml --no-report --vary clearance=5:20";
+    let Written { text, report, .. } = optimize(&format!("{line} --vary contact.damping=0:1"))?;
+    assert_eq!(report.at("without_effect"), &json!(["contact.damping"]));
     let told = "Without effect on what is sought and required of the motion: contact.damping.";
-    assert!(written.text.contains(told));
-    let written = optimize(&line)?;
-    assert!(written.report.get("without_effect").is_none());
+    assert!(text.contains(told));
+    assert!(optimize(line)?.report.value.get("without_effect").is_none());
     Ok(())
 }
 
 /// With a margin of 0.1 a design of another ridge is nearly as good as the best.
 #[test]
 fn a_distant_design_that_is_nearly_as_good_is_told() -> Outcome {
-    let line = ["unloaded", "--vary", "stop.stiffness=7", "--vary"];
-    let written = optimize(&[&line[..], &["clearance=2:22", "--margin", "0.1"]].concat())?;
-    let rivals = written.report["rivals"].as_array().ok_or("rivals")?;
-    assert_eq!(rivals.len(), 1);
-    let velocity = rivals[0]["velocity"].as_f64().ok_or("velocity")?;
+    let line = "unloaded --vary stop.stiffness=7 --vary clearance=2:22 --margin 0.1";
+    let Written { text, page, report } = optimize(line)?;
+    assert_eq!(report.list("rivals").len(), 1);
+    let velocity = report.number("rivals/0/velocity");
     let told = format!("is nearly as good: {velocity:.3} at clearance");
-    assert!(written.page.contains(&told), "{told}");
-    assert!(written.text.contains("Nearly as good"));
+    assert!(page.contains(&told), "{told}");
+    assert!(text.contains("Nearly as good"));
     Ok(())
 }
 
 /// The paper's point A, with nothing to search, and what is required of it.
-fn held(require: &str) -> Outcome<Written> {
+fn held(require: &str) -> Outcome<Report> {
     let folder = tempfile::tempdir()?;
-    let path = folder.path().to_str().ok_or("path")?;
     let task = folder.path().join("task.toml");
     let text = "machine = \"unloaded\"\n[vary]\nclearance = 10\nstop.stiffness = 7\nexcitation.frequency = 1.15\n";
     fs::write(&task, format!("{text}[require]\n{require}\n"))?;
-    let task = task.to_str().ok_or("path")?;
-    let report = SOFTSTOP.json(&["optimize", "--config", task, "--output", path]);
-    Ok(Written {
-        page: fs::read_to_string(folder.path().join("report.html"))?,
-        text: String::new(),
-        report,
-        folder,
-    })
+    Ok(SOFTSTOP.report(&format!("optimize --config {}", task.display())))
+}
+
+/// The value of what is required.
+fn value_of(report: &Report, name: &str) -> Outcome<f64> {
+    let mut all = report.list("requirements").iter();
+    Ok(number(
+        all.find(|it| it["name"] == name).ok_or("no requirement")?,
+        "value",
+    ))
 }
 
 /// Nothing can be moved: the design is the machine itself, with its whole report.
 #[test]
 fn a_machine_without_anything_to_search_is_reported() -> Outcome {
-    let written = held("margin = 0.1")?;
-    let velocity = written.report["design"]["before_impact_velocity"].as_f64();
-    assert!((velocity.ok_or("no velocity")? - 6.494_627_429_363).abs() < 1e-9);
-    assert!(written.page.contains("</html>"));
+    let report = held("margin = 0.1")?;
+    report.has_near(&[("design/before_impact_velocity", 6.494_627_429_363, 1e-9)]);
+    assert!(report.text("report.html").contains("</html>"));
     Ok(())
 }
 
@@ -413,16 +362,9 @@ fn a_machine_without_anything_to_search_is_reported() -> Outcome {
 #[test]
 fn certainty_is_told_of_the_box_that_is_stated() -> Outcome {
     let near = "starts = { position = [6.8, 7.0], velocity = [9.4, 9.6] }";
-    let value = |name: &str, require: &str| -> Outcome<f64> {
-        let report = held(require)?.report;
-        let all = report["requirements"].as_array().ok_or("no requirements")?;
-        let own = all.iter().find(|it| it["name"] == name);
-        Ok(own.and_then(|it| it["value"].as_f64()).ok_or("no value")?)
-    };
-    assert_eq!(
-        value("certainty", &format!("certainty = 0.5\n{near}"))?,
-        1.0
-    );
+    let value = |name: &str, require: &str| value_of(&held(require)?, name);
+    let certainty = value("certainty", &format!("certainty = 0.5\n{near}"))?;
+    assert_eq!(certainty, 1.0);
     // The motion, at (6.901268, 9.516656), is nearest to the upper velocity.
     let ball = value("integrity", &format!("integrity = 0.5\n{near}"))?;
     assert!((ball - 0.833_44).abs() < 1e-4, "{ball}");
