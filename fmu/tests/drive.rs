@@ -65,12 +65,21 @@ fn inputs_that_are_not_taken() {
     }
 }
 
-/// Speeds and amplitudes that jump: as by tuning the parameters, with the angle going on.
+/// Speeds and amplitudes that jump by the parameters or by the inputs, each or both: the same, with the angle going on.
 #[test]
 fn jumps_are_those_of_the_parameters() {
-    let (tuned, led) = (Unit::new(), led(1.15));
-    tuned.begin();
-    led.begin();
+    let units = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(speed, amplitude)| {
+        let unit = Unit::new();
+        unit.set_all(&[
+            ("drive.takes.speed", speed),
+            ("drive.takes.amplitude", amplitude),
+            ("drive.speed", 1.15),
+            ("drive.amplitude", 1.0),
+        ]);
+        unit.begin();
+        unit
+    });
+    let [tuned, others @ ..] = &units;
     let mut angle = 0.0;
     for (step, (speed, amplitude)) in [(1.15, 1.0), (1.3, 1.0), (0.9, 1.4), (1.15, 0.7), (2.0, 1.0)]
         .into_iter()
@@ -78,19 +87,22 @@ fn jumps_are_those_of_the_parameters() {
         .take(25)
         .enumerate()
     {
-        let time = 2.7 * step as f64;
-        assert_eq!(tuned.set("excitation.frequency", speed), OK);
-        assert_eq!(tuned.set("excitation.amplitude", amplitude), OK);
-        assert_eq!(led.set("drive.speed", speed), OK);
-        assert_eq!(led.set("drive.amplitude", amplitude), OK);
-        for unit in [&tuned, &led] {
+        for unit in &units {
+            unit.set_all(&[
+                ("excitation.frequency", speed),
+                ("excitation.amplitude", amplitude),
+                ("drive.speed", speed),
+                ("drive.amplitude", amplitude),
+            ]);
             assert_near(unit.get("drive.angle"), angle, SAME);
-            assert_eq!(unit.step(time, 2.7), OK);
+            assert_eq!(unit.step(2.7 * step as f64, 2.7), OK);
         }
         angle += 2.7 * speed;
-        assert_same(&tuned, &led, SAME);
+        for other in others {
+            assert_same(tuned, other, SAME);
+        }
     }
-    assert!(led.get("impact.count") > 0.0);
+    assert!(tuned.get("impact.count") > 0.0);
 }
 
 /// A drive that runs up from rest, through zero back, and swells: the same in one step and in many.

@@ -96,7 +96,6 @@ fn states_of_another_fmu_are_refused() {
         [
             call!(fmi2GetFMUstate(component, &raw mut foreign)),
             call!(fmi2SetFMUstate(component, state)),
-            call!(fmi2FreeFMUstate(component, &raw mut foreign)),
             call!(fmi2SerializedFMUstateSize(component, state, &raw mut size)),
             call!(fmi2SerializeFMUstate(
                 component,
@@ -104,6 +103,7 @@ fn states_of_another_fmu_are_refused() {
                 bytes.as_mut_ptr().cast(),
                 bytes.len()
             )),
+            call!(fmi2FreeFMUstate(component, &raw mut foreign)),
         ]
     };
     let lines = unit.take_log();

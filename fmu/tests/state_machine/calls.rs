@@ -49,6 +49,8 @@ pub enum Point {
     Present,
     /// As far off as sums of step sizes may be.
     Rounded,
+    /// As far off as for an importer that counts in nanoseconds.
+    Counted,
     /// Where the last step began.
     Previous,
     Beyond,

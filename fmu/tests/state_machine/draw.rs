@@ -179,13 +179,14 @@ fn step() -> impl Strategy<Value = Call> {
     let point = prop_oneof![
         20 => Just(Point::Present),
         4 => Just(Point::Rounded),
+        2 => Just(Point::Counted),
         1 => Just(Point::Previous),
         1 => Just(Point::Beyond),
         1 => odd().prop_map(Point::Number),
     ];
     let size = prop_oneof![
         12 => select(vec![1e-3, 0.1, 0.7, 5.463639, 30.0]),
-        1 => Just(f64::MIN_POSITIVE),
+        1 => select(vec![f64::MIN_POSITIVE, 1e-10]),
         1 => odd(),
     ];
     (point, size).prop_map(|(p, s)| Call::DoStep(p, s))

@@ -146,6 +146,7 @@ impl World {
         let point = match point {
             Point::Present => time,
             Point::Rounded => time * (1.0 + 2.0 * f64::EPSILON),
+            Point::Counted => time + 4e-10,
             Point::Previous => previous,
             Point::Beyond => time + 77.0,
             Point::Number(number) => number,

@@ -250,7 +250,6 @@ fn states_of_another_fmu_are_refused() {
         [
             call!(fmi3GetFMUState(instance, &raw mut foreign)),
             call!(fmi3SetFMUState(instance, state)),
-            call!(fmi3FreeFMUState(instance, &raw mut foreign)),
             call!(fmi3SerializedFMUStateSize(instance, state, &raw mut size)),
             call!(fmi3SerializeFMUState(
                 instance,
@@ -258,6 +257,7 @@ fn states_of_another_fmu_are_refused() {
                 bytes.as_mut_ptr(),
                 bytes.len()
             )),
+            call!(fmi3FreeFMUState(instance, &raw mut foreign)),
         ]
     };
     let lines = unit.take_log();
