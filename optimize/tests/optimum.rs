@@ -16,23 +16,22 @@ const ANY: Interval = Interval::new(0.01, f64::INFINITY);
 
 const STIFFNESS: Interval = Interval::new(1.0, 30.0);
 
-fn problem(margin: f64) -> Problem {
+/// The paper's machine over its stiffness and clearance.
+fn over(stiffness: Interval, clearance: Interval, margin: f64) -> Problem {
     let machine = Machine::named("unloaded").expect("the paper's machine");
+    let axes = vec![
+        Axis::new(Parameter::StopStiffness, stiffness),
+        Axis::new(Parameter::Clearance, clearance),
+    ];
     Problem {
         margin,
         frequency: ANY,
-        ..Problem::of(machine, axes(Interval::held(7.0), CLEARANCE))
+        ..Problem::of(machine, axes)
     }
 }
 
-fn axes(stiffness: Interval, clearance: Interval) -> Vec<Axis> {
-    let axis = |(parameter, range)| Axis::new(parameter, range);
-    [
-        (Parameter::StopStiffness, stiffness),
-        (Parameter::Clearance, clearance),
-    ]
-    .map(axis)
-    .to_vec()
+fn problem(margin: f64) -> Problem {
+    over(Interval::held(7.0), CLEARANCE, margin)
 }
 
 /// The paper's machine whose preload is a deflection.
@@ -87,14 +86,7 @@ fn ranges_of_decades_are_searched() -> Outcome {
     let usual = solve(&problem(0.25), 400)?;
     let wide = |low, high| Interval { low, high };
     for stiffness in [Interval::held(7.0), wide(1.0, 1e12)] {
-        let axes = axes(stiffness, wide(1e-3, 1e4));
-        let found = solve(
-            &Problem {
-                axes,
-                ..problem(0.25)
-            },
-            1200,
-        )?;
+        let found = solve(&over(stiffness, wide(1e-3, 1e4), 0.25), 1200)?;
         let [found, usual] = [&found, &usual].map(Design::before_impact_velocity);
         assert!(found >= usual * (1.0 - 1e-6), "{found} {usual}");
     }
@@ -130,10 +122,7 @@ fn best_clearance_to_a_millionth() -> Outcome {
 
 #[test]
 fn best_stiffness_and_clearance() -> Outcome {
-    let problem = Problem {
-        axes: axes(STIFFNESS, CLEARANCE),
-        ..problem(0.25)
-    };
+    let problem = over(STIFFNESS, CLEARANCE, 0.25);
     let design = solve(&problem, 800)?;
     let best = grid(STIFFNESS, 16)
         .flat_map(|k4| grid(CLEARANCE, 31).map(move |rho| (k4, rho)))
@@ -167,8 +156,7 @@ fn where_the_optimum_jumps_both_ridges_are_told() -> Outcome {
 fn a_narrow_ridge_is_found_with_few_and_many_evaluations() -> Outcome {
     let problem = Problem {
         machine: deflected(),
-        axes: axes(STIFFNESS, CLEARANCE),
-        ..problem(0.25)
+        ..over(STIFFNESS, CLEARANCE, 0.25)
     };
     for evaluations in [300, 600] {
         let velocity = solve(&problem, evaluations)?.before_impact_velocity();
@@ -181,10 +169,7 @@ fn a_narrow_ridge_is_found_with_few_and_many_evaluations() -> Outcome {
 /// The problem is a cost function of `argmin`: each of its solvers that needs no derivatives can take the place of the search.
 #[test]
 fn another_solver_finds_the_same_optimum() -> Outcome {
-    let problem = Problem {
-        axes: axes(STIFFNESS, CLEARANCE),
-        ..problem(0.25)
-    };
+    let problem = over(STIFFNESS, CLEARANCE, 0.25);
     let simplex = vec![vec![0.2, 0.4], vec![0.3, 0.4], vec![0.2, 0.5]];
     let solver = NelderMead::new(simplex).with_sd_tolerance(1e-12)?;
     let found = Executor::new(&problem, solver)
@@ -201,10 +186,7 @@ fn another_solver_finds_the_same_optimum() -> Outcome {
 
 #[test]
 fn the_same_task_gives_the_same_design() -> Outcome {
-    let problem = Problem {
-        axes: axes(Interval::new(5.0, 9.0), CLEARANCE),
-        ..problem(0.3)
-    };
+    let problem = over(Interval::new(5.0, 9.0), CLEARANCE, 0.3);
     let settings = Settings { evaluations: 200 };
     let first = search(&problem, settings, &Unwatched, None)?.design;
     let second = search(&problem, settings, &Unwatched, None)?.design;
@@ -241,10 +223,7 @@ fn a_search_over_its_budget_has_no_design_whatever_it_met() {
 
 #[test]
 fn without_margin_the_fold_itself_is_allowed() -> Outcome {
-    let problem = Problem {
-        axes: axes(Interval::held(7.0), Interval::held(10.0)),
-        ..problem(0.0)
-    };
+    let problem = over(Interval::held(7.0), Interval::held(10.0), 0.0);
     let design = solve(&problem, 100)?;
     let fold = design.zone.high.point.before_impact_velocity();
     assert!(
@@ -260,8 +239,7 @@ fn frequency_bounds_cut_the_zone() -> Outcome {
     let frequency = Interval::new(1.1, 1.2);
     let bounded = Problem {
         frequency,
-        axes: axes(Interval::held(7.0), Interval::held(10.0)),
-        ..problem(0.1)
+        ..over(Interval::held(7.0), Interval::held(10.0), 0.1)
     };
     let design = solve(&bounded, 100)?;
     assert_abs_diff_eq!(design.frequency(), 1.2, epsilon = MOTION);
@@ -302,11 +280,11 @@ fn a_machine_in_si_units_has_the_same_optimum() -> Outcome {
     let in_units = |range: Interval, unit: f64| Interval::new(range.low * unit, range.high * unit);
     let press = Problem {
         machine: Machine::from(ratios.machine.scene.in_units(units)?),
-        axes: axes(
+        ..over(
             in_units(Interval::held(7.0), units.stiffness),
             in_units(CLEARANCE, length),
-        ),
-        ..problem(0.25)
+            0.25,
+        )
     };
     let (ratios, press) = (solve(&ratios, 400)?, solve(&press, 400)?);
     let speed = length * (units.stiffness / units.mass).sqrt();
@@ -340,11 +318,7 @@ fn a_rigid_stop_has_an_optimum_too() -> Outcome {
 
 #[test]
 fn nothing_feasible_is_an_error_that_says_why() {
-    let wide = Interval::new(26.0, 40.0);
-    let problem = Problem {
-        axes: axes(Interval::held(7.0), wide),
-        ..problem(0.25)
-    };
+    let problem = over(Interval::held(7.0), Interval::new(26.0, 40.0), 0.25);
     let error = solve(&problem, 100).expect_err("no zone there").to_string();
     assert!(
         error.contains("clearance = 26"),
@@ -361,10 +335,7 @@ fn a_stopped_search_has_no_result() {
             true
         }
     }
-    let problem = Problem {
-        axes: axes(STIFFNESS, CLEARANCE),
-        ..problem(0.25)
-    };
+    let problem = over(STIFFNESS, CLEARANCE, 0.25);
     let outcome = search(&problem, Settings { evaluations: 2000 }, &Stop, None);
     assert!(matches!(outcome, Err(SearchError::Stopped(_))));
 }

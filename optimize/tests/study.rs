@@ -12,7 +12,7 @@ use std::time::Instant;
 use approx::assert_abs_diff_eq;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
-use softstop_testing::Program;
+use softstop_testing::{Program, words};
 
 use crate::{Outcome, SOFTSTOP};
 
@@ -55,14 +55,8 @@ fn a_map_has_what_other_commands_find() -> Outcome {
     assert_eq!(report["columns"][1]["values"], 71 * 51);
     let (names, rows) = table(&out)?;
     assert_eq!(
-        names,
-        [
-            "excitation.frequency",
-            "clearance",
-            "z",
-            "velocity",
-            "max_position"
-        ]
+        names.join(","),
+        "excitation.frequency,clearance,z,velocity,max_position"
     );
     // The last axis changes fastest: point A is the 21st frequency, the 31st clearance.
     let a = &rows[20 * 51 + 30];
@@ -71,27 +65,18 @@ fn a_map_has_what_other_commands_find() -> Outcome {
     assert_eq!((numbers[1], a[2].as_str()), (10.0, "1"));
     assert_abs_diff_eq!(numbers[3], 6.494_627, epsilon = 2e-5);
     assert_abs_diff_eq!(numbers[4], 10.260_59, epsilon = 2e-5);
-    let drawn = STUDY.text(&["plot", out.to_str().ok_or("path")?]);
+    let plot = format!("plot {}", out.display());
+    let drawn = STUDY.text(&words(&plot));
     assert!(
         drawn.contains("z over excitation.frequency and clearance: 3621 points"),
         "{drawn}"
     );
     assert!(fs::read(out.join("z.png"))?.starts_with(b"\x89PNG"));
-    let line = [
-        "plot",
-        out.to_str().ok_or("path")?,
-        "--of",
-        "velocity",
-        "--over",
-        "eta",
-    ];
-    STUDY.refuses(&line, &["--over eta", "excitation.frequency, clearance"]);
-    let slice = [
-        &line[..4],
-        &["--over", "excitation.frequency", "--at", "clearance=10.02"],
-    ]
-    .concat();
-    assert!(STUDY.text(&slice).contains("71 points"));
+    let line = format!("{plot} --of velocity --over");
+    let told = ["--over eta", "excitation.frequency, clearance"];
+    STUDY.refuses(&words(&format!("{line} eta")), &told);
+    let slice = format!("{line} excitation.frequency --at clearance=10.02");
+    assert!(STUDY.text(&words(&slice)).contains("71 points"));
     assert!(fs::read_to_string(out.join("velocity.svg"))?.contains("clearance = 10"));
     Ok(())
 }
@@ -142,29 +127,16 @@ fn shards_in_any_order_are_the_whole() -> Outcome {
             let report = STUDY.json_into(&parts, &[&study, "--shard", &shard]);
             files.push(report["file"].as_str().ok_or("no file")?.into());
             if number == 2 {
-                let line = ["merge", &study, "--output", parts.to_str().ok_or("path")?];
-                STUDY.ends_with(
-                    &line,
-                    1,
-                    &[
-                        "missing",
-                        &format!("of the shards 1/{shards};"),
-                        "points 0 to 1023",
-                    ],
-                );
+                let line = format!("merge {study} --output {}", parts.display());
+                let of = format!("of the shards 1/{shards};");
+                STUDY.ends_with(&words(&line), 1, &["missing", &of, "points 0 to 1023"]);
                 assert!(!parts.join("study.parquet").exists());
             }
         }
         let merged = folder.path().join(format!("merged-{shards}"));
         let files: Vec<&str> = files.iter().filter_map(|file| file.to_str()).collect();
-        let line = [
-            "merge",
-            &study,
-            "--csv",
-            "--output",
-            merged.to_str().ok_or("path")?,
-        ];
-        STUDY.json(&[&line, &files[..]].concat());
+        let into = merged.display().to_string();
+        STUDY.json(&[&["merge", &study, "--csv", "--output", &into], &files[..]].concat());
         assert_eq!(bytes(&merged)?, bytes(&whole)?);
     }
     Ok(())
