@@ -14,7 +14,7 @@ const PERIOD: f64 = std::f64::consts::TAU / 1.15;
 type States = [f64; 2];
 
 /// Reads a vector of the model.
-pub type Vector = unsafe extern "C" fn(*mut c_void, *mut f64, usize) -> c_int;
+type Vector = unsafe extern "C" fn(*mut c_void, *mut f64, usize) -> c_int;
 
 /// An importer that integrates with steps of one size by the method of Runge and Kutta, and steps to each event that it is
 /// told of.

@@ -24,19 +24,6 @@ unsafe extern "C" fn log_message(
     }
 }
 
-/// Derivatives along a direction, or of a weighted sum.
-type Derivatives = unsafe extern "C" fn(
-    *mut c_void,
-    *const u32,
-    usize,
-    *const u32,
-    usize,
-    *const f64,
-    usize,
-    *mut f64,
-    usize,
-) -> c_int;
-
 /// What an importer can do with events: whether it handles them, and whether a step may end early.
 pub type Handling = (bool, bool);
 
@@ -51,6 +38,23 @@ pub struct Ending {
     pub event: bool,
     pub early: bool,
     pub time: f64,
+}
+
+/// The values that a function for derivatives gives.
+macro_rules! derivatives {
+    ($function:ident, $unit:ident, $of:ident, $by:ident, $seed:ident, $count:expr) => {{
+        let (of, by, seed) = ($of.as_ptr(), $by.as_ptr(), $seed.as_ptr());
+        let (counts, mut values) = (($of.len(), $by.len(), $seed.len()), vec![f64::NAN; $count]);
+        let (instance, place) = ($unit.instance, values.as_mut_ptr());
+        // SAFETY: arrays as long as is said.
+        let status = unsafe {
+            $function(
+                instance, of, counts.0, by, counts.1, seed, counts.2, place, $count,
+            )
+        };
+        $unit.check(status);
+        values
+    }};
 }
 
 /// An instance of the unit.
@@ -382,55 +386,18 @@ impl Unit {
     }
 
     /// Derivatives of outputs along a direction.
-    pub fn directional(&self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
-        let function = fmi3GetDirectionalDerivative;
-        self.derivatives(function, unknowns, knowns, seed, unknowns.len())
+    pub fn directional(&self, of: &[u32], by: &[u32], seed: &[f64]) -> Vec<f64> {
+        derivatives!(fmi3GetDirectionalDerivative, self, of, by, seed, of.len())
     }
 
     /// Derivatives of a weighted sum of outputs.
-    pub fn adjoint(&self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
-        self.adjoint_of(unknowns, knowns, seed, knowns.len())
+    pub fn adjoint(&self, of: &[u32], by: &[u32], seed: &[f64]) -> Vec<f64> {
+        self.adjoint_of(of, by, seed, by.len())
     }
 
     /// Derivatives of a weighted sum of outputs by knowns that have so many elements.
-    pub fn adjoint_of(
-        &self,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        count: usize,
-    ) -> Vec<f64> {
-        self.derivatives(fmi3GetAdjointDerivative, unknowns, knowns, seed, count)
-    }
-
-    fn derivatives(
-        &self,
-        function: Derivatives,
-        unknowns: &[u32],
-        knowns: &[u32],
-        seed: &[f64],
-        count: usize,
-    ) -> Vec<f64> {
-        let (of, of_count) = (unknowns.as_ptr(), unknowns.len());
-        let (by, by_count) = (knowns.as_ptr(), knowns.len());
-        let (seed, seed_count) = (seed.as_ptr(), seed.len());
-        let mut values = vec![f64::NAN; count];
-        let place = values.as_mut_ptr();
-        // SAFETY: arrays as long as is said.
-        self.check(unsafe {
-            function(
-                self.instance,
-                of,
-                of_count,
-                by,
-                by_count,
-                seed,
-                seed_count,
-                place,
-                count,
-            )
-        });
-        values
+    pub fn adjoint_of(&self, of: &[u32], by: &[u32], seed: &[f64], count: usize) -> Vec<f64> {
+        derivatives!(fmi3GetAdjointDerivative, self, of, by, seed, count)
     }
 }
 

@@ -143,16 +143,13 @@ impl World {
                 Call::GetStates(of, count) => {
                     let mut values = [f64::NAN; 4];
                     let place = values.as_mut_ptr();
-                    let status = match of {
-                        Vector::States => fmi3GetContinuousStates(instance, place, count),
-                        Vector::Derivatives => {
-                            fmi3GetContinuousStateDerivatives(instance, place, count)
-                        }
-                        Vector::Nominals => {
-                            fmi3GetNominalsOfContinuousStates(instance, place, count)
-                        }
-                        Vector::Indicators => fmi3GetEventIndicators(instance, place, count),
+                    let function = match of {
+                        Vector::States => fmi3GetContinuousStates,
+                        Vector::Derivatives => fmi3GetContinuousStateDerivatives,
+                        Vector::Nominals => fmi3GetNominalsOfContinuousStates,
+                        Vector::Indicators => fmi3GetEventIndicators,
                     };
+                    let status = function(instance, place, count);
                     let is_finite = values[..count].iter().all(|value| value.is_finite());
                     assert!(status != OK || is_finite, "{values:?}");
                     status
