@@ -4,6 +4,7 @@
 mod codimension_two;
 mod curves;
 mod doubling;
+pub(crate) mod outgrown;
 
 use softstop_testing::tolerance::{DIFFERENCED, GROWN, MOTION, SOLVED, printed};
 use std::ops::ControlFlow;

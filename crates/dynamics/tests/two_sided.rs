@@ -5,6 +5,7 @@ mod grazing;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use crate::continuation::outgrown::Outgrown;
 use nalgebra::{Complex, Matrix2, Vector2};
 use softstop::{Below, Parameter, Release, Scene, Start, Stop};
 use softstop_dynamics::continuation::{End, SpecialKind};
@@ -235,6 +236,10 @@ fn branches_pass_pitchforks_and_asymmetric_orbits_come_out_of_them() {
             .branch_asymmetric(&found.point, &limits, go_on)
             .expect("a branch");
         assert!(matches!(asymmetric.ends.0, End::Symmetric));
+        let outgrown = Outgrown(family.clone());
+        let same = Continuation::new(&outgrown, 1).branch_asymmetric(&found.point, &limits, go_on);
+        let same = same.expect("a branch");
+        assert_near(same.points[0].parameter, exact, 1e-2);
         let first = &asymmetric.points[0];
         assert_near(first.parameter, exact, 1e-2);
         // They are stable where the symmetric orbits no longer are.

@@ -152,10 +152,6 @@ impl<'a> Continuation<'a> {
             if way.points.len() >= limits.points {
                 return Ok(None);
             }
-            let rescaled = self.rescale(&stepper.node, &stepper.direction);
-            if rescaled.is_some() {
-                return Ok(rescaled);
-            }
             if stepper.is_crawling() {
                 break OrbitError::LOST;
             }

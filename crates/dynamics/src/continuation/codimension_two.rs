@@ -93,8 +93,9 @@ pub(super) trait Codimension: Equations {
 
     /// Values of the two parameters of these unknowns.
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        let scales = self.family_and_periods().0.parameter_scales();
-        std::array::from_fn(|index| at[at.len() - 2 + index] * scales[index])
+        let unknowns = std::array::from_fn(|index| at[at.len() - 2 + index]);
+        let (family, _) = self.family_and_periods();
+        family.unscaled_parameters(unknowns)
     }
 
     /// The point of the curve at a node.

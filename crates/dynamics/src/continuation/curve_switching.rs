@@ -94,12 +94,8 @@ fn fold_beside(
     region: &CurveLimits,
 ) -> Option<(Vector2<f64>, [f64; 2])> {
     let points = &flips.points;
-    let scales = family.parameter_scales();
-    let off = |point: &CurvePoint| {
-        let off = [0, 1]
-            .map(|index| (point.parameters[index] - generalised.parameters[index]) / scales[index]);
-        off[0].hypot(off[1])
-    };
+    let place = |point: &CurvePoint| Vector2::from(family.scaled_parameters(point.parameters));
+    let off = |point: &CurvePoint| (place(point) - place(generalised)).norm();
     let nearest = (0..points.len()).min_by(|a, b| off(&points[*a]).total_cmp(&off(&points[*b])))?;
     let steps = std::iter::successors(Some(1), |step| Some(2 * step));
     let both_ways = |step: usize| [nearest.checked_sub(step), nearest.checked_add(step)];
@@ -109,7 +105,8 @@ fn fold_beside(
         .flatten()
         .filter_map(|index| points.get(index));
     beside.find_map(|flip| {
-        let within = off(flip) * scales[0];
+        let [slope, _] = family.parameter_slopes(flip.parameters);
+        let within = off(flip) * slope;
         fold_of_doubled(family, flips.periods, flip, within, region)
     })
 }

@@ -17,11 +17,6 @@ use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::ROUNDING;
 use softstop::SceneError;
 
-/// Value of a parameter in units of its scale beyond which the scale follows it.
-pub(super) const MAX_SCALED_PARAMETER: f64 = 100.0;
-/// Value of a parameter in units of a scale that is typical of it.
-const TYPICAL_SCALED_PARAMETER: f64 = 5.0;
-
 /// A continuation: follows the orbits of a family over a number of drive periods.
 #[derive(Debug)]
 pub struct Continuation<'a> {
@@ -29,7 +24,7 @@ pub struct Continuation<'a> {
     pub(super) settings: ContinuationSettings,
 }
 
-/// A branch seen at another section, or in other units: a node of it, and the direction in which it goes on.
+/// A branch seen at another section: a node of it, and the direction in which it goes on.
 pub(super) struct SectionChange<'a> {
     pub continuation: Continuation<'a>,
     pub node: Node<PeriodMap>,
@@ -171,10 +166,6 @@ impl<'a> Continuation<'a> {
         let mut stepper =
             Stepper::new(&self.shooting, node, along, &self.settings)?.with_long_steps();
         while points.len() < limit {
-            let rescaled = self.rescale(&stepper.node, &stepper.direction);
-            if rescaled.is_some() {
-                return Ok(rescaled);
-            }
             match stepper.attempt_step() {
                 Ok(step)
                     if step.node.here.point.sequence.continues(&sequence)
@@ -202,30 +193,6 @@ impl<'a> Continuation<'a> {
             }
         }
         Ok(None)
-    }
-
-    /// The branch at a node whose parameter has outgrown its scale, with a scale that is typical of it there: with the
-    /// former one steps would be short against the parameter, and folds sharp.
-    pub(super) fn rescale(
-        &self,
-        node: &Node<PeriodMap>,
-        direction: &DVector<f64>,
-    ) -> Option<SectionChange<'a>> {
-        let size = node.at[2].abs();
-        if size <= MAX_SCALED_PARAMETER {
-            return None;
-        }
-        let growth = size / TYPICAL_SCALED_PARAMETER;
-        let continuation = self.with_shooting(self.shooting.with_grown_scales(growth));
-        let [mut at, mut along] = [&node.at, direction].map(DVector::clone);
-        at[2] /= growth;
-        along[2] /= growth;
-        let here = continuation.shooting.evaluate(&at).ok()?;
-        Some(SectionChange {
-            continuation,
-            node: Node { at, here },
-            along: along.normalize(),
-        })
     }
 
     /// Locates the orbit at which a test vanishes, by Newton's method for orbit and parameter together.

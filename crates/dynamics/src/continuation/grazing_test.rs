@@ -6,7 +6,6 @@ use std::f64::consts::TAU;
 use super::Family;
 use super::arclength::{Node, correct};
 use super::face::{Face, NearTouch};
-use super::follow::MAX_SCALED_PARAMETER;
 use super::impact_section::SectionPoint;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
@@ -171,9 +170,7 @@ pub(crate) fn find_grazing(
     phase: f64,
     parameter: f64,
 ) -> Result<Special, OrbitError> {
-    let mut touching = SectionSystem::of_graze(near, (family, periods));
-    let [scale] = &mut touching.section.parameter_scales;
-    *scale = scale.max(parameter.abs() / MAX_SCALED_PARAMETER);
+    let touching = SectionSystem::of_graze(near, (family, periods));
     let guess = touching.section.scaled_unknowns(&[near.angle], [parameter]);
     let node = correct(&touching, &guess, None)?;
     let [parameter] = touching.section.parameters(&node.at);

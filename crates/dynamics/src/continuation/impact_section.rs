@@ -28,8 +28,6 @@ pub(crate) struct ImpactSection<'a, const N: usize> {
     /// True of orbits that are their own mirror images: they come back to the mirror image of the surface after half of their
     /// periods.
     pub is_symmetric: bool,
-    /// Typical changes of the parameters.
-    pub parameter_scales: [f64; N],
 }
 
 /// An orbit seen from an impact section.
@@ -73,20 +71,19 @@ impl<'a, const N: usize> ImpactSection<'a, N> {
             },
             face: graze.face,
             is_symmetric: graze.is_symmetric,
-            parameter_scales: family.parameter_scales(),
         }
     }
 
     /// Unknowns of an orbit at the section: its drive angle and what else it has there, then the parameters, scaled.
     pub fn scaled_unknowns(&self, places: &[f64], parameters: [f64; N]) -> DVector<f64> {
-        let scaled = parameters.into_iter().zip(self.parameter_scales);
-        let scaled = scaled.map(|(value, scale)| value / scale);
+        let scaled = self.family.scaled_parameters(parameters);
         DVector::from_iterator(places.len() + N, places.iter().copied().chain(scaled))
     }
 
     /// The parameters of these unknowns, which are the last of them.
     pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
-        std::array::from_fn(|index| at[at.len() - N + index] * self.parameter_scales[index])
+        let unknowns = std::array::from_fn(|index| at[at.len() - N + index]);
+        self.family.unscaled_parameters(unknowns)
     }
 
     /// The scene with time 0 at the section, where the drive has this angle, and the position of the surface.

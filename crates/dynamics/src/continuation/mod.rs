@@ -79,6 +79,9 @@ use std::fmt::Debug;
 
 use softstop::{CheckedScene, MotionError};
 
+/// Value of a parameter in units of its scale beyond which its unknown is a logarithm.
+const MAX_SCALED_PARAMETER: f64 = 20.0;
+
 /// A family of scenes along one or more parameters. To add one, implement the first three methods.
 pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
     /// The scene of the family at values of the parameters.
@@ -92,6 +95,41 @@ pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
 
     /// Typical changes of the family's parameters: with the sizes of the state, the units of the arclength.
     fn parameter_scales(&self) -> [f64; PARAMETERS];
+
+    /// Parameters as unknowns of a continuation: in units of their scales, and where they outgrow these by a factor of twenty,
+    /// as a logarithm, so that a step is a share of the parameter.
+    fn scaled_parameters(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
+        let scales = self.parameter_scales();
+        std::array::from_fn(|index| {
+            let value = parameters[index] / scales[index];
+            let growth = value.abs() / MAX_SCALED_PARAMETER;
+            match growth > 1.0 {
+                true => (MAX_SCALED_PARAMETER * (1.0 + growth.ln())).copysign(value),
+                false => value,
+            }
+        })
+    }
+
+    /// The parameters that are these unknowns: the inverse of [`Self::scaled_parameters`].
+    fn unscaled_parameters(&self, unknowns: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
+        let scales = self.parameter_scales();
+        std::array::from_fn(|index| {
+            let value = unknowns[index];
+            let growth = value.abs() / MAX_SCALED_PARAMETER;
+            let value = match growth > 1.0 {
+                true => (MAX_SCALED_PARAMETER * (growth - 1.0).exp()).copysign(value),
+                false => value,
+            };
+            value * scales[index]
+        })
+    }
+
+    /// Derivatives of the parameters by the unknowns that they are.
+    fn parameter_slopes(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
+        let scales = self.parameter_scales();
+        let slope = |index: usize| parameters[index].abs() / MAX_SCALED_PARAMETER;
+        std::array::from_fn(|index| scales[index].max(slope(index)))
+    }
 
     /// d(drive frequency in rad/s) / d(parameter) of each parameter that changes nothing else: the derivatives of orbits by
     /// these are exact.

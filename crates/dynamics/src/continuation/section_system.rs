@@ -84,7 +84,6 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
             crossings: motion.crossings().count() - usize::from(!is_told),
             face,
             is_symmetric: false,
-            parameter_scales: family.parameter_scales(),
         };
         let time = motion.clock.time(entry.instant);
         let angle = scene.excitation.phase + scene.excitation.frequency * time;

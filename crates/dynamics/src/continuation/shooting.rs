@@ -20,19 +20,17 @@ pub(crate) struct Shooting<'a, const N: usize> {
     pub periods: u64,
     /// Drive periods from drive angle phi to the section.
     pub turn: f64,
-    scales: DVector<f64>,
+    scales: Vector2<f64>,
 }
 
 impl<'a, const N: usize> Shooting<'a, N> {
     /// The shooting for orbits of a family over some drive periods, with the section at drive angle phi.
     pub fn new(family: &'a dyn Family<N>, periods: u64) -> Self {
-        let scales = family.state_scales().into_iter();
-        let scales = scales.chain(family.parameter_scales());
         Self {
             family,
             periods,
             turn: 0.0,
-            scales: DVector::from_iterator(2 + N, scales),
+            scales: family.state_scales().into(),
         }
     }
 
@@ -42,31 +40,26 @@ impl<'a, const N: usize> Shooting<'a, N> {
             family: self.family,
             periods,
             turn: turn.rem_euclid(periods as f64),
-            scales: self.scales.clone(),
+            scales: self.scales,
         }
-    }
-
-    /// This shooting with scales of the parameters that are so many times as large.
-    pub fn with_grown_scales(&self, growth: f64) -> Self {
-        let mut grown = self.seen_at(self.turn, self.periods);
-        grown.scales.rows_mut(2, N).scale_mut(growth);
-        grown
     }
 
     /// The scaled unknowns of the shooting for a state and parameters.
     pub fn scaled(&self, state: Vector2<f64>, parameters: [f64; N]) -> DVector<f64> {
-        let raw = [state.x, state.y].into_iter().chain(parameters);
-        DVector::from_iterator(2 + N, raw).component_div(&self.scales)
+        let state = self.scaled_change(state);
+        let parameters = self.family.scaled_parameters(parameters);
+        DVector::from_iterator(2 + N, state.iter().copied().chain(parameters))
     }
 
     /// The state that these scaled unknowns of the shooting stand for.
     pub fn state_at(&self, at: &DVector<f64>) -> Vector2<f64> {
-        Vector2::new(at[0] * self.scales[0], at[1] * self.scales[1])
+        Vector2::new(at[0] * self.scales.x, at[1] * self.scales.y)
     }
 
     /// The parameters that these scaled unknowns of the shooting stand for.
     pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
-        std::array::from_fn(|index| at[2 + index] * self.scales[2 + index])
+        let unknowns = std::array::from_fn(|index| at[2 + index]);
+        self.family.unscaled_parameters(unknowns)
     }
 
     /// The scene of these unknowns, with time 0 at the section.
@@ -83,12 +76,12 @@ impl<'a, const N: usize> Shooting<'a, N> {
 
     /// A change of the state in units of the family's scales.
     fn scaled_change(&self, change: Vector2<f64>) -> Vector2<f64> {
-        change.component_div(&self.scales.fixed_rows::<2>(0))
+        change.component_div(&self.scales)
     }
 
     /// Typical size of the velocity in m/s.
     pub fn velocity_scale(&self) -> f64 {
-        self.scales[1]
+        self.scales.y
     }
 
     /// Norm of a monodromy matrix without units: growth of small differences.
@@ -119,7 +112,7 @@ impl<const N: usize> Equations for Shooting<'_, N> {
 
     /// The exact Jacobian of the residual: that of the map, and the slopes.
     fn jacobian(&self, here: &Evaluation<PeriodMap>, slopes: &DMatrix<f64>) -> DMatrix<f64> {
-        let (m, ratio) = (&here.point.monodromy, self.scales[1] / self.scales[0]);
+        let (m, ratio) = (&here.point.monodromy, self.scales.y / self.scales.x);
         let own = Matrix2::new(m.m11 - 1.0, m.m12 * ratio, m.m21 / ratio, m.m22 - 1.0);
         DMatrix::from_fn(2, 2 + N, |row, column| match column {
             0 | 1 => own[(row, column)],
@@ -153,8 +146,11 @@ impl<const N: usize> Equations for Shooting<'_, N> {
     fn exact_slopes(&self, here: &Evaluation<PeriodMap>) -> Option<DMatrix<f64>> {
         let change = self.scaled_change(here.point.by_frequency?);
         let mut slopes = DMatrix::zeros(2, N);
-        for (index, unit) in self.family.by_frequency().into_iter().enumerate() {
-            slopes.set_column(index, &(change * (unit? * self.scales[2 + index])));
+        let parameters = self.parameters(&here.point.place);
+        let units = self.family.by_frequency().into_iter();
+        let by = units.zip(self.family.parameter_slopes(parameters));
+        for (index, (unit, slope)) in by.enumerate() {
+            slopes.set_column(index, &(change * (unit? * slope)));
         }
         Some(slopes)
     }

@@ -108,9 +108,10 @@ fn flip_near(
     let flip = (SpecialKind::Critical(TestFunction::Flip), point.state());
     let go_on = &mut |_: &_| ControlFlow::Continue(());
     let flips = follow_raw(family, periods, flip, point.parameters, &region, go_on);
-    let scales = family.parameter_scales();
+    let place = family.scaled_parameters(point.parameters);
     let is_near = |found: &CurvePoint| {
-        let mut off = (0..2).map(|it| (found.parameters[it] - point.parameters[it]) / scales[it]);
+        let found = family.scaled_parameters(found.parameters).into_iter();
+        let mut off = found.zip(place).map(|(one, other)| one - other);
         off.all(|it| it.abs() <= step * points as f64)
     };
     let specials = flips.ok()?.specials.into_iter();

@@ -12,7 +12,7 @@ pub(super) fn plane(parameters: [Parameter; 2]) -> ParameterFamily<2> {
 pub(super) fn followed(
     special: &Special,
     periods: u64,
-    family: &ParameterFamily<2>,
+    family: &dyn Family<2>,
     second: f64,
     ranges: [(f64, f64); 2],
 ) -> Curve {
@@ -22,7 +22,7 @@ pub(super) fn followed(
 fn followed_by_steps(
     special: &Special,
     periods: u64,
-    family: &ParameterFamily<2>,
+    family: &dyn Family<2>,
     second: f64,
     ranges: [(f64, f64); 2],
     step: f64,

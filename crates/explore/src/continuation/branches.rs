@@ -29,9 +29,9 @@ fn continuation<'a>(
     periods: u64,
     limits: &Limits,
 ) -> Result<Continuation<'a>, Failure> {
-    let ([scale], (low, high)) = (family.parameter_scales(), limits.range);
+    let [low, high] = <[f64; 2]>::from(limits.range).map(|end| family.scaled_parameters([end])[0]);
     let (steps, least) = NARROW;
-    let width = (high - low) / scale;
+    let width = high - low;
     let longest = ContinuationSettings::default().largest_step;
     let most = (width / MAX_STEPS_ACROSS).clamp(STEP, longest);
     let largest = (width / steps).clamp(least * STEP, most);
@@ -128,11 +128,10 @@ fn ends_at(
     branch: &Branch,
     point: &BranchPoint,
 ) -> bool {
-    let ([scale], [length, speed]) = (family.parameter_scales(), family.state_scales());
-    // As the continuation's own, it follows a parameter that has outgrown it.
-    let scale = scale.max(0.01 * point.parameter.abs());
+    let [slope] = family.parameter_slopes([point.parameter]);
+    let [length, speed] = family.state_scales();
     let is_beside =
-        |last: &&BranchPoint| (last.parameter - point.parameter).abs() < MERGING_DISTANCE * scale;
+        |last: &&BranchPoint| (last.parameter - point.parameter).abs() < MERGING_DISTANCE * slope;
     let Some(last) = branch.points.last().filter(is_beside) else {
         return false;
     };

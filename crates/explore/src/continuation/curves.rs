@@ -1,6 +1,7 @@
 //! Special points as curves in two parameters.
 
 use anyhow::anyhow;
+use nalgebra::Vector2;
 use softstop::Machine;
 use softstop_dynamics::Branch;
 use softstop_dynamics::continuation::{
@@ -67,7 +68,7 @@ pub(super) fn curves<'a>(
             Err(error) => not_followed.push(NotFollowed { special, error }),
         }
     }
-    let scales = family.parameter_scales();
+    let place = |point: &CurvePoint| Vector2::from(family.scaled_parameters(point.parameters));
     let mut done = 0;
     for _ in 0..arguments.switch {
         let round = done..found.len();
@@ -75,14 +76,14 @@ pub(super) fn curves<'a>(
         for from in round {
             let is_known = |kind: &SpecialKind, periods, point: &CurvePoint| {
                 let mut curves = found.iter();
-                curves.any(|it| is_of(it, kind, periods) && has_special(it, point, scales))
+                curves.any(|it| is_of(it, kind, periods) && has_special(it, point, place))
             };
             let fresh = switch_curves(&family, &found[from], &region, is_known, |_| count(&bar));
             for curve in fresh {
                 let is_same = |other: &Curve| {
                     let mut specials = curve.specials.iter();
                     is_of(other, &curve.kind, curve.periods)
-                        && specials.any(|(_, point)| has_special(other, point, scales))
+                        && specials.any(|(_, point)| has_special(other, point, place))
                 };
                 if !found.iter().any(is_same) {
                     found.push(curve);
@@ -115,14 +116,14 @@ fn is_of(curve: &Curve, kind: &SpecialKind, periods: u64) -> bool {
     curve.periods == periods && curve.kind.symbol() == kind.symbol()
 }
 
-/// True if a point of codimension two of a curve is this one; `scales` are the parameters' units.
-fn has_special(curve: &Curve, point: &CurvePoint, scales: [f64; 2]) -> bool {
-    let is_same = |other: [f64; 2]| {
-        let off = |index: usize| (other[index] - point.parameters[index]) / scales[index];
-        off(0).hypot(off(1)) <= SAME_POINT
-    };
+/// True if a point of codimension two of a curve is this one; `place` scales the parameters of a point.
+fn has_special(
+    curve: &Curve,
+    point: &CurvePoint,
+    place: impl Fn(&CurvePoint) -> Vector2<f64>,
+) -> bool {
     let mut specials = curve.specials.iter();
-    specials.any(|(_, other)| is_same(other.parameters))
+    specials.any(|(_, other)| (place(other) - place(point)).norm() <= SAME_POINT)
 }
 
 /// Scaled distance of a point of codimension two from itself on another curve: generalised flips are good to a tenth of it.
