@@ -5,6 +5,7 @@ mod basin;
 mod branch_ends;
 mod continuation;
 mod corners;
+mod crossings;
 mod cycle_metrics;
 mod ends;
 mod examples;

@@ -243,7 +243,7 @@ impl<'a> Continuation<'a> {
             None => self.merging_point(from, to)?,
             Some(_) => None,
         };
-        let (to, end) = match (bound, merged) {
+        let (last, end) = match (bound, merged) {
             (Some((_, true)), _) => return Ok(Some(End::Range)),
             (Some((bound, false)), _) => {
                 let test = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - bound;
@@ -254,24 +254,37 @@ impl<'a> Continuation<'a> {
                 if ![from, to].iter().any(is_end) {
                     return Err(OrbitError::LOST);
                 }
-                (node, Some(End::Range))
+                // Scaled unknowns may round its last digit.
+                let parameter = bound;
+                let last = BranchPoint {
+                    parameter,
+                    ..self.point_at(&node)?
+                };
+                (last, Some(End::Range))
             }
             (None, Some((point, end))) => {
-                way.points.push(point);
-                return Ok(Some(end));
+                // Beyond, the orbits are those before, half a period later, or have no gap.
+                let gap_at = |node: &Node<PeriodMap>| {
+                    let gap = self.merging_gap(node);
+                    gap.map_or(0.0, |gap| gap.norm())
+                };
+                let begins = gap_at(from);
+                specials.retain(|special| {
+                    let is_grazing = matches!(special.kind, SpecialKind::Grazing(_));
+                    let gap = self
+                        .node_at(&special.point)
+                        .map_or(0.0, |node| gap_at(&node));
+                    is_grazing && (SAME * begins..=begins).contains(&gap)
+                });
+                (point, Some(end))
             }
-            (None, None) => (to.clone(), closes.then_some(End::Closed)),
+            (None, None) => (self.point_at(to)?, closes.then_some(End::Closed)),
         };
-        let mut last = self.point_at(&to)?;
         let (low, high) = limits.range;
         specials.retain(|special| (low..=high).contains(&special.point.parameter));
         way.points
             .extend(specials.iter().map(|special| special.point.clone()));
         way.specials.extend(specials);
-        if let Some((bound, _)) = bound {
-            // Scaled unknowns may round its last digit.
-            last.parameter = bound;
-        }
         way.points.push(last);
         Ok(end)
     }

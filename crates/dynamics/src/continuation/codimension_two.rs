@@ -93,9 +93,8 @@ pub(super) trait Codimension: Equations {
 
     /// Values of the two parameters of these unknowns.
     fn parameters(&self, at: &DVector<f64>) -> [f64; 2] {
-        let unknowns = std::array::from_fn(|index| at[at.len() - 2 + index]);
         let (family, _) = self.family_and_periods();
-        family.unscaled_parameters(unknowns)
+        family.unscaled_parameters(at.as_slice())
     }
 
     /// The point of the curve at a node.

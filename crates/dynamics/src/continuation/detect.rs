@@ -196,7 +196,8 @@ impl Continuation<'_> {
                 };
                 let at = self.place_of(&special.point)?;
                 let (share, off) = along_chord((&from.at, &way), &at);
-                if !(-beyond..=1.0 + beyond).contains(&share) || off > way.norm() {
+                if !(-beyond..=1.0 + beyond).contains(&share) || off > beyond.max(1.0) * way.norm()
+                {
                     continue;
                 }
                 graze.dies = from.here.point.impacts.len() > graze.impacts;

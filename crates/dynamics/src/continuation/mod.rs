@@ -72,6 +72,7 @@ pub use normal_form::normal_form_coefficient;
 pub use parameter_family::ParameterFamily;
 pub use point::{BranchPoint, Graze, Special, SpecialKind};
 pub use settings::ContinuationSettings;
+pub(crate) use shooting::derivatives_by;
 pub use special_curve::follow_special;
 pub use test_function::TestFunction;
 
@@ -100,28 +101,16 @@ pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
     /// as a logarithm, so that a step is a share of the parameter.
     fn scaled_parameters(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
         let scales = self.parameter_scales();
-        std::array::from_fn(|index| {
-            let value = parameters[index] / scales[index];
-            let growth = value.abs() / MAX_SCALED_PARAMETER;
-            match growth > 1.0 {
-                true => (MAX_SCALED_PARAMETER * (1.0 + growth.ln())).copysign(value),
-                false => value,
-            }
-        })
+        let logarithm = |growth: f64| 1.0 + growth.ln();
+        std::array::from_fn(|index| bend(parameters[index] / scales[index], logarithm))
     }
 
-    /// The parameters that are these unknowns: the inverse of [`Self::scaled_parameters`].
-    fn unscaled_parameters(&self, unknowns: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
+    /// The parameters of unknowns, which are the last of them: the inverse of [`Self::scaled_parameters`].
+    fn unscaled_parameters(&self, unknowns: &[f64]) -> [f64; PARAMETERS] {
         let scales = self.parameter_scales();
-        std::array::from_fn(|index| {
-            let value = unknowns[index];
-            let growth = value.abs() / MAX_SCALED_PARAMETER;
-            let value = match growth > 1.0 {
-                true => (MAX_SCALED_PARAMETER * (growth - 1.0).exp()).copysign(value),
-                false => value,
-            };
-            value * scales[index]
-        })
+        let unknowns = &unknowns[unknowns.len() - PARAMETERS..];
+        let exponential = |growth: f64| (growth - 1.0).exp();
+        std::array::from_fn(|index| bend(unknowns[index], exponential) * scales[index])
     }
 
     /// Derivatives of the parameters by the unknowns that they are.
@@ -135,5 +124,14 @@ pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
     /// these are exact.
     fn by_frequency(&self) -> [Option<f64>; PARAMETERS] {
         [None; PARAMETERS]
+    }
+}
+
+/// A value up to the limit of scaled parameters, and beyond a function of how many times as large it is.
+fn bend(value: f64, beyond: impl Fn(f64) -> f64) -> f64 {
+    let growth = value.abs() / MAX_SCALED_PARAMETER;
+    match growth > 1.0 {
+        true => (MAX_SCALED_PARAMETER * beyond(growth)).copysign(value),
+        false => value,
     }
 }

@@ -8,7 +8,7 @@
 //! system, too: from rest at the surface at a drive angle, over whole periods back to it. (Arclength and Newton near
 //! grazing: arXiv 2506.18379, arXiv 2510.16218.)
 
-use nalgebra::{DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, correct};
@@ -16,7 +16,7 @@ use super::face::Face;
 use super::impact_section::{ImpactSection, LastArc, SectionPoint};
 use super::period_map::carry_through;
 use super::point::Graze;
-use super::shooting::round_off;
+use super::shooting::{end_derivatives, round_off};
 use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::record_trajectory::record_trajectory;
@@ -204,6 +204,8 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
             residual: DVector::from_column_slice(drift.as_slice()),
             tolerance: round_off(&scene, &begin, &Monodromy::from(&tangent), sizes),
             point: SectionPoint {
+                place: at.clone(),
+                motion: around.motion.into(),
                 monodromy: Monodromy::from_factors(&factors),
                 impacts,
                 response: tangent.matrix.m12 * sizes[1] / sizes[0],
@@ -218,14 +220,25 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
         Ok(orbit.with_test(value))
     }
 
-    fn residual(&self, at: &DVector<f64>) -> Result<DVector<f64>, OrbitError> {
-        match self.condition {
-            SectionCondition::Touch => {
-                let (drift, ..) = self.carry_around(at)?;
-                Ok(DVector::from_column_slice(drift.as_slice()))
-            }
-            _ => Ok(self.evaluate(at)?.residual),
+    fn slopes_along(&self, here: &Evaluation<SectionPoint>) -> Option<DMatrix<f64>> {
+        if self.condition != SectionCondition::Touch {
+            return None;
         }
+        let SectionPoint { place, motion, .. } = &here.point;
+        let scene_at = |place: &DVector<f64>| {
+            let parameters = self.section.parameters(place);
+            Some(self.section.scene_at(place[0], parameters).ok()?.0)
+        };
+        let position = self.section.face.face_position(&motion.scene)?;
+        let orbit = (&**motion, Vector2::new(position, 0.0), true);
+        let ends = end_derivatives(orbit, (place, 0..place.len()), scene_at)?;
+        let drifts = ends
+            .into_iter()
+            .map(|(end, begin)| self.section.scaled_drift(Vector2::new(begin, 0.0), end));
+        let drifts: Vec<_> = drifts.collect();
+        Some(DMatrix::from_fn(2, drifts.len(), |row, column| {
+            drifts[column][row]
+        }))
     }
 }
 

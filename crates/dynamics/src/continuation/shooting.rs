@@ -1,6 +1,7 @@
 //! Stroboscopic shooting: the equations P(s) = s of a periodic orbit over a number of drive periods.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
@@ -11,7 +12,7 @@ use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::tolerance::{DIFFERENCE_WIDTH, NEAR_GRAZING};
 use softstop::internals::{ParameterSensitivity, PhaseDerivatives};
-use softstop::{CheckedScene, MotionError, Scene};
+use softstop::{CheckedScene, MotionError, Scene, Trajectory};
 
 /// The shooting for orbits of a family over drive periods, in scaled unknowns: position, velocity, parameters.
 #[derive(Debug)]
@@ -58,8 +59,7 @@ impl<'a, const N: usize> Shooting<'a, N> {
 
     /// The parameters that these scaled unknowns of the shooting stand for.
     pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
-        let unknowns = std::array::from_fn(|index| at[2 + index]);
-        self.family.unscaled_parameters(unknowns)
+        self.family.unscaled_parameters(at.as_slice())
     }
 
     /// The scene of these unknowns, with time 0 at the section.
@@ -156,38 +156,59 @@ impl<const N: usize> Equations for Shooting<'_, N> {
     }
 
     fn slopes_along(&self, here: &Evaluation<PeriodMap>) -> Option<DMatrix<f64>> {
-        let PeriodMap {
-            trajectory, start, ..
-        } = &here.point;
-        let scene = &trajectory.scene;
-        let by = (2..2 + N).map(|unknown| {
-            let towards = |step: f64| {
-                let mut moved_place = here.point.place.clone();
-                moved_place[unknown] += step;
-                let moved = self.scene_at(&moved_place).ok()?;
-                PhaseDerivatives::between(scene, &moved, step)
-            };
-            towards(DIFFERENCE_WIDTH).or_else(|| towards(-DIFFERENCE_WIDTH))
-        });
-        let by = by.collect::<Option<Vec<_>>>()?;
-        let mut sensitivity = ParameterSensitivity::new(scene.phases(), &by);
-        trajectory.replay(&mut sensitivity);
-        let [from_position, from_velocity, forced @ ..] = sensitivity.columns()? else {
-            return None;
-        };
-        let slopes = forced.iter().zip(&by).map(|(forced, by)| {
-            // Velocities are per radian there; a mass at rest at a wall begins where that stands.
-            let faster = by.frequency * Vector2::new(0.0, trajectory.end.velocity)
-                - by.frequency * start.y * from_velocity.xy();
-            let moved = match here.point.monodromy == Monodromy::ZERO {
-                true => by.surface_derivative(scene.phases(), start.x) * from_position.xy(),
-                false => Vector2::zeros(),
-            };
-            self.scaled_change(forced.xy() + faster + moved)
-        });
-        let slopes: Vec<_> = slopes.collect();
+        let map = &here.point;
+        let at_wall = map.monodromy == Monodromy::ZERO;
+        let orbit = (&*map.trajectory, map.start, at_wall);
+        let scene_at = |place: &DVector<f64>| self.scene_at(place).ok();
+        let ends = end_derivatives(orbit, (&map.place, 2..2 + N), scene_at)?;
+        let slopes: Vec<_> = ends
+            .iter()
+            .map(|(end, _)| self.scaled_change(*end))
+            .collect();
         Some(DMatrix::from_fn(2, N, |row, column| slopes[column][row]))
     }
+}
+
+/// Derivatives of the end of a motion, in m and m/s, by unknowns of its scene, and those of its start, which moves with the
+/// surface that it lies at, if it does; none where it has none.
+pub(super) fn end_derivatives(
+    orbit: (&Trajectory, Vector2<f64>, bool),
+    (place, unknowns): (&DVector<f64>, Range<usize>),
+    scene_at: impl Fn(&DVector<f64>) -> Option<CheckedScene>,
+) -> Option<Vec<(Vector2<f64>, f64)>> {
+    let by = unknowns.map(|unknown| {
+        let towards = |step: f64| {
+            let mut moved = place.clone();
+            moved[unknown] += step;
+            PhaseDerivatives::between(&orbit.0.scene, &scene_at(&moved)?, step)
+        };
+        towards(DIFFERENCE_WIDTH).or_else(|| towards(-DIFFERENCE_WIDTH))
+    });
+    derivatives_by(orbit, &by.collect::<Option<Vec<_>>>()?)
+}
+
+/// Those by what changes the phases of its scene.
+pub(crate) fn derivatives_by(
+    (trajectory, start, at_surface): (&Trajectory, Vector2<f64>, bool),
+    by: &[PhaseDerivatives],
+) -> Option<Vec<(Vector2<f64>, f64)>> {
+    let scene = &trajectory.scene;
+    let mut sensitivity = ParameterSensitivity::new(scene.phases(), by);
+    trajectory.replay(&mut sensitivity);
+    let [from_position, from_velocity, forced @ ..] = sensitivity.columns()? else {
+        return None;
+    };
+    let derivatives = forced.iter().zip(by).map(|(forced, by)| {
+        // Velocities are per radian there.
+        let faster = by.frequency * Vector2::new(0.0, trajectory.end.velocity)
+            - by.frequency * start.y * from_velocity.xy();
+        let moved = match at_surface {
+            true => by.surface_derivative(scene.phases(), start.x),
+            false => 0.0,
+        };
+        (forced.xy() + faster + moved * from_position.xy(), moved)
+    });
+    Some(derivatives.collect())
 }
 
 /// What rounding alone may leave of the residual P(s) - s, in units of `sizes`.

@@ -108,12 +108,8 @@ fn flip_near(
     let flip = (SpecialKind::Critical(TestFunction::Flip), point.state());
     let go_on = &mut |_: &_| ControlFlow::Continue(());
     let flips = follow_raw(family, periods, flip, point.parameters, &region, go_on);
-    let place = family.scaled_parameters(point.parameters);
-    let is_near = |found: &CurvePoint| {
-        let found = family.scaled_parameters(found.parameters).into_iter();
-        let mut off = found.zip(place).map(|(one, other)| one - other);
-        off.all(|it| it.abs() <= step * points as f64)
-    };
+    let place = |point: &CurvePoint| Vector2::from(family.scaled_parameters(point.parameters));
+    let is_near = |found: &CurvePoint| (place(found) - place(point)).amax() <= step * points as f64;
     let specials = flips.ok()?.specials.into_iter();
     let flips = specials.filter(|it| it.0 == CodimensionTwo::GeneralisedFlip);
     let flip = flips.map(|it| it.1).find(is_near)?;

@@ -7,12 +7,12 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use softstop::internals::ParameterSensitivity;
 use softstop::{CheckedScene, Clock, Parameter, Scene, SceneError};
 
 use super::variation::{Variation, phase_derivatives};
 use crate::continuation::{
-    BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, TestFunction, find_grazing,
+    BranchPoint, Continuation, Graze, LastArc, Special, SpecialKind, TestFunction, derivatives_by,
+    find_grazing,
 };
 use crate::orbit::OrbitError;
 use crate::zone::{Frequencies, Loss, ZoneEnd, ZoneError, grazing_frequencies};
@@ -294,15 +294,12 @@ fn grazing_rates(
     let start = Vector2::new(place, 0.0);
     let motion =
         LastArc::carry_past(&scene, start, (graze.crossings, Clock::at_cycle(periods)))?.motion;
-    let phases = scene.phases();
     let all = [parameters, &[Parameter::Phase]].concat();
     let by = phase_derivatives(&scene, &all)?;
-    let mut sensitivity = ParameterSensitivity::new(phases, &by);
-    motion.replay(&mut sensitivity);
-    let columns = sensitivity.columns().ok_or_else(missing)?;
+    let ends = derivatives_by((&motion, start, true), &by).ok_or_else(missing)?;
     let drift = |index: usize| {
-        let moved = by[index].surface_derivative(phases, place);
-        columns[2 + index].xy() + moved * (columns[0].xy() - Vector2::x())
+        let (end, begin) = ends[index];
+        end - begin * Vector2::x()
     };
     let last = parameters.len();
     let by_frequency = along.iter().enumerate().map(|(index, (_, rate))| {

@@ -34,7 +34,7 @@ fn unknowns_of_parameters_are_taken_back() {
     for size in [0.0, 1.0, 19.0, 21.0, 1e3, 1e9] {
         let values = [size * scales[0], -size * scales[1]];
         let unknowns = family.scaled_parameters(values);
-        let back = family.unscaled_parameters(unknowns);
+        let back = family.unscaled_parameters(&unknowns);
         let slopes = family.parameter_slopes(values);
         for index in 0..2 {
             let rounding = GROWN * values[index].abs();
@@ -42,7 +42,7 @@ fn unknowns_of_parameters_are_taken_back() {
             let beside = |step: f64| {
                 let mut moved = unknowns;
                 moved[index] += step;
-                family.unscaled_parameters(moved)[index]
+                family.unscaled_parameters(&moved)[index]
             };
             let slope = (beside(1e-4) - beside(-1e-4)) / 2e-4;
             assert_near(slope / slopes[index], 1.0, DIFFERENCED);
