@@ -1,7 +1,8 @@
 //! Zones of lightly damped machines: long branches that meet surfaces at drive angle phi, and motions with small basins.
 
 use serde::Deserialize;
-use softstop::{Ratios, Scene, Stop};
+use softstop::internals::turning_points;
+use softstop::{Ratios, Scene, Start, Stop};
 use softstop_dynamics::Zone;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
@@ -175,6 +176,30 @@ fn ranges_narrower_than_rounding_are_left_out() -> Outcome {
         assert_eq!(found.len(), 1, "{damping}");
         assert_near(found[0].high.frequency, 1.465_137, 1e-6);
     }
+    Ok(())
+}
+
+/// With hardly any damping a motion with a weak impact at a resonance ends where it turns once more at the stop.
+#[test]
+fn a_weak_impact_at_a_resonance_ends_in_another_touch() -> Outcome {
+    let changes = "rho=2 beta1=1e-6 beta=1e-6 stop.model=rigid R=0.9999";
+    let scene = with_changes("unloaded", changes);
+    let found = stable_ranges(&scene)?;
+    let range = found
+        .iter()
+        .find(|it| is_near(it.high.frequency, 0.5, 1e-5));
+    let range = range.expect("a range");
+    assert_eq!(range.high.loss, Loss::AnotherImpact);
+    let last = &range.hardest;
+    assert_near(last.parameter, range.high.frequency, 1e-13);
+    let start = Start::new(last.position, last.velocity);
+    let motion = scene.at_frequency(last.parameter).trajectory(start, 1)?;
+    let turns = motion.observed_arcs().flat_map(|(arc, elapsed)| {
+        turning_points(arc.course, elapsed, arc.course.departure.velocity > 0.0)
+    });
+    let highest = turns.map(|turn| turn.position).fold(0.0, f64::max);
+    // At a resonance the last digit of the frequency moves it by 1e-9.
+    assert_near(highest, scene.clearance, 1e-7);
     Ok(())
 }
 
