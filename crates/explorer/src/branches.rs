@@ -26,7 +26,7 @@ pub(crate) struct Branches {
 }
 
 #[derive(Serialize)]
-struct Told {
+struct BranchReport {
     zone: Ends,
     branches: Vec<Length>,
     specials: Vec<Special>,
@@ -91,7 +91,7 @@ impl Branches {
             periods: branch.periods,
             points: branch.points.len(),
         });
-        let told = Told {
+        let told = BranchReport {
             zone,
             specials: specials.collect(),
             branches: lengths.collect(),

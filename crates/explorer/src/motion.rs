@@ -20,7 +20,7 @@ pub(crate) struct Shown {
 }
 
 #[derive(Serialize)]
-struct Told {
+struct MotionReport {
     motion: MotionKind,
     name: String,
     kind: [f64; 3],
@@ -58,7 +58,7 @@ impl Shown {
             .filter_map(|period| trajectory.at(Clock::at_cycle(period)))
             .map(pair)
             .collect();
-        let told = Told {
+        let told = MotionReport {
             name: motion.to_string(),
             kind: kind(&motion),
             from: pair(settled.from),

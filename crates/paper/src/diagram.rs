@@ -119,14 +119,14 @@ pub(super) fn is_one(step: &Step) -> bool {
 }
 
 /// A sweep's name, its direction, a step of it.
-type Row<'a> = (String, &'a str, &'a Step);
+type StepRow<'a> = (String, &'a str, &'a Step);
 
 /// A row for each step of some sweeps, of which the first column tells this.
 pub(super) fn table<'a>(
     name: &'static str,
     sweeps: impl IntoIterator<Item = (String, &'a str, &'a [Step])>,
 ) -> Result<Vec<u8>> {
-    let mut columns = columns! { Row<'a>, it;
+    let mut columns = columns! { StepRow<'a>, it;
         "sweep" [None], "which one" => it.0.clone();
         "direction" [None], "of the frequency" => it.1;
         "eta" [None], "drive frequency" => format!("{:.12}", it.2.value);

@@ -19,7 +19,7 @@ use softstop_draw::{Align, Chart, Layer, Mark, Stroke, style};
 const DOT: f64 = 0.7;
 
 /// A step of a sweep, its largest exponent per unit of tau, and the half-width of the 95 % interval of that.
-struct Point {
+struct ExponentStep {
     step: Step,
     exponent: (f64, f64),
 }
@@ -95,12 +95,12 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
 }
 
 /// The steps of a sweep with their exponents, in rising order.
-fn points(chain: &Chain, batch: u64, progress: &Progress) -> Result<Vec<Point>> {
+fn points(chain: &Chain, batch: u64, progress: &Progress) -> Result<Vec<ExponentStep>> {
     let points = chain.rising_steps().into_par_iter().map(|step| {
         progress.step()?;
         let exponent = exponent(&chain.machine.scene, step, batch)?;
         let step = step.clone();
-        Ok(Point { step, exponent })
+        Ok(ExponentStep { step, exponent })
     });
     points.collect()
 }
@@ -135,8 +135,8 @@ fn branch(count: u32) -> Result<Vec<Place>> {
 }
 
 /// A row for each step of each way.
-fn columns<'a>() -> [Column<(&'a str, &'a Point)>; 7] {
-    columns! { (&'a str, &'a Point), it;
+fn columns<'a>() -> [Column<(&'a str, &'a ExponentStep)>; 7] {
+    columns! { (&'a str, &'a ExponentStep), it;
         "direction" [None], "of the frequency" => it.0;
         "eta" [None], "drive frequency" => format!("{:.9}", it.1.step.value);
         "impacts" [None], "p of z = p/n" => it.1.step.motion.regime().map(|z| z.impacts);
@@ -151,7 +151,7 @@ fn columns<'a>() -> [Column<(&'a str, &'a Point)>; 7] {
 /// their names.
 fn chart(
     figure: &Figure,
-    parts: &[[Vec<Point>; 2]],
+    parts: &[[Vec<ExponentStep>; 2]],
     branch: &[Place],
     marks: &[(String, Place)],
 ) -> Chart {
@@ -196,7 +196,7 @@ fn chart(
 }
 
 /// The diagram or the exponents of a part.
-fn layers([up, down]: &[Vec<Point>; 2], row: usize) -> Vec<Layer> {
+fn layers([up, down]: &[Vec<ExponentStep>; 2], row: usize) -> Vec<Layer> {
     let ways = by_way(up, down, |point| &point.step);
     let layers = ways.into_iter().zip(WAYS).map(|(points, (name, color))| {
         let settled = points.into_iter().filter(|it| it.step.is_settled());

@@ -5,7 +5,7 @@ use softstop::{MotionError, PhaseKind, Scene, Start};
 
 /// A point of a motion, in the paper's ratios.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct PathPoint {
     pub(super) time: f64,
     pub(super) position: f64,
     pub(super) velocity: f64,
@@ -18,7 +18,7 @@ pub(super) struct Point {
 #[derive(Debug, Default)]
 pub(super) struct Path {
     /// In order of time; those at which the phase changes stand twice.
-    pub(super) points: Vec<Point>,
+    pub(super) points: Vec<PathPoint>,
     /// When it hits.
     pub(super) impacts: Vec<f64>,
     /// Energy lost.
@@ -53,7 +53,7 @@ impl Path {
                 let after = elapsed * f64::from(step) / f64::from(steps);
                 let Start { position, velocity } = arc.at(after);
                 let force = |phase: &Phase| phase.contact_force(position, velocity);
-                Point {
+                PathPoint {
                     time: clock.time(clock.after(arc.start, after)),
                     position,
                     velocity,
@@ -72,17 +72,17 @@ impl Path {
     }
 
     /// The points of each phase in turn.
-    pub(super) fn phases(&self) -> impl Iterator<Item = &[Point]> {
+    pub(super) fn phases(&self) -> impl Iterator<Item = &[PathPoint]> {
         self.points.chunk_by(|a, b| a.phase == b.phase)
     }
 
     /// Where a phase is first entered.
-    pub(super) fn first(&self, phase: PhaseKind) -> Option<&Point> {
+    pub(super) fn first(&self, phase: PhaseKind) -> Option<&PathPoint> {
         self.points.iter().find(|point| point.phase == phase)
     }
 
     /// Where it is last left.
-    pub(super) fn last(&self, phase: PhaseKind) -> Option<&Point> {
+    pub(super) fn last(&self, phase: PhaseKind) -> Option<&PathPoint> {
         self.points.iter().rfind(|point| point.phase == phase)
     }
 }

@@ -30,7 +30,7 @@ const SOUGHT: [(&str, &str); 2] = [("z = 2/3", "1-1-0"), ("z = (2/4)B", "1-1-0-0
 
 pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let etas = etas();
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<WayRow> = Vec::new();
     let mut findings = Findings::default();
     let steps = studio.detail.pick(&STEPS[..], &STEPS[..1]);
     for steps in steps.iter().copied() {
@@ -77,10 +77,10 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
 }
 
 /// Rate, frequency, motion, where it is met first, whether the way ends on it.
-type Row = (f64, f64, &'static str, Option<f64>, bool);
+type WayRow = (f64, f64, &'static str, Option<f64>, bool);
 
-fn columns() -> [Column<Row>; 5] {
-    columns! { Row, it;
+fn columns() -> [Column<WayRow>; 5] {
+    columns! { WayRow, it;
         "change_of_rho_per_period" [None], "how fast" => it.0;
         "eta" [None], "drive frequency" => it.1;
         "motion" [None], "that is looked for" => it.2;

@@ -12,7 +12,7 @@ use super::motor::MODEL;
 use super::{ANGLE, DISSIPATED, Drive, LOAD, PAID, SPEED, SUPPLIED, VOLTAGE, slot};
 use crate::difference::Direction;
 
-type Row = Variable<Drive, Direction<Drive>>;
+type DriveVariable = Variable<Drive, Direction<Drive>>;
 
 pub(super) static QUANTITIES: &[&Quantity] = &[
     &si::ANGLE,
@@ -36,7 +36,7 @@ pub(super) const TERMINALS: &[Terminal] = &[Terminal {
     ],
 }];
 
-pub(super) const GROUPS: &[&[Row]] = &[INPUTS, PARAMETERS, OUTPUTS];
+pub(super) const GROUPS: &[&[DriveVariable]] = &[INPUTS, PARAMETERS, OUTPUTS];
 
 /// What sets the motor's torque at the start.
 #[rustfmt::skip]
@@ -53,7 +53,7 @@ const fn at_once(initial: &'static [&'static str]) -> Dependencies {
 }
 
 #[rustfmt::skip]
-const INPUTS: &[Row] = &[
+const INPUTS: &[DriveVariable] = &[
     row(100, "voltage", bare(-LARGE, LARGE), Access::Signal(VOLTAGE),
         "Voltage that is added to motor.voltage; with its derivatives of order 1 to 7 it goes on as a polynomial"),
     row(101, "load.work", within(&si::ENERGY, -LARGE, LARGE), Access::Signal(LOAD),
@@ -61,7 +61,7 @@ const INPUTS: &[Row] = &[
 ];
 
 #[rustfmt::skip]
-const PARAMETERS: &[Row] = &[
+const PARAMETERS: &[DriveVariable] = &[
     fixed(0, "motor.model", slot::MODEL, Kind::Enumeration(&MODEL),
         "Law of the motor's torque"),
     tunable(fixed(1, "motor.voltage", slot::VOLTAGE, bare(-LARGE, LARGE),
@@ -105,7 +105,7 @@ fn paid(drive: &Drive) -> f64 {
 }
 
 #[rustfmt::skip]
-const OUTPUTS: &[Row] = &[
+const OUTPUTS: &[DriveVariable] = &[
     continuous(200, "speed", shown_in(real(&si::ANGULAR_FREQUENCY), "Hz"), after(&["initial.speed"]),
         (Drive::speed, |of| of.of(Drive::speed)), &[|drive| drive.now()[SPEED]],
         "Speed w of the rotor: drive.speed of softstop.fmu"),

@@ -12,7 +12,7 @@ use super::supply::MODEL;
 use super::{ANGLE, Feeder, PATTERN, slot};
 use crate::difference::Direction;
 
-type Row = Variable<Feeder, Direction<Feeder>>;
+type FeederVariable = Variable<Feeder, Direction<Feeder>>;
 
 pub(super) static QUANTITIES: &[&Quantity] = &[&si::ANGLE, &si::ANGULAR_FREQUENCY, &si::TIME];
 
@@ -32,7 +32,8 @@ pub(super) const TERMINALS: &[Terminal] = &[
     },
 ];
 
-pub(super) const GROUPS: &[&[Row]] = &[INPUTS, FEED_AND_SUPPLY, STROKES, CHANCE_AND_JAMS, OUTPUTS];
+pub(super) const GROUPS: &[&[FeederVariable]] =
+    &[INPUTS, FEED_AND_SUPPLY, STROKES, CHANCE_AND_JAMS, OUTPUTS];
 
 const SHARE: Kind = bare(0.0, 1.0);
 /// A number of strokes.
@@ -57,7 +58,7 @@ const FIRST: Dependencies = Dependencies {
 };
 
 #[rustfmt::skip]
-const INPUTS: &[Row] = &[
+const INPUTS: &[FeederVariable] = &[
     row(100, "angle", shown_in(within(&si::ANGLE, -LARGE, LARGE), "deg"), Access::Signal(ANGLE),
         "Angle of the shaft if feed.takes.angle is true: drive.angle of softstop.fmu, or angle of drive.fmu, with its derivatives of order 1 to 7 if they are known. What it jumps by the shaft turns evenly over the next step"),
     row(101, "held", Kind::Boolean, Access::Input(slot::HELD),
@@ -67,7 +68,7 @@ const INPUTS: &[Row] = &[
 ];
 
 #[rustfmt::skip]
-const FEED_AND_SUPPLY: &[Row] = &[
+const FEED_AND_SUPPLY: &[FeederVariable] = &[
     tunable(fixed(0, "feed.speed", slot::SPEED, shown_in(within(&si::ANGULAR_FREQUENCY, -LARGE, LARGE), "Hz"),
         "Speed of the shaft if feed.takes.angle is false; when it is tuned, the angle goes on without a jump")),
     fixed(1, "feed.angle", slot::ANGLE, shown_in(within(&si::ANGLE, -LARGE, LARGE), "deg"),
@@ -92,13 +93,13 @@ macro_rules! pattern {
     };
 }
 
-const STROKES: &[Row] = &{
-    const ROWS: [Row; PATTERN] = pattern!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
+const STROKES: &[FeederVariable] = &{
+    const ROWS: [FeederVariable; PATTERN] = pattern!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
     ROWS
 };
 
 #[rustfmt::skip]
-const CHANCE_AND_JAMS: &[Row] = &[
+const CHANCE_AND_JAMS: &[FeederVariable] = &[
     tunable(fixed(5, "supply.probability", slot::PROBABILITY, SHARE,
         "Probability that a stroke gets a strip (random)")),
     fixed(6, "supply.seed", slot::SEED, Kind::Count { min: 0, max: None },
@@ -126,7 +127,7 @@ fn clamp(count: u64) -> i32 {
 }
 
 #[rustfmt::skip]
-const OUTPUTS: &[Row] = &[
+const OUTPUTS: &[FeederVariable] = &[
     row(200, "material", Kind::Boolean,
         Access::Integer { value: |feeder| i32::from(feeder.strip()), depends: FIRST },
         "A strip lies in the press since the last stroke: material of softstop.fmu"),

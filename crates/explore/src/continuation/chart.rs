@@ -104,7 +104,7 @@ fn chart(title: &str, panel: Panel) -> String {
 /// A line for each impact of a piece, the hardest first.
 fn lines<'a>(
     branch: &Branch,
-    piece: &'a Piece<'_>,
+    piece: &'a BranchPiece<'_>,
     color: &'static str,
 ) -> impl Iterator<Item = Layer> + 'a {
     let (stroke, word) = match is_stable(piece) {
@@ -128,7 +128,7 @@ fn ranked(point: &BranchPoint, rank: usize) -> f64 {
 }
 
 /// Points of one stability and one number of impacts.
-type Piece<'a> = [&'a BranchPoint];
+type BranchPiece<'a> = [&'a BranchPoint];
 
 /// The parts of a branch between special points.
 fn pieces(branch: &Branch) -> impl Iterator<Item = (&Branch, Vec<&BranchPoint>)> {
@@ -145,7 +145,7 @@ fn pieces(branch: &Branch) -> impl Iterator<Item = (&Branch, Vec<&BranchPoint>)>
 }
 
 /// By a point inside: the ends of a piece are on the border.
-fn is_stable(piece: &Piece<'_>) -> bool {
+fn is_stable(piece: &BranchPiece<'_>) -> bool {
     match piece {
         [one, other] => one.is_stable() && other.is_stable(),
         _ => piece[piece.len() / 2].is_stable(),

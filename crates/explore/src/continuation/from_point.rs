@@ -73,11 +73,11 @@ struct Special {
 }
 
 /// A point: drive periods, value of the parameter, position and velocity.
-type Point = (u64, [f64; 3]);
+type SavedPoint = (u64, [f64; 3]);
 
 impl Earlier {
     /// The points of all branches, in the order of branches.csv.
-    fn rows(&self) -> impl Iterator<Item = Point> + '_ {
+    fn rows(&self) -> impl Iterator<Item = SavedPoint> + '_ {
         self.branches.iter().flat_map(|branch| {
             let Rows {
                 value,
@@ -92,7 +92,7 @@ impl Earlier {
     }
 
     /// The special points with a symbol.
-    fn specials<'a>(&'a self, symbol: &'a str) -> impl Iterator<Item = Point> + 'a {
+    fn specials<'a>(&'a self, symbol: &'a str) -> impl Iterator<Item = SavedPoint> + 'a {
         self.branches.iter().flat_map(move |branch| {
             let same = branch.specials.iter().filter(move |it| it.symbol == symbol);
             same.map(|it| (branch.periods, [it.value, it.position, it.velocity]))
@@ -116,7 +116,7 @@ impl Earlier {
     }
 
     /// The point of this row, or the special one of this symbol, the first unless a number says which.
-    fn point(&self, which: &str) -> Option<Point> {
+    fn point(&self, which: &str) -> Option<SavedPoint> {
         if let Ok(row) = which.parse::<usize>() {
             return self.rows().nth(row.checked_sub(1)?);
         }

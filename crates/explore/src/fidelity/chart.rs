@@ -7,7 +7,7 @@ use softstop_dynamics::motion::MotionClass;
 
 use super::FidelityArguments;
 use super::structure::Structure;
-use super::study::{Entry, Study};
+use super::study::{Entry, ModelComparison};
 use crate::palette::{motion_color, motion_keys, regime_class};
 use softstop_console::arguments::{title, title_over_frequency};
 
@@ -18,7 +18,11 @@ const ROW: (f64, f64) = (430.0, 26.0);
 
 /// Models with both axes logarithmic: what has no error stands in a strip below the scale, what has no value in one
 /// above it.
-pub(super) fn models(arguments: &FidelityArguments, machine: &Machine, study: &Study) -> Chart {
+pub(super) fn models(
+    arguments: &FidelityArguments,
+    machine: &Machine,
+    study: &ModelComparison,
+) -> Chart {
     let tolerance = arguments.tolerance;
     let errors = study.entries.iter().filter_map(|entry| entry.error);
     let errors = errors.chain([tolerance, 1e-3]);

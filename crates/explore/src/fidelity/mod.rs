@@ -22,7 +22,7 @@ use softstop_console::export::Export;
 use softstop_console::failure::Failure;
 use softstop_console::range::{self, within};
 use structure::Structure;
-use study::Study;
+use study::ModelComparison;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -150,7 +150,7 @@ pub fn run(arguments: &FidelityArguments) -> Result<(), Failure> {
         refuse_followers_of_frequency(&machine)?;
     }
     let limit = arguments.common.limit.budget;
-    let study = limit.limit(|| Study::new(&machine, arguments))?;
+    let study = limit.limit(|| ModelComparison::new(&machine, arguments))?;
     let structure = frequencies.map(|frequencies| {
         let motions = Structure::motion_count(&study, frequencies.len());
         limit.limit_many(motions, || Structure::new(&machine, &study, frequencies))

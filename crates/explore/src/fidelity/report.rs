@@ -6,7 +6,7 @@ use softstop::{Dimension, Machine};
 
 use super::FidelityArguments;
 use super::structure::{Structure, Track, kind};
-use super::study::{Entry, Name, Study};
+use super::study::{Entry, ModelComparison, Name};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Unit, Units};
 use softstop_console::record::{Record, below};
@@ -16,16 +16,16 @@ use softstop_console::{columns, units};
 
 /// A row of `fidelity.csv`: a quantity of a model.
 #[derive(Clone, Copy)]
-pub(super) struct Row<'a> {
+pub(super) struct AnswerRow<'a> {
     machine: &'a Machine,
-    study: &'a Study,
+    study: &'a ModelComparison,
     model: &'a Entry,
     quantity: Quantity,
 }
 
 /// The columns of `fidelity.csv`; from the fourth to the sixth they are what an answer is in JSON.
-pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
-    columns! { Row<'a>, it;
+pub(super) fn columns<'a>() -> [Column<AnswerRow<'a>>; 8] {
+    columns! { AnswerRow<'a>, it;
         "rung" [None], "the model's law" => it.model.name.rung.name();
         "matched" [None], "what it shares with the contact, if anything" => it.model.name.word();
         "quantity" [None], "what is compared" => it.quantity.name();
@@ -38,9 +38,12 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 8] {
 }
 
 /// The rows of `fidelity.csv`: all quantities of all models.
-pub(super) fn rows<'a>(machine: &'a Machine, study: &'a Study) -> impl Iterator<Item = Row<'a>> {
+pub(super) fn rows<'a>(
+    machine: &'a Machine,
+    study: &'a ModelComparison,
+) -> impl Iterator<Item = AnswerRow<'a>> {
     study.entries.iter().flat_map(move |model| {
-        Quantity::ALL.into_iter().map(move |quantity| Row {
+        Quantity::ALL.into_iter().map(move |quantity| AnswerRow {
             machine,
             study,
             model,
@@ -64,8 +67,8 @@ fn own(machine: &Machine, quantity: Quantity, answers: &Answers) -> Option<f64> 
 }
 
 /// What is told of a model.
-fn figures<'a>() -> [Column<Row<'a>>; 4] {
-    columns! { Row<'a>, it;
+fn figures<'a>() -> [Column<AnswerRow<'a>>; 4] {
+    columns! { AnswerRow<'a>, it;
         "value" [None] Fixed(6), "of the quantity" => own(it.machine, it.quantity, &it.model.answers);
         "error" [None] Plain, "of it" => error(it.model.error);
         "evaluations_per_period" [None] Fixed(1), "of the law of force" => it.model.evaluations_per_period;
@@ -107,7 +110,7 @@ fn named(name: Name) -> Record {
 }
 
 /// A model: the machine with its stop, what it settles on, and all quantities of it.
-fn model(row: Row<'_>) -> Record {
+fn model(row: AnswerRow<'_>) -> Record {
     let entry = row.model;
     let mut quantities = Quantity::ALL;
     quantities.sort_by_key(|it| it.name());
@@ -116,7 +119,7 @@ fn model(row: Row<'_>) -> Record {
         .fold(Record::default(), |all, quantity| {
             all.hidden(
                 quantity.name(),
-                Record::of(&columns()[3..6], &Row { quantity, ..row }),
+                Record::of(&columns()[3..6], &AnswerRow { quantity, ..row }),
             )
         });
     let machine = Machine {
@@ -133,7 +136,7 @@ fn model(row: Row<'_>) -> Record {
 }
 
 /// Which model to take.
-fn advice(arguments: &FidelityArguments, machine: &Machine, study: &Study) -> String {
+fn advice(arguments: &FidelityArguments, machine: &Machine, study: &ModelComparison) -> String {
     let matched = match study.velocity {
         _ if arguments.predictive => {
             "Matched at the velocity of each model's own motion.".to_owned()
@@ -159,7 +162,7 @@ fn advice(arguments: &FidelityArguments, machine: &Machine, study: &Study) -> St
 /// All models, the cheapest one within the tolerance, and their regimes over the sweep; and the text of it.
 pub(super) fn report(
     arguments: &FidelityArguments,
-    (machine, study): (&Machine, &Study),
+    (machine, study): (&Machine, &ModelComparison),
     structure: Option<&Structure<'_>>,
 ) -> (Record, String) {
     let (quantity, tolerance, units) =
@@ -172,7 +175,7 @@ pub(super) fn report(
         below(&named.collect::<Vec<_>>(), &units)
     };
     let rows = rows(machine, study).filter(|row| row.quantity == quantity);
-    let rows: Vec<Row<'_>> = rows.collect();
+    let rows: Vec<AnswerRow<'_>> = rows.collect();
     let value = units.label(quantity.name(), Unit::Of(unit(machine, quantity)));
     let mut text = heading(&format!("Models of {} for its {value}", title(machine)));
     text += &table(&Record::all(&figures(), &rows));

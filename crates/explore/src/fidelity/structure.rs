@@ -5,7 +5,7 @@ use softstop::{Dimension, Machine, Scene, Start};
 use softstop_dynamics::Regime;
 
 use super::FidelityArguments;
-use super::study::{Entry, Study};
+use super::study::{Entry, ModelComparison};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::failure::Failure;
@@ -37,14 +37,14 @@ pub(super) struct Structure<'a> {
 
 impl<'a> Structure<'a> {
     /// Motions of all models from both starts at a number of frequencies.
-    pub(super) fn motion_count(study: &Study, frequencies: usize) -> usize {
+    pub(super) fn motion_count(study: &ModelComparison, frequencies: usize) -> usize {
         STARTS.len() * frequencies * study.entries.len()
     }
 
     /// Runs all models of a study from both starts at these frequencies.
     pub(super) fn new(
         machine: &Machine,
-        study: &'a Study,
+        study: &'a ModelComparison,
         frequencies: Vec<f64>,
     ) -> Result<Self, Failure> {
         let count = Self::motion_count(study, frequencies.len());
@@ -88,14 +88,14 @@ impl<'a> Structure<'a> {
     }
 
     /// The rows of `structure.csv`: all motions.
-    pub(super) fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = StructureRow<'_>> {
         self.tracks.iter().flat_map(move |track| {
             STARTS
                 .iter()
                 .zip(&track.regimes)
                 .flat_map(move |((start, _), regimes)| {
                     let regimes = self.frequencies.iter().zip(regimes);
-                    regimes.map(move |(frequency, regime)| Row {
+                    regimes.map(move |(frequency, regime)| StructureRow {
                         track,
                         start,
                         frequency: *frequency,
@@ -118,7 +118,7 @@ impl Track<'_> {
 }
 
 /// A row of `structure.csv`.
-pub(super) struct Row<'a> {
+pub(super) struct StructureRow<'a> {
     track: &'a Track<'a>,
     start: &'static str,
     frequency: f64,
@@ -126,8 +126,8 @@ pub(super) struct Row<'a> {
 }
 
 /// The columns of `structure.csv`.
-pub(super) fn columns<'a>() -> [Column<Row<'a>>; 6] {
-    columns! { Row<'a>, row;
+pub(super) fn columns<'a>() -> [Column<StructureRow<'a>>; 6] {
+    columns! { StructureRow<'a>, row;
         "rung" [None], "the model's law" => row.track.entry.name.rung.name();
         "matched" [None], "what it shares with the contact, if anything" => row.track.entry.name.word();
         "start" [None], "rest, or flung towards the stop" => row.start;

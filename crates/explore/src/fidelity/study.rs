@@ -59,7 +59,7 @@ pub(super) struct Entry {
 
 /// All models of a scene.
 #[derive(Debug, Clone)]
-pub(super) struct Study {
+pub(super) struct ModelComparison {
     /// Before-impact velocity in m/s of the scene's motion, if it strikes.
     pub(super) velocity: Option<f64>,
     pub(super) truth: Answers,
@@ -68,7 +68,7 @@ pub(super) struct Study {
     pub(super) unmatched: Vec<(Name, String)>,
 }
 
-impl Study {
+impl ModelComparison {
     /// Matches, runs and measures all models.
     pub(super) fn new(machine: &Machine, arguments: &FidelityArguments) -> Result<Self, Failure> {
         let (truth, quantity) = (&machine.scene, arguments.quantity);

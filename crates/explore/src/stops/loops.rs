@@ -4,7 +4,7 @@
 use softstop::PhaseKind;
 use softstop_draw::{Align, Axis, Chart, Corner, Layer, Legend, Panel, Stroke as Line, style};
 
-use crate::stops::stroke::{Piece, Rebound, Stroke};
+use crate::stops::stroke::{Rebound, Stroke, StrokePiece};
 
 /// The lines of the first law and of the second.
 const LINES: [Line; 2] = [
@@ -84,7 +84,7 @@ fn draw(layers: &mut Vec<Layer>, stroke: &Stroke, line: Line, name: &str, top: f
 
 /// The paper's numeral of a piece: above it on the way in, below it on the way out, once where both
 /// ways are one.
-fn numeral(piece: &Piece) -> Option<Layer> {
+fn numeral(piece: &StrokePiece) -> Option<Layer> {
     let numeral = match piece.kind {
         PhaseKind::Pierce => "I",
         PhaseKind::Cut => "II",

@@ -13,7 +13,7 @@ const MAX_PERIODS: u64 = 100;
 
 /// A stretch of a stroke in one phase and one direction.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Piece {
+pub struct StrokePiece {
     /// The phase.
     pub kind: PhaseKind,
     /// On the way in rather than out.
@@ -39,7 +39,7 @@ pub struct Rebound {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Stroke {
     /// Its pieces in order of time.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<StrokePiece>,
     /// The first hit on a rigid stop.
     pub rebound: Option<Rebound>,
     /// Speed in m/s with which the mass leaves at the clearance, if it does.
@@ -107,7 +107,7 @@ impl Stroke {
                 Some(last) if !fresh && last.kind == arc.kind && last.inward == inward => {
                     last.points.push(point);
                 }
-                _ => self.pieces.push(Piece {
+                _ => self.pieces.push(StrokePiece {
                     kind: arc.kind,
                     inward,
                     points: vec![point],

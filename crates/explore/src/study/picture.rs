@@ -6,7 +6,7 @@ use softstop_draw::{Axis, Chart, Layer, Panel, Sign, style};
 use softstop_dynamics::Regime;
 use softstop_dynamics::motion::MotionClass;
 
-use super::plot::{Point, View};
+use super::plot::{PlotPoint, View};
 use super::report::AxisReport;
 use super::values::Scale;
 use crate::palette::{motion_color, regime_class};
@@ -58,9 +58,9 @@ impl View<'_> {
     ///
     /// # Errors
     /// [`Failure::Run`] if it cannot be drawn.
-    pub fn map(&self, points: &[Point]) -> Result<Vec<u8>, Failure> {
+    pub fn map(&self, points: &[PlotPoint]) -> Result<Vec<u8>, Failure> {
         let [across, up] = [0, 1].map(|place| Side::of(self.axis(place)));
-        let mut cells: Vec<Option<&Point>> = vec![None; across.count * up.count];
+        let mut cells: Vec<Option<&PlotPoint>> = vec![None; across.count * up.count];
         for point in points {
             let [x, y] = [(&across, 0), (&up, 1)].map(|(side, place)| side.cell(point.at[place]));
             cells[y * across.count + x] = Some(point);
@@ -71,7 +71,7 @@ impl View<'_> {
                 vec![Layer::shades(across.count, numbers, self.name())]
             }
             false => {
-                let word = |cell: Option<&Point>| cell.and_then(|it| it.word.clone());
+                let word = |cell: Option<&PlotPoint>| cell.and_then(|it| it.word.clone());
                 let colors = cells
                     .iter()
                     .map(|cell| motion_color(class(word(*cell).as_deref())));
@@ -109,7 +109,7 @@ impl View<'_> {
     }
 
     /// A slice, as SVG.
-    pub fn slice(&self, points: &[Point]) -> Vec<u8> {
+    pub fn slice(&self, points: &[PlotPoint]) -> Vec<u8> {
         let axis = self.axis(0);
         let x = Axis {
             is_log: axis.values.scale() == Scale::Log,

@@ -96,7 +96,7 @@ pub(super) fn run(arguments: &PlotArguments) -> Result<(), Failure> {
 }
 
 /// A point that is drawn: where it is along the axes, and what is there.
-pub(super) struct Point {
+pub(super) struct PlotPoint {
     pub at: [f64; 2],
     pub number: f64,
     pub word: Option<String>,
@@ -169,7 +169,7 @@ impl<'a> View<'a> {
     }
 
     /// The points that are drawn, in order.
-    fn points(&self, table: &std::path::Path) -> Result<Vec<Point>, Error> {
+    fn points(&self, table: &std::path::Path) -> Result<Vec<PlotPoint>, Error> {
         let name = |axis: &usize| self.manifest.axes[*axis].parameter.as_str();
         let mut names = vec![self.column.name.as_str()];
         names.extend(self.over.iter().map(name));
@@ -186,7 +186,7 @@ impl<'a> View<'a> {
                     let column = columns.get(column);
                     column.map_or(f64::NAN, |it| it.number(row))
                 };
-                points.push(Point {
+                points.push(PlotPoint {
                     at: [at(1), at(2)],
                     number: at(0),
                     word: columns[0].word(row).map(str::to_owned),

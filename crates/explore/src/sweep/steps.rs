@@ -6,15 +6,15 @@ use softstop_console::columns;
 use softstop_dynamics::{Chain, Direction, Plan, Step};
 
 /// A row of `sweep.csv`.
-pub(super) struct Row<'a> {
+pub(super) struct SweepRow<'a> {
     clearance: Option<f64>,
     direction: Direction,
     step: &'a Step,
 }
 
 /// The columns of `sweep.csv`.
-pub(super) fn columns<'a>() -> [Column<Row<'a>>; 14] {
-    columns! { Row<'a>, row;
+pub(super) fn columns<'a>() -> [Column<SweepRow<'a>>; 14] {
+    columns! { SweepRow<'a>, row;
         "clearance" [Length], "of the machine, unless it is swept" => row.clearance;
         "direction" [None], "up or down" => row.direction.name();
         "value" [Of("own")], "of the parameter, in its own unit" => row.step.value;
@@ -33,10 +33,10 @@ pub(super) fn columns<'a>() -> [Column<Row<'a>>; 14] {
 }
 
 /// The rows of `sweep.csv`: one for each step.
-pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain]) -> impl Iterator<Item = Row<'a>> {
+pub(super) fn rows<'a>(plan: &Plan, chains: &'a [Chain]) -> impl Iterator<Item = SweepRow<'a>> {
     chains.iter().flat_map(|chain| {
         let clearance = clearance(plan, chain);
-        chain.steps.iter().map(move |step| Row {
+        chain.steps.iter().map(move |step| SweepRow {
             clearance,
             direction: chain.direction,
             step,

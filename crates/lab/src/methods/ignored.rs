@@ -49,7 +49,7 @@ pub(super) fn run(
         };
         let length = next - time;
         let to = step.taken(machine, length)?;
-        let span = Span {
+        let span = TakenStep {
             time,
             length,
             from,
@@ -61,14 +61,14 @@ pub(super) fn run(
 }
 
 /// A step that has been made.
-pub(super) struct Span {
+pub(super) struct TakenStep {
     pub time: f64,
     pub length: f64,
     pub from: State,
     pub to: State,
 }
 
-impl Span {
+impl TakenStep {
     fn land(&self, machine: &mut Machine, places: Places, step: &Step) -> State {
         let hit = places.wall.filter(|wall| self.to.position > wall.position);
         if !places.wall_is_clearance() {

@@ -1,7 +1,7 @@
 //! Moreau's time stepping for rigid stops (Jean and Moreau 1987; Moreau 1988).
 
 use super::balance::Balance;
-use super::ignored::{Places, Span};
+use super::ignored::{Places, TakenStep};
 use super::machine::{Laws, Machine, State, in_range};
 use super::{Integrator, MethodError, Solution, Task};
 use softstop::{Impact, Wall};
@@ -51,7 +51,7 @@ impl Integrator for Moreau {
             let length = steps.time(index + 1) - time;
             machine.count_step(time)?;
             let (to, is_pushed) = self.step(&mut machine, wall, time, length, from)?;
-            let span = Span {
+            let span = TakenStep {
                 time,
                 length,
                 from,

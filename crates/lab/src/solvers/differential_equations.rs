@@ -14,11 +14,11 @@ use differential_equations::solout::Solout;
 use differential_equations::solution::Solution as Points;
 
 use super::Adaptive;
-use super::leg::{Leg, Outcome, Reached, Span, State, bounded};
+use super::leg::{Leg, Outcome, Reached, SolverState, Span, bounded};
 
 /// A scheme of the crate with O coefficients of its interpolant, S stages and I with those of the interpolant.
-type Scheme<const O: usize, const S: usize, const I: usize> =
-    ExplicitRungeKutta<Ordinary, DormandPrince, f64, State, O, S, I>;
+type RungeKutta<const O: usize, const S: usize, const I: usize> =
+    ExplicitRungeKutta<Ordinary, DormandPrince, f64, SolverState, O, S, I>;
 
 /// Follows a leg by Dormand and Prince's scheme of order 5.
 pub(super) fn dopri5(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
@@ -30,15 +30,15 @@ pub(super) fn dop853(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome
     follow(ExplicitRungeKutta::dop853, leg, span, settings)
 }
 
-impl ODE<f64, State> for Leg<'_> {
-    fn diff(&self, time: f64, state: &State, rate: &mut State) {
+impl ODE<f64, SolverState> for Leg<'_> {
+    fn diff(&self, time: f64, state: &SolverState, rate: &mut SolverState) {
         *rate = self.rate(time, *state);
     }
 }
 
 /// Steps until a guard has risen, then seeks the place by shorter steps from where that step began.
 fn follow<const O: usize, const S: usize, const I: usize>(
-    scheme: fn() -> Scheme<O, S, I>,
+    scheme: fn() -> RungeKutta<O, S, I>,
     leg: &Leg<'_>,
     span: &Span,
     settings: &Adaptive,
@@ -59,7 +59,8 @@ fn follow<const O: usize, const S: usize, const I: usize>(
     let problem = IVP::ode(leg, span.from, span.until, span.state).method(method());
     let outcome = problem.solout(&mut watch).solve();
     let (before, (time, state), steps) = (watch.before, watch.reached, watch.steps);
-    let failed = |error: Error<f64, State>| MethodError::stuck(time, steps, format!("{error:?}"));
+    let failed =
+        |error: Error<f64, SolverState>| MethodError::stuck(time, steps, format!("{error:?}"));
     outcome.map_err(failed)?;
     bounded(time, state)?;
     let mut reached = Reached {
@@ -96,25 +97,25 @@ fn follow<const O: usize, const S: usize, const I: usize>(
 struct Watch<'a> {
     leg: &'a Leg<'a>,
     /// Where the last step began and where it ended.
-    before: (f64, State),
-    reached: (f64, State),
+    before: (f64, SolverState),
+    reached: (f64, SolverState),
     steps: u64,
     /// A guard was above zero at its end.
     risen: bool,
 }
 
-impl Solout<f64, State> for &mut Watch<'_> {
+impl Solout<f64, SolverState> for &mut Watch<'_> {
     fn solout<I>(
         &mut self,
         time: f64,
         before: f64,
-        state: &State,
-        from: &State,
+        state: &SolverState,
+        from: &SolverState,
         _: &mut I,
-        _: &mut Points<f64, State>,
-    ) -> ControlFlag<f64, State>
+        _: &mut Points<f64, SolverState>,
+    ) -> ControlFlag<f64, SolverState>
     where
-        I: Interpolation<f64, State> + ?Sized,
+        I: Interpolation<f64, SolverState> + ?Sized,
     {
         // The start is shown too.
         if time <= before {

@@ -7,7 +7,7 @@ use diffsol::{
 };
 
 use super::Adaptive;
-use super::leg::{Leg, Outcome, Reached, Span, State, bounded, out_of_steps};
+use super::leg::{Leg, Outcome, Reached, SolverState, Span, bounded, out_of_steps};
 use crate::methods::MethodError;
 
 type Matrix = NalgebraMat<f64>;
@@ -73,7 +73,8 @@ where
     S: OdeSolverMethod<'a, E>,
 {
     solver.set_stop_time(span.until).map_err(refused(span))?;
-    let guards = |state: State| (0..leg.guard_count()).map(move |index| leg.guard(index, state));
+    let guards =
+        |state: SolverState| (0..leg.guard_count()).map(move |index| leg.guard(index, state));
     let mut before: Vec<f64> = guards(span.state).collect();
     let mut steps = 0;
     loop {
@@ -111,7 +112,7 @@ where
 }
 
 /// Refuses the end of a step at which no root was reported, if it lies beyond the phase or any bounds.
-fn within(leg: &Leg<'_>, time: f64, steps: u64, state: State) -> Result<(), MethodError> {
+fn within(leg: &Leg<'_>, time: f64, steps: u64, state: SolverState) -> Result<(), MethodError> {
     bounded(time, state)?;
     if leg.height(state) > 0.0 {
         let reason = "a step ended beyond its phase, and diffsol reported no root";
@@ -120,7 +121,7 @@ fn within(leg: &Leg<'_>, time: f64, steps: u64, state: State) -> Result<(), Meth
     Ok(())
 }
 
-fn pair(values: &[f64]) -> State {
+fn pair(values: &[f64]) -> SolverState {
     [values[0], values[1]]
 }
 

@@ -8,7 +8,7 @@ use std::cell::Cell;
 
 /// Two numbers that a solver follows: position in m and velocity in m/s or, of a mass that is held, the
 /// drive per mass in m/s^2 and its rate.
-pub(super) type State = [f64; 2];
+pub(super) type SolverState = [f64; 2];
 
 /// A smooth law and its guards. Counts how often it is asked.
 pub(super) struct Leg<'a> {
@@ -42,7 +42,7 @@ impl<'a> Leg<'a> {
     }
 
     /// dy/dt.
-    pub fn rate(&self, time: f64, [position, velocity]: State) -> State {
+    pub fn rate(&self, time: f64, [position, velocity]: SolverState) -> SolverState {
         self.count();
         let acceleration = match self.phase {
             Some(phase) => {
@@ -55,7 +55,7 @@ impl<'a> Leg<'a> {
     }
 
     /// The Jacobian of the rate times a vector.
-    pub fn rate_along(&self, [position, velocity]: State, along: State) -> State {
+    pub fn rate_along(&self, [position, velocity]: SolverState, along: SolverState) -> SolverState {
         self.count();
         let (stiffness, damping) = match self.phase {
             Some(phase) => {
@@ -68,7 +68,7 @@ impl<'a> Leg<'a> {
     }
 
     /// The value of a guard; it ends the leg where it rises through zero.
-    pub fn guard(&self, index: usize, [first, second]: State) -> f64 {
+    pub fn guard(&self, index: usize, [first, second]: SolverState) -> f64 {
         let guard = &self.guards[index];
         let weighted = match self.phase {
             Some(_) => guard.position * first + guard.velocity * second,
@@ -78,13 +78,13 @@ impl<'a> Leg<'a> {
     }
 
     /// The guard that stands highest, and its value.
-    pub fn highest(&self, state: State) -> Option<(usize, f64)> {
+    pub fn highest(&self, state: SolverState) -> Option<(usize, f64)> {
         let all = (0..self.guards.len()).map(|index| (index, self.guard(index, state)));
         all.max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
     /// How high the highest guard stands; below zero if there is none.
-    pub fn height(&self, state: State) -> f64 {
+    pub fn height(&self, state: SolverState) -> f64 {
         self.highest(state).map_or(-1.0, |(_, value)| value)
     }
 
@@ -113,7 +113,7 @@ pub(super) struct Span {
     /// Time in s at which it begins.
     pub from: f64,
     /// The state there.
-    pub state: State,
+    pub state: SolverState,
     /// Time in s at which the motion ends.
     pub until: f64,
     /// Steps that are left.
@@ -126,7 +126,7 @@ pub(super) struct Reached {
     /// Time in s.
     pub time: f64,
     /// The state then.
-    pub state: State,
+    pub state: SolverState,
     /// The guard that ended it; none at the end of the span.
     pub guard: Option<usize>,
     /// Accepted steps.
@@ -145,7 +145,7 @@ pub(super) fn out_of_steps(time: f64, steps: u64) -> MethodError {
 const BOUND: f64 = 1e100;
 
 /// Refuses a state that has left all bounds.
-pub(super) fn bounded(time: f64, state: State) -> Result<(), MethodError> {
+pub(super) fn bounded(time: f64, state: SolverState) -> Result<(), MethodError> {
     match state.iter().all(|value| value.abs() <= BOUND) {
         true => Ok(()),
         false => Err(MethodError::BlownUp { time }),

@@ -20,7 +20,7 @@ const FOLD: Stroke = Stroke::dashed(style::INK, 1.7, (8.0, 4.0));
 const FLIP: Stroke = Stroke::dashed(style::INK, 1.7, (2.0, 3.0));
 
 /// What the picture shows.
-pub(super) struct Picture<'a> {
+pub(super) struct ClearancePicture<'a> {
     /// The sweeps up and down of each clearance, in its rising order.
     pub(super) chains: &'a [Chain],
     /// Amplitude of the free mass over eta.
@@ -34,7 +34,7 @@ pub(super) struct Picture<'a> {
 /// Which value of eta, X_m and X'- a panel shows over the first.
 type Which = usize;
 
-impl Picture<'_> {
+impl ClearancePicture<'_> {
     pub(super) fn chart(&self, figure: &Figure) -> Chart {
         let mut chart = figure.chart.clone();
         let lowest = chart.panels.len() - 1;

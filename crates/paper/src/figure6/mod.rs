@@ -14,7 +14,7 @@ use softstop_dynamics::{Chain, Plan, Step, orbit};
 use crate::diagram;
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use boundaries::Ends;
-use chart::Picture;
+use chart::ClearancePicture;
 
 /// The paper's clearances and frequencies.
 const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
@@ -36,7 +36,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let optimum = boundaries::optimum(&machine, &ends);
     let scene = machine.scene()?;
     let etas = (0..=2400).map(|k| RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(k) / 2400.0);
-    let picture = Picture {
+    let picture = ClearancePicture {
         chains: &chains,
         response: etas.map(|eta| (eta, free_amplitude(&scene, eta))).collect(),
         boundaries: &across,

@@ -6,7 +6,7 @@ use softstop_draw::{Chart, Layer, Stroke, style};
 use super::chart::{FACE, STATE};
 use super::{Cycle, faces};
 use crate::figure::Figure;
-use crate::path::Point;
+use crate::path::PathPoint;
 
 const CURVES: [(&str, Stroke); 2] = [
     ("A, unloaded", Stroke::solid(style::DESIGN, 2.0)),
@@ -22,7 +22,7 @@ pub(super) fn chart(figure: &Figure, cycles: &[Cycle; 2]) -> Result<Chart> {
     let highest = cycles.iter().map(|it| it.orbit.max_position);
     let highest = highest.fold(f64::NEG_INFINITY, f64::max);
     let depth = highest - rho;
-    let layers = |show: &dyn Fn(&Point) -> (f64, f64), face: DrawFace| {
+    let layers = |show: &dyn Fn(&PathPoint) -> (f64, f64), face: DrawFace| {
         let curves = cycles.iter().zip(CURVES);
         let curves = curves.map(|(cycle, (name, stroke))| {
             Layer::line(cycle.path.points.iter().map(show), stroke).named(name)
@@ -31,7 +31,7 @@ pub(super) fn chart(figure: &Figure, cycles: &[Cycle; 2]) -> Result<Chart> {
         let faces = faces.map(|(at, name)| face(at, name));
         faces.chain(curves).collect()
     };
-    let series = |at: &Point| (at.time / period, at.position);
+    let series = |at: &PathPoint| (at.time / period, at.position);
     let mut chart = figure.picture([
         layers(&series, |at, _| Layer::horizontal(at, FACE, "")),
         layers(&STATE, |at, _| Layer::vertical(at, FACE, "")),

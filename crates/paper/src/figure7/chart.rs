@@ -6,7 +6,7 @@ use softstop::PhaseKind;
 
 use super::{Cycle, faces};
 use crate::figure::Figure;
-use crate::path::Point;
+use crate::path::PathPoint;
 use softstop_draw::{Align, Chart, Layer, Mark, Sign, Stroke, around, style};
 use softstop_explore::palette::phase_color;
 
@@ -27,7 +27,7 @@ const PHASES: [(PhaseKind, &str); 4] = [
 const ALL: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
 /// What a panel shows of a point.
-pub(super) type Show = fn(&Point) -> (f64, f64);
+pub(super) type Show = fn(&PathPoint) -> (f64, f64);
 const SERIES: Show = |point| (point.time, point.position);
 pub(super) const STATE: Show = |point| (point.position, point.velocity);
 const FORCE: Show = |point| (point.position, point.force);
@@ -204,7 +204,7 @@ impl Cycle {
 
     /// Beginning and end of contact.
     fn touching(&self) -> (f64, f64) {
-        let touches = |point: &&Point| point.phase != PhaseKind::Free;
+        let touches = |point: &&PathPoint| point.phase != PhaseKind::Free;
         let mut touching = self.path.points.iter().filter(touches);
         let begin = touching.next().map_or(0.0, |point| point.time);
         let end = touching.next_back().map(|point| point.time);

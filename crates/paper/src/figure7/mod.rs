@@ -12,7 +12,7 @@ use softstop_dynamics::orbit::find;
 use softstop_dynamics::{Exponents, Orbit};
 
 use crate::figure::{Drawn, Figure, Findings, Studio};
-use crate::path::{Path, Point};
+use crate::path::{Path, PathPoint};
 
 /// One period of a z = 1 motion.
 struct Cycle {
@@ -41,7 +41,7 @@ fn faces(scene: &Scene) -> Vec<(f64, &'static str)> {
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let cycle = Cycle::of(studio, figure.get("machine")?)?;
-    let columns = columns! { Point, it;
+    let columns = columns! { PathPoint, it;
         "tau" [None], "time" => it.time;
         "position" [None], "X" => it.position;
         "velocity" [None], "X'" => it.velocity;
@@ -55,7 +55,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     })
 }
 
-/// Point A over point B.
+/// PathPoint A over point B.
 pub(super) fn both(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let a = Cycle::of(studio, PaperMachine::Unloaded)?;
     let b = Cycle::of(studio, PaperMachine::Loaded)?;
@@ -74,7 +74,7 @@ fn findings(Cycle { orbit, path }: &Cycle) -> Findings {
     let period = orbit.scene.period();
     let contact = path.phases().filter(|it| it[0].phase != PhaseKind::Free);
     let contact = contact.map(|it| it[it.len() - 1].time - it[0].time);
-    let velocity = |point: Option<&Point>| point.map(|point| point.velocity);
+    let velocity = |point: Option<&PathPoint>| point.map(|point| point.velocity);
     let mut findings = Findings::default();
     let values = [
         ("X_m", Some(orbit.max_position)),

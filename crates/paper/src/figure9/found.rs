@@ -11,7 +11,7 @@ use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 use super::WantedMotion;
 use super::section::Section;
 use crate::figure::Findings;
-use crate::path::{Path, Point};
+use crate::path::{Path, PathPoint};
 
 /// Drive periods of the phase trajectory of what does not repeat.
 const WANDERING: u64 = 60;
@@ -157,8 +157,8 @@ impl FoundMotion {
     fn kinetic(&self) -> Result<[f64; 2]> {
         let path = self.path(Some(self.period().unwrap_or(ENERGY.0)), ENERGY.1)?;
         let period = self.scene.period();
-        let energy = |at: &Point| 0.5 * at.velocity * at.velocity;
-        let time = |at: &Point| at.time / period;
+        let energy = |at: &PathPoint| 0.5 * at.velocity * at.velocity;
+        let time = |at: &PathPoint| at.time / period;
         let pieces = path.points.windows(2);
         let pieces = pieces.map(|two| {
             f64::midpoint(energy(&two[0]), energy(&two[1])) * (time(&two[1]) - time(&two[0]))

@@ -5,7 +5,7 @@ use anyhow::Result;
 use super::folds::Folds;
 use super::stops::{CLEARANCE, grazing};
 use super::subharmonics::{NARROW, Subharmonic};
-use super::swept::{RANGE, Swept, kind};
+use super::swept::{RANGE, SweptStop, kind};
 use super::{DECADES, SUBHARMONIC};
 use crate::figure::Figure;
 use softstop_draw::{Align, Chart, Layer, Stroke, style};
@@ -13,11 +13,11 @@ use softstop_dynamics::motion::MotionClass;
 use softstop_explore::palette::{motion_color, motion_keys};
 
 /// What is drawn.
-pub(super) struct Picture<'a> {
+pub(super) struct HardeningPicture<'a> {
     /// Sweeps of the stops whose diagrams are shown.
-    pub(super) drawn: &'a [Swept],
+    pub(super) drawn: &'a [SweptStop],
     /// Those of the map, by rising stiffness.
-    pub(super) map: &'a [Swept],
+    pub(super) map: &'a [SweptStop],
     /// By rising stiffness.
     pub(super) folds: &'a [Folds],
     pub(super) found: &'a [Subharmonic],
@@ -33,10 +33,10 @@ const DOT: f64 = 1.0;
 /// The frequency of a bend of a branch.
 type Bend = fn(&Folds) -> Option<f64>;
 
-impl Picture<'_> {
+impl HardeningPicture<'_> {
     pub(super) fn chart(&self, figure: &Figure) -> Result<Chart> {
         // What is linear, the first, grows without regard to the clearance.
-        let points = self.drawn[1..].iter().flat_map(Swept::points).flatten();
+        let points = self.drawn[1..].iter().flat_map(SweptStop::points).flatten();
         let top = 1.05 * points.map(|point| point.1).fold(0.0, f64::max);
         let mut chart = figure.picture([Vec::new(), self.map(), self.widths(), self.orders()])?;
         let template = chart.panels.remove(0);
@@ -154,7 +154,7 @@ impl Picture<'_> {
 }
 
 /// The diagram of a stop.
-fn diagram(swept: &Swept) -> impl Iterator<Item = Layer> {
+fn diagram(swept: &SweptStop) -> impl Iterator<Item = Layer> {
     let [up, down] = swept.points();
     let down = Layer::dots(down, DOT, style::FALLING).named("η falling only");
     let up = Layer::dots(up, DOT, style::RISING).named("η rising");

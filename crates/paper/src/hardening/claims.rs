@@ -4,11 +4,11 @@ use super::SUBHARMONIC;
 use super::folds::Folds;
 use super::stops::{CLEARANCE, Law, grazing};
 use super::subharmonics::{Subharmonic, longest};
-use super::swept::Swept;
+use super::swept::SweptStop;
 use crate::figure::Findings;
 
 /// All points but the last.
-pub(super) fn of_stops(findings: &mut Findings, drawn: &[Swept], folds: &[Folds]) {
+pub(super) fn of_stops(findings: &mut Findings, drawn: &[SweptStop], folds: &[Folds]) {
     let plain = |law: Law| law.name().replace('₂', "2").replace('₁', "1");
     for swept in drawn {
         let name = plain(swept.law);

@@ -12,7 +12,7 @@ use anyhow::Result;
 
 use crate::diagram;
 use crate::figure::{Drawn, Figure, Findings, Studio};
-use chart::Picture;
+use chart::HardeningPicture;
 use folds::Folds;
 use softstop_console::column::Column;
 use softstop_console::columns;
@@ -20,7 +20,7 @@ use softstop_console::export::csv;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use stops::{CLEARANCE, Law, grazing};
-use swept::{Swept, sweep};
+use swept::{SweptStop, sweep};
 
 /// The stops whose diagrams are drawn.
 const DRAWN: [Law; 8] = [
@@ -54,7 +54,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     }
     claims::of_stops(&mut findings, &drawn, &folds);
     claims::of_orders(&mut findings, &subharmonics);
-    let picture = Picture {
+    let picture = HardeningPicture {
         drawn: &drawn,
         map: &map,
         folds: &folds,
@@ -80,7 +80,7 @@ fn stiffnesses(count: usize) -> Vec<f64> {
 }
 
 /// A row for each step of each way.
-fn steps(swept: &[Swept]) -> Result<Vec<u8>> {
+fn steps(swept: &[SweptStop]) -> Result<Vec<u8>> {
     let sweeps = swept.iter().flat_map(|swept| {
         let stop = match swept.law {
             Law::KelvinVoigt(stiffness) => stiffness.to_string(),

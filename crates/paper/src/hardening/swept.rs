@@ -13,7 +13,7 @@ use crate::diagram::{self, dots};
 pub(super) const RANGE: (f64, f64) = (0.6, 1.6);
 
 /// The way up and the way down of a stop, both in rising order of frequency.
-pub(super) struct Swept {
+pub(super) struct SweptStop {
     pub(super) law: Law,
     pub(super) up: Vec<Step>,
     pub(super) down: Vec<Step>,
@@ -24,14 +24,14 @@ pub(super) fn sweep(
     laws: &[Law],
     (steps, periods): (usize, u64),
     kept: OptionalMemory<'_>,
-) -> Result<Vec<Swept>> {
+) -> Result<Vec<SweptStop>> {
     let plan = Plan::new(Parameter::Frequency, RANGE, steps, periods)?;
     let ways = |law: &Law| diagram::ways(&law.scene(RANGE.0, CLEARANCE));
     let jobs = vec![(plan, laws.iter().flat_map(ways).collect())];
     let chains = diagram::sweep(jobs, "steps of the stops' sweeps", kept)?;
     let rising = |chain: &Chain| chain.rising_steps().into_iter().cloned().collect();
     let swept = laws.iter().zip(chains.chunks_exact(2));
-    let swept = swept.map(|(law, pair)| Swept {
+    let swept = swept.map(|(law, pair)| SweptStop {
         law: *law,
         up: rising(&pair[0]),
         down: rising(&pair[1]),
@@ -53,7 +53,7 @@ pub(super) fn kind(step: &Step) -> MotionClass {
     }
 }
 
-impl Swept {
+impl SweptStop {
     /// The before-impact velocities over the frequency on both ways.
     pub(super) fn points(&self) -> [Vec<(f64, f64)>; 2] {
         let hits = |step: &&Step| !step.velocities.is_empty();

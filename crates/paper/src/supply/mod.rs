@@ -71,7 +71,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let zones = zones(machine.clearance)?;
     let [grazing, loaded, unloaded] = zones;
     let mut etas = etas(zones, detail.pick(55, 12));
-    // Point B among them.
+    // PathPoint B among them.
     etas.push(machine.frequency);
     etas.sort_by(f64::total_cmp);
     let runs = READINGS.map(|(reading, _)| RUNS.map(|mean| (reading, mean)));

@@ -6,7 +6,7 @@ use softstop_dynamics::{MotionKind, Regime};
 
 use super::matching::{Match, find};
 use super::paper::PaperRow;
-use super::swept::{self, Swept};
+use super::swept::{self, SweptEnd};
 use softstop_console::column::{self, Units};
 use softstop_console::columns;
 use softstop_console::table::heading;
@@ -245,7 +245,7 @@ fn reason(row: &PaperRow, transition: &Transition, gap: f64) -> Option<String> {
     if transition.settled_at.is_some_and(is_last) {
         return Some("the paper gives where the last motion follows".to_owned());
     }
-    let swept = Swept::over(transition, gap)?;
+    let swept = SweptEnd::over(transition, gap)?;
     let way = if transition.rising { "up" } else { "down" };
     let step = format!("{:e} per {} drive periods", swept.step, swept::PERIODS);
     let digits = (1.0 - swept.step.log10()) as usize;

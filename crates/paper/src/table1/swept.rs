@@ -7,7 +7,7 @@ use softstop_dynamics::{Chain, Direction, MotionKind, Plan, Step};
 
 /// A sweep over the end of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Swept {
+pub struct SweptEnd {
     /// Change of eta from step to step.
     pub step: f64,
     /// The first value in which the motion is no longer the first.
@@ -24,7 +24,7 @@ const AROUND: (usize, usize) = (20, 60);
 /// have arrived.
 const RETURN: (f64, f64) = (1e-2, 1e-3);
 
-impl Swept {
+impl SweptEnd {
     /// The sweep whose steps are the power of ten below this size, in the direction of the transition. None if the first
     /// motion does not repeat or is not lost on the way.
     pub fn over(transition: &Transition, size: f64) -> Option<Self> {

@@ -7,7 +7,7 @@ use softstop_draw::{Axis, Chart, Layer, Panel, Stroke};
 use softstop_dynamics::basin::{BasinsAt, wilson_interval};
 
 use super::GlobalContinuation;
-use super::report::{FollowedAttractor, Row, attractors};
+use super::report::{AttractorRow, FollowedAttractor, attractors};
 use crate::palette::distinct_colors;
 
 /// Sizes of the panel of shares and of those below it.
@@ -18,7 +18,7 @@ const DASHES: (f64, f64) = (5.0, 3.0);
 const INTERVAL: f64 = 0.4;
 
 /// The chart of all values as an SVG document.
-pub(super) fn svg(found: &GlobalContinuation<'_>, rows: &[Row<'_>]) -> String {
+pub(super) fn svg(found: &GlobalContinuation<'_>, rows: &[AttractorRow<'_>]) -> String {
     let named = attractors(rows);
     let first = |it: &FollowedAttractor| {
         let row = rows.iter().find(|row| row.attractor == it.attractor);

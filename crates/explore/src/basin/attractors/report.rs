@@ -13,7 +13,7 @@ use softstop_dynamics::basin::{BasinBall, BasinsAt};
 use super::GlobalContinuation;
 
 /// A row of `attractors.csv`: a value, one of its basins, and the largest ball inside it.
-pub(super) struct Row<'a> {
+pub(super) struct AttractorRow<'a> {
     pub(super) at: &'a BasinsAt,
     pub(super) attractor: usize,
     pub(super) class: &'a Attractor,
@@ -21,16 +21,16 @@ pub(super) struct Row<'a> {
 }
 
 /// The rows, value by value, the attractors of each in the order of their numbers.
-pub(super) fn rows<'a>(found: &'a GlobalContinuation<'_>) -> Vec<Row<'a>> {
+pub(super) fn rows<'a>(found: &'a GlobalContinuation<'_>) -> Vec<AttractorRow<'a>> {
     let of_place = |at: &'a BasinsAt| {
         let basins = at.attractors.iter().zip(&at.basins.classes).enumerate();
-        let row = |(index, (attractor, class)): (usize, (&usize, &'a Attractor))| Row {
+        let row = |(index, (attractor, class)): (usize, (&usize, &'a Attractor))| AttractorRow {
             at,
             attractor: *attractor,
             class,
             ball: at.basins.largest_ball(index),
         };
-        let mut rows: Vec<Row<'a>> = basins.map(row).collect();
+        let mut rows: Vec<AttractorRow<'a>> = basins.map(row).collect();
         rows.sort_by_key(|row| row.attractor);
         rows
     };
@@ -38,8 +38,8 @@ pub(super) fn rows<'a>(found: &'a GlobalContinuation<'_>) -> Vec<Row<'a>> {
 }
 
 /// The columns of `attractors.csv`.
-pub(super) fn columns<'a>() -> [Column<Row<'a>>; 13] {
-    columns! { Row<'a>, it;
+pub(super) fn columns<'a>() -> [Column<AttractorRow<'a>>; 13] {
+    columns! { AttractorRow<'a>, it;
         "value" [Of("own")], "of the parameter, in its own unit" => it.at.value;
         "attractor" [None], "its number, from 1, the same at all values" => it.attractor;
         "kind" [None], "of its motion" => it.class.motion.json_key();
@@ -70,7 +70,7 @@ pub(super) struct FollowedAttractor {
 }
 
 /// The attractors in the order of their numbers.
-pub(super) fn attractors(rows: &[Row<'_>]) -> Vec<FollowedAttractor> {
+pub(super) fn attractors(rows: &[AttractorRow<'_>]) -> Vec<FollowedAttractor> {
     let mut all: Vec<FollowedAttractor> = Vec::new();
     for row in rows {
         if row.attractor > all.len() {
@@ -112,7 +112,10 @@ fn figures() -> [Column<FollowedAttractor>; 5] {
 }
 
 /// The attractors and basins along a parameter, and the text of them: a row for each attractor.
-pub(super) fn report(found: &GlobalContinuation<'_>, rows: &[Row<'_>]) -> (Record, String) {
+pub(super) fn report(
+    found: &GlobalContinuation<'_>,
+    rows: &[AttractorRow<'_>],
+) -> (Record, String) {
     let GlobalContinuation {
         machine, parameter, ..
     } = found;
