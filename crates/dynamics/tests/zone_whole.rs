@@ -1,7 +1,8 @@
 //! Zones of all stable z = 1 motions on a branch, against the search over all frequencies and against differences.
 
 use nalgebra::Vector2;
-use softstop::{Excitation, Parameter, Ratios, Scene, Stop};
+use proptest::prelude::*;
+use softstop::{Excitation, Parameter, Ratios, Release, Scene, Stop};
 use softstop_dynamics::continuation::{Direction, Face, TestFunction};
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::slopes::Border;
@@ -11,7 +12,8 @@ use softstop_dynamics::zone::{
 };
 use softstop_dynamics::{StroboscopicMap, Zone, zone};
 use softstop_testing::assert_near;
-use softstop_testing::tolerance::DIFFERENCED;
+use softstop_testing::random::{self, log_uniform};
+use softstop_testing::tolerance::{DIFFERENCED, SOLVED};
 
 /// All frequencies, in rad/s.
 const ALL: (f64, f64) = (f64::MIN_POSITIVE, f64::INFINITY);
@@ -116,6 +118,81 @@ fn its_ends_have_normals() {
                 "{parameter:?} {:?}: {found} {normal}",
                 end.loss
             );
+        }
+    }
+}
+
+/// A hammer of 15 kg on a Kelvin-Voigt stop, whose period doubles in a narrow window of frequency.
+fn hammer(clearance: f64, stiffness: f64, contact_damping: f64) -> Scene {
+    let mut scene = Ratios::unloaded().scene().expect("valid");
+    scene.mass = 15.0;
+    scene.stiffness = 3e5;
+    scene.damping = 60.0;
+    scene.clearance = clearance;
+    scene.contact_damping = contact_damping;
+    scene.excitation = Excitation {
+        amplitude: 800.0,
+        frequency: 150.0,
+        phase: 0.0,
+    };
+    scene.stop = Stop::KelvinVoigt {
+        stiffness,
+        release: Release::Clearance,
+    };
+    scene
+}
+
+/// The flip at which a window of frequency ends in which the motion is unstable is found from wherever the branch is followed,
+/// also where both ends of the window lie on one step.
+#[test]
+fn windows_of_doubled_periods_are_no_part_of_it() {
+    for (clearance, stiffness) in [(0.0012, 2e6), (0.001_409, 2e6), (0.004, 5e6)] {
+        let scene = hammer(clearance, stiffness, 600.0);
+        let all = stable_ranges(&scene).expect("a machine");
+        let mut above = all
+            .iter()
+            .filter(|range| range.low.is_critical(TestFunction::Flip));
+        let range = above.next_back().expect("a range above a flip");
+        let flip = range.low.frequency;
+        for share in 1..30 {
+            let frequency = flip + f64::from(share) / 30.0 * (range.high.frequency - flip);
+            let zone = single_impact(
+                std::slice::from_ref(&scene),
+                (frequency, frequency),
+                &unmonitored,
+            );
+            let zone = zone.into_iter().next().expect("one").expect("a zone");
+            assert_near(zone.low.frequency, flip, flip * SOLVED);
+            let orbit = zone.orbit_at(zone.place_of(frequency)).expect("an orbit");
+            let found = loss_of_stability(&orbit, Direction::Down, TestFunction::Flip);
+            let found = found.expect("followed").expect("a flip").parameter;
+            assert_near(found, flip, flip * SOLVED);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(random::cases(60))]
+
+    /// No zone of all stable motions reaches over the end of a stable range into another.
+    #[test]
+    fn it_is_one_stable_range(
+        clearance in log_uniform(2e-4, 0.01),
+        stiffness in log_uniform(3e5, 3e7),
+        contact_damping in log_uniform(60.0, 1500.0),
+    ) {
+        let scene = hammer(clearance, stiffness, contact_damping);
+        let zones = single_impact(std::slice::from_ref(&scene), ALL, &unmonitored);
+        if let Some(Ok(zone)) = zones.into_iter().next() {
+            let all = stable_ranges(&scene).expect("a machine");
+            let inside = |end: f64| {
+                zone.low.frequency * (1.0 + DIFFERENCED) < end && end < zone.high.frequency * (1.0 - DIFFERENCED)
+            };
+            let middle = zone.point_at(0.5).expect("on the branch");
+            let checked = scene.check().expect("valid");
+            let on = |range: &&StableRange| range.contains_point(&checked, &middle).unwrap_or(false);
+            let range = all.iter().find(on).expect("a range with this motion");
+            prop_assert!(!inside(range.low.frequency) && !inside(range.high.frequency), "{:?}", scene);
         }
     }
 }

@@ -91,14 +91,31 @@ impl Continuation<'_> {
         Ok((share, Special { kind, point }))
     }
 
-    /// The two flips of a step on which a multiplier passes -1 and comes back, from either side of it: in narrow windows of
-    /// frequency. Either the multipliers meet on the negative real axis and part in the other sense, or the test approaches zero
-    /// at first and leaves it at last, so steeply that its tangents meet beyond zero.
+    /// The two flips of a step on which a multiplier passes -1 and comes back.
     fn flips_there_and_back(
         &self,
         from: &Node<PeriodMap>,
         to: &Node<PeriodMap>,
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
+        let Some((share, middle)) = self.node_beyond_flips(from, to)? else {
+            return Ok(Vec::new());
+        };
+        let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
+        let flips = halves.map(|(from, to, begins, ends)| {
+            let (own, special) = self.locate_critical((from, to), TestFunction::Flip)?;
+            Ok((begins + own * (ends - begins), special))
+        });
+        flips.into_iter().collect()
+    }
+
+    /// A node of a step, and its share of the way, where a multiplier has passed -1 from either side of it and not yet come
+    /// back: in narrow windows of frequency. Either the multipliers meet on the negative real axis and part in the other sense,
+    /// or the test approaches zero at first and leaves it at last, so steeply that its tangents meet beyond zero.
+    pub(super) fn node_beyond_flips(
+        &self,
+        from: &Node<PeriodMap>,
+        to: &Node<PeriodMap>,
+    ) -> Result<Option<(f64, Node<PeriodMap>)>, OrbitError> {
         let value =
             |node: &Node<PeriodMap>| TestFunction::Flip.scaled_value(&node.here.point.monodromy);
         let [a, b] = [from, to].map(|node| &node.here.point.monodromy);
@@ -106,11 +123,11 @@ impl Continuation<'_> {
         let value = |node: &Node<PeriodMap>| side * value(node);
         let (begins, ends) = (value(from), value(to));
         if a.trace() > 0.0 || begins.min(ends) <= 0.0 {
-            return Ok(Vec::new());
+            return Ok(None);
         }
         let turns_over = a.m12 * b.m12 < 0.0 || a.m21 * b.m21 < 0.0;
         if !turns_over && begins.min(ends) > self.settings.max_test_change {
-            return Ok(Vec::new());
+            return Ok(None);
         }
         let cubic = CurveCubic::between(&self.shooting, (from, to))?;
         let dips = || -> Result<bool, OrbitError> {
@@ -120,18 +137,10 @@ impl Continuation<'_> {
             let meet = (begins - ends + rises) / (falls + rises);
             Ok(falls > 0.0 && rises > 0.0 && begins < falls * meet)
         };
-        if !turns_over && !dips()? {
-            return Ok(Vec::new());
+        match turns_over || dips()? {
+            true => Ok(find_negative(&cubic, value)),
+            false => Ok(None),
         }
-        let Some((share, middle)) = find_negative(&cubic, value) else {
-            return Ok(Vec::new());
-        };
-        let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
-        let flips = halves.map(|(from, to, begins, ends)| {
-            let (own, special) = self.locate_critical((from, to), TestFunction::Flip)?;
-            Ok((begins + own * (ends - begins), special))
-        });
-        flips.into_iter().collect()
     }
 
     /// The grazings on a step where the branch goes on, which is halved until they make the whole difference.

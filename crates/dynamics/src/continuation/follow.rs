@@ -171,12 +171,16 @@ impl<'a> Continuation<'a> {
                     if step.node.here.point.sequence.continues(&sequence)
                         && is_same_piece(&stepper, &step) =>
                 {
+                    let beyond = self.node_beyond_flips(&stepper.node, &step.node)?;
                     stepper.step_to(step);
-                    let point = self.point_at(&stepper.node)?;
-                    let ends = watch(&point).is_break();
-                    points.push(point);
-                    if ends {
-                        break;
+                    let beyond = beyond.iter().map(|(_, node)| node);
+                    for node in beyond.chain([&stepper.node]) {
+                        let point = self.point_at(node)?;
+                        let ends = watch(&point).is_break();
+                        points.push(point);
+                        if ends {
+                            return Ok(None);
+                        }
                     }
                 }
                 _ => {
