@@ -53,6 +53,7 @@ pub fn main_of<C: Parser>(
     run: impl FnOnce(C) -> Result<(), Failure>,
 ) -> u8 {
     interrupt::install();
+    let line = line.into_iter().map(without_exponent);
     let outcome = match C::try_parse_from(line) {
         Ok(command) => run(command),
         Err(mut told) => match told.kind() {
@@ -80,10 +81,44 @@ pub fn main_of<C: Parser>(
     }
 }
 
+/// A negative number without its exponent: clap takes those with a negative one for options.
+fn without_exponent(word: OsString) -> OsString {
+    let text = word.to_str().unwrap_or_default();
+    let number = text.parse().ok().filter(|number: &f64| {
+        text.starts_with('-') && text.contains(['e', 'E']) && number.is_finite()
+    });
+    number.map_or(word, |number| number.to_string().into())
+}
+
 /// What an unknown argument may have been meant for.
 const SET_TIP: &str = "where a command takes a machine, --set KEY=VALUE changes a value of it";
 
 /// Writes to the standard error. A reader that has gone away (`2>&1 | head`) is no reason to panic.
 fn say(text: &str) {
     let _ = io::stderr().write_all(names::escaped(text).as_bytes());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn negative_numbers_have_any_exponent() {
+        #[derive(Parser)]
+        #[command(allow_negative_numbers = true)]
+        struct Start {
+            #[arg(long)]
+            velocity: f64,
+        }
+        for text in ["-8e-05", "-8E-05", "-1.5e-3", "-2e5", "-0.25", "-5e-324", "3e-2"] {
+            let line = ["simulate", "--velocity", text].map(OsString::from);
+            let code = main_of(line, |start: Start| {
+                assert_eq!(Ok(start.velocity), text.parse());
+                Ok(())
+            });
+            assert_eq!(code, 0, "{text}");
+        }
+        let line = ["simulate", "--velocity", "-1e999"].map(OsString::from);
+        assert_ne!(main_of(line, |_: Start| Ok(())), 0);
+    }
 }
