@@ -110,7 +110,9 @@ mod tests {
             #[arg(long)]
             velocity: f64,
         }
-        for text in ["-8e-05", "-8E-05", "-1.5e-3", "-2e5", "-0.25", "-5e-324", "3e-2"] {
+        for text in [
+            "-8e-05", "-8E-05", "-1.5e-3", "-2e5", "-0.25", "-5e-324", "3e-2",
+        ] {
             let line = ["simulate", "--velocity", text].map(OsString::from);
             let code = main_of(line, |start: Start| {
                 assert_eq!(Ok(start.velocity), text.parse());
