@@ -166,34 +166,34 @@ impl<'a> Continuation<'a> {
         let mut stepper =
             Stepper::new(&self.shooting, node, along, &self.settings)?.with_long_steps();
         while points.len() < limit {
-            match stepper.attempt_step() {
-                Ok(step)
-                    if step.node.here.point.sequence.continues(&sequence)
-                        && is_same_piece(&stepper, &step) =>
-                {
-                    let beyond = self.node_beyond_flips(&stepper.node, &step.node)?;
-                    stepper.step_to(step);
-                    let beyond = beyond.iter().map(|(_, node)| node);
-                    for node in beyond.chain([&stepper.node]) {
-                        let point = self.point_at(node)?;
-                        let ends = watch(&point).is_break();
-                        points.push(point);
-                        if ends {
-                            return Ok(None);
-                        }
+            let step = stepper.attempt_step().ok().filter(|step| {
+                step.node.here.point.sequence.continues(&sequence) && is_same_piece(&stepper, step)
+            });
+            let taken = step.and_then(|step| {
+                let beyond = self.node_beyond_flips(&stepper.node, &step.node).ok()?;
+                Some((beyond, step))
+            });
+            if let Some((beyond, step)) = taken {
+                stepper.step_to(step);
+                let beyond = beyond.iter().map(|(_, node)| node);
+                for node in beyond.chain([&stepper.node]) {
+                    let point = self.point_at(node)?;
+                    let ends = watch(&point).is_break();
+                    points.push(point);
+                    if ends {
+                        return Ok(None);
                     }
                 }
-                _ => {
-                    if *turned_at != points.len()
-                        && let Some(turned) = self.turn_section(&stepper.node, &stepper.direction)
-                    {
-                        *turned_at = points.len();
-                        return Ok(Some(turned));
-                    }
-                    if !stepper.shorten_step() {
-                        break;
-                    }
-                }
+                continue;
+            }
+            if *turned_at != points.len()
+                && let Some(turned) = self.turn_section(&stepper.node, &stepper.direction)
+            {
+                *turned_at = points.len();
+                return Ok(Some(turned));
+            }
+            if !stepper.shorten_step() {
+                break;
             }
         }
         Ok(None)
