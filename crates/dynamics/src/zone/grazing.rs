@@ -9,7 +9,12 @@ use softstop::internals::{highest_point, narrow_root};
 
 /// Amplitude F0 / |k1 - m w^2 + i b1 w| in m of the impact-less motion at a frequency in rad/s.
 pub fn free_amplitude(scene: &Scene, frequency: f64) -> f64 {
-    let scene = scene.at_frequency(frequency);
+    own_free_amplitude(&scene.at_frequency(frequency))
+}
+
+/// That at the frequency of a scene's own drive.
+fn own_free_amplitude(scene: &Scene) -> f64 {
+    let frequency = scene.excitation.frequency;
     let spring = scene.stiffness - scene.mass * frequency * frequency;
     scene.excitation.amplitude / spring.hypot(scene.damping * frequency)
 }
@@ -74,14 +79,17 @@ fn search_grazing(scene: &Scene) -> Result<(Option<f64>, f64), ZoneError> {
     let at = |look: usize| slowest * (step * look as f64).exp();
     // Between -1 and 1, and of the sign of the amplitude's excess over the clearance.
     let excess = |w: f64| {
-        let (amplitude, clearance) = (free_amplitude(scene, w), scene.at_frequency(w).clearance);
+        let scene = scene.at_frequency(w);
+        let (amplitude, clearance) = (own_free_amplitude(&scene), scene.clearance);
         (amplitude - clearance) / (amplitude + clearance.abs())
     };
     let all: Vec<f64> = (0..=SEARCH_STEPS).map(|look| excess(at(look))).collect();
     let peaks = (1..SEARCH_STEPS).filter_map(|look| {
         let sign = -all[look].signum();
-        let is_peak = |beside: usize| sign * all[look] >= sign * all[beside];
-        if !(is_peak(look - 1) && is_peak(look + 1)) {
+        let heights = [look - 1, look, look + 1].map(|look| sign * all[look]);
+        let [before, height, after] = heights;
+        // Not where it is constant, as 1 without clearance.
+        if !(height >= before.max(after) && height > before.min(after)) {
             return None;
         }
         let (low, high) = (at(look - 1), at(look + 1));
