@@ -10,7 +10,7 @@ use softstop_dynamics::basin::{
 use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::orbit::{OrbitError, find};
 use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
-use softstop_testing::tolerance::DIFFERENCED;
+use softstop_testing::tolerance::{DIFFERENCED, SOLVED};
 use softstop_testing::{assert_near, is_near, loaded, rigid_stop, unloaded, with_changes};
 
 const NONE: Regime = Regime {
@@ -219,6 +219,33 @@ fn whether_a_share_is_enough_is_told_without_counting_all_starts() {
             Establishment::is_enough_within_region(&orbit, &region, 700, is_enough, &unmonitored);
         assert_eq!(told.expect("it is computed"), expected, "{least} {share}");
     }
+}
+
+/// The box is wider than its least by what the hardest z = 1 needs, which few starts come to near the fold, if any.
+#[test]
+fn the_box_of_starts_holds_the_hardest_motion_with_room() {
+    let mut widened = 0;
+    for scene in [unloaded(1.15), loaded()] {
+        for clearance in [2.0, 6.0, 10.0, 14.0] {
+            let zone = zone::hysteresis(&Scene {
+                clearance,
+                ..scene.clone()
+            })
+            .expect("it has one");
+            for place in [0.1, 0.5, 0.9, 0.97] {
+                let scene = zone.scene_at(place);
+                let hardest = find(&scene).expect("there is one");
+                let region = starting_box(&scene, &unmonitored).expect("there is one");
+                let needed = [hardest.position, hardest.velocity].map(|it| 1.5 * it.abs());
+                let sides = [region.position, region.velocity];
+                for (needed, side) in needed.into_iter().zip(sides) {
+                    assert!(needed <= side[1] * (1.0 + SOLVED), "{clearance} {place}");
+                    widened += usize::from(is_near(needed, side[1], SOLVED));
+                }
+            }
+        }
+    }
+    assert!(widened > 16, "{widened}");
 }
 
 /// The orbit of a machine without damping neither attracts nor repels: what is told at once is what counting all starts gives.

@@ -14,7 +14,8 @@ use crate::ensemble::Ensemble;
 use crate::member::{Member, MemberStatus};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::find_return;
-use crate::orbit::{self, Exponents, Orbit, OrbitError};
+use crate::orbit::{self, Exponents, Orbit, OrbitError, Regime, hardest_single};
+use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene, Start};
 use softstop_lanes::Machine;
 
@@ -127,8 +128,8 @@ pub fn find_attractors_until(
 }
 
 /// The box of initial states that commands take starts from unless they are told another: twice the clearance (or the
-/// amplitude of a free mass, if that is larger) both ways, the same times the drive frequency, and half as much
-/// again as any motion needs that [`orbit::find`] or 64 starts from far and wide come to. It depends on the scene alone.
+/// amplitude of a free mass, if that is larger) both ways, the same times the drive frequency, and half as much again as
+/// any motion needs that 64 starts from far and wide come to, or the hardest stable z = 1. It depends on the scene alone.
 ///
 /// # Errors
 /// As [`find_attractors`].
@@ -136,17 +137,23 @@ pub fn starting_box(scene: &Scene, monitor: Monitor<'_>) -> Result<Region, Orbit
     Ok(Region::start_box(scene, end_states(scene, monitor)?))
 }
 
-/// States of the motions that [`orbit::find`] or 64 starts from far and wide come to.
+/// States of the motions that 64 starts from far and wide come to, and of the hardest stable z = 1: that of
+/// [`orbit::find`], or where starts come to one, any harder one that a lattice of impacts shows.
 pub(crate) fn end_states(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Start>, OrbitError> {
     let options = SearchOptions::default();
     let mut search = Search::new(scene, &options, monitor)?;
     search.ensemble.planned = (options.transient + search.log_length() as u64) * PILOTS as u64;
     search.launch_starts(Region::pilot(scene).starts(PILOTS, options.seed), false)?;
     let go_on = |_, _| stop_if(search.ensemble.count_work(0).is_err());
-    let own = orbit::find_with_monitor(scene, &go_on).ok();
+    let met = search.catalogue.orbits.iter().map(|known| &known.orbit);
+    let met = met.filter(|orbit| orbit.regime() == Regime::ONE);
+    let hardest = match met.map(Orbit::before_impact_velocity).reduce(f64::max) {
+        Some(met) => hardest_single(&search.scene, (1.0 + SAME) * met, &go_on)?,
+        None => orbit::find_with_monitor(scene, &go_on).ok(),
+    };
     search.ensemble.count_work(0)?;
-    let own = own.map(|orbit| Start::new(orbit.position, orbit.velocity));
-    Ok(search.end_states().copied().chain(own).collect())
+    let hardest = hardest.map(|orbit| orbit.state().into());
+    Ok(search.end_states().copied().chain(hardest).collect())
 }
 
 /// The attractor that the motion from one start settles on.
