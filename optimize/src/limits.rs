@@ -7,22 +7,22 @@ use softstop_dynamics::zone::ZoneEnd;
 use softstop_explore::zone::lost_by;
 
 use crate::design::conflict::bound;
-use crate::design::constraint::Limit as Active;
+use crate::design::constraint::Limit;
 use crate::design::figure::Figure;
 use crate::design::search::Found;
 use crate::design::space::End;
 use crate::design::{Design, Problem};
 
-/// One thing that does.
+/// A limit that holds a design back, named.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Limit {
+pub struct NamedLimit {
     /// For programs: a key and which of its bounds.
     pub key: String,
     /// For people: a phrase after "held back by".
     pub words: String,
 }
 
-impl Limit {
+impl NamedLimit {
     fn new(key: impl Into<String>, words: impl Into<String>) -> Self {
         Self {
             key: key.into(),
@@ -32,7 +32,7 @@ impl Limit {
 }
 
 /// All that holds a design back.
-pub fn at_limits(problem: &Problem, found: &Found) -> Vec<Limit> {
+pub fn at_limits(problem: &Problem, found: &Found) -> Vec<NamedLimit> {
     let points = problem.operating_points(&found.design);
     let named = found.limits.iter().filter_map(|active| {
         let point = points.iter().find(|it| it.case == active.case)?;
@@ -41,7 +41,7 @@ pub fn at_limits(problem: &Problem, found: &Found) -> Vec<Limit> {
             return Some(found);
         };
         let name = &problem.cases[index].name;
-        Some(Limit {
+        Some(NamedLimit {
             key: format!("{} in case {name}", found.key),
             words: format!("{} in case {name}", found.words),
         })
@@ -49,7 +49,7 @@ pub fn at_limits(problem: &Problem, found: &Found) -> Vec<Limit> {
     named.collect()
 }
 
-fn limit(problem: &Problem, design: &Design, limit: &Active) -> Option<Limit> {
+fn limit(problem: &Problem, design: &Design, limit: &Limit) -> Option<NamedLimit> {
     let at_end = |parameter: Parameter, end: End| {
         let end = match end {
             End::Lower => "lower",
@@ -58,7 +58,7 @@ fn limit(problem: &Problem, design: &Design, limit: &Active) -> Option<Limit> {
         let machine = &design.machine;
         let (key, meaning) = (machine.name(parameter), machine.meaning_of(parameter).0);
         let words = format!("the {end} bound of the {meaning}");
-        Limit::new(format!("{key}: {end} bound"), words)
+        NamedLimit::new(format!("{key}: {end} bound"), words)
     };
     let side = |end| {
         end_name(match end {
@@ -67,44 +67,44 @@ fn limit(problem: &Problem, design: &Design, limit: &Active) -> Option<Limit> {
         })
     };
     Some(match limit {
-        Active::Axis(parameter, end) => at_end(*parameter, *end),
-        Active::Frequency(end) => at_end(Parameter::Frequency, *end),
-        Active::Margin(end) => at_margin(&side(*end)),
-        Active::Required(Figure::Share, _) => match design.place < 0.5 {
+        Limit::Axis(parameter, end) => at_end(*parameter, *end),
+        Limit::Frequency(end) => at_end(Parameter::Frequency, *end),
+        Limit::Margin(end) => at_margin(&side(*end)),
+        Limit::Required(Figure::Share, _) => match design.place < 0.5 {
             true => at_margin(&side(End::Lower)),
             false => at_margin(&side(End::Upper)),
         },
-        Active::Required(figure, _) => {
+        Limit::Required(figure, _) => {
             let requirement = problem
                 .requirements
                 .iter()
                 .find(|it| it.figure == *figure)?;
             let (name, meaning) = (figure.name(), figure.meaning());
             let required = bound(&design.machine, requirement);
-            Limit::new(
+            NamedLimit::new(
                 format!("{name}: {required}"),
                 format!("the {meaning} ({name}), {required}"),
             )
         }
-        Active::Tolerances(end) => reached(&side(*end)),
-        Active::Loss => reached(&match problem.border_within(design) {
+        Limit::Tolerances(end) => reached(&side(*end)),
+        Limit::Loss => reached(&match problem.border_within(design) {
             Some(by) => format!("a border inside the zone ({by})"),
             None => "a border inside the zone".to_owned(),
         }),
     })
 }
 
-fn reached(what: &str) -> Limit {
-    Limit::new(
+fn reached(what: &str) -> NamedLimit {
+    NamedLimit::new(
         format!("tolerances: they reach {what}"),
         format!("the tolerances, which reach {what}"),
     )
 }
 
-fn at_margin(end: &str) -> Limit {
+fn at_margin(end: &str) -> NamedLimit {
     let key = format!("margin from {end}");
     let words = format!("the {key}");
-    Limit::new(key, words)
+    NamedLimit::new(key, words)
 }
 
 /// What ends a zone, in words.

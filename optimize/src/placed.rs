@@ -10,9 +10,9 @@ use softstop_dynamics::zone::{ZoneEnd, ZoneKind};
 
 use crate::design::conflict::{format_in_own_unit, short};
 use crate::design::{Design, Problem};
-use crate::limits::{Limit, end_name};
+use crate::limits::{NamedLimit, end_name};
 
-type Placed<'a> = (&'a Problem, &'a Design, &'a [Limit]);
+type Placed<'a> = (&'a Problem, &'a Design, &'a [NamedLimit]);
 
 /// Where a design stands.
 pub(crate) fn columns<'a>() -> [Column<Placed<'a>>; 11] {
@@ -115,7 +115,7 @@ fn starting(design: &Design) -> &'static str {
     }
 }
 
-fn keys(limits: &[Limit]) -> Told {
+fn keys(limits: &[NamedLimit]) -> Told {
     Told {
         value: limits.iter().map(|it| it.key.as_str()).collect(),
         words: String::new(),

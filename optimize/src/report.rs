@@ -17,7 +17,7 @@ use softstop_dynamics::zone::{StableRange, stable_ranges_with_monitor};
 use crate::comparison::comparison;
 use crate::design::problem::Objective;
 use crate::design::{Design, Problem};
-use crate::limits::{Limit, at_limits};
+use crate::limits::{NamedLimit, at_limits};
 use crate::optimize::outcome::Outcome;
 use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
@@ -52,7 +52,7 @@ pub struct OptimizeReport {
     /// All of them side by side, a record for each quantity.
     comparison: Vec<Record>,
     /// What holds the design back.
-    limits: Vec<Limit>,
+    limits: Vec<NamedLimit>,
     /// Keys of what was searched and changes nothing of what is sought and required of the motion.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     without_effect: Vec<&'static str>,

@@ -8,7 +8,7 @@ mod worst;
 
 use softstop::{Machine, Parameter};
 use softstop_dynamics::{Orbit, orbit};
-use softstop_optimize::robust::{Distribution, Tolerance, Tolerances};
+use softstop_optimize::robust::{AbsoluteTolerance, Distribution, Tolerances};
 
 use crate::Outcome;
 
@@ -50,13 +50,13 @@ fn spread(
     };
     let tolerance = |(parameter, percent): &(Parameter, f64)| {
         let half_width = half_width(*parameter, *percent).ok_or("a parameter of the machine")?;
-        Ok(Tolerance {
+        Ok(AbsoluteTolerance {
             parameter: *parameter,
             half_width,
             distribution: Distribution::Box,
         })
     };
-    let all: Result<Vec<Tolerance>, &str> = percent.iter().map(tolerance).collect();
+    let all: Result<Vec<AbsoluteTolerance>, &str> = percent.iter().map(tolerance).collect();
     let nominal = orbit::find(&machine.scene)?;
     Ok((Tolerances::new(machine, &all?)?, nominal))
 }

@@ -6,7 +6,7 @@ use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{Loss, hysteresis};
 use softstop_dynamics::{Continuation, Limits, Orbit};
 use softstop_optimize::robust::Distribution;
-use softstop_optimize::spread::{PolynomialModel, Settled, Tolerance, Tolerances, along};
+use softstop_optimize::spread::{AbsoluteTolerance, PolynomialModel, Settled, Tolerances, along};
 use softstop_testing::assert_relative;
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -15,7 +15,7 @@ type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 fn spread(ratios: Ratios, share: f64) -> Outcome<(Tolerances, Orbit)> {
     let scene = ratios.scene()?;
     let nominal = find(&scene)?;
-    let tolerance = |parameter: Parameter| Tolerance {
+    let tolerance = |parameter: Parameter| AbsoluteTolerance {
         parameter,
         half_width: share * parameter.get(&scene).unwrap_or(f64::NAN),
         distribution: Distribution::Box,

@@ -74,10 +74,18 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     }
 }
 
-/// A machine with its zone, if it has one.
-type Zoned<'a> = (&'a Machine, Option<&'a Zone>);
-/// A machine, a stretch of it, and whether that is a part of its zone.
-type Stretched<'a> = (&'a Machine, &'a StableRange, bool);
+/// A machine with its hysteresis zone, if it has one.
+struct ZoneRow<'a> {
+    machine: &'a Machine,
+    zone: Option<&'a Zone>,
+}
+
+/// A stable range of a machine, and whether it is a part of its hysteresis zone.
+struct StretchRow<'a> {
+    machine: &'a Machine,
+    stretch: &'a StableRange,
+    in_zone: bool,
+}
 
 /// Zone, why there is none if so, and stretches, with the text of them.
 fn report(
@@ -86,11 +94,22 @@ fn report(
     all: &[StableRange],
 ) -> (Record, String) {
     let found = zone.as_ref().ok();
-    let in_zone = |one: &StableRange| found.is_some_and(|zone| one.is_part_of(zone));
-    let stretch = |one| Record::of(&stretch_columns(), &(machine, one, in_zone(one)));
-    let stretches: Vec<Record> = all.iter().map(stretch).collect();
+    let rows = all.iter().map(|stretch| StretchRow {
+        machine,
+        stretch,
+        in_zone: found.is_some_and(|zone| stretch.is_part_of(zone)),
+    });
+    let stretches: Vec<Record> = rows
+        .map(|row| Record::of(&stretch_columns(), &row))
+        .collect();
     let why = zone.as_ref().err().map(ToString::to_string);
-    let zone = Record::of(&columns(), &(machine, found));
+    let zone = Record::of(
+        &columns(),
+        &ZoneRow {
+            machine,
+            zone: found,
+        },
+    );
     let units = &Units::of(machine);
     let told = report::machine(machine, &[Parameter::Frequency]).and(zone.clone());
     let no_zone = why.iter().map(|why| format!("No zone: {why}\n"));
@@ -114,23 +133,23 @@ fn grazing(machine: &Machine) -> Option<f64> {
     Some(own(machine, above))
 }
 
-fn columns<'a>() -> [Column<Zoned<'a>>; 3] {
-    columns! { Zoned<'a>, it;
-        "frequency_g0" [Frequency] Six, "grazing g0" => grazing(it.0);
-        "frequency_sn" [Frequency] Six, "fold s_SN" => it.1.map(|zone| own(it.0, zone.high.frequency));
-        "velocity_sn" [Velocity] Six, "before-impact velocity at the fold" => it.1.map(|zone| zone.high.point.before_impact_velocity());
+fn columns<'a>() -> [Column<ZoneRow<'a>>; 3] {
+    columns! { ZoneRow<'a>, it;
+        "frequency_g0" [Frequency] Six, "grazing g0" => grazing(it.machine);
+        "frequency_sn" [Frequency] Six, "fold s_SN" => it.zone.map(|zone| own(it.machine, zone.high.frequency));
+        "velocity_sn" [Velocity] Six, "before-impact velocity at the fold" => it.zone.map(|zone| zone.high.point.before_impact_velocity());
     }
 }
 
-fn stretch_columns<'a>() -> [Column<Stretched<'a>>; 7] {
-    columns! { Stretched<'a>, it;
-        "from" [Frequency] Six, "lower end" => own(it.0, it.1.low.frequency);
-        "from_by" [None] Plain, "what ends it there" => lost_by(&it.1.low.loss);
-        "to" [Frequency] Six, "upper end" => own(it.0, it.1.high.frequency);
-        "to_by" [None] Plain, "what ends it there" => lost_by(&it.1.high.loss);
-        "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();
-        "hardest_at" [Frequency] Six, "where" => own(it.0, it.1.hardest.parameter);
-        "in_zone" [None] Plain, "part of the hysteresis zone" => it.2;
+fn stretch_columns<'a>() -> [Column<StretchRow<'a>>; 7] {
+    columns! { StretchRow<'a>, it;
+        "from" [Frequency] Six, "lower end" => own(it.machine, it.stretch.low.frequency);
+        "from_by" [None] Plain, "what ends it there" => lost_by(&it.stretch.low.loss);
+        "to" [Frequency] Six, "upper end" => own(it.machine, it.stretch.high.frequency);
+        "to_by" [None] Plain, "what ends it there" => lost_by(&it.stretch.high.loss);
+        "hardest" [Velocity] Six, "highest before-impact velocity" => it.stretch.hardest.before_impact_velocity();
+        "hardest_at" [Frequency] Six, "where" => own(it.machine, it.stretch.hardest.parameter);
+        "in_zone" [None] Plain, "part of the hysteresis zone" => it.in_zone;
     }
 }
 

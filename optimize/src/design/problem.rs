@@ -308,7 +308,7 @@ impl Problem {
                 Parameter::Preload if machine.preload_deflection.is_some() => width,
                 parameter => machine.to_si(parameter.about().dimension, width),
             };
-            Some(robust::Tolerance {
+            Some(robust::AbsoluteTolerance {
                 parameter: it.parameter,
                 half_width,
                 distribution: it.distribution.over(self.deviations).0,

@@ -15,16 +15,16 @@ use crate::design::judge::Met;
 use crate::design::problem::Problem;
 use crate::design::requirement::Requirement;
 use crate::robust::{
-    CaseVerdict, EVEN, Effort, FITTED, Manifold, Nearest, Norm, Scatter, Sensitivities, Settings,
-    Tolerance, Tolerances, Verdict, nearest, scatter, sensitivities, verify, verify_in_cases,
-    worst,
+    AbsoluteTolerance, CaseVerdict, EVEN, Effort, FITTED, Manifold, Nearest, Norm, Scatter,
+    Sensitivities, Settings, Tolerances, Verdict, nearest, scatter, sensitivities, verify,
+    verify_in_cases, worst,
 };
 
 /// A design's machines within its tolerances.
 #[derive(Debug)]
 pub struct Study {
     /// The tolerances, in SI units.
-    pub tolerances: Vec<Tolerance>,
+    pub tolerances: Vec<AbsoluteTolerance>,
     /// What is required of each of its machines, in the order of the verdict.
     pub required: Vec<Requirement>,
     /// What the machines have shown.

@@ -1,6 +1,6 @@
 //! Robust design: what tolerances do to a z = 1 motion.
 //!
-//! A machine is made with [`Tolerance`]s about its design; together they are a box about it ([`Tolerances`]), in which
+//! A machine is made with [`AbsoluteTolerance`]s about its design; together they are a box about it ([`Tolerances`]), in which
 //! coordinates run from -1 to 1. [`nearest`] finds the nearest machine that loses the motion, [`worst`] the one with
 //! the worst value of a figure, and [`verify`] looks at a million others; [`sensitivities`] and [`scatter`] tell whose
 //! tolerance it is.
@@ -23,7 +23,9 @@ pub use scatter::{Scatter, Sensitivities, scatter, sensitivities};
 pub use verify::{CaseVerdict, Settings, Verdict, verify, verify_in_cases};
 pub use worst::{Worst, worst};
 
-pub use crate::spread::{Distribution, EVEN, FITTED, Tolerance, Tolerances, normal_quantile};
+pub use crate::spread::{
+    AbsoluteTolerance, Distribution, EVEN, FITTED, Tolerances, normal_quantile,
+};
 
 pub(crate) use corners::corners;
 pub(crate) use meeting::{dot, is_loss};

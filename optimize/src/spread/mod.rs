@@ -20,4 +20,4 @@ pub use normal::{critical_normal, free_normal, in_coordinates, varied};
 pub use polynomial_model::PolynomialModel;
 pub use return_map::Settled;
 pub use surrogate::{MotionOutcome, Surrogate, is_inside};
-pub use tolerances::{Tolerance, Tolerances};
+pub use tolerances::{AbsoluteTolerance, Tolerances};

@@ -9,9 +9,9 @@ use super::distribution::Distribution;
 use crate::design::cost::{Cost, value_of_motion, value_of_orbit};
 use crate::robust::rates;
 
-/// How far a parameter may lie from its design value.
+/// How far a parameter may lie from its design value, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerance {
+pub struct AbsoluteTolerance {
     /// Which one; the drive's frequency may be one of them.
     pub parameter: Parameter,
     /// By so much to either side, in SI units: in m for a preload that is stated as a deflection.
@@ -24,7 +24,7 @@ pub struct Tolerance {
 #[derive(Debug, Clone)]
 pub struct Tolerances {
     machine: Machine,
-    tolerances: Vec<Tolerance>,
+    tolerances: Vec<AbsoluteTolerance>,
     cost: Option<Cost>,
 }
 
@@ -33,7 +33,7 @@ impl Tolerances {
     ///
     /// # Errors
     /// [`SceneError`] for a machine that is none or lacks one of the parameters, or a half-width that is not positive.
-    pub fn new(machine: &Machine, tolerances: &[Tolerance]) -> Result<Self, SceneError> {
+    pub fn new(machine: &Machine, tolerances: &[AbsoluteTolerance]) -> Result<Self, SceneError> {
         machine.validate()?;
         for tolerance in tolerances {
             let name = machine.name(tolerance.parameter);
@@ -80,7 +80,7 @@ impl Tolerances {
     }
 
     /// The tolerances, in the order of the coordinates.
-    pub fn all(&self) -> &[Tolerance] {
+    pub fn all(&self) -> &[AbsoluteTolerance] {
         &self.tolerances
     }
 

@@ -96,7 +96,7 @@ fn the_share_that_is_reported_is_that_of_machines_by_chance() -> Outcome {
 fn the_share_beyond_one_bound_is_that_of_the_normal_distribution() -> Outcome {
     let machine = press()?;
     let force = Parameter::Frequency;
-    let all = [robust::Tolerance {
+    let all = [robust::AbsoluteTolerance {
         parameter: force,
         half_width: 0.02,
         distribution: Distribution::Normal(2.0),

@@ -8,7 +8,7 @@ use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::points::{SEQUENCE_LENGTH, sobol_point};
 use softstop_dynamics::zone::Loss;
 use softstop_dynamics::{Orbit, zone};
-use softstop_optimize::robust::{Distribution, Settings, Tolerance, Tolerances, verify};
+use softstop_optimize::robust::{AbsoluteTolerance, Distribution, Settings, Tolerances, verify};
 use softstop_optimize::spread::along;
 
 use super::{Outcome, machines, press, shop, spread};
@@ -176,7 +176,7 @@ fn a_preload_stated_as_a_deflection_follows_the_stiffness() -> Outcome {
 fn tolerances_of_nothing_or_of_what_is_not_there_are_refused() -> Outcome {
     let machine = Machine::named("unloaded").ok_or("point A")?;
     let with = |parameter, half_width| {
-        let tolerance = Tolerance {
+        let tolerance = AbsoluteTolerance {
             parameter,
             half_width,
             distribution: Distribution::Box,

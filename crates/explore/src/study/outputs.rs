@@ -55,28 +55,19 @@ outputs! {
     AtSn "velocity_sn" [Velocity], "before-impact velocity at the fold";
 }
 
-/// Figures of a motion and of its machine that a study can have.
-const FIGURES: &[Figure] = &[
-    Figure::Velocity,
-    Figure::ImpactEnergy,
-    Figure::ImpactPower,
-    Figure::StrokeWork,
-    Figure::DriveForce,
-    Figure::DrivePower,
-    Figure::MaxPosition,
-    Figure::Stroke,
-    Figure::StopForce,
-    Figure::StopDeflection,
-    Figure::CutThrough,
-    Figure::RigidGap,
-    Figure::Multiplier,
-    Figure::Share,
-    Figure::FrequencyG0,
-    Figure::FrequencySn,
-    Figure::FrequencyPd,
-    Figure::ClearanceG0,
-    Figure::Certainty,
-];
+/// True if a study can have a figure: neither a task's formula tells it, nor zones of other machines, nor more motions than
+/// those of certainty.
+fn is_known(figure: Figure) -> bool {
+    !matches!(
+        figure,
+        Figure::ClearanceSn
+            | Figure::ClearancePd
+            | Figure::Integrity
+            | Figure::RunUp
+            | Figure::MissingStrips
+            | Figure::Cost
+    )
+}
 
 /// Kinds of motions, by their numbers in files of blocks.
 const KINDS: [&str; 7] = [
@@ -101,7 +92,8 @@ pub(super) fn is_over_budget(number: f64) -> bool {
 impl Output {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
-        let figures = FIGURES.iter().map(|figure| Self {
+        let figures = Figure::ALL.iter().filter(|figure| is_known(**figure));
+        let figures = figures.map(|figure| Self {
             kind: OutputKind::Figure(*figure),
             name: figure.name(),
             unit: Unit::Own(figure.dimension()),

@@ -19,7 +19,7 @@ use crate::page::figure::{
 };
 use crate::page::words::quantity;
 use crate::placed;
-use crate::robust::{self, Tolerance, Tolerances};
+use crate::robust::{self, AbsoluteTolerance, Tolerances};
 
 /// Half the size of the marks of designs and references.
 const MARK: f64 = 8.0;
@@ -133,8 +133,8 @@ const CORNERS: usize = 64;
 
 /// Machines at corners of the tolerances but that of the drive's frequency.
 fn corners(machine: &Machine, study: &Study) -> Vec<Machine> {
-    let is_kept = |it: &&Tolerance| it.parameter != Parameter::Frequency;
-    let all: Vec<Tolerance> = study.tolerances.iter().filter(is_kept).copied().collect();
+    let is_kept = |it: &&AbsoluteTolerance| it.parameter != Parameter::Frequency;
+    let all: Vec<AbsoluteTolerance> = study.tolerances.iter().filter(is_kept).copied().collect();
     match Tolerances::new(machine, &all) {
         Ok(spread) if !all.is_empty() => {
             let places = robust::corners(all.len(), CORNERS);
