@@ -53,8 +53,11 @@ pub(super) fn certain(
     let look = |at: &[f64]| -> Option<Sample> {
         let unit_cube = coordinates.unit(at);
         let design = Design::find(problem, &coordinates.at(&unit_cube, at))?;
-        let design = design.with_own_values(problem)?;
-        let (score, outside) = (problem.score(&design), design.violation(problem)?);
+        let (design, violation) = goal.known.assess(problem, design, f64::INFINITY)?;
+        let (score, outside) = (
+            problem.score(&design),
+            violation + design.outside_window(problem)?,
+        );
         let decay = design.relative_decay();
         let share = match goal.leaves_out_slow {
             true if decay < 1.0 => decay.max(0.0).ln().max(-NOWHERE) - 1.0,
@@ -115,4 +118,42 @@ pub(super) fn certain(
         Some(stop),
     );
     best.into_inner()
+}
+
+#[cfg(test)]
+mod tests {
+    use softstop::{Machine, Parameter};
+
+    use super::{Problem, ShareGoal, certain};
+    use crate::design::figure::Figure;
+    use crate::design::problem::{Tolerance, Width};
+    use crate::design::requirement::Requirement;
+    use crate::design::search::{Settings, Unwatched, search};
+    use crate::design::space::{Axis, Interval};
+
+    /// The drawing's machine may go farther than the bound of the force lets the stiffest one within the tolerances.
+    #[test]
+    fn what_it_leads_to_is_as_required_within_tolerances() -> Result<(), Box<dyn std::error::Error>>
+    {
+        let clearance = Axis::new(Parameter::Clearance, Interval::new(5.0, 15.0));
+        let stiffness = Tolerance::new(Parameter::StopStiffness, Width::Share(0.03));
+        let problem = Problem {
+            tolerances: vec![stiffness],
+            requirements: vec![Requirement::at_most(Figure::StopForce, 74.5)],
+            ..Problem::of(
+                Machine::named("unloaded").ok_or("the paper's machine")?,
+                vec![clearance],
+            )
+        };
+        let found = search(&problem, Settings { evaluations: 200 }, &Unwatched, None)?;
+        let goal = ShareGoal {
+            share: 0.05,
+            known: &found.known,
+            leaves_out_slow: false,
+        };
+        let best = certain(&problem, &found.candidate(), goal).ok_or("some share leads there")?;
+        assert!(found.known.design(&problem, best.design.clone()).is_some());
+        assert!(problem.score(&best.design) > 0.9 * problem.score(&found.design));
+        Ok(())
+    }
 }

@@ -12,9 +12,9 @@ use super::constraint::Limit;
 use super::differences::differences;
 use super::exact::Linearization;
 use super::figure::{Figure, Sense};
-use super::judge::Met;
+use super::judge::violation;
 use super::problem::Problem;
-use super::reach::{are_reached, reserve};
+use super::reach::{reserve, unreached};
 use super::requirement::{Requirement, Scope, sign};
 use super::slope::Slope;
 use super::within::Rows;
@@ -112,35 +112,57 @@ impl CriticalMachines {
     /// The design of a motion that is as required in the drawing's machine and in all of these, in every case; none if it is
     /// not.
     pub(super) fn design(&self, problem: &Problem, here: Design) -> Option<Design> {
-        here.with_values(problem, |it| {
-            self.for_case(it.case).value(&it.problem, it.design)
-        })
+        self.assess(problem, here, 0.0).map(|(design, _)| design)
     }
 
-    /// What is sought of a motion that is as required in the own machine of an operating point and in all of these.
-    fn value(&self, problem: &Problem, here: &Design) -> Option<f64> {
+    /// The design of a motion, and how far it and the motions of all of these are from what is required, summed over all cases;
+    /// none if that is farther than a bound in one of them, or a motion cannot be computed.
+    pub(super) fn assess(
+        &self,
+        problem: &Problem,
+        mut here: Design,
+        farthest: f64,
+    ) -> Option<(Design, f64)> {
+        let points = problem.operating_points(&here);
+        let assessed = points.iter().map(|it| {
+            let known = self.for_case(it.case);
+            known.assess_at_point(&it.problem, it.design, farthest)
+        });
+        let (values, violations): (Vec<f64>, Vec<f64>) =
+            assessed.collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        here.set_values(values);
+        Some((here, violations.iter().sum()))
+    }
+
+    /// What is sought of the worst of the own machine of an operating point and all of these, and how far they are from what is
+    /// required.
+    fn assess_at_point(
+        &self,
+        problem: &Problem,
+        here: &Design,
+        farthest: f64,
+    ) -> Option<(f64, f64)> {
         let motion = here.judged().ok()?;
-        let is_met = problem.met(&motion).iter().all(Met::is_met);
-        let mut value = problem.sought(&motion).filter(|_| is_met)?;
+        let is_near = |violation: &f64| *violation <= farthest;
+        let mut violation = Some(violation(&problem.met(&motion))).filter(is_near)?;
+        let mut value = problem.sought(&motion)?;
         let Some(spread) = problem.spread(&here.machine) else {
-            return Some(value);
+            return Some((value, violation));
         };
         let neighbours = Neighbours::new(&spread, &here.orbit);
-        if !are_reached(&self.losses, &spread, here) {
-            return None;
-        }
+        violation += unreached(&self.losses, &spread, here)?;
         for Extreme { target, at } in &self.extremes {
             let Some((figure, requirement)) = problem.asked(*target) else {
                 continue;
             };
+            violation = Some(violation).filter(is_near)?;
             let own = neighbours.value(at, figure)?;
             match requirement {
-                Some(requirement) if requirement.margin(own) < 0.0 => return None,
-                Some(_) => {}
+                Some(requirement) => violation += requirement.violation(own),
                 None => value = problem.objective.worse(value, own),
             }
         }
-        Some(value)
+        Some((value, violation)).filter(|(_, violation)| is_near(violation))
     }
 
     /// How far inside its bound each extreme machine is, in units of the bound, and the scores of those that are extreme in

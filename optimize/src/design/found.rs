@@ -17,8 +17,9 @@ use crate::order::sort_falling;
 
 /// Share of the best score from which another design is a rival.
 pub(super) const RIVAL: f64 = 0.97;
-/// Relative gain of a score that is none where trials hold the design back: what is counted is not resolved as fine.
-const COUNTED_GAIN: f64 = 1e-6;
+/// Relative gain of a score that is none where trials hold the design back: one start more or less of those that are counted
+/// changes it by more.
+const COUNTED_GAIN: f64 = 1e-4;
 /// Distance along an axis, as a share of its range, from which on two designs are different hills.
 pub(super) const APART: f64 = 0.12;
 

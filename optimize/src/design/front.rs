@@ -177,11 +177,7 @@ fn tried(figure: Figure, (problem, candidate): &Bounded, found: &Found) -> Optio
     };
     let is_moved = !problem.passes(&held.candidate.design, known, ROUGH);
     let candidate = match is_moved {
-        true => {
-            let moved = Trials::new(problem, &held.known).nearby(&held.candidate)?;
-            problem.has_box(&moved.design).ok()?;
-            moved
-        }
+        true => Trials::new(problem, &held.known).nearby(&held.candidate)?,
         false => held.candidate,
     };
     let place = place(problem, figure, &candidate)?;

@@ -6,7 +6,6 @@ use softstop::Machine;
 use softstop_dynamics::{Orbit, Zone};
 
 use super::Design;
-use super::judge::violation;
 use super::problem::Problem;
 use super::space::{Axis, ROUNDING};
 
@@ -90,35 +89,28 @@ impl Design {
         self.zone.frequency_at(self.place)
     }
 
-    /// How far the place is outside of what margin, bounds of the frequency and tolerances allow, and its motion from what is
-    /// required of it, in all cases; none if they allow no place.
-    pub(super) fn violation(&self, problem: &Problem) -> Option<f64> {
+    /// How far the place is outside of what margin, bounds of the frequency and tolerances allow, in all cases; none if they
+    /// allow no place.
+    pub(super) fn outside_window(&self, problem: &Problem) -> Option<f64> {
         let of_point = |OperatingPoint {
                             problem, design, ..
                         }: &OperatingPoint<'_>| {
             let window = problem.window(&design.machine, &design.zone).ok()?;
             let away = (window.low - design.place).max(design.place - window.high);
-            let outside = if away > ROUNDING { away } else { 0.0 };
-            Some(outside + violation(&problem.met(&design.judged().ok()?)))
+            Some(if away > ROUNDING { away } else { 0.0 })
         };
         problem.operating_points(self).iter().map(of_point).sum()
     }
 
-    /// The design with a value of what is sought in each operating point; none if one has none.
-    pub(super) fn with_values(
-        mut self,
-        problem: &Problem,
-        value: impl Fn(&OperatingPoint<'_>) -> Option<f64>,
-    ) -> Option<Self> {
-        let values = problem.operating_points(&self);
-        let values = values.iter().map(value).collect::<Option<Vec<f64>>>()?;
+    /// The design with what the own machine of each operating point has of what is sought; none if one has no such figure.
+    pub(super) fn with_own_values(mut self, problem: &Problem) -> Option<Self> {
+        let points = problem.operating_points(&self);
+        let values = points
+            .iter()
+            .map(|it| it.problem.sought(&it.design.judged().ok()?));
+        let values = values.collect::<Option<Vec<f64>>>()?;
         self.set_values(values);
         Some(self)
-    }
-
-    /// The design with what the own machine of each operating point has of what is sought; none if one has no such figure.
-    pub(super) fn with_own_values(self, problem: &Problem) -> Option<Self> {
-        self.with_values(problem, |it| it.problem.sought(&it.design.judged().ok()?))
     }
 
     /// Sets what is sought in each operating point.

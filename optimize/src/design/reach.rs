@@ -19,10 +19,15 @@ use crate::robust::{Tolerances, is_loss};
 /// Share of the box up to which a direction is followed.
 const FARTHEST: f64 = 1.25;
 
-/// Whether a motion goes on to the ends of some directions of the box of tolerances.
-pub(super) fn are_reached(directions: &[Vec<f64>], spread: &Tolerances, here: &Design) -> bool {
-    let mut shares = directions.iter().map(|it| end(spread, here, it));
-    shares.all(|end| end.is_some_and(|(share, _)| share >= 1.0))
+/// By how much of them a motion fails to go on to the ends of some directions of the box of tolerances, summed; none if one
+/// cannot be followed.
+pub(super) fn unreached(
+    directions: &[Vec<f64>],
+    spread: &Tolerances,
+    here: &Design,
+) -> Option<f64> {
+    let ends = directions.iter().map(|it| end(spread, here, it));
+    ends.map(|end| Some((1.0 - end?.0).max(0.0))).sum()
 }
 
 /// How far inside an end of the zone the machine at its corner of the box is, as a share of the frequency.

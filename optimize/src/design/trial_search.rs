@@ -65,12 +65,19 @@ impl<'a> Trials<'a> {
         Self { problem, known }
     }
 
-    /// A design near one that does not pass its trials and passes them, good to a per cent or so: the best along the zones of the
-    /// design and of some with wider margins, improved by linear models; only if none passes, linear models start from each.
+    /// A design near one that does not pass its trials and passes them with its whole box, good to a per cent or so: the best along
+    /// the zones of the design and of some with wider margins, improved by linear models; only if none passes, linear models start
+    /// from each.
     pub(super) fn nearby(&self, from: &Candidate) -> Option<Candidate> {
         let starts = self.starts(from);
-        let along_zones = self.improve(&starts, None);
-        along_zones.or_else(|| self.improve(&starts, Some(self.best_led_to(&starts)?)))
+        let best = |known| {
+            let all = self.improve(&starts, known).into_iter();
+            self.better_of(
+                all.filter(|it| self.problem.has_box(&it.design).is_ok())
+                    .collect(),
+            )
+        };
+        best(None).or_else(|| best(Some(self.best_led_to(&starts)?)))
     }
 
     fn score(&self, design: &Design) -> f64 {
@@ -111,7 +118,7 @@ impl<'a> Trials<'a> {
     /// As [`Trials::nearby`], but from what linear models lead to from each first.
     fn first(&self, from: &Candidate) -> Option<Candidate> {
         let starts = self.starts(from);
-        self.improve(&starts, self.best_led_to(&starts))
+        self.better_of(self.improve(&starts, self.best_led_to(&starts)))
     }
 
     /// A design, and those with wider margins to which the search leads from it.
@@ -143,12 +150,12 @@ impl<'a> Trials<'a> {
         self.better_of(parallel::filter_map(starts, |it| self.led_to(it)))
     }
 
-    /// The best of a known design and of those along the zones of some, or what linear models lead to from it, if that is better.
-    fn improve(&self, starts: &[Candidate], known: Option<Candidate>) -> Option<Candidate> {
+    /// The best of a known design and of those along the zones of some, and what linear models lead to from it.
+    fn improve(&self, starts: &[Candidate], known: Option<Candidate>) -> Vec<Candidate> {
         let units: Vec<_> = starts.iter().map(|it| it.unit.clone()).collect();
-        let best = self.best_of(&units, known.as_ref()).or(known)?;
-        let further = self.led_to(&best);
-        self.better_of([best].into_iter().chain(further).collect())
+        let best = self.best_of(&units, known.as_ref()).or(known);
+        let further = best.as_ref().and_then(|best| self.led_to(best));
+        best.into_iter().chain(further).collect()
     }
 
     /// Whether a design keeps what is known of its box, and passes.
