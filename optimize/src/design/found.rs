@@ -19,7 +19,7 @@ use crate::order::sort_falling;
 pub(super) const RIVAL: f64 = 0.97;
 /// Relative gain of a score that is none where trials hold the design back: one start more or less of those that are counted
 /// changes it by more.
-const COUNTED_GAIN: f64 = 1e-4;
+pub(super) const COUNTED_GAIN: f64 = 1e-4;
 /// Distance along an axis, as a share of its range, from which on two designs are different hills.
 pub(super) const APART: f64 = 0.12;
 

@@ -10,6 +10,7 @@ use super::ascent::ascend_from;
 use super::certain::{ShareGoal, certain};
 use super::coordinates::{Candidate, Coordinates, best_by};
 use super::critical::CriticalMachines;
+use super::found::COUNTED_GAIN;
 use super::problem::{Objective, Problem};
 use super::space::digits;
 use super::trial::FULL;
@@ -24,7 +25,7 @@ const BESIDE: [f64; 2] = [0.05, 0.1];
 /// Distance of the zones around the best, in edges of the cube: the first and the last.
 const FIRST: f64 = 0.08;
 const LAST: f64 = 6e-4;
-/// The next distance, in units of the one before, where nothing better is found.
+/// Factor by which the distance shrinks where nothing better is found, and grows again, up to the first, where something is.
 const SHRINKING: f64 = 0.7;
 /// Places of a zone, and halvings between the best that passes and the next.
 const PLACES: usize = 24;
@@ -108,7 +109,13 @@ impl<'a> Trials<'a> {
         while step >= LAST && !interrupt::requested() {
             let around = Coordinates::new(self.problem, &best.unit).around(step);
             match self.best_of(&around, Some(&best)) {
-                Some(better) => best = better,
+                Some(better) => {
+                    if self.score(&better.design) > (1.0 + COUNTED_GAIN) * self.score(&best.design)
+                    {
+                        step = FIRST.min(step / SHRINKING);
+                    }
+                    best = better;
+                }
                 None => step *= SHRINKING,
             }
         }
