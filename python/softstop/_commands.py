@@ -88,7 +88,7 @@ def orbit(machine: Machine, *, budget: int | None = None) -> Orbit:
     machine : Machine
         The machine.
     budget : int, optional
-        Work that the answer may cost in millions of scan windows; 200 unless it is stated.
+        Work that the answer may cost in millions of scan windows; 2000 unless it is stated.
 
     Returns
     -------

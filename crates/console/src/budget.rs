@@ -26,8 +26,8 @@ pub struct BudgetArguments {
 pub struct Budget(u32);
 
 impl Budget {
-    /// For one machine: some seconds of a core.
-    pub const MACHINE: Self = Self(200);
+    /// For one machine: some ten seconds of a core.
+    pub const MACHINE: Self = Self(2000);
     /// For a point of a study, of which there are many: some fifty times as much as one usually costs.
     pub const POINT: Self = Self(10);
     /// For each zone of a search, of which few cost that much.
