@@ -171,6 +171,30 @@ fn windows_of_doubled_periods_are_no_part_of_it() {
     }
 }
 
+/// Where another impact comes up at a rigid stop the multipliers jump past -1: that is no flip.
+#[test]
+fn a_grazing_past_which_multipliers_jump_is_no_flip() {
+    let mut scene = hammer(0.0, 1.0, 0.0);
+    scene.mass = 2.0;
+    scene.stiffness = 8e3;
+    scene.damping = 12.0;
+    scene.excitation.amplitude = 190.0;
+    scene.stop = Stop::Rigid { restitution: 0.4 };
+    let all = stable_ranges(&scene).expect("a machine");
+    let range = all
+        .iter()
+        .find(|range| range.low.loss == Loss::AnotherImpact)
+        .expect("a range that another impact ends");
+    let at = 0.5 * (range.low.frequency + range.high.frequency);
+    let zones = single_impact(std::slice::from_ref(&scene), (at, at), &unmonitored);
+    let zone = zones.into_iter().next().expect("one").expect("a zone");
+    assert_eq!(zone.low.loss, Loss::AnotherImpact);
+    assert_near(zone.low.frequency, range.low.frequency, at * SOLVED);
+    let orbit = zone.orbit_at(zone.place_of(at)).expect("an orbit");
+    let flip = loss_of_stability(&orbit, Direction::Down, TestFunction::Flip);
+    assert!(flip.expect("followed").is_none());
+}
+
 proptest! {
     #![proptest_config(random::cases(60))]
 

@@ -7,6 +7,7 @@ use crate::continuation::{
 };
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
+use crate::tolerance::NEAR;
 
 /// Points after which a branch is given up.
 pub const LONGEST_BRANCH: usize = 2000;
@@ -47,6 +48,10 @@ fn end_between(
         let test = TestFunction::ALL.into_iter().find(fails);
         let test = test.ok_or(OrbitError::NotIsolated)?;
         beyond = continuation.critical_between(before, &beyond, test)?;
+        // At a grazing the test jumps over zero.
+        if test.scaled_value(&beyond.monodromy).abs() > NEAR {
+            return Err(OrbitError::NotIsolated);
+        }
         if (low..=high).contains(&beyond.parameter) {
             return Ok(ZoneEnd::at_special(&beyond, SpecialKind::Critical(test)));
         }

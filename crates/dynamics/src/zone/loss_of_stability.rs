@@ -4,6 +4,7 @@ use super::Frequencies;
 use crate::continuation::{BranchPoint, Continuation, Direction, Family, TestFunction};
 use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
+use crate::tolerance::NEAR;
 
 /// Points after which a branch is given up that does not lose its stability.
 const MAX_LOSS_POINTS: usize = 400;
@@ -78,7 +79,9 @@ fn locate_loss(
     let value = |point: &BranchPoint| test.scaled_value(&point.monodromy);
     match branch {
         [.., before, last] if value(before) > 0.0 && value(last) <= 0.0 => {
-            continuation.critical_between(before, last, test).map(Some)
+            let found = continuation.critical_between(before, last, test)?;
+            // At a grazing the test jumps over zero.
+            Ok(Some(found).filter(|found| value(found).abs() <= NEAR))
         }
         _ => Ok(None),
     }
