@@ -67,18 +67,21 @@ impl<'a> Trials<'a> {
     }
 
     /// A design near one that does not pass its trials and passes them with its whole box, good to a per cent or so: the best along
-    /// the zones of the design and of some with wider margins, improved by linear models; only if none passes, linear models start
+    /// the zones of the design and of some with wider margins, improved by linear models; where these lead to none, they start
     /// from each.
     pub(super) fn nearby(&self, from: &Candidate) -> Option<Candidate> {
         let starts = self.starts(from);
-        let best = |known| {
-            let all = self.improve(&starts, known).into_iter();
-            self.better_of(
-                all.filter(|it| self.problem.has_box(&it.design).is_ok())
-                    .collect(),
-            )
+        let boxed = |known| {
+            let mut all = self.improve(&starts, known);
+            all.retain(|it| self.problem.has_box(&it.design).is_ok());
+            all
         };
-        best(None).or_else(|| best(Some(self.best_led_to(&starts)?)))
+        let mut found = boxed(None);
+        if found.len() < 2 {
+            let led_to = self.best_led_to(&starts);
+            found.extend(led_to.map(|it| boxed(Some(it))).unwrap_or_default());
+        }
+        self.better_of(found)
     }
 
     fn score(&self, design: &Design) -> f64 {
