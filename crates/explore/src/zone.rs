@@ -81,7 +81,7 @@ struct ZoneRow<'a> {
 }
 
 /// A stable range of a machine, and whether it is a part of its hysteresis zone.
-struct StretchRow<'a> {
+struct StableRangeRow<'a> {
     machine: &'a Machine,
     stretch: &'a StableRange,
     in_zone: bool,
@@ -94,13 +94,13 @@ fn report(
     all: &[StableRange],
 ) -> (Record, String) {
     let found = zone.as_ref().ok();
-    let rows = all.iter().map(|stretch| StretchRow {
+    let rows = all.iter().map(|stretch| StableRangeRow {
         machine,
         stretch,
         in_zone: found.is_some_and(|zone| stretch.is_part_of(zone)),
     });
     let stretches: Vec<Record> = rows
-        .map(|row| Record::of(&stretch_columns(), &row))
+        .map(|row| Record::of(&stable_range_columns(), &row))
         .collect();
     let why = zone.as_ref().err().map(ToString::to_string);
     let zone = Record::of(
@@ -141,8 +141,8 @@ fn columns<'a>() -> [Column<ZoneRow<'a>>; 3] {
     }
 }
 
-fn stretch_columns<'a>() -> [Column<StretchRow<'a>>; 7] {
-    columns! { StretchRow<'a>, it;
+fn stable_range_columns<'a>() -> [Column<StableRangeRow<'a>>; 7] {
+    columns! { StableRangeRow<'a>, it;
         "from" [Frequency] Six, "lower end" => own(it.machine, it.stretch.low.frequency);
         "from_by" [None] Plain, "what ends it there" => lost_by(&it.stretch.low.loss);
         "to" [Frequency] Six, "upper end" => own(it.machine, it.stretch.high.frequency);

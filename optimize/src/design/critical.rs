@@ -150,7 +150,7 @@ impl CriticalMachines {
             return Some((value, violation));
         };
         let neighbours = Neighbours::new(&spread, &here.orbit);
-        violation += unreached(&self.losses, &spread, here)?;
+        violation += unreached(&self.losses, &spread, here, farthest - violation)?;
         for Extreme { target, at } in &self.extremes {
             let Some((figure, requirement)) = problem.asked(*target) else {
                 continue;

@@ -19,15 +19,18 @@ use crate::robust::{Tolerances, is_loss};
 /// Share of the box up to which a direction is followed.
 const FARTHEST: f64 = 1.25;
 
-/// By how much of them a motion fails to go on to the ends of some directions of the box of tolerances, summed; none if one
-/// cannot be followed.
+/// By how much of them a motion fails to go on to the ends of some directions of the box of tolerances, summed; none if that is
+/// more than a bound, or one cannot be followed.
 pub(super) fn unreached(
     directions: &[Vec<f64>],
     spread: &Tolerances,
     here: &Design,
+    farthest: f64,
 ) -> Option<f64> {
-    let ends = directions.iter().map(|it| end(spread, here, it));
-    ends.map(|end| Some((1.0 - end?.0).max(0.0))).sum()
+    directions.iter().try_fold(0.0, |sum, direction| {
+        let (share, _) = end(spread, here, direction)?;
+        Some(sum + (1.0 - share).max(0.0)).filter(|sum| *sum <= farthest)
+    })
 }
 
 /// How far inside an end of the zone the machine at its corner of the box is, as a share of the frequency.

@@ -1,6 +1,6 @@
 //! The search for the best design that passes its trials. They have no derivatives and count motions, so that what is sought
 //! with them is a search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon
-//! 2003), closer and closer. Of each zone only places that are better than the best so far are tried.
+//! 2003). Of each zone only places that are better than the best so far are tried.
 
 use serde::Serialize;
 use softstop_console::interrupt;

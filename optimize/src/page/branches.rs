@@ -5,6 +5,7 @@ use softstop_console::interrupt;
 use softstop_draw::Stroke;
 use softstop_dynamics::continuation::{Continuation, Direction, TestFunction};
 use softstop_dynamics::monitor::stop_if;
+use softstop_dynamics::zone::loss_of_stability;
 use softstop_dynamics::{BranchPoint, Orbit, ParameterFamily, Zone};
 
 use super::figure::Curve;
@@ -134,11 +135,9 @@ fn below(zone: &Zone) -> Option<(Vec<BranchPoint>, Option<f64>)> {
             stop_if(ends || interrupt::watch(0, 0).is_break())
         })
         .ok()?;
-    let flips = |point: &BranchPoint| TestFunction::Flip.scaled_value(&point.monodromy) <= 0.0;
     let last = points.pop_if(|point| !point.is_stable());
-    let flip = last
-        .filter(flips)
-        .and_then(|last| follower.locate(&last, TestFunction::Flip).ok());
+    let flip =
+        last.and_then(|_| loss_of_stability(&start, Direction::Down, TestFunction::Flip).ok()?);
     let at = flip.as_ref().map(|flip| flip.parameter);
     points.extend(flip);
     Some((points, at))

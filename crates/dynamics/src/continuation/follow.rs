@@ -166,12 +166,13 @@ impl<'a> Continuation<'a> {
         let mut stepper =
             Stepper::new(&self.shooting, node, along, &self.settings)?.with_long_steps();
         while points.len() < limit {
-            let step = stepper.attempt_step().ok().filter(|step| {
-                step.node.here.point.sequence.continues(&sequence) && is_same_piece(&stepper, step)
-            });
+            let continues = |node: &Node<PeriodMap>| node.here.point.sequence.continues(&sequence);
+            let step = stepper.attempt_step().ok();
+            let step = step.filter(|step| continues(&step.node) && is_same_piece(&stepper, step));
             let taken = step.and_then(|step| {
                 let beyond = self.node_beyond_flips(&stepper.node, &step.node).ok()?;
-                Some((beyond, step))
+                let is_whole = beyond.as_ref().is_none_or(|(_, node)| continues(node));
+                is_whole.then_some((beyond, step))
             });
             if let Some((beyond, step)) = taken {
                 stepper.step_to(step);

@@ -3,11 +3,10 @@
 use super::end::{ZoneEnd, first_end};
 use super::loss::Loss;
 use crate::continuation::{
-    BranchPoint, Continuation, Direction, Limits, SpecialKind, TestFunction,
+    Branch, BranchPoint, Continuation, Direction, Limits, SpecialKind, TestFunction,
 };
 use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
-use crate::tolerance::NEAR;
 
 /// Points after which a branch is given up.
 pub const LONGEST_BRANCH: usize = 2000;
@@ -49,7 +48,7 @@ fn end_between(
         let test = test.ok_or(OrbitError::NotIsolated)?;
         beyond = continuation.critical_between(before, &beyond, test)?;
         // At a grazing the test jumps over zero.
-        if test.scaled_value(&beyond.monodromy).abs() > NEAR {
+        if test.jumps_at(&beyond.monodromy) {
             return Err(OrbitError::NotIsolated);
         }
         if (low..=high).contains(&beyond.parameter) {
@@ -59,6 +58,26 @@ fn end_between(
     let bound = beyond.parameter.clamp(low, high);
     let point = continuation.point_between(before, &beyond, bound)?;
     Ok(ZoneEnd::at_point(&point, Loss::Range, None))
+}
+
+/// A branch that was followed from a point, its points in the order in which they were met.
+struct Followed {
+    from: usize,
+    start: f64,
+    branch: Branch,
+}
+
+impl Followed {
+    /// Its points but those at the start.
+    fn further(&self) -> impl Iterator<Item = &BranchPoint> + Clone {
+        let points = self.branch.points.iter();
+        points.filter(|point| point.parameter != self.start)
+    }
+
+    /// The bifurcation or grazing that ends its stable motions, if one does.
+    fn named_end(&self) -> Option<ZoneEnd> {
+        first_end(&self.branch, self.further())
+    }
 }
 
 /// Follows stable motions to their end by every special point, from the last point on, or from the first.
@@ -81,23 +100,33 @@ pub(super) fn follow_to_end(
         let branch = continuation.branch(start.parameter, start.state(), &limits, |point| {
             stop_if(!point.is_stable() || point.impacts.len() != 1)
         });
-        branch.map(|branch| (index, branch))
+        branch.map(|mut branch| {
+            if direction == Direction::Down {
+                branch.points.reverse();
+            }
+            Followed {
+                from: index,
+                start: start.parameter,
+                branch,
+            }
+        })
     };
-    let (index, mut branch) = from(last).or_else(|_| from(0))?;
-    points.truncate(index + 1);
-    let start = points[index].parameter;
-    if direction == Direction::Down {
-        branch.points.reverse();
-    }
-    let further = branch
-        .points
-        .iter()
-        .filter(|point| point.parameter != start);
-    if let Some(end) = first_end(&branch, further.clone()) {
+    // A branch from right beside its end may be lost there: the one from the first point tells what the end is.
+    let followed = match from(last) {
+        Ok(found) if found.named_end().is_some() => found,
+        other => match from(0) {
+            Ok(found) if other.is_err() || found.named_end().is_some() => found,
+            _ => other?,
+        },
+    };
+    points.truncate(followed.from + 1);
+    let further = followed.further();
+    if let Some(end) = followed.named_end() {
         let until = further.take_while(|it| it.parameter != end.frequency);
         points.extend(until.chain([&end.point]).cloned());
         return Ok(end);
     }
+    let branch = &followed.branch;
     points.extend(further.filter(|point| point.is_stable()).cloned());
     let end = match direction {
         Direction::Up => &branch.ends.1,

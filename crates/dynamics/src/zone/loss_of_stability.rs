@@ -4,7 +4,6 @@ use super::Frequencies;
 use crate::continuation::{BranchPoint, Continuation, Direction, Family, TestFunction};
 use crate::monitor::stop_if;
 use crate::orbit::{Orbit, OrbitError};
-use crate::tolerance::NEAR;
 
 /// Points after which a branch is given up that does not lose its stability.
 const MAX_LOSS_POINTS: usize = 400;
@@ -24,11 +23,10 @@ pub fn loss_of_stability(
     let from = orbit.scene.excitation.frequency;
     let family = Frequencies(&orbit.scene);
     let continuation = Continuation::new(&family, 1);
-    locate_loss(
-        &continuation,
-        &follow_stable(&continuation, from, orbit, direction)?,
-        test,
-    )
+    let branch = follow_stable(&continuation, from, orbit, direction)?;
+    let found = locate_loss(&continuation, &branch, test)?;
+    // At a grazing the test jumps over zero.
+    Ok(found.filter(|point| !test.jumps_at(&point.monodromy)))
 }
 
 /// Finds where stability is lost along the parameter of any family, of which the orbit has the value `from`, by
@@ -70,7 +68,7 @@ fn follow_stable(
     })
 }
 
-/// Locates where a test passes zero at the end of a branch.
+/// Locates where a test passes zero, or jumps over it, at the end of a branch.
 fn locate_loss(
     continuation: &Continuation<'_>,
     branch: &[BranchPoint],
@@ -79,9 +77,7 @@ fn locate_loss(
     let value = |point: &BranchPoint| test.scaled_value(&point.monodromy);
     match branch {
         [.., before, last] if value(before) > 0.0 && value(last) <= 0.0 => {
-            let found = continuation.critical_between(before, last, test)?;
-            // At a grazing the test jumps over zero.
-            Ok(Some(found).filter(|found| value(found).abs() <= NEAR))
+            continuation.critical_between(before, last, test).map(Some)
         }
         _ => Ok(None),
     }

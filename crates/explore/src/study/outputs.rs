@@ -57,7 +57,7 @@ outputs! {
 
 /// True if a study can have a figure: neither a task's formula tells it, nor zones of other machines, nor more motions than
 /// those of certainty.
-fn is_known(figure: Figure) -> bool {
+fn is_output(figure: Figure) -> bool {
     !matches!(
         figure,
         Figure::ClearanceSn
@@ -92,7 +92,7 @@ pub(super) fn is_over_budget(number: f64) -> bool {
 impl Output {
     /// All of them.
     pub fn all() -> impl Iterator<Item = Self> {
-        let figures = Figure::ALL.iter().filter(|figure| is_known(**figure));
+        let figures = Figure::ALL.iter().filter(|figure| is_output(**figure));
         let figures = figures.map(|figure| Self {
             kind: OutputKind::Figure(*figure),
             name: figure.name(),
