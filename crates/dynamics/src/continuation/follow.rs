@@ -40,7 +40,7 @@ impl<'a> Continuation<'a> {
         }
     }
 
-    /// This continuation with steps of at most `largest`, in units of the family's scales: for visibly smooth curves.
+    /// This continuation with steps of at most `largest`, in scaled unknowns: for visibly smooth curves.
     ///
     /// # Errors
     /// Those of [`ContinuationSettings::validate`].

@@ -98,7 +98,7 @@ pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
     fn parameter_scales(&self) -> [f64; PARAMETERS];
 
     /// Parameters as unknowns of a continuation: in units of their scales, and where they outgrow these by a factor of twenty,
-    /// as a logarithm, so that a step is a share of the parameter.
+    /// as a logarithm, so that a step is a share of the parameter. A family leaves this and the next two methods as they are.
     fn scaled_parameters(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
         let scales = self.parameter_scales();
         let logarithm = |growth: f64| 1.0 + growth.ln();
