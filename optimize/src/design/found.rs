@@ -11,15 +11,12 @@ use super::critical::CriticalMachines;
 use super::judge::Met;
 use super::multipliers::{Held, held};
 use super::robustify::{Robust, enforce_tolerance_box, keep_as_is};
-use super::trial_search::Resolution;
+use super::trial_search::{COUNTED_GAIN, Resolution};
 use super::{Design, GAIN, Problem};
 use crate::order::sort_falling;
 
 /// Share of the best score from which another design is a rival.
 pub(super) const RIVAL: f64 = 0.97;
-/// Relative gain of a score that is none where trials hold the design back: one start more or less of those that are counted
-/// changes it by more.
-pub(super) const COUNTED_GAIN: f64 = 1e-4;
 /// Distance along an axis, as a share of its range, from which on two designs are different hills.
 pub(super) const APART: f64 = 0.12;
 

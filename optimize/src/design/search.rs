@@ -290,3 +290,41 @@ fn is_apart(one: &[f64], other: &[f64]) -> bool {
     let far = |(a, b): (&f64, &f64)| (a - b).abs() > APART;
     one.iter().zip(other).any(far)
 }
+
+#[cfg(test)]
+mod tests {
+    use softstop::{Machine, Parameter};
+
+    use super::{Settings, Unwatched, search};
+    use crate::design::certain::{ShareGoal, certain};
+    use crate::design::figure::Figure;
+    use crate::design::problem::{Problem, Tolerance, Width};
+    use crate::design::requirement::Requirement;
+    use crate::design::space::{Axis, Interval};
+
+    /// The drawing's machine may go farther than the bound of the force lets the stiffest one within the tolerances.
+    #[test]
+    fn what_it_leads_to_is_as_required_within_tolerances() -> Result<(), Box<dyn std::error::Error>>
+    {
+        let clearance = Axis::new(Parameter::Clearance, Interval::new(5.0, 15.0));
+        let stiffness = Tolerance::new(Parameter::StopStiffness, Width::Share(0.03));
+        let problem = Problem {
+            tolerances: vec![stiffness],
+            requirements: vec![Requirement::at_most(Figure::StopForce, 74.5)],
+            ..Problem::of(
+                Machine::named("unloaded").ok_or("the paper's machine")?,
+                vec![clearance],
+            )
+        };
+        let found = search(&problem, Settings { evaluations: 200 }, &Unwatched, None)?;
+        let goal = ShareGoal {
+            share: 0.05,
+            known: &found.known,
+            leaves_out_slow: false,
+        };
+        let best = certain(&problem, &found.candidate(), goal).ok_or("some share leads there")?;
+        assert!(found.known.design(&problem, best.design.clone()).is_some());
+        assert!(problem.score(&best.design) > 0.9 * problem.score(&found.design));
+        Ok(())
+    }
+}

@@ -10,7 +10,6 @@ use super::ascent::ascend_from;
 use super::certain::{ShareGoal, certain};
 use super::coordinates::{Candidate, Coordinates, best_by};
 use super::critical::CriticalMachines;
-use super::found::COUNTED_GAIN;
 use super::problem::{Objective, Problem};
 use super::space::digits;
 use super::trial::FULL;
@@ -25,6 +24,9 @@ const BESIDE: [f64; 2] = [0.05, 0.1];
 /// Distance of the zones around the best, in edges of the cube: the first and the last.
 const FIRST: f64 = 0.08;
 const LAST: f64 = 6e-4;
+/// Relative gain of a score that is none where trials hold the design back: one start more or less of those that are counted
+/// changes it by more.
+pub(super) const COUNTED_GAIN: f64 = 1e-4;
 /// Factor by which the distance shrinks where nothing better is found, and grows again, up to the first, where something is.
 const SHRINKING: f64 = 0.7;
 /// Places of a zone, and halvings between the best that passes and the next.
