@@ -169,8 +169,8 @@ impl<const N: usize> Equations for Shooting<'_, N> {
     }
 }
 
-/// Derivatives of the end of a motion, in m and m/s, by unknowns of its scene, and those of its start, which moves with the
-/// surface that it lies at, if it does; none where it has none.
+/// Derivatives of the end of a motion, in m and m/s, by unknowns of its scene, and of the position of its start, which moves
+/// with a surface that it lies at; none where the motion has no derivatives.
 pub(super) fn end_derivatives(
     orbit: (&Trajectory, Vector2<f64>, bool),
     (place, unknowns): (&DVector<f64>, Range<usize>),
@@ -187,7 +187,7 @@ pub(super) fn end_derivatives(
     derivatives_by(orbit, &by.collect::<Option<Vec<_>>>()?)
 }
 
-/// Those by what changes the phases of its scene.
+/// Derivatives of the end of a motion, and of the position of its start, by what changes the phases of its scene.
 pub(crate) fn derivatives_by(
     (trajectory, start, at_surface): (&Trajectory, Vector2<f64>, bool),
     by: &[PhaseDerivatives],

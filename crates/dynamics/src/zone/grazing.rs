@@ -12,7 +12,7 @@ pub fn free_amplitude(scene: &Scene, frequency: f64) -> f64 {
     own_free_amplitude(&scene.at_frequency(frequency))
 }
 
-/// That at the frequency of a scene's own drive.
+/// Amplitude of the impact-less motion at the frequency of a scene's own drive.
 fn own_free_amplitude(scene: &Scene) -> f64 {
     let frequency = scene.excitation.frequency;
     let spring = scene.stiffness - scene.mass * frequency * frequency;

@@ -129,8 +129,8 @@ pub fn find_attractors_until(
 
 /// The box of initial states that commands take starts from unless they are told another: twice the clearance (or the
 /// amplitude of a free mass, if that is larger) both ways, the same times the drive frequency, and half as much again as
-/// any motion needs that 64 starts from far and wide come to, or that [`orbit::find`] or a lattice of impacts shows. It depends on the
-/// scene alone.
+/// any motion needs that 64 starts from far and wide come to, or that [`orbit::find`] or a lattice of impacts shows. It depends
+/// on the scene alone.
 ///
 /// # Errors
 /// As [`find_attractors`].
