@@ -304,8 +304,8 @@ mod tests {
 
     /// The drawing's machine may go farther than the bound of the force lets the stiffest one within the tolerances.
     #[test]
-    fn what_it_leads_to_is_as_required_within_tolerances() -> Result<(), Box<dyn std::error::Error>>
-    {
+    fn what_linear_models_lead_to_is_as_required_within_tolerances()
+    -> Result<(), Box<dyn std::error::Error>> {
         let clearance = Axis::new(Parameter::Clearance, Interval::new(5.0, 15.0));
         let stiffness = Tolerance::new(Parameter::StopStiffness, Width::Share(0.03));
         let problem = Problem {
