@@ -97,16 +97,24 @@ pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
     /// Typical changes of the family's parameters: with the sizes of the state, the units of the arclength.
     fn parameter_scales(&self) -> [f64; PARAMETERS];
 
+    /// d(drive frequency in rad/s) / d(parameter) of each parameter that changes nothing else: the derivatives of orbits by
+    /// these are exact.
+    fn by_frequency(&self) -> [Option<f64>; PARAMETERS] {
+        [None; PARAMETERS]
+    }
+}
+
+impl<const PARAMETERS: usize> dyn Family<PARAMETERS> + '_ {
     /// Parameters as unknowns of a continuation: in units of their scales, and where they outgrow these by a factor of twenty,
-    /// as a logarithm, so that a step is a share of the parameter. A family leaves this and the next two methods as they are.
-    fn scaled_parameters(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
+    /// as a logarithm, so that a step is a share of the parameter.
+    pub fn scaled_parameters(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
         let scales = self.parameter_scales();
         let logarithm = |growth: f64| 1.0 + growth.ln();
         std::array::from_fn(|index| bend(parameters[index] / scales[index], logarithm))
     }
 
-    /// The parameters of unknowns, which are the last of them: the inverse of [`Self::scaled_parameters`].
-    fn unscaled_parameters(&self, unknowns: &[f64]) -> [f64; PARAMETERS] {
+    /// The parameters of unknowns, which are the last of them: the inverse of `scaled_parameters`.
+    pub fn unscaled_parameters(&self, unknowns: &[f64]) -> [f64; PARAMETERS] {
         let scales = self.parameter_scales();
         let unknowns = &unknowns[unknowns.len() - PARAMETERS..];
         let exponential = |growth: f64| (growth - 1.0).exp();
@@ -114,16 +122,10 @@ pub trait Family<const PARAMETERS: usize = 1>: Debug + Sync {
     }
 
     /// Derivatives of the parameters by the unknowns that they are.
-    fn parameter_slopes(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
+    pub fn parameter_slopes(&self, parameters: [f64; PARAMETERS]) -> [f64; PARAMETERS] {
         let scales = self.parameter_scales();
         let slope = |index: usize| parameters[index].abs() / MAX_SCALED_PARAMETER;
         std::array::from_fn(|index| scales[index].max(slope(index)))
-    }
-
-    /// d(drive frequency in rad/s) / d(parameter) of each parameter that changes nothing else: the derivatives of orbits by
-    /// these are exact.
-    fn by_frequency(&self) -> [Option<f64>; PARAMETERS] {
-        [None; PARAMETERS]
     }
 }
 

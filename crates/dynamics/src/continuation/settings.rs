@@ -35,7 +35,7 @@ macro_rules! settings {
 settings! {
 /// Settings of a continuation: how it steps along a branch or a curve, and what it takes for a border. Lengths and distances
 /// are those of scaled unknowns, position and velocity in units of the family's scales and parameters as
-/// [`Family::scaled_parameters`](super::Family::scaled_parameters) has them; all values are > 0.
+/// `scaled_parameters` of a [`Family`](super::Family) has them; all values are > 0.
 /// [`Continuation::follow_points`](super::Continuation::follow_points), which looks for no special points, takes longer steps
 /// and has values of its own for `first_step`, `largest_step`, `step_growth` and `min_turn_cosine`.
 ///

@@ -60,24 +60,10 @@ fn end_between(
     Ok(ZoneEnd::at_point(&point, Loss::Range, None))
 }
 
-/// A branch that was followed from a point, its points in the order in which they were met.
-struct Followed {
-    from: usize,
-    start: f64,
-    branch: Branch,
-}
-
-impl Followed {
-    /// Its points but those at the start.
-    fn further(&self) -> impl Iterator<Item = &BranchPoint> + Clone {
-        let points = self.branch.points.iter();
-        points.filter(|point| point.parameter != self.start)
-    }
-
-    /// The bifurcation or grazing that ends its stable motions, if one does.
-    fn named_end(&self) -> Option<ZoneEnd> {
-        first_end(&self.branch, self.further())
-    }
+/// The points of a branch but those at a value of the parameter, that of its start.
+fn further(branch: &Branch, start: f64) -> impl Iterator<Item = &BranchPoint> + Clone {
+    let points = branch.points.iter();
+    points.filter(move |point| point.parameter != start)
 }
 
 /// Follows stable motions to their end by every special point, from the last point on, or from the first.
@@ -104,29 +90,26 @@ pub(super) fn follow_to_end(
             if direction == Direction::Down {
                 branch.points.reverse();
             }
-            Followed {
-                from: index,
-                start: start.parameter,
-                branch,
-            }
+            // The bifurcation or grazing that ends its stable motions, if one does.
+            let named_end = first_end(&branch, further(&branch, start.parameter));
+            (index, branch, named_end)
         })
     };
     // A branch from right beside its end may be lost there: the one from the first point tells what the end is.
-    let followed = match from(last) {
-        Ok(found) if found.named_end().is_some() => found,
+    let (from, branch, named_end) = match from(last) {
+        Ok(found) if found.2.is_some() => found,
         other => match from(0) {
-            Ok(found) if other.is_err() || found.named_end().is_some() => found,
+            Ok(found) if other.is_err() || found.2.is_some() => found,
             _ => other?,
         },
     };
-    points.truncate(followed.from + 1);
-    let further = followed.further();
-    if let Some(end) = followed.named_end() {
+    points.truncate(from + 1);
+    let further = further(&branch, points[from].parameter);
+    if let Some(end) = named_end {
         let until = further.take_while(|it| it.parameter != end.frequency);
         points.extend(until.chain([&end.point]).cloned());
         return Ok(end);
     }
-    let branch = &followed.branch;
     points.extend(further.filter(|point| point.is_stable()).cloned());
     let end = match direction {
         Direction::Up => &branch.ends.1,

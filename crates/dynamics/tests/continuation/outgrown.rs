@@ -29,7 +29,7 @@ impl<const N: usize> Family<N> for Outgrown<N> {
 /// Unknowns are the parameters in other units up to twenty scales, and grow as their logarithm beyond.
 #[test]
 fn unknowns_of_parameters_are_taken_back() {
-    let family = Outgrown(plane([Parameter::Frequency, Parameter::Clearance]));
+    let family: &dyn Family<2> = &Outgrown(plane([Parameter::Frequency, Parameter::Clearance]));
     let scales = family.parameter_scales();
     for size in [0.0, 1.0, 19.0, 21.0, 1e3, 1e9] {
         let values = [size * scales[0], -size * scales[1]];

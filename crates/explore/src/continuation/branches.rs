@@ -8,7 +8,7 @@ use softstop::Machine;
 use softstop_dynamics::continuation::{
     ContinuationSettings, End, Family, SpecialKind, TestFunction,
 };
-use softstop_dynamics::{Branch, BranchPoint, Continuation, Limits, ParameterFamily};
+use softstop_dynamics::{Branch, BranchPoint, Continuation, Limits};
 
 use super::{ContinueArguments, Followed, family, seed};
 use softstop_console::failure::Failure;
@@ -25,7 +25,7 @@ const MAX_STEPS_ACROSS: f64 = 2000.0;
 
 /// A continuation with steps that leave the chart of a range no corners.
 fn continuation<'a>(
-    family: &'a ParameterFamily<1>,
+    family: &'a dyn Family,
     periods: u64,
     limits: &Limits,
 ) -> Result<Continuation<'a>, Failure> {
@@ -90,7 +90,7 @@ const MERGING_DISTANCE: f64 = 1e-6;
 /// The branches of twice the period from the flips of one, and those of asymmetric orbits from its pitchforks, each from one end
 /// alone.
 fn doubled(
-    family: &ParameterFamily<1>,
+    family: &dyn Family,
     branch: &Branch,
     limits: &Limits,
     bar: &Progress,
@@ -124,7 +124,7 @@ fn doubled(
 /// True if a branch ends in the orbit at a point of another one, whose continuation this is, whatever number of drive periods later.
 fn ends_at(
     continuation: &Continuation<'_>,
-    family: &ParameterFamily<1>,
+    family: &dyn Family,
     branch: &Branch,
     point: &BranchPoint,
 ) -> bool {

@@ -40,7 +40,7 @@ pub(super) fn curves<'a>(
     both: [&Followed; 2],
     branch: &'a Branch,
 ) -> Result<Curves<'a>, Failure> {
-    let family = family(machine, both.map(|one| one.parameter))?;
+    let family: &dyn Family<2> = &family(machine, both.map(|one| one.parameter))?;
     let region = CurveLimits {
         ranges: both.map(|one| one.range),
         points: arguments.points,
@@ -60,7 +60,7 @@ pub(super) fn curves<'a>(
         }
         let kind = (special.kind, special.point.state());
         let start = start(special);
-        let curve = follow_special(&family, branch.periods, kind, start, &region, |_| {
+        let curve = follow_special(family, branch.periods, kind, start, &region, |_| {
             count(&bar)
         });
         match curve {
@@ -78,7 +78,7 @@ pub(super) fn curves<'a>(
                 let mut curves = found.iter();
                 curves.any(|it| is_of(it, kind, periods) && has_special(it, point, place))
             };
-            let fresh = switch_curves(&family, &found[from], &region, is_known, |_| count(&bar));
+            let fresh = switch_curves(family, &found[from], &region, is_known, |_| count(&bar));
             for curve in fresh {
                 let is_same = |other: &Curve| {
                     let mut specials = curve.specials.iter();
