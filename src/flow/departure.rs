@@ -1,9 +1,8 @@
-//! Where an arc departs from, and a state on it (node).
+//! Where an arc departs from, a state on it (node), and the angle of the drive there.
 
 use serde::{Deserialize, Serialize};
 
 use super::Polynomial;
-use super::drive::Drive;
 
 /// The state that an arc starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,4 +50,31 @@ pub struct Node {
     /// Scan windows are counted from here, so that their times do not drift.
     pub(super) origin: f64,
     pub(super) windows: u32,
+}
+
+/// Cosine and sine of the drive angle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Drive {
+    /// The cosine, in phase with the force.
+    pub cos: f64,
+    /// The sine.
+    pub sin: f64,
+}
+
+impl Drive {
+    /// The drive at an angle in rad.
+    #[inline]
+    pub fn at(angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self { cos, sin }
+    }
+
+    /// The drive turned on by another angle.
+    #[inline]
+    pub(super) fn turned(self, by: Self) -> Self {
+        Self {
+            cos: self.cos * by.cos - self.sin * by.sin,
+            sin: self.sin * by.cos + self.cos * by.sin,
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix2;
 
-use super::drive::Drive;
+use super::departure::Drive;
 use super::modes::Modes;
 
 /// Largest loss of digits (as a factor) that the particular-solution form may bring.

@@ -1,8 +1,7 @@
 //! Nodes of an arc: its states, and how a scan steps from one to the next, window by window.
 
 use super::arc_solution::{ArcSolution, Form};
-use super::departure::Node;
-use super::drive::Drive;
+use super::departure::{Drive, Node};
 use super::near_start::change_near_start;
 use super::particular_solution::ParticularSolution;
 

@@ -5,9 +5,9 @@ use nalgebra::{Matrix3x2, Vector3};
 
 use super::arc_solution::{ArcSolution, Form};
 use super::gauss::gauss_nodes;
-use super::linearized::Linearized;
 use super::series::{Series, ZERO, convolve, product, value};
 use super::taylor_step::TaylorStep;
+use super::variation::Linearized;
 
 /// Changes of position in m, of velocity in m/s, and of the integral of velocity times cos(drive angle), in m.
 pub(crate) type Answer = Vector3<f64>;

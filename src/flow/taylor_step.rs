@@ -1,7 +1,7 @@
 //! One Taylor step: the motion over a short time as power series.
 //!
 //! The deflection d from the face obeys d'' + 2 a d' + b (d + x0) + kappa d^n (1 + lambda d') = push. Away from
-//! the face, and with n = 2, it is followed in time itself ([`super::power_law_in_time`]), but for n = 3/2 under a constant push
+//! the face, and with n = 2, it is followed in time itself ([`super::steps_in_time`]), but for n = 3/2 under a constant push
 //! ([`super::sphere`]). At the face d^n has a branch point unless n is whole. If n is a
 //! multiple of 1/m it goes away where the m-th root s of d is the unknown and a stretched time sigma,
 //! dt = s^(m-1) dsigma, the variable (as Levi-Civita did for collisions, 1920):
@@ -13,7 +13,7 @@
 //! All are power series in sigma whose coefficients follow one from the other (Moore 1966). For
 //! other n, while the power law's part of the motion is below rounding, it is left out right at the face. So it is
 //! on a start from rest at the face, where sigma is time itself; and so it is in slow motion under heavy damping
-//! ([`super::slow_manifold`]) and where there is no power law ([`super::linear_in_time`]).
+//! ([`super::slow_manifold`]) and where there is no power law ([`super::steps_in_time`]).
 
 use serde::{Deserialize, Serialize};
 

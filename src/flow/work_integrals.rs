@@ -3,8 +3,7 @@
 use nalgebra::Complex;
 
 use super::arc_solution::{ArcSolution, Form};
-use super::departure::Node;
-use super::drive::Drive;
+use super::departure::{Drive, Node};
 use super::gauss::gauss_nodes;
 use super::particular_solution::ParticularSolution;
 use super::series::{ZERO, integral_of_product, value};

@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::clock::{Clock, Instant};
-use super::impact::Impact;
-use super::observer::{Arc, Crossing, CrossingKind, Observer};
+use super::observer::{Arc, Crossing, CrossingKind, Impact, Observer};
 use super::simulation::Simulation;
 use super::start::Start;
 use crate::error::MotionError;

@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::checkpoint::Checkpoint;
 use super::clock::Clock;
 use super::force::force_from_derivatives;
-use super::simulation::Simulation;
+use super::simulation::{Checkpoint, Simulation};
 use crate::error::MotionError;
 use crate::scene::Scene;
 

@@ -1,12 +1,14 @@
-//! The mark of a running machine: where its last advance began, and how to go back there.
+//! The mark of a running machine: where its last advance began, how to go back there, and that advance gone through again.
 
-use super::checkpoint::Checkpoint;
-use super::clock::Instant;
+use super::clock::{Clock, Instant};
 use super::motion::Motion;
-use super::simulation::Simulation;
+use super::observer::{Arc, Observer};
+use super::simulation::{Checkpoint, Simulation};
 use super::tallies::Counts;
 use super::work::Work;
 use crate::error::MotionError;
+use crate::flow::{Polynomial, integrate};
+use crate::phases::PhaseKind;
 
 impl Simulation {
     /// The machine as it was before the last advance, if that met a crossing or stopped on its way and
@@ -70,6 +72,55 @@ impl Simulation {
         match &self.mark {
             Checkpoint::OnArc(instant) => (&self.motion, *instant),
             Checkpoint::Before(origin) => (&origin.motion, origin.motion.now()),
+        }
+    }
+
+    /// Work in J, over the stretch of [`Simulation::contacts`], of a force that has these derivatives where it begins.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the stretch cannot be gone through again.
+    pub fn work_of(&self, force: &Polynomial) -> Result<f64, MotionError> {
+        let (motion, from) = self.motion_passing_mark();
+        let mut watch = WorkRecorder {
+            clock: *motion.clock(),
+            from,
+            force,
+            work: 0.0,
+        };
+        self.replay(&mut watch)?;
+        Ok(watch.work)
+    }
+
+    /// Tells of all arcs and crossings since the mark; the first arc may have begun before it.
+    pub(super) fn replay(&self, observer: &mut dyn Observer) -> Result<(), MotionError> {
+        let mut motion = self.motion_passing_mark().0.clone();
+        motion.advance_like(&self.motion, observer)?;
+        motion.tell_arc(observer);
+        Ok(())
+    }
+
+    /// True if the mass was free all over the last advance, or since [`Simulation::mark`] was called or something was set.
+    pub fn was_free(&self) -> bool {
+        matches!(self.mark, Checkpoint::OnArc(_)) && self.motion.kind() == PhaseKind::Free
+    }
+}
+
+/// Adds up the work of a force from an instant on.
+struct WorkRecorder<'a> {
+    clock: Clock,
+    from: Instant,
+    force: &'a Polynomial,
+    work: f64,
+}
+
+impl Observer for WorkRecorder<'_> {
+    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
+        let since = self.clock.elapsed(arc.start, self.from);
+        let flow = &arc.course.flow;
+        let rate = flow.frequency + flow.modes.fastest_rate();
+        let power = |time: f64| self.force.eval(time - since) * arc.at(time).velocity;
+        if elapsed > since {
+            self.work += integrate((since.max(0.0), elapsed), rate, power);
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use serde::{Deserialize, Serialize};
+
 use super::clock::{Clock, Instant};
 use super::start::Start;
 use crate::flow::{ArcSolution, Drive, Node};
@@ -208,4 +210,13 @@ impl<A: Observer + ?Sized, B: Observer + ?Sized> Observer for (&mut A, &mut B) {
         self.0.progress(windows)?;
         self.1.progress(windows)
     }
+}
+
+/// An impact, its time counted from the start of the simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Impact {
+    /// Time in s.
+    pub time: f64,
+    /// Before-impact velocity in m/s.
+    pub velocity: f64,
 }

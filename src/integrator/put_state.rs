@@ -1,8 +1,7 @@
 //! Puts a machine into states that are solved for elsewhere, under the law that holds.
 
-use super::checkpoint::Checkpoint;
 use super::motion::Motion;
-use super::simulation::Simulation;
+use super::simulation::{Checkpoint, Simulation};
 use super::start::Start;
 use crate::events::{Found, Guard, NextEvent};
 use crate::phases::{Mode, Phase};

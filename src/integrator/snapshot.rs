@@ -8,12 +8,11 @@ use std::convert::Infallible;
 use serde::{Deserialize, Serialize};
 
 use super::bounce_train::BounceTrain;
-use super::checkpoint::Checkpoint;
 use super::clock::{Clock, Instant};
 use super::force::Force;
-use super::impact::Impact;
 use super::motion::Motion;
-use super::simulation::Simulation;
+use super::observer::Impact;
+use super::simulation::{Checkpoint, Simulation};
 use super::start::Start;
 use super::tallies::{Counts, Tallies};
 use crate::checked_scene::CheckedScene;

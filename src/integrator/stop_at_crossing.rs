@@ -2,10 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::checkpoint::{Checkpoint, CheckpointState};
 use super::clock::Instant;
 use super::motion::Motion;
-use super::simulation::Simulation;
+use super::simulation::{Checkpoint, CheckpointState, Simulation};
 use super::{Effort, Observer};
 use crate::error::MotionError;
 use crate::events::NextEvent;

@@ -1,8 +1,10 @@
-//! Work done along an arc: what the drive supplies and what is dissipated.
+//! Work done along an arc, what the drive supplies and what is dissipated, and the energy that a motion stores.
 
 use serde::{Deserialize, Serialize};
 
-use super::Arc;
+use super::{Arc, Motion, Start};
+use crate::phases::Store;
+use crate::scene::Scene;
 
 /// Energies in J that crossed the machine's boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -65,5 +67,20 @@ pub fn shares(arc: &Arc<'_>, mass: f64, elapsed: f64) -> Shares {
         damper: mass * power.lost,
         law: mass * power.pressed + phase.elastic_work(low, high) - stored,
         bounces: 0.0,
+    }
+}
+
+/// Mechanical energy in J of a state: kinetic, suspension and what the stop's store holds, if there is one.
+pub fn mechanical_energy(scene: &Scene, state: Start, store: Option<&Store>) -> f64 {
+    let Start { position, velocity } = state;
+    let kinetic = 0.5 * scene.mass * velocity * velocity;
+    let spring = 0.5 * scene.stiffness * position * position;
+    kinetic + spring + store.map_or(0.0, |store| store.energy_at(position))
+}
+
+impl Motion {
+    /// Mechanical energy in J now, of a motion of this scene.
+    pub fn mechanical_energy(&self, scene: &Scene) -> f64 {
+        mechanical_energy(scene, self.state(), Some(self.store()))
     }
 }

@@ -7,14 +7,12 @@ mod id;
 mod layer_plan;
 mod lower;
 mod mode;
-mod spring;
 mod store;
 
 pub use id::{PhaseId, SurfaceId};
 pub(crate) use mode::Threshold;
 pub use mode::{Mode, Sticking};
-pub use spring::Spring;
-pub use store::Store;
+pub use store::{Spring, Store};
 
 use std::ops::Index;
 use std::sync::Arc;

@@ -1,6 +1,5 @@
 //! The energy that a stop keeps and gives back.
 
-use super::spring::Spring;
 use crate::flow::PowerLaw;
 
 /// What a stop stores: by its linear spring and by its power law. Where contact has ceased to press,
@@ -46,5 +45,26 @@ impl Store {
             .hertz
             .map_or(0.0, |hertz| hertz.slopes(position, 0.0).0);
         self.spring.stiffness + hertz
+    }
+}
+
+/// A linear spring: E = `energy` + `force` u + `stiffness` u^2 / 2 with u = x - `origin`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Spring {
+    /// Position in m where it begins.
+    pub origin: f64,
+    /// Energy in J stored there.
+    pub energy: f64,
+    /// Force in N there.
+    pub force: f64,
+    /// Stiffness in N/m.
+    pub stiffness: f64,
+}
+
+impl Spring {
+    /// Energy in J stored at a position.
+    pub fn energy_at(&self, position: f64) -> f64 {
+        let depth = position - self.origin;
+        self.energy + depth * (self.force + 0.5 * self.stiffness * depth)
     }
 }

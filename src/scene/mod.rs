@@ -2,7 +2,6 @@
 
 mod allowed;
 mod parameter;
-mod quantity;
 mod ratios;
 mod scales;
 mod stop;
@@ -13,13 +12,12 @@ mod validate;
 
 pub use allowed::Allowed;
 pub use parameter::{About, Dimension, Parameter};
-pub(crate) use quantity::Quantity;
 pub use ratios::Ratios;
 pub use scales::{MIN_SCALE_STIFFNESS, Scales};
 pub(crate) use stop::stiffness_from;
 pub use stop::{Below, Release, RigidStop, Slope, Stop, force_of};
-pub(crate) use ties::Tie;
 pub use ties::Ties;
+pub(crate) use ties::{Quantity, Tie};
 pub use time_scales::{MAX_DAMPER_RATE, MAX_SPRING_RATE};
 pub use units::Units;
 

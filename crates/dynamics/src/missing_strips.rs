@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use crate::basin::{BasinTest, TestedMotion};
-use crate::interrupted_motion::InterruptedMotion;
-use crate::member::Member;
+use crate::ensemble::Member;
 use crate::monitor::Monitor;
 use crate::orbit::{Orbit, OrbitError};
 use crate::parallel;
-pub use crate::stroke_count::StrokeCount;
+use crate::strokes::InterruptedMotion;
+pub use crate::strokes::StrokeCount;
 use softstop::{CheckedScene, MotionError, Piercing, Scene};
 use softstop_lanes::Machine;
 

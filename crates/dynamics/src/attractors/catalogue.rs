@@ -3,8 +3,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::Certainty;
-use super::known_orbit::KnownOrbit;
-use crate::member::MemberStatus;
+use crate::ensemble::MemberStatus;
 use crate::orbit::recurrence::{find_return, motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::{NEAR, SAME};
@@ -131,5 +130,23 @@ impl AttractorCatalogue {
             },
         });
         Ok(self.orbits.len() - 1)
+    }
+}
+
+/// A stable orbit in the catalogue.
+#[derive(Debug, Clone)]
+pub(crate) struct KnownOrbit {
+    pub orbit: Orbit,
+    pub certainty: Certainty,
+    /// Its states at drive angle phi, after each drive period.
+    pub(super) states: Vec<Start>,
+    /// The size of the motion in m/s.
+    pub(super) size: f64,
+}
+
+impl KnownOrbit {
+    /// States of the known orbit at drive angle phi, after each drive period.
+    pub(crate) fn section_states(&self) -> &[Start] {
+        &self.states
     }
 }

@@ -1,8 +1,11 @@
 //! A chaotic attractor: its exponents, impacts and lifetime.
 
+use std::convert::Infallible;
+
 use crate::ensemble::Ensemble;
 use crate::extremes::extremes;
 use crate::orbit::{Exponents, OrbitError, StroboscopicMap};
+use softstop::internals::narrow_root;
 use softstop::{CheckedScene, Crossing, Observer, Start};
 
 /// A chaotic motion, one that never repeats as far as it was watched.
@@ -62,5 +65,116 @@ impl Chaos {
             velocities: extremes(velocities),
             watched: 0,
         })
+    }
+}
+
+/// How many motions on one chaos stayed and how many escaped, by the drive periods for which they were watched.
+#[derive(Debug, Clone, Default)]
+pub(super) struct EscapeCounts(Vec<EscapeCount>);
+
+/// Motions on chaos that were watched for one length of time: those that stayed and those that escaped.
+#[derive(Debug, Clone, Copy)]
+struct EscapeCount {
+    periods: u64,
+    stayed: u64,
+    gone: u64,
+}
+
+/// Range of the logarithm of the escape rate per drive period.
+const LN_RATE_RANGE: (f64, f64) = (-40.0, 5.0);
+
+impl EscapeCounts {
+    /// Counts a motion on chaos that was watched for so many drive periods and has then escaped or not.
+    pub fn record_watch(&mut self, periods: u64, is_gone: bool) {
+        let (stayed, gone) = (u64::from(!is_gone), u64::from(is_gone));
+        match self.0.iter_mut().find(|look| look.periods == periods) {
+            Some(look) => {
+                look.stayed += stayed;
+                look.gone += gone;
+            }
+            None => self.0.push(EscapeCount {
+                periods,
+                stayed,
+                gone,
+            }),
+        }
+    }
+
+    /// Drive periods for which motions on chaos were watched, all together.
+    pub fn watched_periods(&self) -> u64 {
+        let watched = |look: &EscapeCount| look.periods * (look.stayed + look.gone);
+        self.0.iter().map(watched).sum()
+    }
+
+    /// The mean lifetime of chaos in drive periods; none if no motion has escaped.
+    ///
+    /// Lifetimes on chaos that ends are exponential (Grebogi, Ott and Yorke 1983). Of a motion that has gone it is
+    /// known only that it went between two looks. The rate r of greatest likelihood solves
+    /// sum gone P / (e^(r P) - 1) = sum stayed P.
+    pub fn mean_lifetime(&self) -> Option<f64> {
+        if self.0.iter().all(|look| look.gone == 0) {
+            return None;
+        }
+        let stayed = self.0.iter().map(|look| look.periods * look.stayed);
+        let stayed: f64 = stayed.map(|periods| periods as f64).sum();
+        // Where none has stayed, half a motion is taken to have.
+        let least = self.0.iter().map(|look| look.periods).min().unwrap_or(1);
+        let stayed = stayed.max(0.5 * least as f64);
+        let excess = |rate: f64| {
+            let share = |look: &EscapeCount| {
+                let periods = look.periods as f64;
+                look.gone as f64 * periods / (rate * periods).exp_m1()
+            };
+            self.0.iter().map(share).sum::<f64>() - stayed
+        };
+        let at = |rate: f64| excess(rate.exp());
+        let [low, high] = [LN_RATE_RANGE.0, LN_RATE_RANGE.1].map(|rate| (rate, at(rate)));
+        let found = narrow_root(low, high, 64.0 * f64::EPSILON, |rate| {
+            Ok::<f64, Infallible>(at(rate))
+        });
+        Some((-found.ok()?.middle()).exp())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::EscapeCounts;
+    use approx::assert_abs_diff_eq;
+    use softstop_testing::tolerance::DIFFERENCED;
+
+    /// Exponential lifetimes at their quantiles, looked at after 500, 1000, 2000, ... drive periods.
+    #[test]
+    fn a_mean_life_is_found_however_rarely_it_is_looked_at() {
+        let (mean, motions) = (12_810.0, 4000);
+        let mut escapes = EscapeCounts::default();
+        for motion in 0..motions {
+            let share = (f64::from(motion) + 0.5) / f64::from(motions);
+            let life = -mean * (1.0 - share).ln();
+            let (mut begin, mut periods) = (0.0, 500);
+            loop {
+                let end = begin + periods as f64;
+                escapes.record_watch(periods, life <= end);
+                if life <= end {
+                    break;
+                }
+                (begin, periods) = (end, 2 * periods);
+            }
+        }
+        let found = escapes.mean_lifetime().expect("all have gone");
+        assert_abs_diff_eq!(found / mean, 1.0, epsilon = 0.02);
+    }
+
+    #[test]
+    fn what_nothing_leaves_has_no_lifetime() {
+        let mut escapes = EscapeCounts::default();
+        escapes.record_watch(1000, false);
+        assert_eq!(escapes.mean_lifetime(), None);
+        assert_eq!(escapes.watched_periods(), 1000);
+        escapes.record_watch(1000, true);
+        assert_abs_diff_eq!(
+            escapes.mean_lifetime().expect("one has gone"),
+            1000.0 / 2_f64.ln(),
+            epsilon = DIFFERENCED
+        );
     }
 }

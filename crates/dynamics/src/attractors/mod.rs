@@ -8,9 +8,7 @@
 
 pub(crate) mod catalogue;
 mod chaos;
-mod escape_counts;
 mod group_logs;
-pub(crate) mod known_orbit;
 pub(crate) mod region;
 mod search;
 

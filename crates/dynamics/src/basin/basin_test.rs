@@ -5,13 +5,12 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::contraction_ball::ContractionBalls;
 use super::section::bring_to_section;
-use crate::ensemble::Ensemble;
-use crate::member::{HasMember, Member, MemberStatus};
+use crate::ensemble::{Ensemble, HasMember, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::recurrence::{motion_size, state_distance};
 use crate::orbit::{Orbit, OrbitError};
 use crate::parallel;
-use crate::stroke_count::StrokeCount;
+use crate::strokes::StrokeCount;
 use crate::tolerance::{SAME, STABLE_REACH};
 use crate::zone::free_amplitude;
 use nalgebra::{Complex, Vector2};

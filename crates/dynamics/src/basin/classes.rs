@@ -3,8 +3,8 @@
 use super::Basins;
 use super::survey::BasinSurvey;
 use crate::attractors::Attractor;
-use crate::attractors::known_orbit::KnownOrbit;
-use crate::member::MemberStatus;
+use crate::attractors::catalogue::KnownOrbit;
+use crate::ensemble::MemberStatus;
 use crate::motion::MotionKind;
 use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
 

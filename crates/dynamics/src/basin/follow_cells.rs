@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::basin_test::PERIODS_BETWEEN_CHECKS;
 use super::survey::{BasinSurvey, LostCell, TILE_CELLS, earlier_lost};
-use crate::member::{Member, MemberStatus};
+use crate::ensemble::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
 use crate::orbit::OrbitError;
 use crate::parallel;

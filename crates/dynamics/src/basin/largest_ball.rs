@@ -1,7 +1,6 @@
 //! The largest ball inside a basin, which measures its integrity.
 
-use super::axis::Axis;
-use super::grid::Grid;
+use super::grid::{Axis, Grid};
 
 /// The largest ball of cells inside a basin.
 #[derive(Debug, Clone, Copy, PartialEq)]

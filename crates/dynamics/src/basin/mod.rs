@@ -23,7 +23,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod axis;
 mod basin_test;
 mod certainty;
 mod classes;
@@ -35,18 +34,16 @@ mod global_continuation;
 mod grid;
 mod largest_ball;
 mod section;
-mod state_ball;
 mod survey;
 
 pub use crate::wilson_interval::wilson_interval;
-pub use axis::{Axis, AxisQuantity};
 pub(crate) use basin_test::TestedMotion;
 pub use basin_test::{BasinTest, SLOW_DECAY};
 pub use certainty::{CertaintyAtPlace, establishing_certainties};
 pub use entropy::BasinEntropy;
 pub use establishment_and_erosion::{ErosionProfile, Establishment, Integrity, zone_box};
 pub use global_continuation::{BasinsAt, follow_attractors};
-pub use grid::Grid;
+pub use grid::{Axis, AxisQuantity, Grid};
 pub use largest_ball::{BasinBall, find_largest_ball};
 pub(crate) use section::bring_to_section;
 pub use survey::find_basins;

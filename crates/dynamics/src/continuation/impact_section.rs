@@ -8,10 +8,10 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::face::Face;
-use super::half_period::is_symmetric;
 use super::period_map::{half_way, state_after};
 use super::point::Graze;
 use super::sequence::Sequence;
+use super::shooting::is_symmetric;
 use crate::monitor::stop_if;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::tolerance::{NEAR, ROUNDING};

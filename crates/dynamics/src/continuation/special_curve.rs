@@ -1,4 +1,5 @@
-//! Following a special point of a branch in two parameters, along its curve.
+//! Curves of special points in two parameters: following one from a point of a branch, and switching from its points of
+//! codimension two to the other curves that begin there.
 
 use std::ops::ControlFlow;
 
@@ -7,13 +8,16 @@ use nalgebra::Vector2;
 use super::Family;
 use super::codimension_two::{CodimensionTwo, CurvePoint};
 use super::curve::{Curve, CurveEnd, CurveLimits, follow_curve};
-use super::point::SpecialKind;
+use super::follow::Continuation;
+use super::half_branch::Limits;
+use super::point::{Graze, SpecialKind};
 use super::section_system::SectionSystem;
 use super::settings::ContinuationSettings;
 use super::shooting::{Critical, Shooting};
 use super::test_function::TestFunction;
+use crate::monitor::stop_if;
 use crate::orbit::OrbitError;
-use softstop::MotionError;
+use softstop::{CheckedScene, MotionError};
 
 /// Follows a special point, of this kind and with this state at time 0, in both directions of two parameters.
 /// `parameters` are its own: that of the branch and the value of the second; `watch` sees each point as it comes.
@@ -118,4 +122,153 @@ fn flip_near(
         monodromy: flip.monodromy.squared(),
         ..flip
     })
+}
+
+/// Scaled velocities of the weak impact at which folds and flips beside resonant grazing are looked for.
+const WEAK_VELOCITIES: [f64; 3] = [1e-2, 1e-3, 1e-4];
+
+/// The curves that begin in the points of codimension two of a curve: those of grazing, folds and flips in resonant grazing, and
+/// in a generalised flip that of flips and that of folds of orbits of twice the period. `is_known` says of a kind of curve with
+/// its drive periods whether one through the point is known already; what cannot be found is left out.
+pub fn switch_curves(
+    family: &dyn Family<2>,
+    from: &Curve,
+    region: &CurveLimits,
+    mut is_known: impl FnMut(&SpecialKind, u64, &CurvePoint) -> bool,
+    mut watch: impl FnMut(&CurvePoint) -> ControlFlow<()>,
+) -> Vec<Curve> {
+    let [folds, flips] = [TestFunction::Fold, TestFunction::Flip].map(SpecialKind::Critical);
+    let mut found = Vec::new();
+    for (special, point) in &from.specials {
+        let others = match special {
+            CodimensionTwo::Cusp => Vec::new(),
+            CodimensionTwo::GeneralisedFlip if from.kind == flips => {
+                vec![(folds, 2 * from.periods)]
+            }
+            CodimensionTwo::GeneralisedFlip => vec![(flips, from.periods / 2)],
+            CodimensionTwo::ResonantGrazing(graze) => {
+                let kinds = [folds, flips, SpecialKind::Grazing(*graze)];
+                kinds.map(|kind| (kind, from.periods)).to_vec()
+            }
+        };
+        for (kind, periods) in others {
+            if is_known(&kind, periods, point) {
+                continue;
+            }
+            let curve = match (special, kind) {
+                (CodimensionTwo::ResonantGrazing(graze), SpecialKind::Critical(test)) => {
+                    let place = (periods, graze, point.parameters);
+                    from_grazing(family, place, test, region, &mut watch)
+                }
+                _ => {
+                    let start = match kind == folds {
+                        true => fold_beside(family, from, point, region),
+                        false => Some((point.state(), point.parameters)),
+                    };
+                    start.and_then(|(state, at)| {
+                        follow_special(family, periods, (kind, state), at, region, &mut watch).ok()
+                    })
+                }
+            };
+            found.extend(curve);
+        }
+    }
+    found
+}
+
+/// The curve of folds or flips that begins in resonant grazing.
+fn from_grazing(
+    family: &dyn Family<2>,
+    (periods, graze, parameters): (u64, &Graze, [f64; 2]),
+    test: TestFunction,
+    region: &CurveLimits,
+    watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
+) -> Option<Curve> {
+    let touching = SectionSystem::of_graze(graze, (family, periods));
+    let touch = touching.section.scaled_unknowns(&[graze.angle], parameters);
+    let beside = |velocity: &f64| touching.with_weak_impact(&touch, test, *velocity).ok();
+    let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
+    let kind = SpecialKind::Critical(test);
+    let mut curve = follow_curve(&critical, kind, &node.at, region, watch).ok()?;
+    end_in_flips(family, &mut curve, region);
+    Some(curve)
+}
+
+/// State and parameters of a fold of orbits of twice the period beside a generalised flip on a curve of flips.
+fn fold_beside(
+    family: &dyn Family<2>,
+    flips: &Curve,
+    generalised: &CurvePoint,
+    region: &CurveLimits,
+) -> Option<(Vector2<f64>, [f64; 2])> {
+    let points = &flips.points;
+    let place = |point: &CurvePoint| Vector2::from(family.scaled_parameters(point.parameters));
+    let off = |point: &CurvePoint| (place(point) - place(generalised)).norm();
+    let nearest = (0..points.len()).min_by(|a, b| off(&points[*a]).total_cmp(&off(&points[*b])))?;
+    let steps = std::iter::successors(Some(1), |step| Some(2 * step));
+    let both_ways = |step: usize| [nearest.checked_sub(step), nearest.checked_add(step)];
+    let mut beside = steps
+        .take_while(|step| *step < points.len())
+        .flat_map(both_ways)
+        .flatten()
+        .filter_map(|index| points.get(index));
+    beside.find_map(|flip| {
+        let [slope, _] = family.parameter_slopes(flip.parameters);
+        let within = off(flip) * slope;
+        fold_of_doubled(family, flips.periods, flip, within, region)
+    })
+}
+
+/// The first fold of the doubled orbits of a flip along the first parameter, so near to it at most. A generalised flip is
+/// farther from the flip than such a fold is: that one only by the square of its distance.
+fn fold_of_doubled(
+    family: &dyn Family<2>,
+    periods: u64,
+    flip: &CurvePoint,
+    within: f64,
+    region: &CurveLimits,
+) -> Option<(Vector2<f64>, [f64; 2])> {
+    let [parameter, second] = flip.parameters;
+    let fixed = RestrictedFamily { family, second };
+    let along = Continuation::new(&fixed, periods)
+        .with_steps(region.settings.largest_step)
+        .ok()?;
+    let limits = Limits {
+        range: (parameter - within, parameter + within),
+        points: region.points,
+    };
+    let flip = along.find_point(parameter, flip.state()).ok()?;
+    let mut begins = None;
+    let branch = along.double_period(&flip, &limits, |point| {
+        let is_positive = point.fold_test() > 0.0;
+        stop_if(*begins.get_or_insert(is_positive) != is_positive)
+    });
+    let branch = branch.ok()?;
+    let fold = branch.critical_points(TestFunction::Fold).next()?;
+    Some((fold.state(), [fold.parameter, second]))
+}
+
+/// A family at one value of its second parameter.
+#[derive(Debug)]
+struct RestrictedFamily<'a> {
+    family: &'a dyn Family<2>,
+    second: f64,
+}
+
+impl Family for RestrictedFamily<'_> {
+    fn scene(&self, [first]: [f64; 1]) -> Result<CheckedScene, MotionError> {
+        self.family.scene([first, self.second])
+    }
+
+    fn state_scales(&self) -> [f64; 2] {
+        self.family.state_scales()
+    }
+
+    fn parameter_scales(&self) -> [f64; 1] {
+        [self.family.parameter_scales()[0]]
+    }
+
+    fn by_frequency(&self) -> [Option<f64>; 1] {
+        [self.family.by_frequency()[0]]
+    }
 }

@@ -1,20 +1,16 @@
 //! Periodic motions: shooting on the exact map, multipliers, stability.
 
-mod by_impacts;
 mod close_orbit;
 mod contact_passage;
 mod deflation;
 mod error;
 mod exponents;
-mod fixed_points;
 mod free_frequency;
 mod guess_impacts;
 mod hardest_single;
-pub(crate) mod impact_counter;
 mod impact_lattice;
 mod monodromy;
 mod multi_segment_shooting;
-mod newton;
 mod pattern;
 mod periodic;
 pub(crate) mod recurrence;
@@ -22,7 +18,6 @@ pub(crate) mod regime;
 mod search;
 mod smallest_period;
 mod stroboscopic_map;
-mod tangent_motion;
 mod trials;
 
 pub use error::OrbitError;
@@ -31,14 +26,13 @@ pub use exponents::Exponents;
 pub(crate) use hardest_single::hardest_single;
 pub(crate) use impact_lattice::{singles_about, singles_near};
 pub use monodromy::Monodromy;
-pub use newton::find_fixed_point;
 pub use pattern::{ImpactCount, ImpactPattern};
 pub use periodic::Orbit;
 pub use regime::Regime;
 pub use search::{find, find_with_monitor};
 pub(crate) use search::{find_batch, find_with_singles};
 pub(crate) use smallest_period::smallest_period;
-pub use stroboscopic_map::{Passage, StroboscopicMap};
+pub use stroboscopic_map::{Passage, StroboscopicMap, find_fixed_point};
 
 use nalgebra::{Complex, Matrix2};
 

@@ -6,7 +6,7 @@ use nalgebra::{Complex, Vector2};
 use serde::{Deserialize, Serialize};
 
 use super::guess_impacts::guess_impacts;
-use super::newton::find_fixed_point;
+use super::stroboscopic_map::find_fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
 use crate::tolerance::{NEAR, ROUNDING};
 use softstop::{CheckedScene, Instant, MotionError, Scene, Touch, Trajectory};

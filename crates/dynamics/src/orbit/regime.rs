@@ -1,12 +1,11 @@
-//! The regime z = p/n of a motion that repeats.
+//! The regime z = p/n of a motion that repeats, and the count of its impacts.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::impact_counter::ImpactCounter;
 use super::recurrence::find_return;
-use softstop::{Clock, MotionError, Scene, Start};
+use softstop::{Clock, Crossing, MotionError, Observer, Scene, Start};
 
 /// The regime z = p/n: p impacts in n drive periods, after which the state returns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -65,5 +64,15 @@ impl fmt::Display for Regime {
             (impacts, 1) => write!(formatter, "{impacts}"),
             (impacts, periods) => write!(formatter, "{impacts}/{periods}"),
         }
+    }
+}
+
+/// An observer that counts the impacts of a motion.
+#[derive(Default)]
+pub struct ImpactCounter(pub u64);
+
+impl Observer for ImpactCounter {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.0 += u64::from(crossing.impact_velocity().is_some());
     }
 }

@@ -2,12 +2,18 @@
 
 use std::slice::from_ref;
 
-use super::fixed_points::FixedPoints;
+use nalgebra::{Matrix2, Vector2};
+
 use super::impact_lattice::all_single;
-use super::trials::Trials;
-use super::{Orbit, OrbitError};
+use super::stroboscopic_map::find_new_fixed_point;
+use super::trials::{
+    Candidate, NEAR_RETURN, Trial, Trials, least_moved, scaled_distance, settled_candidates,
+};
+use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
 use crate::monitor::{Monitor, unmonitored};
-use softstop::Scene;
+use crate::tolerance::{NEAR, SAME, STABLE_REACH};
+use softstop::internals::Scales;
+use softstop::{CheckedScene, Scene};
 use softstop_lanes::Machine;
 
 /// Stages of the search: drive periods after which Newton's method takes over from where motions have moved least, and
@@ -112,4 +118,160 @@ fn search_all(
         }
     }
     found
+}
+
+/// The fixed points of a scene's map over one drive period that the search has met.
+pub(super) struct FixedPoints {
+    pub map: StroboscopicMap,
+    scales: Scales,
+    /// All of them.
+    all: Vec<FixedPoint>,
+    stable: Vec<Orbit>,
+    /// States from which Newton's method has set out.
+    tried: Vec<Vector2<f64>>,
+}
+
+/// A fixed point of the map, with what tells which states lead to it.
+struct FixedPoint {
+    state: Vector2<f64>,
+    /// What leads to it from a state, times what that moves: Newton's method with the Jacobian of the fixed point.
+    lead: Option<Matrix2<f64>>,
+    /// Distance within which another state stands for it.
+    reach: f64,
+    is_stable: bool,
+}
+
+impl FixedPoint {
+    /// A fixed point at a state, with its monodromy matrix.
+    fn new(state: Vector2<f64>, monodromy: Monodromy) -> Self {
+        let is_stable = monodromy.is_stable();
+        Self {
+            state,
+            lead: monodromy.resolvent(),
+            reach: if is_stable { STABLE_REACH } else { NEAR },
+            is_stable,
+        }
+    }
+}
+
+impl FixedPoints {
+    /// A search of a scene's fixed points that has met none.
+    pub fn new(scene: &CheckedScene) -> Self {
+        Self {
+            map: StroboscopicMap::new(scene, 1),
+            scales: scene.motion_scales(),
+            all: Vec::new(),
+            stable: Vec::new(),
+            tried: Vec::new(),
+        }
+    }
+
+    /// Searches fixed points from where trial motions have moved least, and then from where they are after some numbers
+    /// of periods; the hardest stable z = 1 motion met so far if there is one and all is looked at.
+    pub fn search_trials(
+        &mut self,
+        trials: &[Trial],
+        after: &[u64],
+        groups: usize,
+        monitor: Monitor<'_>,
+    ) -> Result<Option<Orbit>, OrbitError> {
+        OrbitError::ask_monitor(monitor)?;
+        self.search_candidates(least_moved(trials), monitor)?;
+        if after.is_empty() {
+            return Ok(None);
+        }
+        if groups > 1 || self.stable_singles().next().is_none() {
+            self.search_candidates(settled_candidates(trials, after), monitor)?;
+        }
+        self.tried.clear();
+        Ok(self.hardest_single())
+    }
+
+    /// The stable z = 1 motion with the hardest impact met so far.
+    pub fn hardest_single(&self) -> Option<Orbit> {
+        let hardest = self.stable_singles().max_by(|a, b| a.compare_velocity(b));
+        hardest.cloned()
+    }
+
+    /// The stable motions with one impact per drive period met so far.
+    fn stable_singles(&self) -> impl Iterator<Item = &Orbit> {
+        let faintest = SAME * self.scales.speed();
+        let is_single = move |orbit: &&Orbit| {
+            orbit.impacts.len() == 1 && orbit.before_impact_velocity() > faintest
+        };
+        self.stable.iter().filter(is_single)
+    }
+
+    /// Searches a fixed point by Newton's method from each candidate that no other one stands for.
+    fn search_candidates(
+        &mut self,
+        candidates: Vec<Candidate>,
+        monitor: Monitor<'_>,
+    ) -> Result<(), OrbitError> {
+        for candidate in candidates {
+            OrbitError::ask_monitor(monitor)?;
+            let Candidate { moves, state, .. } = candidate;
+            let stands = |other: &Vector2<f64>| self.scaled_gap(*other, state) < 0.5 * moves;
+            if !self.is_known(state)
+                && !self.tried.iter().any(stands)
+                && !self
+                    .all
+                    .iter()
+                    .any(|fixed| self.leads_to(fixed, &candidate))
+            {
+                self.tried.push(state);
+                self.search_from_state(state);
+            }
+        }
+        Ok(())
+    }
+
+    /// Distance of two states, in scales of the motion.
+    fn scaled_gap(&self, a: Vector2<f64>, b: Vector2<f64>) -> f64 {
+        scaled_distance(&self.scales, a, b)
+    }
+
+    /// True if a state stands for a fixed point that was met.
+    fn is_known(&self, state: Vector2<f64>) -> bool {
+        let mut all = self.all.iter();
+        all.any(|other| self.scaled_gap(other.state, state) < other.reach)
+    }
+
+    /// True if a candidate has moved as the Jacobian of a fixed point has it near that one.
+    fn leads_to(&self, to: &FixedPoint, candidate: &Candidate) -> bool {
+        let moved = candidate.state - candidate.before;
+        let off = |lead| self.scaled_gap(candidate.before + lead * moved, to.state);
+        to.lead.is_some_and(|lead| off(lead) < to.reach)
+    }
+
+    /// True if a motion that moves little settles on a stable fixed point that was met, as its Jacobian has it.
+    pub fn predicts_stable(&self, last: &Candidate) -> bool {
+        let mut stable = self.all.iter().filter(|fixed| fixed.is_stable);
+        last.moves < NEAR_RETURN && stable.any(|fixed| self.leads_to(fixed, last))
+    }
+
+    /// Searches a fixed point by Newton's method from a state, unless it comes near one that was met.
+    fn search_from_state(&mut self, state: Vector2<f64>) {
+        let found = find_new_fixed_point(&self.map, state, |state| self.is_known(state));
+        let scales = self.map.scene().scales();
+        let steepness = |passage: &Passage| scales.jacobian(&passage.monodromy).norm();
+        let orbit = match found {
+            Ok(None) => return,
+            Ok(Some((state, passage))) if NEAR * steepness(&passage) <= 1.0 => {
+                self.all.push(FixedPoint::new(state, passage.monodromy));
+                if !passage.monodromy.is_stable() {
+                    return;
+                }
+                self.stable.push(Orbit::from_map(1, state, passage));
+                return;
+            }
+            Ok(_) => Orbit::find_near(self.map.scene(), state).ok(),
+            Err(_) => Orbit::find_by_guesses(self.map.scene(), state, 1, 1),
+        };
+        if let Some(orbit) = orbit.filter(|orbit| orbit.periods == 1) {
+            self.all
+                .push(FixedPoint::new(orbit.state(), orbit.monodromy));
+            self.stable.extend(orbit.is_stable().then_some(orbit));
+        }
+    }
 }

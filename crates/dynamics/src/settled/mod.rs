@@ -21,8 +21,7 @@ pub use settled_motion::{SettledMotion, classify_wandering};
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::Region;
-use crate::ensemble::Ensemble;
-use crate::member::{HasMember, Member, MemberStatus};
+use crate::ensemble::{Ensemble, HasMember, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::Regime;
 use crate::orbit::recurrence::RETURN_DISTANCE;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::LN_10;
 
-use crate::member::Member;
+use crate::ensemble::Member;
 use crate::motion::MotionKind;
 use crate::orbit::recurrence::find_settled_period;
 use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};

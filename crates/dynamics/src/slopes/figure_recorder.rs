@@ -1,14 +1,12 @@
-//! An observer that records the figures of a motion with their derivatives.
+//! Figures with their derivatives, and an observer that records those of a motion.
 
 use nalgebra::Vector3;
 
+use crate::tolerance::ROUNDING;
 use softstop::internals::{
-    ParameterSensitivity, Phase, PhaseDerivatives, PhaseId, Phases, turning_points,
+    ParameterSensitivity, Phase, PhaseDerivatives, PhaseId, Phases, narrow_root, turning_points,
 };
 use softstop::{Arc, Clock, Crossing, CrossingKind, Observer, PhaseKind};
-
-use super::differentiated_figure::DifferentiatedFigure;
-use super::force_peaks::force_peaks;
 
 /// The figures that were recorded, with derivatives by position and velocity at time 0, then by the parameters.
 #[derive(Debug, Clone, Default)]
@@ -193,4 +191,66 @@ impl Observer for FigureRecorder<'_> {
         self.influence.crossing(crossing);
         self.edge = Some((delays, crossing.acceleration_after));
     }
+}
+
+/// Pieces of an arc in which force peaks are looked for: for each rad of the fastest rate, at least and at most.
+const PEAK_PIECES: (f64, f64, f64) = (2.0, 4.0, 4096.0);
+
+/// The peaks of the contact force on an arc: times in s since its start, with position, velocity and acceleration.
+pub(super) fn force_peaks<'a>(
+    phases: &'a Phases,
+    phase: &'a Phase,
+    arc: &'a Arc<'_>,
+    elapsed: f64,
+) -> impl Iterator<Item = (f64, [f64; 3])> + 'a {
+    let free = &phases[PhaseId::FREE].law;
+    let state = move |time: f64| {
+        let at = arc.at(time);
+        let push = phases.amplitude * arc.drive(time).cos;
+        let (x, v) = (at.position, at.velocity);
+        [x, v, phases.acceleration(phase.id, x, v, push)]
+    };
+    let rate = move |time: f64| {
+        let [x, v, a] = state(time);
+        let (stiffness, damping) = phase.slopes(x, v);
+        phase.side * ((stiffness - free.stiffness) * v + (damping - free.damping) * a)
+    };
+    let (each, least, most) = PEAK_PIECES;
+    let fastest = phase.flow.modes.fastest_rate().max(phases.frequency);
+    let pieces = (each * fastest * elapsed).ceil().clamp(least, most);
+    let piece = elapsed / pieces;
+    let mut before = rate(0.0);
+    (1..=pieces as u32).filter_map(move |index| {
+        let time = piece * f64::from(index);
+        let here = rate(time);
+        let last = std::mem::replace(&mut before, here);
+        if !(last > 0.0 && here <= 0.0) {
+            return None;
+        }
+        let ends = ((time - piece, last), (time, here));
+        let found = narrow_root(ends.0, ends.1, ROUNDING * piece, |time| {
+            Ok::<_, ()>(rate(time))
+        });
+        let time = found.ok()?.middle();
+        Some((time, state(time)))
+    })
+}
+
+/// A figure of a motion with its derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DifferentiatedFigure {
+    /// The figure.
+    pub value: f64,
+    /// Its derivatives in SI units, in the order of [`Slopes::parameters`](super::Slopes).
+    pub by: Vec<f64>,
+}
+
+/// An impact of a motion, time and velocity with their derivatives.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct DifferentiatedImpact {
+    /// Time in s.
+    pub time: DifferentiatedFigure,
+    /// Before-impact velocity in m/s.
+    pub velocity: DifferentiatedFigure,
 }

@@ -17,14 +17,12 @@
 //! ```
 
 mod border;
-mod differentiated_figure;
 mod figure_recorder;
-mod force_peaks;
 mod stability;
 mod variation;
 
 pub use border::{Border, BorderKind};
-pub use differentiated_figure::{DifferentiatedFigure, DifferentiatedImpact};
+pub use figure_recorder::{DifferentiatedFigure, DifferentiatedImpact};
 pub use stability::{Stability, stability};
 
 use softstop::Parameter;

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use softstop::{Parameter, Scene};
 
-use super::differentiated_figure::DifferentiatedFigure;
+use super::figure_recorder::DifferentiatedFigure;
 use super::variation::Variation;
 use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::SAME;

@@ -5,8 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use softstop::internals::PhaseDerivatives;
 use softstop::{CheckedScene, MotionError, Parameter};
 
-use super::differentiated_figure::DifferentiatedFigure;
-use super::figure_recorder::{FigureRecorder, RecordedFigures};
+use super::figure_recorder::{DifferentiatedFigure, FigureRecorder, RecordedFigures};
 use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
 use crate::tolerance::TEST_ROUNDING;
 

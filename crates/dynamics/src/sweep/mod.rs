@@ -27,13 +27,9 @@
 //! ```
 
 mod chain;
-mod coexistence;
 mod run;
-mod step;
 
-pub use chain::{Chain, Jump};
-pub use coexistence::{Coexistence, find_coexistences};
-pub use step::Step;
+pub use chain::{Chain, Coexistence, Jump, Step, find_coexistences};
 
 use thiserror::Error;
 

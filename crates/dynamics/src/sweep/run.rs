@@ -6,10 +6,9 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::step::Step;
+use super::chain::Step;
 use super::{Chain, Plan};
-use crate::ensemble::Ensemble;
-use crate::member::Member;
+use crate::ensemble::{Ensemble, Member};
 use crate::monitor::{Monitor, OptionalMemory, PIECE_DURATION, recall_or_compute};
 use crate::parallel;
 use crate::settled::SettledMotion;

@@ -1,7 +1,6 @@
 //! The end of the stable motions of a branch that was followed.
 
-use super::end::{ZoneEnd, first_end};
-use super::loss::Loss;
+use super::end::{Loss, ZoneEnd, first_end};
 use crate::continuation::{
     Branch, BranchPoint, Continuation, Direction, Limits, SpecialKind, TestFunction,
 };

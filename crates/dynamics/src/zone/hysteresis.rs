@@ -6,9 +6,8 @@
 //! motions come back (48 periods, 10,400 each). The search for the next crossing, with its proof, is 40 % of a period with
 //! its Jacobian.
 
-use super::end::ZoneEnd;
+use super::end::{Loss, ZoneEnd};
 use super::followed_end::{LONGEST_BRANCH, follow_to_end};
-use super::loss::Loss;
 use super::stable_range::StableRange;
 use super::stable_ranges::{FOLLOWED_RANGE, find_stable_ranges};
 use super::{BranchEnd, Frequencies, ZoneError, grazing_frequencies, refuse_below};

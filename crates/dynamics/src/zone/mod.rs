@@ -2,7 +2,6 @@
 //! (g0, in closed form), the hysteresis zone from there to the fold s_SN, the flip s_PD (Peterka 2003,
 //! section 3); and all ranges of stable z = 1, wherever they are. In the scene's own units, with any stop.
 
-mod bounds;
 mod end;
 mod error;
 mod find;
@@ -10,14 +9,12 @@ pub(crate) mod followed_end;
 mod frequencies;
 mod grazing;
 mod hysteresis;
-mod loss;
 mod loss_of_stability;
 mod single_impact;
 mod stable_range;
 mod stable_ranges;
 
-pub use bounds::Bounds;
-pub use end::ZoneEnd;
+pub use end::{Loss, ZoneEnd};
 pub use error::{BranchEnd, StatedFrequency, ZoneError};
 pub use find::{find, find_among, find_with_monitor, find_zones};
 pub use frequencies::Frequencies;
@@ -25,8 +22,7 @@ pub use grazing::{free_amplitude, grazing_frequencies};
 pub use hysteresis::{
     hysteresis, hysteresis_and_stable_ranges, hysteresis_batch, hysteresis_with_monitor,
 };
-pub use loss::Loss;
-pub use loss_of_stability::{find_end_along, loss_of_stability};
+pub use loss_of_stability::{Bounds, find_end_along, loss_of_stability};
 pub use single_impact::single_impact;
 pub use stable_range::StableRange;
 pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};

@@ -4,8 +4,7 @@ use std::cell::RefCell;
 
 use nalgebra::{Vector2, Vector4};
 
-use super::end::ZoneEnd;
-use super::loss::Loss;
+use super::end::{Loss, ZoneEnd};
 use super::{Frequencies, Zone};
 use crate::continuation::{Branch, BranchPoint, Continuation, End, Family, OFF_CHORD, SpecialKind};
 use crate::orbit::OrbitError;

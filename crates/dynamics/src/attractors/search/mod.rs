@@ -7,11 +7,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::catalogue::AttractorCatalogue;
-use super::chaos::Chaos;
-use super::escape_counts::EscapeCounts;
+use super::chaos::{Chaos, EscapeCounts};
 use super::{Arrival, Attractor, Region, SearchOptions, Survey};
-use crate::ensemble::Ensemble;
-use crate::member::{Member, MemberStatus};
+use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::find_return;
 use crate::orbit::{self, Exponents, Orbit, OrbitError, Regime, hardest_single};

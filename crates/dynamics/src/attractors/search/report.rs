@@ -1,11 +1,11 @@
 //! The survey that a search of attractors reports.
 
+use super::super::catalogue::KnownOrbit;
 use super::super::chaos::Chaos;
-use super::super::known_orbit::KnownOrbit;
 use super::super::{Attractor, Region, Survey};
 use super::{Group, Search, SearchMember};
+use crate::ensemble::MemberStatus;
 use crate::extremes::extremes;
-use crate::member::MemberStatus;
 use crate::motion::MotionKind;
 use crate::orbit::{Exponents, OrbitError};
 use softstop::MotionError;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::chaos::Chaos;
 use super::super::group_logs::group_logs;
 use super::{BATCH_GROWTH, Group, Search};
-use crate::member::{Member, MemberStatus};
+use crate::ensemble::{Member, MemberStatus};
 use crate::orbit::{BATCH_PERIODS, Exponents, OrbitError};
 use softstop::Start;
 

@@ -1,9 +1,65 @@
-//! The motion of a loaded machine through a gap of missing strips.
+//! The strokes that a motion misses, and the motion through a gap of missing strips.
 
-use crate::stroke_count::StrokeCount;
-use crate::stroke_observer::StrokeObserver;
+use std::ops::ControlFlow;
+
+use crate::monitor::stop_if;
 use softstop::internals::Motion;
-use softstop::{CheckedScene, Instant, MotionError};
+use softstop::{CheckedScene, Crossing, Instant, MotionError, Observer};
+
+/// Counts the strokes that a motion misses: an impact that comes n drive periods after the last one and not one has
+/// missed n - 1, whatever the drive angles at which they come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrokeCount {
+    last: f64,
+    missed: u64,
+}
+
+impl StrokeCount {
+    /// The count from an impact on, at a time in drive periods.
+    pub const fn after_impact(impact: f64) -> Self {
+        Self {
+            last: impact,
+            missed: 0,
+        }
+    }
+
+    /// Counts the strokes missed before an impact at a time in drive periods.
+    pub fn record_impact(&mut self, time: f64) {
+        self.missed = self.missed_strokes(time);
+        self.last = time;
+    }
+
+    /// Strokes missed up to a time in drive periods.
+    pub fn missed_strokes(&self, time: f64) -> u64 {
+        self.missed + ((time - self.last).round() as u64).saturating_sub(1)
+    }
+}
+
+/// Counts the strokes of a motion, and stops it where the mass leaves strip or stop.
+pub(crate) struct StrokeObserver<'a> {
+    pub clearance: f64,
+    /// The drive period in s.
+    pub period: f64,
+    pub strokes: &'a mut StrokeCount,
+    /// Whether the motion stops where the mass leaves strip or stop.
+    pub stops: bool,
+    /// True once it has left them.
+    pub left: bool,
+}
+
+impl Observer for StrokeObserver<'_> {
+    fn crossing(&mut self, crossing: &Crossing) {
+        self.left |= crossing.position == self.clearance && crossing.velocity_after < 0.0;
+        if crossing.kind.is_impact() {
+            let Instant { cycles, offset } = crossing.instant;
+            self.strokes.record_impact(cycles + offset / self.period);
+        }
+    }
+
+    fn progress(&mut self, _: u64) -> ControlFlow<()> {
+        stop_if(self.stops && self.left)
+    }
+}
 
 /// Drive periods for which the mass may stay beyond the clearance before strips change all the same.
 const MAX_PERIODS_BEYOND: u64 = 16;
