@@ -4,10 +4,10 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct};
-use super::impact_section::SectionPoint;
 use super::normal_form::normal_form_coefficient;
 use super::period_map::PeriodMap;
 use super::point::Graze;
+use super::section_orbit::SectionPoint;
 use super::section_system::SectionSystem;
 use super::sequence::Sequence;
 use super::shooting::Critical;
@@ -185,7 +185,7 @@ impl Codimension for Critical<'_, 2> {
 
 impl Codimension for SectionSystem<'_, 2> {
     fn family_and_periods(&self) -> (&dyn Family<2>, u64) {
-        (self.section.family, self.section.periods)
+        (self.family, self.periods)
     }
 
     fn critical_test(&self) -> Option<TestFunction> {
@@ -204,8 +204,8 @@ impl Codimension for SectionSystem<'_, 2> {
         if self.critical_test().is_some() {
             return None;
         }
-        let scene = self.section.scene_at(0.0, self.parameters(&node.at));
-        let is_hard = scene.is_ok_and(|(scene, _)| self.section.face.is_steep(&scene));
+        let scene = self.scene_at(0.0, self.parameters(&node.at));
+        let is_hard = scene.is_ok_and(|(scene, _)| self.face.is_steep(&scene));
         let value = node.here.point.response;
         let kind = CodimensionTwo::ResonantGrazing(self.graze_at(node));
         Some((kind, if is_hard { value } else { 0.0 }))

@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 use super::Family;
 use super::arclength::{Node, correct};
 use super::face::{Face, NearTouch};
-use super::impact_section::SectionPoint;
 use super::period_map::PeriodMap;
 use super::point::{BranchPoint, Graze, Special, SpecialKind};
+use super::section_orbit::SectionPoint;
 use super::section_system::SectionSystem;
 use super::shooting::Shooting;
 use crate::orbit::OrbitError;
@@ -171,9 +171,9 @@ pub(crate) fn find_grazing(
     parameter: f64,
 ) -> Result<Special, OrbitError> {
     let touching = SectionSystem::of_graze(near, (family, periods));
-    let guess = touching.section.scaled_unknowns(&[near.angle], [parameter]);
+    let guess = touching.scaled_unknowns(&[near.angle], [parameter]);
     let node = correct(&touching, &guess, None)?;
-    let [parameter] = touching.section.parameters(&node.at);
+    let [parameter] = touching.parameters(&node.at);
     let state = touching.state(&node.at)?;
     let SectionPoint {
         monodromy,

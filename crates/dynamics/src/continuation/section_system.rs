@@ -8,15 +8,17 @@
 //! system, too: from rest at the surface at a drive angle, over whole periods back to it. (Arclength and Newton near
 //! grazing: arXiv 2506.18379, arXiv 2510.16218.)
 
+use std::f64::consts::TAU;
+
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Evaluation, Node, correct};
 use super::face::Face;
-use super::impact_section::{ImpactSection, LastArc, SectionPoint};
-use super::period_map::carry_through;
+use super::period_map::{carry_through, half_way, state_after};
 use super::point::Graze;
-use super::shooting::{end_derivatives, round_off};
+use super::section_orbit::{LastArc, NO_CROSSING, SectionPoint};
+use super::shooting::{end_derivatives, is_symmetric, round_off};
 use super::test_function::TestFunction;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::record_trajectory::record_trajectory;
@@ -35,20 +37,34 @@ pub(crate) enum SectionCondition {
     Impact(TestFunction),
 }
 
-/// Orbits of a family that fulfil a condition at an impact section, in unknowns: drive angle there, scaled velocity of an
-/// impact, scaled parameters.
-#[derive(Debug)]
+/// Orbits of a family that fulfil a condition at an impact section, the surface at which they begin and end, in unknowns: drive
+/// angle there, scaled velocity of an impact, scaled parameters.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct SectionSystem<'a, const N: usize> {
-    /// The surface, and the crossings of the orbit, a touch left out.
-    pub section: ImpactSection<'a, N>,
+    pub family: &'a dyn Family<N>,
+    pub periods: u64,
+    /// Crossings of an orbit between its begin and its last arc, a touch left out.
+    crossings: usize,
+    /// The surface.
+    pub face: Face,
+    /// True of orbits that are their own mirror images: they come back to the mirror image of the surface after half of their
+    /// periods.
+    is_symmetric: bool,
     pub condition: SectionCondition,
 }
 
 impl<'a, const N: usize> SectionSystem<'a, N> {
     /// The grazing orbits of a family over a number of drive periods that touch as another one does.
-    pub fn of_graze(graze: &Graze, orbits: (&'a dyn Family<N>, u64)) -> Self {
+    pub fn of_graze(graze: &Graze, (family, periods): (&'a dyn Family<N>, u64)) -> Self {
         Self {
-            section: ImpactSection::of_graze(graze, orbits),
+            family,
+            periods,
+            crossings: match graze.is_symmetric {
+                true => graze.crossings / 2,
+                false => graze.crossings,
+            },
+            face: graze.face,
+            is_symmetric: graze.is_symmetric,
             condition: SectionCondition::Touch,
         }
     }
@@ -78,19 +94,19 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
             return Ok(None);
         };
         let is_told = matches!(entry.kind, CrossingKind::Rebound { .. });
-        let section = ImpactSection {
+        let system = Self {
             family,
             periods,
             crossings: motion.crossings().count() - usize::from(!is_told),
             face,
             is_symmetric: false,
+            condition: SectionCondition::Impact(test),
         };
         let time = motion.clock.time(entry.instant);
         let angle = scene.excitation.phase + scene.excitation.frequency * time;
         let [_, speed] = family.state_scales();
-        let guess = section.scaled_unknowns(&[angle, entry.velocity.abs() / speed], parameters);
-        let condition = SectionCondition::Impact(test);
-        Ok(Some((Self { section, condition }, guess)))
+        let guess = system.scaled_unknowns(&[angle, entry.velocity.abs() / speed], parameters);
+        Ok(Some((system, guess)))
     }
 
     /// The orbit with a weak impact of this velocity, in units of the family's scales, where these graze, but for symmetric
@@ -101,15 +117,14 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
         test: TestFunction,
         velocity: f64,
     ) -> Result<(Self, Node<SectionPoint>), OrbitError> {
-        if self.section.is_symmetric {
+        if self.is_symmetric {
             return Err(OrbitError::NotIsolated);
         }
-        let section = ImpactSection {
-            crossings: self.section.crossings + 1,
-            ..self.section
+        let critical = Self {
+            crossings: self.crossings + 1,
+            condition: SectionCondition::Impact(test),
+            ..*self
         };
-        let condition = SectionCondition::Impact(test);
-        let critical = Self { section, condition };
         let guess = touch.clone().insert_row(1, velocity);
         let given = DVector::from_fn(guess.len(), |row, _| f64::from(u8::from(row == 1)));
         let node = correct(&critical, &guess, Some(&given))?;
@@ -118,12 +133,12 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
 
     /// The system of resonant grazing of orbits with an impact, and its unknowns near them.
     pub fn resonant_grazing_system(&self, at: &DVector<f64>) -> (Self, DVector<f64>) {
-        let section = ImpactSection {
-            crossings: self.section.crossings - 1,
-            ..self.section
+        let system = Self {
+            crossings: self.crossings - 1,
+            condition: SectionCondition::ResonantTouch,
+            ..*self
         };
-        let condition = SectionCondition::ResonantTouch;
-        (Self { section, condition }, at.clone().remove_row(1))
+        (system, at.clone().remove_row(1))
     }
 
     /// The test that vanishes on orbits with an impact.
@@ -136,14 +151,55 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
 
     /// Velocity in m/s at the section, upwards; 0 of a touch.
     fn velocity(&self, at: &DVector<f64>) -> f64 {
-        let [_, speed] = self.section.family.state_scales();
+        let [_, speed] = self.family.state_scales();
         let impact = self.critical_test().map(|_| at[1] * speed);
-        impact.map_or(0.0, |velocity| self.section.face.side_sign() * velocity)
+        impact.map_or(0.0, |velocity| self.face.side_sign() * velocity)
+    }
+
+    /// Unknowns of an orbit at the section: its drive angle and what else it has there, then the parameters, scaled.
+    pub fn scaled_unknowns(&self, places: &[f64], parameters: [f64; N]) -> DVector<f64> {
+        let scaled = self.family.scaled_parameters(parameters);
+        DVector::from_iterator(places.len() + N, places.iter().copied().chain(scaled))
+    }
+
+    /// The parameters of these unknowns, which are the last of them.
+    pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
+        self.family.unscaled_parameters(at.as_slice())
+    }
+
+    /// The scene with time 0 at the section, where the drive has this angle, and the position of the surface.
+    pub fn scene_at(
+        &self,
+        angle: f64,
+        parameters: [f64; N],
+    ) -> Result<(CheckedScene, f64), OrbitError> {
+        let scene = self.family.scene(parameters)?.at_phase(angle)?;
+        if self.is_symmetric && !is_symmetric(&scene) {
+            return Err(OrbitError::NotAlike);
+        }
+        let position = self.face.face_position(&scene).ok_or(NO_CROSSING)?;
+        Ok((scene, position))
     }
 
     /// The state of the orbit at time 0 of the family's scene.
     pub fn state(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
-        self.section.state(at, self.velocity(at))
+        let (angle, parameters) = (at[0], self.parameters(at));
+        let phase = self.family.scene(parameters)?.excitation.phase;
+        let (scene, position) = self.scene_at(angle, parameters)?;
+        let gone = ((angle - phase) / TAU).rem_euclid(self.periods as f64);
+        let begin = Vector2::new(position, self.velocity(at));
+        let (left, half) = (self.periods as f64 - gone, 0.5 * self.periods as f64);
+        Ok(match self.is_symmetric && left > half {
+            true => -state_after(&scene, begin, left - half)?,
+            false => state_after(&scene, begin, left)?,
+        })
+    }
+
+    /// How far the end of the way around is from its start, or from the mirror image of that, scaled; of changes of both as well.
+    pub fn scaled_drift(&self, start: Vector2<f64>, end: Vector2<f64>) -> Vector2<f64> {
+        let side = if self.is_symmetric { -1.0 } else { 1.0 };
+        let scales = Vector2::from(self.family.state_scales());
+        (side * end - start).component_div(&scales)
     }
 
     /// The touch of a grazing orbit, as of a crossing that dies.
@@ -152,23 +208,28 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
             angle: node.at[0],
             impacts: node.here.point.impacts.len(),
             dies: true,
-            face: self.section.face,
-            crossings: match self.section.is_symmetric {
-                true => 2 * self.section.crossings,
-                false => self.section.crossings,
+            face: self.face,
+            crossings: match self.is_symmetric {
+                true => 2 * self.crossings,
+                false => self.crossings,
             },
-            is_symmetric: self.section.is_symmetric,
+            is_symmetric: self.is_symmetric,
         }
     }
 
-    /// The orbit around from the section, how far it is off there, scaled, its scene, and where it begins.
+    /// The orbit around from the section, how far it is off when it comes back, scaled, its scene, and where it begins.
     fn carry_around(
         &self,
         at: &DVector<f64>,
     ) -> Result<(Vector2<f64>, LastArc, CheckedScene, Vector2<f64>), OrbitError> {
-        let (scene, position) = self.section.scene_at(at[0], self.section.parameters(at))?;
+        let (scene, position) = self.scene_at(at[0], self.parameters(at))?;
         let begin = Vector2::new(position, self.velocity(at));
-        let (drift, around) = self.section.carry_around(&scene, begin)?;
+        let until = match self.is_symmetric {
+            true => half_way(&scene, self.periods),
+            false => Clock::at_cycle(self.periods),
+        };
+        let around = LastArc::carry_past(&scene, begin, (self.crossings, until))?;
+        let drift = self.scaled_drift(begin, around.motion.end.into());
         Ok((drift, around, scene, begin))
     }
 }
@@ -185,7 +246,7 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
         let (drift, around, scene, begin) = self.carry_around(at)?;
         let tangent = around.motion.tangent();
         let entry = test.and_then(|_| entry_jump(&around.motion, &scene, begin));
-        let is_impact = entry.is_some() && self.section.face.is_clearance();
+        let is_impact = entry.is_some() && self.face.is_clearance();
         let told = around.motion.impacts();
         let told = told.map(|it| it.before_impact_velocity);
         let own = is_impact.then_some(begin.y.abs()).into_iter();
@@ -194,12 +255,12 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
             (entry.unwrap_or_else(Matrix2::identity), 1.0),
             (tangent.matrix, tangent.determinant),
         ];
-        if self.section.is_symmetric {
+        if self.is_symmetric {
             // The way back is the mirror image of the way there.
             impacts.extend_from_within(..);
             factors.extend_from_within(..);
         }
-        let sizes = self.section.family.state_scales();
+        let sizes = self.family.state_scales();
         let orbit = Evaluation {
             residual: DVector::from_column_slice(drift.as_slice()),
             tolerance: round_off(&scene, &begin, &Monodromy::from(&tangent), sizes),
@@ -226,15 +287,15 @@ impl<const N: usize> Equations for SectionSystem<'_, N> {
         }
         let SectionPoint { place, motion, .. } = &here.point;
         let scene_at = |place: &DVector<f64>| {
-            let parameters = self.section.parameters(place);
-            Some(self.section.scene_at(place[0], parameters).ok()?.0)
+            let parameters = self.parameters(place);
+            Some(self.scene_at(place[0], parameters).ok()?.0)
         };
-        let position = self.section.face.face_position(&motion.scene)?;
+        let position = self.face.face_position(&motion.scene)?;
         let orbit = (&**motion, Vector2::new(position, 0.0), true);
         let ends = end_derivatives(orbit, (place, 0..place.len()), scene_at)?;
         let drifts = ends
             .into_iter()
-            .map(|(end, begin)| self.section.scaled_drift(Vector2::new(begin, 0.0), end));
+            .map(|(end, begin)| self.scaled_drift(Vector2::new(begin, 0.0), end));
         let drifts: Vec<_> = drifts.collect();
         Some(DMatrix::from_fn(2, drifts.len(), |row, column| {
             drifts[column][row]

@@ -61,7 +61,7 @@ fn follow_raw(
         SpecialKind::Pitchfork => Err(OrbitError::NotIsolated),
         SpecialKind::Grazing(graze) => {
             let touching = SectionSystem::of_graze(&graze, (family, periods));
-            let guess = touching.section.scaled_unknowns(&[graze.angle], parameters);
+            let guess = touching.scaled_unknowns(&[graze.angle], parameters);
             follow_curve(&touching, kind, &guess, region, watch)
         }
     }
@@ -185,7 +185,7 @@ fn from_grazing(
     watch: &mut dyn FnMut(&CurvePoint) -> ControlFlow<()>,
 ) -> Option<Curve> {
     let touching = SectionSystem::of_graze(graze, (family, periods));
-    let touch = touching.section.scaled_unknowns(&[graze.angle], parameters);
+    let touch = touching.scaled_unknowns(&[graze.angle], parameters);
     let beside = |velocity: &f64| touching.with_weak_impact(&touch, test, *velocity).ok();
     let (critical, node) = WEAK_VELOCITIES.iter().find_map(beside)?;
     let kind = SpecialKind::Critical(test);

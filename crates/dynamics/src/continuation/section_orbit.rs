@@ -1,37 +1,15 @@
-//! Impact sections: orbits seen from a surface at which they begin, and to which their last arc is taken back.
+//! Orbits seen from a surface at which they begin, and to which their last arc is taken back.
 
-use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc as Shared;
 
 use nalgebra::{DVector, Vector2};
 
-use super::Family;
-use super::face::Face;
-use super::period_map::{half_way, state_after};
-use super::point::Graze;
 use super::sequence::Sequence;
-use super::shooting::is_symmetric;
 use crate::monitor::stop_if;
 use crate::orbit::{Monodromy, OrbitError};
 use crate::tolerance::{NEAR, ROUNDING};
-use softstop::{
-    Arc, CheckedScene, Clock, Crossing, CrossingKind, Instant, Observer, Start, Trajectory,
-};
-
-/// An impact section of a family: the surface at which its orbits begin and end.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ImpactSection<'a, const N: usize> {
-    pub family: &'a dyn Family<N>,
-    pub periods: u64,
-    /// Crossings of an orbit between its begin and its last arc.
-    pub crossings: usize,
-    /// The surface.
-    pub face: Face,
-    /// True of orbits that are their own mirror images: they come back to the mirror image of the surface after half of their
-    /// periods.
-    pub is_symmetric: bool,
-}
+use softstop::{Arc, CheckedScene, Crossing, CrossingKind, Instant, Observer, Start, Trajectory};
 
 /// An orbit seen from an impact section.
 #[derive(Debug, Clone)]
@@ -62,86 +40,9 @@ impl SectionPoint {
 }
 
 /// The error of an orbit that does not cross as often as it should, or of a scene without the surface or the symmetry.
-const NO_CROSSING: OrbitError = OrbitError::Diverged {
+pub(super) const NO_CROSSING: OrbitError = OrbitError::Diverged {
     residual: f64::INFINITY,
 };
-
-impl<'a, const N: usize> ImpactSection<'a, N> {
-    /// The section at the surface that an orbit grazes.
-    pub fn of_graze(graze: &Graze, (family, periods): (&'a dyn Family<N>, u64)) -> Self {
-        Self {
-            family,
-            periods,
-            crossings: match graze.is_symmetric {
-                true => graze.crossings / 2,
-                false => graze.crossings,
-            },
-            face: graze.face,
-            is_symmetric: graze.is_symmetric,
-        }
-    }
-
-    /// Unknowns of an orbit at the section: its drive angle and what else it has there, then the parameters, scaled.
-    pub fn scaled_unknowns(&self, places: &[f64], parameters: [f64; N]) -> DVector<f64> {
-        let scaled = self.family.scaled_parameters(parameters);
-        DVector::from_iterator(places.len() + N, places.iter().copied().chain(scaled))
-    }
-
-    /// The parameters of these unknowns, which are the last of them.
-    pub fn parameters(&self, at: &DVector<f64>) -> [f64; N] {
-        self.family.unscaled_parameters(at.as_slice())
-    }
-
-    /// The scene with time 0 at the section, where the drive has this angle, and the position of the surface.
-    pub fn scene_at(
-        &self,
-        angle: f64,
-        parameters: [f64; N],
-    ) -> Result<(CheckedScene, f64), OrbitError> {
-        let scene = self.family.scene(parameters)?.at_phase(angle)?;
-        if self.is_symmetric && !is_symmetric(&scene) {
-            return Err(OrbitError::NotAlike);
-        }
-        let position = self.face.face_position(&scene).ok_or(NO_CROSSING)?;
-        Ok((scene, position))
-    }
-
-    /// Carries a motion around from the section: how far it is off when it comes back, scaled, and the motion.
-    pub fn carry_around(
-        &self,
-        scene: &CheckedScene,
-        start: Vector2<f64>,
-    ) -> Result<(Vector2<f64>, LastArc), OrbitError> {
-        let until = match self.is_symmetric {
-            true => half_way(scene, self.periods),
-            false => Clock::at_cycle(self.periods),
-        };
-        let around = LastArc::carry_past(scene, start, (self.crossings, until))?;
-        let drift = self.scaled_drift(start, around.motion.end.into());
-        Ok((drift, around))
-    }
-
-    /// How far the end of the way around is from its start, or from the mirror image of that, scaled; of changes of both as well.
-    pub fn scaled_drift(&self, start: Vector2<f64>, end: Vector2<f64>) -> Vector2<f64> {
-        let side = if self.is_symmetric { -1.0 } else { 1.0 };
-        let scales = Vector2::from(self.family.state_scales());
-        (side * end - start).component_div(&scales)
-    }
-
-    /// The state at time 0 of the family's scene of an orbit that leaves the section with a velocity.
-    pub fn state(&self, at: &DVector<f64>, velocity: f64) -> Result<Vector2<f64>, OrbitError> {
-        let (angle, parameters) = (at[0], self.parameters(at));
-        let phase = self.family.scene(parameters)?.excitation.phase;
-        let (scene, position) = self.scene_at(angle, parameters)?;
-        let gone = ((angle - phase) / TAU).rem_euclid(self.periods as f64);
-        let begin = Vector2::new(position, velocity);
-        let (left, half) = (self.periods as f64 - gone, 0.5 * self.periods as f64);
-        Ok(match self.is_symmetric && left > half {
-            true => -state_after(&scene, begin, left - half)?,
-            false => state_after(&scene, begin, left)?,
-        })
-    }
-}
 
 /// A motion whose arc after a number of crossings is carried to the end, whether or not something comes in between.
 pub(crate) struct LastArc {
