@@ -227,7 +227,7 @@ impl Machine {
         let mut passes = Passes(false);
         let backstop = || match halt {
             None => simulation.watch(until, effort),
-            Some(halt) => simulation.watch_before(until, halt, &mut (effort, &mut passes)),
+            Some(halt) => simulation.watch_before(until, Some(halt), &mut (effort, &mut passes)),
         };
         let (outcome, _) = budget::within(BACKSTOP, backstop);
         if passes.0 {

@@ -136,11 +136,15 @@ impl Simulation {
         until: f64,
         observer: &mut dyn Observer,
     ) -> Result<ControlFlow<()>, MotionError> {
-        self.watch_halting(until, None, observer)
+        self.watch_before(until, None, observer)
     }
 
-    /// Advances the machine as [`Simulation::watch`], and from a time on stops before crossings, as [`Simulation::watch_before`].
-    pub(super) fn watch_halting(
+    /// Advances as [`Simulation::watch`], but stops right before the first crossing that does not happen before the time
+    /// `halt` in s; [`Simulation::cross`] lets it happen. One that is after `until` by rounding alone counts as before it.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn watch_before(
         &mut self,
         until: f64,
         halt: Option<f64>,

@@ -73,20 +73,6 @@ impl Motion {
 }
 
 impl Simulation {
-    /// Advances as [`Simulation::watch`], but stops right before the first crossing that does not happen before the time
-    /// `halt` in s; [`Simulation::cross`] lets it happen. One that is after `until` by rounding alone counts as before it.
-    ///
-    /// # Errors
-    /// As [`Simulation::advance`].
-    pub fn watch_before(
-        &mut self,
-        until: f64,
-        halt: f64,
-        observer: &mut dyn Observer,
-    ) -> Result<ControlFlow<()>, MotionError> {
-        self.watch_halting(until, Some(halt), observer)
-    }
-
     /// True if the machine stands right before a crossing.
     pub fn is_at_crossing(&self) -> bool {
         self.motion.is_at_crossing()

@@ -29,9 +29,8 @@ use serde::{Deserialize, Serialize};
 /// m x'' + b1 x' + k1 x + F(x, x') = F0 cos(w t + phi) + f(t)        (Peterka 2003, eq. 8)
 /// ```
 ///
-/// [`Ratios`] holds the same in the paper's dimensionless quantities; the two agree through [`Ratios::scene`] and
-/// [`Ratios::dimensional`]. Any scene with m = k1 = F0 = 1 is dimensionless, and [`Scene::in_units`] makes it
-/// dimensional.
+/// [`Ratios`] holds the same in the paper's dimensionless quantities; the two agree through [`Ratios::scene`]. Any
+/// scene with m = k1 = F0 = 1 is dimensionless, and [`Scene::in_units`] makes it dimensional.
 ///
 /// Time scales may not lie too far apart: sqrt(k/m) of each spring is at most 1e7 times the drive's frequency, b/m of
 /// each damper 1e9 times. A contact is known to eight digits of the motion where springs keep that limit and dampers 1e6,

@@ -1,8 +1,8 @@
-//! The paper's dimensionless quantities and their way to SI units.
+//! The paper's dimensionless quantities.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Piercing, RigidStop, Scene, Stop, Units};
+use super::{Piercing, RigidStop, Scene, Stop};
 use crate::error::SceneError;
 
 /// Dimensionless parameters as in Peterka 2003, section 3: stiffness ratios in units of k1,
@@ -83,13 +83,5 @@ impl Ratios {
         scene.excitation.frequency = self.frequency;
         scene.validate()?;
         Ok(scene)
-    }
-
-    /// The scene in the given units.
-    ///
-    /// # Errors
-    /// [`SceneError`] if a unit is not positive or a ratio is out of range.
-    pub fn dimensional(&self, units: Units) -> Result<Scene, SceneError> {
-        self.scene()?.in_units(units)
     }
 }

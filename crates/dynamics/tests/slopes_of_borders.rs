@@ -25,7 +25,7 @@ fn normals_are_those_of_zones_computed_anew() {
             .collect();
         let of = |scene: &Scene| zone::hysteresis(scene).expect("a zone");
         let zone = of(&scene);
-        let fold = Border::at_critical(
+        let fold = Border::at_special(
             &scene,
             1,
             (TestFunction::Fold, &zone.high.point),
@@ -82,7 +82,7 @@ fn borders(scene: &Scene) -> Vec<Border> {
         .expect("a branch");
     let specials = branch.specials.iter();
     specials
-        .map(|special| Border::at_special(scene, 1, special, &parameters).expect("smooth"))
+        .map(|it| Border::at_special(scene, 1, (it.kind, &it.point), &parameters).expect("smooth"))
         .collect()
 }
 

@@ -40,7 +40,8 @@ fn designs() -> impl Strategy<Value = (Scene, f64)> {
             };
             let (mass, stiffness, force) = scales;
             let units = units(mass, stiffness, force);
-            (ratios.dimensional(units).expect("valid"), share)
+            let scene = ratios.scene().and_then(|scene| scene.in_units(units));
+            (scene.expect("valid"), share)
         })
 }
 
@@ -126,7 +127,7 @@ fn judged(scene: &Scene, share: f64) -> Option<Tally> {
         .iter()
         .map(|figure| figure.value.abs())
         .collect();
-    let fold = Border::at_critical(
+    let fold = Border::at_special(
         scene,
         1,
         (TestFunction::Fold, &zone.high.point),

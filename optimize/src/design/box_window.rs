@@ -137,7 +137,7 @@ impl Corners<'_> {
             if set > 0 {
                 let scene = self.spread.scene(&corner);
                 let border =
-                    Border::at_critical(&scene, 1, (TestFunction::Fold, &fold), &[]).ok()?;
+                    Border::at_special(&scene, 1, (TestFunction::Fold, &fold), &[]).ok()?;
                 for (bit, index) in doubtful.iter().enumerate() {
                     if set >> bit & 1 == 1 {
                         corner[*index] *= -1.0;

@@ -138,7 +138,7 @@ impl<'a> Linearization<'a> {
                 let flip =
                     loss_of_stability(motion.orbit, Direction::Down, TestFunction::Flip).ok()??;
                 let scene = &motion.orbit.scene;
-                let border = Border::at_critical(scene, 1, (TestFunction::Flip, &flip), parameters);
+                let border = Border::at_special(scene, 1, (TestFunction::Flip, &flip), parameters);
                 Some(above(&border.ok()?))
             }
             Figure::Share if motion.place < 0.5 => Some(self.place.clone()),

@@ -44,7 +44,7 @@ pub(super) fn inside(about: &Linearization<'_>, edge: &Edge) -> Option<Slope> {
         None => (Border::at_g0(&scene, true, rows.parameters()).ok()?, 1.0),
         Some(fold) => {
             let fold = (TestFunction::Fold, fold);
-            let border = Border::at_critical(&scene, 1, fold, rows.parameters()).ok()?;
+            let border = Border::at_special(&scene, 1, fold, rows.parameters()).ok()?;
             (border, -1.0)
         }
     };
@@ -111,7 +111,7 @@ fn by_normal(
 ) -> Option<Vec<f64>> {
     let rows = Rows::at(about, end)?;
     point.parameter = scene.excitation.frequency;
-    let border = Border::at_critical(scene, 1, (test, &point), rows.parameters()).ok()?;
+    let border = Border::at_special(scene, 1, (test, &point), rows.parameters()).ok()?;
     let (by, outwards) = rows.across(&border);
     Some(by.iter().map(|by| -share * by / outwards).collect())
 }

@@ -25,14 +25,14 @@ pub fn free_normal(spread: &Tolerances, at: &[f64]) -> Result<Vec<f64>, ZoneErro
 /// the branch over the frequency of the machine at some coordinates.
 ///
 /// # Errors
-/// [`OrbitError`] as of [`Border::at_critical`].
+/// [`OrbitError`] as of [`Border::at_special`].
 pub fn critical_normal(
     spread: &Tolerances,
     at: &[f64],
     (test, point): (TestFunction, &BranchPoint),
 ) -> Result<Vec<f64>, OrbitError> {
     let (scene, parameters) = (spread.scene(at), varied(spread, at));
-    let border = Border::at_critical(&scene, 1, (test, point), &parameters)?;
+    let border = Border::at_special(&scene, 1, (test, point), &parameters)?;
     Ok(normal(spread, at, &border))
 }
 

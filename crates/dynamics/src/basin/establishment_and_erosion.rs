@@ -86,7 +86,23 @@ impl Establishment {
         starts: usize,
         monitor: Monitor<'_>,
     ) -> Result<(Self, f64), OrbitError> {
-        certainty_and_ball_radius(orbit, region, &region.starts(starts, START_SEED), monitor)
+        let states = region.starts(starts, START_SEED);
+        let basin_test = BasinTest::of(orbit)?;
+        let reached = basin_test.test_starts(&states, monitor)?;
+        let certainty = Self::from_reached(&reached, region);
+        let ball = StateBall::new(orbit, region);
+        let mut radius = ball.nearest_lost_distance(&states, &reached, ball.edge_distance(region));
+        while radius > MIN_BALL_RADIUS {
+            let filling =
+                ball.starts_in_ball(radius, (states.len() / FILL_DIVISOR).max(MIN_FILL_STARTS));
+            let reached = basin_test.test_starts(&filling, monitor)?;
+            let smaller = ball.nearest_lost_distance(&filling, &reached, radius);
+            if smaller == radius {
+                return Ok((certainty, radius));
+            }
+            radius = smaller;
+        }
+        Ok((certainty, 0.0))
     }
 
     /// The establishment of a motion from which of the starts in a region have reached it.
@@ -185,9 +201,9 @@ impl ErosionProfile {
         let held = region.widened_to_hold(&zone.scene, &all.collect::<Vec<_>>());
         let widened = held != *region;
         let region = held;
-        let states = region.starts(starts, START_SEED);
         let place = |(place, orbit): &(&f64, &Orbit)| -> Result<Integrity, ZoneError> {
-            let (certainty, radius) = certainty_and_ball_radius(orbit, &region, &states, monitor)?;
+            let (certainty, radius) =
+                Establishment::with_ball_radius(orbit, &region, starts, monitor)?;
             Ok(Integrity {
                 place: **place,
                 frequency: orbit.scene.excitation.frequency,
@@ -209,31 +225,6 @@ impl ErosionProfile {
         let last = count.saturating_sub(1).max(1) as f64;
         (0..count).map(|place| place as f64 / last).collect()
     }
-}
-
-/// The establishment of a motion in a region, and the radius of the largest ball of starts about it.
-fn certainty_and_ball_radius(
-    orbit: &Orbit,
-    region: &Region,
-    states: &[Start],
-    monitor: Monitor<'_>,
-) -> Result<(Establishment, f64), OrbitError> {
-    let basin_test = BasinTest::of(orbit)?;
-    let reached = basin_test.test_starts(states, monitor)?;
-    let certainty = Establishment::from_reached(&reached, region);
-    let ball = StateBall::new(orbit, region);
-    let mut radius = ball.nearest_lost_distance(states, &reached, ball.edge_distance(region));
-    while radius > MIN_BALL_RADIUS {
-        let filling =
-            ball.starts_in_ball(radius, (states.len() / FILL_DIVISOR).max(MIN_FILL_STARTS));
-        let reached = basin_test.test_starts(&filling, monitor)?;
-        let smaller = ball.nearest_lost_distance(&filling, &reached, radius);
-        if smaller == radius {
-            return Ok((certainty, radius));
-        }
-        radius = smaller;
-    }
-    Ok((certainty, 0.0))
 }
 
 /// Balls of starts about the state of an orbit, in units of half of each axis of a box.

@@ -54,6 +54,12 @@ pub enum SpecialKind {
     Pitchfork,
 }
 
+impl From<TestFunction> for SpecialKind {
+    fn from(test: TestFunction) -> Self {
+        Self::Critical(test)
+    }
+}
+
 /// The touch of an orbit that grazes a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]

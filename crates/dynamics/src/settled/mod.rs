@@ -21,32 +21,12 @@ pub use settled_motion::{SettledMotion, classify_wandering};
 use serde::{Deserialize, Serialize};
 
 use crate::attractors::Region;
-use crate::ensemble::{Ensemble, HasMember, Member, MemberStatus};
+use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::Regime;
 use crate::orbit::recurrence::RETURN_DISTANCE;
 use softstop::{MotionError, Scene, Start};
 use softstop_lanes::Machine;
-
-/// A motion that is followed until it settles, and what it was seen to have come to last.
-struct FollowedMotion {
-    member: Member,
-    seen: Option<SettledMotion>,
-}
-
-impl HasMember for FollowedMotion {
-    fn member_mut(&mut self) -> &mut Member {
-        &mut self.member
-    }
-}
-
-impl FollowedMotion {
-    /// A motion of the machine with this number from a start.
-    fn new(machine: usize, start: Start) -> Self {
-        let (member, seen) = (Member::new(machine, start), None);
-        Self { member, seen }
-    }
-}
 
 /// How long motions are followed until they have settled, and how they are watched.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -81,40 +61,43 @@ impl Settling {
         monitor: Monitor<'_>,
     ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
         let mut machines = Vec::new();
-        let motions = motions.iter().map(|(scene, start)| {
-            let mut motion = FollowedMotion::new(machines.len(), *start);
+        let members = motions.iter().map(|(scene, start)| {
+            let mut member = Member::new(machines.len(), *start);
             let lowered = start
                 .validate()
                 .and_then(|()| Ok(Machine::new(&scene.check()?)));
             match lowered {
                 Ok(machine) => machines.push(machine),
-                Err(error) => motion.member.mark_lost(error),
+                Err(error) => member.mark_lost(error),
             }
-            motion
+            member
         });
-        let motions = motions.collect();
-        self.settle_members(machines, motions, monitor)
+        let members = members.collect();
+        self.settle_members(machines, members, monitor)
     }
 
     /// Follows motions of these machines until they settle, and returns what each has come to.
     fn settle_members(
         &self,
         machines: Vec<Machine>,
-        mut motions: Vec<FollowedMotion>,
+        mut members: Vec<Member>,
         monitor: Monitor<'_>,
     ) -> Option<Vec<Result<SettledMotion, MotionError>>> {
         let quiet = |_, _| monitor(0, 0);
         let ensemble = Ensemble::new(machines, &quiet);
+        // What each was seen to have come to last.
+        let mut seen: Vec<Option<SettledMotion>> = vec![None; members.len()];
         let (mut followed, mut next) = (0, self.periods);
         while next >= self.watched {
-            let open = motions.iter_mut();
-            let mut open: Vec<_> = open.filter(|it| it.member.status.is_open()).collect();
+            let pairs = members.iter_mut().zip(&mut seen);
+            let open = pairs.filter(|(member, _)| member.status.is_open());
+            let (mut open, seen): (Vec<_>, Vec<_>) = open.unzip();
             if open.is_empty() {
                 break;
             }
             ensemble.record_run(&mut open, next, self.watched).ok()?;
             followed += next;
-            for FollowedMotion { member, seen } in open {
+            for (member, seen) in open.into_iter().zip(seen) {
                 if member.error.is_some() {
                     continue;
                 }
@@ -127,9 +110,10 @@ impl Settling {
             }
             next = followed.min(self.longest.saturating_sub(followed));
         }
-        let settled = motions.into_iter().map(|it| match it.member.error {
+        let ends = members.into_iter().zip(seen);
+        let settled = ends.map(|(member, seen)| match member.error {
             Some(error) => Some(Err(error)),
-            None => it.seen.map(Ok),
+            None => seen.map(Ok),
         });
         settled.collect()
     }
@@ -146,8 +130,8 @@ impl Settling {
         let machine = vec![Machine::new(&scene.check().ok()?)];
         let region = region.unwrap_or_else(|| Region::start_box(scene, []));
         let starts = region.starts(starts, 0).into_iter();
-        let motions = starts.map(|start| FollowedMotion::new(0, start));
-        let seen = self.settle_members(machine, motions.collect(), monitor)?;
+        let members = starts.map(|start| Member::new(0, start)).collect();
+        let seen = self.settle_members(machine, members, monitor)?;
         let regimes = seen.iter().flatten().map(SettledMotion::regime);
         let come = regimes.filter(|regime| *regime == Some(Regime::ONE));
         Some(come.count() as f64 / seen.len() as f64)

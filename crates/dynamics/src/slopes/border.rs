@@ -111,42 +111,9 @@ impl Border {
     ) -> Result<Self, ZoneError> {
         match (&end.loss, end.special) {
             (Loss::FreeGrazing, _) => Self::at_g0(scene, true, parameters),
-            (_, Some(kind)) => Ok(Self::at_point(scene, 1, (kind, &end.point), parameters)?),
+            (_, Some(kind)) => Ok(Self::at_special(scene, 1, (kind, &end.point), parameters)?),
             (_, None) => Err(OrbitError::no_derivative(parameters).into()),
         }
-    }
-
-    /// The border at a special point of a branch of z = p/n over the frequency; the frequency of the scene's drive plays no
-    /// part.
-    ///
-    /// # Errors
-    /// [`OrbitError`] where the motion has no derivatives.
-    pub fn at_special(
-        scene: &Scene,
-        periods: u64,
-        special: &Special,
-        parameters: &[Parameter],
-    ) -> Result<Self, OrbitError> {
-        Self::at_point(scene, periods, (special.kind, &special.point), parameters)
-    }
-
-    /// The border where a test of the monodromy matrix vanishes, at an orbit there: a fold, as that of a
-    /// [`Zone`](crate::Zone), or a flip.
-    ///
-    /// # Errors
-    /// As [`Border::at_special`].
-    pub fn at_critical(
-        scene: &Scene,
-        periods: u64,
-        (test, point): (TestFunction, &BranchPoint),
-        parameters: &[Parameter],
-    ) -> Result<Self, OrbitError> {
-        Self::at_point(
-            scene,
-            periods,
-            (SpecialKind::Critical(test), point),
-            parameters,
-        )
     }
 
     /// This border of a machine close by: Newton's method finds it from this one along its normal.
@@ -168,7 +135,7 @@ impl Border {
             parameter: self.predicted_frequency(scene),
             ..near.clone()
         };
-        let special = match motion {
+        let Special { kind, point } = match motion {
             SpecialKind::Critical(test) => Special {
                 kind: motion,
                 point: Continuation::new(&family, *periods).locate(&guess, test)?,
@@ -179,7 +146,12 @@ impl Border {
                 find_grazing((&family, *periods), &graze, phase, guess.parameter)?
             }
         };
-        Ok(Self::at_special(scene, *periods, &special, parameters)?)
+        Ok(Self::at_special(
+            scene,
+            *periods,
+            (kind, &point),
+            parameters,
+        )?)
     }
 
     /// The border's frequency in rad/s of a machine close by, as its tangent predicts it.
@@ -195,13 +167,18 @@ impl Border {
         self.frequency() - change.sum::<f64>()
     }
 
-    /// The border at a special point of a branch, by the kind of the point, with its normal.
-    fn at_point(
+    /// The border at a special point of a branch of z = p/n over the frequency, such as a fold, as that of a
+    /// [`Zone`](crate::Zone), by the kind of the point; the frequency of the scene's drive plays no part.
+    ///
+    /// # Errors
+    /// [`OrbitError`] where the motion has no derivatives.
+    pub fn at_special(
         scene: &Scene,
         periods: u64,
-        (kind, point): (SpecialKind, &BranchPoint),
+        (kind, point): (impl Into<SpecialKind>, &BranchPoint),
         parameters: &[Parameter],
     ) -> Result<Self, OrbitError> {
+        let kind = kind.into();
         let scene = scene.at_frequency(point.parameter).check()?;
         // The frequency, and what follows it.
         let mut along = vec![(Parameter::Frequency, 1.0)];

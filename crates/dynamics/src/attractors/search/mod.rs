@@ -244,7 +244,7 @@ impl<'a> Search<'a> {
     fn end_states(&self) -> impl Iterator<Item = &Start> + Clone {
         let members = self.members.iter().map(|it| &it.member);
         members.flat_map(|member| match member.status {
-            MemberStatus::Arrived(orbit) => self.catalogue.orbits[orbit].section_states(),
+            MemberStatus::Arrived(orbit) => &self.catalogue.orbits[orbit].states,
             _ => &member.states,
         })
     }
