@@ -136,17 +136,16 @@ impl Machine {
 
     /// Makes a stop anew from what is set of it: a new model from that and its clearance alone.
     fn rebuild_stops(&mut self, changes: &[(String, &str)]) -> Result<(), MachineError> {
-        let set = |words: &keys::WordKeys| {
-            let all = words.all();
+        let set = |words: keys::WordKeys| {
             let mut keys = changes.iter().map(|(key, _)| key);
-            let is_new = changes.iter().any(|(key, _)| key == words.model);
+            let is_new = changes.iter().any(|(key, _)| key == words[0]);
             keys.any(|key| {
                 let slope = SlopeKey::parse(key).map(|it| it.is_below);
-                all.contains(&key.as_str()) || slope == Some(all == keys::STOP_BELOW_WORDS.all())
+                words.contains(&key.as_str()) || slope == Some(words == keys::STOP_BELOW_WORDS)
             })
             .then_some(is_new)
         };
-        if let Some(is_new) = set(&keys::STOP_WORDS) {
+        if let Some(is_new) = set(keys::STOP_WORDS) {
             let mut stop = Table::new();
             if is_new {
                 self.preload_deflection = None;
@@ -157,7 +156,7 @@ impl Machine {
             self.scene.stop =
                 Stop::deserialize(stop).map_err(|error| stop_error(&error, "stop"))?;
         }
-        if let Some(is_new) = set(&keys::STOP_BELOW_WORDS) {
+        if let Some(is_new) = set(keys::STOP_BELOW_WORDS) {
             let mut stop = Table::try_from(&self.scene.below).unwrap_or_default();
             stop.retain(|key, _| !is_new || key == "clearance");
             set_in_stop(&mut stop, changes, true)?;

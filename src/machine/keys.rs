@@ -14,57 +14,38 @@ pub(super) const VELOCITY: &str = "initial.velocity";
 pub(super) const FREQUENCY_HZ: &str = "excitation.frequency_hz";
 /// Key of the deflection by the preload, in m, beside the preload in N.
 pub(super) const PRELOAD_DEFLECTION: &str = "stop.preload_deflection";
-/// Key of the model of the stop above.
-const MODEL: &str = "stop.model";
-/// Key of the rule by which the stop above is left.
-const RELEASE: &str = "stop.release";
-/// Key of the slopes of the force of the stop above while it is loaded.
-const LOADING: &str = "stop.loading";
-/// Key of the slopes of the force of the stop above while it is unloaded.
-const UNLOADING: &str = "stop.unloading";
-
-/// Keys of a stop whose values are no numbers.
-pub(super) struct WordKeys {
-    pub model: &'static str,
-    pub release: &'static str,
-    pub loading: &'static str,
-    pub unloading: &'static str,
-}
+/// Keys of a stop whose values are no numbers: its model, the rule by which it is left, and the slopes of its force while it is
+/// loaded and unloaded.
+pub(super) type WordKeys = [&'static str; 4];
 
 /// The keys of the stop above whose values are words or lists.
-pub(super) const STOP_WORDS: WordKeys = WordKeys {
-    model: MODEL,
-    release: RELEASE,
-    loading: LOADING,
-    unloading: UNLOADING,
-};
+pub(super) const STOP_WORDS: WordKeys = [
+    "stop.model",
+    "stop.release",
+    "stop.loading",
+    "stop.unloading",
+];
 
 /// The keys of the stop below whose values are words or lists.
-pub(super) const STOP_BELOW_WORDS: WordKeys = WordKeys {
-    model: "stop.below.model",
-    release: "stop.below.release",
-    loading: "stop.below.loading",
-    unloading: "stop.below.unloading",
-};
+pub(super) const STOP_BELOW_WORDS: WordKeys = [
+    "stop.below.model",
+    "stop.below.release",
+    "stop.below.loading",
+    "stop.below.unloading",
+];
 
-impl WordKeys {
-    pub const fn all(&self) -> [&'static str; 4] {
-        [self.model, self.release, self.loading, self.unloading]
-    }
-
-    /// True if a stop of this law has such a key.
-    fn fits(&self, key: &str, stop: &Stop) -> bool {
-        match stop {
-            Stop::KelvinVoigt { .. } => key == self.release,
-            Stop::PiecewiseLinear { .. } => key == self.loading || key == self.unloading,
-            _ => false,
-        }
+/// True if a stop of this law has one of these keys beside its model.
+fn has_word(key: &str, [_, release, loading, unloading]: WordKeys, stop: &Stop) -> bool {
+    match stop {
+        Stop::KelvinVoigt { .. } => key == release,
+        Stop::PiecewiseLinear { .. } => key == loading || key == unloading,
+        _ => false,
     }
 }
 
 /// The keys of both stops whose values are no numbers: they make a new stop.
 pub(super) fn word_keys() -> impl Iterator<Item = &'static str> {
-    STOP_WORDS.all().into_iter().chain(STOP_BELOW_WORDS.all())
+    STOP_WORDS.into_iter().chain(STOP_BELOW_WORDS)
 }
 
 /// The stop of a key, true if it is the one below, and the key's name in its table.
@@ -110,22 +91,16 @@ impl<'a> SlopeKey<'a> {
 }
 
 /// Keys of a file that name no [`Parameter`], of machines in SI units.
-pub(super) const OTHER_KEYS: [&str; 14] = [
-    FREQUENCY_HZ,
-    MODEL,
-    RELEASE,
-    LOADING,
-    UNLOADING,
-    STOP_BELOW_WORDS.model,
-    STOP_BELOW_WORDS.release,
-    STOP_BELOW_WORDS.loading,
-    STOP_BELOW_WORDS.unloading,
-    PRELOAD_DEFLECTION,
-    POSITION,
-    VELOCITY,
-    "name",
-    "description",
-];
+fn other_keys() -> impl Iterator<Item = &'static str> {
+    let rest = [
+        PRELOAD_DEFLECTION,
+        POSITION,
+        VELOCITY,
+        "name",
+        "description",
+    ];
+    [FREQUENCY_HZ].into_iter().chain(word_keys()).chain(rest)
+}
 
 /// Tables of a file that are no part of the machine: the task of `softstop optimize`.
 pub(super) const TASK_TABLES: [&str; 7] = [
@@ -144,9 +119,7 @@ pub(super) fn all_keys(unit_system: UnitSystem) -> Vec<&'static str> {
     let numbers = Parameter::ALL
         .into_iter()
         .filter(|it| !(ratios && it.is_unit()));
-    let further = OTHER_KEYS
-        .into_iter()
-        .filter(|key| !(ratios && *key == FREQUENCY_HZ));
+    let further = other_keys().filter(|key| !(ratios && *key == FREQUENCY_HZ));
     numbers.map(Parameter::name).chain(further).collect()
 }
 
@@ -302,22 +275,22 @@ impl Machine {
             PRELOAD_DEFLECTION => {
                 self.preload_deflection.is_none() && self.value(Parameter::Preload).is_some()
             }
-            RELEASE | LOADING | UNLOADING => STOP_WORDS.fits(key, &self.scene.stop),
-            key if STOP_BELOW_WORDS.all().contains(&key) => match &self.scene.below {
-                Some(below) => {
-                    key == STOP_BELOW_WORDS.model || STOP_BELOW_WORDS.fits(key, &below.stop)
-                }
-                None => false,
-            },
+            key if STOP_WORDS[1..].contains(&key) => has_word(key, STOP_WORDS, &self.scene.stop),
+            key if STOP_BELOW_WORDS.contains(&key) => {
+                let is_of =
+                    |stop| key == STOP_BELOW_WORDS[0] || has_word(key, STOP_BELOW_WORDS, stop);
+                self.scene.below.as_ref().is_some_and(|it| is_of(&it.stop))
+            }
             _ => true,
         };
-        let further = OTHER_KEYS.into_iter().filter(has);
+        let further = other_keys().filter(has);
         self.parameter_names().into_iter().chain(further).collect()
     }
 
     /// The error that this machine does not have a key, with those that it `has`.
     pub(super) fn unknown_key(&self, key: &str, has: Vec<&'static str>) -> MachineError {
-        let exists = OTHER_KEYS.contains(&key) || Parameter::ALL.iter().any(|it| it.is_called(key));
+        let is_parameter = Parameter::ALL.iter().any(|it| it.is_called(key));
+        let exists = is_parameter || other_keys().any(|it| it == key);
         if exists {
             return MachineError::Lacks {
                 key: key.to_owned(),

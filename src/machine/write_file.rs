@@ -82,9 +82,9 @@ impl Machine {
                 lines.push(Line(key, value, self.label_of(parameter)));
             }
         }
-        self.add_words(&self.scene.stop, &keys::STOP_WORDS, &mut lines);
+        self.add_words(&self.scene.stop, keys::STOP_WORDS, &mut lines);
         if let Some(below) = &self.scene.below {
-            self.add_words(&below.stop, &keys::STOP_BELOW_WORDS, &mut lines);
+            self.add_words(&below.stop, keys::STOP_BELOW_WORDS, &mut lines);
         }
         for (key, value, what, dimension) in [
             (
@@ -107,12 +107,13 @@ impl Machine {
     }
 
     /// Adds what is no number of a stop: its model ahead of its numbers, the rest at the end.
-    fn add_words(&self, stop: &Stop, keys: &WordKeys, lines: &mut Vec<Line>) {
+    fn add_words(&self, stop: &Stop, keys: WordKeys, lines: &mut Vec<Line>) {
+        let [model, release_key, loading_key, unloading_key] = keys;
         let word = |word: &str| format!("\"{word}\"");
-        let table = keys.model.trim_end_matches("model");
+        let table = model.trim_end_matches("model");
         let is_stops = |line: &Line| line.0.starts_with(table);
         let place = lines.iter().position(is_stops).unwrap_or(lines.len());
-        let model = Line(keys.model, word(stop.model()), String::new());
+        let model = Line(model, word(stop.model()), String::new());
         lines.insert(place, model);
         match stop {
             Stop::KelvinVoigt { release, .. } => {
@@ -121,15 +122,15 @@ impl Machine {
                     Release::ZeroForce => "zeroForce",
                 };
                 let meaning = "when a mass that moves back is let go".to_owned();
-                lines.push(Line(keys.release, word(name), meaning));
+                lines.push(Line(release_key, word(name), meaning));
             }
             Stop::PiecewiseLinear { loading, unloading } => {
                 let from = self.label("from this deflection", "", Dimension::Length);
                 let slope = self.label("this stiffness", "", Dimension::Stiffness);
                 let meaning = format!("{from} on {slope}");
-                lines.push(Line(keys.loading, slopes_text(loading), meaning.clone()));
+                lines.push(Line(loading_key, slopes_text(loading), meaning.clone()));
                 if !unloading.is_empty() {
-                    lines.push(Line(keys.unloading, slopes_text(unloading), meaning));
+                    lines.push(Line(unloading_key, slopes_text(unloading), meaning));
                 }
             }
             _ => {}
