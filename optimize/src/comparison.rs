@@ -115,7 +115,7 @@ impl Table<'_> {
             Some(orbit.velocity)
         });
         self.add_figure(["largest multiplier |μ|", ""], number, false, &|orbit| {
-            let moduli = orbit.multipliers().map(|it| it.norm());
+            let moduli = orbit.monodromy.multipliers().map(|it| it.norm());
             moduli.into_iter().reduce(f64::max)
         });
     }

@@ -24,17 +24,6 @@ pub(crate) struct Transition {
     pub by_frequency: Option<Vector2<f64>>,
 }
 
-impl Transition {
-    /// The derivatives along an arc on which the mass is held.
-    pub fn of_held_mass(course: &ArcSolution) -> Self {
-        Self {
-            matrix: Matrix2::new(1.0, 0.0, 0.0, 0.0),
-            damping: 0.0,
-            by_frequency: (!course.is_chattering()).then(Vector2::zeros),
-        }
-    }
-}
-
 /// A small change of a motion: of position and velocity at departure, and of the constant push per mass from there on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Variation {

@@ -10,7 +10,7 @@ pub use parameter_sensitivity::ParameterSensitivity;
 pub use phase_derivatives::PhaseDerivatives;
 pub use sensitivity::{Perturbation, Sensitivity};
 
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Vector2};
 
 use crate::flow::Transition;
 use crate::integrator::{Arc, Crossing, CrossingKind, Observer};
@@ -46,7 +46,11 @@ impl Tangent {
             Some(_) => arc.course.transition(elapsed, since),
             None => {
                 self.determinant = 0.0;
-                Transition::of_held_mass(arc.course)
+                Transition {
+                    matrix: Matrix2::new(1.0, 0.0, 0.0, 0.0),
+                    damping: 0.0,
+                    by_frequency: (!arc.course.is_chattering()).then(Vector2::zeros),
+                }
             }
         };
         self.damping_integral += transition.damping;

@@ -172,9 +172,9 @@ fn states<'a>() -> [Column<Found<'a>>; 5] {
 
 fn stabilities<'a>() -> [Column<Found<'a>>; 3] {
     columns! { Found<'a>, it;
-        "trace" [None] Six, "trace of the monodromy" => it.1.trace();
-        "determinant" [None] Six, "its determinant" => it.1.determinant();
-        "multipliers" [None] Six, "Floquet multipliers" => multipliers(it.1.multipliers());
+        "trace" [None] Six, "trace of the monodromy" => it.1.monodromy.trace();
+        "determinant" [None] Six, "its determinant" => it.1.monodromy.determinant();
+        "multipliers" [None] Six, "Floquet multipliers" => multipliers(it.1.monodromy.multipliers());
     }
 }
 

@@ -52,7 +52,7 @@ fn orbits_of_twins_are_the_same() -> Outcome {
             other.before_impact_velocity(),
         );
         near(own.max_position * length, other.max_position);
-        near(own.trace(), other.trace());
+        near(own.monodromy.trace(), other.monodromy.trace());
         let hertz = twin.value(Parameter::Frequency).ok_or("no frequency")?;
         let eta = machine.value(Parameter::Frequency).ok_or("no frequency")?;
         near(hertz * std::f64::consts::TAU, eta * UNITS.frequency());

@@ -13,7 +13,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
         orbit.regime(),
         orbit.before_impact_velocity()
     );
-    println!("multipliers {:?}", orbit.multipliers());
+    println!("multipliers {:?}", orbit.monodromy.multipliers());
     assert_abs_diff_eq!(
         orbit.before_impact_velocity(),
         6.494_627_429_363,
@@ -22,6 +22,6 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert!(orbit.is_stable() && exponents.per_period[0] < 0.0);
     // No sliding: the determinant is that of the damping alone.
     let damped = (-orbit.damping_integral).exp();
-    assert_abs_diff_eq!(orbit.determinant() / damped, 1.0, epsilon = 1e-9);
+    assert_abs_diff_eq!(orbit.monodromy.determinant() / damped, 1.0, epsilon = 1e-9);
     Ok(())
 }

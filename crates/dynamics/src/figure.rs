@@ -121,7 +121,7 @@ impl Figure {
             Self::CutThrough => stroke.beyond_strip.unwrap_or(f64::NAN),
             Self::RigidGap => stroke.before_wall.unwrap_or(f64::NAN),
             Self::Multiplier => {
-                let moduli = orbit.multipliers().map(|it| it.norm());
+                let moduli = orbit.monodromy.multipliers().map(|it| it.norm());
                 moduli.into_iter().fold(0.0, f64::max)
             }
             _ => return None,

@@ -103,7 +103,7 @@ fn the_half_order_motion_gives_way_to_chaos_at_its_flip() {
     assert_eq!(names(&above), ["1-0", "1-1-0", "1-1-0-0"]);
     let mut orbits = above.attractors.iter().flat_map(|found| &found.orbit);
     let half = orbits.find(|orbit| orbit.periods == 2);
-    let half = half.map(|orbit| orbit.multipliers()[0].re);
+    let half = half.map(|orbit| orbit.monodromy.multipliers()[0].re);
     let off = half.expect("z = 1/2") + 0.9994;
     assert_near(off, 0.0, 1e-5);
     let below = survey(&unloaded(0.988_494));

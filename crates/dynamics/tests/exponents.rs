@@ -41,7 +41,7 @@ fn on_periodic_motions_they_are_the_logarithms_of_the_multipliers() {
             assert_near(*map, period * flow, ROUNDING);
         }
         let sum: f64 = exact.per_period.iter().sum();
-        let divergence = orbit.determinant().abs().ln() / orbit.periods as f64;
+        let divergence = orbit.monodromy.determinant().abs().ln() / orbit.periods as f64;
         assert!(is_near(sum, divergence, MOTION), "{sum} {divergence}");
     }
 }

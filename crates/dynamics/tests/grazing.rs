@@ -59,11 +59,11 @@ fn newton_settles_down_to_a_distance_of_1e_9_from_grazing() {
             );
             let lost = (-orbit.damping_integral).exp() * loss * loss;
             assert!(
-                is_near(orbit.determinant() / lost, 1.0, 10.0 * GROWN),
+                is_near(orbit.monodromy.determinant() / lost, 1.0, 10.0 * GROWN),
                 "{distance:e}"
             );
             // It blows up as the reciprocal of the velocity: there is no bounded linear map at grazing.
-            let steep = orbit.multipliers()[0].re * orbit.before_impact_velocity();
+            let steep = orbit.monodromy.multipliers()[0].re * orbit.before_impact_velocity();
             assert!((-4.5..-4.2).contains(&steep), "{distance:e}: {steep}");
         }
     }

@@ -63,7 +63,7 @@ fn beside(
         return None;
     }
     let slopes = slopes::differentiate_orbit(&other, &[]).ok()?;
-    let invariants = [other.trace(), other.determinant()];
+    let invariants = [other.monodromy.trace(), other.monodromy.determinant()];
     let figures = figures(&slopes).map(|figure| figure.value);
     Some(figures.chain(invariants).collect())
 }

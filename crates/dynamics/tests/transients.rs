@@ -65,7 +65,7 @@ fn before_a_flip_the_period_is_not_doubled() -> Outcome {
         for periods in [8, 16, 32] {
             let orbit = Orbit::find_periodic(&scene, seen.end.into(), periods)?;
             assert_eq!(orbit.regime().to_string(), "8/8");
-            let [first, second] = orbit.multipliers();
+            let [first, second] = orbit.monodromy.multipliers();
             assert_near(first.re, -0.962352, printed(6));
             assert_near(second.re, -0.628294, printed(6));
         }

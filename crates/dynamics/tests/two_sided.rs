@@ -134,7 +134,7 @@ fn symmetric_orbits_and_their_multipliers_have_a_closed_form() {
         for velocity in orbit.before_impact_velocities() {
             assert_near(velocity, exact.velocity, 1e-11);
         }
-        let found = orbit.multipliers();
+        let found = orbit.monodromy.multipliers();
         for (one, other) in [(0, 0), (1, 1)] {
             let near = [exact.multipliers[other], exact.multipliers[1 - other]];
             let apart = near.map(|near| (found[one] - near).norm());

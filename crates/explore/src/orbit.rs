@@ -61,7 +61,7 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
             ),
             other => other.into(),
         })?;
-    let (stability, title) = match orbit.is_neutral() {
+    let (stability, title) = match orbit.monodromy.is_neutral() {
         true => ("neutral", "Neutral motion"),
         false => ("stable", "Stable motion"),
     };

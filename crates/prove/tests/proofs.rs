@@ -45,7 +45,8 @@ fn point_b_agrees_with_its_orbit() {
     let (scene, orbit) = point(Ratios::loaded());
     let proof = Certificate::new(&scene, orbit.state(), 1, Claim::Orbit).expect("a proof");
     assert!(holds(proof.enclosure[2], orbit.before_impact_velocity()));
-    assert!(holds(proof.trace, orbit.trace()) && holds(proof.determinant, orbit.determinant()));
+    assert!(holds(proof.trace, orbit.monodromy.trace()));
+    assert!(holds(proof.determinant, orbit.monodromy.determinant()));
     assert_eq!(
         (proof.stability, proof.impacts, proof.events.len()),
         ("stable", 1, 6)
@@ -112,7 +113,7 @@ fn random_machines_are_proven() {
         let state = Vector2::new(settled.position, settled.velocity);
         let orbit = Orbit::find_periodic(scene, state, 4).ok()?;
         let is_settled =
-            orbit.multipliers()[0].norm() < 0.99 && (orbit.state() - state).norm() < 1e-6;
+            orbit.monodromy.multipliers()[0].norm() < 0.99 && (orbit.state() - state).norm() < 1e-6;
         if !orbit.rests.is_empty() || !is_settled {
             return None;
         }
@@ -122,7 +123,7 @@ fn random_machines_are_proven() {
                     (proof.stability, proof.impacts),
                     ("stable", orbit.impacts.len())
                 );
-                assert!((proof.trace.middle() - orbit.trace()).abs() < 1e-9);
+                assert!((proof.trace.middle() - orbit.monodromy.trace()).abs() < 1e-9);
                 proven.set(proven.get() + 1);
                 with_impacts.set(with_impacts.get() + usize::from(proof.impacts > 0));
             }

@@ -125,7 +125,7 @@ fn settles_slowly(orbit: &Orbit) -> bool {
 
 /// The decay of motions near an orbit, in units of the least with which a basin test follows all of them to their end.
 fn relative_decay(orbit: &Orbit) -> f64 {
-    let slowest = orbit.multipliers()[0].norm();
+    let slowest = orbit.monodromy.multipliers()[0].norm();
     -slowest.ln() / (SLOW_DECAY * orbit.periods as f64)
 }
 

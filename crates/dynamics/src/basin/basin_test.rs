@@ -91,14 +91,14 @@ impl BasinTest {
         let scene = &orbit.scene;
         let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
         let size = motion_size(scene.excitation.frequency, &states);
-        let slowest = orbit.multipliers()[0].norm();
+        let slowest = orbit.monodromy.multipliers()[0].norm();
         let decay = -slowest.ln() / orbit.periods as f64;
         let (patience, arrived) = match decay {
             _ if decay > MIN_DECAY_EXPONENT => {
                 let settling = (SETTLING_EXPONENT / decay).min(MAX_SETTLING_PERIODS);
                 (APPROACH_PERIODS + settling as u64, SAME)
             }
-            _ if decay > -MIN_DECAY_EXPONENT && !orbit.is_neutral() => {
+            _ if decay > -MIN_DECAY_EXPONENT && !orbit.monodromy.is_neutral() => {
                 (BORDER_PERIODS, STABLE_REACH)
             }
             _ => (0, 0.0),

@@ -77,31 +77,27 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis of positions in m.
-    pub const fn position(from: f64, to: f64, cells: usize) -> Self {
+    const fn along(quantity: AxisQuantity, range: [f64; 2], cells: usize) -> Self {
         Self {
-            quantity: AxisQuantity::Position,
-            range: [from, to],
+            quantity,
+            range,
             cells,
         }
+    }
+
+    /// An axis of positions in m.
+    pub const fn position(from: f64, to: f64, cells: usize) -> Self {
+        Self::along(AxisQuantity::Position, [from, to], cells)
     }
 
     /// An axis of velocities in m/s.
     pub const fn velocity(from: f64, to: f64, cells: usize) -> Self {
-        Self {
-            quantity: AxisQuantity::Velocity,
-            range: [from, to],
-            cells,
-        }
+        Self::along(AxisQuantity::Velocity, [from, to], cells)
     }
 
     /// An axis of drive angles in rad.
     pub const fn angle(from: f64, to: f64, cells: usize) -> Self {
-        Self {
-            quantity: AxisQuantity::Angle,
-            range: [from, to],
-            cells,
-        }
+        Self::along(AxisQuantity::Angle, [from, to], cells)
     }
 
     /// The value at the middle of a cell of the axis.

@@ -89,6 +89,9 @@ pub(crate) struct Node<P> {
     pub here: Evaluation<P>,
 }
 
+/// The nodes at both ends of a step along a curve.
+pub(crate) type Ends<'n, P> = (&'n Node<P>, &'n Node<P>);
+
 /// Newton steps of a correction after which each must halve the residual.
 const USUAL_CORRECTIONS: usize = 12;
 /// Most Newton steps of a correction: across a corner of the motion the residual falls by a share only.

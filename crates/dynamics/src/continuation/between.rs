@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::arclength::Node;
+use super::arclength::{Ends, Node};
 use super::follow::Continuation;
 use super::half_branch::Limits;
 use super::locate::{OFF_CHORD, along_chord, locate_zero, solve_zero};
@@ -36,7 +36,7 @@ impl Continuation<'_> {
         &self,
         from: &BranchPoint,
         to: &BranchPoint,
-        find: impl Fn(&Self, (&Node<PeriodMap>, &Node<PeriodMap>)) -> Result<BranchPoint, OrbitError>,
+        find: impl Fn(&Self, Ends<'_, PeriodMap>) -> Result<BranchPoint, OrbitError>,
     ) -> Result<BranchPoint, OrbitError> {
         let ends = (self.node_at(from)?, self.node_at(to)?);
         match self.clear_of(&ends.0).or_else(|| self.clear_of(&ends.1)) {
@@ -48,7 +48,7 @@ impl Continuation<'_> {
     /// The point between two nodes at which a test vanishes.
     fn critical_of_nodes(
         &self,
-        ends: (&Node<PeriodMap>, &Node<PeriodMap>),
+        ends: Ends<'_, PeriodMap>,
         test: TestFunction,
     ) -> Result<BranchPoint, OrbitError> {
         let value = |round: &PeriodMap| test.scaled_value(&round.monodromy);
@@ -62,7 +62,7 @@ impl Continuation<'_> {
     /// The point between two nodes at a value of the parameter.
     fn parameter_of_nodes(
         &self,
-        ends: (&Node<PeriodMap>, &Node<PeriodMap>),
+        ends: Ends<'_, PeriodMap>,
         parameter: f64,
     ) -> Result<BranchPoint, OrbitError> {
         let value = |node: &Node<PeriodMap>| self.shooting.parameters(&node.at)[0] - parameter;

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DVector, Vector2};
 
-use super::arclength::Node;
+use super::arclength::{Ends, Node};
 use super::curve::MIN_LOOP_POINTS;
 use super::follow::{Continuation, SectionChange};
 use super::grazing_test::GrazingTest;
@@ -160,8 +160,8 @@ impl<'a> Continuation<'a> {
                 if !self.may_take_step(&stepper, &step, (&grazing_test, &ahead)) {
                     return Err(OrbitError::LOST);
                 }
-                let specials = self.specials_between(&stepper.node, &step.node)?;
                 let ends = (&stepper.node, &step.node);
+                let specials = self.specials_between(ends)?;
                 let end = self.record_step(way, ends, specials, &origin, limits)?;
                 Ok((step, ahead, end))
             });
@@ -201,16 +201,14 @@ impl<'a> Continuation<'a> {
                         break error;
                     };
                     let step = (&stepper.node, &node);
-                    let beyond = self
-                        .specials_of_corner(step.0, step.1)
-                        .and_then(|specials| {
-                            let ahead = GrazingTest::of_node(&self.shooting, &node);
-                            let end = self.record_step(way, step, specials, &origin, limits)?;
-                            let mut next =
-                                Stepper::new(&self.shooting, node.clone(), &along, &self.settings)?;
-                            next.step = self.settings.crawling_step;
-                            Ok((end, ahead, next))
-                        });
+                    let beyond = self.specials_of_corner(step).and_then(|specials| {
+                        let ahead = GrazingTest::of_node(&self.shooting, &node);
+                        let end = self.record_step(way, step, specials, &origin, limits)?;
+                        let mut next =
+                            Stepper::new(&self.shooting, node.clone(), &along, &self.settings)?;
+                        next.step = self.settings.crawling_step;
+                        Ok((end, ahead, next))
+                    });
                     let (end, ahead, next) = match beyond {
                         Ok(beyond) => beyond,
                         Err(error) => break error,
@@ -231,7 +229,7 @@ impl<'a> Continuation<'a> {
     fn record_step(
         &self,
         way: &mut HalfBranch,
-        (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
+        (from, to): Ends<'_, PeriodMap>,
         mut specials: Vec<Special>,
         origin: &DVector<f64>,
         limits: &Limits,
@@ -240,7 +238,7 @@ impl<'a> Continuation<'a> {
             way.points.len() >= MIN_LOOP_POINTS && passes_place(&self.shooting, (from, to), origin);
         let bound = self.bound_passed((from, to), limits);
         let merged = match bound {
-            None => self.merging_point(from, to)?,
+            None => self.merging_point((from, to))?,
             Some(_) => None,
         };
         let (last, end) = match (bound, merged) {

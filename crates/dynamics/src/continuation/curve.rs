@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::arclength::{Node, correct, curve_tangent};
+use super::arclength::{Ends, Node, correct, curve_tangent};
 use super::codimension_two::{Codimension, CodimensionTwo, CurvePoint, along_parameters};
 use super::locate::{locate_zero, passes_place};
 use super::point::SpecialKind;
@@ -166,7 +166,7 @@ fn follow_half_curve<E: Codimension>(
 /// The point of codimension two between two nodes, if there is one; with the directions of the curve there.
 fn special_between<E: Codimension>(
     equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    (from, to): Ends<'_, E::Point>,
     [begins, ends]: [&DVector<f64>; 2],
 ) -> Result<Option<(CodimensionTwo, CurvePoint)>, OrbitError> {
     let (_, before) = equations.degeneracy_test(from, [begins, begins]);
@@ -195,10 +195,7 @@ fn special_between<E: Codimension>(
 }
 
 /// True if a fold between two nodes of a curve repeats after half its drive periods already: it is a flip.
-fn is_merging<E: Codimension>(
-    equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
-) -> bool {
+fn is_merging<E: Codimension>(equations: &E, (from, to): Ends<'_, E::Point>) -> bool {
     let gap = |node: &Node<E::Point>| equations.half_period_gap(&equations.curve_point(node).ok()?);
     let (Some(before), Some(after)) = (gap(from), gap(to)) else {
         return false;
@@ -215,7 +212,7 @@ fn is_merging<E: Codimension>(
 /// The end of a step of a curve, or the point on it where a parameter leaves its range, and whether one does.
 fn clip_to_region<E: Codimension>(
     equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    (from, to): Ends<'_, E::Point>,
     region: &CurveLimits,
 ) -> Result<(Node<E::Point>, bool), OrbitError> {
     let mut end = (to.clone(), false);

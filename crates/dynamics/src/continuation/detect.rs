@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use nalgebra::DVector;
 
-use super::arclength::{Equations, Node};
+use super::arclength::{Ends, Equations, Node};
 use super::face::Face;
 use super::follow::Continuation;
 use super::grazing_test::GrazingTest;
@@ -26,7 +26,7 @@ impl Continuation<'_> {
     /// The end of the range beyond which a step leads, and whether the step begins there, or beyond it by rounding.
     pub(super) fn bound_passed(
         &self,
-        (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
+        (from, to): Ends<'_, PeriodMap>,
         limits: &Limits,
     ) -> Option<(f64, bool)> {
         let (low, high) = limits.range;
@@ -57,15 +57,14 @@ impl Continuation<'_> {
     /// The special points on a step of a branch, in their order.
     pub(super) fn specials_between(
         &self,
-        from: &Node<PeriodMap>,
-        to: &Node<PeriodMap>,
+        (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Vec<Special>, OrbitError> {
         let mut found = Vec::new();
         let (a, b) = (&from.here.point, &to.here.point);
         for test in TestFunction::ALL {
             if test.passes_zero(&a.monodromy, &b.monodromy) {
                 if test == TestFunction::Fold
-                    && let Some(pitchfork) = self.pitchfork_between(from, to)?
+                    && let Some(pitchfork) = self.pitchfork_between((from, to))?
                 {
                     found.push(pitchfork);
                     continue;
@@ -73,8 +72,8 @@ impl Continuation<'_> {
                 found.push(self.locate_critical((from, to), test)?);
             }
         }
-        found.extend(self.flips_there_and_back(from, to)?);
-        found.extend(self.grazes_between(from, to)?);
+        found.extend(self.flips_there_and_back((from, to))?);
+        found.extend(self.grazes_between((from, to))?);
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(found.into_iter().map(|(_, special)| special).collect())
     }
@@ -82,7 +81,7 @@ impl Continuation<'_> {
     /// The special point between two nodes at which a test vanishes, and its share of the way.
     fn locate_critical(
         &self,
-        ends: (&Node<PeriodMap>, &Node<PeriodMap>),
+        ends: Ends<'_, PeriodMap>,
         test: TestFunction,
     ) -> Result<(f64, Special), OrbitError> {
         let value = |node: &Node<PeriodMap>| test.scaled_value(&node.here.point.monodromy);
@@ -94,10 +93,9 @@ impl Continuation<'_> {
     /// The two flips of a step on which a multiplier passes -1 and comes back.
     fn flips_there_and_back(
         &self,
-        from: &Node<PeriodMap>,
-        to: &Node<PeriodMap>,
+        (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
-        let Some((share, middle)) = self.node_beyond_flips(from, to)? else {
+        let Some((share, middle)) = self.node_beyond_flips((from, to))? else {
             return Ok(Vec::new());
         };
         let halves = [(from, &middle, 0.0, share), (&middle, to, share, 1.0)];
@@ -113,8 +111,7 @@ impl Continuation<'_> {
     /// or the test approaches zero at first and leaves it at last, so steeply that its tangents meet beyond zero.
     pub(super) fn node_beyond_flips(
         &self,
-        from: &Node<PeriodMap>,
-        to: &Node<PeriodMap>,
+        (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Option<(f64, Node<PeriodMap>)>, OrbitError> {
         let value =
             |node: &Node<PeriodMap>| TestFunction::Flip.scaled_value(&node.here.point.monodromy);
@@ -146,8 +143,7 @@ impl Continuation<'_> {
     /// The grazings on a step where the branch goes on, which is halved until they make the whole difference.
     fn grazes_between(
         &self,
-        from: &Node<PeriodMap>,
-        to: &Node<PeriodMap>,
+        (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
         let sequences = [from, to].map(|node| node.here.point.sequence);
         let [a, b] = sequences.map(|sequence| sequence.crossing_count());
@@ -177,7 +173,7 @@ impl Continuation<'_> {
         let middle = CurveCubic::between(&self.shooting, (from, to))?.node_at(0.5)?;
         let mut grazes = Vec::new();
         for (begins, half) in [(0.0, (from, &middle)), (0.5, (&middle, to))] {
-            let found = self.grazes_between(half.0, half.1)?;
+            let found = self.grazes_between(half)?;
             let shares = found
                 .into_iter()
                 .map(|(share, special)| (begins + 0.5 * share, special));
@@ -190,7 +186,7 @@ impl Continuation<'_> {
     /// beyond: the one that accounts for all crossings by which they differ, and true, or the first of each face, and false.
     pub(super) fn grazes_of_ends(
         &self,
-        (from, to): (&Node<PeriodMap>, &Node<PeriodMap>),
+        (from, to): Ends<'_, PeriodMap>,
         beyond: f64,
         is_whole: impl Fn(&Graze) -> bool,
     ) -> Result<(Vec<(f64, Special)>, bool), OrbitError> {
@@ -234,8 +230,7 @@ impl Continuation<'_> {
     /// and why the branch ends there, if it does on a step: half the period leads to the other side of it.
     pub(super) fn merging_point(
         &self,
-        from: &Node<PeriodMap>,
-        to: &Node<PeriodMap>,
+        (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Option<(BranchPoint, End)>, OrbitError> {
         let periods = self.shooting.periods;
         let is_even = periods.is_multiple_of(2);

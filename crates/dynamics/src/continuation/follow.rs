@@ -170,7 +170,7 @@ impl<'a> Continuation<'a> {
             let step = stepper.attempt_step().ok();
             let step = step.filter(|step| continues(&step.node) && is_same_piece(&stepper, step));
             let taken = step.and_then(|step| {
-                let beyond = self.node_beyond_flips(&stepper.node, &step.node).ok()?;
+                let beyond = self.node_beyond_flips((&stepper.node, &step.node)).ok()?;
                 let is_whole = beyond.as_ref().is_none_or(|(_, node)| continues(node));
                 is_whole.then_some((beyond, step))
             });

@@ -108,8 +108,7 @@ impl GrazingTest {
 
     /// True if an orbit can graze a face smoothly.
     pub fn is_gentle(&self, face: Face) -> bool {
-        let mut faces = Face::ALL.into_iter().zip(self.gentle);
-        faces.any(|(one, gentle)| one == face && gentle)
+        self.gentle[face as usize]
     }
 
     /// The grazing orbits that Newton's method reaches from the tested one, computed once.

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use nalgebra::{DMatrix, DVector};
 
 use super::arclength::{
-    Accuracy, Equations, Node, border_matrix, correct_with_slopes, curve_tangent, slopes_at,
+    Accuracy, Ends, Equations, Node, border_matrix, correct_with_slopes, curve_tangent, slopes_at,
 };
 use crate::linear::solve_linear;
 use crate::orbit::OrbitError;
@@ -19,7 +19,7 @@ const END_NODES: usize = 2;
 /// curve through the nearest nodes known, each corrected across the chord, until rounding alone tells them apart on it.
 pub(crate) fn locate_zero<E: Equations>(
     equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    (from, to): Ends<'_, E::Point>,
     test: impl Fn(&Node<E::Point>) -> f64,
 ) -> Result<(Node<E::Point>, f64), OrbitError> {
     let way = &to.at - &from.at;
@@ -62,7 +62,7 @@ const SUPPORT_VALUES: usize = 4;
 /// step of Newton's method to the curve, and along the chord to where the last values of the test say that it vanishes.
 pub(crate) fn solve_zero<E: Equations>(
     equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    (from, to): Ends<'_, E::Point>,
     test: impl Fn(&E::Point) -> f64,
 ) -> Result<Node<E::Point>, OrbitError> {
     let lost = |residual| OrbitError::Diverged { residual };
@@ -115,7 +115,7 @@ pub(crate) const OFF_CHORD: f64 = 0.2;
 /// True if a step of a curve passes a place: near enough, and no other piece that lies beside it.
 pub(super) fn passes_place<E: Equations>(
     equations: &E,
-    (from, to): (&Node<E::Point>, &Node<E::Point>),
+    (from, to): Ends<'_, E::Point>,
     place: &DVector<f64>,
 ) -> bool {
     let way = &to.at - &from.at;

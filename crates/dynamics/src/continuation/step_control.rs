@@ -6,7 +6,7 @@
 
 use nalgebra::DVector;
 
-use super::arclength::{Equations, Node, correct, curve_tangent};
+use super::arclength::{Ends, Equations, Node, correct, curve_tangent};
 use super::follow::{Continuation, same_orientation};
 use super::grazing_test::GrazingTest;
 use super::half_branch::{BorderCollision, End, HalfBranch, Limits};
@@ -112,7 +112,7 @@ impl Continuation<'_> {
         let same = from.sequence.has_same_jumps(&to.sequence)
             // Beyond, rounding decides on which side of a grazing an orbit is.
             && self.shooting.growth(&to.monodromy) * f64::EPSILON.sqrt() < 1.0
-            && !self.comes_to_rest(&stepper.node, &step.node)
+            && !self.comes_to_rest((&stepper.node, &step.node))
             && (same_orientation(
                 (&stepper.direction, &from.monodromy),
                 (&step.direction, &to.monodromy),
@@ -128,7 +128,7 @@ impl Continuation<'_> {
     }
 
     /// True if a mass that is held on the way slips so much less after a step that rounding tells its orbits apart.
-    fn comes_to_rest(&self, from: &Node<PeriodMap>, to: &Node<PeriodMap>) -> bool {
+    fn comes_to_rest(&self, (from, to): Ends<'_, PeriodMap>) -> bool {
         let after = self.fold_test_while_held(to);
         let [before, there] = [from, to].map(|node| &node.here.point.monodromy);
         after < self.settings.border_distance
@@ -247,8 +247,7 @@ impl Continuation<'_> {
     /// The special points of a corner between two nodes: the touch, and the tests that jump through zero.
     pub(super) fn specials_of_corner(
         &self,
-        from: &Node<PeriodMap>,
-        to: &Node<PeriodMap>,
+        (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Vec<Special>, OrbitError> {
         let (a, b) = (&from.here.point.monodromy, &to.here.point.monodromy);
         let mut found = Vec::new();

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use super::arclength::{Equations, Evaluation, Node, correct};
+use super::arclength::{Ends, Equations, Evaluation, Node, correct};
 use super::branch::Branch;
 use super::follow::{Continuation, is_one_sense};
 use super::half_branch::{End, Limits};
@@ -66,8 +66,7 @@ impl Continuation<'_> {
     /// The pitchfork of symmetric orbits on a step and its share of the way, if there is one.
     pub(super) fn pitchfork_between(
         &self,
-        from: &Node<PeriodMap>,
-        to: &Node<PeriodMap>,
+        (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Option<(f64, Special)>, OrbitError> {
         let half = |node| self.shooting.symmetric_half_period(node);
         let (Some(a), Some(b)) = (half(from), half(to)) else {

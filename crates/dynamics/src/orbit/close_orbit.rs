@@ -174,7 +174,8 @@ impl Orbit {
             return Err(none);
         }
         let shooting = MultiSegmentShooting::new(scene, periods.max(1)).ok_or(none)?;
-        let orbit = shooting.solve(impacts)?;
+        let guess = shooting.evaluate_guess(impacts).ok_or(OrbitError::LOST)?;
+        let orbit = shooting.solve(guess, &[])?;
         let all = orbit.timed_impacts();
         for part in (1..periods).filter(|part| periods.is_multiple_of(*part)) {
             let share = all.len() as u64 * part;

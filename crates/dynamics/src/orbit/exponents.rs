@@ -119,7 +119,7 @@ impl Exponents {
             multiplier.re.hypot(multiplier.im).ln() / orbit.periods as f64
         };
         Self {
-            per_period: orbit.multipliers().map(rate),
+            per_period: orbit.monodromy.multipliers().map(rate),
             error: 0.0,
             periods: orbit.periods,
             period: orbit.scene.period(),

@@ -70,13 +70,13 @@ impl SingleImpactSearch {
         let Some(begin) = self.shooting.evaluate_guess(&[guess]) else {
             return Ok(());
         };
-        let settled = self.shooting.solve_unless_known(begin.clone(), ends);
+        let settled = self.shooting.solve_unless_known(begin.clone(), ends, &[]);
         let is_new = match settled {
             Err(_) => return Ok(()),
             Ok(None) => !has_left.get(),
             Ok(Some(orbit)) => self.keep_new(orbit),
         };
-        if is_new && let Ok(orbit) = self.shooting.solve_deflated(begin, &self.found_impacts()) {
+        if is_new && let Ok(orbit) = self.shooting.solve(begin, &self.found_impacts()) {
             self.keep_new(orbit);
         }
         Ok(())

@@ -121,16 +121,14 @@ impl SingleImpactSearch {
         let Some(guess) = self.shooting.evaluate_guess(&[guess]) else {
             return Ok(());
         };
-        let settled = self.shooting.solve_unless_known(guess.clone(), known);
+        let settled = self.shooting.solve_unless_known(guess.clone(), known, &[]);
         let mut next = settled.map_err(|failed| self.keep_miss(failed));
         while let Ok(orbit) = next {
             OrbitError::ask_monitor(monitor)?;
             if orbit.is_some_and(|orbit| !self.keep_new(orbit)) {
                 break;
             }
-            let apart = self
-                .shooting
-                .solve_deflated(guess.clone(), &self.found_impacts());
+            let apart = self.shooting.solve(guess.clone(), &self.found_impacts());
             next = apart.map(Some).map_err(drop);
         }
         Ok(())

@@ -91,33 +91,13 @@ impl MultiSegmentShooting {
         self.face.clock.time(Clock::at_cycle(self.periods))
     }
 
-    /// The orbit with as many impacts as the guess has, to which the shooting leads from there.
+    /// The orbit with as many impacts as the guess has, to which the shooting leads from there, away from `deflated` ones.
     ///
     /// # Errors
     /// [`OrbitError`] if it does not settle, or settles on impacts between which there are others.
-    pub(super) fn solve(&self, guess: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
-        let guess = self.evaluate_guess(guess).ok_or(OrbitError::LOST)?;
-        let found = self.run_newton(guess, |_| false, &[])?;
+    pub(super) fn solve(&self, guess: Guess, deflated: &[(f64, f64)]) -> Result<Orbit, OrbitError> {
+        let found = self.solve_unless_known(guess, |_| false, deflated)?;
         found.ok_or(OrbitError::LOST)
-    }
-
-    /// The orbit with one impact to which the shooting leads when deflated from those that are known.
-    pub(super) fn solve_deflated(
-        &self,
-        guess: Guess,
-        known: &[(f64, f64)],
-    ) -> Result<Orbit, OrbitError> {
-        let found = self.run_newton(guess, |_| false, known)?;
-        found.ok_or(OrbitError::LOST)
-    }
-
-    /// The orbit that the shooting settles on; none as soon as a whole step leads to impacts that are known.
-    pub(super) fn solve_unless_known(
-        &self,
-        guess: Guess,
-        known: impl Fn(&[f64]) -> bool,
-    ) -> Result<Option<Orbit>, ShootingFailure> {
-        self.run_newton(guess, known, &[])
     }
 
     /// The shooting's unknowns for guessed impacts, evaluated; none where there is no such motion.
@@ -128,8 +108,9 @@ impl MultiSegmentShooting {
         Some((at, evaluation))
     }
 
-    /// Newton's method for impacts from a guess, away from `deflated` ones; none if a step leads to known impacts.
-    fn run_newton(
+    /// The orbit that the shooting settles on, by Newton's method for impacts from a guess, away from `deflated` ones; none as
+    /// soon as a whole step leads to impacts that are known.
+    pub(super) fn solve_unless_known(
         &self,
         (mut at, mut evaluation): Guess,
         known: impl Fn(&[f64]) -> bool,

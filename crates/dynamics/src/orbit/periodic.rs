@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use nalgebra::{Complex, Vector2};
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::guess_impacts::guess_impacts;
@@ -235,26 +235,6 @@ impl Orbit {
         let scales = self.scene.scales();
         let gap = scales.state(&(passage.end - self.state())).norm();
         Ok((gap, scales.map_rounding(&self.state(), &passage.monodromy)))
-    }
-
-    /// Trace of the orbit's monodromy matrix.
-    pub fn trace(&self) -> f64 {
-        self.monodromy.trace()
-    }
-
-    /// Determinant of the orbit's monodromy matrix.
-    pub fn determinant(&self) -> f64 {
-        self.monodromy.determinant()
-    }
-
-    /// Floquet multipliers of the orbit, the roots of mu^2 - trace mu + determinant.
-    pub fn multipliers(&self) -> [Complex<f64>; 2] {
-        self.monodromy.multipliers()
-    }
-
-    /// True if neighbouring motions neither come nearer nor go away: both multipliers lie on the unit circle.
-    pub fn is_neutral(&self) -> bool {
-        self.monodromy.is_neutral()
     }
 
     /// True if the orbit is stable: both multipliers lie inside the unit circle, or on it where it is neutral.

@@ -62,8 +62,8 @@ pub fn stability(orbit: &Orbit, parameters: &[Parameter]) -> Result<Stability, O
         by: rates.iter().map(|rates| rates[which]).collect(),
     };
     Ok(Stability {
-        trace: figure(orbit.trace(), 0),
-        determinant: figure(orbit.determinant(), 1),
+        trace: figure(orbit.monodromy.trace(), 0),
+        determinant: figure(orbit.monodromy.determinant(), 1),
     })
 }
 

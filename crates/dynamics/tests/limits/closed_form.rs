@@ -80,10 +80,10 @@ fn rigid_orbits_are_those_of_the_closed_form() {
             .min_by(|a, b| gap(a).total_cmp(&gap(b)))
             .expect("a solution");
         assert!(gap(&nearest) < 1e-12, "velocity off by {:e}", gap(&nearest));
-        assert_near(orbit.trace(), nearest.trace, 10.0 * MOTION);
+        assert_near(orbit.monodromy.trace(), nearest.trace, 10.0 * MOTION);
         let fade = (-2.0 * DAMPING * scene.period()).exp();
         let determinant = restitution * restitution * fade;
-        assert_near(orbit.determinant(), determinant, 10.0 * ROUNDING);
+        assert_near(orbit.monodromy.determinant(), determinant, 10.0 * ROUNDING);
         // From a state near it Newton's method finds it again, even where its first step leads beyond
         // the stop.
         for (dx, dv) in [(-1e-2, -1e-2), (-1e-2, 1e-2), (-3e-2, 0.0)] {

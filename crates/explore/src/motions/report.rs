@@ -106,7 +106,7 @@ fn periodic<'a>() -> [Column<Periodic<'a>>; 12] {
         "position" [Length] Fixed(9), "position at drive angle phi" => it.0.position;
         "velocity" [Velocity] Fixed(9), "velocity there" => it.0.velocity;
         "max_position" [Length] Fixed(6), "largest position" => it.0.max_position;
-        "multipliers" [None] Plain, "multipliers" => multipliers(it.0.multipliers());
+        "multipliers" [None] Plain, "multipliers" => multipliers(it.0.monodromy.multipliers());
         "exponents" [None] Plain, "Lyapunov exponents" => both(&Exponents::of(it.0));
         "returned" [None] Power(1), "returns to within, when met" => it.1.returned;
         "residual" [None] Power(1), "and when polished" => it.1.residual;

@@ -68,7 +68,7 @@ impl Cycle {
             "X_m = {:.5},  X′₋ = {:.6},  Floquet multipliers of modulus {:.4}",
             orbit.max_position,
             orbit.before_impact_velocity(),
-            orbit.multipliers()[0].norm(),
+            orbit.monodromy.multipliers()[0].norm(),
         );
         for (panel, [x, y]) in chart.panels.iter_mut().zip(ranges) {
             (panel.x.ends, panel.y.ends) = ([x.0, x.1].map(Some), [y.0, y.1].map(Some));

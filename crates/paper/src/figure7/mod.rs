@@ -83,7 +83,7 @@ fn findings(Cycle { orbit, path }: &Cycle) -> Findings {
         ("contact, share of T", Some(contact.sum::<f64>() / period)),
         (
             "largest multiplier, modulus",
-            Some(orbit.multipliers()[0].norm()),
+            Some(orbit.monodromy.multipliers()[0].norm()),
         ),
         (
             "Lyapunov exponent per period",

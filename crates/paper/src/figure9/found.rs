@@ -110,7 +110,7 @@ impl FoundMotion {
     }
 
     fn modulus(&self) -> Option<f64> {
-        self.orbit().map(|orbit| orbit.multipliers()[0].norm())
+        Some(self.orbit()?.monodromy.multipliers()[0].norm())
     }
 
     /// Frequency, regime and how stable it is.
