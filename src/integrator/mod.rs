@@ -4,7 +4,6 @@ mod advance;
 mod bounce_train;
 mod clock;
 mod contacts;
-mod drive;
 mod effort;
 mod force;
 mod mark;

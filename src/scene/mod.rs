@@ -6,7 +6,6 @@ mod ratios;
 mod scales;
 mod stop;
 mod ties;
-mod time_scales;
 mod units;
 mod validate;
 
@@ -18,8 +17,8 @@ pub(crate) use stop::stiffness_from;
 pub use stop::{Below, Release, RigidStop, Slope, Stop, force_of};
 pub use ties::Ties;
 pub(crate) use ties::{Quantity, Tie};
-pub use time_scales::{MAX_DAMPER_RATE, MAX_SPRING_RATE};
 pub use units::Units;
+pub use validate::{MAX_DAMPER_RATE, MAX_SPRING_RATE};
 
 use serde::{Deserialize, Serialize};
 

@@ -3,8 +3,8 @@
 use pulp::{Simd, WithSimd};
 
 use super::engine::Engine;
-use super::job::{Instructions, Job, Outcome, Task};
 use super::machine::Machine;
+use super::machine::{Instructions, Job, Outcome, Task};
 use super::observer::{BatchObserver, ObserverHandle};
 
 /// Vector registers over which the lanes of one batch are spread.

@@ -26,11 +26,11 @@
 use pulp::Simd;
 
 use super::contact_series::ContactSeries;
-use super::job::{Job, Outcome, Task};
 use super::lanes::{Lanes, Mask};
 use super::law::Law;
 use super::machine::Machine;
-use super::phase_graph::PhaseGraph;
+use super::machine::{Job, Outcome, Task};
+use super::phase_order::PhaseGraph;
 use super::phase_order::phase_order;
 use super::returns::Returns;
 use super::safe_engine::{self, Resumed, SafeStart};

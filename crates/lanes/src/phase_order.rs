@@ -1,6 +1,6 @@
-//! The order in which a round of the loop visits the phases.
+//! The phases of a machine as a graph, and the order in which a round of the loop visits them.
 
-use super::phase_graph::PhaseGraph;
+use super::law::Constants;
 
 /// All phases of machines with these graphs, each before its successors, but for the step that closes a cycle: lanes
 /// go from phase to phase in one round of the loop, and all begin the next one together.
@@ -31,6 +31,73 @@ fn push_postorder(phase: usize, beyond: &[Vec<usize>], seen: &mut [bool], done: 
             push_postorder(*next, beyond, seen, done);
         }
         done.push(phase);
+    }
+}
+
+/// Most phases of a machine that lanes follow.
+pub(super) const MAX_PHASES: usize = 16;
+/// Most phases that may follow on one phase.
+const MAX_SUCCESSORS: usize = 3;
+/// Marks an unused place in the list of successors.
+const NO_SUCCESSOR: u8 = u8::MAX;
+
+/// The phases of a machine and their successors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct PhaseGraph {
+    /// Number of phases.
+    pub count: usize,
+    /// One bit for each phase: it ends at one position alone; it has a power law.
+    plain: u16,
+    presses: u16,
+    /// Successors of each phase, those on the way to the stop first.
+    beyond: [[u8; MAX_SUCCESSORS]; MAX_PHASES],
+}
+
+impl PhaseGraph {
+    /// The graph of a machine with these laws, at most [`MAX_PHASES`].
+    pub fn from_laws(laws: &[Constants]) -> Self {
+        let mut outline = Self {
+            count: laws.len(),
+            plain: 0,
+            presses: 0,
+            beyond: [[NO_SUCCESSOR; MAX_SUCCESSORS]; MAX_PHASES],
+        };
+        for (phase, law) in laws.iter().enumerate() {
+            outline.plain |= u16::from(law.has_one_end()) << phase;
+            outline.presses |= u16::from(law.has_power_law()) << phase;
+            for (end, next) in outline.beyond[phase].iter_mut().zip(law.successors()) {
+                *end = next as u8;
+            }
+        }
+        outline
+    }
+
+    /// The distinct ones among these graphs.
+    pub fn distinct<'a>(all: impl Iterator<Item = &'a Self>) -> Vec<Self> {
+        let mut different: Vec<Self> = Vec::new();
+        for outline in all {
+            if different.last() != Some(outline) && !different.contains(outline) {
+                different.push(*outline);
+            }
+        }
+        different
+    }
+
+    /// True if one position, and nothing else, ends the phase.
+    pub fn has_one_end(&self, phase: usize) -> bool {
+        phase >= self.count || self.plain >> phase & 1 != 0
+    }
+
+    /// True if a power law acts in the phase.
+    pub fn has_power_law(&self, phase: usize) -> bool {
+        self.presses >> phase & 1 != 0
+    }
+
+    /// The phases that follow on one.
+    pub fn successors(&self, phase: usize) -> impl Iterator<Item = usize> + '_ {
+        let ends = self.beyond[phase].iter();
+        ends.filter(|end| **end != NO_SUCCESSOR)
+            .map(|end| usize::from(*end))
     }
 }
 

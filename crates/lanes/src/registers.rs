@@ -3,8 +3,8 @@
 use pulp::{Simd, WithSimd};
 
 use super::dispatch::{REGISTERS_PER_BATCH, dispatch};
-use super::job::Instructions;
 use super::lanes::Lanes;
+use super::machine::Instructions;
 
 /// The vector registers that hold the lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

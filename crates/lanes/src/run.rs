@@ -5,8 +5,8 @@ use std::ops::{ControlFlow, Range};
 use rayon::prelude::*;
 
 use super::dispatch;
-use super::job::{Instructions, Job, Outcome};
 use super::machine::Machine;
+use super::machine::{Instructions, Job, Outcome};
 use super::observer::{BatchObserver, ObserverHandle};
 use softstop::Start;
 

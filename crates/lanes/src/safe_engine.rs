@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::job::Outcome;
 use super::machine::Machine;
+use super::machine::Outcome;
 use super::observer::ObserverHandle;
 use softstop::internals::{Mode, Motion};
 use softstop::{Clock, Crossing, Instant, MotionError, Observer, Start};

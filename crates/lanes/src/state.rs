@@ -2,9 +2,9 @@
 
 use pulp::Simd;
 
-use super::job::Outcome;
 use super::lanes::{Lanes, Mask, Pair};
 use super::machine::Machine;
+use super::machine::Outcome;
 use super::returns::Return;
 use super::sine_cosine::cos_sin;
 use softstop::Start;

@@ -24,12 +24,11 @@
 //! ```
 
 mod basin_test;
+mod cells;
 mod certainty;
-mod classes;
 mod contraction_ball;
 mod entropy;
 mod establishment_and_erosion;
-mod follow_cells;
 mod global_continuation;
 mod grid;
 mod largest_ball;

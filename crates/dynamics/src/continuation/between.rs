@@ -4,10 +4,9 @@ use std::ops::ControlFlow;
 
 use super::arclength::{Ends, Node};
 use super::follow::Continuation;
-use super::half_branch::Limits;
 use super::locate::{OFF_CHORD, along_chord, locate_zero, solve_zero};
 use super::period_map::PeriodMap;
-use super::point::BranchPoint;
+use super::point::{BranchPoint, Limits};
 use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::ROUNDING;

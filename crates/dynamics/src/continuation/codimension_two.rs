@@ -4,14 +4,13 @@ use nalgebra::{DVector, Vector2};
 
 use super::Family;
 use super::arclength::{Equations, Node, correct};
-use super::normal_form::normal_form_coefficient;
 use super::period_map::PeriodMap;
 use super::point::Graze;
 use super::section_orbit::SectionPoint;
 use super::section_system::SectionSystem;
 use super::sequence::Sequence;
 use super::shooting::Critical;
-use super::test_function::TestFunction;
+use super::test_function::{TestFunction, normal_form_coefficient};
 use crate::orbit::{Monodromy, OrbitError, StroboscopicMap};
 
 /// A point of a curve of special points in two parameters.

@@ -36,9 +36,7 @@ mod detect;
 mod face;
 mod follow;
 mod grazing_test;
-mod half_branch;
 mod locate;
-mod normal_form;
 mod parameter_family;
 pub(crate) mod period_map;
 mod point;
@@ -51,7 +49,6 @@ mod shooting;
 mod special_curve;
 mod step_control;
 mod stepper;
-mod symmetry;
 mod test_function;
 
 pub use crate::direction::Direction;
@@ -61,16 +58,14 @@ pub use curve::{Curve, CurveEnd, CurveLimits};
 pub use face::Face;
 pub use follow::Continuation;
 pub(crate) use grazing_test::find_grazing;
-pub use half_branch::{BorderCollision, End, Limits};
 pub(crate) use locate::OFF_CHORD;
-pub use normal_form::normal_form_coefficient;
 pub use parameter_family::ParameterFamily;
-pub use point::{BranchPoint, Graze, Special, SpecialKind};
+pub use point::{BorderCollision, BranchPoint, End, Graze, Limits, Special, SpecialKind};
 pub(crate) use section_orbit::LastArc;
 pub use settings::ContinuationSettings;
 pub(crate) use shooting::derivatives_by;
 pub use special_curve::{follow_special, switch_curves};
-pub use test_function::TestFunction;
+pub use test_function::{TestFunction, normal_form_coefficient};
 
 use std::fmt::Debug;
 

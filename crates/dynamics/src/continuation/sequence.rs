@@ -1,7 +1,7 @@
 //! The sequence of crossings of an orbit: what it crosses, and how often.
 
 use super::face::{Face, NearTouch};
-use super::half_branch::BorderCollision;
+use super::point::BorderCollision;
 use softstop::{Crossing, CrossingKind, Scene, Trajectory};
 
 /// Largest ratio of the speeds at which a mass comes back to a stop and at which it left it, of bounces of one row.

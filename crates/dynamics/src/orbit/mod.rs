@@ -2,11 +2,9 @@
 
 mod close_orbit;
 mod contact_passage;
-mod deflation;
 mod error;
 mod exponents;
 mod free_frequency;
-mod guess_impacts;
 mod hardest_single;
 mod impact_lattice;
 mod monodromy;

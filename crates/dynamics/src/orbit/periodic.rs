@@ -5,11 +5,11 @@ use std::cmp::Ordering;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use super::guess_impacts::guess_impacts;
 use super::stroboscopic_map::find_fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
-use crate::tolerance::{NEAR, ROUNDING};
-use softstop::{CheckedScene, Instant, MotionError, Scene, Touch, Trajectory};
+use crate::tolerance::{NEAR, NEAR_GRAZING, ROUNDING};
+use softstop::internals::turning_points;
+use softstop::{CheckedScene, Instant, MotionError, PhaseKind, Scene, Touch, Trajectory};
 
 /// A periodic motion: after [`Orbit::periods`] drive periods, and no fewer, its state returns.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -252,4 +252,55 @@ impl Orbit {
     pub(crate) fn is_harder(&self, other: &Self) -> bool {
         self.before_impact_velocity() > (1.0 + ROUNDING) * other.before_impact_velocity()
     }
+}
+
+/// Time in s and before-impact velocity in m/s of each impact.
+pub(super) type TimedImpacts = Vec<(f64, f64)>;
+
+/// Guesses of the impacts of an orbit: those of the motion from a state, with its nearest miss, less the weakest.
+pub(super) fn guess_impacts(
+    scene: &CheckedScene,
+    state: Vector2<f64>,
+    periods: u64,
+) -> Result<Vec<TimedImpacts>, MotionError> {
+    let motion = StroboscopicMap::new(scene, periods).trajectory(state)?;
+    let impacts: TimedImpacts = motion.timed_impacts().collect();
+    let mut guesses = Vec::new();
+    if !impacts.is_empty() {
+        guesses.push(impacts.clone());
+    }
+    if let Some((depth, miss)) = nearest_miss(&motion, scene.clearance)
+        && depth <= NEAR_GRAZING * (scene.clearance.abs() + depth)
+    {
+        let at = impacts.partition_point(|impact| impact.0 < miss.0);
+        let mut more = impacts.clone();
+        more.insert(at, miss);
+        guesses.push(more);
+    }
+    if impacts.len() > 1 {
+        let weakest = (0..impacts.len()).min_by(|a, b| impacts[*a].1.total_cmp(&impacts[*b].1));
+        let mut fewer = impacts;
+        fewer.remove(weakest.unwrap_or(0));
+        guesses.push(fewer);
+    }
+    Ok(guesses)
+}
+
+/// The nearest miss of the face: distance in m, time, and speed of an impact if the face stood as much nearer.
+fn nearest_miss(motion: &Trajectory, face: f64) -> Option<(f64, (f64, f64))> {
+    let free = motion
+        .observed_arcs()
+        .filter(|(arc, _)| arc.kind == PhaseKind::Free);
+    let misses = free.flat_map(|(arc, elapsed)| {
+        let back = turning_points(arc.course, elapsed, true).filter(|turn| turn.back);
+        back.map(move |turn| {
+            let push = arc.course.flow.amplitude * arc.drive(turn.elapsed).cos;
+            let acceleration = arc.course.flow.acceleration(turn.position, 0.0, push);
+            let depth = face - turn.position;
+            let speed = (2.0 * acceleration.abs() * depth.max(0.0)).sqrt();
+            let at = arc.clock.after(arc.start, turn.elapsed);
+            (depth, (arc.clock.time(at), speed))
+        })
+    });
+    misses.min_by(|a, b| a.0.total_cmp(&b.0))
 }

@@ -1,14 +1,18 @@
-//! Following the cells of a basin survey until a contraction ball holds them.
+//! The cells of a basin survey: following them until a contraction ball holds them, and their classes by what they come to.
 
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::Basins;
 use super::basin_test::PERIODS_BETWEEN_CHECKS;
 use super::survey::{BasinSurvey, LostCell, TILE_CELLS, earlier_lost};
+use crate::attractors::Attractor;
+use crate::attractors::catalogue::KnownOrbit;
 use crate::ensemble::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
-use crate::orbit::OrbitError;
+use crate::motion::MotionKind;
+use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
 use crate::parallel;
 use softstop::Start;
 
@@ -118,5 +122,80 @@ impl BasinSurvey<'_> {
             all.lost = earlier_lost(all.lost, lost);
         }
         Ok(all)
+    }
+
+    /// The basins of a survey, class by class: periodic motions by period, impacts and hardest impact, then the others.
+    pub(super) fn into_basins(self) -> Result<Basins, OrbitError> {
+        let mut basins = Basins {
+            grid: *self.grid,
+            classes: Vec::new(),
+            cells: vec![0; self.outcomes.len()],
+            lost: self.lost.as_ref().map(|(_, error)| error.clone()),
+        };
+        let mut known: Vec<(usize, &KnownOrbit)> =
+            self.catalogue.orbits.iter().enumerate().collect();
+        let key = |orbit: &Orbit| (orbit.periods, orbit.impacts.len());
+        known.sort_by(|(_, a), (_, b)| {
+            let (a, b) = (&a.orbit, &b.orbit);
+            key(a).cmp(&key(b)).then(a.compare_velocity(b))
+        });
+        for (index, known) in known {
+            let class = |starts| Attractor {
+                certainty: Some(known.certainty),
+                ..Attractor::from_orbit(&known.orbit, starts)
+            };
+            self.enter_class(&mut basins, |it| it.attractor() == Some(index), class);
+        }
+        let (wandering, exponents) = self.classify_wandering_cells()?;
+        for (outcome, motion) in [
+            (MemberStatus::AtRest, MotionKind::Rest),
+            (MemberStatus::Wandering, wandering),
+            (MemberStatus::Lost, MotionKind::Lost),
+        ] {
+            let first = self.outcomes.iter().position(|it| *it == outcome);
+            let Some(first) = first else { continue };
+            let class = |starts| Attractor {
+                exponents: exponents.filter(|_| outcome == MemberStatus::Wandering),
+                ..Attractor::new(motion, self.states[first], starts)
+            };
+            self.enter_class(&mut basins, |it| it == outcome, class);
+        }
+        Ok(basins)
+    }
+
+    /// The kind of motion of the cells that have not returned, and the exponents of the first one.
+    fn classify_wandering_cells(&self) -> Result<(MotionKind, Option<Exponents>), OrbitError> {
+        let mut outcomes = self.outcomes.iter();
+        let Some(cell) = outcomes.position(|outcome| *outcome == MemberStatus::Wandering) else {
+            return Ok((MotionKind::Unsettled, None));
+        };
+        let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
+        let (exponents, _) =
+            Exponents::along_motion_with_monitor(&self.scene, state, BATCH_PERIODS.0, ask)?;
+        let motion = match exponents.is_positive() {
+            true => MotionKind::Chaos,
+            false => MotionKind::Unsettled,
+        };
+        Ok((motion, Some(exponents)))
+    }
+
+    /// Enters the class of all cells with some outcome, if there are any.
+    fn enter_class(
+        &self,
+        basins: &mut Basins,
+        has_come: impl Fn(MemberStatus) -> bool,
+        class: impl FnOnce((usize, usize)) -> Attractor,
+    ) {
+        let number = basins.classes.len() as u16;
+        let mut own = 0;
+        for (cell, outcome) in basins.cells.iter_mut().zip(&self.outcomes) {
+            if has_come(*outcome) {
+                *cell = number;
+                own += 1;
+            }
+        }
+        if own > 0 {
+            basins.classes.push(class((own, self.outcomes.len())));
+        }
     }
 }
