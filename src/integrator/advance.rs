@@ -13,7 +13,7 @@ use super::start::Start;
 use crate::budget;
 use crate::error::MotionError;
 use crate::events::{Found, Guard, NextEvent, first_crossing};
-use crate::flow::{Drive, FinePlace, Node};
+use crate::flow::{Drive, FinePlace};
 use crate::phases::{Mode, Phase};
 
 /// Most crossings at one and the same instant: more than any row of bounces that is shorter than the resolution of
@@ -190,7 +190,8 @@ impl Motion {
                 horizon
             };
             let is_open = !budget::is_spent();
-            let found = is_open.then(|| self.search_next_event(node, until));
+            let search = || first_crossing(&self.course, &self.present_guards(), node, until);
+            let found = is_open.then(search);
             let found = found.filter(|_| !budget::is_spent());
             self.outlook = found.ok_or_else(|| self.over_budget())?;
         }
@@ -204,11 +205,6 @@ impl Motion {
             });
         }
         Ok(())
-    }
-
-    /// The next event from a node on, up to `horizon`.
-    fn search_next_event(&self, node: Node, horizon: f64) -> NextEvent {
-        first_crossing(&self.course, &self.present_guards(), node, horizon)
     }
 
     /// The guards that watch the present arc.

@@ -40,7 +40,8 @@ impl Tie {
 
     /// Sets the parameter in a scene.
     pub fn apply_to(&self, scene: &mut Scene) {
-        self.quantity.set_in(scene, self.value_in(scene));
+        let value = self.value_in(scene) * self.quantity.unit_in(scene);
+        self.quantity.parameter.set(scene, value);
     }
 
     /// Derivative of the tied parameter in SI units, where those of some parameters are known and all others are constant.
@@ -138,10 +139,5 @@ impl Quantity {
     /// The value of the quantity in a scene; not a number if the scene lacks it.
     pub fn value_in(self, scene: &Scene) -> f64 {
         self.parameter.get(scene).unwrap_or(f64::NAN) / self.unit_in(scene)
-    }
-
-    /// Sets the quantity in a scene, to a value in its unit.
-    pub fn set_in(self, scene: &mut Scene, value: f64) {
-        self.parameter.set(scene, value * self.unit_in(scene));
     }
 }

@@ -70,11 +70,6 @@ impl<'a, const N: usize> Shooting<'a, N> {
         Ok(scene.at_phase(phase)?)
     }
 
-    /// True if all machines of the family differ by the drive's frequency alone.
-    fn is_by_frequency(&self) -> bool {
-        self.family.by_frequency().iter().all(Option::is_some)
-    }
-
     /// A change of the state in units of the family's scales.
     fn scaled_change(&self, change: Vector2<f64>) -> Vector2<f64> {
         change.component_div(&self.scales)
@@ -101,7 +96,8 @@ impl<const N: usize> Equations for Shooting<'_, N> {
         let state = self.state_at(at);
         let scene = self.scene_at(at)?;
         let start = (at, state);
-        let round = PeriodMap::from_state(scene, self.periods, start, self.is_by_frequency())?;
+        let by_frequency = self.family.by_frequency().iter().all(Option::is_some);
+        let round = PeriodMap::from_state(scene, self.periods, start, by_frequency)?;
         let gap = Vector2::from(round.trajectory.end) - state;
         let sizes = self.family.state_scales();
         Ok(Evaluation {

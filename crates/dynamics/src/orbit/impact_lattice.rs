@@ -135,10 +135,8 @@ impl SingleImpactSearch {
 
     /// Keeps an orbit that does more than graze and is not known; false if it does not, or there are too many.
     pub(super) fn keep_new(&mut self, orbit: Orbit) -> bool {
-        let is_known = self
-            .found
-            .iter()
-            .any(|known| have_same_impact(known, &orbit, self.period));
+        let distance = |known| impact_distance(impact_of(known), impact_of(&orbit), self.period);
+        let is_known = self.found.iter().any(|known| distance(known) < SAME);
         let is_kept =
             self.has_impact(&orbit) && !is_known && self.found.len() < MAX_SINGLE_IMPACT_ORBITS;
         if is_kept {
@@ -169,11 +167,6 @@ impl SingleImpactSearch {
             self.missed.push(impact);
         }
     }
-}
-
-/// True if two z = 1 orbits have the same impact.
-fn have_same_impact(a: &Orbit, b: &Orbit, period: f64) -> bool {
-    impact_distance(impact_of(a), impact_of(b), period) < SAME
 }
 
 /// Time in s and before-impact velocity in m/s of the impact of a z = 1 orbit.

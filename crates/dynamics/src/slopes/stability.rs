@@ -6,7 +6,7 @@ use softstop::{Parameter, Scene};
 
 use super::figure_recorder::DifferentiatedFigure;
 use super::variation::Variation;
-use crate::orbit::{Monodromy, Orbit, OrbitError, StroboscopicMap};
+use crate::orbit::{Orbit, OrbitError, StroboscopicMap};
 use crate::tolerance::SAME;
 
 /// Shares of a parameter over which the monodromy matrix is differenced, each where the ones before fail.
@@ -90,7 +90,8 @@ impl Variation {
                     let map = StroboscopicMap::new(&scene.check().ok()?, periods);
                     let passage = map.apply(self.start + width * along).ok()?;
                     let same = passage.impacts.len() == impacts;
-                    same.then(|| trace_and_determinant(&passage.monodromy))
+                    let matrix = passage.monodromy;
+                    same.then(|| Vector2::new(matrix.trace(), matrix.determinant()))
                 };
                 let central = |width: f64| Some((beside(width)? - beside(-width)?) / (2.0 * width));
                 let (wide, narrow) = (central(2.0 * width)?, central(width)?);
@@ -103,9 +104,4 @@ impl Variation {
         let rates: Option<Vec<_>> = rates.collect();
         rates.ok_or_else(|| OrbitError::no_derivative(&self.parameters))
     }
-}
-
-/// Trace and determinant of a monodromy matrix.
-fn trace_and_determinant(monodromy: &Monodromy) -> Vector2<f64> {
-    Vector2::new(monodromy.trace(), monodromy.determinant())
 }
