@@ -1,10 +1,12 @@
 //! What the last stages of a search move: the axes that are no catalogues, and the place in the zone.
 
 use softstop::Parameter;
+use softstop_dynamics::points::sobol_point;
 
 use super::Design;
 use super::operating_point::At;
 use super::problem::Problem;
+use super::slope::unit_row;
 
 /// A design and its point of the unit cube.
 #[derive(Debug, Clone)]
@@ -65,7 +67,7 @@ pub(super) fn keep_best<T>(best: &mut Option<T>, other: T, score: impl Fn(&T) ->
 /// Distance from the ends of the cube that is none: a solver comes as near to them as that.
 const AT_END: f64 = 1e-9;
 
-/// Axes that are moved all at once, at most.
+/// Axes about which a turn has two sets of directions, at most.
 const FEW: usize = 3;
 
 /// The coordinates that are moved.
@@ -134,29 +136,31 @@ impl Coordinates {
         unit
     }
 
-    /// Points of the unit cube around it: so far along each axis that is moved, and, if they are few, along all at once.
-    pub(super) fn around(&self, step: f64) -> Vec<Vec<f64>> {
+    /// Points of the unit cube around it: so far along directions that are perpendicular to each other, and, if they are few,
+    /// along as many others. Each turn has directions of its own.
+    pub(super) fn around(&self, step: f64, turn: usize) -> Vec<Vec<f64>> {
         let count = self.moved.len();
-        let along = (0..2 * count).map(|index| {
-            let sign = if index % 2 == 0 { step } else { -step };
-            let own = |axis| if axis == index / 2 { sign } else { 0.0 };
-            (0..count).map(own).collect()
-        });
-        let corners = match count {
-            2..=FEW => 1 << count,
-            _ => 0,
+        let sets = match count {
+            2..=FEW => 2,
+            _ => 1,
         };
-        let across = (0..corners).map(|corner| {
-            let sign = |axis| if corner >> axis & 1 == 1 { step } else { -step };
-            (0..count).map(sign).collect()
-        });
-        let at = self.axes();
-        let moved = |by: Vec<f64>| {
-            let pairs = at.iter().zip(by);
-            let to: Vec<f64> = pairs.map(|(at, by)| (at + by).clamp(0.0, 1.0)).collect();
-            self.unit(&to)
-        };
-        along.chain(across).map(moved).collect()
+        let directions = (sets * turn..sets * (turn + 1)).flat_map(|set| orthonormal(count, set));
+        let both = directions.flat_map(|it| [step, -step].map(|step| self.moved_by(&it, step)));
+        both.collect()
+    }
+
+    /// Points of the unit cube once and twice as far beyond it as it lies beyond another one.
+    pub(super) fn beyond(&self, other: &[f64]) -> [Vec<f64>; 2] {
+        let by = self.moved.iter().map(|it| self.unit[*it] - other[*it]);
+        let by: Vec<f64> = by.collect();
+        [1.0, 2.0].map(|factor| self.moved_by(&by, factor))
+    }
+
+    /// The point of the unit cube so many times a vector away, or the nearest one.
+    fn moved_by(&self, vector: &[f64], factor: f64) -> Vec<f64> {
+        let pairs = self.axes().into_iter().zip(vector);
+        let to = pairs.map(|(at, by)| (at + factor * by).clamp(0.0, 1.0));
+        self.unit(&to.collect::<Vec<f64>>())
     }
 
     /// The same for what computes there.
@@ -170,4 +174,18 @@ impl Coordinates {
                 .filter(|_| self.with_place),
         }
     }
+}
+
+/// Unit vectors perpendicular to each other: those of the axes, and for each number but 0 these reflected by another hyperplane
+/// (OrthoMADS, Abramson, Audet, Dennis and Le Digabel 2009).
+fn orthonormal(count: usize, number: usize) -> Vec<Vec<f64>> {
+    let normal = sobol_point(number, count);
+    let square: f64 = normal.iter().map(|it| it * it).sum();
+    let factor = if number > 0 { 2.0 / square } else { 0.0 };
+    let row = |axis: usize| {
+        let own = unit_row(count, Some(axis)).zip(&normal);
+        own.map(|(own, other)| own - factor * normal[axis] * other)
+            .collect()
+    };
+    (0..count).map(row).collect()
 }

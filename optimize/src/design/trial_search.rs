@@ -2,6 +2,8 @@
 //! with them is a search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon
 //! 2003). Of each zone only places that are better than the best so far are tried.
 
+use std::mem;
+
 use serde::Serialize;
 use softstop_console::interrupt;
 use softstop_dynamics::parallel;
@@ -96,7 +98,9 @@ impl<'a> Trials<'a> {
         let coordinates = Coordinates::new(self.problem, &from.unit);
         let lattice = lattice(coordinates.axes().len());
         let lattice = lattice.iter().map(|at| coordinates.unit(at));
-        let beside = BESIDE.into_iter().flat_map(|step| coordinates.around(step));
+        let beside = BESIDE
+            .into_iter()
+            .flat_map(|step| coordinates.around(step, 0));
         let zones: Vec<_> = lattice.chain(beside).collect();
         let first = self.first(from);
         let best = self.best_of(&zones, first.as_ref()).or(first)?;
@@ -108,20 +112,30 @@ impl<'a> Trials<'a> {
         self.compass(self.first(from)?)
     }
 
-    /// A compass search from a design.
+    /// A compass search from a design, whose directions turn, and which goes on along a step that bettered it: where the border of
+    /// the machines that have a zone holds the design back, only a narrow cone of directions leads up.
     fn compass(&self, mut best: Candidate) -> Option<Candidate> {
         let mut step = FIRST;
-        while step >= LAST && !interrupt::requested() {
-            let around = Coordinates::new(self.problem, &best.unit).around(step);
-            match self.best_of(&around, Some(&best)) {
+        let mut before: Option<Candidate> = None;
+        for turn in 0.. {
+            if step < LAST || interrupt::requested() {
+                break;
+            }
+            let coordinates = Coordinates::new(self.problem, &best.unit);
+            let mut units = coordinates.around(step, turn);
+            units.extend(before.iter().flat_map(|it| coordinates.beyond(&it.unit)));
+            match self.best_of(&units, Some(&best)) {
                 Some(better) => {
                     if self.score(&better.design) > (1.0 + COUNTED_GAIN) * self.score(&best.design)
                     {
                         step = FIRST.min(step / SHRINKING);
                     }
-                    best = better;
+                    before = Some(mem::replace(&mut best, better));
                 }
-                None => step *= SHRINKING,
+                None => {
+                    step *= SHRINKING;
+                    before = None;
+                }
             }
         }
         Some(best)
