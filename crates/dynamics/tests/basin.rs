@@ -68,6 +68,16 @@ fn by_scalar(scene: &Scene, basins: &Basins, cell: usize) -> usize {
     orbits(basins).iter().position(near).expect("there is one")
 }
 
+/// Without impacts the motion is linear and its one motion is z = 0. Its multipliers have modulus exp(-2 pi beta / eta), 0.981
+/// here,
+/// so that after the usual transient no start has come within the distance of a return.
+#[test]
+fn cells_that_settle_slowly_settle() {
+    let scene = with_changes("unloaded", "damping=0.008 eta=2.57 clearance=11.6");
+    let found = on(&scene, &states(20));
+    assert_eq!(names(&found), ["z = 0"]);
+}
+
 #[test]
 fn every_cell_is_where_the_scalar_engine_ends() {
     let scene = unloaded(1.15);

@@ -55,7 +55,7 @@ fn is_told(machine: &toml::Table, [position, velocity]: [f64; 2]) -> bool {
 #[test]
 fn motions_lie_on_stretches() {
     let all = found().motion;
-    assert_eq!(all.len(), 16);
+    assert_eq!(all.len(), 17);
     for one in all {
         let start = one.start.expect("a start");
         assert!(is_told(&one.machine, start), "{}", one.what);

@@ -12,7 +12,7 @@ use crate::attractors::catalogue::KnownOrbit;
 use crate::ensemble::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
 use crate::motion::MotionKind;
-use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
+use crate::orbit::{Exponents, Orbit, OrbitError};
 use crate::parallel;
 use softstop::Start;
 
@@ -169,9 +169,7 @@ impl BasinSurvey<'_> {
         let Some(cell) = outcomes.position(|outcome| *outcome == MemberStatus::Wandering) else {
             return Ok((MotionKind::Unsettled, None));
         };
-        let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
-        let (exponents, _) =
-            Exponents::along_motion_with_monitor(&self.scene, state, BATCH_PERIODS.0, ask)?;
+        let exponents = self.exponents_of_cell(cell)?;
         let motion = match exponents.is_positive() {
             true => MotionKind::Chaos,
             false => MotionKind::Unsettled,

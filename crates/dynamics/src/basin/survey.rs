@@ -8,7 +8,7 @@ use super::{BasinOptions, Basins, Grid};
 use crate::attractors::catalogue::AttractorCatalogue;
 use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
-use crate::orbit::OrbitError;
+use crate::orbit::{BATCH_PERIODS, Exponents, OrbitError};
 use crate::parallel;
 use softstop::{CheckedScene, MotionError, Scene, Start};
 use softstop_lanes::Machine;
@@ -19,6 +19,9 @@ pub(super) const TILE_CELLS: usize = 4096;
 const CELLS_BROUGHT_TOGETHER: usize = 1 << 16;
 /// Scouts on each axis of the grid: these cells are judged first.
 const SCOUTS_PER_AXIS: usize = 16;
+
+/// Longest transient of cells that settle slowly, in units of the usual one.
+const MAX_TRANSIENT_FACTOR: u64 = 8;
 
 /// Cells that are judged by their logs before what they have come to is stored; so many groups of the ensemble's.
 const CELLS_JUDGED_TOGETHER: usize = 1024;
@@ -86,6 +89,7 @@ pub fn find_basins(
     survey.scout_grid()?;
     survey.settle_cells()?;
     survey.judge_all()?;
+    survey.settle_slow_cells()?;
     survey.into_basins()
 }
 
@@ -174,6 +178,51 @@ impl BasinSurvey<'_> {
             self.judge_cells(cells, 0)?;
         }
         Ok(())
+    }
+
+    /// Follows the cells whose motions have not returned for ever longer transients, as long as one of them has no positive
+    /// exponent: it settles slowly. Scouts find on what, so that the others end in contraction balls.
+    fn settle_slow_cells(&mut self) -> Result<(), OrbitError> {
+        let longest = MAX_TRANSIENT_FACTOR * self.options.transient;
+        while self.options.transient < longest && self.settles_slowly()? {
+            self.options.transient *= 2;
+            for outcome in &mut self.outcomes {
+                if *outcome == MemberStatus::Wandering {
+                    *outcome = MemberStatus::Open;
+                    self.ensemble.planned += 1;
+                }
+            }
+            self.scout_grid()?;
+            self.settle_cells()?;
+            self.judge_all()?;
+        }
+        Ok(())
+    }
+
+    /// True if the first, the middle or the last of the cells whose motions have not returned has no positive exponent.
+    fn settles_slowly(&self) -> Result<bool, OrbitError> {
+        let cells = 0..self.outcomes.len();
+        let wandering = cells.filter(|cell| self.outcomes[*cell] == MemberStatus::Wandering);
+        let wandering: Vec<usize> = wandering.collect();
+        let Some(last) = wandering.len().checked_sub(1) else {
+            return Ok(false);
+        };
+        let mut sample = vec![0, last / 2, last];
+        sample.dedup();
+        for index in sample {
+            if !self.exponents_of_cell(wandering[index])?.is_positive() {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The exponents along the motion of a cell from its latest state on.
+    pub(super) fn exponents_of_cell(&self, cell: usize) -> Result<Exponents, OrbitError> {
+        let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
+        let (exponents, _) =
+            Exponents::along_motion_with_monitor(&self.scene, state, BATCH_PERIODS.0, ask)?;
+        Ok(exponents)
     }
 
     /// Follows cells for so many drive periods, and judges each by its log; stored outcomes are recalled.

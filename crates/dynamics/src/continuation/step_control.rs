@@ -17,8 +17,8 @@ use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::{DIFFERENCE_WIDTH, SAME};
 
-/// Shares of the way to a grazing at which a fold is looked for behind.
-const FOLD_SEARCH_SHARES: [f64; 3] = [0.9, 0.99, 0.999];
+/// Shares of the way to a grazing at which a fold or a flip is looked for behind.
+const TEST_SEARCH_SHARES: [f64; 4] = [0.5, 0.9, 0.99, 0.999];
 /// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
 const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Scaled distances ahead at which a rest is looked for, where the orbits of a branch come to lie side by side.
@@ -168,7 +168,7 @@ impl Continuation<'_> {
             SpecialKind::Grazing(graze) => {
                 let goes_on = grazing_test.is_gentle(graze.face)
                     || graze.dies && turns_unstable
-                    || self.folds_before(special, stepper);
+                    || self.folds_or_flips_before(special, stepper);
                 !goes_on
             }
             SpecialKind::Critical(_) | SpecialKind::Pitchfork => false,
@@ -177,21 +177,28 @@ impl Continuation<'_> {
             .filter(ends)
     }
 
-    /// True if the branch turns back between a node and a grazing: right before it multipliers grow without bounds.
-    fn folds_before(&self, special: &Special, stepper: &Stepper<'_, Shooting<'_, 1>>) -> bool {
+    /// True if the branch folds or flips between a node and a grazing: right before it multipliers grow without bounds, and a
+    /// flipped orbit may come back through both.
+    fn folds_or_flips_before(
+        &self,
+        special: &Special,
+        stepper: &Stepper<'_, Shooting<'_, 1>>,
+    ) -> bool {
         let Ok(at) = self.place_of(&special.point) else {
             return false;
         };
         let (from, way) = (&stepper.node.here.point, at - &stepper.node.at);
-        let turns = |share: &f64| {
+        let passes = |share: &f64| {
             let guess = &stepper.node.at + *share * &way;
             let found = correct(&self.shooting, &guess, Some(&way.normalize()));
             found.is_ok_and(|Node { here, .. }| {
+                let ends = (&from.monodromy, &here.point.monodromy);
+                let tests = [TestFunction::Fold, TestFunction::Flip];
                 from.sequence == here.point.sequence
-                    && TestFunction::Fold.passes_zero(&from.monodromy, &here.point.monodromy)
+                    && tests.iter().any(|test| test.passes_zero(ends.0, ends.1))
             })
         };
-        FOLD_SEARCH_SHARES.iter().any(turns)
+        TEST_SEARCH_SHARES.iter().any(passes)
     }
 
     /// The grazing ahead of a node within a scaled distance, if there is one.
