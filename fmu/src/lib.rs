@@ -40,7 +40,7 @@ pub fn table() -> &'static softstop_fmi::Table<Machine, Tangent> {
     &Machine::about().table
 }
 
-/// The GUID of this very library, or nothing if its description cannot be written.
-pub fn library_guid() -> Option<String> {
+/// The GUID of this very library.
+pub fn library_guid() -> String {
     softstop_fmi::library_guid::<Machine>()
 }

@@ -36,7 +36,7 @@ pub fn state(data: &[u8]) {
 /// # Panics
 /// If the unit has no GUID.
 pub fn behind_fitting_header(head: &[u8], body: &[u8]) -> Vec<u8> {
-    let guid = library_guid().expect("a GUID");
+    let guid = library_guid();
     let own = Uuid::parse_str(guid.trim_matches(['{', '}'])).expect("a GUID");
     let mut bytes = head[..12].to_vec();
     bytes.extend(own.as_bytes());

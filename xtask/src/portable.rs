@@ -108,7 +108,7 @@ impl Program {
     fn results(&self, mut command: Command) -> Result<Vec<(String, f64)>> {
         command
             .arg(&self.library)
-            .arg(guid_of(&Imprint::library())?)
+            .arg(guid_of(&Imprint::library()))
             .args([STOP_TIME, STEP]);
         for name in OUTPUTS {
             let variable = table()

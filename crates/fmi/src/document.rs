@@ -2,19 +2,14 @@
 //!
 //! A page written by hand, with tables of variables and capabilities that follow from the model description.
 
-use std::io;
-
-use quick_xml::Writer;
 use quick_xml::escape::escape;
-use quick_xml::events::BytesText;
 
-use crate::description::{array_of, capabilities, rows_told, start_value};
+use crate::description::{Listed, capabilities, rows_told};
+use crate::element::Element;
 use crate::imprint::Imprint;
 use crate::standard::Standard;
 use crate::unit::{Row, Unit};
 use crate::variable::Kind;
-
-type Html = Writer<Vec<u8>>;
 
 /// What a flag of the model description says about this unit.
 const CAPABILITIES: [(&str, &str); 12] = [
@@ -69,71 +64,63 @@ const CAPABILITIES: [(&str, &str); 12] = [
 ];
 
 /// The page.
-pub(crate) fn html<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
+pub(crate) fn html<U: Unit>(imprint: &Imprint<U>) -> String {
     let about = U::about();
     let page = about.page.replace("<!--version-->", about.version);
-    let page = page.replace("<!--capabilities-->", &flags::<U>(imprint.standard())?);
-    let page = page.replace("<!--variables-->", &variables(imprint)?);
-    Ok(page.replace("<!--name-->", &escape(imprint.name())))
+    let page = page.replace("<!--capabilities-->", &flags::<U>(imprint.standard()));
+    let page = page.replace("<!--variables-->", &variables(imprint));
+    page.replace("<!--name-->", &escape(imprint.name()))
 }
 
 /// The flags, with the values that the model description gives them.
-fn flags<U: Unit>(standard: Standard) -> io::Result<String> {
+fn flags<U: Unit>(standard: Standard) -> String {
     let flags = capabilities::<U>(standard);
-    rows(|html| {
-        CAPABILITIES.iter().try_for_each(|(name, meaning)| {
-            // Some are written in another way in FMI 3.0.
-            let is_meant = |flag: &str| {
-                flag.trim_end_matches('s')
-                    .eq_ignore_ascii_case(name.trim_end_matches('s'))
-            };
-            let Some((flag, value)) = flags.iter().find(|(flag, _)| is_meant(flag)) else {
-                return Ok(());
-            };
-            cells(html, "td", &[flag, value, meaning])
-        })
-    })
+    rows(CAPABILITIES.iter().filter_map(|(name, meaning)| {
+        // Some are written in another way in FMI 3.0.
+        let is_meant = |flag: &str| {
+            flag.trim_end_matches('s')
+                .eq_ignore_ascii_case(name.trim_end_matches('s'))
+        };
+        let (flag, value) = flags.iter().find(|(flag, _)| is_meant(flag))?;
+        Some(cells("td", &[flag, value, meaning]))
+    }))
 }
 
-fn variables<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
-    rows(|html| {
-        let head = [
-            "Name",
-            "Reference",
-            "Causality",
-            "Variability",
-            "Unit",
-            "Start",
-            "Meaning",
-        ];
-        cells(html, "th", &head)?;
-        let mut variables = rows_told::<U>(imprint.has_exchange(), imprint.has_arrays());
-        variables.try_for_each(|variable| row(html, variable, imprint))?;
-        let mut clock = imprint.clock().into_iter();
-        clock.try_for_each(|clock| {
-            let reference = clock.reference.to_string();
-            let texts = [
-                clock.name,
-                &reference,
-                "output",
-                "clock",
-                "",
-                "",
-                clock.description,
-            ];
-            cells(html, "td", &texts)
-        })
-    })
+fn variables<U: Unit>(imprint: &Imprint<U>) -> String {
+    let head = [
+        "Name",
+        "Reference",
+        "Causality",
+        "Variability",
+        "Unit",
+        "Start",
+        "Meaning",
+    ];
+    let variables = rows_told::<U>(imprint.has_exchange(), imprint.has_arrays());
+    let clock = imprint.clock().map(|clock| {
+        let reference = clock.reference.to_string();
+        let (name, meaning) = (clock.name, clock.description);
+        cells(
+            "td",
+            &[name, &reference, "output", "clock", "", "", meaning],
+        )
+    });
+    let variables = variables.map(|variable| row(variable, imprint));
+    rows(
+        [cells("th", &head)]
+            .into_iter()
+            .chain(variables)
+            .chain(clock),
+    )
 }
 
 /// Rows of a table as text.
-fn rows(write: impl FnOnce(&mut Html) -> io::Result<()>) -> io::Result<String> {
-    let mut html = Writer::new_with_indent(Vec::new(), b' ', 1);
-    write(&mut html)?;
-    String::from_utf8(html.into_inner()).map_err(io::Error::other)
+fn rows(rows: impl Iterator<Item = Element>) -> String {
+    let text: String = rows.map(|row| row.to_lines(1, 0)).collect();
+    text.trim_end().to_owned()
 }
 
-fn row<U: Unit>(html: &mut Html, variable: &Row<U>, imprint: &Imprint<U>) -> io::Result<()> {
+fn row<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Element {
     let (unit, items) = match &variable.kind {
         Kind::Real(kind) => (kind.quantity.map_or("", |q| q.unit), String::new()),
         Kind::Enumeration(items) => {
@@ -146,12 +133,8 @@ fn row<U: Unit>(html: &mut Html, variable: &Row<U>, imprint: &Imprint<U>) -> io:
         }
         Kind::Count { .. } | Kind::Boolean => ("", String::new()),
     };
-    let (name, start) = match array_of(variable, imprint) {
-        Some(array) => (array.name, Some(array.starts.join(" "))),
-        None => (variable.name, start_value(variable, imprint)),
-    };
+    let Listed { name, start, .. } = Listed::of(variable, imprint);
     cells(
-        html,
         "td",
         &[
             name,
@@ -165,14 +148,6 @@ fn row<U: Unit>(html: &mut Html, variable: &Row<U>, imprint: &Imprint<U>) -> io:
     )
 }
 
-fn cells(html: &mut Html, name: &'static str, texts: &[&str]) -> io::Result<()> {
-    html.create_element("tr")
-        .write_inner_content(|html| texts.iter().try_for_each(|cell| text(html, name, cell)))?;
-    Ok(())
-}
-
-fn text(html: &mut Html, name: &'static str, content: &str) -> io::Result<()> {
-    html.create_element(name)
-        .write_text_content(BytesText::new(content))?;
-    Ok(())
+fn cells(name: &'static str, texts: &[&str]) -> Element {
+    Element::new("tr").with(texts.iter().map(|text| Element::of_text(name, text)))
 }

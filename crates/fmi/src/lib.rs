@@ -14,6 +14,7 @@ mod block;
 mod derivatives;
 pub mod description;
 mod document;
+mod element;
 mod event;
 mod exchange;
 mod fault;

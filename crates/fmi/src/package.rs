@@ -194,8 +194,8 @@ pub fn archive<U: Unit>(
     if libraries.is_empty() {
         return Err(PackageError::NoLibrary);
     }
-    let xml = description::write(imprint, &guid::guid_of(imprint)?)?;
-    let page = document::html(imprint)?;
+    let xml = description::write(imprint, &guid::guid_of(imprint));
+    let page = document::html(imprint);
     let mut entries = vec![
         ("modelDescription.xml".to_owned(), xml.into_bytes()),
         ("documentation/index.html".to_owned(), page.into_bytes()),
@@ -212,10 +212,10 @@ pub fn archive<U: Unit>(
     }));
     if standard == Standard::Fmi3 {
         let has_icon = about.files.iter().any(|(name, _)| *name == ICON);
-        let text = description::v3::terminals_and_icons(about.terminals, has_icon)?;
+        let text = description::v3::terminals_and_icons(about.terminals, has_icon);
         let name = "terminalsAndIcons/terminalsAndIcons.xml".to_owned();
         entries.push((name, text.into_bytes()));
-        entries.extend(reference::files(imprint)?);
+        entries.extend(reference::files(imprint));
     }
     for library in libraries {
         let bytes = library.with_imprint(imprint)?;

@@ -3,10 +3,8 @@
 
 use std::io;
 
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, Event};
-
-use crate::description::{GENERATOR, NONE, Xml, element, empty, number, unit};
+use crate::description::{GENERATOR, number, unit};
+use crate::element::Element;
 use crate::imprint::Imprint;
 use crate::quantity::{Enumeration, Quantity};
 use crate::unit::{Row, Unit};
@@ -18,7 +16,7 @@ const COMMON: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
 /// The XML with all parameters of an imprint.
 ///
 /// # Errors
-/// If writing to memory fails.
+/// If the number of an enumeration is none of its items; the error names the parameter.
 pub fn write<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
     write_some(imprint, |_| true)
 }
@@ -26,7 +24,7 @@ pub fn write<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
 /// The parameter set with some of the parameters only.
 ///
 /// # Errors
-/// If writing to memory fails.
+/// If the number of an enumeration is none of its items; the error names the parameter.
 pub fn write_some<U: Unit>(
     imprint: &Imprint<U>,
     wanted: impl Fn(&Row<U>) -> bool,
@@ -44,48 +42,36 @@ pub fn write_some<U: Unit>(
         let mut kinds = parameters.iter().map(|row| &row.kind);
         kinds.any(|kind| matches!(kind, Kind::Enumeration(own) if own.type_name == of.type_name))
     };
-    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let root = [
+    let enumerations = about.enumerations.iter().filter(|of| uses_type(of));
+    let enumerations: Vec<_> = enumerations.map(|of| enumeration(of)).collect();
+    let quantities = about.quantities.iter().filter(|of| uses_unit(of));
+    let units = quantities.map(|of| unit(["ssc:Unit", "ssc:BaseUnit"], of));
+    let named = parameters.iter().map(|row| parameter(row, imprint));
+    let named = named.collect::<io::Result<Vec<_>>>()?;
+    let has_enumerations = !enumerations.is_empty();
+    let root = Element::new("ssv:ParameterSet").set_all([
         ("xmlns:ssv", VALUES),
         ("xmlns:ssc", COMMON),
         ("version", "1.0"),
         ("name", imprint.name()),
         ("description", imprint.description()),
         ("generationTool", GENERATOR),
-    ];
-    element(&mut xml, "ssv:ParameterSet", root, |xml| {
-        element(xml, "ssv:Parameters", NONE, |xml| {
-            parameters
-                .iter()
-                .try_for_each(|row| parameter(xml, row, imprint))
-        })?;
-        let mut used = about
-            .enumerations
-            .iter()
-            .filter(|of| uses_type(of))
-            .peekable();
-        if used.peek().is_some() {
-            element(xml, "ssv:Enumerations", NONE, |xml| {
-                used.try_for_each(|of| {
-                    let named = [("name", of.type_name), ("description", of.description)];
-                    element(xml, "ssc:Enumeration", named, |xml| {
-                        of.items.iter().try_for_each(|item| {
-                            let value = item.value.to_string();
-                            empty(xml, "ssc:Item", [("name", item.name), ("value", &value)])
-                        })
-                    })
-                })
-            })?;
-        }
-        element(xml, "ssv:Units", NONE, |xml| {
-            let mut used = about.quantities.iter().filter(|of| uses_unit(of));
-            used.try_for_each(|of| unit(xml, ["ssc:Unit", "ssc:BaseUnit"], of, |_| Ok(())))
-        })
-    })?;
-    let mut bytes = xml.into_inner();
-    bytes.push(b'\n');
-    String::from_utf8(bytes).map_err(io::Error::other)
+    ]);
+    let root = root
+        .with([Element::new("ssv:Parameters").with(named)])
+        .with(has_enumerations.then(|| Element::new("ssv:Enumerations").with(enumerations)))
+        .with([Element::new("ssv:Units").with(units)]);
+    Ok(root.to_document())
+}
+
+fn enumeration(of: &Enumeration) -> Element {
+    let items = of.items.iter().map(|item| {
+        let named = Element::new("ssc:Item").set("name", item.name);
+        named.set("value", item.value)
+    });
+    Element::new("ssc:Enumeration")
+        .set_all([("name", of.type_name), ("description", of.description)])
+        .with(items)
 }
 
 fn unit_of(kind: &Kind) -> Option<&'static str> {
@@ -95,7 +81,7 @@ fn unit_of(kind: &Kind) -> Option<&'static str> {
     }
 }
 
-fn parameter<U: Unit>(xml: &mut Xml, row: &Row<U>, imprint: &Imprint<U>) -> io::Result<()> {
+fn parameter<U: Unit>(row: &Row<U>, imprint: &Imprint<U>) -> io::Result<Element> {
     let value = row.slot().map_or(0.0, |slot| imprint.values()[slot.0]);
     let (element_name, value) = match row.kind {
         Kind::Real(_) => ("ssv:Real", number(value)),
@@ -111,9 +97,7 @@ fn parameter<U: Unit>(xml: &mut Xml, row: &Row<U>, imprint: &Imprint<U>) -> io::
         Kind::Enumeration(of) => Some(("name", of.type_name)),
         _ => unit_of(&row.kind).map(|unit| ("unit", unit)),
     };
-    let typed = [("value", value.as_str())].into_iter().chain(of);
-    let named = [("name", row.name), ("description", row.description)];
-    element(xml, "ssv:Parameter", named, |xml| {
-        empty(xml, element_name, typed)
-    })
+    let typed = Element::new(element_name).set("value", value).set_all(of);
+    let named = Element::new("ssv:Parameter").set("name", row.name);
+    Ok(named.set("description", row.description).with([typed]))
 }

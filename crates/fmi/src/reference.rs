@@ -1,9 +1,9 @@
 //! Reference results of a packed unit, by the layered standard FMI-LS-REF: an experiment, and what the outputs are in it.
 
-use std::io;
 use std::iter::once;
 
-use crate::description::{element, empty, write_document};
+use crate::description::number;
+use crate::element::Element;
 use crate::imprint::Imprint;
 use crate::unit::{Advance, Events, Row, Unit};
 use crate::variable::Access;
@@ -17,17 +17,17 @@ const STEPS: u32 = 100;
 const STEP: f64 = 0.1;
 
 /// The files of the layered standard, by their places in the package; none if the unit cannot complete the experiment.
-pub(crate) fn files<U: Unit>(imprint: &Imprint<U>) -> io::Result<Vec<(String, Vec<u8>)>> {
+pub(crate) fn files<U: Unit>(imprint: &Imprint<U>) -> Vec<(String, Vec<u8>)> {
     let Some(results) = results(imprint) else {
-        return Ok(Vec::new());
+        return Vec::new();
     };
     let files = [
-        ("fmi-ls-manifest.xml", manifest()?),
-        (EXPERIMENT, experiment()?),
+        ("fmi-ls-manifest.xml", manifest()),
+        (EXPERIMENT, experiment()),
         (RESULTS, results),
     ];
     let files = files.map(|(name, text)| (format!("{FOLDER}/{name}"), text.into_bytes()));
-    Ok(files.into())
+    files.into()
 }
 
 /// Time and all outputs at each communication point, as CSV.
@@ -64,16 +64,7 @@ fn value<U: Unit>(row: &Row<U>, unit: &U) -> String {
     }
 }
 
-fn manifest() -> io::Result<String> {
-    let root = [
-        ("xmlns:fmi-ls", "http://fmi-standard.org/fmi-ls-manifest"),
-        ("fmi-ls:fmi-ls-name", "org.fmi-standard.fmi-ls-ref"),
-        ("fmi-ls:fmi-ls-version", "1.0.0-alpha.1"),
-        (
-            "fmi-ls:fmi-ls-description",
-            "Layered Standard providing information on related files included in an FMU.",
-        ),
-    ];
+fn manifest() -> String {
     let related = [
         [
             ("type", "application/x-ma-hs-experiments"),
@@ -94,23 +85,32 @@ fn manifest() -> io::Result<String> {
             ),
         ],
     ];
-    write_document("fmiReferences", root, |xml| {
-        let mut related = related.into_iter();
-        related.try_for_each(|file| empty(xml, "Related", file))
-    })
+    Element::new("fmiReferences")
+        .set("xmlns:fmi-ls", "http://fmi-standard.org/fmi-ls-manifest")
+        .set("fmi-ls:fmi-ls-name", "org.fmi-standard.fmi-ls-ref")
+        .set("fmi-ls:fmi-ls-version", "1.0.0-alpha.1")
+        .set(
+            "fmi-ls:fmi-ls-description",
+            "Layered Standard providing information on related files included in an FMU.",
+        )
+        .with(related.map(|file| Element::new("Related").set_all(file)))
+        .to_document()
 }
 
-fn experiment() -> io::Result<String> {
+fn experiment() -> String {
     let times = [
         ("startTime", 0.0),
         ("stopTime", f64::from(STEPS) * STEP),
         ("stepSize", STEP),
     ];
-    let times = times.map(|(name, value)| (name, format!("{value:?}")));
-    write_document("Experiments", [("name", "reference")], |xml| {
-        element(xml, "Experiment", [("name", "reference")], |xml| {
-            empty(xml, "TransientSimulation", times)?;
-            empty(xml, "References", [("source", RESULTS)])
-        })
-    })
+    let times = times.map(|(name, value)| (name, number(value)));
+    let content = [
+        Element::new("TransientSimulation").set_all(times),
+        Element::new("References").set("source", RESULTS),
+    ];
+    let experiment = Element::new("Experiment").set("name", "reference");
+    Element::new("Experiments")
+        .set("name", "reference")
+        .with([experiment.with(content)])
+        .to_document()
 }

@@ -239,5 +239,5 @@ pub struct About<U: Unit> {
     /// Further files of the package: (path, content).
     pub files: &'static [(&'static str, &'static [u8])],
     /// The library's GUID, once it is known; empty at first.
-    pub guid: OnceLock<Option<Uuid>>,
+    pub guid: OnceLock<Uuid>,
 }

@@ -98,7 +98,7 @@ impl Birth {
         Self {
             name: Some(c"unit"),
             kind: 1,
-            guid: library_guid(),
+            guid: Some(library_guid()),
             has_callbacks: true,
             has_logger: true,
             logging_on: false,

@@ -196,7 +196,7 @@ fn birth() -> impl Strategy<Value = Call> {
     let names = prop_oneof![18 => Just(Some(c"unit")), 1 => Just(None), 1 => Just(Some(c""))];
     let kinds = prop_oneof![18 => Just(1), 1 => select(vec![0, 2, -1, c_int::MAX])];
     let guids = prop_oneof![
-        18 => Just(library_guid()),
+        18 => Just(Some(library_guid())),
         1 => select(vec![None, Some("{other}".to_owned())]),
     ];
     let usually = || proptest::bool::weighted(0.9);

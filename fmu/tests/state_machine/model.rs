@@ -79,7 +79,7 @@ pub fn refusal(birth: &Birth) -> Option<String> {
         _ if name.is_none() => Some("instanceName".to_owned()),
         None => Some("fmuGUID".to_owned()),
         _ if birth.kind != 1 => Some(format!("fmuType = {}", birth.kind)),
-        own if *own == library_guid() => None,
+        own if *own == Some(library_guid()) => None,
         other => other.clone(),
     }
 }

@@ -26,11 +26,11 @@ struct Origin {
 
 impl Origin {
     /// That of the snapshots of this library.
-    fn of_library<U: Unit>() -> Result<Self, Fault> {
-        Ok(Self {
+    fn of_library<U: Unit>() -> Self {
+        Self {
             marker: *b"softstop",
-            guid: library_uuid::<U>()?,
-        })
+            guid: library_uuid::<U>(),
+        }
     }
 }
 
@@ -43,9 +43,9 @@ struct Snapshot<U: Unit> {
 
 impl<U: Unit> Snapshot<U> {
     /// A handle of a new snapshot.
-    fn handle(instance: Instance<U>) -> Result<*mut c_void, Fault> {
-        let origin = Origin::of_library::<U>()?;
-        Ok(Box::into_raw(Box::new(Self { origin, instance })).cast())
+    fn handle(instance: Instance<U>) -> *mut c_void {
+        let origin = Origin::of_library::<U>();
+        Box::into_raw(Box::new(Self { origin, instance })).cast()
     }
 
     /// What a handle points to; none if it is NULL.
@@ -60,7 +60,7 @@ impl<U: Unit> Snapshot<U> {
             return Ok(None);
         };
         // SAFETY: by this function's contract; snapshots of all units begin with their origin.
-        match unsafe { *origin.as_ref() } == Origin::of_library::<U>()? {
+        match unsafe { *origin.as_ref() } == Origin::of_library::<U>() {
             true => Ok(Some(origin.cast())),
             false => Err(Fault::ForeignState),
         }
@@ -96,7 +96,7 @@ pub(crate) unsafe fn keep<U: Unit, H: Host>(
     };
     match kept {
         Some(kept) => kept.instance.clone_from(&component.instance),
-        None => *state = Snapshot::handle(component.instance.clone())?,
+        None => *state = Snapshot::handle(component.instance.clone()),
     }
     Ok(())
 }
@@ -190,6 +190,6 @@ pub(crate) unsafe fn restore<U: Unit>(
         let state = write_one("FMUstate", state)?;
         (state, read("serializedState", bytes, size)?)
     };
-    *state = Snapshot::handle(Instance::<U>::from_bytes(bytes)?)?;
+    *state = Snapshot::handle(Instance::<U>::from_bytes(bytes)?);
     Ok(())
 }

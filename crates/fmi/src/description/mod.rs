@@ -5,35 +5,21 @@
 pub(crate) mod v2;
 pub(crate) mod v3;
 
-use std::borrow::Cow;
-use std::io;
-
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, Event};
-
+use crate::element::{Attributes, Element};
 use crate::imprint::Imprint;
 use crate::log::{Category, LOG_ALL};
-use crate::quantity::{Item, Quantity};
+use crate::quantity::{Enumeration, Item, Quantity};
 use crate::solving::space_of;
 use crate::standard::Standard;
 use crate::unit::{About, Row, State, Unit};
-use crate::variable::{Access, Dependencies, Kind, RealKind};
+use crate::variable::{Access, Dependencies, Kind};
 
-/// The tool that writes units, and its version.
+/// The tool that writes units, with its version.
 const TOOL: &str = "softstop";
-const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub(crate) const GENERATOR: &str = concat!("softstop ", env!("CARGO_PKG_VERSION"));
-const INDENT: usize = 2;
-
-pub(crate) type Xml = Writer<Vec<u8>>;
-type Attributes = Vec<(&'static str, String)>;
-pub(crate) const NONE: [(&str, &str); 0] = [];
 
 /// The XML of the FMU with this imprint and this GUID, by the imprint's standard.
-///
-/// # Errors
-/// If writing to memory fails.
-pub fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> io::Result<String> {
+pub fn write<U: Unit>(imprint: &Imprint<U>, guid: &str) -> String {
     match imprint.standard() {
         Standard::Fmi2 => v2::write(imprint, guid, imprint.has_exchange()),
         Standard::Fmi3 => v3::write(imprint, guid),
@@ -48,28 +34,14 @@ pub(crate) fn capabilities<U: Unit>(standard: Standard) -> Attributes {
     }
 }
 
-/// Writes a whole document with this root.
-pub(crate) fn write_document<'a>(
-    root: &'static str,
-    attributes: impl IntoIterator<Item = (&'static str, &'a str)>,
-    content: impl FnOnce(&mut Xml) -> io::Result<()>,
-) -> io::Result<String> {
-    let mut xml = Writer::new_with_indent(Vec::new(), b' ', INDENT);
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    element(&mut xml, root, attributes, content)?;
-    let mut bytes = xml.into_inner();
-    bytes.push(b'\n');
-    String::from_utf8(bytes).map_err(io::Error::other)
-}
-
-/// What the root says in both standards, the fingerprint under this name included.
-fn root<'a, U: Unit>(
-    version: &'static str,
-    imprint: &'a Imprint<U>,
-    (name, guid): (&'static str, &'a str),
-) -> [(&'static str, &'a str); 11] {
+/// The root, without its content, of a description by a version of the standard, with the fingerprint under this name.
+fn root<U: Unit>(
+    version: &str,
+    imprint: &Imprint<U>,
+    (name, guid): (&'static str, &str),
+) -> Element {
     let about = U::about();
-    [
+    Element::new("fmiModelDescription").set_all([
         ("fmiVersion", version),
         ("modelName", imprint.name()),
         (name, guid),
@@ -81,80 +53,38 @@ fn root<'a, U: Unit>(
         ("generationTool", GENERATOR),
         ("generationDateAndTime", about.date),
         ("variableNamingConvention", "structured"),
-    ]
+    ])
+}
+
+/// An element for what tools say beyond the standard, with this tool's version.
+fn annotations([list, annotation, key]: [&'static str; 3]) -> Element {
+    let version = Element::new(TOOL).set("version", env!("CARGO_PKG_VERSION"));
+    Element::new(list).with([Element::new(annotation).set(key, TOOL).with([version])])
 }
 
 /// The units of quantities.
-fn units(xml: &mut Xml, quantities: &[&'static Quantity]) -> io::Result<()> {
-    element(xml, "UnitDefinitions", NONE, |xml| {
-        quantities
-            .iter()
-            .try_for_each(|of| unit(xml, ["Unit", "BaseUnit"], of, |xml| shown(xml, of)))
-    })
+fn units(quantities: &[&'static Quantity]) -> Element {
+    let units = quantities.iter().map(|of| {
+        let shown = of.display.iter().map(|(name, factor)| {
+            let shown = Element::new("DisplayUnit").set("name", name);
+            shown.set("factor", number(*factor))
+        });
+        unit(["Unit", "BaseUnit"], of).with(shown)
+    });
+    Element::new("UnitDefinitions").with(units)
 }
 
 /// Log categories and the default experiment.
-fn log_and_experiment<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
-    element(xml, "LogCategories", NONE, |xml| log_categories(xml, about))?;
+fn log_and_experiment<U: Unit>(about: &About<U>) -> [Element; 2] {
     let experiment = about.experiment.iter().copied();
-    empty(xml, "DefaultExperiment", experiment)
-}
-
-pub(crate) fn element<'a, V: Into<Cow<'a, str>>>(
-    xml: &mut Xml,
-    name: &'static str,
-    attributes: impl IntoIterator<Item = (&'static str, V)>,
-    content: impl FnOnce(&mut Xml) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut content = Some(content);
-    let mut content = |xml: &mut Xml| content.take().map_or(Ok(()), |content| content(xml));
-    write_element(
-        xml,
-        name,
-        collect_attributes(attributes),
-        Some(&mut content),
-    )
-}
-
-pub(crate) fn empty<'a, V: Into<Cow<'a, str>>>(
-    xml: &mut Xml,
-    name: &'static str,
-    attributes: impl IntoIterator<Item = (&'static str, V)>,
-) -> io::Result<()> {
-    write_element(xml, name, collect_attributes(attributes), None)
-}
-
-/// What writes the content of an element.
-type ContentWriter<'a> = &'a mut dyn FnMut(&mut Xml) -> io::Result<()>;
-/// Names and values of attributes.
-type ElementAttributes<'a> = Vec<(&'static str, Cow<'a, str>)>;
-
-fn collect_attributes<'a, V: Into<Cow<'a, str>>>(
-    attributes: impl IntoIterator<Item = (&'static str, V)>,
-) -> ElementAttributes<'a> {
-    let attributes = attributes.into_iter();
-    attributes
-        .map(|(name, value)| (name, value.into()))
-        .collect()
-}
-
-/// Writes an element with its content, or without one. What is generic about it is left to its callers: there are many.
-fn write_element(
-    xml: &mut Xml,
-    name: &'static str,
-    attributes: ElementAttributes<'_>,
-    content: Option<ContentWriter<'_>>,
-) -> io::Result<()> {
-    let element = xml.create_element(name).with_attributes(attributes);
-    match content {
-        Some(content) => element.write_inner_content(content)?,
-        None => element.write_empty()?,
-    };
-    Ok(())
+    [
+        Element::new("LogCategories").with(log_categories(about)),
+        Element::new("DefaultExperiment").set_all(experiment),
+    ]
 }
 
 /// The categories of the unit by their own names and by the standard's; a unit without events has none for them.
-fn log_categories<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
+fn log_categories<U: Unit>(about: &About<U>) -> impl Iterator<Item = Element> {
     let told = Category::ALL.map(|it| (it, it.description().unwrap_or(about.events)));
     let told = told
         .into_iter()
@@ -166,65 +96,22 @@ fn log_categories<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
         let names = category.standard_names().iter();
         names.map(move |name| (*name, description))
     });
-    let all = [(LOG_ALL, "all of these")];
-    let mut categories = own.chain(standard).chain(all);
-    categories.try_for_each(|(name, description)| {
-        empty(
-            xml,
-            "Category",
-            [("name", name), ("description", description)],
-        )
+    let all = own.chain(standard).chain([(LOG_ALL, "all of these")]);
+    all.map(|(name, description)| {
+        Element::new("Category").set_all([("name", name), ("description", description)])
     })
 }
 
 /// A unit and its base units, in elements of these names.
-pub(crate) fn unit(
-    xml: &mut Xml,
-    [name, base]: [&'static str; 2],
-    quantity: &Quantity,
-    more: impl FnOnce(&mut Xml) -> io::Result<()>,
-) -> io::Result<()> {
-    element(xml, name, [("name", quantity.unit)], |xml| {
-        let exponents = quantity.base.iter();
-        let exponents = exponents.map(|(name, exponent)| (*name, exponent.to_string()));
-        empty(xml, base, exponents)?;
-        more(xml)
-    })
-}
-
-/// The units in which a quantity may be shown.
-fn shown(xml: &mut Xml, quantity: &Quantity) -> io::Result<()> {
-    quantity.display.iter().try_for_each(|(name, factor)| {
-        let shown = [("name", *name), ("factor", &number(*factor))];
-        empty(xml, "DisplayUnit", shown)
-    })
-}
-
-fn real_attributes(kind: &RealKind) -> Attributes {
-    let texts = [
-        ("declaredType", kind.quantity.map(|of| of.type_name)),
-        ("quantity", kind.quantity.map(|of| of.quantity)),
-        ("unit", kind.quantity.map(|of| of.unit)),
-        ("displayUnit", kind.display_unit),
-    ];
-    let numbers = [
-        ("min", kind.min),
-        ("max", kind.max),
-        ("nominal", kind.nominal),
-    ];
-    let texts = texts.map(|(name, text)| Some((name, text?.to_owned())));
-    let numbers = numbers.map(|(name, value)| Some((name, number(value?))));
-    texts.into_iter().chain(numbers).flatten().collect()
-}
-
-fn count_attributes(min: i32, max: Option<i32>) -> Attributes {
-    let limits = [("min", Some(min)), ("max", max)];
-    let texts = limits.map(|(name, limit)| Some((name, limit?.to_string())));
-    texts.into_iter().flatten().collect()
+pub(crate) fn unit([name, base]: [&'static str; 2], quantity: &Quantity) -> Element {
+    let exponents = Element::new(base).set_all(quantity.base.iter().copied());
+    Element::new(name)
+        .set("name", quantity.unit)
+        .with([exponents])
 }
 
 /// The start value as it stands in the XML; outputs have none.
-pub(crate) fn start_value<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Option<String> {
+fn start_value<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Option<String> {
     let value = match variable.slot() {
         Some(slot) => imprint.values()[slot.0],
         None if variable.is_calculated() || matches!(variable.access, Access::Time) => return None,
@@ -251,47 +138,72 @@ fn real_type(quantity: &Quantity) -> [(&'static str, &str); 3] {
     ]
 }
 
+/// An enumeration in an element of this name.
+fn enumeration(name: &'static str, of: &Enumeration) -> Element {
+    Element::new(name).set_all([("name", of.type_name), ("description", of.description)])
+}
+
 /// The items of an enumeration.
-fn items(xml: &mut Xml, items: &[Item]) -> io::Result<()> {
-    items.iter().try_for_each(|item| {
-        let value = item.value.to_string();
-        let named = [
-            ("name", item.name),
-            ("value", &value),
-            ("description", item.description),
-        ];
-        empty(xml, "Item", named)
+fn items(items: &[Item]) -> impl Iterator<Item = Element> {
+    items.iter().map(|item| {
+        let named = Element::new("Item").set("name", item.name);
+        named
+            .set("value", item.value)
+            .set("description", item.description)
     })
 }
 
-/// What a variable says whatever its type.
-fn named<U: Unit>(variable: &Row<U>) -> impl Iterator<Item = (&'static str, String)> {
+/// An element with what a variable says whatever its type, its own name or that of its array among it.
+fn named<U: Unit>(element: &'static str, name: &str, variable: &Row<U>) -> Element {
     let initial = match variable.access {
         Access::Parameter { .. } => Some("exact"),
         Access::Signal(_) | Access::Input(_) | Access::Time => None,
         _ => Some("calculated"),
     };
-    let named = [
-        ("name", variable.name.to_owned()),
-        ("valueReference", variable.reference.to_string()),
-        ("description", variable.description.to_owned()),
-        ("causality", variable.causality().to_owned()),
-        ("variability", variable.variability().to_owned()),
-    ];
-    let initial = initial.map(|it| ("initial", it.to_owned()));
-    named.into_iter().chain(initial)
+    Element::new(element)
+        .set("name", name)
+        .set("valueReference", variable.reference)
+        .set("description", variable.description)
+        .set("causality", variable.causality())
+        .set("variability", variable.variability())
+        .set_all(initial.map(|it| ("initial", it)))
 }
 
-/// What it says by its type, its start value included.
-fn typed<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Attributes {
-    let mut typed = match &variable.kind {
-        Kind::Real(kind) => real_attributes(kind),
-        Kind::Count { min, max } => count_attributes(*min, *max),
-        Kind::Boolean => vec![],
-        Kind::Enumeration(items) => vec![("declaredType", items.type_name.to_owned())],
+/// Adds what a variable says by its type, and its start value.
+fn typed<U: Unit>(element: Element, variable: &Row<U>, start: Option<String>) -> Element {
+    let (texts, numbers) = match &variable.kind {
+        Kind::Real(kind) => {
+            let of = |text: fn(&Quantity) -> &'static str| kind.quantity.map(text);
+            let texts = vec![
+                ("declaredType", of(|quantity| quantity.type_name)),
+                ("quantity", of(|quantity| quantity.quantity)),
+                ("unit", of(|quantity| quantity.unit)),
+                ("displayUnit", kind.display_unit),
+            ];
+            (
+                texts,
+                [kind.min, kind.max, kind.nominal].map(|it| it.map(number)),
+            )
+        }
+        Kind::Count { min, max } => {
+            let limits = [Some(*min), *max, None].map(|it| it.map(|limit| limit.to_string()));
+            (Vec::new(), limits)
+        }
+        Kind::Boolean => (Vec::new(), [None, None, None]),
+        Kind::Enumeration(items) => {
+            let declared = ("declaredType", Some(items.type_name));
+            (vec![declared], [None, None, None])
+        }
     };
-    typed.extend(start_value(variable, imprint).map(|value| ("start", value)));
-    typed
+    let texts = texts
+        .into_iter()
+        .filter_map(|(name, text)| Some((name, text?)));
+    let numbers = ["min", "max", "nominal"]
+        .into_iter()
+        .zip(numbers)
+        .chain([("start", start)]);
+    let numbers = numbers.filter_map(|(name, number)| Some((name, number?)));
+    element.set_all(texts).set_all(numbers)
 }
 
 /// Lists of the model structure.
@@ -338,6 +250,22 @@ impl Unknowns {
     }
 }
 
+/// An element that tells of an unknown, and of what that depends on.
+fn dependent(
+    name: &'static str,
+    (key, unknown): (&'static str, impl ToString),
+    knowns: impl Iterator<Item = impl ToString>,
+) -> Element {
+    let knowns: Vec<_> = knowns.map(|known| known.to_string()).collect();
+    Element::new(name)
+        .set(key, unknown)
+        .set("dependencies", knowns.join(" "))
+        .set(
+            "dependenciesKind",
+            vec!["dependent"; knowns.len()].join(" "),
+        )
+}
+
 fn row_of<U: Unit>(reference: u32) -> Option<Counted<U>> {
     let mut rows = U::about().table.rows().enumerate();
     rows.find(|(_, row)| row.reference == reference)
@@ -367,31 +295,45 @@ fn states_behind<U: Unit>(
     behind.filter_map(|state| row_of(state.value)).collect()
 }
 
-/// What a variable says as a state, and as the derivative of one, which `name` tells.
-fn of_state<U: Unit>(variable: &Row<U>, name: impl Fn(u32) -> String) -> Attributes {
+/// Adds what a variable says as a state, and as the derivative of one, which `name` tells.
+fn of_state<U: Unit>(element: Element, variable: &Row<U>, name: impl Fn(u32) -> String) -> Element {
     let states = || space_of::<U>().states.iter();
     let is_state = states().any(|state| state.value == variable.reference);
     let state = states().find(|state| state.derivative == variable.reference);
-    let derived = state.map(|state| ("derivative", name(state.value)));
-    let reinit = is_state.then(|| ("reinit", "true".to_owned()));
-    reinit.into_iter().chain(derived).collect()
+    element
+        .set_all(is_state.then_some(("reinit", "true")))
+        .set_all(state.map(|state| ("derivative", name(state.value))))
 }
 
-/// An array of parameters that is one variable.
-pub(crate) struct Array {
+/// A variable as a description has it: an array of parameters, in an FMU that tells of arrays, by its first element.
+pub(crate) struct Listed {
     pub name: &'static str,
-    /// The start values of its elements.
-    pub starts: Vec<String>,
+    /// The start values of all elements.
+    pub start: Option<String>,
+    /// The number of elements of an array.
+    pub length: Option<usize>,
 }
 
-/// The array that a variable is the first element of, in an FMU that tells of arrays.
-pub(crate) fn array_of<U: Unit>(row: &Row<U>, imprint: &Imprint<U>) -> Option<Array> {
-    let (name, _) = row.element().filter(|_| imprint.has_arrays())?;
-    let elements = U::about().table.rows_of(name);
-    let starts = elements
-        .filter_map(|(_, row)| start_value(row, imprint))
-        .collect();
-    Some(Array { name, starts })
+impl Listed {
+    pub fn of<U: Unit>(row: &Row<U>, imprint: &Imprint<U>) -> Self {
+        let Some((name, _)) = row.element().filter(|_| imprint.has_arrays()) else {
+            let (name, start) = (row.name, start_value(row, imprint));
+            return Self {
+                name,
+                start,
+                length: None,
+            };
+        };
+        let elements = U::about().table.rows_of(name);
+        let starts: Vec<_> = elements
+            .filter_map(|(_, row)| start_value(row, imprint))
+            .collect();
+        Self {
+            name,
+            start: Some(starts.join(" ")),
+            length: Some(starts.len()),
+        }
+    }
 }
 
 /// The variables of a description: what is local is for model exchange, and the first element of an array of parameters may

@@ -1,61 +1,43 @@
 //! The model description by FMI 2.0.
 
-use std::io;
-
 use super::{
-    Attributes, NONE, TOOL, Unknowns, VERSION, Xml, element, empty, items, log_and_experiment,
-    named, of_state, real_type, root, rows_told, typed, units, write_document,
+    Unknowns, annotations, dependent, enumeration, items, log_and_experiment, named, of_state,
+    real_type, root, rows_told, start_value, typed, units,
 };
+use crate::element::{Attributes, Element};
 use crate::imprint::Imprint;
 use crate::solving::space_of;
 use crate::standard::Standard;
 use crate::unit::{About, Row, Unit};
 
 /// The XML of the FMU with this imprint and this GUID.
-pub(crate) fn write<U: Unit>(
-    imprint: &Imprint<U>,
-    guid: &str,
-    exchange: bool,
-) -> io::Result<String> {
+pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, guid: &str, exchange: bool) -> String {
     let about = U::about();
-    let root = root("2.0", imprint, ("guid", guid));
     let indicators = usize::from(exchange) * space_of::<U>().indicators.len();
-    let indicators = indicators.to_string();
-    let root = root
-        .into_iter()
-        .chain([("numberOfEventIndicators", &*indicators)]);
-    write_document("fmiModelDescription", root, |xml| {
-        if exchange {
-            let flags = exchange_capabilities(about.identifier);
-            empty(xml, "ModelExchange", flags)?;
-        }
-        empty(xml, "CoSimulation", capabilities(about))?;
-        units(xml, about.quantities)?;
-        element(xml, "TypeDefinitions", NONE, |xml| types(xml, about))?;
-        log_and_experiment(xml, about)?;
-        element(xml, "VendorAnnotations", NONE, |xml| {
-            element(xml, "Tool", [("name", TOOL)], |xml| {
-                empty(xml, TOOL, [("version", VERSION)])
-            })
-        })?;
-        element(xml, "ModelVariables", NONE, |xml| {
-            let mut rows = rows_told(exchange, false);
-            rows.try_for_each(|variable| scalar_variable(xml, variable, imprint, exchange))
-        })?;
-        element(xml, "ModelStructure", NONE, |xml| {
-            element(xml, "Outputs", NONE, |xml| {
-                unknowns::<U>(xml, Unknowns::Outputs, exchange)
-            })?;
-            if exchange {
-                element(xml, "Derivatives", NONE, |xml| {
-                    unknowns::<U>(xml, Unknowns::Derivatives, exchange)
-                })?;
-            }
-            element(xml, "InitialUnknowns", NONE, |xml| {
-                unknowns::<U>(xml, Unknowns::Initial, exchange)
-            })
-        })
-    })
+    let for_exchange = exchange
+        .then(|| Element::new("ModelExchange").set_all(exchange_capabilities(about.identifier)));
+    let rows = rows_told(exchange, false);
+    let variables = rows.map(|variable| scalar_variable(variable, imprint, exchange));
+    let unknowns = |name, of| Element::new(name).with(unknowns::<U>(of, exchange));
+    let structure = Element::new("ModelStructure")
+        .with([unknowns("Outputs", Unknowns::Outputs)])
+        .with(exchange.then(|| unknowns("Derivatives", Unknowns::Derivatives)))
+        .with([unknowns("InitialUnknowns", Unknowns::Initial)]);
+    root("2.0", imprint, ("guid", guid))
+        .set("numberOfEventIndicators", indicators)
+        .with(for_exchange)
+        .with([
+            Element::new("CoSimulation").set_all(capabilities(about)),
+            units(about.quantities),
+            types(about),
+        ])
+        .with(log_and_experiment(about))
+        .with([
+            annotations(["VendorAnnotations", "Tool", "name"]),
+            Element::new("ModelVariables").with(variables),
+            structure,
+        ])
+        .to_document()
 }
 
 /// The attributes of the element `CoSimulation`.
@@ -91,50 +73,39 @@ fn exchange_capabilities(identifier: &str) -> [(&'static str, &str); 8] {
     ]
 }
 
-fn types<U: Unit>(xml: &mut Xml, about: &About<U>) -> io::Result<()> {
-    for of in about.quantities {
+fn types<U: Unit>(about: &About<U>) -> Element {
+    let quantities = about.quantities.iter().map(|of| {
         let [name, rest @ ..] = real_type(of);
-        element(xml, "SimpleType", [name], |xml| empty(xml, "Real", rest))?;
-    }
-    for of in about.enumerations {
-        let named = [("name", of.type_name), ("description", of.description)];
-        element(xml, "SimpleType", named, |xml| {
-            element(xml, "Enumeration", NONE, |xml| items(xml, of.items))
-        })?;
-    }
-    Ok(())
+        let real = Element::new("Real").set_all(rest);
+        Element::new("SimpleType").set_all([name]).with([real])
+    });
+    let enumerations = about.enumerations.iter().map(|of| {
+        let items = Element::new("Enumeration").with(items(of.items));
+        enumeration("SimpleType", of).with([items])
+    });
+    Element::new("TypeDefinitions").with(quantities.chain(enumerations))
 }
 
-fn scalar_variable<U: Unit>(
-    xml: &mut Xml,
-    variable: &Row<U>,
-    imprint: &Imprint<U>,
-    exchange: bool,
-) -> io::Result<()> {
-    let table = &U::about().table;
-    element(xml, "ScalarVariable", named(variable), |xml| {
-        let name = variable.kind.type_name(Standard::Fmi2);
-        let number = |reference| {
-            let row = table.rows().position(|row| row.reference == reference);
-            (row.unwrap_or_default() + 1).to_string()
-        };
-        let of_state = exchange.then(|| of_state::<U>(variable, number));
-        let typed = typed(variable, imprint).into_iter();
-        empty(xml, name, typed.chain(of_state.into_iter().flatten()))
-    })
+fn scalar_variable<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>, exchange: bool) -> Element {
+    let number = |reference| {
+        let mut rows = U::about().table.rows();
+        let row = rows.position(|row| row.reference == reference);
+        (row.unwrap_or_default() + 1).to_string()
+    };
+    let element = Element::new(variable.kind.type_name(Standard::Fmi2));
+    let element = typed(element, variable, start_value(variable, imprint));
+    let element = match exchange {
+        true => of_state(element, variable, number),
+        false => element,
+    };
+    named("ScalarVariable", variable.name, variable).with([element])
 }
 
 /// One `Unknown` for each, with its dependencies; indices count variables from 1.
-fn unknowns<U: Unit>(xml: &mut Xml, of: Unknowns, exchange: bool) -> io::Result<()> {
-    for (row, _, rows) in of.each::<U>(exchange, false) {
-        let indices: Vec<_> = rows.iter().map(|(row, _)| (row + 1).to_string()).collect();
-        let kinds = vec!["dependent"; rows.len()];
-        let known = [
-            ("index", (row + 1).to_string()),
-            ("dependencies", indices.join(" ")),
-            ("dependenciesKind", kinds.join(" ")),
-        ];
-        empty(xml, "Unknown", known)?;
-    }
-    Ok(())
+fn unknowns<U: Unit>(of: Unknowns, exchange: bool) -> impl Iterator<Item = Element> {
+    let unknowns = of.each::<U>(exchange, false).into_iter();
+    unknowns.map(|(row, _, rows)| {
+        let indices = rows.iter().map(|(row, _)| row + 1);
+        dependent("Unknown", ("index", row + 1), indices)
+    })
 }

@@ -1,11 +1,10 @@
 //! The model description by FMI 3.0, and its terminals and icon.
 
-use std::io;
-
 use super::{
-    Attributes, NONE, TOOL, Unknowns, VERSION, Xml, array_of, element, empty, items,
-    log_and_experiment, named, of_state, real_type, root, rows_told, typed, units, write_document,
+    Listed, Unknowns, annotations, dependent, enumeration, items, log_and_experiment, named,
+    of_state, real_type, root, rows_told, typed, units,
 };
+use crate::element::{Attributes, Element};
 use crate::imprint::Imprint;
 use crate::instance::Instance;
 use crate::quantity::Quantity;
@@ -16,75 +15,63 @@ use crate::terminal::Terminal;
 use crate::unit::{About, Clock, Row, Unit};
 
 /// The XML of the FMU with this imprint and this instantiation token.
-pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> io::Result<String> {
+pub(crate) fn write<U: Unit>(imprint: &Imprint<U>, token: &str) -> String {
     let about = U::about();
     let quantities = quantities(about);
-    let root = root("3.0", imprint, ("instantiationToken", token));
-    write_document("fmiModelDescription", root, |xml| {
-        if about.state_space.is_some() {
-            let flags = exchange_capabilities(about.identifier);
-            empty(xml, "ModelExchange", flags)?;
-        }
-        empty(xml, "CoSimulation", capabilities::<U>())?;
-        units(xml, &quantities)?;
-        element(xml, "TypeDefinitions", NONE, |xml| {
-            types(xml, about, &quantities)
-        })?;
-        log_and_experiment(xml, about)?;
-        element(xml, "ModelVariables", NONE, |xml| {
-            let rows = rows_told::<U>(true, imprint.has_arrays());
-            let mut rows = [&Instance::<U>::TIME].into_iter().chain(rows);
-            rows.try_for_each(|row| variable(xml, row, imprint))?;
-            let mut clock = imprint.clock().into_iter();
-            clock.try_for_each(|clock| empty(xml, "Clock", clock_attributes(clock)))
-        })?;
-        element(xml, "ModelStructure", NONE, |xml| {
-            unknowns(xml, imprint, "Output", Unknowns::Outputs)?;
-            clock_as(xml, "Output", imprint)?;
-            unknowns(
-                xml,
-                imprint,
-                "ContinuousStateDerivative",
-                Unknowns::Derivatives,
-            )?;
-            unknowns(xml, imprint, "InitialUnknown", Unknowns::Initial)?;
-            clock_as(xml, "InitialUnknown", imprint)?;
-            let mut indicators = space_of::<U>().indicators.iter();
-            indicators.try_for_each(|reference| {
-                let reference = reference.to_string();
-                empty(xml, "EventIndicator", [("valueReference", reference)])
-            })
-        })?;
-        element(xml, "Annotations", NONE, |xml| {
-            element(xml, "Annotation", [("type", TOOL)], |xml| {
-                empty(xml, TOOL, [("version", VERSION)])
-            })
-        })
-    })
+    let for_exchange = about
+        .state_space
+        .map(|_| Element::new("ModelExchange").set_all(exchange_capabilities(about.identifier)));
+    let rows = rows_told::<U>(true, imprint.has_arrays());
+    let rows = [&Instance::<U>::TIME].into_iter().chain(rows);
+    let clock = imprint
+        .clock()
+        .map(|clock| Element::new("Clock").set_all(clock_attributes(clock)));
+    let indicators = space_of::<U>().indicators.iter();
+    let indicators = indicators.map(|it| Element::new("EventIndicator").set("valueReference", it));
+    let structure = Element::new("ModelStructure")
+        .with(unknowns(imprint, "Output", Unknowns::Outputs))
+        .with(clock_as("Output", imprint))
+        .with(unknowns(
+            imprint,
+            "ContinuousStateDerivative",
+            Unknowns::Derivatives,
+        ))
+        .with(unknowns(imprint, "InitialUnknown", Unknowns::Initial))
+        .with(clock_as("InitialUnknown", imprint))
+        .with(indicators);
+    root("3.0", imprint, ("instantiationToken", token))
+        .with(for_exchange)
+        .with([
+            Element::new("CoSimulation").set_all(capabilities::<U>()),
+            units(&quantities),
+            types(about, &quantities),
+        ])
+        .with(log_and_experiment(about))
+        .with([
+            Element::new("ModelVariables")
+                .with(rows.map(|row| variable(row, imprint)))
+                .with(clock),
+            structure,
+            annotations(["Annotations", "Annotation", "type"]),
+        ])
+        .to_document()
 }
 
-fn variable<U: Unit>(xml: &mut Xml, row: &Row<U>, imprint: &Imprint<U>) -> io::Result<()> {
-    let type_name = row.kind.type_name(Standard::Fmi3);
-    let of_state = of_state::<U>(row, |state| state.to_string());
+fn variable<U: Unit>(row: &Row<U>, imprint: &Imprint<U>) -> Element {
+    let Listed {
+        name,
+        start,
+        length,
+    } = Listed::of(row, imprint);
+    let element = named(row.kind.type_name(Standard::Fmi3), name, row);
+    let element = typed(element, row, start);
+    let element = of_state(element, row, |state| state.to_string());
     let is_told = U::HAS_EVENTS && row.is_output();
-    let told = is_told.then(|| ("intermediateUpdate", "true".to_owned()));
-    let typed = typed(row, imprint).into_iter().chain(of_state);
-    let attributes = named(row).chain(typed).chain(told);
-    let Some(array) = array_of(row, imprint) else {
-        return empty(xml, type_name, attributes);
-    };
-    let of_array = attributes.map(|(attribute, text)| match attribute {
-        "name" => (attribute, array.name.to_owned()),
-        "start" => (attribute, array.starts.join(" ")),
-        _ => (attribute, text),
-    });
-    element(xml, type_name, of_array, |xml| {
-        empty(
-            xml,
-            "Dimension",
-            [("start", array.starts.len().to_string())],
-        )
-    })
+    let element = element.set_all(is_told.then_some(("intermediateUpdate", "true")));
+    match length {
+        Some(length) => element.with([Element::new("Dimension").set("start", length)]),
+        None => element,
+    }
 }
 
 /// The attributes of the element `CoSimulation`.
@@ -136,9 +123,9 @@ fn clock_attributes<U>(clock: &Clock<U>) -> [(&'static str, String); 6] {
 }
 
 /// Lists the clock, if it is told of. It depends on all that the motion depends on.
-fn clock_as<U: Unit>(xml: &mut Xml, list: &'static str, imprint: &Imprint<U>) -> io::Result<()> {
-    let mut clock = imprint.clock().into_iter();
-    clock.try_for_each(|clock| empty(xml, list, [("valueReference", clock.reference.to_string())]))
+fn clock_as<U: Unit>(list: &'static str, imprint: &Imprint<U>) -> Option<Element> {
+    let clock = imprint.clock()?;
+    Some(Element::new(list).set("valueReference", clock.reference))
 }
 
 /// The quantities in use, that of time among them.
@@ -148,78 +135,54 @@ fn quantities<U: Unit>(about: &About<U>) -> Vec<&'static Quantity> {
     about.quantities.iter().copied().chain(time).collect()
 }
 
-fn types<U: Unit>(
-    xml: &mut Xml,
-    about: &About<U>,
-    quantities: &[&'static Quantity],
-) -> io::Result<()> {
-    for of in quantities {
-        empty(xml, "Float64Type", real_type(of))?;
-    }
-    for of in about.enumerations {
-        let named = [("name", of.type_name), ("description", of.description)];
-        element(xml, "EnumerationType", named, |xml| items(xml, of.items))?;
-    }
-    Ok(())
+fn types<U: Unit>(about: &About<U>, quantities: &[&'static Quantity]) -> Element {
+    let quantities = quantities.iter();
+    let quantities = quantities.map(|of| Element::new("Float64Type").set_all(real_type(of)));
+    let enumerations = about.enumerations.iter();
+    let enumerations =
+        enumerations.map(|of| enumeration("EnumerationType", of).with(items(of.items)));
+    Element::new("TypeDefinitions").with(quantities.chain(enumerations))
 }
 
 /// One element for each, with its dependencies by their value references.
 fn unknowns<U: Unit>(
-    xml: &mut Xml,
     imprint: &Imprint<U>,
     name: &'static str,
     of: Unknowns,
-) -> io::Result<()> {
-    for (_, variable, rows) in of.each::<U>(true, imprint.has_arrays()) {
-        let references: Vec<_> = rows
-            .iter()
-            .map(|(_, of)| of.reference.to_string())
-            .collect();
-        let kinds = vec!["dependent"; rows.len()];
-        let known = [
-            ("valueReference", variable.reference.to_string()),
-            ("dependencies", references.join(" ")),
-            ("dependenciesKind", kinds.join(" ")),
-        ];
-        empty(xml, name, known)?;
-    }
-    Ok(())
+) -> impl Iterator<Item = Element> {
+    let unknowns = of.each::<U>(true, imprint.has_arrays()).into_iter();
+    unknowns.map(move |(_, variable, rows)| {
+        let references = rows.iter().map(|(_, of)| of.reference);
+        dependent(name, ("valueReference", variable.reference), references)
+    })
 }
 
 /// The file that says where the icon is drawn, if there is one, and what the terminals are.
-pub(crate) fn terminals_and_icons(terminals: &[Terminal], has_icon: bool) -> io::Result<String> {
+pub(crate) fn terminals_and_icons(terminals: &[Terminal], has_icon: bool) -> String {
     let corners = [("x1", "-100"), ("y1", "-100"), ("x2", "100"), ("y2", "100")];
-    let scale = [("suggestedScalingFactorTo_mm", "0.1")];
-    write_document("fmiTerminalsAndIcons", [("fmiVersion", "3.0")], |xml| {
-        if has_icon {
-            element(xml, "GraphicalRepresentation", NONE, |xml| {
-                empty(xml, "CoordinateSystem", corners.into_iter().chain(scale))?;
-                empty(xml, "Icon", corners)
-            })?;
-        }
-        element(xml, "Terminals", NONE, |xml| {
-            terminals.iter().try_for_each(|of| terminal(xml, of))
-        })
-    })
+    let system = Element::new("CoordinateSystem").set_all(corners);
+    let system = system.set("suggestedScalingFactorTo_mm", "0.1");
+    let drawn = [system, Element::new("Icon").set_all(corners)];
+    let drawn = has_icon.then(|| Element::new("GraphicalRepresentation").with(drawn));
+    Element::new("fmiTerminalsAndIcons")
+        .set("fmiVersion", "3.0")
+        .with(drawn)
+        .with([Element::new("Terminals").with(terminals.iter().map(terminal))])
+        .to_document()
 }
 
-fn terminal(xml: &mut Xml, terminal: &Terminal) -> io::Result<()> {
-    let named = [
+fn terminal(terminal: &Terminal) -> Element {
+    let members = terminal.members.iter().map(|(member, flow, variable)| {
+        Element::new("TerminalMemberVariable").set_all([
+            ("variableName", *variable),
+            ("memberName", *member),
+            ("variableKind", flow.kind()),
+        ])
+    });
+    let named = Element::new("Terminal").set_all([
         ("name", terminal.name),
         ("matchingRule", "bus"),
         ("description", terminal.description),
-    ];
-    element(xml, "Terminal", named, |xml| {
-        terminal
-            .members
-            .iter()
-            .try_for_each(|(member, flow, variable)| {
-                let named = [
-                    ("variableName", *variable),
-                    ("memberName", *member),
-                    ("variableKind", flow.kind()),
-                ];
-                empty(xml, "TerminalMemberVariable", named)
-            })
-    })
+    ]);
+    named.with(members)
 }
