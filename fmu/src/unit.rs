@@ -24,7 +24,7 @@ static BLOCK: Block<[u64; SLOTS]> = Block::new(
     IDENTIFIER,
     IDENTIFIER,
     "Impact oscillator with soft, preloaded and rigid stops and piercing of a strip, solved exactly",
-    StartValues::DEFAULT.values(),
+    &slot::START,
 );
 
 const IDENTIFIER: &str = "softstop";
@@ -51,33 +51,18 @@ static ABOUT: About<Machine> = About {
     state_space: Some(&STATE_SPACE),
     clock: Some(&IMPACT),
     page: include_str!("../assets/page.html"),
-    files: &FILES,
+    files: FILES,
     guid: OnceLock::new(),
 };
 
-const FILES: [(&str, &[u8]); 6] = [
-    ("model.png", include_bytes!("../assets/model.png")),
-    (
-        "documentation/machine.svg",
-        include_bytes!("../assets/machine.svg"),
-    ),
-    (
-        "documentation/licenses/license.txt",
-        include_bytes!("../assets/license.txt"),
-    ),
-    (
-        "documentation/licenses/LICENSE-MIT.txt",
-        include_bytes!("../LICENSE-MIT"),
-    ),
-    (
-        "documentation/licenses/LICENSE-APACHE.txt",
-        include_bytes!("../LICENSE-APACHE"),
-    ),
-    (
-        "documentation/licenses/third-party.txt",
-        include_bytes!("../assets/third-party.txt"),
-    ),
-];
+const FILES: &[(&str, &[u8])] = softstop_fmi::files! {
+    "model.png" = "../assets/model.png";
+    "documentation/machine.svg" = "../assets/machine.svg";
+    "documentation/licenses/license.txt" = "../assets/license.txt";
+    "documentation/licenses/LICENSE-MIT.txt" = "../LICENSE-MIT";
+    "documentation/licenses/LICENSE-APACHE.txt" = "../LICENSE-APACHE";
+    "documentation/licenses/third-party.txt" = "../assets/third-party.txt";
+};
 
 impl Unit for Machine {
     type Tangent = Tangent;

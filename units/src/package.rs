@@ -10,21 +10,9 @@ pub(crate) const EXPERIMENT: &[(&str, &str)] = &[
     ("stepSize", "0.01"),
 ];
 
-pub(crate) const FILES: [(&str, &[u8]); 4] = [
-    (
-        "documentation/licenses/license.txt",
-        include_bytes!("../assets/license.txt"),
-    ),
-    (
-        "documentation/licenses/LICENSE-MIT.txt",
-        include_bytes!("../LICENSE-MIT"),
-    ),
-    (
-        "documentation/licenses/LICENSE-APACHE.txt",
-        include_bytes!("../LICENSE-APACHE"),
-    ),
-    (
-        "documentation/licenses/third-party.txt",
-        include_bytes!("../assets/third-party.txt"),
-    ),
-];
+pub(crate) const FILES: &[(&str, &[u8])] = softstop_fmi::files! {
+    "documentation/licenses/license.txt" = "../assets/license.txt";
+    "documentation/licenses/LICENSE-MIT.txt" = "../LICENSE-MIT";
+    "documentation/licenses/LICENSE-APACHE.txt" = "../LICENSE-APACHE";
+    "documentation/licenses/third-party.txt" = "../assets/third-party.txt";
+};

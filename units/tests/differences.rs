@@ -28,11 +28,11 @@ fn of_the_speed_by_the_work_of_the_load() {
         drive.drive(LOAD, &Derivatives::default()).expect("a load");
         let advance = drive.advance(1e-9, &mut Events::default());
         assert!(matches!(advance, Ok(Advance::Arrived)));
-        let Access::Continuous { tangent, .. } = row("speed").access else {
+        let Access::Continuous { value, tangent, .. } = row("speed").access else {
             unreachable!("speed is continuous");
         };
         let along = drive.tangent(&[(Known::Signal(LOAD), 1.0)]);
-        let found = tangent(&along.expect("a derivative"));
+        let found = tangent(&along.expect("a derivative"), value);
         assert_relative_eq!(found * size, -1.0, max_relative = 1e-6);
     }
 }

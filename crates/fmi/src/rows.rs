@@ -1,10 +1,7 @@
 //! What the rows of a table are made of.
 
 use crate::quantity::Quantity;
-use crate::variable::{Access, Dependencies, Kind, RealKind, Slot, Variable};
-
-/// How a real output and its derivative along a direction are read.
-type Reading<U, T> = (fn(&U) -> f64, fn(&T) -> f64);
+use crate::variable::{Access, Dependencies, Kind, Reading, RealKind, Slot, Value, Variable};
 
 /// A number far above any machine's, below which no intermediate result overflows.
 pub const LARGE: f64 = 1e12;
@@ -95,7 +92,7 @@ pub const fn continuous<U, T>(
     kind: Kind,
     depends: Dependencies,
     (value, tangent): Reading<U, T>,
-    derivatives: &'static [fn(&U) -> f64],
+    derivatives: &'static [Value<U>],
     description: &'static str,
 ) -> Variable<U, T> {
     let access = Access::Continuous {
@@ -112,7 +109,7 @@ pub const fn local<U, T>(
     reference: u32,
     name: &'static str,
     kind: Kind,
-    value: fn(&U) -> f64,
+    value: Value<U>,
     description: &'static str,
 ) -> Variable<U, T> {
     row(reference, name, kind, Access::Local(value), description)

@@ -14,15 +14,10 @@ use crate::lifecycle::Lifecycle;
 use crate::reading::{Type, find};
 use crate::solving::{number_of_state, space_of};
 use crate::unit::{Known, Row, Unit};
-use crate::variable::{Access, Slot};
+use crate::variable::{Access, Reading, Slot, Value};
 
 /// Widths that a difference is tried with.
 const WIDTHS: u32 = 8;
-
-/// How an output is read.
-type Output<U> = fn(&U) -> f64;
-/// How its derivative is read.
-type Tangent<U> = fn(&<U as Unit>::Tangent) -> f64;
 
 impl<U: Unit> Instance<U> {
     /// The derivatives of `unknowns` along the direction `seed` of `knowns`.
@@ -44,7 +39,7 @@ impl<U: Unit> Instance<U> {
         let (direction, parameters) = self.direction(unit, knowns, seed)?;
         let along = unit.tangent(&direction)?;
         for (&(output, tangent), value) in outputs.iter().zip(sensitivity) {
-            *value = tangent(&along);
+            *value = tangent(&along, output);
             for &(parameter, slot, seed) in &parameters {
                 *value += seed * self.by_parameter(unit, parameter, slot, output)?;
             }
@@ -134,7 +129,7 @@ impl<U: Unit> Instance<U> {
         unit: &U,
         parameter: &Row<U>,
         slot: Slot,
-        output: Output<U>,
+        output: Value<U>,
     ) -> Result<f64, Fault> {
         let (value, here) = (self.values[slot.0], output(unit));
         let width = if value == 0.0 {
@@ -206,7 +201,7 @@ pub fn slope(here: f64, mut width: f64, at: impl Fn(f64) -> Option<f64>) -> f64 
 }
 
 /// How an unknown and its derivative are read.
-fn unknown<U: Unit>(reference: u32) -> Result<(Output<U>, Tangent<U>), Fault> {
+fn unknown<U: Unit>(reference: u32) -> Result<Reading<U, U::Tangent>, Fault> {
     let variable = find::<U>(reference, Type::Real)?;
     match variable.access {
         Access::Continuous { value, tangent, .. } | Access::Discrete { value, tangent, .. } => {

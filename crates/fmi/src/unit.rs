@@ -241,3 +241,11 @@ pub struct About<U: Unit> {
     /// The library's GUID, once it is known; empty at first.
     pub guid: OnceLock<Uuid>,
 }
+
+/// Files of a package: where they lie in it, and beside the source that calls this.
+#[macro_export]
+macro_rules! files {
+    ($($place:literal = $path:literal;)*) => {
+        &[$(($place, include_bytes!($path).as_slice())),*]
+    };
+}

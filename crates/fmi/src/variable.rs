@@ -138,6 +138,45 @@ impl Slot {
     }
 }
 
+/// Numbers the slots of a unit, each with the value that it begins with; of an array, which has so many elements, the first
+/// ones are given, and the others begin with 0. `SLOTS` is their number, `START` what they begin with.
+#[macro_export]
+macro_rules! slots {
+    ($($name:ident $([$length:expr])? = $($value:expr),+;)*) => {
+        $crate::slots! { @at 0; $($name [$($length)?])* }
+        /// What the slots begin with.
+        pub const START: [f64; SLOTS] = {
+            let mut values = [0.0; SLOTS];
+            $(
+                let (given, mut index) = ([$($value),+], 0);
+                while index < given.len() {
+                    values[$name.0 + index] = given[index];
+                    index += 1;
+                }
+            )*
+            values
+        };
+    };
+    (@at $position:expr;) => {
+        /// How many slots there are.
+        pub const SLOTS: usize = $position;
+    };
+    (@at $position:expr; $name:ident [] $($more:tt)*) => {
+        $crate::slots! { @at $position; $name [1] $($more)* }
+    };
+    (@at $position:expr; $name:ident [$length:expr] $($more:tt)*) => {
+        pub const $name: $crate::variable::Slot = $crate::variable::Slot($position);
+        $crate::slots! { @at $position + $length; $($more)* }
+    };
+}
+
+/// How a real value of a unit is read.
+pub type Value<U> = fn(&U) -> f64;
+/// How the derivative of a real value along a direction is read.
+pub type Tangent<U, T> = fn(&T, Value<U>) -> f64;
+/// How both are read.
+pub type Reading<U, T> = (Value<U>, Tangent<U, T>);
+
 /// What a variable is, and how its value is had.
 #[derive(Debug)]
 pub enum Access<U: 'static, T> {
@@ -157,22 +196,22 @@ pub enum Access<U: 'static, T> {
     /// A real output that varies continuously between events.
     Continuous {
         /// Its value.
-        value: fn(&U) -> f64,
+        value: Value<U>,
         /// Its time derivatives, of order 1, 2, ...
-        derivatives: &'static [fn(&U) -> f64],
+        derivatives: &'static [Value<U>],
         /// Its derivative along a direction.
-        tangent: fn(&T) -> f64,
+        tangent: Tangent<U, T>,
         /// What it depends on.
         depends: Dependencies,
     },
     /// A real number that varies continuously between events and that no other unit is meant to read.
-    Local(fn(&U) -> f64),
+    Local(Value<U>),
     /// A real output that changes at events only.
     Discrete {
         /// Its value.
-        value: fn(&U) -> f64,
+        value: Value<U>,
         /// Its derivative along a direction.
-        tangent: fn(&T) -> f64,
+        tangent: Tangent<U, T>,
         /// What it depends on.
         depends: Dependencies,
     },

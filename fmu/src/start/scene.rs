@@ -1,14 +1,14 @@
 //! Start values and scenes: the one from the other, both ways.
 
 use softstop::{
-    Below, MotionError, Parameter, Piercing, Release, RigidStop, Scene, SceneError, Simulation,
-    Slope, Start, Stop,
+    Below, MotionError, Piercing, Release, RigidStop, Scene, SceneError, Simulation, Slope, Start,
+    Stop,
 };
 use softstop_fmi::variable::{Access, Slot};
 use thiserror::Error;
 
 use super::StartValues;
-use super::slot::{self, SLOPES};
+use super::slot::{self, PARAMETERS, SLOPES};
 use crate::table;
 use crate::units::number;
 
@@ -44,35 +44,6 @@ pub enum NotServed {
     Start(#[from] MotionError),
 }
 
-/// Where the parameters of a scene are held.
-const PARAMETERS: [(Parameter, Slot); 25] = [
-    (Parameter::Mass, slot::MASS),
-    (Parameter::Suspension, slot::STIFFNESS),
-    (Parameter::Damping, slot::DAMPING),
-    (Parameter::Amplitude, slot::AMPLITUDE),
-    (Parameter::Frequency, slot::FREQUENCY),
-    (Parameter::Phase, slot::DRIVE_PHASE),
-    (Parameter::Clearance, slot::CLEARANCE),
-    (Parameter::ContactDamping, slot::CONTACT_DAMPING),
-    (Parameter::StopStiffness, slot::STOP_STIFFNESS),
-    (Parameter::Preload, slot::STOP_PRELOAD),
-    (Parameter::Exponent, slot::STOP_EXPONENT),
-    (Parameter::Dissipation, slot::STOP_DISSIPATION),
-    (Parameter::Restitution, slot::STOP_RESTITUTION),
-    (Parameter::PiercingStiffness, slot::PIERCING_STIFFNESS),
-    (Parameter::PiercingFriction, slot::PIERCING_FRICTION),
-    (Parameter::Thickness, slot::PIERCING_THICKNESS),
-    (Parameter::Travel, slot::PIERCING_TRAVEL),
-    (Parameter::RigidTravel, slot::RIGID_TRAVEL),
-    (Parameter::RigidRestitution, slot::STOP_RESTITUTION),
-    (Parameter::BelowClearance, slot::BELOW_CLEARANCE),
-    (Parameter::BelowStiffness, slot::BELOW_STIFFNESS),
-    (Parameter::BelowPreload, slot::BELOW_PRELOAD),
-    (Parameter::BelowExponent, slot::BELOW_EXPONENT),
-    (Parameter::BelowDissipation, slot::BELOW_DISSIPATION),
-    (Parameter::BelowRestitution, slot::BELOW_RESTITUTION),
-];
-
 /// The slots of one list of slopes.
 struct Chain {
     name: &'static str,
@@ -92,36 +63,27 @@ struct Laws {
 const ABOVE: Laws = Laws {
     model: slot::STOP_MODEL,
     release: slot::STOP_RELEASE,
-    loading: Chain {
-        name: "stop.loading",
-        count: slot::LOADING_COUNT,
-        from: slot::LOADING_FROM,
-        stiffness: slot::LOADING_STIFFNESS,
-    },
-    unloading: Chain {
-        name: "stop.unloading",
-        count: slot::UNLOADING_COUNT,
-        from: slot::UNLOADING_FROM,
-        stiffness: slot::UNLOADING_STIFFNESS,
-    },
+    loading: chain("stop.loading", slot::LOADING_COUNT),
+    unloading: chain("stop.unloading", slot::UNLOADING_COUNT),
 };
 
 const BELOW: Laws = Laws {
     model: slot::BELOW_MODEL,
     release: slot::BELOW_RELEASE,
-    loading: Chain {
-        name: "stop.below.loading",
-        count: slot::BELOW_LOADING_COUNT,
-        from: slot::BELOW_LOADING_FROM,
-        stiffness: slot::BELOW_LOADING_STIFFNESS,
-    },
-    unloading: Chain {
-        name: "stop.below.unloading",
-        count: slot::BELOW_UNLOADING_COUNT,
-        from: slot::BELOW_UNLOADING_FROM,
-        stiffness: slot::BELOW_UNLOADING_STIFFNESS,
-    },
+    loading: chain("stop.below.loading", slot::BELOW_LOADING_COUNT),
+    unloading: chain("stop.below.unloading", slot::BELOW_UNLOADING_COUNT),
 };
+
+/// The list of which this is the number of slopes: those lie right behind it.
+const fn chain(name: &'static str, count: Slot) -> Chain {
+    let (from, stiffness) = (count.element(1), count.element(1 + SLOPES));
+    Chain {
+        name,
+        count,
+        from,
+        stiffness,
+    }
+}
 
 impl StartValues {
     /// The start values that make the unit run `scene` from `start`.
@@ -150,7 +112,7 @@ impl StartValues {
             values.set(slot::PIERCING_THICKNESS, 0.0);
             values.set(slot::PIERCING_TRAVEL, 0.0);
         }
-        for (parameter, place) in PARAMETERS {
+        for &(parameter, place) in PARAMETERS {
             if let Some(value) = parameter.get(&served) {
                 values.set(place, value);
             }
@@ -240,7 +202,7 @@ impl StartValues {
             }),
             ..Scene::of_stop(stop)
         };
-        for (parameter, place) in PARAMETERS {
+        for &(parameter, place) in PARAMETERS {
             parameter.set(&mut scene, self.get(place));
         }
         scene

@@ -6,6 +6,7 @@ use super::rows::{LARGE, Row, after, continuous, fixed, real, row, shown_in, wit
 use crate::machine::Machine;
 use crate::signal;
 use crate::start::slot;
+use crate::tangent::Tangent;
 use crate::units;
 
 /// What its angle at the start depends on.
@@ -26,14 +27,6 @@ const POWERED: &[&str] = &[
     "drive.takes.speed", "drive.takes.amplitude",
 ];
 
-fn angle(machine: &Machine) -> f64 {
-    machine.drive_angle().0
-}
-
-fn force(machine: &Machine) -> f64 {
-    machine.drive_force().0
-}
-
 fn power(machine: &Machine) -> f64 {
     machine.drive_power().0
 }
@@ -50,15 +43,15 @@ pub(super) const DRIVE: &[Row] = &[
     fixed(26, "drive.takes.amplitude", slot::TAKES_AMPLITUDE, Kind::Boolean,
         "The input drive.amplitude leads the drive; otherwise excitation.amplitude does"),
     continuous(212, "drive.angle", shown_in(real(&units::ANGLE), "deg"), after(TURNED),
-        (angle, |of| of.of(angle)), &[|machine| machine.drive_angle().1, |machine| machine.drive_angle().2],
+        (|machine| machine.drive_angle().0, Tangent::of), &[|machine| machine.drive_angle().1, |machine| machine.drive_angle().2],
         "Angle of the drive F0 cos(angle), counted on over the turns"),
     continuous(213, "drive.force", shown_in(real(&units::FORCE), "kN"), with_drive(FORCED),
-        (force, |of| of.of(force)), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
+        (|machine| machine.drive_force().0, Tangent::of), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
         "Force of the drive on the mass"),
     continuous(214, "drive.power", real(&units::POWER), with_drive(POWERED),
-        (power, |of| of.of(power)), &[|machine| machine.drive_power().1, Machine::drive_power_curvature],
+        (power, Tangent::of), &[|machine| machine.drive_power().1, Machine::drive_power_curvature],
         "Power that the drive gives to the mass, force times velocity"),
     continuous(215, "drive.work", real(&units::ENERGY), after(&[]),
-        (Machine::drive_work, |of| of.of(Machine::drive_work)), &[power, |machine| machine.drive_power().1],
+        (Machine::drive_work, Tangent::of), &[power, |machine| machine.drive_power().1],
         "Work of the drive on the mass since the start, the integral of drive.power"),
 ];

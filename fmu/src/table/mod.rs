@@ -1,6 +1,5 @@
 //! The table of variables, group by group.
 
-mod below;
 mod drive;
 mod exchange;
 mod outputs;
@@ -20,17 +19,9 @@ pub(crate) const GROUPS: &[&[Row]] = &[
     drive::DRIVE,
     parameters::OSCILLATOR,
     stops::LAWS,
-    stops::LOADING_FROM,
-    stops::LOADING_STIFFNESS,
-    stops::UNLOADING_COUNT,
-    stops::UNLOADING_FROM,
-    stops::UNLOADING_STIFFNESS,
-    below::LAWS,
-    below::LOADING_FROM,
-    below::LOADING_STIFFNESS,
-    below::UNLOADING_COUNT,
-    below::UNLOADING_FROM,
-    below::UNLOADING_STIFFNESS,
+    stops::SLOPES_ABOVE,
+    stops::LAWS_BELOW,
+    stops::SLOPES_BELOW,
     stops::RIGID,
     parameters::STRIP_AND_START,
     outputs::OUTPUTS,

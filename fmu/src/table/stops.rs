@@ -2,16 +2,20 @@
 
 use softstop_fmi::variable::Kind;
 
-use super::rows::{
-    LARGE, Row, bare, count_of_slopes, fixed, nominal, shown_in, slopes, tunable, within,
-};
+use super::rows::{LARGE, Row, bare, fixed, nominal, shown_in, tunable, within};
 use crate::start::slot::{self, SLOPES};
 use crate::units;
 
-pub(super) const DEFLECTION: Kind = within(&units::LENGTH, 0.0, LARGE);
-pub(super) const SLOPE: Kind = within(&units::STIFFNESS, 0.0, LARGE);
+const DEFLECTION: Kind = within(&units::LENGTH, 0.0, LARGE);
+const SLOPE: Kind = within(&units::STIFFNESS, 0.0, LARGE);
 
-/// The force laws, up to the number of slopes.
+/// How many elements of the arrays of slopes are in use.
+const fn count(min: i32) -> Kind {
+    let max = Some(SLOPES as i32);
+    Kind::Count { min, max }
+}
+
+/// The force laws.
 #[rustfmt::skip]
 pub(super) const LAWS: &[Row] = &[
     fixed(8, "stop.model", slot::STOP_MODEL, Kind::Enumeration(&units::STOP_MODEL),
@@ -28,36 +32,61 @@ pub(super) const LAWS: &[Row] = &[
         "Exponent of the Hertz stop, 3/2 for a sphere"),
     fixed(20, "stop.dissipation", slot::STOP_DISSIPATION, within(&units::DISSIPATION, 0.0, LARGE),
         "Hunt and Crossley's dissipation factor of the Hertz stop"),
-    fixed(23, "stop.loading.count", slot::LOADING_COUNT, count_of_slopes(1),
-        "Number of slopes of the piecewise linear stop on the way forward; further elements are ignored"),
 ];
 
-/// Where the slopes of the way forward begin.
+/// The force laws of the stop below.
 #[rustfmt::skip]
-pub(super) const LOADING_FROM: &[Row] = slopes!(32, "stop.loading.from", slot::LOADING_FROM, DEFLECTION,
-    "Deflection of the piecewise linear stop from which this slope holds on the way forward; 0 for the first, rising");
-
-/// The slopes of the way forward.
-#[rustfmt::skip]
-pub(super) const LOADING_STIFFNESS: &[Row] = slopes!(40, "stop.loading.stiffness", slot::LOADING_STIFFNESS, SLOPE,
-    "Stiffness of the piecewise linear stop in this slope on the way forward");
-
-/// How many slopes the way back has.
-#[rustfmt::skip]
-pub(super) const UNLOADING_COUNT: &[Row] = &[
-    fixed(24, "stop.unloading.count", slot::UNLOADING_COUNT, count_of_slopes(0),
-        "Number of slopes of the piecewise linear stop on the way back; 0: the same as on the way forward"),
+pub(super) const LAWS_BELOW: &[Row] = &[
+    fixed(110, "stop.below.model", slot::BELOW_MODEL, Kind::Enumeration(&units::STOP_MODEL),
+        "Force law of the stop on the other side, which is met downwards at -stop.below.clearance"),
+    tunable(fixed(111, "stop.below.clearance", slot::BELOW_CLEARANCE, within(&units::LENGTH, -LARGE, LARGE),
+        "Clearance of the stop below, measured downwards; the sum of both clearances must be > 0")),
+    tunable(fixed(112, "stop.below.stiffness", slot::BELOW_STIFFNESS, within(&units::STIFFNESS, 0.0, LARGE),
+        "Stiffness of the stop below (kelvinVoigt, hertz, preloaded); with hertz its unit is N/m^stop.below.exponent")),
+    tunable(fixed(113, "stop.below.preload", slot::BELOW_PRELOAD, within(&units::FORCE, 0.0, LARGE),
+        "Force of the preloaded stop below at first touch")),
+    fixed(114, "stop.below.restitution", slot::BELOW_RESTITUTION, bare(0.0, 1.0),
+        "Newton's coefficient of restitution of the rigid stop below"),
+    fixed(115, "stop.below.release", slot::BELOW_RELEASE, Kind::Enumeration(&units::RELEASE),
+        "Where the Kelvin-Voigt stop below lets go of a mass that moves back"),
+    fixed(116, "stop.below.exponent", slot::BELOW_EXPONENT, bare(1.0, 20.0),
+        "Exponent of the Hertz stop below, 3/2 for a sphere"),
+    fixed(117, "stop.below.dissipation", slot::BELOW_DISSIPATION, within(&units::DISSIPATION, 0.0, LARGE),
+        "Hunt and Crossley's dissipation factor of the Hertz stop below"),
 ];
 
-/// Where the slopes of the way back begin.
-#[rustfmt::skip]
-pub(super) const UNLOADING_FROM: &[Row] = slopes!(48, "stop.unloading.from", slot::UNLOADING_FROM, DEFLECTION,
-    "Deflection of the piecewise linear stop from which this slope holds on the way back; 0 for the first, rising");
+/// The slopes of a stop: its name and words, the references of the first number of slopes and of the first of the four lists of
+/// eight, the slots of both numbers.
+macro_rules! slopes {
+    ($stop:literal, $words:literal, $counts:expr, $first:expr, $loading:expr, $unloading:expr) => {
+        slopes!(1 2 3 4 5 6 7 8; $stop, $words, $counts, $first, $loading, $unloading)
+    };
+    ($($number:literal)*; $stop:literal, $words:literal, $counts:expr, $first:expr, $loading:expr, $unloading:expr) => { &[
+        fixed($counts, concat!($stop, ".loading.count"), $loading, count(1),
+            concat!("Number of slopes of the ", $words, " on the way forward; further elements are ignored")),
+        $(fixed($first - 1 + $number, concat!($stop, ".loading.from[", $number, "]"), $loading.element($number), DEFLECTION,
+            concat!("Deflection of the ", $words, " from which this slope holds on the way forward; 0 for the first, rising")),)*
+        $(fixed($first + 7 + $number, concat!($stop, ".loading.stiffness[", $number, "]"), $loading.element(SLOPES + $number), SLOPE,
+            concat!("Stiffness of the ", $words, " in this slope on the way forward")),)*
+        fixed($counts + 1, concat!($stop, ".unloading.count"), $unloading, count(0),
+            concat!("Number of slopes of the ", $words, " on the way back; 0: the same as on the way forward")),
+        $(fixed($first + 15 + $number, concat!($stop, ".unloading.from[", $number, "]"), $unloading.element($number), DEFLECTION,
+            concat!("Deflection of the ", $words, " from which this slope holds on the way back; 0 for the first, rising")),)*
+        $(fixed($first + 23 + $number, concat!($stop, ".unloading.stiffness[", $number, "]"), $unloading.element(SLOPES + $number), SLOPE,
+            concat!("Stiffness of the ", $words, " in this slope on the way back; nowhere with a higher force than on the way forward")),)*
+    ] };
+}
 
-/// The slopes of the way back.
+/// The slopes of the stop.
 #[rustfmt::skip]
-pub(super) const UNLOADING_STIFFNESS: &[Row] = slopes!(56, "stop.unloading.stiffness", slot::UNLOADING_STIFFNESS, SLOPE,
-    "Stiffness of the piecewise linear stop in this slope on the way back; nowhere with a higher force than on the way forward");
+pub(super) const SLOPES_ABOVE: &[Row] =
+    slopes!("stop", "piecewise linear stop", 23, 32, slot::LOADING_COUNT, slot::UNLOADING_COUNT);
+
+/// The slopes of the stop below.
+#[rustfmt::skip]
+pub(super) const SLOPES_BELOW: &[Row] = slopes!(
+    "stop.below", "piecewise linear stop below", 118, 120, slot::BELOW_LOADING_COUNT, slot::BELOW_UNLOADING_COUNT
+);
 
 /// The rigid stop behind another one.
 #[rustfmt::skip]

@@ -10,7 +10,6 @@ mod table;
 use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
-use softstop_fmi::variable::Slot;
 use softstop_fmi::{About, Advance, Block, Derivatives, Events, Known, Outcome, Table, Unit};
 
 use crate::difference::Direction;
@@ -45,37 +44,27 @@ const DISSIPATED: usize = 3;
 const PAID: usize = 4;
 
 mod slot {
-    use super::Slot;
-    pub(super) const MODEL: Slot = Slot(0);
-    pub(super) const VOLTAGE: Slot = Slot(1);
-    pub(super) const TORQUE: Slot = Slot(2);
-    pub(super) const SPEED: Slot = Slot(3);
-    pub(super) const SLIP: Slot = Slot(4);
-    pub(super) const INERTIA: Slot = Slot(5);
-    pub(super) const FRICTION: Slot = Slot(6);
-    pub(super) const UNBALANCE: Slot = Slot(7);
-    pub(super) const INITIAL_SPEED: Slot = Slot(8);
-    pub(super) const INITIAL_ANGLE: Slot = Slot(9);
+    softstop_fmi::slots! {
+        MODEL = 1.0;
+        VOLTAGE = 1.0;
+        TORQUE = 60.0;
+        SPEED = 1.22;
+        SLIP = 0.2;
+        INERTIA = 40.0;
+        FRICTION = 0.0;
+        // 1 N at 1.15 rad/s, as the drive of softstop.fmu does by itself.
+        UNBALANCE = 1.0 / (1.15 * 1.15);
+        INITIAL_SPEED = 1.15;
+        INITIAL_ANGLE = 0.0;
+    }
 }
 
 #[used]
-static BLOCK: Block<[u64; 10]> = Block::new(
+static BLOCK: Block<[u64; slot::SLOTS]> = Block::new(
     "drive",
     "drive",
     "Rotating unbalance on a motor of finite power",
-    // The unbalance gives 1 N at 1.15 rad/s, as the drive of softstop.fmu does by itself.
-    &[
-        1.0,
-        1.0,
-        60.0,
-        1.22,
-        0.2,
-        40.0,
-        0.0,
-        1.0 / (1.15 * 1.15),
-        1.15,
-        0.0,
-    ],
+    &slot::START,
 );
 
 static ABOUT: About<Drive> = About {
@@ -95,7 +84,7 @@ static ABOUT: About<Drive> = About {
     state_space: None,
     clock: None,
     page: include_str!("../../assets/drive.html"),
-    files: &package::FILES,
+    files: package::FILES,
     guid: OnceLock::new(),
 };
 

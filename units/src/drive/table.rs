@@ -84,55 +84,35 @@ const PARAMETERS: &[DriveVariable] = &[
         "Angle at the start time"),
 ];
 
-fn angle(drive: &Drive) -> f64 {
-    drive.state[ANGLE]
-}
-
-fn power(drive: &Drive) -> f64 {
-    drive.torque() * drive.speed()
-}
-
-fn supplied(drive: &Drive) -> f64 {
-    drive.state[SUPPLIED]
-}
-
-fn dissipated(drive: &Drive) -> f64 {
-    drive.state[DISSIPATED]
-}
-
-fn paid(drive: &Drive) -> f64 {
-    drive.state[PAID]
-}
-
 #[rustfmt::skip]
 const OUTPUTS: &[DriveVariable] = &[
     continuous(200, "speed", shown_in(real(&si::ANGULAR_FREQUENCY), "Hz"), after(&["initial.speed"]),
-        (Drive::speed, |of| of.of(Drive::speed)), &[|drive| drive.now()[SPEED]],
+        (Drive::speed, Direction::of), &[|drive| drive.now()[SPEED]],
         "Speed w of the rotor: drive.speed of softstop.fmu"),
     continuous(201, "angle", shown_in(real(&si::ANGLE), "deg"), after(&["initial.angle"]),
-        (angle, |of| of.of(angle)), &[Drive::speed],
+        (|drive| drive.state[ANGLE], Direction::of), &[Drive::speed],
         "Angle of the rotor, counted on over the turns"),
     continuous(202, "amplitude", shown_in(real(&si::FORCE), "kN"), after(&["initial.speed", "unbalance"]),
-        (Drive::amplitude, |of| of.of(Drive::amplitude)),
+        (Drive::amplitude, Direction::of),
         &[|drive| 2.0 * drive.motor.unbalance * drive.speed() * drive.now()[SPEED]],
         "Force of the rotating unbalance, unbalance w^2: drive.amplitude of softstop.fmu"),
     continuous(203, "torque", nominal(real(&si::TORQUE), 10.0), at_once(DRIVES),
-        (Drive::torque, |of| of.of(Drive::torque)), &[],
+        (Drive::torque, Direction::of), &[],
         "Torque of the motor"),
     continuous(204, "power", nominal(real(&si::POWER), 10.0), at_once(DRIVES),
-        (power, |of| of.of(power)), &[],
+        (|drive| drive.torque() * drive.speed(), Direction::of), &[],
         "Power of the motor"),
     continuous(205, "energy.kinetic", nominal(real(&si::ENERGY), 10.0), after(&["inertia", "initial.speed"]),
-        (Drive::kinetic, |of| of.of(Drive::kinetic)),
+        (Drive::kinetic, Direction::of),
         &[|drive| drive.motor.inertia * drive.speed() * drive.now()[SPEED]],
         "Energy of the rotor"),
     continuous(206, "energy.supplied", nominal(real(&si::ENERGY), 10.0), after(&[]),
-        (supplied, |of| of.of(supplied)), &[|drive| drive.now()[SUPPLIED]],
+        (|drive| drive.state[SUPPLIED], Direction::of), &[|drive| drive.now()[SUPPLIED]],
         "Work of the motor since the start"),
     continuous(207, "energy.dissipated", nominal(real(&si::ENERGY), 10.0), after(&[]),
-        (dissipated, |of| of.of(dissipated)), &[|drive| drive.now()[DISSIPATED]],
+        (|drive| drive.state[DISSIPATED], Direction::of), &[|drive| drive.now()[DISSIPATED]],
         "Energy lost to friction since the start"),
     continuous(208, "energy.load", nominal(real(&si::ENERGY), 10.0), after(&[]),
-        (paid, |of| of.of(paid)), &[|drive| drive.now()[PAID]],
+        (|drive| drive.state[PAID], Direction::of), &[|drive| drive.now()[PAID]],
         "Work that the load has taken from the rotor since the start; load.work from the end of the next step on"),
 ];

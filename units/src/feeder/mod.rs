@@ -11,7 +11,6 @@ mod table;
 use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
-use softstop_fmi::variable::Slot;
 use softstop_fmi::{About, Advance, Block, Derivatives, Events, Known, Outcome, Table, Unit};
 
 use crate::difference::Direction;
@@ -43,34 +42,21 @@ const ANGLE: usize = 0;
 const PATTERN: usize = 16;
 
 mod slot {
-    use super::{PATTERN, Slot};
-    pub(super) const SPEED: Slot = Slot(0);
-    pub(super) const ANGLE: Slot = Slot(1);
-    pub(super) const TAKES_ANGLE: Slot = Slot(2);
-    pub(super) const MODEL: Slot = Slot(3);
-    pub(super) const COUNT: Slot = Slot(4);
-    pub(super) const STROKES: Slot = Slot(5);
-    pub(super) const PROBABILITY: Slot = Slot(5 + PATTERN);
-    pub(super) const SEED: Slot = Slot(6 + PATTERN);
-    pub(super) const JAM_PROBABILITY: Slot = Slot(7 + PATTERN);
-    pub(super) const JAM_STROKES: Slot = Slot(8 + PATTERN);
-    pub(super) const INITIAL_ANGLE: Slot = Slot(9 + PATTERN);
-    pub(super) const HELD: Slot = Slot(10 + PATTERN);
-    pub(super) const HELD_SHARE: Slot = Slot(11 + PATTERN);
-    pub(super) const SLOTS: usize = 12 + PATTERN;
-}
-
-const fn defaults() -> [f64; slot::SLOTS] {
-    let mut values = [0.0; slot::SLOTS];
-    values[slot::SPEED.0] = 1.15;
-    values[slot::ANGLE.0] = std::f64::consts::PI;
-    values[slot::MODEL.0] = supply::ALWAYS as f64;
-    values[slot::COUNT.0] = 2.0;
-    values[slot::STROKES.0] = 9.0;
-    values[slot::STROKES.0 + 1] = 1.0;
-    values[slot::PROBABILITY.0] = 0.9;
-    values[slot::JAM_STROKES.0] = 5.0;
-    values
+    softstop_fmi::slots! {
+        SPEED = 1.15;
+        ANGLE = std::f64::consts::PI;
+        TAKES_ANGLE = 0.0;
+        MODEL = super::supply::ALWAYS as f64;
+        COUNT = 2.0;
+        STROKES[super::PATTERN] = 9.0, 1.0;
+        PROBABILITY = 0.9;
+        SEED = 0.0;
+        JAM_PROBABILITY = 0.0;
+        JAM_STROKES = 5.0;
+        INITIAL_ANGLE = 0.0;
+        HELD = 0.0;
+        HELD_SHARE = 0.0;
+    }
 }
 
 #[used]
@@ -78,7 +64,7 @@ static BLOCK: Block<[u64; slot::SLOTS]> = Block::new(
     "feeder",
     "feeder",
     "Supply of strips: by a pattern or by chance, with jams",
-    &defaults(),
+    &slot::START,
 );
 
 static ABOUT: About<Feeder> = About {
@@ -98,7 +84,7 @@ static ABOUT: About<Feeder> = About {
     state_space: None,
     clock: None,
     page: include_str!("../../assets/feeder.html"),
-    files: &package::FILES,
+    files: package::FILES,
     guid: OnceLock::new(),
 };
 

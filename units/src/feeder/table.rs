@@ -114,14 +114,6 @@ const CHANCE_AND_JAMS: &[FeederVariable] = &[
         "Angle of the shaft at the start time, excitation.phase of softstop.fmu"),
 ];
 
-fn share(feeder: &Feeder) -> f64 {
-    f64::from(u8::from(feeder.strip()))
-}
-
-fn fed(feeder: &Feeder) -> f64 {
-    feeder.fed
-}
-
 fn clamp(count: u64) -> i32 {
     i32::try_from(count).unwrap_or(i32::MAX)
 }
@@ -131,7 +123,7 @@ const OUTPUTS: &[FeederVariable] = &[
     row(200, "material", Kind::Boolean,
         Access::Integer { value: |feeder| i32::from(feeder.strip()), depends: FIRST },
         "A strip lies in the press since the last stroke: material of softstop.fmu"),
-    row(201, "material_real", SHARE, Access::Discrete { value: share, tangent: |of| of.of(share), depends: FIRST },
+    row(201, "material_real", SHARE, Access::Discrete { value: |feeder| f64::from(u8::from(feeder.strip())), tangent: Direction::of, depends: FIRST },
         "The same as 1 or 0: material_real of softstop.fmu"),
     row(202, "strip.count", strokes(0), Access::Integer { value: |feeder| clamp(feeder.line.strips), depends: FIRST },
         "Strips so far, the one at the start included"),
@@ -139,6 +131,6 @@ const OUTPUTS: &[FeederVariable] = &[
         "Strokes without a strip so far"),
     count(204, "stroke.count", |feeder| clamp(feeder.line.strokes),
         "Strokes so far, the one at the start included"),
-    discrete(205, "fed.time", real(&si::TIME), (fed, |of| of.of(fed)),
+    discrete(205, "fed.time", real(&si::TIME), (|feeder| feeder.fed, Direction::of),
         "Time at which the last stroke began; at first the start time"),
 ];

@@ -57,7 +57,7 @@ static ROWS: &[Variable<Tank, [f64; 2]>] = &[
         access: Access::Continuous {
             value: |tank| tank.level,
             derivatives: &[Tank::rate],
-            tangent: |by| by[0],
+            tangent: |by, _| by[0],
             depends: Dependencies { inputs: NOTHING, initial: &["start"] },
         } },
     Variable { reference: 201, name: "steps", description: "Steps so far",
