@@ -26,7 +26,7 @@ impl<U: Unit> Instance<U> {
         let mut signals: Vec<_> = signals.map(|signal| signal.seen_from(now)).collect();
         let mut set = vec![false; signals.len()];
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
-            let variable = find::<U>(reference, Type::Real)?;
+            let variable = find::<U>(reference, Type::REAL)?;
             let fault = |available| Fault::DerivativeOrder {
                 name: variable.name,
                 order,
@@ -72,7 +72,7 @@ impl<U: Unit> Instance<U> {
         }
         self.ready_for_outputs()?;
         for ((&reference, &order), value) in references.iter().zip(orders).zip(values) {
-            let variable = find::<U>(reference, Type::Real)?;
+            let variable = find::<U>(reference, Type::REAL)?;
             let derivative = match variable.access {
                 Access::Continuous { derivatives, .. } => usize::try_from(order)
                     .ok()

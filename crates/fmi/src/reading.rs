@@ -9,64 +9,27 @@ use crate::unit::{Row, Unit};
 use crate::variable::{Access, Kind};
 use crate::{rows, si};
 
-/// The type that a function of a standard serves.
+/// The type that a function of a standard serves, by the name that its functions have it under.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Type {
-    /// Of FMI 2.0.
-    Real,
-    /// Of FMI 2.0, enumerations included.
-    Integer,
-    /// Of FMI 2.0.
-    Boolean,
-    /// Of FMI 2.0.
-    String,
-    /// Of FMI 3.0.
-    Float64,
-    /// Of FMI 3.0.
-    Int32,
-    /// Of FMI 3.0: enumerations.
-    Int64,
-    /// `Boolean` of FMI 3.0.
-    Truth,
-    /// Another one of FMI 3.0, of which there are no variables.
-    Other(&'static str),
-}
+pub(crate) struct Type(pub Standard, pub &'static str);
 
 impl Type {
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Real => "Real",
-            Self::Integer => "Integer",
-            Self::Boolean | Self::Truth => "Boolean",
-            Self::String => "String",
-            Self::Float64 => "Float64",
-            Self::Int32 => "Int32",
-            Self::Int64 => "Int64",
-            Self::Other(name) => name,
-        }
-    }
+    /// Real numbers of FMI 2.0.
+    pub(crate) const REAL: Self = Self(Standard::Fmi2, "Real");
 
-    /// The standard that the function is of.
-    const fn standard(self) -> Standard {
-        match self {
-            Self::Real | Self::Integer | Self::Boolean | Self::String => Standard::Fmi2,
-            _ => Standard::Fmi3,
+    /// Enumerations are served by the functions of integers.
+    fn serves(self, kind: &Kind) -> bool {
+        let Self(standard, name) = self;
+        match (kind, standard) {
+            (Kind::Enumeration(_), Standard::Fmi2) => name == "Integer",
+            (Kind::Enumeration(_), Standard::Fmi3) => name == "Int64",
+            _ => name == kind.type_name(standard),
         }
-    }
-
-    const fn serves(self, kind: &Kind) -> bool {
-        matches!(
-            (self, kind),
-            (Self::Real | Self::Float64, Kind::Real(_))
-                | (Self::Integer | Self::Int32, Kind::Count { .. })
-                | (Self::Integer | Self::Int64, Kind::Enumeration(_))
-                | (Self::Boolean | Self::Truth, Kind::Boolean)
-        )
     }
 }
 
 pub(crate) fn find<U: Unit>(reference: u32, wanted: Type) -> Result<&'static Row<U>, Fault> {
-    let variable = match (reference, wanted.standard()) {
+    let variable = match (reference, wanted.0) {
         (TIME_REFERENCE, Standard::Fmi3) => Some(&Instance::<U>::TIME),
         _ => U::about().table.by_reference(reference),
     };
@@ -77,8 +40,8 @@ pub(crate) fn find<U: Unit>(reference: u32, wanted: Type) -> Result<&'static Row
         Err(Fault::WrongType {
             name: variable.name,
             reference,
-            actual: variable.kind.type_name(wanted.standard()),
-            wanted: wanted.name(),
+            actual: variable.kind.type_name(wanted.0),
+            wanted: wanted.1,
         })
     }
 }

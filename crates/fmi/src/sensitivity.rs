@@ -90,7 +90,7 @@ impl<U: Unit> Instance<U> {
             if !seed.is_finite() {
                 return Err(Fault::argument("dvKnown", seed, "finite"));
             }
-            let variable = find::<U>(reference, Type::Real)?;
+            let variable = find::<U>(reference, Type::REAL)?;
             let known = match variable.access {
                 Access::Signal(number) => Some(Known::Signal(number)),
                 Access::Parameter { slot, tunable } if tunable || !integrates => {
@@ -202,7 +202,7 @@ pub fn slope(here: f64, mut width: f64, at: impl Fn(f64) -> Option<f64>) -> f64 
 
 /// How an unknown and its derivative are read.
 fn unknown<U: Unit>(reference: u32) -> Result<Reading<U, U::Tangent>, Fault> {
-    let variable = find::<U>(reference, Type::Real)?;
+    let variable = find::<U>(reference, Type::REAL)?;
     match variable.access {
         Access::Continuous { value, tangent, .. } | Access::Discrete { value, tangent, .. } => {
             Ok((value, tangent))

@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 use std::ffi::{CStr, CString};
 
-use crate::exchange::Iteration;
 use crate::fault::{Fault, Status};
 use crate::instance::Instance;
 use crate::log::{Category, Wanted};
@@ -77,41 +76,39 @@ impl<U: Unit, H: Host> Component<U, H> {
         }
     }
 
-    /// Refuses functions of model exchange to an instance for co-simulation.
-    pub(crate) fn require_exchange(&self) -> Result<(), Fault> {
+    /// The instance, for functions of model exchange.
+    pub(crate) fn exchange(&mut self) -> Result<&mut Instance<U>, Fault> {
         match self.host.is_for_exchange() {
-            true => Ok(()),
+            true => Ok(&mut self.instance),
             false => Err(Fault::NotOffered("the instance is for co-simulation")),
         }
     }
 
-    /// Refuses functions of co-simulation to an instance for model exchange.
-    pub(crate) fn require_co_simulation(&self) -> Result<(), Fault> {
+    /// The instance, for functions of co-simulation.
+    pub(crate) fn co_simulation(&mut self) -> Result<&mut Instance<U>, Fault> {
         match self.host.is_for_exchange() {
             true => Err(Fault::NotOffered("the instance is for model exchange")),
-            false => Ok(()),
+            false => Ok(&mut self.instance),
         }
     }
 
-    /// Leaves initialisation, for event mode where the importer integrates.
+    /// Leaves initialisation, for event mode if there is one.
     pub(crate) fn exit_initialization(&mut self) -> Result<(), Fault> {
         self.instance.exit_initialization()?;
         match self.host.is_for_exchange() {
             true => self.instance.begin_exchange(),
+            false if self.host.has_event_mode() => self.instance.enter_event_mode(),
             false => Ok(()),
         }
     }
 
-    /// Lets the events of event mode happen; when the next one comes, and whether states have changed.
-    pub(crate) fn update_discrete_states(&mut self) -> Result<Iteration, Fault> {
+    /// Lets the instance go on, and tells of the events on the way and of a gap before it.
+    pub(crate) fn reported<T>(
+        &mut self,
+        go_on: impl FnOnce(&mut Instance<U>, &mut StepReport) -> Result<T, Fault>,
+    ) -> Result<T, Fault> {
         let mut report = StepReport::new(self.wanted.has(Category::Events));
-        let iteration = self.instance.update_discrete_states(&mut report);
-        self.tell(&report);
-        iteration
-    }
-
-    /// Tells of the events in a step, and of a gap before it.
-    pub(crate) fn tell(&self, report: &StepReport) {
+        let outcome = go_on(&mut self.instance, &mut report);
         if let Some(gap) = report.gap {
             let text = format!(
                 "currentCommunicationPoint lies {gap:e} s from the end of the last step: the motion goes on \
@@ -122,6 +119,7 @@ impl<U: Unit, H: Host> Component<U, H> {
         for event in &report.events.lines {
             self.log(Status::Ok, Category::Events, event);
         }
+        outcome
     }
 
     /// Tells that a tolerance is of no use to an exact solution.

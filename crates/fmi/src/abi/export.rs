@@ -94,7 +94,7 @@ macro_rules! fmi2_functions {
         use $crate::v2::{CallbackFunctions, EventInfo};
 
         $crate::export_v2!(of $unit_type);
-        $crate::export_v2_exchange!(of $unit_type);
+        $crate::export_v2_shared!(of $unit_type);
     };
 }
 
@@ -107,7 +107,7 @@ macro_rules! export_fmi2 {
         pub use $crate::v2::{CallbackFunctions, EventInfo, Logger};
 
         $crate::export_v2!($functions);
-        $crate::export_v2_exchange!($functions);
+        $crate::export_v2_shared!($functions);
     };
 }
 
@@ -121,7 +121,7 @@ macro_rules! fmi3_functions {
         };
 
         $crate::export_v3!(of $unit_type);
-        $crate::export_v3_exchange!(of $unit_type);
+        $crate::export_v3_shared!(of $unit_type);
         $crate::export_v3_values!(of $unit_type);
         $crate::export_v3_absent!(of $unit_type);
     };
@@ -137,7 +137,7 @@ macro_rules! export_fmi3 {
         };
 
         $crate::export_v3!($functions);
-        $crate::export_v3_exchange!($functions);
+        $crate::export_v3_shared!($functions);
         $crate::export_v3_values!($functions);
         $crate::export_v3_absent!($functions);
     };

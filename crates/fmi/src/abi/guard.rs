@@ -11,7 +11,7 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
 use std::sync::Once;
 
-use libc::c_int;
+use libc::{c_int, c_void};
 
 use super::component::{Component, Host};
 use crate::fault::{Fault, Status};
@@ -45,6 +45,12 @@ pub(crate) fn silent<T>(action: impl FnOnce() -> T) -> Result<T, String> {
         outcome
     });
     outcome.map_err(|panic| message(panic.as_ref()).to_owned())
+}
+
+/// The handle of what is made; NULL if nothing is.
+pub(crate) fn handle<T>(make: impl FnOnce() -> Option<Box<T>>) -> *mut c_void {
+    let made = silent(make).ok().flatten();
+    made.map_or(std::ptr::null_mut(), |made| Box::into_raw(made).cast())
 }
 
 fn message(panic: &(dyn Any + Send)) -> &str {

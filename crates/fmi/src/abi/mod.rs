@@ -10,6 +10,8 @@ pub(crate) mod component;
 mod export;
 pub(crate) mod guard;
 pub(crate) mod pointers;
+#[macro_use]
+mod shared;
 pub(crate) mod state;
 
 pub use libc::{c_char, c_int, c_uint, c_void, size_t};

@@ -11,15 +11,15 @@
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
-use super::host::{CallbackFunctions, Importer, answer, instantiate};
+use super::host::{CallbackFunctions, EventInfo, Importer, answer, instantiate};
 use crate::abi::component::Component;
-use crate::abi::guard::{guarded, silent};
+use crate::abi::guard::{guarded, handle, silent};
 use crate::abi::pointers::{read, string, write, write_one};
 use crate::abi::state;
 use crate::fault::Fault;
-use crate::log::Category;
+use crate::instance::Instance;
 use crate::reading::Type;
-use crate::step::StepReport;
+use crate::standard::Standard::Fmi2;
 use crate::unit::Unit;
 
 const LAST_SUCCESSFUL_TIME: c_int = 2;
@@ -44,32 +44,10 @@ functions! { $ export_v2 v2 Importer;
         _resource_location: *const c_char, functions: *const CallbackFunctions,
         _visible: c_int, logging_on: c_int
     ) -> *mut c_void {
-        let make = || instantiate::<U>(instance_name, fmu_type, guid, functions, logging_on != 0);
-        let made = silent(|| make().map(|made| Box::into_raw(made).cast()));
-        made.ok().flatten().unwrap_or(std::ptr::null_mut())
-    }
-
-    /// Frees an instance, once; NULL is allowed.
-    fn fmi2FreeInstance<U>(component: *mut c_void) -> () {
-        if !component.is_null() {
-            let freed = silent(|| drop(Box::from_raw(component.cast::<Component<U, Importer>>())));
-            debug_assert!(freed.is_ok());
-        }
+        handle(|| instantiate::<U>(instance_name, fmu_type, guid, functions, logging_on != 0))
     }
 
     ;
-
-    /// Switches categories of log lines.
-    fn fmi2SetDebugLogging<U>(
-        component, logging_on: c_int, count: size_t, categories: *const *const c_char
-    ) {
-        let names = read("categories", categories, count)?;
-        let names = names
-            .iter()
-            .map(|&name| string("categories", name))
-            .collect::<Result<Vec<_>, _>>()?;
-        component.wanted.switch(logging_on != 0, &names)
-    }
 
     /// Sets start time, stop time and tolerance; the last is of no use to an exact solution.
     fn fmi2SetupExperiment<U>(
@@ -92,38 +70,22 @@ functions! { $ export_v2 v2 Importer;
         component.instance.enter_initialization()
     }
 
-    /// Leaves initialisation.
-    fn fmi2ExitInitializationMode<U>(component) {
-        component.exit_initialization()
-    }
-
-    /// Ends the experiment.
-    fn fmi2Terminate<U>(component) {
-        component.instance.terminate()
-    }
-
-    /// Leads back to the state right after instantiation.
-    fn fmi2Reset<U>(component) {
-        component.reset();
-        Ok(())
-    }
-
     /// Reads real values.
     fn fmi2GetReal<U>(component, references: *const c_uint, count: size_t, values: *mut f64) {
         let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
-        component.instance.read(references, values, Type::Real, |value| value)
+        component.instance.read(references, values, Type::REAL, |value| value)
     }
 
     /// Reads integers and enumerations.
     fn fmi2GetInteger<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
         let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
-        component.instance.read(references, values, Type::Integer, |value| value as i32)
+        component.instance.read(references, values, Type(Fmi2, "Integer"), |value| value as i32)
     }
 
     /// Reads Booleans.
     fn fmi2GetBoolean<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
         let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
-        component.instance.read(references, values, Type::Boolean, |value| value as i32)
+        component.instance.read(references, values, Type(Fmi2, "Boolean"), |value| value as i32)
     }
 
     /// Reads strings, of which there are none.
@@ -131,25 +93,25 @@ functions! { $ export_v2 v2 Importer;
         component, references: *const c_uint, count: size_t, values: *mut *const c_char
     ) {
         write("value", values, count)?;
-        component.instance.none_of(Type::String, read("vr", references, count)?)
+        component.instance.none_of(Type(Fmi2, "String"), read("vr", references, count)?)
     }
 
     /// Sets real values.
     fn fmi2SetReal<U>(component, references: *const c_uint, count: size_t, values: *const f64) {
         let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
-        component.instance.set(references, values, Type::Real, |value| value)
+        component.instance.set(references, values, Type::REAL, |value| value)
     }
 
     /// Sets integers and enumerations.
     fn fmi2SetInteger<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
         let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
-        component.instance.set(references, values, Type::Integer, f64::from)
+        component.instance.set(references, values, Type(Fmi2, "Integer"), f64::from)
     }
 
     /// Sets Booleans; every number but 0 means true.
     fn fmi2SetBoolean<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
         let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
-        component.instance.set(references, values, Type::Boolean, |value| f64::from(u8::from(value != 0)))
+        component.instance.set(references, values, Type(Fmi2, "Boolean"), |value| f64::from(u8::from(value != 0)))
     }
 
     /// Sets strings, of which there are none.
@@ -159,41 +121,7 @@ functions! { $ export_v2 v2 Importer;
         for &value in read("value", values, count)? {
             string("value", value)?;
         }
-        component.instance.none_of(Type::String, read("vr", references, count)?)
-    }
-
-    /// Keeps a snapshot; one that was kept before is overwritten.
-    fn fmi2GetFMUstate<U>(component, state: *mut *mut c_void) {
-        state::keep(component, state)
-    }
-
-    /// Goes back to a snapshot.
-    fn fmi2SetFMUstate<U>(component, state: *mut c_void) {
-        state::go_back(component, state)
-    }
-
-    /// Frees a snapshot and sets its pointer to NULL; NULL is allowed.
-    fn fmi2FreeFMUstate<U>(_component, state: *mut *mut c_void) {
-        state::free::<U>(state)
-    }
-
-    /// How many bytes a snapshot takes.
-    fn fmi2SerializedFMUstateSize<U>(_component, state: *mut c_void, size: *mut size_t) {
-        state::measure::<U>(state, size)
-    }
-
-    /// Writes a snapshot as bytes; what is left of them becomes zero.
-    fn fmi2SerializeFMUstate<U>(
-        _component, state: *mut c_void, bytes: *mut c_char, size: size_t
-    ) {
-        state::store::<U>(state, bytes.cast(), size)
-    }
-
-    /// Makes a snapshot of bytes. The pointer's old content is not looked at.
-    fn fmi2DeSerializeFMUstate<U>(
-        _component, bytes: *const c_char, size: size_t, state: *mut *mut c_void
-    ) {
-        state::restore::<U>(bytes.cast(), size, state)
+        component.instance.none_of(Type(Fmi2, "String"), read("vr", references, count)?)
     }
 
     /// Derivatives of outputs along a direction of inputs.
@@ -216,8 +144,7 @@ functions! { $ export_v2 v2 Importer;
         let references = read("vr", references, count)?;
         let orders = read("order", orders, count)?;
         let values = read("value", values, count)?;
-        component.require_co_simulation()?;
-        component.instance.set_input_derivatives(references, orders, values)
+        component.co_simulation()?.set_input_derivatives(references, orders, values)
     }
 
     /// Reads time derivatives of outputs.
@@ -228,17 +155,13 @@ functions! { $ export_v2 v2 Importer;
         let references = read("vr", references, count)?;
         let orders = read("order", orders, count)?;
         let values = write("value", values, count)?;
-        component.require_co_simulation()?;
-        component.instance.get_output_derivatives(references, orders, values)
+        component.co_simulation()?.get_output_derivatives(references, orders, values)
     }
 
     /// Carries the motion on by one communication step.
     fn fmi2DoStep<U>(component, point: f64, step: f64, _no_set_state_prior: c_int) {
-        component.require_co_simulation()?;
-        let mut report = StepReport::new(component.wanted.has(Category::Events));
-        let outcome = component.instance.do_step(point, step, &mut report);
-        component.tell(&report);
-        outcome
+        component.co_simulation()?;
+        component.reported(|instance, report| instance.do_step(point, step, report))
     }
 
     /// There is never a step to cancel.
@@ -273,4 +196,33 @@ functions! { $ export_v2 v2 Importer;
         answer("String", kind, PENDING_STATUS, value, c"".as_ptr())?;
         Err(Fault::NotPending)
     }
+
+    /// Enters event mode.
+    fn fmi2EnterEventMode<U>(component) {
+        component.exchange()?.enter_event_mode_of_exchange()
+    }
+
+    /// Lets the event happen, and tells when the next one comes.
+    fn fmi2NewDiscreteStates<U>(component, event_info: *mut EventInfo) {
+        let info = write_one("fmi2eventInfo", event_info)?;
+        component.exchange()?;
+        let iteration = component.reported(Instance::update_discrete_states)?;
+        *info = EventInfo {
+            new_discrete_states_needed: iteration.is_unfinished.into(),
+            terminate_simulation: 0,
+            nominals_of_continuous_states_changed: iteration.has_new_nominals.into(),
+            values_of_continuous_states_changed: iteration.has_new_states.into(),
+            next_event_time_defined: iteration.next.is_some().into(),
+            next_event_time: iteration.next.unwrap_or(0.0),
+        };
+        Ok(())
+    }
+}
+
+shared_functions! { $ export_v2_shared v2 c_int, c_char, "x", "x_nominal";
+    fmi2FreeInstance fmi2SetDebugLogging fmi2ExitInitializationMode fmi2Terminate fmi2Reset
+    fmi2GetFMUstate fmi2SetFMUstate fmi2FreeFMUstate fmi2SerializedFMUstateSize fmi2SerializeFMUstate
+    fmi2DeSerializeFMUstate
+    fmi2EnterContinuousTimeMode fmi2CompletedIntegratorStep fmi2SetTime fmi2SetContinuousStates
+    fmi2GetDerivatives fmi2GetEventIndicators fmi2GetContinuousStates fmi2GetNominalsOfContinuousStates
 }

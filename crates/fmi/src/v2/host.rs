@@ -36,6 +36,24 @@ pub struct CallbackFunctions {
     pub environment: *mut c_void,
 }
 
+/// `fmi2EventInfo`.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct EventInfo {
+    /// Another iteration is needed.
+    pub new_discrete_states_needed: c_int,
+    /// The unit asks to end the simulation.
+    pub terminate_simulation: c_int,
+    /// What is much of a state has changed.
+    pub nominals_of_continuous_states_changed: c_int,
+    /// States have changed.
+    pub values_of_continuous_states_changed: c_int,
+    /// There is a next event.
+    pub next_event_time_defined: c_int,
+    /// When it comes, in s.
+    pub next_event_time: f64,
+}
+
 /// An importer by FMI 2.0.
 pub(crate) struct Importer {
     is_for_exchange: bool,

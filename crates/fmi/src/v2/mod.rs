@@ -6,10 +6,8 @@
     reason = "the C interface: pointers of the importer and exported symbols"
 )]
 
-mod exchange;
 mod functions;
 mod host;
 
-pub use exchange::*;
 pub use functions::*;
-pub use host::{CallbackFunctions, Logger};
+pub use host::{CallbackFunctions, EventInfo, Logger};

@@ -20,13 +20,13 @@ use super::host::{
 use super::intermediate::tell_events_of_step;
 use super::values::{check_count, read_references};
 use crate::abi::component::{Component, Host};
-use crate::abi::guard::{guarded, silent};
+use crate::abi::guard::{guarded, handle, silent};
 use crate::abi::pointers::{read, string, write, write_one};
 use crate::abi::state;
 use crate::event::Handling;
 use crate::fault::Fault;
-use crate::log::Category;
-use crate::step::StepReport;
+use crate::instance::Instance;
+use crate::solving::space_of;
 use crate::unit::Unit;
 
 functions! { $ export_v3 v3 Importer;
@@ -50,11 +50,9 @@ functions! { $ export_v3 v3 Importer;
         let update = intermediate_update.map(|callback| (callback, environment));
         let interface = Interface::CoSimulation(handling, update);
         let sink = sink(environment, log_message);
-        let make = || {
+        handle(|| {
             instantiate::<U>(instance_name, instantiation_token, logging_on != 0, interface, sink)
-        };
-        let made = silent(|| make().map(|made| Box::into_raw(made).cast()));
-        made.ok().flatten().unwrap_or(std::ptr::null_mut())
+        })
     }
 
     /// Makes an instance for model exchange, or returns NULL after one log line.
@@ -65,9 +63,7 @@ functions! { $ export_v3 v3 Importer;
     ) -> *mut c_void {
         let sink = sink(environment, log_message);
         let (name, token, interface) = (instance_name, instantiation_token, Interface::ModelExchange);
-        let make = || instantiate::<U>(name, token, logging_on != 0, interface, sink);
-        let made = silent(|| make().map(|made| Box::into_raw(made).cast()));
-        made.ok().flatten().unwrap_or(std::ptr::null_mut())
+        handle(|| instantiate::<U>(name, token, logging_on != 0, interface, sink))
     }
 
     /// There are no instances for scheduled execution.
@@ -81,14 +77,6 @@ functions! { $ export_v3 v3 Importer;
             silent(|| refuse::<U>("fmi3InstantiateScheduledExecution", environment, log_message));
         debug_assert!(refused.is_ok());
         std::ptr::null_mut()
-    }
-
-    /// Frees an instance, once; NULL is allowed.
-    fn fmi3FreeInstance<U>(component: *mut c_void) -> () {
-        if !component.is_null() {
-            let freed = silent(|| drop(Box::from_raw(component.cast::<Component<U, Importer>>())));
-            debug_assert!(freed.is_ok());
-        }
     }
 
     /// Carries the motion on by one communication step, or to an event on the way.
@@ -105,12 +93,11 @@ functions! { $ export_v3 v3 Importer;
             let terminate = write_one("terminateSimulation", terminate_simulation)?;
             let early = write_one("earlyReturn", early_return)?;
             let time = write_one("lastSuccessfulTime", last_successful_time)?;
-            component.require_co_simulation()?;
-            let mut report = StepReport::new(component.wanted.has(Category::Events));
+            component.co_simulation()?;
             let handling = component.host.handling();
-            let ending = component.instance.do_step_to_event(point, step, handling, &mut report);
-            component.tell(&report);
-            let ending = ending?;
+            let ending = component.reported(|instance, report| {
+                instance.do_step_to_event(point, step, handling, report)
+            })?;
             (*event, *terminate) = (u8::from(ending.event), 0);
             (*early, *time) = (u8::from(ending.early), component.instance.time());
             Ok(())
@@ -118,18 +105,6 @@ functions! { $ export_v3 v3 Importer;
     }
 
     ;
-
-    /// Switches categories of log lines.
-    fn fmi3SetDebugLogging<U>(
-        component, logging_on: u8, count: size_t, categories: *const *const c_char
-    ) {
-        let names = read("categories", categories, count)?;
-        let names = names
-            .iter()
-            .map(|&name| string("categories", name))
-            .collect::<Result<Vec<_>, _>>()?;
-        component.wanted.switch(logging_on != 0, &names)
-    }
 
     /// Sets start time, stop time and tolerance, of which the last is of no use to an exact solution, and enters
     /// initialisation.
@@ -143,15 +118,6 @@ functions! { $ export_v3 v3 Importer;
         component.instance.enter_initialization()?;
         if let Some(tolerance) = tolerance {
             component.tell_tolerance(tolerance);
-        }
-        Ok(())
-    }
-
-    /// Leaves initialisation, for event mode if that is used.
-    fn fmi3ExitInitializationMode<U>(component) {
-        component.exit_initialization()?;
-        if component.host.handling().in_event_mode {
-            component.instance.enter_event_mode()?;
         }
         Ok(())
     }
@@ -182,7 +148,7 @@ functions! { $ export_v3 v3 Importer;
             write_one("valuesOfContinuousStatesChanged", values_of_continuous_states_changed)?;
         let defined = write_one("nextEventTimeDefined", next_event_time_defined)?;
         let time = write_one("nextEventTime", next_event_time)?;
-        let iteration = component.update_discrete_states()?;
+        let iteration = component.reported(Instance::update_discrete_states)?;
         (*need_update, *terminate) = (iteration.is_unfinished.into(), 0);
         *nominals = iteration.has_new_nominals.into();
         *values = iteration.has_new_states.into();
@@ -193,53 +159,7 @@ functions! { $ export_v3 v3 Importer;
 
     /// Enters step mode.
     fn fmi3EnterStepMode<U>(component) {
-        component.require_co_simulation()?;
-        component.instance.enter_step_mode()
-    }
-
-    /// Ends the experiment.
-    fn fmi3Terminate<U>(component) {
-        component.instance.terminate()
-    }
-
-    /// Leads back to the state right after instantiation.
-    fn fmi3Reset<U>(component) {
-        component.reset();
-        Ok(())
-    }
-
-    /// Keeps a snapshot; one that was kept before is overwritten.
-    fn fmi3GetFMUState<U>(component, state: *mut *mut c_void) {
-        state::keep(component, state)
-    }
-
-    /// Goes back to a snapshot.
-    fn fmi3SetFMUState<U>(component, state: *mut c_void) {
-        state::go_back(component, state)
-    }
-
-    /// Frees a snapshot and sets its pointer to NULL; NULL is allowed.
-    fn fmi3FreeFMUState<U>(_component, state: *mut *mut c_void) {
-        state::free::<U>(state)
-    }
-
-    /// How many bytes a snapshot takes.
-    fn fmi3SerializedFMUStateSize<U>(_component, state: *mut c_void, size: *mut size_t) {
-        state::measure::<U>(state, size)
-    }
-
-    /// Writes a snapshot as bytes; what is left of them becomes zero.
-    fn fmi3SerializeFMUState<U>(
-        _component, state: *mut c_void, bytes: *mut u8, size: size_t
-    ) {
-        state::store::<U>(state, bytes, size)
-    }
-
-    /// Makes a snapshot of bytes. The pointer's old content is not looked at.
-    fn fmi3DeserializeFMUState<U>(
-        _component, bytes: *const u8, size: size_t, state: *mut *mut c_void
-    ) {
-        state::restore::<U>(bytes, size, state)
+        component.co_simulation()?.enter_step_mode()
     }
 
     /// Derivatives of outputs along a direction of inputs.
@@ -281,7 +201,29 @@ functions! { $ export_v3 v3 Importer;
         let references = read_references(references, count)?;
         let orders = read("orders", orders, count)?;
         let values = write("values", values, count)?;
-        component.require_co_simulation()?;
-        component.instance.get_output_derivatives(references, orders, values)
+        component.co_simulation()?.get_output_derivatives(references, orders, values)
     }
+
+    /// How many event indicators there are.
+    fn fmi3GetNumberOfEventIndicators<U>(component, count: *mut size_t) {
+        component.exchange()?;
+        *write_one("nEventIndicators", count)? = space_of::<U>().indicators.len();
+        Ok(())
+    }
+
+    /// How many states there are.
+    fn fmi3GetNumberOfContinuousStates<U>(component, count: *mut size_t) {
+        component.exchange()?;
+        *write_one("nContinuousStates", count)? = space_of::<U>().states.len();
+        Ok(())
+    }
+}
+
+shared_functions! { $ export_v3_shared v3 u8, u8, "continuousStates", "nominals";
+    fmi3FreeInstance fmi3SetDebugLogging fmi3ExitInitializationMode fmi3Terminate fmi3Reset
+    fmi3GetFMUState fmi3SetFMUState fmi3FreeFMUState fmi3SerializedFMUStateSize fmi3SerializeFMUState
+    fmi3DeserializeFMUState
+    fmi3EnterContinuousTimeMode fmi3CompletedIntegratorStep fmi3SetTime fmi3SetContinuousStates
+    fmi3GetContinuousStateDerivatives fmi3GetEventIndicators fmi3GetContinuousStates
+    fmi3GetNominalsOfContinuousStates
 }

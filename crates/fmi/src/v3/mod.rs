@@ -9,14 +9,12 @@
 
 mod absent;
 mod arrays;
-mod exchange;
 mod functions;
 mod host;
 mod intermediate;
 mod values;
 
 pub use absent::*;
-pub use exchange::*;
 pub use functions::*;
 pub use host::{
     ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,

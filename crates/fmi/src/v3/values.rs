@@ -14,6 +14,7 @@ use crate::abi::guard::guarded;
 use crate::abi::pointers::{read, write};
 use crate::fault::Fault;
 use crate::reading::{Type, find};
+use crate::standard::Standard::Fmi3;
 use crate::unit::{Clock, Unit};
 
 /// Refuses another number of values than of scalars.
@@ -83,7 +84,7 @@ fn find_clock<U: Unit>(
     let is_told = |clock: &&Clock<U>| component.host.options.clock && clock.reference == reference;
     match U::about().clock.filter(is_told) {
         Some(clock) => Ok(clock),
-        None => find::<U>(reference, Type::Other("Clock"))
+        None => find::<U>(reference, Type(Fmi3, "Clock"))
             .and(Err(Fault::UnknownReference { reference })),
     }
 }
@@ -126,14 +127,14 @@ pub(super) unsafe fn access_none<U: Unit>(
     let references = unsafe { read_references(references, count) }?;
     component
         .instance
-        .none_of(Type::Other(type_name), references)
+        .none_of(Type(Fmi3, type_name), references)
 }
 
 /// The functions of the types of which there are variables, with the type and how a value and a number become each
 /// other, and of those of which there are none.
 macro_rules! typed_functions {
     ($dollar:tt
-        some { $($get:ident $set:ident $type:ty: $wanted:expr, $typed:expr, $number:expr;)* }
+        some { $($get:ident $set:ident $type:ty: $wanted:literal, $typed:expr, $number:expr;)* }
         none { $($get_none:ident $set_none:ident $none_type:ty: $name:literal;)* }
     ) => {
         functions! { $dollar export_v3_values v3 Importer; ;
@@ -143,7 +144,7 @@ macro_rules! typed_functions {
                     component, references: *const c_uint, count: size_t, values: *mut $type,
                     value_count: size_t
                 ) {
-                    let how = ($wanted, $typed as fn(f64) -> $type);
+                    let how = (Type(Fmi3, $wanted), $typed as fn(f64) -> $type);
                     get(component, (references, count), (values, value_count), how)
                 }
 
@@ -152,7 +153,7 @@ macro_rules! typed_functions {
                     component, references: *const c_uint, count: size_t, values: *const $type,
                     value_count: size_t
                 ) {
-                    let how = ($wanted, $number as fn($type) -> f64);
+                    let how = (Type(Fmi3, $wanted), $number as fn($type) -> f64);
                     set(component, (references, count), (values, value_count), how)
                 }
             )*
@@ -219,10 +220,10 @@ macro_rules! typed_functions {
 
 typed_functions! { $
     some {
-        fmi3GetFloat64 fmi3SetFloat64 f64: Type::Float64, |value| value, |value| value;
-        fmi3GetInt32 fmi3SetInt32 c_int: Type::Int32, |value| value as c_int, f64::from;
-        fmi3GetInt64 fmi3SetInt64 i64: Type::Int64, |value| value as i64, |value| value as f64;
-        fmi3GetBoolean fmi3SetBoolean u8: Type::Truth, |value| u8::from(value != 0.0),
+        fmi3GetFloat64 fmi3SetFloat64 f64: "Float64", |value| value, |value| value;
+        fmi3GetInt32 fmi3SetInt32 c_int: "Int32", |value| value as c_int, f64::from;
+        fmi3GetInt64 fmi3SetInt64 i64: "Int64", |value| value as i64, |value| value as f64;
+        fmi3GetBoolean fmi3SetBoolean u8: "Boolean", |value| u8::from(value != 0.0),
             |value| f64::from(u8::from(value != 0));
     }
     none {
