@@ -15,7 +15,7 @@ impl Machine {
     pub(crate) fn placed(&self, time: f64, states: &[f64]) -> Outcome<Self> {
         let mut machine = self.clone();
         if time > machine.time() {
-            machine.approach(time, self.time(), &mut Events::default())?;
+            machine.go_to(time, Some(self.time()), &mut Events::default())?;
         }
         machine.more = machine.more.afresh();
         if let [position, velocity] = *states {

@@ -19,10 +19,6 @@ const BACKSTOP: u64 = 1 << 27;
 /// Pieces of a drive that changes its speed that one step may take, for about as long.
 const MOST_PIECES: usize = 1 << 18;
 
-/// How far the next crossing is looked for, in drive periods, and what that may cost.
-const SIGHT: f64 = 16.0;
-const OUTLOOK: Effort = Effort::windows(1 << 14);
-
 /// Whether there was a crossing.
 struct Passes(bool);
 
@@ -33,13 +29,13 @@ impl Observer for Passes {
 }
 
 /// Impacts and pierced strips so far.
-struct Tally {
+pub(crate) struct Tally {
     impacts: u64,
     pierced: u64,
 }
 
 impl Tally {
-    fn of(simulation: &Simulation) -> Self {
+    pub fn of(simulation: &Simulation) -> Self {
         Self {
             impacts: simulation.impact_count(),
             pierced: simulation.pierce_count(),
@@ -47,7 +43,7 @@ impl Tally {
     }
 
     /// Tells what has happened since, if there was an impact; how many there were.
-    fn tell(&self, simulation: &Simulation, events: &mut Events) -> u64 {
+    pub fn tell(&self, simulation: &Simulation, events: &mut Events) -> u64 {
         let impacts = simulation.impact_count() - self.impacts;
         if let Some(last) = simulation.last_impact().filter(|_| impacts > 0) {
             let pierced = simulation.pierce_count() - self.pierced;
@@ -266,26 +262,6 @@ impl Machine {
             self.more.external.count(work);
         }
         Ok(outcome)
-    }
-
-    /// Lets a crossing happen that the machine stands before.
-    pub(crate) fn cross(&mut self, events: &mut Events) {
-        let simulation = self.change();
-        let before = Tally::of(simulation);
-        if simulation.cross(&mut ()) {
-            events.note();
-        }
-        before.tell(simulation, events);
-    }
-
-    /// When the next crossing happens, unless the drive changes until then.
-    pub(crate) fn next_crossing(&self) -> Option<f64> {
-        if self.more.drive.as_ref().is_some_and(|drive| drive.varies()) {
-            return None;
-        }
-        let simulation = self.simulation();
-        let sight = simulation.time() + SIGHT * simulation.scene().period();
-        simulation.next_crossing(sight, OUTLOOK)
     }
 
     /// Takes over other parameters, all of them or none.

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::sync::OnceLock;
 
-use softstop::{Begin, MotionError, SceneError, Simulation};
+use softstop::{Begin, Effort, MotionError, SceneError, Simulation};
 use softstop_fmi::{
     About, Advance, Block, Derivatives, Events, HIGHEST_ORDER, Known, Outcome, Unit,
 };
@@ -12,9 +12,14 @@ use crate::drive::Drive;
 use crate::machine::{Machine, More};
 use crate::start::StartValues;
 use crate::start::slot::{self, SLOTS};
+use crate::step::Tally;
 use crate::table::{GROUPS, IMPACT, STATE_SPACE, TERMINALS};
 use crate::tangent::Tangent;
 use crate::units::{ENUMERATIONS, QUANTITIES};
+
+/// How far the next crossing is looked for, in drive periods, and what that may cost.
+const SIGHT: f64 = 16.0;
+const OUTLOOK: Effort = Effort::windows(1 << 14);
 
 const _: () = assert!(HIGHEST_ORDER == softstop::HIGHEST_ORDER);
 
@@ -105,23 +110,34 @@ impl Unit for Machine {
         Ok(())
     }
 
-    fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
-        self.go_to(until, None, events)
+    fn advance(
+        &mut self,
+        until: f64,
+        halt: Option<f64>,
+        events: &mut Events,
+    ) -> Outcome<Advance<Self>> {
+        self.go_to(until, halt, events)
     }
 
     const HAS_EVENTS: bool = true;
 
-    fn approach(&mut self, until: f64, halt: f64, events: &mut Events) -> Outcome<Advance<Self>> {
-        self.go_to(until, Some(halt), events)
-    }
-
     fn pass_event(&mut self, events: &mut Events) -> Outcome<()> {
-        self.cross(events);
+        let simulation = self.change();
+        let before = Tally::of(simulation);
+        if simulation.cross(&mut ()) {
+            events.note();
+        }
+        before.tell(simulation, events);
         Ok(())
     }
 
     fn next_event(&self) -> Option<f64> {
-        self.next_crossing()
+        if self.more.drive.as_ref().is_some_and(|drive| drive.varies()) {
+            return None;
+        }
+        let simulation = self.simulation();
+        let sight = simulation.time() + SIGHT * simulation.scene().period();
+        simulation.next_crossing(sight, OUTLOOK)
     }
 
     fn at_states(&self, time: f64, states: &[f64]) -> Outcome<Self> {

@@ -26,7 +26,7 @@ fn of_the_speed_by_the_work_of_the_load() {
         }
         let mut drive = Drive::begin(&values, 0.0).expect("a drive");
         drive.drive(LOAD, &Derivatives::default()).expect("a load");
-        let advance = drive.advance(1e-9, &mut Events::default());
+        let advance = drive.advance(1e-9, None, &mut Events::default());
         assert!(matches!(advance, Ok(Advance::Arrived)));
         let Access::Continuous { value, tangent, .. } = row("speed").access else {
             unreachable!("speed is continuous");

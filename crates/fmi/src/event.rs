@@ -43,19 +43,12 @@ impl<U: Unit> Instance<U> {
         }
         self.pass_event(report)?;
         let (begin, end) = (self.time(), self.intended_end(point + step, step));
-        let mut outcome = match handling {
-            Handling { early: true, .. } => {
-                self.carry_on(point, step, report, |unit, _, events| {
-                    unit.approach(end, begin, events)
-                })
-            }
-            Handling { in_event_mode, .. } if in_event_mode => {
-                self.carry_on(point, step, report, |unit, _, events| {
-                    unit.approach(end, end, events)
-                })
-            }
-            Handling { .. } => self.carry_on(point, step, report, U::advance),
+        let halt = match handling {
+            Handling { early: true, .. } => Some(begin),
+            Handling { in_event_mode, .. } => in_event_mode.then_some(end),
         };
+        let goal = halt.map(|halt| (end, halt));
+        let mut outcome = self.do_step(point, step, goal, report);
         let reaches_on = handling.early && self.time() > begin;
         match &mut outcome {
             Err(Fault::Discarded { .. }) if reaches_on => outcome = Ok(()),

@@ -213,7 +213,7 @@ impl<U: Unit> Instance<U> {
             Some(next) => (end_of_present(next.max(unit.time())), unit.time()),
             None => (time, time),
         };
-        match unit.approach(until, halt, events)? {
+        match unit.advance(until, Some(halt), events)? {
             Advance::Event => Ok(true),
             Advance::Arrived => Ok(due.is_some()),
             Advance::Short { reason, .. } => Err(Fault::Unit(reason.into())),

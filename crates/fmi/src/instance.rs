@@ -52,20 +52,9 @@ pub(crate) struct Experiment {
 
 impl<U: Unit> Clone for Instance<U> {
     fn clone(&self) -> Self {
-        Self {
-            lifecycle: self.lifecycle,
-            values: self.values.clone(),
-            signals: self.signals.clone(),
-            experiment: self.experiment,
-            unit: self.unit.clone(),
-            tuned: self.tuned,
-            fell_short: self.fell_short,
-            retreat: self.retreat.clone(),
-            awaits: self.awaits,
-            aim: self.aim,
-            exchange: self.exchange.clone(),
-            ticks: self.ticks,
-        }
+        let mut clone = Self::new();
+        clone.clone_from(self);
+        clone
     }
 
     /// Reuses the memory of values and signals: going back to a snapshot is asked for as often as a step.

@@ -4,6 +4,9 @@ use std::borrow::Cow;
 
 use crate::fault::Fault;
 
+/// Names of a category.
+type Names = &'static [&'static str];
+
 /// A category of log lines, as in the model description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Category {
@@ -18,39 +21,29 @@ pub(crate) enum Category {
 impl Category {
     pub(crate) const ALL: [Self; 3] = [Self::Events, Self::Warnings, Self::Errors];
 
-    /// Its name.
-    pub(crate) const fn name(self) -> &'static str {
+    /// Its name; what it tells, which of events the unit knows; the standard's names of that (FMI 2.0.4, 2.2.4).
+    pub(crate) const fn about(self) -> (&'static str, Option<&'static str>, Names) {
         match self {
-            Self::Events => "events",
-            Self::Warnings => "warnings",
-            Self::Errors => "errors",
-        }
-    }
-
-    /// What it tells; of events the unit knows.
-    pub(crate) const fn description(self) -> Option<&'static str> {
-        match self {
-            Self::Events => None,
-            Self::Warnings => Some("calls that are carried out, but hardly as meant"),
-            Self::Errors => {
-                Some("calls that are refused and steps that are discarded, always logged")
-            }
-        }
-    }
-
-    /// The standard's names of what it tells (FMI 2.0.4, 2.2.4).
-    pub(crate) const fn standard_names(self) -> &'static [&'static str] {
-        match self {
-            Self::Events => &["logEvents"],
-            Self::Warnings => &["logStatusWarning"],
-            Self::Errors => &["logStatusDiscard", "logStatusError"],
+            Self::Events => ("events", None, &["logEvents"]),
+            Self::Warnings => (
+                "warnings",
+                Some("calls that are carried out, but hardly as meant"),
+                &["logStatusWarning"],
+            ),
+            Self::Errors => (
+                "errors",
+                Some("calls that are refused and steps that are discarded, always logged"),
+                &["logStatusDiscard", "logStatusError"],
+            ),
         }
     }
 
     /// The categories of a name, its own or one of the standard's.
     fn named(name: &str) -> Result<Vec<Self>, Fault> {
-        let is_meant =
-            |it: &Self| it.name() == name || name == LOG_ALL || it.standard_names().contains(&name);
+        let is_meant = |it: &Self| {
+            let (own, _, standard) = it.about();
+            own == name || name == LOG_ALL || standard.contains(&name)
+        };
         let found: Vec<_> = Self::ALL.into_iter().filter(is_meant).collect();
         match found.is_empty() {
             true => Err(Fault::LogCategory(name.to_owned())),
@@ -62,29 +55,19 @@ impl Category {
 /// The standard's name of all categories.
 pub(crate) const LOG_ALL: &str = "logAll";
 
-/// The importer's wishes. Errors are always logged: a refused call must not pass in silence.
+/// The importer's wishes, by category. Errors are always logged: a refused call must not pass in silence.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Wanted {
-    events: bool,
-    warnings: bool,
-}
+pub(crate) struct Wanted([bool; 3]);
 
 impl Wanted {
     /// All or nothing, as `loggingOn` at instantiation.
     pub(crate) const fn all(on: bool) -> Self {
-        Self {
-            events: on,
-            warnings: on,
-        }
+        Self([on, on, true])
     }
 
     /// Whether lines of this category are wanted.
     pub(crate) const fn has(self, category: Category) -> bool {
-        match category {
-            Category::Events => self.events,
-            Category::Warnings => self.warnings,
-            Category::Errors => true,
-        }
+        self.0[category as usize]
     }
 
     /// Switches the named categories, or all if none is named.
@@ -95,11 +78,7 @@ impl Wanted {
             *self = Self::all(on);
         }
         for category in categories {
-            match category {
-                Category::Events => self.events = on,
-                Category::Warnings => self.warnings = on,
-                Category::Errors => {}
-            }
+            self.0[category as usize] = on || category == Category::Errors;
         }
         Ok(())
     }

@@ -42,7 +42,7 @@ fn results<U: Unit>(imprint: &Imprint<U>) -> Option<String> {
         let time = f64::from(step) * STEP;
         let advance = match step {
             0 => Advance::Arrived,
-            _ => unit.advance(time, &mut Events::default()).ok()?,
+            _ => unit.advance(time, None, &mut Events::default()).ok()?,
         };
         if !matches!(advance, Advance::Arrived) {
             return None;

@@ -83,7 +83,7 @@ impl<U: Unit> Exchange<U> {
         let begin = own.time();
         if self.time > begin
             && own
-                .approach(self.time, begin, &mut Events::default())
+                .advance(self.time, Some(begin), &mut Events::default())
                 .is_err()
         {
             return false;

@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use crate::instance::Instance;
 use crate::lifecycle::Lifecycle;
 use crate::signal::Signal;
-use crate::unit::{Advance, Events, Outcome, Unit};
+use crate::unit::{Advance, Events, Unit};
 
 /// What there is to tell of a step.
 #[derive(Debug)]
@@ -46,25 +46,16 @@ pub(crate) fn rounding_of(time: f64, step: f64) -> f64 {
 }
 
 impl<U: Unit> Instance<U> {
-    /// Carries the unit on to `point + step`, whatever happens on the way, and adds to the report.
+    /// Carries the unit on to `point + step`, whatever happens on the way, and adds to the report; or to such a time and
+    /// halt as [`Unit::advance`] takes.
     /// [`Fault::Discarded`] if it did not get that far: [`Instance::time`] is then where it is, and the
     /// next step may begin there, or where this one began.
     pub(crate) fn do_step(
         &mut self,
         point: f64,
         step: f64,
+        goal: Option<(f64, f64)>,
         report: &mut StepReport,
-    ) -> Result<(), Fault> {
-        self.carry_on(point, step, report, U::advance)
-    }
-
-    /// As [`Instance::do_step`], by any way of going on.
-    pub(crate) fn carry_on(
-        &mut self,
-        point: f64,
-        step: f64,
-        report: &mut StepReport,
-        go_on: impl FnOnce(&mut U, f64, &mut Events) -> Outcome<Advance<U>>,
     ) -> Result<(), Fault> {
         self.require(
             &[Lifecycle::Running],
@@ -90,7 +81,10 @@ impl<U: Unit> Instance<U> {
         }
         let unit = self.settle()?;
         // A step below the last digit of the time ends where it began.
-        let advance = go_on(unit, end.max(present), &mut report.events)?;
+        let (until, halt) = goal.map_or((end.max(present), None), |(until, halt)| {
+            (until, Some(halt))
+        });
+        let advance = unit.advance(until, halt, &mut report.events)?;
         let reached = unit.time();
         report.gap = Some(point - present).filter(|gap| gap.abs() > rounding_of(present, step));
         self.fell_short = matches!(advance, Advance::Short { .. });

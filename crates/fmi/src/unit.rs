@@ -46,17 +46,17 @@ pub trait Unit: Clone + Send + Serialize + DeserializeOwned + 'static {
     /// Takes over values that were set on the way.
     fn tune(&mut self, values: &[f64]) -> Outcome<()>;
 
-    /// Goes on to `until` in s, which is not in the past, and tells of events on the way.
-    fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>>;
+    /// Goes on to `until` in s, which is not in the past, and tells of events on the way; with `halt` in s, to right before
+    /// the first event that does not happen before that. One that happens at `until` but for rounding is on the way.
+    fn advance(
+        &mut self,
+        until: f64,
+        halt: Option<f64>,
+        events: &mut Events,
+    ) -> Outcome<Advance<Self>>;
 
-    /// Whether there are events that [`Unit::approach`] stops at.
+    /// Whether there are events that [`Unit::advance`] halts at.
     const HAS_EVENTS: bool = false;
-
-    /// Goes on to `until` in s, or to right before the first event that does not happen before `halt` in s; one that happens
-    /// at `until` but for rounding is on the way.
-    fn approach(&mut self, until: f64, _halt: f64, events: &mut Events) -> Outcome<Advance<Self>> {
-        self.advance(until, events)
-    }
 
     /// Lets the event happen that it stands before.
     fn pass_event(&mut self, _events: &mut Events) -> Outcome<()> {

@@ -210,7 +210,7 @@ impl Unit for Drive {
         Ok(())
     }
 
-    fn advance(&mut self, until: f64, _events: &mut Events) -> Outcome<Advance<Self>> {
+    fn advance(&mut self, until: f64, _: Option<f64>, _: &mut Events) -> Outcome<Advance<Self>> {
         self.origin = None;
         let before = Box::new(self.clone());
         if !self.go_to(until) {

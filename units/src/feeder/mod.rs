@@ -174,7 +174,12 @@ impl Unit for Feeder {
         Ok(())
     }
 
-    fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
+    fn advance(
+        &mut self,
+        until: f64,
+        _: Option<f64>,
+        events: &mut Events,
+    ) -> Outcome<Advance<Self>> {
         self.origin = None;
         let before = Box::new(self.clone());
         if let Err(reason) = self.go_to(until) {

@@ -161,7 +161,7 @@ functions! { $ export_v2 v2 Importer;
     /// Carries the motion on by one communication step.
     fn fmi2DoStep<U>(component, point: f64, step: f64, _no_set_state_prior: c_int) {
         component.co_simulation()?;
-        component.reported(|instance, report| instance.do_step(point, step, report))
+        component.reported(|instance, report| instance.do_step(point, step, None, report))
     }
 
     /// There is never a step to cancel.

@@ -163,7 +163,12 @@ impl Unit for Tank {
         Ok(())
     }
 
-    fn advance(&mut self, until: f64, events: &mut Events) -> Outcome<Advance<Self>> {
+    fn advance(
+        &mut self,
+        until: f64,
+        _halt: Option<f64>,
+        events: &mut Events,
+    ) -> Outcome<Advance<Self>> {
         let before = self.clone();
         let end = until.min(self.time + SPAN);
         let inflow = |time: f64| integral(&self.inflow, time - self.since);
