@@ -136,24 +136,14 @@ impl Machine {
         (value, rate, curvature)
     }
 
-    /// Power of the drive in W with its first derivative.
-    pub(crate) fn drive_power(&self) -> (f64, f64) {
-        let (
-            (force, rate, _),
-            Sample {
-                velocity,
-                acceleration,
-                ..
-            },
-        ) = (self.drive_force(), *self.sample());
-        (force * velocity, rate * velocity + force * acceleration)
-    }
-
-    /// Its second derivative in W/s^2.
-    pub(crate) fn drive_power_curvature(&self) -> f64 {
-        let (force, rate, curvature) = self.drive_force();
-        let of = self.sample();
-        curvature * of.velocity + 2.0 * rate * of.acceleration + force * of.jerk
+    /// Power of the drive in W with its first two derivatives.
+    pub(crate) fn drive_power(&self) -> (f64, f64, f64) {
+        let ((force, rate, curvature), of) = (self.drive_force(), self.sample());
+        (
+            force * of.velocity,
+            rate * of.velocity + force * of.acceleration,
+            curvature * of.velocity + 2.0 * rate * of.acceleration + force * of.jerk,
+        )
     }
 
     /// Work of the drive in J.

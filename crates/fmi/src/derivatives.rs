@@ -84,7 +84,7 @@ impl<U: Unit> Instance<U> {
                 order,
                 available: "those of continuous outputs are, from order 1 to maxOutputDerivativeOrder",
             })?;
-            *value = derivative(self.unit.as_ref().ok_or_else(|| self.no_outputs())?);
+            *value = derivative(self.begun()?);
         }
         Ok(())
     }

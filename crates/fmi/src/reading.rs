@@ -84,15 +84,14 @@ impl<U: Unit> Instance<U> {
     }
 
     fn value(&self, variable: &Row<U>) -> Result<f64, Fault> {
-        let unit = || self.unit.as_ref().ok_or_else(|| self.no_outputs());
         match &variable.access {
             Access::Parameter { slot, .. } | Access::Input(slot) => Ok(self.values[slot.0]),
             Access::Time => Ok(self.time()),
             Access::Signal(number) => Ok(self.signals[*number].at(self.time())),
             Access::Continuous { value, .. }
             | Access::Discrete { value, .. }
-            | Access::Local(value) => Ok(value(unit()?)),
-            Access::Integer { value, .. } => Ok(f64::from(value(unit()?))),
+            | Access::Local(value) => Ok(value(self.begun()?)),
+            Access::Integer { value, .. } => Ok(f64::from(value(self.begun()?))),
         }
     }
 

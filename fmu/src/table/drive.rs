@@ -49,7 +49,7 @@ pub(super) const DRIVE: &[Row] = &[
         (|machine| machine.drive_force().0, Tangent::of), &[|machine| machine.drive_force().1, |machine| machine.drive_force().2],
         "Force of the drive on the mass"),
     continuous(214, "drive.power", real(&units::POWER), with_drive(POWERED),
-        (power, Tangent::of), &[|machine| machine.drive_power().1, Machine::drive_power_curvature],
+        (power, Tangent::of), &[|machine| machine.drive_power().1, |machine| machine.drive_power().2],
         "Power that the drive gives to the mass, force times velocity"),
     continuous(215, "drive.work", real(&units::ENERGY), after(&[]),
         (Machine::drive_work, Tangent::of), &[power, |machine| machine.drive_power().1],

@@ -3,37 +3,53 @@
 use std::borrow::Cow;
 use std::ffi::{CStr, CString};
 
+use libc::{c_char, c_void};
+
+use super::pointers::string;
+use crate::event::Handling;
 use crate::fault::{Fault, Status};
+use crate::guid::options_of;
 use crate::instance::Instance;
+use crate::lifecycle::Lifecycle;
 use crate::log::{Category, Wanted};
+use crate::options::Options;
+use crate::standard::Standard;
 use crate::step::StepReport;
 use crate::unit::Unit;
 
 /// The importer's end of the log: takes status, category and text.
 pub(crate) type Sink = Box<dyn Fn(Status, &CStr, &CStr)>;
 
-/// What an importer has agreed on with an instance, by one of the standards.
-pub(crate) trait Host {
-    /// What the names of the standard's functions begin with.
-    const PREFIX: &'static str;
+/// `fmi3IntermediateUpdateCallback`, if there is one.
+pub type IntermediateUpdate =
+    unsafe extern "C" fn(*mut c_void, f64, u8, u8, u8, u8, *mut u8, *mut f64);
 
+/// What an importer has agreed on with an instance.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Importer {
+    pub standard: Standard,
+    /// It integrates by itself: the instance is for model exchange.
+    pub integrates: bool,
+    /// What a step of co-simulation may come to.
+    pub handling: Handling,
+    /// What is called at events within a step, and with what.
+    pub update: Option<(IntermediateUpdate, *mut c_void)>,
+    /// What the FMU tells of.
+    pub options: Options,
+}
+
+impl Importer {
     /// Whether the instance may be in event mode.
-    fn has_event_mode(&self) -> bool {
-        false
+    pub(crate) fn has_event_mode(self) -> bool {
+        self.handling.in_event_mode || self.integrates
     }
-
-    /// Whether the importer integrates by itself.
-    fn is_for_exchange(&self) -> bool;
-
-    /// What a call that failed does to the instance.
-    fn note_error<U: Unit>(&self, _instance: &mut Instance<U>) {}
 }
 
 /// An instance with its log.
-pub(crate) struct Component<U: Unit, H> {
+pub(crate) struct Component<U: Unit> {
     pub(crate) instance: Instance<U>,
     pub(crate) wanted: Wanted,
-    pub(crate) host: H,
+    pub(crate) importer: Importer,
     logging_on: bool,
     sink: Sink,
 }
@@ -44,41 +60,63 @@ fn send(sink: &Sink, status: Status, category: Category, text: &str) {
     sink(status, &c_string(category.about().0), &c_string(text));
 }
 
-impl<U: Unit, H: Host> Component<U, H> {
-    /// Makes an instance, unless something of what was asked for does not fit; then one line says why.
-    pub(crate) fn new(
+/// Tells why no instance is made.
+pub(crate) fn refuse(sink: &Sink, call: &str, fault: &Fault) {
+    let text = format!("{call}: {fault}");
+    send(sink, Status::Error, Category::Errors, &text);
+}
+
+impl<U: Unit> Component<U> {
+    /// Makes an instance of an FMU with the options of this GUID, unless a check refuses what was asked for; then one line
+    /// says why.
+    ///
+    /// # Safety
+    /// Name and GUID are NULL or strings that end with NUL.
+    pub(crate) unsafe fn instantiate(
         call: &str,
-        checked: Result<(), Fault>,
+        name: *const c_char,
+        (argument, guid): (&'static str, *const c_char),
         logging_on: bool,
-        host: H,
+        importer: Importer,
         sink: Sink,
+        check: impl FnOnce(Result<Options, Fault>) -> Result<Options, Fault>,
     ) -> Option<Box<Self>> {
-        if let Err(fault) = checked {
-            let text = format!("{call}: {fault}");
-            send(&sink, Status::Error, Category::Errors, &text);
-            return None;
+        // SAFETY: by this function's contract.
+        let (name, guid) = unsafe { (string("instanceName", name), string(argument, guid)) };
+        let checked = check_name(name).and_then(|()| {
+            let guid = guid?;
+            check(options_of::<U>(importer.standard, argument, &guid))
+        });
+        match checked {
+            Ok(options) => Some(Box::new(Self {
+                instance: Instance::new(),
+                wanted: Wanted::all(logging_on),
+                importer: Importer {
+                    options,
+                    ..importer
+                },
+                logging_on,
+                sink,
+            })),
+            Err(fault) => {
+                refuse(&sink, call, &fault);
+                None
+            }
         }
-        Some(Box::new(Self {
-            instance: Instance::new(),
-            wanted: Wanted::all(logging_on),
-            host,
-            logging_on,
-            sink,
-        }))
     }
 
     /// Sends one line, if lines of its category are wanted.
     pub(crate) fn log(&self, status: Status, category: Category, text: &str) {
         if self.wanted.has(category) {
             // Faults name functions as FMI 2.0 does.
-            let text = text.replace("fmi2", H::PREFIX);
+            let text = text.replace("fmi2", self.importer.standard.prefix());
             send(&self.sink, status, category, &text);
         }
     }
 
     /// The instance, for functions of model exchange.
     pub(crate) fn exchange(&mut self) -> Result<&mut Instance<U>, Fault> {
-        match self.host.is_for_exchange() {
+        match self.importer.integrates {
             true => Ok(&mut self.instance),
             false => Err(Fault::NotOffered("the instance is for co-simulation")),
         }
@@ -86,7 +124,7 @@ impl<U: Unit, H: Host> Component<U, H> {
 
     /// The instance, for functions of co-simulation.
     pub(crate) fn co_simulation(&mut self) -> Result<&mut Instance<U>, Fault> {
-        match self.host.is_for_exchange() {
+        match self.importer.integrates {
             true => Err(Fault::NotOffered("the instance is for model exchange")),
             false => Ok(&mut self.instance),
         }
@@ -95,9 +133,9 @@ impl<U: Unit, H: Host> Component<U, H> {
     /// Leaves initialisation, for event mode if there is one.
     pub(crate) fn exit_initialization(&mut self) -> Result<(), Fault> {
         self.instance.exit_initialization()?;
-        match self.host.is_for_exchange() {
+        match self.importer.integrates {
             true => self.instance.begin_exchange(),
-            false if self.host.has_event_mode() => self.instance.enter_event_mode(),
+            false if self.importer.has_event_mode() => self.instance.enter_event_mode(),
             false => Ok(()),
         }
     }
@@ -128,6 +166,14 @@ impl<U: Unit, H: Host> Component<U, H> {
         self.log(Status::Ok, Category::Warnings, &text);
     }
 
+    /// By FMI 3.0 an error ends the simulation: only a state that was kept, or a reset, leads back.
+    pub(crate) fn note_error(&mut self) {
+        let lifecycle = &mut self.instance.lifecycle;
+        if self.importer.standard == Standard::Fmi3 && *lifecycle != Lifecycle::Failed {
+            *lifecycle = Lifecycle::Erred;
+        }
+    }
+
     /// Everything as after instantiation, the log included.
     pub(crate) fn reset(&mut self) {
         self.instance = Instance::new();
@@ -136,7 +182,7 @@ impl<U: Unit, H: Host> Component<U, H> {
 }
 
 /// Refuses an instance without a name.
-pub(crate) fn check_name(name: Result<Cow<str>, Fault>) -> Result<(), Fault> {
+fn check_name(name: Result<Cow<str>, Fault>) -> Result<(), Fault> {
     match name?.is_empty() {
         true => Err(Fault::Instantiation("instanceName is empty".to_owned())),
         false => Ok(()),

@@ -1,10 +1,10 @@
 //! The macros that make C functions.
 
 /// Makes of each function of a standard's module a generic one and, in a macro of the given name, the C function of a
-/// unit. Behind the semicolon stand the calls on an instance of that standard's host: a fault in one becomes its status
+/// unit. Behind the semicolon stand the calls on an instance: a fault in one becomes its status
 /// and one log line.
 macro_rules! functions {
-    ($dollar:tt $export:ident $module:ident $host:ty; $(
+    ($dollar:tt $export:ident $module:ident; $(
         $(#[$doc:meta])*
         fn $name:ident<$unit:ident>($($argument:ident: $type:ty),*) -> $result:ty $body:block
     )* ; $(
@@ -27,7 +27,7 @@ macro_rules! functions {
                 component: *mut c_void $(, $call_argument: $call_type)*
             ) -> c_int {
                 // SAFETY: the importer passes NULL or what instantiation gave it.
-                let component = unsafe { component.cast::<Component<$call_unit, $host>>().as_mut() };
+                let component = unsafe { component.cast::<Component<$call_unit>>().as_mut() };
                 guarded(component, stringify!($call), &mut |$component| {
                     // SAFETY: by the standard arrays are as long as the importer says; NULL is
                     // refused where there is something to read or to write.

@@ -13,7 +13,7 @@ use std::sync::Once;
 
 use libc::{c_int, c_void};
 
-use super::component::{Component, Host};
+use super::component::Component;
 use crate::fault::{Fault, Status};
 use crate::log::Category;
 use crate::unit::Unit;
@@ -62,14 +62,14 @@ fn message(panic: &(dyn Any + Send)) -> &str {
 }
 
 /// What a C function does with an instance. Behind a `dyn`, what guards it is compiled once, not once for each function.
-type Action<'a, U, H> = &'a mut dyn FnMut(&mut Component<U, H>) -> Result<(), Fault>;
+type Action<'a, U> = &'a mut dyn FnMut(&mut Component<U>) -> Result<(), Fault>;
 
 /// Runs a call on an instance: a fault becomes an error and one log line, a panic as well, after
 /// which the instance must be reset.
-pub(crate) fn guarded<U: Unit, H: Host>(
-    component: Option<&mut Component<U, H>>,
+pub(crate) fn guarded<U: Unit>(
+    component: Option<&mut Component<U>>,
     call: &'static str,
-    action: Action<'_, U, H>,
+    action: Action<'_, U>,
 ) -> c_int {
     let Some(component) = component else {
         return Status::Error as c_int;
@@ -84,7 +84,7 @@ pub(crate) fn guarded<U: Unit, H: Host>(
             let status = fault.status();
             component.log(status, Category::Errors, &format!("{call}: {fault}"));
             if status == Status::Error {
-                component.host.note_error(&mut component.instance);
+                component.note_error();
             }
             status as c_int
         }

@@ -9,11 +9,11 @@ macro_rules! shared_functions {
         $continuous:ident $complete:ident $set_time:ident $set_states:ident
         $derivatives:ident $indicators:ident $get_states:ident $get_nominals:ident
     ) => {
-        functions! { $dollar $export $module Importer;
+        functions! { $dollar $export $module;
             /// Frees an instance, once; NULL is allowed.
             fn $free<U>(component: *mut c_void) -> () {
                 if !component.is_null() {
-                    let instance = component.cast::<Component<U, Importer>>();
+                    let instance = component.cast::<Component<U>>();
                     let freed = silent(|| drop(Box::from_raw(instance)));
                     debug_assert!(freed.is_ok());
                 }

@@ -8,7 +8,7 @@ use std::ptr::NonNull;
 use libc::c_void;
 use uuid::Uuid;
 
-use super::component::{Component, Host};
+use super::component::Component;
 use super::pointers::{read, write, write_one};
 use crate::fault::Fault;
 use crate::guid::library_uuid;
@@ -84,8 +84,8 @@ unsafe fn kept<'a, U: Unit>(state: *mut c_void) -> Result<&'a Instance<U>, Fault
 ///
 /// # Safety
 /// NULL, or a place that holds NULL or a handle as [`Snapshot::of_handle`] takes.
-pub(crate) unsafe fn keep<U: Unit, H: Host>(
-    component: &Component<U, H>,
+pub(crate) unsafe fn keep<U: Unit>(
+    component: &Component<U>,
     state: *mut *mut c_void,
 ) -> Result<(), Fault> {
     // SAFETY: by this function's contract.
@@ -105,13 +105,13 @@ pub(crate) unsafe fn keep<U: Unit, H: Host>(
 ///
 /// # Safety
 /// As [`Snapshot::of_handle`].
-pub(crate) unsafe fn go_back<U: Unit, H: Host>(
-    component: &mut Component<U, H>,
+pub(crate) unsafe fn go_back<U: Unit>(
+    component: &mut Component<U>,
     state: *mut c_void,
 ) -> Result<(), Fault> {
     // SAFETY: by this function's contract.
     let kept = unsafe { kept::<U>(state) }?;
-    let is_other = match component.host.is_for_exchange() {
+    let is_other = match component.importer.integrates {
         true => kept.exchange.is_none() && !kept.lifecycle.is_before_start(),
         false => kept.exchange.is_some(),
     };
@@ -119,7 +119,7 @@ pub(crate) unsafe fn go_back<U: Unit, H: Host>(
         return Err(Fault::Blob("is of another interface type"));
     }
     let in_event_mode = kept.lifecycle == Lifecycle::Event || kept.awaits;
-    if in_event_mode && !component.host.has_event_mode() {
+    if in_event_mode && !component.importer.has_event_mode() {
         return Err(Fault::Blob("stands at an event, which is for event mode"));
     }
     component.instance.clone_from(kept);

@@ -11,7 +11,7 @@
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
-use super::host::{CallbackFunctions, EventInfo, Importer, answer, instantiate};
+use super::host::{CallbackFunctions, EventInfo, answer, instantiate};
 use crate::abi::component::Component;
 use crate::abi::guard::{guarded, handle, silent};
 use crate::abi::pointers::{read, string, write, write_one};
@@ -27,7 +27,7 @@ const DO_STEP_STATUS: c_int = 0;
 const PENDING_STATUS: c_int = 1;
 const TERMINATED: c_int = 3;
 
-functions! { $ export_v2 v2 Importer;
+functions! { $ export_v2 v2;
     /// The platform types this library was built with.
     fn fmi2GetTypesPlatform<U>() -> *const c_char {
         c"default".as_ptr()

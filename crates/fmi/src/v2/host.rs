@@ -1,15 +1,13 @@
 //! What an importer agrees on with an instance by FMI 2.0: callbacks, and what it is told of the last step.
 
-use std::borrow::Cow;
 use std::ffi::CString;
 
 use libc::{c_char, c_int, c_void, size_t};
 
-use crate::abi::component::{Component, Host, Sink, check_name};
+use crate::abi::component::{Component, Importer, Sink};
 use crate::abi::pointers::{string, write_one};
 use crate::fault::Fault;
-use crate::guid::options_of;
-use crate::standard::Standard;
+use crate::options::Options;
 use crate::unit::Unit;
 
 /// `fmi2ModelExchange` and `fmi2CoSimulation` of `fmi2Type`.
@@ -54,23 +52,6 @@ pub struct EventInfo {
     pub next_event_time: f64,
 }
 
-/// An importer by FMI 2.0.
-pub(crate) struct Importer {
-    is_for_exchange: bool,
-}
-
-impl Host for Importer {
-    const PREFIX: &'static str = "fmi2";
-
-    fn has_event_mode(&self) -> bool {
-        self.is_for_exchange
-    }
-
-    fn is_for_exchange(&self) -> bool {
-        self.is_for_exchange
-    }
-}
-
 /// The importer's logger; its callbacks may be missing.
 fn sink(name: CString, functions: Option<&CallbackFunctions>) -> Sink {
     let Some((logger, environment)) =
@@ -104,33 +85,35 @@ pub(super) unsafe fn instantiate<U: Unit>(
     guid: *const c_char,
     functions: *const CallbackFunctions,
     logging_on: bool,
-) -> Option<Box<Component<U, Importer>>> {
-    // SAFETY: by this function's contract.
-    let (functions, name, guid) = unsafe {
-        (
-            functions.as_ref(),
-            string("instanceName", name),
-            string("fmuGUID", guid),
-        )
+) -> Option<Box<Component<U>>> {
+    let importer = Importer {
+        integrates: fmu_type == MODEL_EXCHANGE,
+        ..Importer::default()
     };
-    let own = CString::new(name.as_deref().unwrap_or_default()).unwrap_or_default();
-    let checked = check_name(name).and_then(|()| check_type_and_guid::<U>(fmu_type, guid));
-    let sink = sink(own, functions);
-    let is_for_exchange = fmu_type == MODEL_EXCHANGE;
-    let host = Importer { is_for_exchange };
-    Component::new("fmi2Instantiate", checked, logging_on, host, sink)
+    let check = |options| check_type::<U>(fmu_type, options);
+    let guid = ("fmuGUID", guid);
+    // SAFETY: by this function's contract.
+    unsafe {
+        let own = string("instanceName", name).unwrap_or_default();
+        let sink = sink(CString::new(&*own).unwrap_or_default(), functions.as_ref());
+        Component::instantiate(
+            "fmi2Instantiate",
+            name,
+            guid,
+            logging_on,
+            importer,
+            sink,
+            check,
+        )
+    }
 }
 
 /// Model exchange is for FMUs that tell of it, by whose GUID one knows them.
-fn check_type_and_guid<U: Unit>(
-    fmu_type: c_int,
-    guid: Result<Cow<str>, Fault>,
-) -> Result<(), Fault> {
-    let options = options_of::<U>(Standard::Fmi2, "fmuGUID", &guid?);
+fn check_type<U: Unit>(fmu_type: c_int, options: Result<Options, Fault>) -> Result<Options, Fault> {
     let has_exchange = options.as_ref().is_ok_and(|options| options.exchange);
     match fmu_type {
-        CO_SIMULATION => options.map(drop),
-        MODEL_EXCHANGE if has_exchange && U::about().state_space.is_some() => Ok(()),
+        CO_SIMULATION => options,
+        MODEL_EXCHANGE if has_exchange && U::about().state_space.is_some() => options,
         _ => Err(Fault::Instantiation(format!(
             "fmuType = {fmu_type}: only fmi2CoSimulation ({CO_SIMULATION}) is available"
         ))),

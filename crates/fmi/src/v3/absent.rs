@@ -7,7 +7,6 @@
 
 use libc::{c_int, c_uint, c_void, size_t};
 
-use super::host::Importer;
 use crate::abi::component::Component;
 use crate::abi::guard::guarded;
 use crate::fault::Fault;
@@ -15,7 +14,7 @@ use crate::unit::Unit;
 
 macro_rules! absent_functions {
     ($dollar:tt $($why:literal: $($name:ident($($argument:ident: $type:ty),*);)*)*) => {
-        functions! { $dollar export_v3_absent v3 Importer; ;
+        functions! { $dollar export_v3_absent v3; ;
             $($(
                 /// Not offered.
                 #[allow(unused_variables, reason = "nothing is done with any argument")]

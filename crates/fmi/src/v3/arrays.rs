@@ -2,17 +2,16 @@
 
 use std::borrow::Cow;
 
-use super::host::Importer;
 use crate::abi::component::Component;
 use crate::fault::Fault;
 use crate::unit::Unit;
 
 /// The value references of scalars: those of all elements in place of an array's.
 pub(super) fn expanded<'a, U: Unit>(
-    component: &Component<U, Importer>,
+    component: &Component<U>,
     references: &'a [u32],
 ) -> Result<Cow<'a, [u32]>, Fault> {
-    if !component.host.options.arrays {
+    if !component.importer.options.arrays {
         return Ok(references.into());
     }
     let table = &U::about().table;

@@ -14,12 +14,12 @@ use libc::{c_char, c_int, c_uint, c_void, size_t};
 
 use super::arrays::expanded;
 use super::host::{
-    ClockUpdateCallback, Importer, Interface, IntermediateUpdateCallback, LogMessageCallback,
-    PreemptionCallback, instantiate, refuse, sink,
+    ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,
+    instantiate, sink,
 };
 use super::intermediate::tell_events_of_step;
-use super::values::{check_count, read_references};
-use crate::abi::component::{Component, Host};
+use super::values::check_count;
+use crate::abi::component::{Component, Importer, refuse};
 use crate::abi::guard::{guarded, handle, silent};
 use crate::abi::pointers::{read, string, write, write_one};
 use crate::abi::state;
@@ -29,7 +29,7 @@ use crate::instance::Instance;
 use crate::solving::space_of;
 use crate::unit::Unit;
 
-functions! { $ export_v3 v3 Importer;
+functions! { $ export_v3 v3;
     /// The version of the standard.
     fn fmi3GetVersion<U>() -> *const c_char {
         c"3.0".as_ptr()
@@ -43,15 +43,16 @@ functions! { $ export_v3 v3 Importer;
         _required_count: size_t, environment: *mut c_void, log_message: LogMessageCallback,
         intermediate_update: IntermediateUpdateCallback
     ) -> *mut c_void {
-        let handling = Handling {
-            in_event_mode: event_mode_used != 0,
-            early: early_return_allowed != 0,
+        let (in_event_mode, early) = (event_mode_used != 0, early_return_allowed != 0);
+        let update = intermediate_update.filter(|_| !early);
+        let importer = Importer {
+            handling: Handling { in_event_mode, early },
+            update: update.map(|callback| (callback, environment)),
+            ..Importer::default()
         };
-        let update = intermediate_update.map(|callback| (callback, environment));
-        let interface = Interface::CoSimulation(handling, update);
         let sink = sink(environment, log_message);
         handle(|| {
-            instantiate::<U>(instance_name, instantiation_token, logging_on != 0, interface, sink)
+            instantiate::<U>(instance_name, instantiation_token, logging_on != 0, importer, sink)
         })
     }
 
@@ -62,8 +63,10 @@ functions! { $ export_v3 v3 Importer;
         log_message: LogMessageCallback
     ) -> *mut c_void {
         let sink = sink(environment, log_message);
-        let (name, token, interface) = (instance_name, instantiation_token, Interface::ModelExchange);
-        handle(|| instantiate::<U>(name, token, logging_on != 0, interface, sink))
+        let importer = Importer { integrates: true, ..Importer::default() };
+        handle(|| {
+            instantiate::<U>(instance_name, instantiation_token, logging_on != 0, importer, sink)
+        })
     }
 
     /// There are no instances for scheduled execution.
@@ -73,8 +76,9 @@ functions! { $ export_v3 v3 Importer;
         log_message: LogMessageCallback, _clock_update: ClockUpdateCallback,
         _lock_preemption: PreemptionCallback, _unlock_preemption: PreemptionCallback
     ) -> *mut c_void {
-        let refused =
-            silent(|| refuse::<U>("fmi3InstantiateScheduledExecution", environment, log_message));
+        let fault = Fault::NotOffered("the unit is not for scheduled execution");
+        let sink = sink(environment, log_message);
+        let refused = silent(|| refuse(&sink, "fmi3InstantiateScheduledExecution", &fault));
         debug_assert!(refused.is_ok());
         std::ptr::null_mut()
     }
@@ -85,7 +89,7 @@ functions! { $ export_v3 v3 Importer;
         _no_set_state_prior: u8, event_handling_needed: *mut u8, terminate_simulation: *mut u8,
         early_return: *mut u8, last_successful_time: *mut f64
     ) -> c_int {
-        let component = component.cast::<Component<U, Importer>>();
+        let component = component.cast::<Component<U>>();
         let (point, step) = (current_communication_point, communication_step_size);
         tell_events_of_step(component, point, step);
         guarded(component.as_mut(), "fmi3DoStep", &mut |component| {
@@ -94,7 +98,7 @@ functions! { $ export_v3 v3 Importer;
             let early = write_one("earlyReturn", early_return)?;
             let time = write_one("lastSuccessfulTime", last_successful_time)?;
             component.co_simulation()?;
-            let handling = component.host.handling();
+            let handling = component.importer.handling;
             let ending = component.reported(|instance, report| {
                 instance.do_step_to_event(point, step, handling, report)
             })?;
@@ -124,10 +128,10 @@ functions! { $ export_v3 v3 Importer;
 
     /// Enters event mode.
     fn fmi3EnterEventMode<U>(component) {
-        if component.host.is_for_exchange() {
+        if component.importer.integrates {
             return component.instance.enter_event_mode_of_exchange();
         }
-        if !component.host.has_event_mode() {
+        if !component.importer.has_event_mode() {
             return Err(Fault::NotOffered("eventModeUsed was false"));
         }
         component.instance.enter_event_mode()
@@ -198,7 +202,7 @@ functions! { $ export_v3 v3 Importer;
         values: *mut f64, value_count: size_t
     ) {
         check_count("nValues", value_count, count)?;
-        let references = read_references(references, count)?;
+        let references = read("valueReferences", references, count)?;
         let orders = read("orders", orders, count)?;
         let values = write("values", values, count)?;
         component.co_simulation()?.get_output_derivatives(references, orders, values)

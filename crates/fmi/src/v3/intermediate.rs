@@ -1,6 +1,5 @@
 //! Intermediate update: what the importer sees of a step that goes through events.
 
-use super::host::Importer;
 use crate::abi::component::Component;
 use crate::abi::guard::silent;
 use crate::lifecycle::Lifecycle;
@@ -12,7 +11,7 @@ use crate::unit::Unit;
 /// # Safety
 /// `component` is NULL or what instantiation gave the importer, and nothing else refers to it.
 pub(super) unsafe fn tell_events_of_step<U: Unit>(
-    component: *mut Component<U, Importer>,
+    component: *mut Component<U>,
     point: f64,
     step: f64,
 ) {
@@ -22,7 +21,7 @@ pub(super) unsafe fn tell_events_of_step<U: Unit>(
         let Some(of) = component.as_ref() else {
             return;
         };
-        let Some((callback, environment)) = of.host.intermediate_update() else {
+        let Some((callback, environment)) = of.importer.update else {
             return;
         };
         if of.instance.awaits {

@@ -8,7 +8,6 @@
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
 use super::arrays::expanded;
-use super::host::Importer;
 use crate::abi::component::Component;
 use crate::abi::guard::guarded;
 use crate::abi::pointers::{read, write};
@@ -33,41 +32,6 @@ pub(super) fn check_count(
     }
 }
 
-/// The value references of a call.
-///
-/// # Safety
-/// As [`read`].
-pub(super) unsafe fn read_references<'a>(
-    references: *const u32,
-    count: usize,
-) -> Result<&'a [u32], Fault> {
-    // SAFETY: by this function's contract.
-    unsafe { read("valueReferences", references, count) }
-}
-
-/// Reads values of a type.
-///
-/// # Safety
-/// As [`read`] and [`write`].
-pub(super) unsafe fn get<U: Unit, T>(
-    component: &mut Component<U, Importer>,
-    (references, count): (*const u32, usize),
-    (values, value_count): (*mut T, usize),
-    (wanted, typed): (Type, fn(f64) -> T),
-) -> Result<(), Fault> {
-    // SAFETY: by this function's contract.
-    let (references, values) = unsafe {
-        (
-            read_references(references, count)?,
-            write("values", values, value_count)?,
-        )
-    };
-    let references = expanded(component, references)?;
-    check_count("nValues", value_count, references.len())?;
-    let read = component.instance.read(&references, values, wanted, typed);
-    read.map_err(not_yet)
-}
-
 /// What FMI 3.0 makes of reading where that is allowed, but outputs have no values yet.
 fn not_yet(fault: Fault) -> Fault {
     match fault {
@@ -78,10 +42,11 @@ fn not_yet(fault: Fault) -> Fault {
 
 /// The clock with this value reference, if the FMU tells of it.
 fn find_clock<U: Unit>(
-    component: &Component<U, Importer>,
+    component: &Component<U>,
     reference: u32,
 ) -> Result<&'static Clock<U>, Fault> {
-    let is_told = |clock: &&Clock<U>| component.host.options.clock && clock.reference == reference;
+    let is_told =
+        |clock: &&Clock<U>| component.importer.options.clock && clock.reference == reference;
     match U::about().clock.filter(is_told) {
         Some(clock) => Ok(clock),
         None => find::<U>(reference, Type(Fmi3, "Clock"))
@@ -89,45 +54,21 @@ fn find_clock<U: Unit>(
     }
 }
 
-/// Sets values of a type.
-///
-/// # Safety
-/// As [`read`].
-pub(super) unsafe fn set<U: Unit, T: Copy>(
-    component: &mut Component<U, Importer>,
-    (references, count): (*const u32, usize),
-    (values, value_count): (*const T, usize),
-    (wanted, number): (Type, fn(T) -> f64),
-) -> Result<(), Fault> {
-    // SAFETY: by this function's contract.
-    let (references, values) = unsafe {
-        (
-            read_references(references, count)?,
-            read("values", values, value_count)?,
-        )
-    };
-    let references = expanded(component, references)?;
-    check_count("nValues", value_count, references.len())?;
-    let set = component.instance.set(&references, values, wanted, number);
-    set.map_err(Fault::refused)
-}
-
 /// Reads or sets values of a type of which there are no variables.
 ///
 /// # Safety
 /// As [`read`].
-pub(super) unsafe fn access_none<U: Unit>(
-    component: &Component<U, Importer>,
+unsafe fn access_none<U: Unit>(
+    component: &Component<U>,
     (references, count): (*const u32, usize),
     value_count: usize,
     type_name: &'static str,
 ) -> Result<(), Fault> {
     check_count("nValues", value_count, count)?;
     // SAFETY: by this function's contract.
-    let references = unsafe { read_references(references, count) }?;
-    component
-        .instance
-        .none_of(Type(Fmi3, type_name), references)
+    let references = unsafe { read("valueReferences", references, count) }?;
+    let instance = &component.instance;
+    instance.none_of(Type(Fmi3, type_name), references)
 }
 
 /// The functions of the types of which there are variables, with the type and how a value and a number become each
@@ -137,15 +78,19 @@ macro_rules! typed_functions {
         some { $($get:ident $set:ident $type:ty: $wanted:literal, $typed:expr, $number:expr;)* }
         none { $($get_none:ident $set_none:ident $none_type:ty: $name:literal;)* }
     ) => {
-        functions! { $dollar export_v3_values v3 Importer; ;
+        functions! { $dollar export_v3_values v3; ;
             $(
                 /// Reads values of this type.
                 fn $get<U>(
                     component, references: *const c_uint, count: size_t, values: *mut $type,
                     value_count: size_t
                 ) {
-                    let how = (Type(Fmi3, $wanted), $typed as fn(f64) -> $type);
-                    get(component, (references, count), (values, value_count), how)
+                    let references = read("valueReferences", references, count)?;
+                    let values = write("values", values, value_count)?;
+                    let references = expanded(component, references)?;
+                    check_count("nValues", value_count, references.len())?;
+                    let read = component.instance.read(&references, values, Type(Fmi3, $wanted), $typed);
+                    read.map_err(not_yet)
                 }
 
                 /// Sets values of this type.
@@ -153,8 +98,12 @@ macro_rules! typed_functions {
                     component, references: *const c_uint, count: size_t, values: *const $type,
                     value_count: size_t
                 ) {
-                    let how = (Type(Fmi3, $wanted), $number as fn($type) -> f64);
-                    set(component, (references, count), (values, value_count), how)
+                    let references = read("valueReferences", references, count)?;
+                    let values = read("values", values, value_count)?;
+                    let references = expanded(component, references)?;
+                    check_count("nValues", value_count, references.len())?;
+                    let set = component.instance.set(&references, values, Type(Fmi3, $wanted), $number);
+                    set.map_err(Fault::refused)
                 }
             )*
             $(
@@ -195,7 +144,7 @@ macro_rules! typed_functions {
             fn fmi3GetClock<U>(
                 component, references: *const c_uint, count: size_t, values: *mut u8
             ) {
-                let references = read_references(references, count)?;
+                let references = read("valueReferences", references, count)?;
                 let values = write("values", values, count)?;
                 for (&reference, value) in references.iter().zip(values) {
                     let clock = find_clock(component, reference)?;
@@ -209,7 +158,7 @@ macro_rules! typed_functions {
             fn fmi3SetClock<U>(
                 component, references: *const c_uint, count: size_t, _values: *const u8
             ) {
-                let mut references = read_references(references, count)?.iter();
+                let mut references = read("valueReferences", references, count)?.iter();
                 references.try_for_each(|&reference| {
                     Err(Fault::Output(find_clock(component, reference)?.name))
                 })
