@@ -78,6 +78,23 @@ fn damaged_bytes_are_refused() {
     assert_eq!(unit.step(12.0, 1.0), OK);
 }
 
+#[test]
+fn bytes_without_room_are_left_as_they_are() {
+    let unit = Unit::new();
+    unit.begin();
+    assert_eq!(unit.step(0.0, 12.0), OK);
+    let (state, needed) = (unit.keep(), unit.serialized().len());
+    for size in [0, 1, needed / 2, needed - 1] {
+        let mut bytes = vec![b'x'; needed + 8];
+        let place = bytes.as_mut_ptr().cast();
+        let status = unsafe { fmi2SerializeFMUstate(unit.component, state, place, size) };
+        let words = format!("size = {size}: the serialized FMU state needs {needed} bytes");
+        unit.refused(status, &["fmi2SerializeFMUstate", &words]);
+        assert!(bytes.iter().all(|byte| *byte == b'x'), "{size}");
+    }
+    unit.free(state);
+}
+
 /// What another FMU has kept begins with another GUID, and so do its bytes.
 #[test]
 fn states_of_another_fmu_are_refused() {

@@ -82,9 +82,9 @@ pub fn callbacks(log: *mut Log) -> CallbackFunctions {
     }
 }
 
-/// What an importer says when it asks for an instance.
+/// The arguments of `fmi2Instantiate`.
 #[derive(Debug, Clone)]
-pub struct Birth {
+pub struct InstantiateArguments {
     pub name: Option<&'static CStr>,
     pub kind: c_int,
     pub guid: Option<String>,
@@ -93,7 +93,7 @@ pub struct Birth {
     pub logging_on: bool,
 }
 
-impl Birth {
+impl InstantiateArguments {
     pub fn plain() -> Self {
         Self {
             name: Some(c"unit"),
@@ -114,23 +114,23 @@ pub struct Unit {
 
 impl Unit {
     pub fn new() -> Self {
-        Self::born(&Birth::plain()).expect("an instance")
+        Self::instantiate(&InstantiateArguments::plain()).expect("an instance")
     }
 
     /// The instance, or the log of its refusal.
-    pub fn born(birth: &Birth) -> Result<Self, Vec<String>> {
+    pub fn instantiate(arguments: &InstantiateArguments) -> Result<Self, Vec<String>> {
         let log = Box::into_raw(Box::<Log>::default());
-        let name = birth.name.map_or(ptr::null(), CStr::as_ptr);
-        let guid = birth.guid.as_deref();
+        let name = arguments.name.map_or(ptr::null(), CStr::as_ptr);
+        let guid = arguments.guid.as_deref();
         let guid = guid.map(|guid| CString::new(guid).expect("no NUL"));
         let guid = guid.as_ref().map_or(ptr::null(), |guid| guid.as_ptr());
         let mut functions = callbacks(log);
-        functions.logger = functions.logger.filter(|_| birth.has_logger);
-        let functions = match birth.has_callbacks {
+        functions.logger = functions.logger.filter(|_| arguments.has_logger);
+        let functions = match arguments.has_callbacks {
             true => &raw const functions,
             false => ptr::null(),
         };
-        let (kind, logging_on) = (birth.kind, birth.logging_on.into());
+        let (kind, logging_on) = (arguments.kind, arguments.logging_on.into());
         let component =
             unsafe { fmi2Instantiate(name, kind, guid, ptr::null(), functions, 0, logging_on) };
         let unit = Self { component, log };

@@ -2,7 +2,7 @@
 
 use std::ffi::c_int;
 
-use crate::common::Birth;
+use crate::common::InstantiateArguments;
 
 /// Instances and snapshots that a sequence works with.
 pub const UNITS: usize = 3;
@@ -82,7 +82,7 @@ pub enum StatusOf {
 #[derive(Debug, Clone)]
 pub enum Call {
     Texts,
-    Instantiate(Birth),
+    Instantiate(InstantiateArguments),
     FreeInstance,
     SetDebugLogging(c_int, Vec<&'static str>, Null),
     SetupExperiment(Option<f64>, f64, Option<f64>),

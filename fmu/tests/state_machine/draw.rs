@@ -9,7 +9,7 @@ use proptest::sample::select;
 use softstop_fmu::library_guid;
 
 use super::calls::{Call, Damage, Null, Point, STATES, StatusOf, Type, UNITS};
-use crate::common::{Birth, reference};
+use crate::common::{InstantiateArguments, reference};
 
 fn null() -> impl Strategy<Value = Null> {
     prop_oneof![20 => Just(Null::Nothing), 1 => Just(Null::First), 1 => Just(Null::Second)]
@@ -192,7 +192,7 @@ fn step() -> impl Strategy<Value = Call> {
     (point, size).prop_map(|(p, s)| Call::DoStep(p, s))
 }
 
-fn birth() -> impl Strategy<Value = Call> {
+fn arguments() -> impl Strategy<Value = Call> {
     let names = prop_oneof![18 => Just(Some(c"unit")), 1 => Just(None), 1 => Just(Some(c""))];
     let kinds = prop_oneof![18 => Just(1), 1 => select(vec![0, 2, -1, c_int::MAX])];
     let guids = prop_oneof![
@@ -203,7 +203,7 @@ fn birth() -> impl Strategy<Value = Call> {
     let parts = (names, kinds, guids, usually(), usually(), any::<bool>());
     parts.prop_map(
         |(name, kind, guid, has_callbacks, has_logger, logging_on)| {
-            Call::Instantiate(Birth {
+            Call::Instantiate(InstantiateArguments {
                 name,
                 kind,
                 guid,
@@ -261,7 +261,7 @@ type Sequence = Vec<(usize, Call)>;
 /// Any call on an instance; the one numbered `UNITS` does not exist.
 pub fn any_call() -> impl Strategy<Value = (usize, Call)> {
     let call = prop_oneof![
-        2 => birth(),
+        2 => arguments(),
         6 => life(),
         4 => set(),
         3 => get(),

@@ -7,7 +7,7 @@ use softstop_fmi::variable::{Access, Kind};
 use softstop_fmu::{Machine, StartValues, library_guid, table};
 
 use super::calls::{Call, Null, StatusOf, Type};
-use crate::common::{Birth, ERROR, OK, Statuses, if_all, reference};
+use crate::common::{ERROR, InstantiateArguments, OK, Statuses, if_all, reference};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Life {
@@ -73,12 +73,12 @@ fn is_initial(vr: u32) -> bool {
 }
 
 /// What the refusal of an instance is about.
-pub fn refusal(birth: &Birth) -> Option<String> {
-    let name = birth.name.filter(|name| !name.is_empty());
-    match &birth.guid {
+pub fn refusal(arguments: &InstantiateArguments) -> Option<String> {
+    let name = arguments.name.filter(|name| !name.is_empty());
+    match &arguments.guid {
         _ if name.is_none() => Some("instanceName".to_owned()),
         None => Some("fmuGUID".to_owned()),
-        _ if birth.kind != 1 => Some(format!("fmuType = {}", birth.kind)),
+        _ if arguments.kind != 1 => Some(format!("fmuType = {}", arguments.kind)),
         own if *own == Some(library_guid()) => None,
         other => other.clone(),
     }

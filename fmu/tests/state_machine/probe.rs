@@ -6,15 +6,15 @@ use softstop_fmu::table;
 use super::calls::{Call, Null, Type};
 use super::model::is;
 use super::perform::perform;
-use crate::common::{Birth, OK, Unit, reference};
+use crate::common::{InstantiateArguments, OK, Unit, reference};
 
 /// An instance without a log.
 pub fn silent() -> Unit {
-    let birth = Birth {
+    let arguments = InstantiateArguments {
         has_callbacks: false,
-        ..Birth::plain()
+        ..InstantiateArguments::plain()
     };
-    Unit::born(&birth).expect("an instance")
+    Unit::instantiate(&arguments).expect("an instance")
 }
 
 /// An instance that takes up the state of another one to be read in its place.

@@ -8,7 +8,7 @@ use super::calls::Call;
 use super::model::{Life, Model};
 use super::perform::perform;
 use super::probe::silent;
-use crate::common::{Birth, ERROR, OK, Unit};
+use crate::common::{ERROR, InstantiateArguments, OK, Unit};
 
 pub struct Slot {
     pub unit: Unit,
@@ -20,11 +20,11 @@ pub struct Slot {
 }
 
 impl Slot {
-    pub fn new(unit: Unit, birth: &Birth) -> Self {
+    pub fn new(unit: Unit, arguments: &InstantiateArguments) -> Self {
         Self {
             unit,
             shadow: silent(),
-            has_log: birth.has_callbacks && birth.has_logger,
+            has_log: arguments.has_callbacks && arguments.has_logger,
             model: Model::new(),
             unsettled: false,
         }

@@ -14,7 +14,7 @@ use super::model::{Life, Model, refusal};
 use super::perform::perform;
 use super::probe::{Probe, silent};
 use super::slot::Slot;
-use crate::common::{Birth, ERROR, OK, Statuses, Unit, call};
+use crate::common::{ERROR, InstantiateArguments, OK, Statuses, Unit, call};
 
 pub struct Kept {
     pub state: *mut c_void,
@@ -31,7 +31,7 @@ pub struct World {
 
 impl World {
     pub fn new() -> Self {
-        let slot = || Slot::new(Unit::new(), &Birth::plain());
+        let slot = || Slot::new(Unit::new(), &InstantiateArguments::plain());
         Self {
             units: std::array::from_fn(|_| Some(slot())),
             states: [const { None }; STATES],
@@ -42,7 +42,7 @@ impl World {
     pub fn run(&mut self, index: usize, call: &Call) {
         match call {
             Call::Texts => texts(),
-            Call::Instantiate(birth) if index < UNITS => self.instantiate(index, birth),
+            Call::Instantiate(arguments) if index < UNITS => self.instantiate(index, arguments),
             Call::Instantiate(_) => {}
             Call::FreeInstance if index < UNITS => self.units[index] = None,
             // SAFETY: NULL is allowed.
@@ -120,23 +120,23 @@ impl World {
         }
     }
 
-    fn instantiate(&mut self, index: usize, birth: &Birth) {
+    fn instantiate(&mut self, index: usize, arguments: &InstantiateArguments) {
         self.units[index] = None;
-        let born = Unit::born(birth);
-        match (born, refusal(birth)) {
+        let made = Unit::instantiate(arguments);
+        match (made, refusal(arguments)) {
             (Ok(unit), None) => {
                 assert!(unit.take_log().is_empty());
-                self.units[index] = Some(Slot::new(unit, birth));
+                self.units[index] = Some(Slot::new(unit, arguments));
             }
             (Err(lines), Some(word)) => {
                 let is_told = |line: &String| {
                     line.starts_with("3 errors fmi2Instantiate: ") && line.contains(&word)
                 };
-                let count = usize::from(birth.has_callbacks && birth.has_logger);
+                let count = usize::from(arguments.has_callbacks && arguments.has_logger);
                 let is_right = lines.len() == count && lines.iter().all(is_told);
-                assert!(is_right, "{birth:?}: {lines:?}");
+                assert!(is_right, "{arguments:?}: {lines:?}");
             }
-            (born, refusal) => panic!("{birth:?}: {:?}, {refusal:?}", born.err()),
+            (made, refusal) => panic!("{arguments:?}: {:?}, {refusal:?}", made.err()),
         }
     }
 
