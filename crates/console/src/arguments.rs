@@ -220,22 +220,19 @@ fn of_start(key: &str) -> Option<&str> {
 
 /// The machine in a few words: its name, and the paper's ratios if it is stated in them.
 pub fn title(machine: &Machine) -> String {
-    let name = machine.name.as_deref().unwrap_or("machine");
-    let scene = &machine.scene;
-    match machine.unit_system {
-        UnitSystem::Ratios => {
-            let (eta, rho) = (scene.excitation.frequency, scene.clearance);
-            format!("the {name} machine at η = {eta}, ρ = {rho}")
-        }
-        _ => name.to_owned(),
-    }
+    let eta = machine.scene.excitation.frequency;
+    title_at(machine, |rho| format!(" at η = {eta}, ρ = {rho}"))
 }
 
 /// The machine in a few words where its drive has many frequencies.
 pub fn title_over_frequency(machine: &Machine) -> String {
+    title_at(machine, |rho| format!(", ρ = {rho}"))
+}
+
+fn title_at(machine: &Machine, ratios: impl FnOnce(f64) -> String) -> String {
     let name = machine.name.as_deref().unwrap_or("machine");
     match machine.unit_system {
-        UnitSystem::Ratios => format!("the {name} machine, ρ = {}", machine.scene.clearance),
+        UnitSystem::Ratios => format!("the {name} machine{}", ratios(machine.scene.clearance)),
         _ => name.to_owned(),
     }
 }

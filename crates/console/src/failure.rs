@@ -54,7 +54,7 @@ impl fmt::Display for Failure {
                 "error: {message}\n\nFor more information, try '--help'."
             ),
             Self::Run(error) => write!(formatter, "error: {error:#}"),
-            Self::Interrupted => formatter.write_str(interrupt::under_way().closing()),
+            Self::Interrupted => formatter.write_str(interrupt::under_way().closing),
             Self::Unread => formatter.write_str("nobody reads the standard output"),
         }
     }

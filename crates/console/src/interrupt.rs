@@ -36,9 +36,10 @@ pub const LATE: &str = "ended in the middle of a long step";
 /// What a run has begun to write. Nothing ends the run while somebody holds it.
 #[derive(Debug)]
 pub struct UnderWay {
-    outputs: Vec<StagingDir>,
+    /// The outputs that are begun and not whole yet.
+    pub outputs: Vec<StagingDir>,
     /// What is said if the run is ended.
-    closing: &'static str,
+    pub closing: &'static str,
 }
 
 /// What there is of an output that is not whole yet.
@@ -65,28 +66,6 @@ impl StagingDir {
         for folder in self.made.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
-    }
-}
-
-impl UnderWay {
-    /// Begins an output.
-    pub fn begin(&mut self, making: StagingDir) {
-        self.outputs.push(making);
-    }
-
-    /// Ends one, whole or not.
-    pub fn end(&mut self, making: &StagingDir) {
-        self.outputs.retain(|other| other.staging != making.staging);
-    }
-
-    /// Files stand: from now on this is said if the run is ended.
-    pub fn close_with(&mut self, closing: &'static str) {
-        self.closing = closing;
-    }
-
-    /// What is said if the run is ended.
-    pub fn closing(&self) -> &'static str {
-        self.closing
     }
 }
 

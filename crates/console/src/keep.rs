@@ -107,7 +107,7 @@ impl Keep {
             None => drop(fs::remove_file(&self.path)),
             Some(of) if of == self.of => {
                 state.file = Some(file);
-                under_way().close_with(KEPT);
+                under_way().closing = KEPT;
             }
             Some(_) => {
                 return Err(Failure::usage(format!(
@@ -131,7 +131,7 @@ impl Keep {
         // Nobody goes on with a file that holds nothing.
         first.inspect_err(|_| drop(fs::remove_file(&self.path)))?;
         state.file = Some(file);
-        under_way().close_with(KEPT);
+        under_way().closing = KEPT;
         Ok(())
     }
 

@@ -137,7 +137,7 @@ impl Folder {
             .inspect_err(|_| making.undo())
             .map_err(cannot)?
             .keep();
-        under_way.begin(making.clone());
+        under_way.outputs.push(making.clone());
         Ok(Self {
             path: path.to_owned(),
             making,
@@ -207,7 +207,7 @@ impl Folder {
                 break;
             }
             self.making.made.clear();
-            under_way.close_with(WRITTEN);
+            under_way.closing = WRITTEN;
         }
         drop(under_way);
         moved?;
@@ -246,7 +246,8 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let mut under_way = under_way();
         self.making.undo();
-        under_way.end(&self.making);
+        let outputs = &mut under_way.outputs;
+        outputs.retain(|other| other.staging != self.making.staging);
     }
 }
 

@@ -76,28 +76,25 @@ pub struct Progress {
 impl Progress {
     /// A bar for so many things called `what`.
     pub fn new(total: u64, what: &str) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
-        let style = format!("{{spinner}} {{bar:36}} {{pos}}/{{len}} {what}, {{eta}} left{{msg}}");
-        Self::of(bar, what, &style)
+        Self::of(Some(total), what, "{bar:36} {pos}/{len}", ", {eta} left")
     }
 
     /// So many things called `what` at most, among other work that is not counted: how long the rest takes nobody knows.
     pub fn at_most(total: u64, what: &str) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
-        let style = format!("{{spinner}} {{bar:36}} {{pos}}/{{len}} {what}{{msg}}");
-        let mut progress = Self::of(bar, what, &style);
+        let mut progress = Self::of(Some(total), what, "{bar:36} {pos}/{len}", "");
         progress.is_even = false;
         progress
     }
 
     /// A count of things called `what`, nobody knows how many.
     pub fn open(what: &str) -> Self {
-        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-        Self::of(bar, what, &format!("{{spinner}} {{pos}} {what}{{msg}}"))
+        Self::of(None, what, "{pos}", "")
     }
 
-    fn of(bar: ProgressBar, what: &str, style: &str) -> Self {
-        if let Ok(style) = ProgressStyle::with_template(style) {
+    fn of(total: Option<u64>, what: &str, count: &str, rest: &str) -> Self {
+        let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::hidden());
+        let style = format!("{{spinner}} {count} {what}{rest}{{msg}}");
+        if let Ok(style) = ProgressStyle::with_template(&style) {
             bar.set_style(style);
         }
         if IS_SHOWN_ELSEWHERE.load(Ordering::SeqCst) {

@@ -160,33 +160,22 @@ impl From<MotionName> for Cell {
 
 type Found<'a> = (&'a Machine, &'a Orbit);
 
-fn states<'a>() -> [Column<Found<'a>>; 5] {
+fn motions<'a>() -> [Column<Found<'a>>; 8] {
     columns! { Found<'a>, it;
         "frequency" [Frequency], "drive frequency" => it.0.value(Parameter::Frequency);
         "before_impact_velocity" [Velocity] Six, "before-impact velocity" => it.1.before_impact_velocity();
         "max_position" [Length] Six, "greatest position" => it.1.max_position;
         "position" [Length] Six, "position at time 0" => it.1.position;
         "velocity" [Velocity] Six, "velocity at time 0" => it.1.velocity;
-    }
-}
-
-fn stabilities<'a>() -> [Column<Found<'a>>; 3] {
-    columns! { Found<'a>, it;
         "trace" [None] Six, "trace of the monodromy" => it.1.monodromy.trace();
         "determinant" [None] Six, "its determinant" => it.1.monodromy.determinant();
         "multipliers" [None] Six, "Floquet multipliers" => multipliers(it.1.monodromy.multipliers());
     }
 }
 
-/// Where a z = 1 motion of this machine goes.
-pub fn state(machine: &Machine, orbit: &Orbit) -> Record {
-    Record::of(&states(), &(machine, orbit))
-}
-
 /// A z = 1 motion of this machine: where it goes, and how stable it is.
 pub fn motion(machine: &Machine, orbit: &Orbit) -> Record {
-    let found = (machine, orbit);
-    Record::of(&states(), &found).and(Record::of(&stabilities(), &found))
+    Record::of(&motions(), &(machine, orbit))
 }
 
 /// The machine for people: its name, its stop, and its parameters but for some; what follows those as its expression.

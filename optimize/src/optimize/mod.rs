@@ -258,7 +258,7 @@ pub fn run(arguments: &OptimizeArguments) -> Result<(), Failure> {
     }
     export.finish(&report, report.text(), job.format)?;
     if let Some(interrupted) = outcome.interrupted {
-        interrupt::under_way().close_with(interrupted.closing());
+        interrupt::under_way().closing = interrupted.closing();
         return Err(Failure::Interrupted);
     }
     keep.forget();

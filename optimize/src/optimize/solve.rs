@@ -106,8 +106,8 @@ const NO_DESIGN: &str = "interrupted: no design met so far is as required, so no
 /// Ends an interrupted run, whose closing words say why no design is written beside what is kept.
 fn interrupted_without_design() -> Failure {
     let mut under_way = interrupt::under_way();
-    if under_way.closing() == KEPT {
-        under_way.close_with(NO_DESIGN);
+    if under_way.closing == KEPT {
+        under_way.closing = NO_DESIGN;
     }
     Failure::Interrupted
 }

@@ -196,7 +196,7 @@ impl<'a> ShardRun<'a> {
             let busy = || lock::refusal(&path);
             blocks.files = vec![file.ok_or_else(busy)?];
         }
-        under_way().close_with(KEPT);
+        under_way().closing = KEPT;
         Ok(Self {
             study,
             shard,
