@@ -57,7 +57,8 @@ fn packed(library: &Library, imprint: &Imprint) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`archive`].
 pub fn parameters(machine: &Machine, start: Start) -> Result<String> {
-    parameter_set::write(&imprint(machine, start)?).context("cannot make the parameter set")
+    let set = parameter_set::write(&imprint(machine, start)?, |_| true);
+    set.context("cannot make the parameter set")
 }
 
 fn imprint(machine: &Machine, start: Start) -> Result<Imprint> {

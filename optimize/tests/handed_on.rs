@@ -73,7 +73,7 @@ fn described(xml: &str) -> Outcome<BTreeMap<String, Told>> {
 
 /// The parameter set names each parameter of the model description once, with its start value and unit.
 fn agree(imprint: &Imprint) -> Outcome {
-    let set = elements(&parameter_set::write(imprint)?)?;
+    let set = elements(&parameter_set::write(imprint, |_| true)?)?;
     let described = described(&description::write(imprint, &guid_of(imprint)))?;
     let parts: Vec<&str> = set
         .iter()

@@ -125,7 +125,7 @@ fn sets<U: Unit>(
         .iter()
         .map(|variant| {
             let imprint = of(variant).clone().named(variant.name)?;
-            let text = parameter_set::write_some(&imprint, differs)?;
+            let text = parameter_set::write(&imprint, differs)?;
             Ok((
                 format!("resources/{}-{unit}.ssv", variant.name),
                 text.into_bytes(),

@@ -87,15 +87,8 @@ fn flags<U: Unit>(standard: Standard) -> String {
 }
 
 fn variables<U: Unit>(imprint: &Imprint<U>) -> String {
-    let head = [
-        "Name",
-        "Reference",
-        "Causality",
-        "Variability",
-        "Unit",
-        "Start",
-        "Meaning",
-    ];
+    let head = "Name Reference Causality Variability Unit Start Meaning";
+    let head: Vec<_> = head.split(' ').collect();
     let variables = rows_told::<U>(imprint.has_exchange(), imprint.has_arrays());
     let clock = imprint.clock().map(|clock| {
         let reference = clock.reference.to_string();

@@ -58,10 +58,8 @@ impl<U: Unit> Instance<U> {
     pub(crate) fn set_time(&mut self, time: f64) -> Result<(), Fault> {
         let is_event = self.lifecycle == Lifecycle::Event;
         let exchange = self.exchange(&[Lifecycle::Continuous, Lifecycle::Event])?;
-        let (event, most) = (
-            exchange.event,
-            if is_event { exchange.event } else { f64::MAX },
-        );
+        let event = exchange.event;
+        let most = if is_event { event } else { f64::MAX };
         if !(time >= event - rounding_of(event, 0.0) && time <= most) {
             let allowed = "finite and not before the last event; in event mode it stands still";
             return Err(Fault::argument("time", time, allowed));

@@ -102,11 +102,6 @@ impl<U: Unit> Instance<U> {
         }
     }
 
-    /// Marks the instance as unable to go on: only reading, resetting and freeing are left.
-    pub(crate) fn fail(&mut self) {
-        self.lifecycle = Lifecycle::Failed;
-    }
-
     /// The time that the unit has reached, in s, or the importer that integrates.
     pub(crate) fn time(&self) -> f64 {
         if let Some(exchange) = &self.exchange {

@@ -13,7 +13,7 @@ pub(crate) enum Lifecycle {
     Initializing,
     /// Ready for the next step.
     Running,
-    /// A defect of this library showed.
+    /// A defect of this library showed: only reading, resetting and freeing are left.
     Failed,
     /// Ended by the importer.
     Terminated,

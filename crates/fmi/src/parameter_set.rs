@@ -3,7 +3,7 @@
 
 use std::io;
 
-use crate::description::{GENERATOR, number, unit};
+use crate::description::{GENERATOR, start_value, unit};
 use crate::element::Element;
 use crate::imprint::Imprint;
 use crate::quantity::{Enumeration, Quantity};
@@ -13,19 +13,11 @@ use crate::variable::{Access, Kind};
 const VALUES: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
 const COMMON: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
 
-/// The XML with all parameters of an imprint.
+/// The XML with those parameters of an imprint that are wanted.
 ///
 /// # Errors
 /// If the number of an enumeration is none of its items; the error names the parameter.
-pub fn write<U: Unit>(imprint: &Imprint<U>) -> io::Result<String> {
-    write_some(imprint, |_| true)
-}
-
-/// The parameter set with some of the parameters only.
-///
-/// # Errors
-/// If the number of an enumeration is none of its items; the error names the parameter.
-pub fn write_some<U: Unit>(
+pub fn write<U: Unit>(
     imprint: &Imprint<U>,
     wanted: impl Fn(&Row<U>) -> bool,
 ) -> io::Result<String> {
@@ -82,13 +74,13 @@ fn unit_of(kind: &Kind) -> Option<&'static str> {
 }
 
 fn parameter<U: Unit>(row: &Row<U>, imprint: &Imprint<U>) -> io::Result<Element> {
-    let value = row.slot().map_or(0.0, |slot| imprint.values()[slot.0]);
+    let value = start_value(row, imprint).unwrap_or_default();
     let (element_name, value) = match row.kind {
-        Kind::Real(_) => ("ssv:Real", number(value)),
-        Kind::Boolean => ("ssv:Boolean", (value != 0.0).to_string()),
-        Kind::Count { .. } => ("ssv:Integer", (value as i32).to_string()),
+        Kind::Real(_) => ("ssv:Real", value),
+        Kind::Boolean => ("ssv:Boolean", value),
+        Kind::Count { .. } => ("ssv:Integer", value),
         Kind::Enumeration(of) => {
-            let chosen = of.items.iter().find(|item| item.value == value as i32);
+            let chosen = of.items.iter().find(|item| item.value.to_string() == value);
             let chosen = chosen.ok_or_else(|| io::Error::other(row.name))?;
             ("ssv:Enumeration", chosen.name.to_owned())
         }

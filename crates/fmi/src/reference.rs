@@ -65,26 +65,22 @@ fn value<U: Unit>(row: &Row<U>, unit: &U) -> String {
 }
 
 fn manifest() -> String {
-    let related = [
-        [
-            ("type", "application/x-ma-hs-experiments"),
-            ("source", EXPERIMENT),
-            ("role", "experiment/smoke-test"),
-            (
-                "description",
-                "The unit with its start values, without inputs",
-            ),
-        ],
-        [
-            ("type", "text/csv"),
-            ("source", RESULTS),
-            ("role", "result"),
-            (
-                "description",
-                "All outputs at all communication points of the experiment",
-            ),
-        ],
-    ];
+    let related = |kind, source, role, description| {
+        let file = Element::new("Related").set("type", kind);
+        file.set_all([
+            ("source", source),
+            ("role", role),
+            ("description", description),
+        ])
+    };
+    let experiment = related(
+        "application/x-ma-hs-experiments",
+        EXPERIMENT,
+        "experiment/smoke-test",
+        "The unit with its start values, without inputs",
+    );
+    let meaning = "All outputs at all communication points of the experiment";
+    let results = related("text/csv", RESULTS, "result", meaning);
     Element::new("fmiReferences")
         .set("xmlns:fmi-ls", "http://fmi-standard.org/fmi-ls-manifest")
         .set("fmi-ls:fmi-ls-name", "org.fmi-standard.fmi-ls-ref")
@@ -93,7 +89,7 @@ fn manifest() -> String {
             "fmi-ls:fmi-ls-description",
             "Layered Standard providing information on related files included in an FMU.",
         )
-        .with(related.map(|file| Element::new("Related").set_all(file)))
+        .with([experiment, results])
         .to_document()
 }
 

@@ -104,17 +104,6 @@ pub const fn continuous<U, T>(
     row(reference, name, kind, access, description)
 }
 
-/// A real number for the importer's integrator.
-pub const fn local<U, T>(
-    reference: u32,
-    name: &'static str,
-    kind: Kind,
-    value: Value<U>,
-    description: &'static str,
-) -> Variable<U, T> {
-    row(reference, name, kind, Access::Local(value), description)
-}
-
 /// A real output that changes at events only.
 pub const fn discrete<U, T>(
     reference: u32,

@@ -34,7 +34,8 @@ impl<U: Unit> Instance<U> {
             .map(|&reference| unknown::<U>(reference))
             .collect::<Result<Vec<_>, _>>()?;
         let unit = self.begun()?;
-        let present = self.exchange.as_ref().map(|_| marked(unit));
+        let mut present = self.exchange.as_ref().map(|_| unit.clone());
+        present.iter_mut().for_each(U::mark);
         let unit = present.as_ref().unwrap_or(unit);
         let (direction, parameters) = self.direction(unit, knowns, seed)?;
         let along = unit.tangent(&direction)?;
@@ -160,13 +161,6 @@ impl<U: Unit> Instance<U> {
         other.unit = None;
         other.settle().cloned()
     }
-}
-
-/// The unit with a stretch for derivatives that begins now.
-fn marked<U: Unit>(unit: &U) -> U {
-    let mut unit = unit.clone();
-    unit.mark();
-    unit
 }
 
 /// The derivative of a function by differences extrapolated to width zero (Richardson 1911), within some 1e-10 of the

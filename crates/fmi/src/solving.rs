@@ -47,15 +47,17 @@ pub(crate) fn number_of_state<U: Unit>(variable: &Row<U>) -> Option<usize> {
 
 /// The states of a unit as it is.
 pub(crate) fn states_of<U: Unit>(unit: &U) -> Vec<f64> {
-    let states = space_of::<U>().states.iter();
-    let value = |state: &State| U::about().table.number(unit, state.value);
-    states.map(value).collect()
+    of_states(unit, |state| state.value)
 }
 
 /// The derivatives of these states.
 pub(crate) fn derivatives_of<U: Unit>(unit: &U) -> Vec<f64> {
+    of_states(unit, |state| state.derivative)
+}
+
+fn of_states<U: Unit>(unit: &U, reference: fn(&State) -> u32) -> Vec<f64> {
     let states = space_of::<U>().states.iter();
-    let value = |state: &State| U::about().table.number(unit, state.derivative);
+    let value = |state| U::about().table.number(unit, reference(state));
     states.map(value).collect()
 }
 

@@ -44,13 +44,8 @@ pub enum NotServed {
     Start(#[from] MotionError),
 }
 
-/// The slots of one list of slopes.
-struct Chain {
-    name: &'static str,
-    count: Slot,
-    from: Slot,
-    stiffness: Slot,
-}
+/// The name of a list of slopes, and the slot of their number, behind which lie those of the beginnings and stiffnesses.
+type Chain = (&'static str, Slot);
 
 /// The slots of what of a stop is no parameter.
 struct Laws {
@@ -63,26 +58,20 @@ struct Laws {
 const ABOVE: Laws = Laws {
     model: slot::STOP_MODEL,
     release: slot::STOP_RELEASE,
-    loading: chain("stop.loading", slot::LOADING_COUNT),
-    unloading: chain("stop.unloading", slot::UNLOADING_COUNT),
+    loading: ("stop.loading", slot::LOADING_COUNT),
+    unloading: ("stop.unloading", slot::UNLOADING_COUNT),
 };
 
 const BELOW: Laws = Laws {
     model: slot::BELOW_MODEL,
     release: slot::BELOW_RELEASE,
-    loading: chain("stop.below.loading", slot::BELOW_LOADING_COUNT),
-    unloading: chain("stop.below.unloading", slot::BELOW_UNLOADING_COUNT),
+    loading: ("stop.below.loading", slot::BELOW_LOADING_COUNT),
+    unloading: ("stop.below.unloading", slot::BELOW_UNLOADING_COUNT),
 };
 
-/// The list of which this is the number of slopes: those lie right behind it.
-const fn chain(name: &'static str, count: Slot) -> Chain {
-    let (from, stiffness) = (count.element(1), count.element(1 + SLOPES));
-    Chain {
-        name,
-        count,
-        from,
-        stiffness,
-    }
+/// The slots of one slope of a list, counted from 0: where it begins, and its stiffness.
+const fn slope(count: Slot, index: usize) -> [Slot; 2] {
+    [count.element(1 + index), count.element(1 + SLOPES + index)]
 }
 
 impl StartValues {
@@ -153,8 +142,8 @@ impl StartValues {
                 number::KELVIN_VOIGT
             }
             Stop::PiecewiseLinear { loading, unloading } => {
-                self.set_slopes(&laws.loading, loading)?;
-                self.set_slopes(&laws.unloading, unloading)?;
+                self.set_slopes(laws.loading, loading)?;
+                self.set_slopes(laws.unloading, unloading)?;
                 number::PIECEWISE_LINEAR
             }
             Stop::Hertz { .. } => number::HERTZ,
@@ -165,17 +154,16 @@ impl StartValues {
         Ok(())
     }
 
-    fn set_slopes(&mut self, chain: &Chain, slopes: &[Slope]) -> Result<(), NotServed> {
-        if slopes.len() > SLOPES {
-            return Err(NotServed::TooManySlopes {
-                list: chain.name,
-                count: slopes.len(),
-            });
+    fn set_slopes(&mut self, (list, number): Chain, slopes: &[Slope]) -> Result<(), NotServed> {
+        let count = slopes.len();
+        if count > SLOPES {
+            return Err(NotServed::TooManySlopes { list, count });
         }
-        self.set(chain.count, slopes.len() as f64);
-        for (index, slope) in slopes.iter().enumerate() {
-            self.set(chain.from.element(index), slope.from);
-            self.set(chain.stiffness.element(index), slope.stiffness);
+        self.set(number, count as f64);
+        for (index, of) in slopes.iter().enumerate() {
+            let [from, stiffness] = slope(number, index);
+            self.set(from, of.from);
+            self.set(stiffness, of.stiffness);
         }
         Ok(())
     }
@@ -220,8 +208,8 @@ impl StartValues {
                 },
             },
             number::PIECEWISE_LINEAR => Stop::PiecewiseLinear {
-                loading: self.slopes(&laws.loading),
-                unloading: self.slopes(&laws.unloading),
+                loading: self.slopes(laws.loading),
+                unloading: self.slopes(laws.unloading),
             },
             number::HERTZ => Stop::Hertz {
                 stiffness,
@@ -234,12 +222,12 @@ impl StartValues {
         }
     }
 
-    fn slopes(&self, chain: &Chain) -> Vec<Slope> {
-        let count = self.get(chain.count) as usize;
-        let slope = |index| Slope {
-            from: self.get(chain.from.element(index)),
-            stiffness: self.get(chain.stiffness.element(index)),
+    fn slopes(&self, (_, number): Chain) -> Vec<Slope> {
+        let slope = |index| {
+            let [from, stiffness] = slope(number, index).map(|slot| self.get(slot));
+            Slope { from, stiffness }
         };
+        let count = self.get(number) as usize;
         (0..count.min(SLOPES)).map(slope).collect()
     }
 

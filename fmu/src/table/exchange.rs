@@ -1,9 +1,9 @@
 //! What an importer integrates in model exchange, and the event indicators.
 
-use softstop_fmi::variable::{Kind, RealKind};
+use softstop_fmi::variable::{Access, Kind, RealKind};
 use softstop_fmi::{State, StateSpace};
 
-use super::rows::{Row, local};
+use super::rows::{Row, row};
 
 /// Position and velocity, and the indicators.
 pub(crate) const STATE_SPACE: StateSpace = StateSpace {
@@ -24,11 +24,11 @@ pub(crate) const STATE_SPACE: StateSpace = StateSpace {
 
 macro_rules! margin {
     ($reference:literal, $number:literal) => {
-        local(
+        row(
             $reference,
             concat!("event.indicator[", $number, "]"),
             Kind::Real(RealKind::any(None)),
-            |machine| machine.margin($number - 1),
+            Access::Local(|machine| machine.margin($number - 1)),
             "For model exchange: how far the state is from an end of the law of motion that holds, in parts of the machine's size; 1 where there is no such end",
         )
     };

@@ -1,6 +1,5 @@
 //! The output variables.
 
-use softstop::Impact;
 use softstop_fmi::Clock;
 use softstop_fmi::variable::{Access, Kind};
 
@@ -19,14 +18,6 @@ fn acceleration(machine: &Machine) -> f64 {
 
 fn jerk(machine: &Machine) -> f64 {
     machine.sample().jerk
-}
-
-fn first(machine: &Machine) -> Impact {
-    machine.contacts().first.unwrap_or_default()
-}
-
-fn hardest(machine: &Machine) -> Impact {
-    machine.contacts().hardest.unwrap_or_default()
 }
 
 fn clamp_count(count: u64) -> i32 {
@@ -110,13 +101,13 @@ pub(super) const OUTPUTS: &[Row] = &[
         "Velocity just before the last impact, towards the stop; 0 before the first one"),
     count(219, "impact.step.count", |machine| clamp_count(machine.contacts().impacts),
         "Impacts in the last step"),
-    discrete(220, "impact.step.first.time", real(&units::TIME), (|machine| first(machine).time, Tangent::of),
+    discrete(220, "impact.step.first.time", real(&units::TIME), (|machine| machine.contacts().first.unwrap_or_default().time, Tangent::of),
         "Time of the first impact in the last step; 0 without one"),
-    discrete(221, "impact.step.first.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| first(machine).velocity, Tangent::of),
+    discrete(221, "impact.step.first.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| machine.contacts().first.unwrap_or_default().velocity, Tangent::of),
         "Velocity just before the first impact in the last step; 0 without one"),
-    discrete(222, "impact.step.hardest.time", real(&units::TIME), (|machine| hardest(machine).time, Tangent::of),
+    discrete(222, "impact.step.hardest.time", real(&units::TIME), (|machine| machine.contacts().hardest.unwrap_or_default().time, Tangent::of),
         "Time of the impact with the highest velocity in the last step; 0 without one"),
-    discrete(223, "impact.step.hardest.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| hardest(machine).velocity, Tangent::of),
+    discrete(223, "impact.step.hardest.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| machine.contacts().hardest.unwrap_or_default().velocity, Tangent::of),
         "Velocity just before the hardest impact in the last step; 0 without one"),
     count(225, "impact.below.count", |machine| clamp_count(machine.simulation().impact_count_below()),
         "Impacts on the stop below since the start, of those that impact.count counts"),

@@ -171,16 +171,13 @@ impl Unit for Drive {
     }
 
     fn begin(values: &[f64], time: f64) -> Outcome<Self> {
+        let mut state = [0.0; 5];
+        state[SPEED] = values[slot::INITIAL_SPEED.0];
+        state[ANGLE] = values[slot::INITIAL_ANGLE.0];
         Ok(Self {
             motor: Motor::of(values),
             time,
-            state: [
-                values[slot::INITIAL_SPEED.0],
-                values[slot::INITIAL_ANGLE.0],
-                0.0,
-                0.0,
-                0.0,
-            ],
+            state,
             voltage: Signal::default(),
             load: Signal::default(),
             origin: None,

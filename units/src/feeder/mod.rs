@@ -89,10 +89,6 @@ static ABOUT: About<Feeder> = About {
 };
 
 impl Feeder {
-    fn strip(&self) -> bool {
-        self.line.strip
-    }
-
     /// Goes on without telling; otherwise than all the way, why.
     fn go_to(&mut self, until: f64) -> Result<(), String> {
         let turn = self.shaft.turn_at(until);
@@ -203,7 +199,7 @@ impl Unit for Feeder {
 
     /// Across another first stroke no differences are taken.
     fn law(&self) -> i32 {
-        i32::from(self.strip())
+        i32::from(self.line.strip)
     }
 
     fn mark(&mut self) {

@@ -84,7 +84,7 @@ impl Supply {
 }
 
 /// Strokes so far, and what became of them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Line {
     /// The last stroke got a strip.
     pub strip: bool,
@@ -99,14 +99,7 @@ pub(super) struct Line {
 impl Line {
     /// The line with the stroke that is under way at the start.
     pub fn begin(supply: &Supply, held: bool) -> Self {
-        let mut line = Self {
-            strip: false,
-            strokes: 0,
-            strips: 0,
-            missing: 0,
-            jams: 0,
-            jammed: 0,
-        };
+        let mut line = Self::default();
         line.feed(supply, held);
         line
     }

@@ -121,9 +121,9 @@ fn clamp(count: u64) -> i32 {
 #[rustfmt::skip]
 const OUTPUTS: &[FeederVariable] = &[
     row(200, "material", Kind::Boolean,
-        Access::Integer { value: |feeder| i32::from(feeder.strip()), depends: FIRST },
+        Access::Integer { value: |feeder| i32::from(feeder.line.strip), depends: FIRST },
         "A strip lies in the press since the last stroke: material of softstop.fmu"),
-    row(201, "material_real", SHARE, Access::Discrete { value: |feeder| f64::from(u8::from(feeder.strip())), tangent: Direction::of, depends: FIRST },
+    row(201, "material_real", SHARE, Access::Discrete { value: |feeder| f64::from(u8::from(feeder.line.strip)), tangent: Direction::of, depends: FIRST },
         "The same as 1 or 0: material_real of softstop.fmu"),
     row(202, "strip.count", strokes(0), Access::Integer { value: |feeder| clamp(feeder.line.strips), depends: FIRST },
         "Strips so far, the one at the start included"),

@@ -85,60 +85,41 @@ macro_rules! c_functions {
     };
 }
 
-/// The functions of FMI 2.0 for one type that is a [`Unit`](crate::Unit), in a module of their own: here they are compiled,
-/// in Rust.
-#[macro_export]
-macro_rules! fmi2_functions {
-    ($unit_type:ty) => {
-        use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
-        use $crate::v2::{CallbackFunctions, EventInfo};
+/// Makes the two macros of a standard, of these types and parts.
+macro_rules! standard {
+    ($dollar:tt $version:literal $functions:ident $export:ident $module:ident
+        { $($type:ident)* } $($part:ident)*) => {
+        #[doc = concat!("The functions of FMI ", $version, " for one type that is a [`Unit`](crate::Unit), in a module of")]
+        /// their own: here they are compiled, in Rust.
+        #[macro_export]
+        macro_rules! $functions {
+            ($dollar unit_type:ty) => {
+                use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
+                use $crate::$module::{$($type),*};
 
-        $crate::export_v2!(of $unit_type);
-        $crate::export_v2_shared!(of $unit_type);
+                $($crate::$part!(of $dollar unit_type);)*
+            };
+        }
+
+        #[doc = concat!("The C functions of FMI ", $version, ", which call those of a module of the functions for a unit, with")]
+        /// the types of their callbacks. To be called once in a library, in a module of its own.
+        #[macro_export]
+        macro_rules! $export {
+            ($dollar functions:ident) => {
+                use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
+                pub use $crate::$module::{$($type),*};
+
+                $($crate::$part!($dollar functions);)*
+            };
+        }
     };
 }
 
-/// The C functions of FMI 2.0, which call those of a module of [`fmi2_functions`], with the types of their callbacks. To be
-/// called once in a library, in a module of its own.
-#[macro_export]
-macro_rules! export_fmi2 {
-    ($functions:ident) => {
-        use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
-        pub use $crate::v2::{CallbackFunctions, EventInfo, Logger};
-
-        $crate::export_v2!($functions);
-        $crate::export_v2_shared!($functions);
-    };
+standard! { $ "2.0" fmi2_functions export_fmi2 v2
+    { CallbackFunctions EventInfo Logger }
+    export_v2 export_v2_shared
 }
-
-/// The functions of FMI 3.0, as [`fmi2_functions`] those of FMI 2.0.
-#[macro_export]
-macro_rules! fmi3_functions {
-    ($unit_type:ty) => {
-        use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
-        use $crate::v3::{
-            ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,
-        };
-
-        $crate::export_v3!(of $unit_type);
-        $crate::export_v3_shared!(of $unit_type);
-        $crate::export_v3_values!(of $unit_type);
-        $crate::export_v3_absent!(of $unit_type);
-    };
-}
-
-/// The C functions of FMI 3.0, as [`export_fmi2`] those of FMI 2.0.
-#[macro_export]
-macro_rules! export_fmi3 {
-    ($functions:ident) => {
-        use $crate::abi::{c_char, c_int, c_uint, c_void, size_t};
-        pub use $crate::v3::{
-            ClockUpdateCallback, IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback,
-        };
-
-        $crate::export_v3!($functions);
-        $crate::export_v3_shared!($functions);
-        $crate::export_v3_values!($functions);
-        $crate::export_v3_absent!($functions);
-    };
+standard! { $ "3.0" fmi3_functions export_fmi3 v3
+    { ClockUpdateCallback IntermediateUpdateCallback LogMessageCallback PreemptionCallback }
+    export_v3 export_v3_shared export_v3_values export_v3_absent
 }

@@ -15,6 +15,7 @@ use libc::{c_int, c_void};
 
 use super::component::Component;
 use crate::fault::{Fault, Status};
+use crate::lifecycle::Lifecycle;
 use crate::log::Category;
 use crate::unit::Unit;
 
@@ -75,7 +76,7 @@ pub(crate) fn guarded<U: Unit>(
         return Status::Error as c_int;
     };
     let outcome = silent(|| action(component)).unwrap_or_else(|panic| {
-        component.instance.fail();
+        component.instance.lifecycle = Lifecycle::Failed;
         Err(Fault::Internal(panic))
     });
     match outcome {

@@ -112,7 +112,7 @@ pub(crate) fn unit([name, base]: [&'static str; 2], quantity: &Quantity) -> Elem
 }
 
 /// The start value as it stands in the XML; outputs have none.
-fn start_value<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Option<String> {
+pub(crate) fn start_value<U: Unit>(variable: &Row<U>, imprint: &Imprint<U>) -> Option<String> {
     let value = match variable.slot() {
         Some(slot) => imprint.values()[slot.0],
         None if variable.is_calculated() || matches!(variable.access, Access::Time) => return None,
@@ -172,39 +172,29 @@ fn named<U: Unit>(element: &'static str, name: &str, variable: &Row<U>) -> Eleme
 
 /// Adds what a variable says by its type, and its start value.
 fn typed<U: Unit>(element: Element, variable: &Row<U>, start: Option<String>) -> Element {
-    let (texts, numbers) = match &variable.kind {
+    let element = match &variable.kind {
         Kind::Real(kind) => {
-            let of = |text: fn(&Quantity) -> &'static str| kind.quantity.map(text);
-            let texts = vec![
-                ("declaredType", of(|quantity| quantity.type_name)),
-                ("quantity", of(|quantity| quantity.quantity)),
-                ("unit", of(|quantity| quantity.unit)),
-                ("displayUnit", kind.display_unit),
+            let declared = kind.quantity.map(|of| ("declaredType", of.type_name));
+            let quantity = kind
+                .quantity
+                .map(|of| [("quantity", of.quantity), ("unit", of.unit)]);
+            let limits = [
+                ("min", kind.min),
+                ("max", kind.max),
+                ("nominal", kind.nominal),
             ];
-            (
-                texts,
-                [kind.min, kind.max, kind.nominal].map(|it| it.map(number)),
-            )
+            let limits = limits.map(|(name, limit)| Some((name, number(limit?))));
+            element
+                .set_all(declared)
+                .set_all(quantity.into_iter().flatten())
+                .set_all(kind.display_unit.map(|unit| ("displayUnit", unit)))
+                .set_all(limits.into_iter().flatten())
         }
-        Kind::Count { min, max } => {
-            let limits = [Some(*min), *max, None].map(|it| it.map(|limit| limit.to_string()));
-            (Vec::new(), limits)
-        }
-        Kind::Boolean => (Vec::new(), [None, None, None]),
-        Kind::Enumeration(items) => {
-            let declared = ("declaredType", Some(items.type_name));
-            (vec![declared], [None, None, None])
-        }
+        Kind::Count { min, max } => element.set("min", min).set_all(max.map(|max| ("max", max))),
+        Kind::Boolean => element,
+        Kind::Enumeration(items) => element.set("declaredType", items.type_name),
     };
-    let texts = texts
-        .into_iter()
-        .filter_map(|(name, text)| Some((name, text?)));
-    let numbers = ["min", "max", "nominal"]
-        .into_iter()
-        .zip(numbers)
-        .chain([("start", start)]);
-    let numbers = numbers.filter_map(|(name, number)| Some((name, number?)));
-    element.set_all(texts).set_all(numbers)
+    element.set_all(start.map(|start| ("start", start)))
 }
 
 /// Lists of the model structure.

@@ -76,7 +76,7 @@ unsafe fn access_none<U: Unit>(
 macro_rules! typed_functions {
     ($dollar:tt
         some { $($get:ident $set:ident $type:ty: $wanted:literal, $typed:expr, $number:expr;)* }
-        none { $($get_none:ident $set_none:ident $none_type:ty: $name:literal;)* }
+        none { $($get_none:ident $set_none:ident $none_type:ty: $name:literal $($sizes:ident)?;)* }
     ) => {
         functions! { $dollar export_v3_values v3; ;
             $(
@@ -109,36 +109,20 @@ macro_rules! typed_functions {
             $(
                 /// Reads values of this type, of which there are none.
                 fn $get_none<U>(
-                    component, references: *const c_uint, count: size_t, _values: *mut $none_type,
-                    value_count: size_t
+                    component, references: *const c_uint, count: size_t $(, $sizes: *mut size_t)?,
+                    _values: *mut $none_type, value_count: size_t
                 ) {
                     access_none(component, (references, count), value_count, $name)
                 }
 
                 /// Sets values of this type, of which there are none.
                 fn $set_none<U>(
-                    component, references: *const c_uint, count: size_t,
+                    component, references: *const c_uint, count: size_t $(, $sizes: *const size_t)?,
                     _values: *const $none_type, value_count: size_t
                 ) {
                     access_none(component, (references, count), value_count, $name)
                 }
             )*
-
-            /// Reads binary values, of which there are none.
-            fn fmi3GetBinary<U>(
-                component, references: *const c_uint, count: size_t, _sizes: *mut size_t,
-                _values: *mut *const u8, value_count: size_t
-            ) {
-                access_none(component, (references, count), value_count, "Binary")
-            }
-
-            /// Sets binary values, of which there are none.
-            fn fmi3SetBinary<U>(
-                component, references: *const c_uint, count: size_t, _sizes: *const size_t,
-                _values: *const *const u8, value_count: size_t
-            ) {
-                access_none(component, (references, count), value_count, "Binary")
-            }
 
             /// Whether clocks tick.
             fn fmi3GetClock<U>(
@@ -184,5 +168,6 @@ typed_functions! { $
         fmi3GetUInt32 fmi3SetUInt32 u32: "UInt32";
         fmi3GetUInt64 fmi3SetUInt64 u64: "UInt64";
         fmi3GetString fmi3SetString *const c_char: "String";
+        fmi3GetBinary fmi3SetBinary *const u8: "Binary" _sizes;
     }
 }
