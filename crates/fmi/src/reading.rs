@@ -9,22 +9,24 @@ use crate::unit::{Row, Unit};
 use crate::variable::{Access, Kind};
 use crate::{rows, si};
 
-/// The type that a function of a standard serves, by the name that its functions have it under.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Type(pub Standard, pub &'static str);
+/// The type that functions of a standard serve: its name in theirs, and the kinds of variables that they take.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Type(pub Standard, pub &'static str, pub fn(&Kind) -> bool);
 
 impl Type {
     /// Real numbers of FMI 2.0.
-    pub(crate) const REAL: Self = Self(Standard::Fmi2, "Real");
+    pub(crate) const REAL: Self = Self(Standard::Fmi2, "Real", |it| matches!(it, Kind::Real(_)));
+    /// Integers and enumerations of FMI 2.0.
+    pub(crate) const INTEGER: Self = Self(Standard::Fmi2, "Integer", |it| {
+        matches!(it, Kind::Count { .. } | Kind::Enumeration(_))
+    });
+    /// Booleans of FMI 2.0.
+    pub(crate) const BOOLEAN: Self =
+        Self(Standard::Fmi2, "Boolean", |it| matches!(it, Kind::Boolean));
 
-    /// Enumerations are served by the functions of integers.
-    fn serves(self, kind: &Kind) -> bool {
-        let Self(standard, name) = self;
-        match (kind, standard) {
-            (Kind::Enumeration(_), Standard::Fmi2) => name == "Integer",
-            (Kind::Enumeration(_), Standard::Fmi3) => name == "Int64",
-            _ => name == kind.type_name(standard),
-        }
+    /// One of which there are no variables.
+    pub(crate) const fn none(standard: Standard, name: &'static str) -> Self {
+        Self(standard, name, |_| false)
     }
 }
 
@@ -34,7 +36,7 @@ pub(crate) fn find<U: Unit>(reference: u32, wanted: Type) -> Result<&'static Row
         _ => U::about().table.by_reference(reference),
     };
     let variable = variable.ok_or(Fault::UnknownReference { reference })?;
-    if wanted.serves(&variable.kind) {
+    if wanted.2(&variable.kind) {
         Ok(variable)
     } else {
         Err(Fault::WrongType {

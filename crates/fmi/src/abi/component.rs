@@ -20,7 +20,7 @@ use crate::unit::Unit;
 /// The importer's end of the log: takes status, category and text.
 pub(crate) type Sink = Box<dyn Fn(Status, &CStr, &CStr)>;
 
-/// `fmi3IntermediateUpdateCallback`, if there is one.
+/// `fmi3IntermediateUpdateCallback`.
 pub type IntermediateUpdate =
     unsafe extern "C" fn(*mut c_void, f64, u8, u8, u8, u8, *mut u8, *mut f64);
 
@@ -160,10 +160,19 @@ impl<U: Unit> Component<U> {
         outcome
     }
 
-    /// Tells that a tolerance is of no use to an exact solution.
-    pub(crate) fn tell_tolerance(&self, tolerance: f64) {
-        let text = format!("tolerance = {tolerance:e} has no effect: the motion is exact");
-        self.log(Status::Ok, Category::Warnings, &text);
+    /// Sets tolerance, start time and stop time; tells that the first is of no use to an exact solution.
+    pub(crate) fn setup(
+        &mut self,
+        tolerance: Option<f64>,
+        start: f64,
+        stop: Option<f64>,
+    ) -> Result<(), Fault> {
+        self.instance.setup(tolerance, start, stop)?;
+        if let Some(tolerance) = tolerance {
+            let text = format!("tolerance = {tolerance:e} has no effect: the motion is exact");
+            self.log(Status::Ok, Category::Warnings, &text);
+        }
+        Ok(())
     }
 
     /// By FMI 3.0 an error ends the simulation: only a state that was kept, or a reset, leads back.

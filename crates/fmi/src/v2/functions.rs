@@ -54,15 +54,8 @@ functions! { $ export_v2 v2;
         component, tolerance_defined: c_int, tolerance: f64, start_time: f64,
         stop_time_defined: c_int, stop_time: f64
     ) {
-        component.instance.setup(
-            (tolerance_defined != 0).then_some(tolerance),
-            start_time,
-            (stop_time_defined != 0).then_some(stop_time),
-        )?;
-        if tolerance_defined != 0 {
-            component.tell_tolerance(tolerance);
-        }
-        Ok(())
+        let tolerance = (tolerance_defined != 0).then_some(tolerance);
+        component.setup(tolerance, start_time, (stop_time_defined != 0).then_some(stop_time))
     }
 
     /// Enters initialisation.
@@ -79,13 +72,13 @@ functions! { $ export_v2 v2;
     /// Reads integers and enumerations.
     fn fmi2GetInteger<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
         let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
-        component.instance.read(references, values, Type(Fmi2, "Integer"), |value| value as i32)
+        component.instance.read(references, values, Type::INTEGER, |value| value as i32)
     }
 
     /// Reads Booleans.
     fn fmi2GetBoolean<U>(component, references: *const c_uint, count: size_t, values: *mut c_int) {
         let (references, values) = (read("vr", references, count)?, write("value", values, count)?);
-        component.instance.read(references, values, Type(Fmi2, "Boolean"), |value| value as i32)
+        component.instance.read(references, values, Type::BOOLEAN, |value| value as i32)
     }
 
     /// Reads strings, of which there are none.
@@ -93,7 +86,7 @@ functions! { $ export_v2 v2;
         component, references: *const c_uint, count: size_t, values: *mut *const c_char
     ) {
         write("value", values, count)?;
-        component.instance.none_of(Type(Fmi2, "String"), read("vr", references, count)?)
+        component.instance.none_of(Type::none(Fmi2, "String"), read("vr", references, count)?)
     }
 
     /// Sets real values.
@@ -105,13 +98,13 @@ functions! { $ export_v2 v2;
     /// Sets integers and enumerations.
     fn fmi2SetInteger<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
         let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
-        component.instance.set(references, values, Type(Fmi2, "Integer"), f64::from)
+        component.instance.set(references, values, Type::INTEGER, f64::from)
     }
 
     /// Sets Booleans; every number but 0 means true.
     fn fmi2SetBoolean<U>(component, references: *const c_uint, count: size_t, values: *const c_int) {
         let (references, values) = (read("vr", references, count)?, read("value", values, count)?);
-        component.instance.set(references, values, Type(Fmi2, "Boolean"), |value| f64::from(u8::from(value != 0)))
+        component.instance.set(references, values, Type::BOOLEAN, |value| f64::from(u8::from(value != 0)))
     }
 
     /// Sets strings, of which there are none.
@@ -121,7 +114,7 @@ functions! { $ export_v2 v2;
         for &value in read("value", values, count)? {
             string("value", value)?;
         }
-        component.instance.none_of(Type(Fmi2, "String"), read("vr", references, count)?)
+        component.instance.none_of(Type::none(Fmi2, "String"), read("vr", references, count)?)
     }
 
     /// Derivatives of outputs along a direction of inputs.

@@ -118,12 +118,8 @@ functions! { $ export_v3 v3;
     ) {
         let tolerance = (tolerance_defined != 0).then_some(tolerance);
         let stop = (stop_time_defined != 0).then_some(stop_time);
-        component.instance.setup(tolerance, start_time, stop)?;
-        component.instance.enter_initialization()?;
-        if let Some(tolerance) = tolerance {
-            component.tell_tolerance(tolerance);
-        }
-        Ok(())
+        component.setup(tolerance, start_time, stop)?;
+        component.instance.enter_initialization()
     }
 
     /// Enters event mode.

@@ -13,7 +13,7 @@ use crate::unit::Unit;
 /// `fmi3LogMessageCallback`: environment, status, category, message.
 pub type LogMessageCallback =
     Option<unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char)>;
-/// `fmi3IntermediateUpdateCallback`.
+/// `fmi3IntermediateUpdateCallback`, if there is one.
 pub type IntermediateUpdateCallback = Option<IntermediateUpdate>;
 /// `fmi3ClockUpdateCallback`, of scheduled execution.
 pub type ClockUpdateCallback = Option<unsafe extern "C" fn(*mut c_void)>;
