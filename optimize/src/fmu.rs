@@ -62,8 +62,7 @@ pub fn parameters(machine: &Machine, start: Start) -> Result<String> {
 }
 
 fn imprint(machine: &Machine, start: Start) -> Result<Imprint> {
-    let values = StartValues::from_scene(&machine.scene, start)?;
-    let mut imprint = Imprint::from(values);
+    let mut imprint = Imprint::from(StartValues::from_scene(&machine.scene, start)?);
     if let Some(name) = &machine.name {
         imprint = imprint.named(name)?;
     }
