@@ -15,7 +15,7 @@ use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::progress::Progress;
-use softstop_draw::{Chart, Legend, Panel};
+use softstop_draw::{Legend, Panel};
 use softstop_explore::basin::chart;
 
 /// Cells on each side.
@@ -35,15 +35,15 @@ struct Plane {
     v: Option<[f64; 2]>,
 }
 
-impl Plane {
-    fn grid(&self, cells: usize) -> Grid {
-        let position = Axis::position(self.x[0], self.x[1], cells);
-        let (across, up) = match self.v {
-            Some([low, high]) => (position, Axis::velocity(low, high, cells)),
-            None => (Axis::angle(0.0, TAU, cells), position),
-        };
-        Grid::of_states(across, up, 0.0)
-    }
+/// Starts in a range of positions: at drive angle 0 with velocities of another range or, without one, at rest at any drive
+/// angle.
+pub(super) fn grid(x: [f64; 2], v: Option<[f64; 2]>, cells: usize) -> Grid {
+    let position = Axis::position(x[0], x[1], cells);
+    let (across, up) = match v {
+        Some([low, high]) => (position, Axis::velocity(low, high, cells)),
+        None => (Axis::angle(0.0, TAU, cells), position),
+    };
+    Grid::of_states(across, up, 0.0)
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
@@ -53,30 +53,23 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let found = planes.iter().map(|plane| {
         let machine = Machine::of_ratios(&Ratios::unloaded().at_frequency(plane.eta))?;
         let (scene, watcher) = (&machine.scene, progress.watcher());
-        let grid = plane.grid(cells);
-        let basins = find_basins(
-            scene,
-            &grid,
-            &BasinOptions::default(),
-            &watcher,
-            studio.kept,
-        )?;
+        let grid = grid(plane.x, plane.v, cells);
+        let options = BasinOptions::default();
+        let basins = find_basins(scene, &grid, &options, &watcher, studio.kept)?;
         let wandering = wandering(scene, &basins)?;
         Ok((plane, machine, basins, wandering))
     });
     let found = found.collect::<Result<Vec<_>>>()?;
     drop(progress);
-    let panels = found
-        .iter()
-        .map(|(plane, machine, basins, wandering)| Panel {
+    let mut chart = figure.chart.clone();
+    let panels = found.iter();
+    chart
+        .panels
+        .extend(panels.map(|(plane, machine, basins, wandering)| Panel {
             title: plane.title.clone(),
             legend: Some(Legend::Right),
             ..chart::panel(machine, basins, wandering)
-        });
-    let chart = Chart {
-        panels: panels.collect(),
-        ..figure.chart.clone()
-    };
+        }));
     let png = chart.in_columns(2).png().map_err(Error::msg)?;
     let basins = found.iter().flat_map(|(plane, _, basins, _)| {
         let classes = basins.classes.iter().enumerate();
@@ -87,10 +80,15 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         })
     });
     let basins: Vec<Basin<'_>> = basins.collect();
-    Ok(Drawn {
-        files: vec![png, csv(&columns(), &basins)?],
-        findings: findings(&basins),
-    })
+    let mut findings = Findings::default();
+    for basin in &basins {
+        let motion = &basin.class.motion;
+        let order = motion.order_beyond_regime();
+        let order = order.map_or_else(String::new, |order| format!(" ({order})"));
+        let name = format!("{}, {motion}{order}: ", basin.plane.name);
+        findings.add_numbers(&name, &columns(), basin);
+    }
+    Drawn::new([png, csv(&columns(), &basins)?], findings)
 }
 
 /// One of the basins of a plane.
@@ -131,17 +129,4 @@ fn wandering(scene: &Scene, basins: &Basins) -> Result<Vec<(f64, f64)>> {
     let map = StroboscopicMap::new(&scene.check()?, 1);
     let mut states = Section::of(&map, start, STATES.0 + STATES.1, usize::MAX)?.states;
     Ok(states.split_off(STATES.1 as usize))
-}
-
-/// Shares with their intervals, and the largest balls.
-fn findings(all: &[Basin<'_>]) -> Findings {
-    let mut findings = Findings::default();
-    for basin in all {
-        let motion = &basin.class.motion;
-        let order = motion.order_beyond_regime();
-        let order = order.map_or_else(String::new, |order| format!(" ({order})"));
-        let name = format!("{}, {motion}{order}: ", basin.plane.name);
-        findings.add_numbers(&name, &columns(), basin);
-    }
-    findings
 }

@@ -2,20 +2,18 @@
 //! stability boundary s_SN, to one on grazing boundary g0". It is a share of initial states, so it depends on
 //! which states are asked: that dependence is shown beside it.
 
-use std::f64::consts::TAU;
-
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 
-use crate::figure::{Drawn, Figure, Findings, Studio};
-use softstop_console::column::Column;
+use crate::basins::grid;
+use crate::figure::{Drawn, Figure, Findings, Studio, findings};
 use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::machine::PaperMachine;
 use softstop_console::progress::Progress;
 use softstop_draw::{Chart, Layer, Mark, Stroke, style};
 use softstop_dynamics::basin::{BasinOptions, CertaintyAtPlace, establishing_certainties};
-use softstop_dynamics::{self as dynamics, Grid, zone};
+use softstop_dynamics::{Grid, Regime, zone};
 use softstop_explore::basin::certainty::layers;
 
 /// Clearances.
@@ -51,15 +49,14 @@ impl Starts {
     }
 
     fn grid(self, clearance: f64, cells: usize) -> Grid {
-        let position = |far: f64| dynamics::Axis::position(-far, far, cells);
-        let (across, up) = match self {
-            Self::AtRest => (dynamics::Axis::angle(0.0, TAU, cells), position(clearance)),
+        let within = |far: f64| [-far, far];
+        match self {
+            Self::AtRest => grid(within(clearance), None, cells),
             Self::Square(half) => {
-                let far = half * clearance;
-                (position(far), dynamics::Axis::velocity(-far, far, cells))
+                let range = within(half * clearance);
+                grid(range, Some(range), cells)
             }
-        };
-        Grid::of_states(across, up, 0.0)
+        }
     }
 }
 
@@ -96,37 +93,18 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         let zone = zone::hysteresis(&scene);
         let zone = zone.with_context(|| format!("no hysteresis zone at rho = {clearance}"))?;
         let (grid, watcher) = (starts.grid(clearance, cells), progress.watcher());
-        let options = BasinOptions::default();
+        let (options, kept) = (BasinOptions::default(), studio.kept);
+        let found = establishing_certainties(&zone, &places, &grid, &options, &watcher, kept);
         Ok(Curve {
             machine,
             clearance,
             starts,
-            places: establishing_certainties(
-                &zone,
-                &places,
-                &grid,
-                &options,
-                &watcher,
-                studio.kept,
-            )?,
+            places: found?,
         })
     });
     let curves = curves.collect::<Result<Vec<Curve>>>()?;
     drop(progress);
-    let rows = curves.iter();
-    let rows = rows.flat_map(|curve| curve.places.iter().map(move |at| (curve, at)));
-    Ok(Drawn {
-        files: vec![
-            chart(figure, &curves)?.svg().into_bytes(),
-            csv(&columns(), rows)?,
-        ],
-        findings: findings(&curves),
-    })
-}
-
-/// A row for each place of each curve.
-fn columns<'a>() -> [Column<(&'a Curve, &'a CertaintyAtPlace)>; 10] {
-    columns! { (&'a Curve, &'a CertaintyAtPlace), it;
+    let columns = columns! { (&Curve, &CertaintyAtPlace), it;
         "machine" [None], "unloaded or loaded" => it.0.machine.name();
         "rho" [None], "its clearance" => it.0.clearance;
         "starts" [None], "which states are asked" => it.0.starts.label();
@@ -137,12 +115,16 @@ fn columns<'a>() -> [Column<(&'a Curve, &'a CertaintyAtPlace)>; 10] {
         "certainty_high" [None], "upper end of it" => it.1.interval[1];
         "integrity" [None], "radius of the largest ball in z = 1" => integrity(it.1);
         "motions" [None], "all motions and their shares" => motions(it.1);
-    }
+    };
+    let rows = curves.iter();
+    let rows = rows.flat_map(|curve| curve.places.iter().map(move |at| (curve, at)));
+    let svg = chart(figure, &curves)?.svg().into_bytes();
+    Drawn::new([svg, csv(&columns, rows)?], findings_of(&curves))
 }
 
 /// Integrity factor: radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.
 fn integrity(at: &CertaintyAtPlace) -> f64 {
-    let ball = at.basins.largest_ball_of(dynamics::Regime::ONE);
+    let ball = at.basins.largest_ball_of(Regime::ONE);
     ball.map_or(0.0, |ball| ball.radius)
 }
 
@@ -153,36 +135,27 @@ fn motions(at: &CertaintyAtPlace) -> String {
 }
 
 /// Certainties at the ends and in between, and how far the claim is off.
-fn findings(curves: &[Curve]) -> Findings {
+fn findings_of(curves: &[Curve]) -> Findings {
     let mut findings = Findings::default();
-    for Curve {
-        machine,
-        clearance,
-        starts,
-        places,
-    } in curves
-    {
+    for curve in curves {
         let near = |place: f64| {
             let gap = |at: &&CertaintyAtPlace| (at.place - place).abs();
-            places.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)))
+            let places = curve.places.iter();
+            places.min_by(|a, b| gap(a).total_cmp(&gap(b)))
         };
         let certainty = |place| near(place).map(|at| at.certainty);
-        let values = [
-            ("certainty near g0", certainty(0.0)),
-            ("integrity near g0", near(0.0).map(integrity)),
-            ("certainty near s_SN", certainty(1.0)),
-            ("integrity near s_SN", near(1.0).map(integrity)),
-            ("certainty at s = 0.25", certainty(0.25)),
-            ("certainty at s = 0.5", certainty(0.5)),
-            ("certainty at s = 0.75", certainty(0.75)),
-            (
-                "largest rise of the certainty away from g0",
-                Some(rise(places)),
-            ),
-        ];
-        let (name, starts) = (machine.name(), starts.label());
-        let name = format!("{name}, rho = {clearance}, starts {starts}: ");
-        findings.group(&name, values);
+        let (machine, starts) = (curve.machine.name(), curve.starts.label());
+        let name = format!("{machine}, rho = {}, starts {starts}: ", curve.clearance);
+        findings! { findings, |what| format!("{name}{what}");
+            "certainty near g0" => certainty(0.0);
+            "integrity near g0" => near(0.0).map(integrity);
+            "certainty near s_SN" => certainty(1.0);
+            "integrity near s_SN" => near(1.0).map(integrity);
+            "certainty at s = 0.25" => certainty(0.25);
+            "certainty at s = 0.5" => certainty(0.5);
+            "certainty at s = 0.75" => certainty(0.75);
+            "largest rise of the certainty away from g0" => rise(&curve.places);
+        }
     }
     findings
 }
@@ -202,46 +175,38 @@ fn rise(places: &[CertaintyAtPlace]) -> f64 {
 fn chart(figure: &Figure, curves: &[Curve]) -> Result<Chart> {
     let count = CLEARANCES.len();
     let color = |index| style::ordered(index, count);
-    let by_clearance = |index: usize| {
-        let name = format!("ρ = {}", curves[index].clearance);
-        let stroke = Stroke::solid(color(index % count), 2.2);
-        (&curves[index], stroke, name)
+    let solid = |curve: usize, color, name| (&curves[curve], Stroke::solid(color, 2.2), name);
+    let by_clearance = |curve: usize| {
+        let name = format!("ρ = {}", curves[curve].clearance);
+        solid(curve, color(curve % count), name)
     };
-    let by_starts = |(index, color): (usize, _)| {
-        let name = curves[index].starts.label();
-        (&curves[index], Stroke::solid(color, 2.2), name)
-    };
+    let by_starts = |(curve, color): (usize, _)| solid(curve, color, curves[curve].starts.label());
     let regions = [
         (2 * count, style::REFERENCE),
         (2 * count + 1, "#8C8C8C"),
         (MIDDLE, color(MIDDLE)),
         (2 * count + 2, style::POINT),
     ];
-    let certainties = |curves: Vec<Named<'_>>| {
+    let certainties = |curves: &mut dyn Iterator<Item = (&Curve, Stroke, String)>| {
         let claim = Layer::marks([(0.0, 1.0), (1.0, 0.0)], Mark::Circle, style::ASIDE);
         let claim = claim.named("the paper: one at g₀, zero at s_SN");
-        curves.iter().flat_map(certainty).chain([claim]).collect()
+        let curves = curves.flat_map(|(curve, stroke, name)| {
+            let [band, line] = layers(&curve.places, |at| at.place, stroke);
+            [band, line.named(name)]
+        });
+        curves.chain([claim]).collect()
     };
     let dashed = Stroke::dashed(color(MIDDLE), 2.2, (8.0, 5.0));
     let loaded = (&curves[count + MIDDLE], dashed, String::new());
     let integrities = (0..count).map(by_clearance).chain([loaded]);
+    let integrities = integrities.map(|(curve, stroke, name)| {
+        let line = curve.places.iter().map(|at| (at.place, integrity(at)));
+        Layer::line(line, stroke).named(name)
+    });
     figure.picture([
-        certainties((0..count).map(by_clearance).collect()),
-        certainties((count..2 * count).map(by_clearance).collect()),
-        certainties(regions.map(by_starts).into()),
-        integrities.map(|it| largest_ball(&it)).collect(),
+        certainties(&mut (0..count).map(by_clearance)),
+        certainties(&mut (count..2 * count).map(by_clearance)),
+        certainties(&mut regions.into_iter().map(by_starts)),
+        integrities.collect(),
     ])
-}
-
-/// A curve, how it is drawn, and its name.
-type Named<'a> = (&'a Curve, Stroke, String);
-
-fn certainty((curve, stroke, name): &Named) -> [Layer; 2] {
-    let [band, line] = layers(&curve.places, |at| at.place, *stroke);
-    [band, line.named(name)]
-}
-
-fn largest_ball((curve, stroke, name): &Named) -> Layer {
-    let line = curve.places.iter().map(|at| (at.place, integrity(at)));
-    Layer::line(line, *stroke).named(name)
 }

@@ -9,7 +9,6 @@ use softstop_dynamics::{Chain, Exponents, Orbit, Step};
 
 use crate::diagram::{self, Part, WAYS, by_way, dots};
 use crate::figure::{Drawn, Figure, Findings, Studio};
-use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::progress::Progress;
@@ -33,12 +32,10 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
     let mut chains = diagram::sweep(vec![(plans[0], ways)], "steps of the sweeps", studio.kept)?;
     let zoom = chains.iter();
-    let zoom = zoom.map(|sweep| diagram::part_of(sweep, &plans[1]));
-    chains.extend(diagram::sweep(
-        zoom.collect(),
-        "steps of the zoom",
-        studio.kept,
-    )?);
+    let zoom = zoom
+        .map(|sweep| diagram::part_of(sweep, &plans[1]))
+        .collect();
+    chains.extend(diagram::sweep(zoom, "steps of the zoom", studio.kept)?);
     let steps: usize = chains.iter().map(|chain| chain.steps.len()).sum();
     let progress = Progress::new(steps as u64, "exponents");
     let batch = detail.pick(40, 4);
@@ -84,14 +81,20 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         "Left {left}, right {right}. Periodic motion: λ = ln|μ|/(nT); else the mean over {} drive periods",
         32 * batch
     );
-    let ways = parts
-        .iter()
-        .flat_map(|ways| ways.iter().zip(["up", "down"]));
+    let ways = parts.iter();
+    let ways = ways.flat_map(|ways| ways.iter().zip(["up", "down"]));
     let rows = ways.flat_map(|(points, way)| points.iter().map(move |point| (way, point)));
-    Ok(Drawn {
-        files: vec![chart.png().map_err(Error::msg)?, csv(&columns(), rows)?],
-        findings,
-    })
+    let columns = columns! { (&str, &ExponentStep), it;
+        "direction" [None], "of the frequency" => it.0;
+        "eta" [None], "drive frequency" => format!("{:.9}", it.1.step.value);
+        "impacts" [None], "p of z = p/n" => it.1.step.motion.regime().map(|z| z.impacts);
+        "periods" [None], "n of it" => it.1.step.motion.regime().map(|z| z.periods);
+        "lambda" [None], "largest exponent per unit of tau" => it.1.exponent.0;
+        "lambda_half_width" [None], "of its 95 % interval" => it.1.exponent.1;
+        "largest_before_impact_velocity" [None], "of the motion" => it.1.step.hardest_impact();
+    };
+    let png = chart.png().map_err(Error::msg)?;
+    Drawn::new([png, csv(&columns, rows)?], findings)
 }
 
 /// The steps of a sweep with their exponents, in rising order.
@@ -134,19 +137,6 @@ fn branch(count: u32) -> Result<Vec<Place>> {
     places.collect()
 }
 
-/// A row for each step of each way.
-fn columns<'a>() -> [Column<(&'a str, &'a ExponentStep)>; 7] {
-    columns! { (&'a str, &'a ExponentStep), it;
-        "direction" [None], "of the frequency" => it.0;
-        "eta" [None], "drive frequency" => format!("{:.9}", it.1.step.value);
-        "impacts" [None], "p of z = p/n" => it.1.step.motion.regime().map(|z| z.impacts);
-        "periods" [None], "n of it" => it.1.step.motion.regime().map(|z| z.periods);
-        "lambda" [None], "largest exponent per unit of tau" => it.1.exponent.0;
-        "lambda_half_width" [None], "of its 95 % interval" => it.1.exponent.1;
-        "largest_before_impact_velocity" [None], "of the motion" => it.1.step.hardest_impact();
-    }
-}
-
 /// The whole range and a part of it, each up and down, in the whole z = 1 up to its fold and points to mark on it with
 /// their names.
 fn chart(
@@ -159,16 +149,13 @@ fn chart(
     for (index, panel) in chart.panels.iter_mut().enumerate() {
         let (ways, row) = (&parts[index / 2], index % 2);
         panel.layers = layers(ways, row);
-        match row {
-            0 => {
-                let steps = ways.iter().flatten().map(|point| &point.step);
-                let top = steps.map(|step| step.hardest_impact()).fold(1.0, f64::max);
-                panel.y.ends = [-0.04 * top, 1.08 * top].map(Some);
-            }
-            _ => {
-                let zero = Layer::horizontal(0.0, Stroke::solid(style::INK, 1.0), "");
-                panel.layers.push(zero);
-            }
+        if row == 0 {
+            let steps = ways.iter().flatten().map(|point| &point.step);
+            let top = steps.map(Step::hardest_impact).fold(1.0, f64::max);
+            panel.y.ends = [-0.04 * top, 1.08 * top].map(Some);
+        } else {
+            let zero = Layer::horizontal(0.0, Stroke::solid(style::INK, 1.0), "");
+            panel.layers.push(zero);
         }
         if index < 2 {
             let curve = branch.iter().map(|at| (at[0], at[1 + row]));

@@ -89,6 +89,14 @@ pub(crate) struct Drawn {
     pub(crate) findings: Findings,
 }
 
+impl Drawn {
+    /// The contents of the files in the order of their names, and what they show in numbers.
+    pub(crate) fn new(files: impl Into<Vec<Vec<u8>>>, findings: Findings) -> Result<Self> {
+        let files = files.into();
+        Ok(Self { files, findings })
+    }
+}
+
 /// What a figure shows in numbers, by name, in the paper's symbols.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Findings(pub(crate) BTreeMap<String, f64>);
@@ -101,23 +109,21 @@ impl Findings {
         }
     }
 
-    /// Adds the values that there are of a group, whose names begin alike.
-    pub(crate) fn group<'a>(
-        &mut self,
-        name: &str,
-        values: impl IntoIterator<Item = (&'a str, Option<f64>)>,
-    ) {
-        for (what, value) in values {
-            self.add(format!("{name}{what}"), value);
-        }
-    }
-
     /// Adds a value, if there is one.
     pub(crate) fn add(&mut self, name: impl Into<String>, value: impl Into<Option<f64>>) {
         self.0
             .extend(value.into().map(|value| (name.into(), value)));
     }
 }
+
+/// Adds values, one in each line, by what each is, from which its name is made.
+macro_rules! findings {
+    ($findings:expr, $name:expr; $($what:expr => $value:expr;)*) => {{
+        let name = $name;
+        $($findings.add(name($what), $value);)*
+    }};
+}
+pub(crate) use findings;
 
 /// What figures share.
 pub(crate) struct Studio<'a> {

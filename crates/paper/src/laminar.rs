@@ -8,10 +8,9 @@ use softstop_dynamics::internals::{Ensemble, Member};
 use softstop_dynamics::monitor::recall_or_compute;
 use softstop_lanes::Machine;
 
-use crate::figure::{Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio, findings};
 use crate::table1::{matching, paper};
 use crate::transitions::{Stretches, Transition};
-use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::interrupt;
@@ -45,8 +44,8 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter().filter(|row| ROWS.contains(&row.number));
     let found = rows.filter_map(|row| {
-        let transition = matching::find(row, transitions)?.transition;
-        Some((row.number, transition))
+        let found = matching::find(row, transitions)?;
+        Some((row.number, found.transition))
     });
     let (low, high, each) = DECADES;
     let powers = (low * each..=high * each).map(|index| f64::from(index) / f64::from(each));
@@ -61,35 +60,21 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
             let logarithms = own.iter().map(|it| [it.distance.ln(), length(it).ln()]);
             slope(&logarithms.collect::<Vec<_>>())
         };
-        let longest = power(|it| it.longest_drive_periods as f64);
-        let values = [
-            ("distances", Some(own.len() as f64)),
-            (
-                "mean length goes with the distance to the power",
-                power(|it| it.mean_drive_periods),
-            ),
-            (
-                "longest length goes with the distance to the power",
-                longest,
-            ),
-        ];
-        findings.group(&format!("row {row:02}: "), values);
+        findings! { findings, |what| format!("row {row:02}: {what}");
+            "distances" => own.len() as f64;
+            "mean length goes with the distance to the power" => power(|it| it.mean_drive_periods);
+            "longest length goes with the distance to the power" => power(|it| it.longest_drive_periods as f64);
+        }
     }
-    Ok(Drawn {
-        files: vec![csv(&columns(), &lengths)?],
-        findings,
-    })
-}
-
-fn columns() -> [Column<LaminarLengths>; 6] {
-    columns! { LaminarLengths, it;
+    let columns = columns! { LaminarLengths, it;
         "row" [None], "of Table 1" => it.row;
         "eta" [None], "drive frequency" => it.eta;
         "distance" [None], "from where the old motion loses its stability" => it.distance;
         "stretches" [None], "with its order of impacts" => it.stretches;
         "mean_drive_periods" [None], "of a stretch" => it.mean_drive_periods;
         "longest_drive_periods" [None], "of a stretch" => it.longest_drive_periods;
-    }
+    };
+    Drawn::new([csv(&columns, &lengths)?], findings)
 }
 
 /// The stretches at all distances at which there are enough of them: the motions go together.
@@ -115,8 +100,7 @@ fn all(cases: &[((usize, &Transition), f64)]) -> Result<Vec<LaminarLengths>> {
         machines.push(Machine::new(&beside.scene()?.check()?));
         places.push((*row, eta, *distance));
     }
-    let go_on = |_, _| interrupt::go_on();
-    let ensemble = Ensemble::new(machines, &go_on);
+    let ensemble = Ensemble::new(machines, &interrupt::watch);
     let mut left: Vec<&mut Stretches> = motions.iter_mut().collect();
     for _ in 0..ENDURANCE / LOOK {
         let before = left.len();

@@ -8,7 +8,6 @@ use softstop_dynamics::{Chain, Direction, Plan, Step};
 
 use crate::diagram;
 use crate::figure::{Drawn, Figure, Findings, Studio};
-use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::csv;
 
@@ -34,11 +33,10 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     let mut findings = Findings::default();
     let steps = studio.detail.pick(&STEPS[..], &STEPS[..1]);
     for steps in steps.iter().copied() {
-        let plan = Plan::new(Parameter::Clearance, CLEARANCES, steps, PERIODS)?;
         let plan = Plan {
             tolerance: RETURN,
             heights: false,
-            ..plan
+            ..Plan::new(Parameter::Clearance, CLEARANCES, steps, PERIODS)?
         };
         let chain = |eta: &f64| -> Result<Chain> {
             let scene = Ratios::unloaded().at_frequency(*eta).scene()?;
@@ -61,33 +59,24 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
                 there += u32::from(stays);
                 rows.push((plan.sweep_rate(), *eta, name, first, stays));
             }
-            let told = format!(
-                "{name}, {:.0e} per period: ways of {}",
-                plan.sweep_rate(),
-                etas.len()
-            );
+            let (rate, ways) = (plan.sweep_rate(), etas.len());
+            let told = format!("{name}, {rate:.0e} per period: ways of {ways}");
             findings.add(format!("{told} that meet it"), f64::from(met));
             findings.add(format!("{told} on it at rho = 10"), f64::from(there));
         }
     }
-    Ok(Drawn {
-        files: vec![csv(&columns(), rows)?],
-        findings,
-    })
-}
-
-/// Rate, frequency, motion, where it is met first, whether the way ends on it.
-type WayRow = (f64, f64, &'static str, Option<f64>, bool);
-
-fn columns() -> [Column<WayRow>; 5] {
-    columns! { WayRow, it;
+    let columns = columns! { WayRow, it;
         "change_of_rho_per_period" [None], "how fast" => it.0;
         "eta" [None], "drive frequency" => it.1;
         "motion" [None], "that is looked for" => it.2;
         "first_rho" [None], "clearance at which it is met first" => it.3;
         "at_rho_10" [None], "whether the way ends on it" => it.4;
-    }
+    };
+    Drawn::new([csv(&columns, rows)?], findings)
 }
+
+/// Rate, frequency, motion, where it is met first, whether the way ends on it.
+type WayRow = (f64, f64, &'static str, Option<f64>, bool);
 
 fn etas() -> Vec<f64> {
     let (low, high, count) = ETAS;

@@ -12,7 +12,7 @@ use softstop_dynamics::zone::free_amplitude;
 use softstop_dynamics::{Chain, Plan, Step, orbit};
 
 use crate::diagram;
-use crate::figure::{Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio, findings};
 use boundaries::Ends;
 use chart::ClearancePicture;
 
@@ -49,33 +49,25 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         &figure.name[1..]
     );
     let sweeps = chains.iter();
-    let sweeps = sweeps.map(|it| {
-        (
-            it.machine.scene.clearance.to_string(),
-            it.direction.name(),
-            &it.steps[..],
-        )
-    });
-    let points = across
-        .iter()
-        .flat_map(|(name, curve)| curve.iter().map(move |at| (*name, *at)));
+    let rho = |it: &Chain| it.machine.scene.clearance.to_string();
+    let sweeps = sweeps.map(|it| (rho(it), it.direction.name(), &it.steps[..]));
+    let points = across.iter();
+    let points = points.flat_map(|(name, curve)| curve.iter().map(move |at| (*name, *at)));
     let columns = columns! { (&str, [f64; 3]), it;
         "boundary" [None], "which one" => it.0;
         "eta" [None], "drive frequency" => it.1[0];
         "max_position" [None], "X_m" => it.1[1];
         "before_impact_velocity" [None], "X'_-" => it.1[2];
     };
-    Ok(Drawn {
-        files: vec![
-            chart.png().map_err(Error::msg)?,
-            diagram::table("rho", sweeps)?,
-            csv(&columns, points)?,
-        ],
-        findings: findings(&ends, &chains, optimum),
-    })
+    let files = [
+        chart.png().map_err(Error::msg)?,
+        diagram::table("rho", sweeps)?,
+        csv(&columns, points)?,
+    ];
+    Drawn::new(files, findings_of(&ends, &chains, optimum))
 }
 
-fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Findings {
+fn findings_of(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Findings {
     let mut findings = Findings::default();
     for (end, ways) in ends.iter().zip(chains.chunks_exact(2)) {
         let rho = end.clearance;
@@ -83,37 +75,24 @@ fn findings(ends: &[Ends], chains: &[Chain], optimum: Option<(f64, f64)>) -> Fin
         let hardest = ones().max_by(|a, b| a.hardest_impact().total_cmp(&b.hardest_impact()));
         let highest = ones().max_by(|a, b| a.max_position.total_cmp(&b.max_position));
         let farthest = diagram::steps(ways).map(|step| step.max_position);
-        let values = [
-            ("eta_g0", Some(end.grazing[0])),
-            ("eta_SN", end.fold.map(|it| it[0])),
-            ("eta_PD", end.flip.map(|it| it[0])),
-            ("X_m at the fold", end.fold.map(|it| it[1])),
-            ("velocity at the fold", end.fold.map(|it| it[2])),
-            ("hardest impact of z = 1", hardest.map(Step::hardest_impact)),
-            ("eta of the hardest impact", hardest.map(|it| it.value)),
-            ("largest X_m of any motion", farthest.max_by(f64::total_cmp)),
-            ("largest X_m of z = 1", highest.map(|it| it.max_position)),
-            (
-                "eta of the largest X_m of z = 1",
-                highest.map(|it| it.value),
-            ),
-            (
-                "hysteresis width",
-                end.fold.map(|it| it[0] - end.grazing[0]),
-            ),
-        ];
-        for (name, value) in values {
-            findings.add(format!("{name} at rho = {rho}"), value);
+        findings! { findings, |what| format!("{what} at rho = {rho}");
+            "eta_g0" => end.grazing[0];
+            "eta_SN" => end.fold.map(|it| it[0]);
+            "eta_PD" => end.flip.map(|it| it[0]);
+            "X_m at the fold" => end.fold.map(|it| it[1]);
+            "velocity at the fold" => end.fold.map(|it| it[2]);
+            "hardest impact of z = 1" => hardest.map(Step::hardest_impact);
+            "eta of the hardest impact" => hardest.map(|it| it.value);
+            "largest X_m of any motion" => farthest.max_by(f64::total_cmp);
+            "largest X_m of z = 1" => highest.map(|it| it.max_position);
+            "eta of the largest X_m of z = 1" => highest.map(|it| it.value);
+            "hysteresis width" => end.fold.map(|it| it[0] - end.grazing[0]);
         }
         for chain in ways {
             let (ranges, way) = (chart::ranges(chain), chain.direction.name());
-            let ends = [
-                ("begins", ranges.first().map(|range| range.0)),
-                ("ends", ranges.last().map(|range| range.1)),
-            ];
-            for (what, eta) in ends {
-                let name = format!("eta where piercing {what} on the way {way} at rho = {rho}");
-                findings.add(name, eta);
+            findings! { findings, |what| format!("eta where piercing {what} on the way {way} at rho = {rho}");
+                "begins" => ranges.first().map(|range| range.0);
+                "ends" => ranges.last().map(|range| range.1);
             }
         }
     }

@@ -22,7 +22,7 @@ pub(super) fn chart(figure: &Figure, cycles: &[Cycle; 2]) -> Result<Chart> {
     let highest = cycles.iter().map(|it| it.orbit.max_position);
     let highest = highest.fold(f64::NEG_INFINITY, f64::max);
     let depth = highest - rho;
-    let layers = |show: &dyn Fn(&PathPoint) -> (f64, f64), face: DrawFace| {
+    let layers = |show: &dyn Fn(&PathPoint) -> (f64, f64), face: fn(f64, &str) -> Layer| {
         let curves = cycles.iter().zip(CURVES);
         let curves = curves.map(|(cycle, (name, stroke))| {
             Layer::line(cycle.path.points.iter().map(show), stroke).named(name)
@@ -40,6 +40,3 @@ pub(super) fn chart(figure: &Figure, cycles: &[Cycle; 2]) -> Result<Chart> {
     chart.panels[2].x.ends = [rho - BEFORE * depth, highest + 0.2 * depth].map(Some);
     Ok(chart)
 }
-
-/// The line at a position at which the law changes, and its name.
-type DrawFace = fn(f64, &'static str) -> Layer;

@@ -11,7 +11,7 @@ use softstop_console::machine::PaperMachine;
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::{Exponents, Orbit};
 
-use crate::figure::{Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio, findings};
 use crate::path::{Path, PathPoint};
 
 /// One period of a z = 1 motion.
@@ -49,13 +49,30 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         "phase" [None], "whose law holds" => softstop_explore::simulate::name(it.phase);
     };
     let table = csv(&columns, &cycle.path.points)?;
-    Ok(Drawn {
-        files: vec![cycle.chart(figure)?.svg().into_bytes(), table],
-        findings: findings(&cycle),
-    })
+    let Cycle { orbit, path } = &cycle;
+    let period = orbit.scene.period();
+    let contact = path.phases().filter(|it| it[0].phase != PhaseKind::Free);
+    let contact = contact.map(|it| it[it.len() - 1].time - it[0].time);
+    let velocity = |point: Option<&PathPoint>| point.map(|point| point.velocity);
+    let mut findings = Findings::default();
+    findings! { findings, str::to_owned;
+        "X_m" => orbit.max_position;
+        "X'_-" => orbit.before_impact_velocity();
+        "period T" => period;
+        "contact, share of T" => contact.sum::<f64>() / period;
+        "largest multiplier, modulus" => orbit.monodromy.multipliers()[0].norm();
+        "Lyapunov exponent per period" => Exponents::of(orbit).per_period[0];
+        "energy dissipated per period" => path.dissipated;
+        "of it in contact, share" => path.dissipated_in_contact / path.dissipated;
+        "X'_C" => velocity(path.first(PhaseKind::Cut));
+        "X'_D" => velocity(path.first(PhaseKind::Stop));
+        "X'_E" => velocity(path.last(PhaseKind::Stop));
+    }
+    let files = [cycle.chart(figure)?.svg().into_bytes(), table];
+    Drawn::new(files, findings)
 }
 
-/// PathPoint A over point B.
+/// Point A over point B.
 pub(super) fn both(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let a = Cycle::of(studio, PaperMachine::Unloaded)?;
     let b = Cycle::of(studio, PaperMachine::Loaded)?;
@@ -64,40 +81,6 @@ pub(super) fn both(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     findings.add("X_m of B less that of A", farther);
     let faster = b.orbit.before_impact_velocity() / a.orbit.before_impact_velocity();
     findings.add("X'_- of B over that of A", faster);
-    Ok(Drawn {
-        files: vec![both::chart(figure, &[a, b])?.svg().into_bytes()],
-        findings,
-    })
-}
-
-fn findings(Cycle { orbit, path }: &Cycle) -> Findings {
-    let period = orbit.scene.period();
-    let contact = path.phases().filter(|it| it[0].phase != PhaseKind::Free);
-    let contact = contact.map(|it| it[it.len() - 1].time - it[0].time);
-    let velocity = |point: Option<&PathPoint>| point.map(|point| point.velocity);
-    let mut findings = Findings::default();
-    let values = [
-        ("X_m", Some(orbit.max_position)),
-        ("X'_-", Some(orbit.before_impact_velocity())),
-        ("period T", Some(period)),
-        ("contact, share of T", Some(contact.sum::<f64>() / period)),
-        (
-            "largest multiplier, modulus",
-            Some(orbit.monodromy.multipliers()[0].norm()),
-        ),
-        (
-            "Lyapunov exponent per period",
-            Some(Exponents::of(orbit).per_period[0]),
-        ),
-        ("energy dissipated per period", Some(path.dissipated)),
-        (
-            "of it in contact, share",
-            Some(path.dissipated_in_contact / path.dissipated),
-        ),
-        ("X'_C", velocity(path.first(PhaseKind::Cut))),
-        ("X'_D", velocity(path.first(PhaseKind::Stop))),
-        ("X'_E", velocity(path.last(PhaseKind::Stop))),
-    ];
-    findings.group("", values);
-    findings
+    let svg = both::chart(figure, &[a, b])?.svg();
+    Drawn::new([svg.into_bytes()], findings)
 }

@@ -60,7 +60,7 @@ fn seeds(known: &[Diagram], studio: &Studio) -> Result<Vec<(f64, Orbit)>> {
     for eta in some {
         let scene = Ratios::unloaded().at_frequency(eta).scene()?;
         let orbits: Vec<Orbit> = recall_or_compute(studio.kept, &("isolated", &scene), || {
-            let survey = find_attractors(&scene, &options, &|_, _| interrupt::go_on())?;
+            let survey = find_attractors(&scene, &options, &interrupt::watch)?;
             let orbits = survey.attractors.into_iter().filter_map(|it| it.orbit);
             Ok::<_, OrbitError>(orbits.map(|orbit| *orbit).collect())
         })?;

@@ -4,6 +4,7 @@ mod chart;
 mod isolated;
 
 use anyhow::{Error, Result};
+use serde::Deserialize;
 use softstop::Ratios;
 use softstop_dynamics::{Chain, Direction, Step};
 
@@ -15,6 +16,7 @@ use softstop_console::columns;
 use softstop_console::export::csv;
 
 /// The whole diagram, its zooms, and sweeps side by side that show chaos while it lasts.
+#[derive(Deserialize)]
 struct Parts {
     whole: Part,
     zooms: Vec<Part>,
@@ -36,12 +38,7 @@ type Bifurcation<'a> = (usize, Match<'a>);
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let detail = studio.detail;
-    let parts = Parts {
-        whole: figure.get("whole")?,
-        zooms: figure.get("zooms")?,
-        fleeting: figure.get("fleeting")?,
-        side_by_side: figure.get("side_by_side")?,
-    };
+    let parts: Parts = figure.get("parts")?;
     let ways = diagram::ways(&Ratios::unloaded().scene()?).to_vec();
     let jobs = vec![(parts.whole.plan(detail)?, ways)];
     let whole = diagram::sweep(jobs, "steps of the sweeps", studio.kept)?;
@@ -54,18 +51,14 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     jobs.push(fleeting(&parts, detail)?);
     let chains = diagram::sweep(jobs, "steps of the zooms", studio.kept)?;
     let (zooms, fleeting) = chains.split_at(2 * parts.zooms.len());
-    let mut diagrams = vec![Diagram {
-        part: &parts.whole,
-        ways: &whole,
-        fleeting: &[],
-    }];
-    let zooms = parts.zooms.iter().zip(zooms.chunks_exact(2));
-    diagrams.extend(zooms.map(|(part, ways)| Diagram {
+    let ways = [&whole[..]].into_iter().chain(zooms.chunks_exact(2));
+    let all = [&parts.whole].into_iter().chain(&parts.zooms).zip(ways);
+    let diagrams = all.enumerate().map(|(index, (part, ways))| Diagram {
         part,
         ways,
-        fleeting: &[],
-    }));
-    diagrams[1].fleeting = fleeting;
+        fleeting: if index == 1 { fleeting } else { &[] },
+    });
+    let diagrams: Vec<Diagram<'_>> = diagrams.collect();
     let isolated = isolated::find(&diagrams, studio)?;
     let transitions = studio.transitions()?;
     let rows = paper::ROWS.iter();
@@ -78,14 +71,19 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     for (number, it) in &bifurcations {
         findings.add(format!("eta of bifurcation {number:02}"), it.eta);
     }
-    Ok(Drawn {
-        files: vec![
-            chart.png().map_err(Error::msg)?,
-            table(&diagrams, &isolated)?,
-            rows_table(&bifurcations)?,
-        ],
-        findings,
-    })
+    let columns = columns! { Bifurcation<'_>, it;
+        "number" [None], "in Table 1" => it.0;
+        "eta" [None], "drive frequency" => format!("{:.10}", it.1.eta);
+        "type" [None], "in the paper's symbols" => it.1.transition.symbols();
+        "hysteresis" [None], "whether it cannot be reversed" => it.1.transition.hysteresis;
+        "direction" [None], "of eta in which it is met" => it.1.direction();
+    };
+    let files = [
+        chart.png().map_err(Error::msg)?,
+        table(&diagrams, &isolated)?,
+        csv(&columns, &bifurcations)?,
+    ];
+    Drawn::new(files, findings)
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.
@@ -123,22 +121,9 @@ fn table(diagrams: &[Diagram], isolated: &[Step]) -> Result<Vec<u8>> {
         };
         let ways = diagram.ways.iter().map(|it| (it.direction.name(), it));
         let fast = diagram.fleeting.iter().map(|it| ("down fast", it));
-        sweeps.extend(
-            ways.chain(fast)
-                .map(|(way, it)| (name.to_owned(), way, &it.steps[..])),
-        );
+        let ways = ways.chain(fast);
+        sweeps.extend(ways.map(|(way, it)| (name.to_owned(), way, &it.steps[..])));
     }
     sweeps.push(("isolated".to_owned(), "either", isolated));
     diagram::table("part", sweeps)
-}
-
-fn rows_table(bifurcations: &[Bifurcation<'_>]) -> Result<Vec<u8>> {
-    let columns = columns! { Bifurcation<'_>, it;
-        "number" [None], "in Table 1" => it.0;
-        "eta" [None], "drive frequency" => format!("{:.10}", it.1.eta);
-        "type" [None], "in the paper's symbols" => it.1.transition.symbols();
-        "hysteresis" [None], "whether it cannot be reversed" => it.1.transition.hysteresis;
-        "direction" [None], "of eta in which it is met" => it.1.direction();
-    };
-    Ok(csv(&columns, bifurcations)?)
 }

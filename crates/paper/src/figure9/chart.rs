@@ -73,9 +73,8 @@ fn series(motion: &FoundMotion, path: &Path, shown: u64, period: f64, panel: &mu
     let (low, high) = around(path.points.iter().map(|at| at.position), 0.0);
     let y = (1.1 * low, 1.42 * high.max(CLEARANCE));
     let unit = y.1 - y.0;
-    let bands = (0..shown)
-        .step_by(2)
-        .map(|it| [(it as f64, it as f64 + 1.0), y]);
+    let bands = (0..shown).step_by(2);
+    let bands = bands.map(|it| [(it as f64, it as f64 + 1.0), y]);
     let points = path.points.iter().map(|at| (at.time / period, at.position));
     let mut layers = vec![
         Layer::boxes(bands, BAND, 0.5),
@@ -133,15 +132,13 @@ fn near_stop(motion: &FoundMotion, points: Vec<(f64, f64)>, panel: &mut Panel) {
 /// The states at drive angle 0, behind them those of the other motions of the same machine.
 fn section(motion: &FoundMotion, all: &[FoundMotion]) -> Vec<Layer> {
     let asked = &motion.asked;
-    let others = all.iter().map(|other| (other, OTHERS));
-    let others = others
-        .filter(|(other, _)| other.asked.letter != asked.letter && other.asked.eta == asked.eta);
-    let layers = others
-        .chain([(motion, color(motion))])
-        .map(|(motion, color)| {
-            let states = &motion.section.states;
-            let radius = if states.len() > MANY { DOTS.1 } else { DOTS.0 };
-            Layer::dots(states.iter().copied(), radius, color)
-        });
+    let coexists = |it: &&FoundMotion| it.asked.letter != asked.letter && it.asked.eta == asked.eta;
+    let others = all.iter().filter(coexists).map(|other| (other, OTHERS));
+    let all = others.chain([(motion, color(motion))]);
+    let layers = all.map(|(motion, color)| {
+        let states = &motion.section.states;
+        let radius = if states.len() > MANY { DOTS.1 } else { DOTS.0 };
+        Layer::dots(states.iter().copied(), radius, color)
+    });
     layers.collect()
 }

@@ -10,7 +10,7 @@ use softstop_dynamics::{Orbit, StroboscopicMap, Survey};
 
 use super::WantedMotion;
 use super::section::Section;
-use crate::figure::Findings;
+use crate::figure::{Findings, findings};
 use crate::path::{Path, PathPoint};
 
 /// Drive periods of the phase trajectory of what does not repeat.
@@ -148,9 +148,8 @@ impl FoundMotion {
     fn velocity(&self) -> Option<f64> {
         let chaos = self.attractor.chaos.as_ref();
         let hardest = || chaos.and_then(|it| it.velocities).map(|ends| ends[1]);
-        self.orbit()
-            .map(Orbit::before_impact_velocity)
-            .or_else(hardest)
+        let orbit = self.orbit().map(Orbit::before_impact_velocity);
+        orbit.or_else(hardest)
     }
 
     /// The kinetic energy in units of F0^2/k1: its mean over time, and the largest.
@@ -172,14 +171,13 @@ impl FoundMotion {
     pub fn tell(&self, findings: &mut Findings) -> Result<()> {
         let [energy, largest] = self.kinetic()?;
         let mean = self.section.impacts_per_period();
-        let values = [
-            ("impacts per period", self.is_chaotic().then_some(mean)),
-            ("mean kinetic energy", Some(energy)),
-            ("largest kinetic energy", Some(largest)),
-        ];
-        let name = format!("({}) ", self.asked.letter);
-        findings.group(&name, values);
-        findings.add_numbers(&name, &columns(), self);
+        let group = format!("({}) ", self.asked.letter);
+        findings! { findings, |what| format!("{group}{what}");
+            "impacts per period" => self.is_chaotic().then_some(mean);
+            "mean kinetic energy" => energy;
+            "largest kinetic energy" => largest;
+        }
+        findings.add_numbers(&group, &columns(), self);
         Ok(())
     }
 }

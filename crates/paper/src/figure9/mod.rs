@@ -75,12 +75,9 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         "position" [None], "X at drive angle 0" => it.1.0;
         "velocity" [None], "X' there" => it.1.1;
     };
-    files.extend([
-        csv(&found::columns(), &found)?,
-        csv(&points, series)?,
-        csv(&states, sections)?,
-    ]);
-    Ok(Drawn { files, findings })
+    files.push(csv(&found::columns(), &found)?);
+    files.extend([csv(&points, series)?, csv(&states, sections)?]);
+    Drawn::new(files, findings)
 }
 
 /// All motions that are asked for, each among those at its frequency.

@@ -142,7 +142,7 @@ impl HardeningPicture<'_> {
             let own = found().filter(|motion| motion.stiffness == stiffness);
             // The dots of each stop are a little lower than those of the one before.
             let shift = 0.17 * (index as f64 - 1.0);
-            let points = own.map(|motion| (motion.frequency, motion.periods as f64 - shift));
+            let points = own.map(|motion| (motion.eta, motion.periods as f64 - shift));
             let color = style::ordered(index, SUBHARMONIC.len());
             Layer::dots(points, 3.2, color).named(format!("k₂/k₁ = {stiffness}"))
         });

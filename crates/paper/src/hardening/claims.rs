@@ -5,21 +5,17 @@ use super::folds::Folds;
 use super::stops::{CLEARANCE, Law, grazing};
 use super::subharmonics::{Subharmonic, longest};
 use super::swept::SweptStop;
-use crate::figure::Findings;
+use crate::figure::{Findings, findings};
 
 /// All points but the last.
 pub(super) fn of_stops(findings: &mut Findings, drawn: &[SweptStop], folds: &[Folds]) {
     let plain = |law: Law| law.name().replace('₂', "2").replace('₁', "1");
     for swept in drawn {
         let name = plain(swept.law);
-        let (reversible, complex) = (swept.reversible(), swept.complex());
-        let lowest = swept.lowest_with_impacts();
-        for (point, what, value) in [
-            (1, "share of eta that is reversible", Some(reversible)),
-            (2, "share of eta beyond z = 0 and z = 1", Some(complex)),
-            (3, "lowest eta with impacts, falling", lowest),
-        ] {
-            findings.add(format!("({point}) {name}: {what}"), value);
+        findings! { findings, |(point, what)| format!("({point}) {name}: {what}");
+            (1, "share of eta that is reversible") => swept.reversible();
+            (2, "share of eta beyond z = 0 and z = 1") => swept.complex();
+            (3, "lowest eta with impacts, falling") => swept.lowest_with_impacts();
         }
     }
     let (lower, upper) = grazing(CLEARANCE);
@@ -28,37 +24,28 @@ pub(super) fn of_stops(findings: &mut Findings, drawn: &[SweptStop], folds: &[Fo
     for fold in folds {
         let decade = fold.stiffness.log10();
         if (decade - decade.round()).abs() < 1e-9 {
-            let (widths, flip) = (fold.widths(), fold.first_flip);
-            let values = [
-                ("weak z = 1", widths.map(|it| it[1])),
-                ("hysteresis", widths.map(|it| it[2])),
-                (
-                    "weak z = 1 below resonance, to its flip",
-                    flip.map(|eta| eta - lower),
-                ),
-            ];
-            let name = format!("(3) k2/k1 = {:.0}: width of ", fold.stiffness);
-            findings.group(&name, values);
+            let (widths, stiffness) = (fold.widths(), fold.stiffness);
+            findings! { findings, |what| format!("(3) k2/k1 = {stiffness:.0}: width of {what}");
+                "weak z = 1" => widths.map(|it| it[1]);
+                "hysteresis" => widths.map(|it| it[2]);
+                "weak z = 1 below resonance, to its flip" => fold.first_flip.map(|eta| eta - lower);
+            }
         }
     }
     let hard = folds.iter().filter_map(Folds::widths);
     let hard: Vec<[f64; 3]> = hard.filter(|it| it[0] >= 10.0).collect();
-    let power = hard
-        .first()
-        .zip(hard.last())
-        .map(|(first, last)| (last[1] / first[1]).ln() / (last[0] / first[0]).ln());
+    let ends = hard.first().zip(hard.last());
+    let power = ends.map(|(one, last)| (last[1] / one[1]).ln() / (last[0] / one[0]).ln());
     findings.add("(3) width of weak z = 1 goes with k2 to the power", power);
     let of = |law: Law| drawn.iter().find(|swept| swept.law == law);
     for law in [Law::TwoSlopes(10.0), Law::Hertz(10.0)] {
         let both = of(Law::KelvinVoigt(10.0)).zip(of(law));
         let likeness = both.map(|(kelvin, other)| kelvin.likeness(other));
-        let others = ", where either is neither z = 0 nor z = 1";
-        let values = [
-            ("", likeness.map(|it| it[0])),
-            (others, likeness.map(|it| it[1])),
-        ];
-        let name = format!("(4) {}: share of eta with the same motion", plain(law));
-        findings.group(&name, values);
+        let name = plain(law);
+        findings! { findings, |which| format!("(4) {name}: share of eta with the same motion{which}");
+            "" => likeness.map(|it| it[0]);
+            ", where either is neither z = 0 nor z = 1" => likeness.map(|it| it[1]);
+        }
     }
 }
 

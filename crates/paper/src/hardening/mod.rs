@@ -14,12 +14,12 @@ use crate::diagram;
 use crate::figure::{Drawn, Figure, Findings, Studio};
 use chart::HardeningPicture;
 use folds::Folds;
-use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use stops::{CLEARANCE, Law, grazing};
+use subharmonics::Subharmonic;
 use swept::{SweptStop, sweep};
 
 /// The stops whose diagrams are drawn.
@@ -60,16 +60,31 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         folds: &folds,
         found: &subharmonics,
     };
-    Ok(Drawn {
-        files: vec![
-            picture.chart(figure)?.svg().into_bytes(),
-            steps(&drawn)?,
-            steps(&map)?,
-            csv(&branches(), &folds)?,
-            csv(&subharmonics::columns(), &subharmonics)?,
-        ],
-        findings,
-    })
+    let branches = columns! { Folds, it;
+        "stiffness" [None], "k2/k1" => it.stiffness;
+        "eta_grazing" [None], "upper g0" => grazing(CLEARANCE).1;
+        "eta_strong_fold" [None], "where strong impacts end" => it.strong.map(|at| at.0);
+        "velocity_strong_fold" [None], "X'_- there" => it.strong.map(|at| at.1);
+        "eta_weak_fold" [None], "where weak impacts end" => it.weak.map(|at| at.0);
+        "velocity_weak_fold" [None], "X'_- there" => it.weak.map(|at| at.1);
+        "eta_first_flip" [None], "right beyond grazing, below the resonance" => it.first_flip;
+        "eta_flip" [None], "from which on z = 1 is stable" => it.flip;
+    };
+    let motions = columns! { Subharmonic, it;
+        "stiffness" [None], "k2/k1" => it.stiffness;
+        "eta" [None], "drive frequency" => it.eta;
+        "impacts" [None], "p of z = p/n" => it.impacts;
+        "periods" [None], "n of it" => it.periods;
+        "beside_impactless_motion" [None], "whether that exists there, too" => it.is_beside_rest;
+    };
+    let files = [
+        picture.chart(figure)?.svg().into_bytes(),
+        steps(&drawn)?,
+        steps(&map)?,
+        csv(&branches, &folds)?,
+        csv(&motions, &subharmonics)?,
+    ];
+    Drawn::new(files, findings)
 }
 
 /// So many stiffnesses with equal ratios.
@@ -90,18 +105,4 @@ fn steps(swept: &[SweptStop]) -> Result<Vec<u8>> {
         ways.map(|(way, steps)| (stop.clone(), way, &steps[..]))
     });
     diagram::table("stop", sweeps)
-}
-
-/// A row for each branch of z = 1.
-fn branches() -> [Column<Folds>; 8] {
-    columns! { Folds, it;
-        "stiffness" [None], "k2/k1" => it.stiffness;
-        "eta_grazing" [None], "upper g0" => grazing(CLEARANCE).1;
-        "eta_strong_fold" [None], "where strong impacts end" => it.strong.map(|at| at.0);
-        "velocity_strong_fold" [None], "X'_- there" => it.strong.map(|at| at.1);
-        "eta_weak_fold" [None], "where weak impacts end" => it.weak.map(|at| at.0);
-        "velocity_weak_fold" [None], "X'_- there" => it.weak.map(|at| at.1);
-        "eta_first_flip" [None], "right beyond grazing, below the resonance" => it.first_flip;
-        "eta_flip" [None], "from which on z = 1 is stable" => it.flip;
-    }
 }

@@ -7,8 +7,6 @@ use softstop_dynamics::attractors::{SearchOptions, find_attractors};
 
 use super::stops::{Law, grazing};
 use crate::figure::Studio;
-use softstop_console::column::Column;
-use softstop_console::columns;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
@@ -17,26 +15,15 @@ pub const RANGE: (f64, f64) = (1.5, 10.0);
 /// The clearance rho: so small that impacts go on far above the resonance.
 pub const NARROW: f64 = 0.1;
 
-/// A stable subharmonic motion that was found.
+/// A stable subharmonic motion z = p/n that was found.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct Subharmonic {
     pub stiffness: f64,
-    pub frequency: f64,
+    pub eta: f64,
     pub impacts: u64,
     pub periods: u64,
-    /// Whether the impact-less motion exists there too.
-    pub beside_rest: bool,
-}
-
-/// A row for each motion.
-pub fn columns() -> [Column<Subharmonic>; 5] {
-    columns! { Subharmonic, it;
-        "stiffness" [None], "k2/k1" => it.stiffness;
-        "eta" [None], "drive frequency" => it.frequency;
-        "impacts" [None], "p of z = p/n" => it.impacts;
-        "periods" [None], "n of it" => it.periods;
-        "beside_impactless_motion" [None], "whether that exists there, too" => it.beside_rest;
-    }
+    /// Whether the impact-less motion exists there, too.
+    pub is_beside_rest: bool,
 }
 
 /// All that are found from scratch.
@@ -60,7 +47,7 @@ fn at(index: usize, frequencies: usize) -> f64 {
     RANGE.0 * (RANGE.1 / RANGE.0).powf(share)
 }
 
-fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmonic>> {
+fn found(stiffness: f64, eta: f64, starts: usize) -> Result<Vec<Subharmonic>> {
     let (lower, upper) = grazing(NARROW);
     let options = SearchOptions {
         starts,
@@ -68,17 +55,17 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
         patience: 2_000,
         ..SearchOptions::default()
     };
-    let scene = Law::KelvinVoigt(stiffness).scene(frequency, NARROW);
-    let survey = find_attractors(&scene, &options, &|_, _| interrupt::go_on())?;
+    let scene = Law::KelvinVoigt(stiffness).scene(eta, NARROW);
+    let survey = find_attractors(&scene, &options, &interrupt::watch)?;
     let motions = survey.attractors.iter();
     let orbits = motions.filter_map(|it| it.orbit.as_deref());
     let sub = orbits.filter(|orbit| orbit.periods > 1 && !orbit.impacts.is_empty());
     let motion = |orbit: &Orbit| Subharmonic {
         stiffness,
-        frequency,
+        eta,
         impacts: orbit.impacts.len() as u64,
         periods: orbit.periods,
-        beside_rest: frequency < lower || frequency > upper,
+        is_beside_rest: eta < lower || eta > upper,
     };
     Ok(sub.map(motion).collect())
 }
@@ -87,6 +74,6 @@ fn found(stiffness: f64, frequency: f64, starts: usize) -> Result<Vec<Subharmoni
 /// that are not; 0 if there is none.
 pub fn longest(found: &[Subharmonic], stiffness: f64, is_beside: bool) -> u64 {
     let own = found.iter().filter(|motion| motion.stiffness == stiffness);
-    let fit = own.filter(|motion| motion.impacts == 1 && motion.beside_rest == is_beside);
+    let fit = own.filter(|it| it.impacts == 1 && it.is_beside_rest == is_beside);
     fit.map(|motion| motion.periods).max().unwrap_or(0)
 }

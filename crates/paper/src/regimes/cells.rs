@@ -100,19 +100,15 @@ fn hardest_of(scene: &Scene) -> Result<MotionKind> {
         longest: OPTIONS.1,
         ..SearchOptions::default()
     };
-    let arrivals = settle_starts(scene, &starts(scene.clearance), &options, &|_, _| {
-        interrupt::go_on()
-    });
-    let arrivals = match arrivals {
+    let starts = starts(scene.clearance);
+    let arrivals = match settle_starts(scene, &starts, &options, &interrupt::watch) {
         Ok(arrivals) => arrivals,
         Err(OrbitError::Motion(_)) => return Ok(MotionKind::Lost),
         Err(error) => return Err(error.into()),
     };
     let orbits = arrivals.iter().filter_map(|arrival| arrival.orbit.as_ref());
-    let hardest = orbits.max_by(|a, b| {
-        let velocity = Orbit::before_impact_velocity;
-        velocity(a).total_cmp(&velocity(b))
-    });
+    let velocity = Orbit::before_impact_velocity;
+    let hardest = orbits.max_by(|a, b| velocity(a).total_cmp(&velocity(b)));
     Ok(match hardest {
         Some(orbit) if orbit.regime().impacts > 0 => MotionKind::of(orbit),
         // Chaos strikes harder than no impact at all.

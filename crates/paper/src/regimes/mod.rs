@@ -102,14 +102,12 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         Boundaries::of(&Ratios::loaded())?,
     ];
     let chart = chart::chart(figure, &found, &boundaries)?;
-    Ok(Drawn {
-        files: vec![
-            chart.png().map_err(Error::msg)?,
-            report::runs(&found)?,
-            report::boundaries(&boundaries)?,
-        ],
-        findings: report::findings(&found, &boundaries),
-    })
+    let files = [
+        chart.png().map_err(Error::msg)?,
+        report::runs(&found)?,
+        report::boundaries(&boundaries)?,
+    ];
+    Drawn::new(files, report::findings_of(&found, &boundaries))
 }
 
 /// The motions in the cells of the maps.

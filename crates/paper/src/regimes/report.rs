@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use super::{Map, RegimeMap, middle};
 use crate::boundaries::Boundaries;
-use crate::figure::Findings;
+use crate::figure::{Findings, findings};
 use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_dynamics::continuation::CurvePoint;
@@ -64,7 +64,7 @@ pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
 }
 
 /// Shares of the maps, and what the boundaries say.
-pub(super) fn findings(maps: &[RegimeMap<'_>], boundaries: &[Boundaries; 2]) -> Findings {
+pub(super) fn findings_of(maps: &[RegimeMap<'_>], boundaries: &[Boundaries; 2]) -> Findings {
     let mut findings = Findings::default();
     for map in maps {
         let name = format!("{}, {}", map.asked.machine.name(), map.asked.names[1]);
@@ -85,14 +85,12 @@ pub(super) fn findings(maps: &[RegimeMap<'_>], boundaries: &[Boundaries; 2]) -> 
     for ((name, ways), own) in ways.into_iter().zip(boundaries) {
         let share = hysteresis(&ways[0], &ways[1]);
         let point = own.hardest();
-        let velocity = point.map(CurvePoint::before_impact_velocity);
-        let values = [
-            ("share of z = 1 or z = 0 by the way", Some(share)),
-            ("largest velocity on s_SN", velocity),
-            ("its clearance rho", point.map(|at| at.parameters[1])),
-            ("its frequency eta", point.map(|at| at.parameters[0])),
-        ];
-        findings.group(&format!("{name}: "), values);
+        findings! { findings, |what| format!("{name}: {what}");
+            "share of z = 1 or z = 0 by the way" => share;
+            "largest velocity on s_SN" => point.map(CurvePoint::before_impact_velocity);
+            "its clearance rho" => point.map(|at| at.parameters[1]);
+            "its frequency eta" => point.map(|at| at.parameters[0]);
+        }
     }
     findings
 }

@@ -13,17 +13,14 @@ use anyhow::Result;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 use softstop::{Ratios, Start};
 use softstop_dynamics::missing_strips::{StopWithoutStrip, StrokeCount};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
 use softstop_lanes::{BatchObserver, Job, Machine};
 
-use crate::figure::{Drawn, Figure, Findings, Studio};
-use softstop_console::column::Column;
-use softstop_console::columns;
-use softstop_console::export::csv;
+use crate::figure::{Drawn, Figure, Findings, Studio, findings};
+use softstop_console::output::csv;
 use softstop_console::progress::Progress;
 
 /// Mean lengths of runs with and without strips, in drive periods.
@@ -38,7 +35,7 @@ const READINGS: [(StopWithoutStrip, &str); 2] = [
     (StopWithoutStrip::Fixed, "stop fixed at rho + 0.9"),
 ];
 
-/// What became of many motions at one frequency.
+/// What became of many motions at one frequency: a row of the table.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Outcome {
     stop_without_strip: StopWithoutStrip,
@@ -71,7 +68,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let zones = zones(machine.clearance)?;
     let [grazing, loaded, unloaded] = zones;
     let mut etas = etas(zones, detail.pick(55, 12));
-    // PathPoint B among them.
+    // Point B among them.
     etas.push(machine.frequency);
     etas.sort_by(f64::total_cmp);
     let runs = READINGS.map(|(reading, _)| RUNS.map(|mean| (reading, mean)));
@@ -103,37 +100,16 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
             let ended = own().find(|it| it.ended > 0);
             let missed = own().filter(|it| it.missed > 0 && it.ended == 0);
             let at_b = own().find(|it| it.eta == machine.frequency);
-            let values = [
-                ("first eta at which a motion ends", ended.map(|it| it.eta)),
-                (
-                    "last eta at which strokes are missed and no motion ends",
-                    missed.map(|it| it.eta).max_by(f64::total_cmp),
-                ),
-                (
-                    "motions with a missed stroke at B",
-                    at_b.map(|it| it.missed as f64),
-                ),
-            ];
-            findings.group(&format!("{name}, runs of {mean}: "), values);
+            findings! { findings, |what| format!("{name}, runs of {mean}: {what}");
+                "first eta at which a motion ends" => ended.map(|it| it.eta);
+                "last eta at which strokes are missed and no motion ends" => missed.map(|it| it.eta).max_by(f64::total_cmp);
+                "motions with a missed stroke at B" => at_b.map(|it| it.missed as f64);
+            }
         }
     }
     let chart = chart::chart(figure, &outcomes, grazing, loaded)?;
-    Ok(Drawn {
-        files: vec![chart.svg().into_bytes(), csv(&columns(), &outcomes)?],
-        findings,
-    })
-}
-
-/// A row for each frequency, mean run and place of the stop.
-fn columns() -> [Column<Outcome>; 6] {
-    columns! { Outcome, it;
-        "stop_without_strip" [None], "where the stop stands while there is no strip" => json!(it.stop_without_strip);
-        "eta" [None], "drive frequency" => it.eta;
-        "mean_run" [None], "drive periods with and without strips" => it.mean_run;
-        "motions" [None], "that begin as z = 1" => it.motions;
-        "missed" [None], "those that miss a stroke" => it.missed;
-        "ended" [None], "those that are no longer z = 1 in the end" => it.ended;
-    }
+    let files = [chart.svg().into_bytes(), csv(&outcomes)?];
+    Drawn::new(files, findings)
 }
 
 /// The frequencies between which z = 1 is: g0, s_SN with strips, s_SN without.
@@ -155,14 +131,11 @@ impl Press {
     fn new(reading: StopWithoutStrip, frequency: f64, is_supplied: bool) -> Result<Self> {
         let machine = Ratios::loaded().at_frequency(frequency);
         let scene = machine.scene()?;
-        let scenes = [reading.scene_without_strip(&scene), scene];
+        let scenes = [reading.scene_without_strip(&scene).check()?, scene.check()?];
         let orbit = find(&scenes[usize::from(is_supplied)])?;
         Ok(Self {
             clearance: machine.clearance,
-            machines: [
-                Machine::new(&scenes[0].check()?),
-                Machine::new(&scenes[1].check()?),
-            ],
+            machines: scenes.each_ref().map(Machine::new),
             start: orbit.state().into(),
             period: orbit.scene.period(),
             impact: orbit.impact_angles().next().unwrap_or(0.0) / TAU,

@@ -13,8 +13,6 @@ pub(crate) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
     for row in &report.rows {
         findings.add(format!("row {:02}", row.number), row.eta);
     }
-    Ok(Drawn {
-        files: vec![markdown(&report).into_bytes(), output::csv(&report.rows)?],
-        findings,
-    })
+    let markdown = markdown(&report).into_bytes();
+    Drawn::new([markdown, output::csv(&report.rows)?], findings)
 }
