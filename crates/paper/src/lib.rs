@@ -17,7 +17,6 @@ mod hardening;
 mod laminar;
 mod path;
 mod regimes;
-mod report;
 mod supply;
 pub mod table1;
 pub mod transitions;
@@ -29,13 +28,14 @@ use std::time::Instant;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use figure::{Detail, Draw, Drawn, Figure, Studio};
-use report::{FigureReport, PaperReport};
+use figure::{Detail, Draw, Drawn, Figure, Findings, Studio};
+use serde::Serialize;
 use softstop_console::export;
 use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::keep::{Keep, KeepArguments};
 use softstop_console::output::{self, Folder, Format};
+use softstop_console::table::heading;
 use softstop_dynamics::monitor::recall_or_compute;
 
 const EXAMPLES: &str = "\
@@ -162,4 +162,57 @@ fn make(
         findings: drawn.findings,
         seconds,
     })
+}
+
+/// All figures of a run.
+#[derive(Debug, Serialize)]
+struct PaperReport {
+    /// The figures.
+    figures: Vec<FigureReport>,
+    /// Time that all took, in s.
+    seconds: f64,
+}
+
+/// One figure.
+#[derive(Debug, Serialize)]
+struct FigureReport {
+    /// Its name on the command line.
+    figure: &'static str,
+    /// What it shows.
+    title: &'static str,
+    /// Its files.
+    files: Vec<PathBuf>,
+    /// What it shows in numbers.
+    findings: Findings,
+    /// Time that it took, in s.
+    seconds: f64,
+}
+
+/// Figures up to which all numbers are printed, too.
+const FEW: usize = 3;
+
+impl PaperReport {
+    /// What people read.
+    fn text(&self) -> String {
+        let mut text = heading("Figures of Peterka 2003, computed anew");
+        for figure in &self.figures {
+            text += &format!(
+                "\n{:<10}  {}  ({:.1} s)\n",
+                figure.figure, figure.title, figure.seconds
+            );
+            for file in &figure.files {
+                text += &format!("{:12}{}\n", "", file.display());
+            }
+            if self.figures.len() <= FEW {
+                for (name, value) in &figure.findings.0 {
+                    text += &format!("{:12}{name:<28} {value}\n", "");
+                }
+            }
+        }
+        if self.figures.len() > FEW {
+            text += "\nThe numbers that they show are in paper.json.\n";
+        }
+        text += &format!("\n{:.1} s\n", self.seconds);
+        text
+    }
 }

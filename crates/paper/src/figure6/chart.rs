@@ -2,7 +2,7 @@
 //! Largest positions above, before-impact velocities below, up and down (Peterka 2003).
 
 use super::RANGE;
-use super::boundaries::Figures;
+use crate::boundaries::Figures;
 use crate::diagram::{is_one, steps};
 use crate::figure::Figure;
 use softstop_draw::{Align, Chart, Layer, Mark, Panel, Sign, Stroke, style};

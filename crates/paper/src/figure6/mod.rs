@@ -1,6 +1,5 @@
 //! Figure 6: bifurcation diagrams over six clearances, up and down, and the boundaries across them.
 
-mod boundaries;
 mod chart;
 
 use anyhow::{Error, Result};
@@ -11,9 +10,9 @@ use softstop_console::machine::PaperMachine;
 use softstop_dynamics::zone::free_amplitude;
 use softstop_dynamics::{Chain, Plan, Step, orbit};
 
+use crate::boundaries::{self, Ends};
 use crate::diagram;
 use crate::figure::{Drawn, Figure, Findings, Studio, findings};
-use boundaries::Ends;
 use chart::ClearancePicture;
 
 /// The paper's clearances and frequencies.

@@ -1,6 +1,5 @@
 //! Figure 7, (a) and (b): the z = 1 motion at the points A and B, and both over each other.
 
-mod both;
 mod chart;
 
 use anyhow::Result;
@@ -8,11 +7,13 @@ use softstop::{PhaseKind, Scene};
 use softstop_console::columns;
 use softstop_console::export::csv;
 use softstop_console::machine::PaperMachine;
+use softstop_draw::{Chart, Layer, Stroke, style};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::{Exponents, Orbit};
 
 use crate::figure::{Drawn, Figure, Findings, Studio, findings};
 use crate::path::{Path, PathPoint};
+use chart::{FACE, STATE};
 
 /// One period of a z = 1 motion.
 struct Cycle {
@@ -81,6 +82,40 @@ pub(super) fn both(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     findings.add("X_m of B less that of A", farther);
     let faster = b.orbit.before_impact_velocity() / a.orbit.before_impact_velocity();
     findings.add("X'_- of B over that of A", faster);
-    let svg = both::chart(figure, &[a, b])?.svg();
+    let svg = picture_of_both(figure, &[a, b])?.svg();
     Drawn::new([svg.into_bytes()], findings)
+}
+
+/// Points A and B over each other: "small difference between working and unloaded regime" (Peterka 2003, section 3).
+const CURVES: [(&str, Stroke); 2] = [
+    ("A, unloaded", Stroke::solid(style::DESIGN, 2.0)),
+    ("B, loaded", Stroke::dashed(style::OPTIMUM, 2.0, (7.0, 3.0))),
+];
+/// How far before the clearance the near part begins, in units of the larger depth.
+const BEFORE: f64 = 0.6;
+
+/// Time series, phase plane, and the part of it near the stop; both have the same clearance and period.
+fn picture_of_both(figure: &Figure, cycles: &[Cycle; 2]) -> Result<Chart> {
+    let scene = &cycles[1].orbit.scene;
+    let (rho, period) = (scene.clearance, scene.period());
+    let highest = cycles.iter().map(|it| it.orbit.max_position);
+    let highest = highest.fold(f64::NEG_INFINITY, f64::max);
+    let depth = highest - rho;
+    let layers = |show: &dyn Fn(&PathPoint) -> (f64, f64), face: fn(f64, &str) -> Layer| {
+        let curves = cycles.iter().zip(CURVES);
+        let curves = curves.map(|(cycle, (name, stroke))| {
+            Layer::line(cycle.path.points.iter().map(show), stroke).named(name)
+        });
+        let faces = faces(scene).into_iter();
+        let faces = faces.map(|(at, name)| face(at, name));
+        faces.chain(curves).collect()
+    };
+    let series = |at: &PathPoint| (at.time / period, at.position);
+    let mut chart = figure.picture([
+        layers(&series, |at, _| Layer::horizontal(at, FACE, "")),
+        layers(&STATE, |at, _| Layer::vertical(at, FACE, "")),
+        layers(&STATE, |at, name| Layer::vertical(at, FACE, name)),
+    ])?;
+    chart.panels[2].x.ends = [rho - BEFORE * depth, highest + 0.2 * depth].map(Some);
+    Ok(chart)
 }

@@ -1,11 +1,15 @@
-//! The regimes z = p/n over drive frequency and clearance, as a page of maps.
+//! The regimes z = p/n over drive frequency and clearance: a page of maps, their tables and findings.
 
 use anyhow::Result;
+use softstop_dynamics::continuation::CurvePoint;
 use softstop_dynamics::motion::MotionClass;
+use softstop_dynamics::{MotionKind, Regime};
 
-use super::RegimeMap;
+use super::{Map, RegimeMap, middle};
 use crate::boundaries::Boundaries;
-use crate::figure::Figure;
+use crate::figure::{Figure, Findings, findings};
+use softstop_console::columns;
+use softstop_console::export::csv;
 use softstop_console::machine::PaperMachine;
 use softstop_draw::{Align, Chart, Layer, Mark, style};
 use softstop_explore::palette::{motion_color, motion_keys};
@@ -83,4 +87,99 @@ fn crossings(points: &[(f64, f64)], height: f64) -> impl Iterator<Item = f64> {
         let crosses = (from.1 < height) != (to.1 < height);
         crosses.then(|| from.0 + (to.0 - from.0) * (height - from.1) / (to.1 - from.1))
     })
+}
+
+/// A row for each run of cells of the same motion: from the middle of the first cell to that of the last.
+pub(super) fn runs(maps: &[RegimeMap<'_>]) -> Result<Vec<u8>> {
+    let columns = columns! { (&Map, f64, [f64; 2], String), it;
+        "machine" [None], "unloaded or loaded" => it.0.machine.name();
+        "way" [None], "by which the motions are reached" => it.0.names[0].as_str();
+        "rho" [None], "clearance" => it.1;
+        "eta_from" [None], "lowest drive frequency of the run" => it.2[0];
+        "eta_to" [None], "highest one" => it.2[1];
+        "motion" [None], "in all of its cells" => it.3.as_str();
+    };
+    let mut lines = Vec::new();
+    for map in maps {
+        let rows = map.cells.len() / map.columns;
+        let [eta, rho] = map.asked.window;
+        for (row, cells) in map.cells.chunks(map.columns).enumerate() {
+            let rho = middle(rho, row, rows);
+            let mut from = 0;
+            for run in cells.chunk_by(|a, b| a == b) {
+                let to = from + run.len() - 1;
+                let ends = [from, to].map(|column| middle(eta, column, map.columns));
+                from = to + 1;
+                lines.push((map.asked, rho, ends, run[0].to_string()));
+            }
+        }
+    }
+    Ok(csv(&columns, lines)?)
+}
+
+/// A row for each point of a boundary.
+pub(super) fn boundaries(boundaries: &[Boundaries; 2]) -> Result<Vec<u8>> {
+    let columns = columns! { ([&str; 2], usize, [f64; 2], Option<f64>), it;
+        "machine" [None], "unloaded or loaded" => it.0[0];
+        "boundary" [None], "which one" => it.0[1];
+        "curve" [None], "its number, where there are several" => it.1;
+        "eta" [None], "drive frequency" => it.2[0];
+        "rho" [None], "clearance" => it.2[1];
+        "before_impact_velocity" [None], "X'_- of z = 1 there" => it.3;
+    };
+    let mut lines = Vec::new();
+    for (machine, own) in ["unloaded", "loaded"].into_iter().zip(boundaries) {
+        let grazing = own.grazing.iter();
+        lines.extend(grazing.map(|&(eta, rho)| ([machine, "g0"], 0, [eta, rho], None)));
+        lines.extend(own.curves.iter().flat_map(|(name, number, curve)| {
+            curve.points.iter().map(move |point| {
+                let velocity = Some(point.before_impact_velocity());
+                ([machine, *name], *number, point.parameters, velocity)
+            })
+        }));
+    }
+    Ok(csv(&columns, lines)?)
+}
+
+/// Shares of the maps, and what the boundaries say.
+pub(super) fn findings_of(maps: &[RegimeMap<'_>], boundaries: &[Boundaries; 2]) -> Findings {
+    let mut findings = Findings::default();
+    for map in maps {
+        let name = format!("{}, {}", map.asked.machine.name(), map.asked.names[1]);
+        for &class in MotionClass::ALL {
+            let share = Some(map.share(class)).filter(|share| *share > 0.0);
+            findings.add(format!("{name}: share of {}", class.name()), share);
+        }
+        let two_thirds = Regime {
+            impacts: 2,
+            periods: 3,
+        };
+        let is = |cell: &MotionKind| cell.regime() == Some(two_thirds);
+        let rows = map.cells.chunks(map.columns);
+        let rows = rows.filter(|row| row.iter().any(is)).count() as f64;
+        findings.add(format!("{name}: rows with z = 2/3"), rows);
+    }
+    let ways = [("unloaded", &maps[..2]), ("loaded", &maps[4..])];
+    for ((name, ways), own) in ways.into_iter().zip(boundaries) {
+        let share = hysteresis(&ways[0], &ways[1]);
+        let point = own.hardest();
+        findings! { findings, |what| format!("{name}: {what}");
+            "share of z = 1 or z = 0 by the way" => share;
+            "largest velocity on s_SN" => point.map(CurvePoint::before_impact_velocity);
+            "its clearance rho" => point.map(|at| at.parameters[1]);
+            "its frequency eta" => point.map(|at| at.parameters[0]);
+        }
+    }
+    findings
+}
+
+/// Share of the cells in which one way leads to z = 0 and the other to z = 1.
+fn hysteresis(up: &RegimeMap<'_>, down: &RegimeMap<'_>) -> f64 {
+    let is = |cell: &MotionKind, class| cell.class() == class;
+    let differ = |(a, b): &(&MotionKind, &MotionKind)| {
+        let (zero, one) = (MotionClass::Zero, MotionClass::One);
+        (is(a, zero) && is(b, one)) || (is(a, one) && is(b, zero))
+    };
+    let count = up.cells.iter().zip(&down.cells).filter(differ).count();
+    count as f64 / up.cells.len() as f64
 }

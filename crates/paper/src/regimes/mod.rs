@@ -3,7 +3,6 @@
 
 mod cells;
 mod chart;
-mod report;
 
 use anyhow::{Error, Result};
 use serde::Deserialize;
@@ -104,10 +103,10 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let chart = chart::chart(figure, &found, &boundaries)?;
     let files = [
         chart.png().map_err(Error::msg)?,
-        report::runs(&found)?,
-        report::boundaries(&boundaries)?,
+        chart::runs(&found)?,
+        chart::boundaries(&boundaries)?,
     ];
-    Drawn::new(files, report::findings_of(&found, &boundaries))
+    Drawn::new(files, chart::findings_of(&found, &boundaries))
 }
 
 /// The motions in the cells of the maps.

@@ -2,11 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::Transition;
-use super::cause::Cause;
-use super::departure_path::is_doubled;
-use super::explorer::{Explorer, Gathering};
-use super::window::Window;
+use super::departure::is_doubled;
+use super::explorer::{Explorer, Gathering, Window};
+use super::{Cause, Transition};
 use softstop::Start;
 use softstop_dynamics::attractors::find_attractors;
 use softstop_dynamics::monitor::recall_or_compute;
