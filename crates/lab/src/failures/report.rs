@@ -3,56 +3,41 @@
 use crate::methods::Verdict;
 use serde_json::json;
 
-use super::atlas::{Atlas, Cell, Map, StiffnessCase};
+use super::atlas::{Atlas, Cell, Map};
 use softstop_console::column::Column;
 use softstop_console::columns;
 use softstop_console::record::Record;
 use softstop_console::table::aligned;
 
-/// A run.
-pub(super) struct Run<'a> {
-    atlas: &'a Atlas,
-    map: &'a Map,
-    machine: &'a StiffnessCase,
-    stiffness: f64,
-    step: f64,
-    cell: &'a Cell,
-}
+/// A run: the atlas, a map of it, the places of stiffness and step.
+pub(super) type Run<'a> = (&'a Atlas, &'a Map, usize, usize);
 
 /// All runs.
 pub(super) fn runs(atlases: &[Atlas]) -> impl Iterator<Item = Run<'_>> {
     let maps = atlases.iter();
     let maps = maps.flat_map(|atlas| atlas.maps.iter().map(move |map| (atlas, map)));
-    maps.flat_map(|(atlas, map)| {
-        let machines = atlas.axes.stiffness.iter().zip(&atlas.columns);
-        machines
-            .zip(&map.columns)
-            .flat_map(move |((stiffness, machine), cells)| {
-                let cells = atlas.axes.step.iter().zip(cells);
-                cells.map(move |(step, cell)| Run {
-                    atlas,
-                    map,
-                    machine,
-                    stiffness: *stiffness,
-                    step: *step,
-                    cell,
-                })
-            })
+    let columns = maps.flat_map(|(atlas, map)| {
+        let columns = 0..atlas.axes.stiffness.len();
+        columns.map(move |column| (atlas, map, column))
+    });
+    columns.flat_map(|(atlas, map, column)| {
+        let rows = 0..atlas.axes.step.len();
+        rows.map(move |row| (atlas, map, column, row))
     })
 }
 
 /// The columns of the table.
 pub(super) fn table<'a>() -> [Column<Run<'a>>; 9] {
     columns! { Run<'a>, it;
-        "scene" [None], "" => it.atlas.case.name.as_str();
-        "scheme" [None], "" => it.map.family.title();
-        "events" [None], "" => it.map.family.row();
-        "stiffness (N/m)" [None], "" => it.stiffness;
-        "step (drive periods)" [None], "" => it.step;
-        "verdict" [None], "" => it.cell.verdict.name();
-        "error" [None], "" => it.cell.error;
-        "impacts" [None], "" => it.cell.impacts;
-        "true impacts" [None], "" => it.machine.truth.impacts.len();
+        "scene" [None], "" => it.0.case.name.as_str();
+        "scheme" [None], "" => it.1.family.title();
+        "events" [None], "" => it.1.family.row();
+        "stiffness (N/m)" [None], "" => it.0.axes.stiffness[it.2];
+        "step (drive periods)" [None], "" => it.0.axes.step[it.3];
+        "verdict" [None], "" => it.1.columns[it.2][it.3].verdict.name();
+        "error" [None], "" => it.1.columns[it.2][it.3].error;
+        "impacts" [None], "" => it.1.columns[it.2][it.3].impacts;
+        "true impacts" [None], "" => it.0.columns[it.2].truth.impacts.len();
     }
 }
 

@@ -13,7 +13,6 @@ pub mod measure;
 mod report;
 pub mod truth;
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -104,14 +103,17 @@ pub fn run(arguments: &PrecisionArguments) -> Result<(), Failure> {
     let progress = Progress::new(runs as u64, "settings");
     let (mut scenes, mut charts) = (Vec::new(), Vec::new());
     for (case, families) in cases.iter().zip(&families) {
-        let mut measured = measure_methods(case, families, arguments, &progress)?;
-        charts.push(write(
-            &mut measured,
-            families,
-            &machine,
-            arguments,
-            &folder,
-        )?);
+        let measured = measure_methods(case, families, arguments, &folder, &progress)?;
+        let mut chart = chart::chart(&measured, families.iter().map(|it| it.look));
+        if arguments.small {
+            chart = chart.small();
+        }
+        let record = measured.record(&machine);
+        let [svg, csv, json] = files(&case.name);
+        folder.stage(&svg, chart.svg().as_bytes())?;
+        folder.stage(&csv, &output::csv(&measured.rows)?)?;
+        folder.stage(&json, output::json(&record)?.as_bytes())?;
+        charts.push(record);
         scenes.push(measured);
     }
     drop(progress);
@@ -138,28 +140,19 @@ fn chosen(case: &Case, arguments: &PrecisionArguments) -> Result<Vec<Family>, Fa
     Ok(chosen.map(|(_, family)| family).collect())
 }
 
+/// The kinds of files of a scene.
+const KINDS: [&str; 3] = ["svg", "csv", "json"];
+
 /// The files of a scene.
 fn files(name: &str) -> [String; 3] {
-    ["svg", "csv", "json"].map(|kind| format!("{name}.{kind}"))
-}
-
-const fn effort(arguments: &PrecisionArguments) -> Effort {
-    let (share, repeat, most) = if arguments.quick {
-        (0.1, 0.01, 5)
-    } else {
-        (1.0, 0.2, 101)
-    };
-    Effort {
-        longest: share * arguments.budget,
-        repeat,
-        most,
-    }
+    KINDS.map(|kind| format!("{name}.{kind}"))
 }
 
 fn measure_methods<'a>(
     case: &'a Case,
     families: &[Family],
     arguments: &PrecisionArguments,
+    folder: &Folder,
     progress: &Progress,
 ) -> Result<SceneMeasurement<'a>, Failure> {
     let name = &case.name;
@@ -168,11 +161,20 @@ fn measure_methods<'a>(
     progress.say(&format!("{name}: reference"));
     let truth = Truth::of(task, &scale, case.stored(None))?;
     progress.more(1);
+    let (share, repeat, most) = match arguments.quick {
+        true => (0.1, 0.01, 5),
+        false => (1.0, 0.2, 101),
+    };
+    let longest = share * arguments.budget;
     let bench = Bench {
         task,
         truth: &truth,
         scale,
-        effort: effort(arguments),
+        effort: Effort {
+            longest,
+            repeat,
+            most,
+        },
     };
     let mut rows: Vec<Row> = Vec::new();
     for family in families {
@@ -180,38 +182,13 @@ fn measure_methods<'a>(
         rows.extend(bench.family(family, &|| progress.more(1))?);
     }
     let exact = rows.first().map_or("", |row| row.method.as_str());
+    let places = files(name).map(|name| folder.place(&name).display().to_string());
     Ok(SceneMeasurement {
         case,
         leads: lead::leads(&rows, exact),
         truth,
         scale,
         rows,
-        files: BTreeMap::new(),
+        files: KINDS.into_iter().zip(places).collect(),
     })
-}
-
-/// Stages chart, table and JSON; what programs read.
-fn write(
-    measured: &mut SceneMeasurement<'_>,
-    families: &[Family],
-    machine: &Computer,
-    arguments: &PrecisionArguments,
-    folder: &Folder,
-) -> Result<Record, Failure> {
-    let [svg, csv, json] = files(&measured.case.name);
-    for (kind, name) in [("svg", &svg), ("csv", &csv), ("json", &json)] {
-        let place = folder.place(name).display().to_string();
-        measured.files.insert(kind, place);
-    }
-    let looks = families.iter().map(|family| family.look);
-    let chart = chart::chart(measured, looks);
-    let chart = match arguments.small {
-        true => chart.small(),
-        false => chart,
-    };
-    let record = measured.record(machine);
-    folder.stage(&svg, chart.svg().as_bytes())?;
-    folder.stage(&csv, &output::csv(&measured.rows)?)?;
-    folder.stage(&json, output::json(&record)?.as_bytes())?;
-    Ok(record)
 }

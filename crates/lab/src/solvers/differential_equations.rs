@@ -14,20 +14,20 @@ use differential_equations::solout::Solout;
 use differential_equations::solution::Solution as Points;
 
 use super::Adaptive;
-use super::leg::{Leg, Outcome, Reached, SolverState, Span, bounded};
+use super::leg::{Leg, Outcome, Reached, SolverState, bounded};
 
 /// A scheme of the crate with O coefficients of its interpolant, S stages and I with those of the interpolant.
 type RungeKutta<const O: usize, const S: usize, const I: usize> =
     ExplicitRungeKutta<Ordinary, DormandPrince, f64, SolverState, O, S, I>;
 
 /// Follows a leg by Dormand and Prince's scheme of order 5.
-pub(super) fn dopri5(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
-    follow(ExplicitRungeKutta::dopri5, leg, span, settings)
+pub(super) fn dopri5(leg: &Leg<'_>, settings: &Adaptive) -> Outcome {
+    follow(ExplicitRungeKutta::dopri5, leg, settings)
 }
 
 /// Follows a leg by that of order 8.
-pub(super) fn dop853(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
-    follow(ExplicitRungeKutta::dop853, leg, span, settings)
+pub(super) fn dop853(leg: &Leg<'_>, settings: &Adaptive) -> Outcome {
+    follow(ExplicitRungeKutta::dop853, leg, settings)
 }
 
 impl ODE<f64, SolverState> for Leg<'_> {
@@ -40,15 +40,14 @@ impl ODE<f64, SolverState> for Leg<'_> {
 fn follow<const O: usize, const S: usize, const I: usize>(
     scheme: fn() -> RungeKutta<O, S, I>,
     leg: &Leg<'_>,
-    span: &Span,
     settings: &Adaptive,
 ) -> Outcome {
-    let most = usize::try_from(span.most_steps).unwrap_or(usize::MAX);
+    let most = usize::try_from(leg.most_steps).unwrap_or(usize::MAX);
     let method = || {
         let method = scheme().rtol(settings.tolerance).atol(settings.tolerance);
         method.max_steps(most)
     };
-    let start = (span.from, span.state);
+    let start = (leg.from, leg.state);
     let mut watch = Watch {
         leg,
         before: start,
@@ -56,7 +55,7 @@ fn follow<const O: usize, const S: usize, const I: usize>(
         steps: 0,
         risen: false,
     };
-    let problem = IVP::ode(leg, span.from, span.until, span.state).method(method());
+    let problem = IVP::ode(leg, leg.from, leg.until, leg.state).method(method());
     let outcome = problem.solout(&mut watch).solve();
     let (before, (time, state), steps) = (watch.before, watch.reached, watch.steps);
     let failed =

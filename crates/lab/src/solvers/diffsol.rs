@@ -7,36 +7,33 @@ use diffsol::{
 };
 
 use super::Adaptive;
-use super::leg::{Leg, Outcome, Reached, SolverState, Span, bounded, out_of_steps};
+use super::leg::{Leg, Outcome, Reached, SolverState, bounded, out_of_steps};
 use crate::methods::MethodError;
 
 type Matrix = NalgebraMat<f64>;
 type Direct = NalgebraLU<f64>;
 
 /// Follows a leg by Tsitouras' scheme.
-pub(super) fn tsit45(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
-    let problem = problem(leg, span, settings).map_err(refused(span))?;
-    follow(problem.tsit45().map_err(refused(span))?, leg, span)
+pub(super) fn tsit45(leg: &Leg<'_>, settings: &Adaptive) -> Outcome {
+    let problem = problem(leg, settings).map_err(refused(leg))?;
+    follow(problem.tsit45().map_err(refused(leg))?, leg)
 }
 
 /// Follows a leg by the diagonally implicit scheme.
-pub(super) fn esdirk34(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
-    let problem = problem(leg, span, settings).map_err(refused(span))?;
-    let solver = problem.esdirk34::<Direct>();
-    follow(solver.map_err(refused(span))?, leg, span)
+pub(super) fn esdirk34(leg: &Leg<'_>, settings: &Adaptive) -> Outcome {
+    let problem = problem(leg, settings).map_err(refused(leg))?;
+    follow(problem.esdirk34::<Direct>().map_err(refused(leg))?, leg)
 }
 
 /// Follows a leg by backward differences.
-pub(super) fn bdf(leg: &Leg<'_>, span: &Span, settings: &Adaptive) -> Outcome {
-    let problem = problem(leg, span, settings).map_err(refused(span))?;
-    let solver = problem.bdf::<Direct>();
-    follow(solver.map_err(refused(span))?, leg, span)
+pub(super) fn bdf(leg: &Leg<'_>, settings: &Adaptive) -> Outcome {
+    let problem = problem(leg, settings).map_err(refused(leg))?;
+    follow(problem.bdf::<Direct>().map_err(refused(leg))?, leg)
 }
 
 /// The leg as diffsol takes it.
 fn problem<'a>(
     leg: &'a Leg<'_>,
-    span: &'a Span,
     settings: &Adaptive,
 ) -> Result<
     OdeSolverProblem<
@@ -45,7 +42,7 @@ fn problem<'a>(
     DiffsolError,
 > {
     OdeBuilder::<Matrix>::new()
-        .t0(span.from)
+        .t0(leg.from)
         .rtol(settings.tolerance)
         .atol([settings.tolerance])
         .rhs_implicit(
@@ -54,7 +51,7 @@ fn problem<'a>(
                 product.copy_from_slice(&leg.rate_along(pair(y), pair(along)));
             },
         )
-        .init(|_, _, y| y.copy_from_slice(&span.state), 2)
+        .init(|_, _, y| y.copy_from_slice(&leg.state), 2)
         .root(
             |y, _, _, roots| {
                 for (index, root) in roots.iter_mut().enumerate() {
@@ -67,15 +64,15 @@ fn problem<'a>(
 }
 
 /// Steps until a guard rises through zero.
-fn follow<'a, E, S>(mut solver: S, leg: &Leg<'_>, span: &Span) -> Outcome
+fn follow<'a, E, S>(mut solver: S, leg: &Leg<'_>) -> Outcome
 where
     E: OdeEquations<T = f64, V = NalgebraVec<f64>> + 'a,
     S: OdeSolverMethod<'a, E>,
 {
-    solver.set_stop_time(span.until).map_err(refused(span))?;
+    solver.set_stop_time(leg.until).map_err(refused(leg))?;
     let guards =
         |state: SolverState| (0..leg.guard_count()).map(move |index| leg.guard(index, state));
-    let mut before: Vec<f64> = guards(span.state).collect();
+    let mut before: Vec<f64> = guards(leg.state).collect();
     let mut steps = 0;
     loop {
         let reason = solver.step();
@@ -103,7 +100,7 @@ where
                 return Ok(reached(time, state, None));
             }
         }
-        if steps >= span.most_steps {
+        if steps >= leg.most_steps {
             return Err(out_of_steps(time, steps));
         }
         before.clear();
@@ -130,7 +127,7 @@ fn halt(time: f64, steps: u64, error: &DiffsolError) -> MethodError {
 }
 
 /// What was wrong before the first step.
-fn refused(span: &Span) -> impl Fn(DiffsolError) -> MethodError {
-    let from = span.from;
+fn refused(leg: &Leg<'_>) -> impl Fn(DiffsolError) -> MethodError + use<> {
+    let from = leg.from;
     move |error| halt(from, 0, &error)
 }

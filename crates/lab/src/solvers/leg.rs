@@ -1,16 +1,16 @@
 //! One stretch of smooth motion as a crate's solver sees it: y' = f(t, y) and the roots that end it.
-//! What it is given and gives back: the leg, followed until a guard ends it.
+//! What it gives back: how far it has followed the leg until a guard ended it.
 
 use crate::methods::MethodError;
 use softstop::Scene;
-use softstop::internals::{Guard, Phase};
+use softstop::internals::{Guard, Phase, Walk};
 use std::cell::Cell;
 
 /// Two numbers that a solver follows: position in m and velocity in m/s or, of a mass that is held, the
 /// drive per mass in m/s^2 and its rate.
 pub(super) type SolverState = [f64; 2];
 
-/// A smooth law and its guards. Counts how often it is asked.
+/// A smooth law and its guards, where it begins and how far it may go. Counts how often it is asked.
 pub(super) struct Leg<'a> {
     scene: &'a Scene,
     /// The phase whose law holds under the drive. Without one the mass is held: q'' = -w^2 q, q the drive per mass, so that
@@ -18,16 +18,33 @@ pub(super) struct Leg<'a> {
     phase: Option<&'a Phase>,
     guards: &'a [Guard],
     evaluations: Cell<u64>,
+    /// Time in s at which it begins.
+    pub from: f64,
+    /// The state there.
+    pub state: SolverState,
+    /// Time in s at which the motion ends.
+    pub until: f64,
+    /// Steps that are left.
+    pub most_steps: u64,
 }
 
 impl<'a> Leg<'a> {
-    /// The motion in a phase; without one, that of the drive while the mass is held.
-    pub fn new(scene: &'a Scene, phase: Option<&'a Phase>, guards: &'a [Guard]) -> Self {
+    /// The next one of a walk: the motion in a phase or, while the mass is held, that of the drive.
+    pub fn new(scene: &'a Scene, walk: &'a Walk, until: f64, most_steps: u64) -> Self {
+        let (from, start) = (walk.time(), walk.state());
+        let (push, rate) = drive(scene, from);
         Self {
             scene,
-            phase,
-            guards,
+            phase: walk.phase(),
+            guards: walk.guards(),
             evaluations: Cell::new(0),
+            from,
+            state: match walk.phase() {
+                Some(_) => [start.position, start.velocity],
+                None => [push, rate],
+            },
+            until,
+            most_steps,
         }
     }
 
@@ -100,24 +117,11 @@ impl<'a> Leg<'a> {
 }
 
 /// The drive per mass in m/s^2 and its rate in m/s^3.
-pub(super) fn drive(scene: &Scene, time: f64) -> (f64, f64) {
+fn drive(scene: &Scene, time: f64) -> (f64, f64) {
     let drive = scene.excitation;
     let (sine, cosine) = (drive.frequency * time + drive.phase).sin_cos();
     let amplitude = drive.amplitude / scene.mass;
     (amplitude * cosine, -amplitude * drive.frequency * sine)
-}
-
-/// Where a leg begins and how far it may go.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Span {
-    /// Time in s at which it begins.
-    pub from: f64,
-    /// The state there.
-    pub state: SolverState,
-    /// Time in s at which the motion ends.
-    pub until: f64,
-    /// Steps that are left.
-    pub most_steps: u64,
 }
 
 /// Where a leg ended.

@@ -31,7 +31,7 @@ use crate::methods::{Integrator, MethodError, Solution, Task, Work, in_range};
 use softstop::internals::Walk;
 use softstop::{MotionError, Start};
 
-use leg::{Leg, Outcome, Span, drive, out_of_steps};
+use leg::{Leg, Outcome, out_of_steps};
 
 /// A scheme of a crate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,7 +82,7 @@ impl AdaptiveScheme {
 }
 
 /// Follows a leg.
-type Follow = fn(&Leg<'_>, &Span, &Adaptive) -> Outcome;
+type Follow = fn(&Leg<'_>, &Adaptive) -> Outcome;
 
 /// A crate's solver with its tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,11 +110,10 @@ impl Integrator for Adaptive {
         // Within rounding of the end no solver can make a step.
         while until - walk.time() > 1e3 * f64::EPSILON * until {
             let left = task.most_steps.saturating_sub(work.steps);
-            let span = span(task, &walk, until, left);
-            let leg = Leg::new(&task.scene, walk.phase(), walk.guards());
+            let leg = Leg::new(&task.scene, &walk, until, left);
             let outcome = match left {
-                0 => Err(out_of_steps(span.from, 0)),
-                _ => follow(&leg, &span, self),
+                0 => Err(out_of_steps(leg.from, 0)),
+                _ => follow(&leg, self),
             };
             work.evaluations += leg.evaluations();
             let reached = outcome.map_err(|error| match error {
@@ -136,21 +135,5 @@ impl Integrator for Adaptive {
             impacts: walk.into_impacts(),
             work,
         })
-    }
-}
-
-/// What a solver is given of a walk's next leg.
-fn span(task: &Task, walk: &Walk, until: f64, most_steps: u64) -> Span {
-    let (from, start) = (walk.time(), walk.state());
-    let (push, rate) = drive(&task.scene, from);
-    let state = match walk.phase() {
-        Some(_) => [start.position, start.velocity],
-        None => [push, rate],
-    };
-    Span {
-        from,
-        state,
-        until,
-        most_steps,
     }
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use softstop::{Clock, MotionError, Scene, SceneError, Start};
 use softstop_console::machine::PaperMachine;
 use softstop_dynamics::internals::ImpactCounter;
-use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run_parallel, run_with};
+use softstop_lanes::{BatchObserver, Instructions, Job, Machine, Outcome, run_parallel};
 
 /// The motions.
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -98,14 +98,6 @@ impl MotionBatch {
             impacts: impacts.0,
             ..Count::default()
         })
-    }
-
-    /// All in lanes on this thread, each machine lowered first.
-    ///
-    /// # Errors
-    /// As [`MotionBatch::safe`].
-    pub fn in_lanes(&self, instructions: Instructions) -> Result<Count, MotionError> {
-        self.follow(|machines, jobs| run_with(instructions, machines, jobs, &mut ()))
     }
 
     /// All by a run of the lanes on this thread, each machine lowered first.

@@ -86,11 +86,11 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let (all, one) = (measure::pool(0)?, measure::pool(1)?);
     let grid = Grid::of(arguments.zones);
     let machines = grid.scenes().context("the machines of the zones")?;
-    let lanes = |set| way(move || batch.in_lanes(set));
-    let each = || batch.follow(|machines, jobs| run_with(WIDEST, machines, jobs, &mut EachImpact));
+    let lanes = |set| way(move || batch.follow(|it, jobs| run_with(set, it, jobs, &mut ())));
+    let each = || batch.follow(|it, jobs| run_with(WIDEST, it, jobs, &mut EachImpact));
     let engine = |names, lanes, way| Engine { names, lanes, way };
     let of_set = |set: Instructions| Some((set.registers().lanes, set));
-    let scalar = || batch.follow(|machines, jobs| run_one_by_one(machines, jobs, &mut ()));
+    let scalar = || batch.follow(|it, jobs| run_one_by_one(it, jobs, &mut ()));
     let one_lane = Some((1, Instructions::Avx2));
     let mut engines = vec![
         engine(["safe"; 2], None, way(|| batch.safe())),
@@ -114,10 +114,14 @@ pub fn run(arguments: &ThroughputArguments) -> Result<(), Failure> {
     let timings = measure::measure(&ways.collect::<Vec<_>>(), repeats)?;
     let (threads, what) = (all.current_num_threads(), (range, grid, repeats));
     let study = arguments.study.as_ref().zip(study.as_ref());
-    let study = study
-        .map(|(path, study)| StudyCost::measure(path, study, repeats))
-        .transpose()?;
-    let report = report(what, &engines, &timings, threads, study.as_ref());
+    let study = study.map(|(path, study)| StudyCost::measure(path, study, repeats));
+    let report = report(
+        what,
+        &engines,
+        &timings,
+        threads,
+        study.transpose()?.as_ref(),
+    );
     let (result, text) = report.context("a measurement is missing")?;
     export::print(&result, text, arguments.format)
 }

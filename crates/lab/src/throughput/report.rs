@@ -24,22 +24,18 @@ pub(super) struct Engine<'a> {
 }
 
 /// An engine with its times, and the drive periods of a round.
-struct EngineTiming<'a> {
-    engine: &'a Engine<'a>,
-    timing: &'a Timing,
-    periods: f64,
-}
+type EngineTiming<'a> = (&'a Engine<'a>, &'a Timing, f64);
 
 /// What people read of it.
 fn columns<'a>() -> [Column<EngineTiming<'a>>; 7] {
     columns! { EngineTiming<'a>, it;
-        "engine" [None] Plain, "and instruction set" => name(it.engine);
-        "median" [None] Fixed(2), "of all rounds" => it.periods / it.timing.median() / 1e6;
-        "slowest" [None] Fixed(2), "round" => it.timing.spread(it.periods)[0] / 1e6;
-        "fastest" [None] Fixed(2), "round" => it.timing.spread(it.periods)[1] / 1e6;
-        "lanes" [None] Plain, "motions in lock-step" => it.engine.lanes.map(|it| it.0);
-        "handed_over" [None] Plain, "periods left to the safe engine" => it.engine.lanes.map(|_| it.timing.count.handed_over);
-        "leapt" [None] Plain, "periods leapt over, since each is like the one before" => it.engine.lanes.map(|_| it.timing.count.leapt);
+        "engine" [None] Plain, "and instruction set" => name(it.0);
+        "median" [None] Fixed(2), "of all rounds" => it.2 / it.1.median() / 1e6;
+        "slowest" [None] Fixed(2), "round" => it.1.spread(it.2)[0] / 1e6;
+        "fastest" [None] Fixed(2), "round" => it.1.spread(it.2)[1] / 1e6;
+        "lanes" [None] Plain, "motions in lock-step" => it.0.lanes.map(|it| it.0);
+        "handed_over" [None] Plain, "periods left to the safe engine" => it.0.lanes.map(|_| it.1.count.handed_over);
+        "leapt" [None] Plain, "periods leapt over, since each is like the one before" => it.0.lanes.map(|_| it.1.count.leapt);
     }
 }
 
@@ -49,25 +45,22 @@ fn name(engine: &Engine<'_>) -> String {
     engine.names[1].to_owned() + &set
 }
 
-impl EngineTiming<'_> {
-    /// For programs, beside the safe engine and one lane.
-    fn figures(&self, safe: &Timing, scalar: &Timing) -> Record {
-        let (timing, periods) = (self.timing, self.periods);
-        let figures = Record::default()
-            .hidden("periods_per_second_per_core", periods / timing.median())
-            .hidden("spread", timing.spread(periods))
-            .hidden("impacts", timing.count.impacts);
-        let Some((lanes, set)) = self.engine.lanes else {
-            return figures;
-        };
-        figures
-            .hidden("lanes", lanes)
-            .hidden("instructions", set.registers().name)
-            .hidden("handed_over", timing.count.handed_over)
-            .hidden("leapt", timing.count.leapt)
-            .hidden("times_scalar", scalar.median() / timing.median())
-            .hidden("times_safe", safe.median() / timing.median())
-    }
+/// An engine's times for programs, beside the safe engine and one lane.
+fn figures((engine, timing, periods): &EngineTiming<'_>, safe: &Timing, scalar: &Timing) -> Record {
+    let figures = Record::default()
+        .hidden("periods_per_second_per_core", periods / timing.median())
+        .hidden("spread", timing.spread(*periods))
+        .hidden("impacts", timing.count.impacts);
+    let Some((lanes, set)) = engine.lanes else {
+        return figures;
+    };
+    figures
+        .hidden("lanes", lanes)
+        .hidden("instructions", set.registers().name)
+        .hidden("handed_over", timing.count.handed_over)
+        .hidden("leapt", timing.count.leapt)
+        .hidden("times_scalar", scalar.median() / timing.median())
+        .hidden("times_safe", safe.median() / timing.median())
 }
 
 /// What was measured, and the text of it: the engines, of which the first is the safe one and the second one lane, and the
@@ -85,17 +78,14 @@ pub(super) fn report(
         return None;
     };
     let timed = engines.iter().zip(timings);
-    let timed = timed.map(|(engine, timing)| EngineTiming {
-        engine,
-        timing,
-        periods,
-    });
-    let timed: Vec<EngineTiming<'_>> = timed.collect();
+    let timed: Vec<EngineTiming<'_>> = timed.map(|(it, timing)| (it, timing, periods)).collect();
     let factor = alone.median() / parallel.median();
     let rate = periods * ROUNDS as f64 / parallel.median();
     let machines = f64::from(grid.edge * grid.edge);
     let (found, per_second) = (zones.count.found, machines / zones.median());
-    let spread = zones.spread(machines);
+    let spread @ [slowest, fastest] = zones.spread(machines);
+    let (named, edge) = (grid.machine, grid.edge);
+    let ((from, to), (soft, stiff)) = (grid.clearances, grid.stiffnesses);
     let computer = Computer::this();
 
     let (machine, (low, high), start) = (scene.machine.name(), scene.frequencies, scene.start);
@@ -114,17 +104,8 @@ pub(super) fn report(
             rate / 1e6
         )
         + &format!(
-            "Hysteresis zones of the {} machine at {} x {} places over clearance {} to {} and stiffness {} to {}, \
-             {found} found:\n{per_second:.0} a second on one core, {:.0} to {:.0}\n",
-            grid.machine,
-            grid.edge,
-            grid.edge,
-            grid.clearances.0,
-            grid.clearances.1,
-            grid.stiffnesses.0,
-            grid.stiffnesses.1,
-            spread[0],
-            spread[1]
+            "Hysteresis zones of the {named} machine at {edge} x {edge} places over clearance {from} to {to} and stiffness \
+             {soft} to {stiff}, {found} found:\n{per_second:.0} a second on one core, {slowest:.0} to {fastest:.0}\n",
         )
         + &study.map_or_else(String::new, StudyCost::told)
         + &format!("Machine: {}\n", computer.line());
@@ -134,7 +115,7 @@ pub(super) fn report(
         .hidden("scene", json!(scene))
         .hidden("repeats", repeats);
     let result = timed.iter().fold(result, |result, it| {
-        result.hidden(it.engine.names[0], it.figures(safe, scalar))
+        result.hidden(it.0.names[0], figures(it, safe, scalar))
     });
     let both_cores = Record::default()
         .hidden("threads", threads)
@@ -145,11 +126,11 @@ pub(super) fn report(
         .hidden("found", found)
         .hidden("zones_per_second_per_core", per_second)
         .hidden("spread", spread);
-    let result = result
+    let mut result = result
         .hidden("both_cores", both_cores)
         .hidden("zones", zones);
-    let result = study
-        .into_iter()
-        .fold(result, |result, it| result.hidden("study", json!(it)));
+    if let Some(study) = study {
+        result = result.hidden("study", json!(study));
+    }
     Some((result, text))
 }
