@@ -83,7 +83,7 @@ impl Cycle {
         let shifts = || (0..=SHOWN as u32).map(|cycle| f64::from(cycle) * period);
         let mut layers: Vec<Layer> = shifts().flat_map(|shift| self.shades(shift)).collect();
         let faces = faces(&self.orbit.scene).into_iter();
-        layers.extend(faces.map(|(face, _)| Layer::horizontal(face, FACE, "")));
+        layers.extend(faces.map(|(face, ..)| Layer::horizontal(face, FACE, "")));
         layers.extend(shifts().map(|shift| {
             let points = self.path.points.iter();
             let points = points.map(|point| (point.time + shift, point.position));
@@ -108,16 +108,15 @@ impl Cycle {
         ]);
         let occur = PHASES.into_iter();
         let occur = occur.filter(|it| self.path.first(it.0).is_some());
-        layers.extend(occur.map(|(kind, name)| {
-            Layer::key(Sign::Patch(phase_color(kind).unwrap_or(style::PAPER)), name)
-        }));
+        let patch = |kind| Sign::Patch(phase_color(kind).unwrap_or(style::PAPER));
+        layers.extend(occur.map(|(kind, name)| Layer::key(patch(kind), name)));
         layers
     }
 
     /// The time around the impact, from the left end of the panel on.
     fn impact(&self, left: f64) -> Vec<Layer> {
         let mut layers = self.shades(0.0);
-        for (face, name) in faces(&self.orbit.scene) {
+        for (face, name, _) in faces(&self.orbit.scene) {
             let name = Layer::text((left, face), Align::Left, name).moved(8.0, -5.0);
             layers.extend([Layer::horizontal(face, FACE, ""), name]);
         }
@@ -131,7 +130,7 @@ impl Cycle {
         let faces = faces(&self.orbit.scene);
         let mut layers = if column > 0 { self.tints() } else { Vec::new() };
         let lines = faces.iter();
-        layers.extend(lines.map(|(face, _)| Layer::vertical(*face, FACE, "")));
+        layers.extend(lines.map(|face| Layer::vertical(face.0, FACE, "")));
         let zero = Layer::horizontal(0.0, Stroke::solid(style::FAINT, 1.0), "");
         let show = if column == 2 { FORCE } else { STATE };
         layers.extend([zero, Layer::line(self.curve(show), CURVE)]);
@@ -140,21 +139,16 @@ impl Cycle {
         }
         if column == 1 {
             layers.extend(self.letters(STATE, [(11.0, -9.0), (12.0, -7.0), (12.0, 18.0)]));
-            layers.extend(
-                faces.into_iter().map(|(face, name)| {
-                    Layer::text((face, y.0), Align::Left, name).moved(4.0, -8.0)
-                }),
-            );
+            let name = |(face, name, _)| Layer::text((face, y.0), Align::Left, name);
+            layers.extend(faces.into_iter().map(|face| name(face).moved(4.0, -8.0)));
         }
         layers
     }
 
     /// Marks X'₋ where the mass comes to the clearance.
     fn strike(&self, left: f64) -> [Layer; 3] {
-        let at = (
-            self.orbit.scene.clearance,
-            self.orbit.before_impact_velocity(),
-        );
+        let orbit = &self.orbit;
+        let at = (orbit.scene.clearance, orbit.before_impact_velocity());
         let text = Layer::text((left, at.1), Align::Left, "X′₋").moved(8.0, 17.0);
         [
             Layer::line([(left, at.1), at], GUIDE),
@@ -166,13 +160,9 @@ impl Cycle {
     /// Shades the layers beyond the clearance.
     fn tints(&self) -> Vec<Layer> {
         let faces = faces(&self.orbit.scene);
-        let kinds = match faces.len() {
-            1 => &[PhaseKind::Stop][..],
-            _ => &[PhaseKind::Pierce, PhaseKind::Cut, PhaseKind::Stop],
-        };
         let ends = faces.iter().skip(1).map(|face| face.0);
-        let layers = faces.iter().zip(ends.chain([f64::INFINITY])).zip(kinds);
-        let layers = layers.filter_map(|(((from, _), to), kind)| fill((*from, to), *kind, 0.55));
+        let layers = faces.iter().zip(ends.chain([f64::INFINITY]));
+        let layers = layers.filter_map(|((from, _, kind), to)| fill((*from, to), *kind, 0.55));
         layers.collect()
     }
 
@@ -223,10 +213,8 @@ impl Cycle {
         let marks = marks.filter_map(|((name, point), (right, down))| {
             let at = show(point?);
             let spot = Layer::marks([at], Mark::Hollow, style::INK).sized(4.0);
-            Some([
-                spot,
-                Layer::text(at, Align::Middle, name).moved(right, down),
-            ])
+            let name = Layer::text(at, Align::Middle, name).moved(right, down);
+            Some([spot, name])
         });
         marks.flatten().collect()
     }

@@ -30,14 +30,16 @@ impl Cycle {
     }
 }
 
-/// The positions at which laws change and their names.
-fn faces(scene: &Scene) -> Vec<(f64, &'static str)> {
+/// The positions at which laws change, their names, and the phases beyond.
+fn faces(scene: &Scene) -> Vec<(f64, &'static str, PhaseKind)> {
     let face = scene.clearance;
     let Some(strip) = scene.piercing else {
-        return vec![(face, "ρ = X_III")];
+        return vec![(face, "ρ = X_III", PhaseKind::Stop)];
     };
     let cut = face + strip.thickness;
-    vec![(face, "ρ"), (cut, "ρ + σ"), (cut + strip.travel, "X_III")]
+    let stop = (cut + strip.travel, "X_III", PhaseKind::Stop);
+    let pierce = (face, "ρ", PhaseKind::Pierce);
+    vec![pierce, (cut, "ρ + σ", PhaseKind::Cut), stop]
 }
 
 pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
@@ -107,7 +109,7 @@ fn picture_of_both(figure: &Figure, cycles: &[Cycle; 2]) -> Result<Chart> {
             Layer::line(cycle.path.points.iter().map(show), stroke).named(name)
         });
         let faces = faces(scene).into_iter();
-        let faces = faces.map(|(at, name)| face(at, name));
+        let faces = faces.map(|(at, name, _)| face(at, name));
         faces.chain(curves).collect()
     };
     let series = |at: &PathPoint| (at.time / period, at.position);

@@ -39,8 +39,10 @@ pub(super) fn page(
         let period = motion.scene.period();
         let mut own = figure.chart.panels.clone();
         series(motion, &path, shown, period, &mut own[0]);
-        phase_plane(motion, plane, &mut own[1]);
-        near_stop(motion, near, &mut own[2]);
+        let whole = around(plane.iter().map(|at| at.0), 0.1);
+        phase_plane(motion, plane, whole, 1.3, &mut own[1]);
+        let close = near_stop(&near);
+        phase_plane(motion, near, close, 1.1, &mut own[2]);
         own[3].layers = section(motion, all);
         for panel in &mut own {
             panel.at.1 = row;
@@ -105,28 +107,27 @@ fn series(motion: &FoundMotion, path: &Path, shown: u64, period: f64, panel: &mu
     panel.layers = layers;
 }
 
-fn trajectory(motion: &FoundMotion, points: Vec<(f64, f64)>, width: f64) -> Vec<Layer> {
+/// The phase plane over a range of positions.
+fn phase_plane(
+    motion: &FoundMotion,
+    points: Vec<(f64, f64)>,
+    x: (f64, f64),
+    width: f64,
+    panel: &mut Panel,
+) {
+    let shown = points.iter().filter(|point| point.0 > x.0);
+    panel.x = panel.x.clone().range(x);
+    panel.y = panel.y.clone().range(around(shown.map(|at| at.1), 0.1));
     let width = if motion.is_chaotic() { 0.45 } else { width };
     let line = Layer::line(points, Stroke::solid(color(motion), width));
-    vec![Layer::vertical(CLEARANCE, FACE, ""), line]
+    panel.layers = vec![Layer::vertical(CLEARANCE, FACE, ""), line];
 }
 
-fn phase_plane(motion: &FoundMotion, points: Vec<(f64, f64)>, panel: &mut Panel) {
-    let (x, y) = (points.iter().map(|at| at.0), points.iter().map(|at| at.1));
-    panel.x = panel.x.clone().range(around(x, 0.1));
-    panel.y = panel.y.clone().range(around(y, 0.1));
-    panel.layers = trajectory(motion, points, 1.3);
-}
-
-/// The part of it near the stop.
-fn near_stop(motion: &FoundMotion, points: Vec<(f64, f64)>, panel: &mut Panel) {
+/// The positions near the stop.
+fn near_stop(points: &[(f64, f64)]) -> (f64, f64) {
     let (_, high) = around(points.iter().map(|point| point.0), 0.0);
     let depth = (high - CLEARANCE).max(SHALLOW * CLEARANCE);
-    let x = (CLEARANCE - NEAR * depth, CLEARANCE + 1.6 * depth);
-    let near = points.iter().filter(|point| point.0 > x.0);
-    panel.x = panel.x.clone().range(x);
-    panel.y = panel.y.clone().range(around(near.map(|at| at.1), 0.1));
-    panel.layers = trajectory(motion, points, 1.1);
+    (CLEARANCE - NEAR * depth, CLEARANCE + 1.6 * depth)
 }
 
 /// The states at drive angle 0, behind them those of the other motions of the same machine.

@@ -11,7 +11,7 @@ use anyhow::Result;
 
 use crate::diagram;
 use crate::figure::{Drawn, Figure, Findings, Studio, findings};
-use chart::HardeningPicture;
+use chart::chart;
 use folds::Folds;
 use softstop_console::columns;
 use softstop_console::export::csv;
@@ -53,12 +53,6 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     }
     claims_of_stops(&mut findings, &drawn, &folds);
     claims_of_orders(&mut findings, &subharmonics);
-    let picture = HardeningPicture {
-        drawn: &drawn,
-        map: &map,
-        folds: &folds,
-        found: &subharmonics,
-    };
     let branches = columns! { Folds, it;
         "stiffness" [None], "k2/k1" => it.stiffness;
         "eta_grazing" [None], "upper g0" => grazing(CLEARANCE).1;
@@ -77,7 +71,9 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         "beside_impactless_motion" [None], "whether that exists there, too" => it.is_beside_rest;
     };
     let files = [
-        picture.chart(figure)?.svg().into_bytes(),
+        chart(figure, (&drawn, &map), &folds, &subharmonics)?
+            .svg()
+            .into_bytes(),
         steps(&drawn)?,
         steps(&map)?,
         csv(&branches, &folds)?,
