@@ -10,7 +10,7 @@ use softstop::Impact;
 use crate::methods::Solution;
 
 /// One motion in each line: scene, drive periods, stiffness of the stop in N/m if it is swept, else 0, position and velocity at
-/// the end, the three figures of [`Doubt`], then time and velocity of each impact.
+/// the end, the three figures of [`Reference::doubt`], then time and velocity of each impact.
 const STORED: &str = include_str!("../assets/references.txt");
 
 /// Relative difference of stiffnesses that are the same but for rounding.
@@ -21,19 +21,9 @@ const ROUNDING: f64 = 1e-14;
 pub struct Reference {
     /// Its end and its impacts, the summable ones of a rigid stop included.
     pub solution: Solution,
-    /// How far two computations of it are apart.
-    pub doubt: Doubt,
-}
-
-/// Largest differences between the run in 48 digits and that in 67, which is the answer. It is far better than this.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Doubt {
-    /// Of the position in m and of the velocity in m/s at the end.
-    pub end: f64,
-    /// Of the times of impacts, in s.
-    pub time: f64,
-    /// Of the before-impact velocities, in m/s.
-    pub velocity: f64,
+    /// Largest differences between the run in 48 digits and that in 67, which is the answer and far better than this: of the
+    /// position in m and of the velocity in m/s at the end, of the times of impacts in s, of their velocities in m/s.
+    pub doubt: [f64; 3],
 }
 
 /// The stored motion of a built-in scene, with its own stop or with one of this stiffness in N/m.
@@ -65,10 +55,6 @@ fn read(numbers: &[f64]) -> Option<Reference> {
             impacts: impacts.chunks_exact(2).map(impact).collect(),
             ..Solution::default()
         },
-        doubt: Doubt {
-            end,
-            time,
-            velocity: speed,
-        },
+        doubt: [end, time, speed],
     })
 }

@@ -116,10 +116,9 @@ fn check(arguments: &FailuresArguments) -> Result<(), Failure> {
 }
 
 fn cases(arguments: &FailuresArguments) -> Result<Vec<Case>, Failure> {
-    let found = arguments.scene.iter().map(|place| find(place));
-    let mut cases = match arguments.scene.is_empty() {
-        true => built_in()?,
-        false => found.collect::<Result<Vec<_>, _>>()?,
+    let mut cases = match &arguments.scene[..] {
+        [] => built_in()?,
+        places => places.iter().map(|it| find(it)).collect::<Result<_, _>>()?,
     };
     for case in &mut cases {
         case.periods = arguments.periods.unwrap_or(case.periods);

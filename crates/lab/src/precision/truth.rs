@@ -46,14 +46,14 @@ impl Truth {
     }
 
     fn rounded(reference: Reference, scale: &Scale) -> Self {
-        let doubt = reference.doubt;
+        let [end, time, velocity] = reference.doubt;
         Self {
             solution: reference.solution,
             method: DIGITS,
             doubt: Errors {
-                end: doubt.end / scale.position.min(scale.velocity),
-                impact_time: Some(doubt.time / scale.period),
-                impact_velocity: Some(doubt.velocity / scale.velocity),
+                end: end / scale.position.min(scale.velocity),
+                impact_time: Some(time / scale.period),
+                impact_velocity: Some(velocity / scale.velocity),
                 impact_difference: 0,
             },
         }
