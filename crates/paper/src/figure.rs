@@ -209,6 +209,12 @@ impl Detail {
     }
 }
 
+/// So many values from one to another.
+pub(crate) fn evenly_spread(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let step = (high - low) / (count - 1) as f64;
+    (0..count).map(|index| low + step * index as f64).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

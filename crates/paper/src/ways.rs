@@ -7,7 +7,7 @@ use softstop::{Parameter, Ratios};
 use softstop_dynamics::{Chain, Direction, Plan, Step};
 
 use crate::diagram;
-use crate::figure::{Drawn, Figure, Findings, Studio};
+use crate::figure::{Drawn, Figure, Findings, Studio, evenly_spread};
 use softstop_console::columns;
 use softstop_console::export::csv;
 
@@ -28,7 +28,7 @@ const LASTING: usize = 3;
 const SOUGHT: [(&str, &str); 2] = [("z = 2/3", "1-1-0"), ("z = (2/4)B", "1-1-0-0")];
 
 pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
-    let etas = etas();
+    let etas = evenly_spread(ETAS.0, ETAS.1, ETAS.2);
     let mut rows: Vec<WayRow> = Vec::new();
     let mut findings = Findings::default();
     let steps = studio.detail.pick(&STEPS[..], &STEPS[..1]);
@@ -77,9 +77,3 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
 
 /// Rate, frequency, motion, where it is met first, whether the way ends on it.
 type WayRow = (f64, f64, &'static str, Option<f64>, bool);
-
-fn etas() -> Vec<f64> {
-    let (low, high, count) = ETAS;
-    let step = (high - low) / (count - 1) as f64;
-    (0..count).map(|index| low + step * index as f64).collect()
-}

@@ -5,7 +5,7 @@ use super::RANGE;
 use crate::boundaries::Figures;
 use crate::diagram::{is_one, steps};
 use crate::figure::Figure;
-use softstop_draw::{Align, Chart, Layer, Mark, Panel, Sign, Stroke, style};
+use softstop_draw::{Align, Chart, Layer, Mark, Sign, Stroke, style};
 use softstop_dynamics::sweep::Jump;
 use softstop_dynamics::{Chain, MotionKind, Step};
 
@@ -19,45 +19,33 @@ const RESPONSE: Stroke = Stroke::solid(style::INK, 1.5);
 const FOLD: Stroke = Stroke::dashed(style::INK, 1.7, (8.0, 4.0));
 const FLIP: Stroke = Stroke::dashed(style::INK, 1.7, (2.0, 3.0));
 
-/// What the picture shows.
-pub(super) struct ClearancePicture<'a> {
-    /// The sweeps up and down of each clearance, in its rising order.
-    pub(super) chains: &'a [Chain],
-    /// Amplitude of the free mass over eta.
-    pub(super) response: Vec<(f64, f64)>,
-    /// The curves across the clearances.
-    pub(super) boundaries: &'a [(&'static str, Vec<Figures>)],
-    /// The paper's point: its name, eta, X_m, X'-.
-    pub(super) point: (&'static str, Figures),
-}
-
 /// Which value of eta, X_m and X'- a panel shows over the first.
 type Which = usize;
 
-impl ClearancePicture<'_> {
-    pub(super) fn chart(&self, figure: &Figure) -> Chart {
-        let mut chart = figure.chart.clone();
-        let lowest = chart.panels.len() - 1;
-        for (index, panel) in chart.panels.iter_mut().enumerate() {
-            panel.layers = match index {
-                0 => [self.layers(1, panel), legend().into()].concat(),
-                _ if index == lowest => self.layers(2, panel),
-                _ => pierced_ranges(self.chains),
-            };
+/// The sweeps up and down of each clearance, in its rising order, the amplitude of the free mass over eta, the curves across
+/// the clearances, and the paper's point by its name.
+pub(super) fn chart(
+    figure: &Figure,
+    chains: &[Chain],
+    response: &[(f64, f64)],
+    boundaries: &[(&'static str, Vec<Figures>)],
+    (name, point): (&'static str, Figures),
+) -> Chart {
+    let mut chart = figure.chart.clone();
+    let lowest = chart.panels.len() - 1;
+    for (index, panel) in chart.panels.iter_mut().enumerate() {
+        if index != 0 && index != lowest {
+            panel.layers = pierced_ranges(chains);
+            continue;
         }
-        chart
-    }
-
-    fn layers(&self, which: Which, panel: &Panel) -> Vec<Layer> {
-        let highest = panel.y.ends[1].unwrap_or(0.0);
-        let mut layers = Vec::new();
-        for (ways, color) in rows(self.chains) {
-            layers.extend(diagram(ways, color, which));
-        }
+        let which: Which = if index == 0 { 1 } else { 2 };
+        let seen = SEEN * panel.y.ends[1].unwrap_or(0.0);
+        let diagrams = rows(chains).flat_map(|(ways, color)| diagram(ways, color, which));
+        let mut layers: Vec<Layer> = diagrams.collect();
         if which == 1 {
-            layers.push(Layer::line(self.response.iter().copied(), RESPONSE));
+            layers.push(Layer::line(response.iter().copied(), RESPONSE));
         }
-        for (name, curve) in self.boundaries {
+        for (name, curve) in boundaries {
             let stroke = match *name {
                 "s_SN" => FOLD,
                 "s_PD" => FLIP,
@@ -67,17 +55,18 @@ impl ClearancePicture<'_> {
             let points = curve.iter().map(|at| (at[0], at[which]));
             layers.push(Layer::line(points, stroke));
         }
-        for chain in self.chains {
-            layers.extend(jumps(chain, which, SEEN * highest));
-        }
-        layers.extend(rows(self.chains).filter_map(|(ways, color)| label(ways, color, which)));
-        let (name_of_point, at) = self.point;
-        let at = (at[0], at[which]);
+        layers.extend(chains.iter().flat_map(|chain| jumps(chain, which, seen)));
+        layers.extend(rows(chains).filter_map(|(ways, color)| label(ways, color, which)));
+        let at = (point[0], point[which]);
         let spot = Layer::marks([at], Mark::Hollow, style::INK).sized(5.0);
-        let text = Layer::text(at, Align::Left, name_of_point);
-        layers.extend([spot, text.moved(9.0, 18.0).plated()]);
-        layers
+        let text = Layer::text(at, Align::Left, name).moved(9.0, 18.0);
+        layers.extend([spot, text.plated()]);
+        if which == 1 {
+            layers.extend(legend());
+        }
+        panel.layers = layers;
     }
+    chart
 }
 
 /// The sweeps of each clearance, and its colour.

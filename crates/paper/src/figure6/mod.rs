@@ -13,7 +13,6 @@ use softstop_dynamics::{Chain, Plan, Step, orbit};
 use crate::boundaries::{self, Ends};
 use crate::diagram;
 use crate::figure::{Drawn, Figure, Findings, Studio, findings};
-use chart::ClearancePicture;
 
 /// The paper's clearances and frequencies.
 const CLEARANCES: [f64; 6] = [2.0, 6.0, 10.0, 14.0, 18.0, 22.0];
@@ -35,13 +34,10 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let optimum = boundaries::optimum(&machine, &ends);
     let scene = machine.scene()?;
     let etas = (0..=2400).map(|k| RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(k) / 2400.0);
-    let picture = ClearancePicture {
-        chains: &chains,
-        response: etas.map(|eta| (eta, free_amplitude(&scene, eta))).collect(),
-        boundaries: &across,
-        point: (regime.point(), boundaries::figures(&orbit::find(&scene)?)),
-    };
-    let mut chart = picture.chart(figure);
+    let response = etas.map(|eta| (eta, free_amplitude(&scene, eta)));
+    let response: Vec<(f64, f64)> = response.collect();
+    let point = (regime.point(), boundaries::figures(&orbit::find(&scene)?));
+    let mut chart = chart::chart(figure, &chains, &response, &across, point);
     chart.subtitle = format!(
         "Peterka 2003, Fig. 6({}). Sweeps up and down, {periods} drive periods at each of {steps} frequencies; \
          grey arrows: jumps between z = 0 and z = 1",

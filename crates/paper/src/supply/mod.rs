@@ -14,12 +14,13 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
 use softstop::{Ratios, Start};
+use softstop_dynamics::Orbit;
 use softstop_dynamics::missing_strips::{StopWithoutStrip, StrokeCount};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::hysteresis;
 use softstop_lanes::{BatchObserver, Job, Machine};
 
-use crate::figure::{Drawn, Figure, Findings, Studio, findings};
+use crate::figure::{Drawn, Figure, Findings, Studio, evenly_spread, findings};
 use softstop_console::output::csv;
 use softstop_console::progress::Progress;
 
@@ -48,16 +49,10 @@ struct Outcome {
     ended: usize,
 }
 
-/// One machine with and without strips.
+/// One machine without and with strips, and the z = 1 motion from which it starts.
 struct Press {
-    clearance: f64,
-    /// Without, and with.
     machines: [Machine; 2],
-    start: Start,
-    /// A drive period in s.
-    period: f64,
-    /// When its impact is, in drive periods.
-    impact: f64,
+    orbit: Orbit,
     /// Whether it starts and ends with strips.
     is_supplied: bool,
 }
@@ -122,34 +117,29 @@ fn zones(clearance: f64) -> Result<[f64; 3]> {
 
 fn etas([grazing, loaded, unloaded]: [f64; 3], count: usize) -> Vec<f64> {
     let at = |share: f64| grazing + share * (loaded - grazing);
-    let (low, high) = (at(SHARES.0), at(SHARES.1).min(unloaded));
-    let step = (high - low) / (count - 1) as f64;
-    (0..count).map(|index| low + step * index as f64).collect()
+    evenly_spread(at(SHARES.0), at(SHARES.1).min(unloaded), count)
 }
 
 impl Press {
     fn new(reading: StopWithoutStrip, frequency: f64, is_supplied: bool) -> Result<Self> {
-        let machine = Ratios::loaded().at_frequency(frequency);
-        let scene = machine.scene()?;
+        let scene = Ratios::loaded().at_frequency(frequency).scene()?;
         let scenes = [reading.scene_without_strip(&scene).check()?, scene.check()?];
-        let orbit = find(&scenes[usize::from(is_supplied)])?;
         Ok(Self {
-            clearance: machine.clearance,
             machines: scenes.each_ref().map(Machine::new),
-            start: orbit.state().into(),
-            period: orbit.scene.period(),
-            impact: orbit.impact_angles().next().unwrap_or(0.0) / TAU,
+            orbit: find(&scenes[usize::from(is_supplied)])?,
             is_supplied,
         })
     }
 
     /// Whether a stroke was missed, and whether z = 1 has ended, of as many motions as there are seeds.
     fn run(&self, mean: f64, periods: u64, seeds: usize) -> Result<Vec<(bool, bool)>> {
+        let impact = self.orbit.impact_angles().next().unwrap_or(0.0) / TAU;
+        let clearance = self.orbit.scene.clearance;
         let motion = |seed: usize| Motion {
-            state: self.start,
+            state: self.orbit.state().into(),
             is_supplied: self.is_supplied,
             chance: Xoshiro256PlusPlus::seed_from_u64(seed as u64),
-            strokes: StrokeCount::after_impact(self.impact - 1.0),
+            strokes: StrokeCount::after_impact(impact - 1.0),
             impacts: 0,
         };
         let mut motions: Vec<Motion> = (0..seeds).map(motion).collect();
@@ -157,7 +147,7 @@ impl Press {
             for motion in &mut motions {
                 // Once in a mean run.
                 let chance = motion.chance.next_u64() as f64 / u64::MAX as f64;
-                let changes = chance * mean < 1.0 && motion.state.position < self.clearance;
+                let changes = chance * mean < 1.0 && motion.state.position < clearance;
                 motion.is_supplied ^= changes;
             }
             self.follow(&mut motions, period, 1)?;
@@ -184,7 +174,7 @@ impl Press {
         };
         let jobs: Vec<Job> = motions.iter().map(job).collect();
         let mut counter = Counter {
-            period: self.period,
+            period: self.orbit.scene.period(),
             from,
             motions,
         };
