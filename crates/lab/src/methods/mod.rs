@@ -3,7 +3,6 @@
 //! Everything outside this module asks the exact method alone; the others are here to chart speed
 //! against accuracy and to show where they fail.
 
-mod balance;
 mod exact;
 mod fixed;
 mod ignored;

@@ -1,8 +1,8 @@
 //! Moreau's time stepping for rigid stops (Jean and Moreau 1987; Moreau 1988).
 
-use super::balance::Balance;
 use super::ignored::{Places, TakenStep};
 use super::machine::{Laws, Machine, State, in_range};
+use super::step::Balance;
 use super::{Integrator, MethodError, Solution, Task};
 use softstop::{Impact, Wall};
 
