@@ -88,7 +88,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         let name = format!("{}, {motion}{order}: ", basin.plane.name);
         findings.add_numbers(&name, &columns(), basin);
     }
-    Drawn::new([png, csv(&columns(), &basins)?], findings)
+    Ok(Drawn::new([png, csv(&columns(), &basins)?], findings))
 }
 
 /// One of the basins of a plane.

@@ -119,7 +119,8 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let rows = curves.iter();
     let rows = rows.flat_map(|curve| curve.places.iter().map(move |at| (curve, at)));
     let svg = chart(figure, &curves)?.svg().into_bytes();
-    Drawn::new([svg, csv(&columns, rows)?], findings_of(&curves))
+    let findings = findings_of(&curves);
+    Ok(Drawn::new([svg, csv(&columns, rows)?], findings))
 }
 
 /// Integrity factor: radius of the largest ball inside the basin of z = 1, in units of half of the region; 0 if there is none.

@@ -94,7 +94,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         "largest_before_impact_velocity" [None], "of the motion" => it.1.step.hardest_impact();
     };
     let png = chart.png().map_err(Error::msg)?;
-    Drawn::new([png, csv(&columns, rows)?], findings)
+    Ok(Drawn::new([png, csv(&columns, rows)?], findings))
 }
 
 /// The steps of a sweep with their exponents, in rising order.

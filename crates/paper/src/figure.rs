@@ -91,9 +91,9 @@ pub(crate) struct Drawn {
 
 impl Drawn {
     /// The contents of the files in the order of their names, and what they show in numbers.
-    pub(crate) fn new(files: impl Into<Vec<Vec<u8>>>, findings: Findings) -> Result<Self> {
+    pub(crate) fn new(files: impl Into<Vec<Vec<u8>>>, findings: Findings) -> Self {
         let files = files.into();
-        Ok(Self { files, findings })
+        Self { files, findings }
     }
 }
 

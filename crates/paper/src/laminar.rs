@@ -74,7 +74,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         "mean_drive_periods" [None], "of a stretch" => it.mean_drive_periods;
         "longest_drive_periods" [None], "of a stretch" => it.longest_drive_periods;
     };
-    Drawn::new([csv(&columns, &lengths)?], findings)
+    Ok(Drawn::new([csv(&columns, &lengths)?], findings))
 }
 
 /// The stretches at all distances at which there are enough of them: the motions go together.

@@ -72,7 +72,7 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         "first_rho" [None], "clearance at which it is met first" => it.3;
         "at_rho_10" [None], "whether the way ends on it" => it.4;
     };
-    Drawn::new([csv(&columns, rows)?], findings)
+    Ok(Drawn::new([csv(&columns, rows)?], findings))
 }
 
 /// Rate, frequency, motion, where it is met first, whether the way ends on it.

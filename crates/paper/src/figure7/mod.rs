@@ -72,7 +72,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         "X'_E" => velocity(path.last(PhaseKind::Stop));
     }
     let files = [cycle.chart(figure)?.svg().into_bytes(), table];
-    Drawn::new(files, findings)
+    Ok(Drawn::new(files, findings))
 }
 
 /// Point A over point B.
@@ -85,10 +85,10 @@ pub(super) fn both(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     let faster = b.orbit.before_impact_velocity() / a.orbit.before_impact_velocity();
     findings.add("X'_- of B over that of A", faster);
     let svg = picture_of_both(figure, &[a, b])?.svg();
-    Drawn::new([svg.into_bytes()], findings)
+    Ok(Drawn::new([svg.into_bytes()], findings))
 }
 
-/// Points A and B over each other: "small difference between working and unloaded regime" (Peterka 2003, section 3).
+/// The curves of points A and B.
 const CURVES: [(&str, Stroke); 2] = [
     ("A, unloaded", Stroke::solid(style::DESIGN, 2.0)),
     ("B, loaded", Stroke::dashed(style::OPTIMUM, 2.0, (7.0, 3.0))),
@@ -96,7 +96,8 @@ const CURVES: [(&str, Stroke); 2] = [
 /// How far before the clearance the near part begins, in units of the larger depth.
 const BEFORE: f64 = 0.6;
 
-/// Time series, phase plane, and the part of it near the stop; both have the same clearance and period.
+/// Points A and B over each other, "small difference between working and unloaded regime" (Peterka 2003, section 3): time
+/// series, phase plane, and the part of it near the stop; both have the same clearance and period.
 fn picture_of_both(figure: &Figure, cycles: &[Cycle; 2]) -> Result<Chart> {
     let scene = &cycles[1].orbit.scene;
     let (rho, period) = (scene.clearance, scene.period());

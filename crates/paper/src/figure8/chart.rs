@@ -88,9 +88,9 @@ impl Diagram<'_> {
         let fleeting = Layer::dots(fleeting.flat_map(dots), 0.8 * DOT, style::OPTIMUM);
         let [up, down] = [0, 1].map(|way: usize| {
             let steps = self.ways[way].rising_steps();
-            let passing = (0..steps.len()).map(|index| is_passing(&steps, index));
-            let passing: Vec<bool> = passing.collect();
-            steps.into_iter().zip(passing).collect::<Vec<_>>()
+            let all = 0..steps.len();
+            all.map(|index| (steps[index], is_passing(&steps, index)))
+                .collect::<Vec<_>>()
         });
         let ways = by_way(&up, &down, |it| it.0).into_iter().zip(WAYS);
         let ways = ways.map(|(steps, (name, color))| {

@@ -83,7 +83,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         table(&diagrams, &isolated)?,
         csv(&columns, &bifurcations)?,
     ];
-    Drawn::new(files, findings)
+    Ok(Drawn::new(files, findings))
 }
 
 /// Sweeps down from chaos. Their machines differ by rounding only, so that the motions part.

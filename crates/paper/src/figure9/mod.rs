@@ -77,7 +77,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
     };
     files.push(csv(&found::columns(), &found)?);
     files.extend([csv(&points, series)?, csv(&states, sections)?]);
-    Drawn::new(files, findings)
+    Ok(Drawn::new(files, findings))
 }
 
 /// All motions that are asked for, each among those at its frequency.

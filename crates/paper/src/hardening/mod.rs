@@ -79,7 +79,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         csv(&branches, &folds)?,
         csv(&motions, &subharmonics)?,
     ];
-    Drawn::new(files, findings)
+    Ok(Drawn::new(files, findings))
 }
 
 /// So many stiffnesses with equal ratios.

@@ -106,7 +106,7 @@ pub(super) fn draw(studio: &Studio, figure: &Figure) -> Result<Drawn> {
         chart::runs(&found)?,
         chart::boundaries(&boundaries)?,
     ];
-    Drawn::new(files, chart::findings_of(&found, &boundaries))
+    Ok(Drawn::new(files, chart::findings_of(&found, &boundaries)))
 }
 
 /// The motions in the cells of the maps.

@@ -14,5 +14,5 @@ pub(crate) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         findings.add(format!("row {:02}", row.number), row.eta);
     }
     let markdown = markdown(&report).into_bytes();
-    Drawn::new([markdown, output::csv(&report.rows)?], findings)
+    Ok(Drawn::new([markdown, output::csv(&report.rows)?], findings))
 }

@@ -91,7 +91,13 @@ const NAMES: [&str; 3] = ["table1.csv", "table1.json", "table1.md"];
 /// [`Failure::Usage`] for values out of range, [`Failure::Run`] if nothing can be computed or the folder cannot
 /// be written, [`Failure::Interrupted`] after Ctrl-C.
 pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
-    let rules = rules(arguments)?;
+    within("motions", arguments.motions, 2..=10_000)?;
+    within("lifetime", arguments.lifetime, 100..=10_000_000)?;
+    let rules = Rules {
+        motions: arguments.motions,
+        lifetime: arguments.lifetime,
+        ..Rules::default()
+    };
     let folder = arguments.output.as_ref();
     let folder = folder.map(|path| Folder::open(path, &NAMES)).transpose()?;
     let of = (rules.motions, rules.lifetime);
@@ -117,16 +123,6 @@ pub fn run(arguments: &TableArguments) -> Result<(), Failure> {
         TableFormat::Json => output::json(&report)?,
         TableFormat::Csv => String::from_utf8_lossy(&output::csv(&report.rows)?).into_owned(),
         TableFormat::Text => report.text(),
-    })
-}
-
-fn rules(arguments: &TableArguments) -> Result<Rules, Failure> {
-    within("motions", arguments.motions, 2..=10_000)?;
-    within("lifetime", arguments.lifetime, 100..=10_000_000)?;
-    Ok(Rules {
-        motions: arguments.motions,
-        lifetime: arguments.lifetime,
-        ..Rules::default()
     })
 }
 

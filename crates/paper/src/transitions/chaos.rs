@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use softstop::Start;
 use softstop_dynamics::attractors::Arrival;
 use softstop_dynamics::monitor::recall_or_compute;
-use softstop_dynamics::motion::MotionKind;
-use softstop_dynamics::orbit::{Orbit, OrbitError};
+use softstop_dynamics::orbit::OrbitError;
 
 /// Largest step of the parameter on the way, as a share of it.
 const STRIDE: f64 = 2e-4;
@@ -111,13 +110,5 @@ impl Explorer<'_> {
             before: good,
         };
         Ok((good, Some(end)))
-    }
-}
-
-impl ChaosEnd {
-    /// The orbit on which most settle.
-    pub fn target(&self) -> Option<(&MotionKind, &Orbit)> {
-        let Gathering { motion, orbit, .. } = &self.gathering;
-        motion.as_ref().zip(orbit.as_ref())
     }
 }

@@ -135,7 +135,8 @@ impl Explorer<'_> {
             let (last, end) = self.end_of_chaos(*value, &states, rising)?;
             ends[usize::from(rising)] = last;
             let Some(end) = end else { continue };
-            let Some((target, orbit)) = end.target() else {
+            let Gathering { motion, orbit, .. } = &end.gathering;
+            let Some((target, orbit)) = motion.as_ref().zip(orbit.as_ref()) else {
                 continue;
             };
             met.push((end.after, orbit.clone()));

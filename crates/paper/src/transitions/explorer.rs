@@ -72,45 +72,42 @@ impl Explorer<'_> {
 
     /// What most of them do then.
     pub(super) fn gather(&self, value: f64, starts: &[Start]) -> Result<Gathering, OrbitError> {
-        let of = ("gathering", self.family.scene([value])?, starts);
-        recall_or_compute(self.kept, &of, || self.gather_anew(value, starts))
-    }
-
-    fn gather_anew(&self, value: f64, starts: &[Start]) -> Result<Gathering, OrbitError> {
-        let (first, rest) = starts.split_at(starts.len().min(FIRST_MOTIONS));
-        let mut arrivals = self.settle_at(value, first, self.rules.patience)?;
-        if !are_alike(&arrivals) {
-            arrivals.extend(self.settle_at(value, rest, self.rules.patience)?);
-        }
-        let all = arrivals.len();
-        let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =
-            arrivals.into_iter().partition(|it| it.orbit.is_some());
-        if settled.len() >= wandering.len() {
-            let most = most(settled);
-            return Ok(Gathering {
-                is_clear: is_clear(most.states.len(), all),
-                ..most
-            });
-        }
-        // Motions that stay beside an orbit that is not stable have not gone anywhere yet.
-        let gone: Vec<Start> = wandering
-            .iter()
-            .filter(|it| !it.returns)
-            .map(|it| it.state)
-            .collect();
-        let is_chaos = match gone.first() {
-            Some(state) if 2 * gone.len() >= wandering.len() => {
-                let scene = self.family.scene([value])?;
-                Exponents::differences_grow(&scene, (*state).into())?
+        let scene = self.family.scene([value])?;
+        recall_or_compute(self.kept, &("gathering", &scene, starts), || {
+            let (first, rest) = starts.split_at(starts.len().min(FIRST_MOTIONS));
+            let mut arrivals = self.settle_at(value, first, self.rules.patience)?;
+            if !are_alike(&arrivals) {
+                arrivals.extend(self.settle_at(value, rest, self.rules.patience)?);
             }
-            _ => false,
-        };
-        let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
-        Ok(Gathering {
-            motion: is_chaos.then_some(MotionKind::Chaos),
-            orbit: None,
-            is_clear: is_clear(states.len(), all),
-            states,
+            let all = arrivals.len();
+            let (settled, wandering): (Vec<Arrival>, Vec<Arrival>) =
+                arrivals.into_iter().partition(|it| it.orbit.is_some());
+            if settled.len() >= wandering.len() {
+                let most = most(settled);
+                return Ok(Gathering {
+                    is_clear: is_clear(most.states.len(), all),
+                    ..most
+                });
+            }
+            // Motions that stay beside an orbit that is not stable have not gone anywhere yet.
+            let gone: Vec<Start> = wandering
+                .iter()
+                .filter(|it| !it.returns)
+                .map(|it| it.state)
+                .collect();
+            let is_chaos = match gone.first() {
+                Some(state) if 2 * gone.len() >= wandering.len() => {
+                    Exponents::differences_grow(&scene, (*state).into())?
+                }
+                _ => false,
+            };
+            let states: Vec<Start> = wandering.into_iter().map(|it| it.state).collect();
+            Ok(Gathering {
+                motion: is_chaos.then_some(MotionKind::Chaos),
+                orbit: None,
+                is_clear: is_clear(states.len(), all),
+                states,
+            })
         })
     }
 
