@@ -67,7 +67,7 @@ pub(super) fn keep_best<T>(best: &mut Option<T>, other: T, score: impl Fn(&T) ->
 /// Distance from the ends of the cube that is none: a solver comes as near to them as that.
 const AT_END: f64 = 1e-9;
 
-/// Axes about which a turn has two sets of directions, at most.
+/// Most axes with two bases of directions in a turn.
 const FEW: usize = 3;
 
 /// The coordinates that are moved.
@@ -176,8 +176,8 @@ impl Coordinates {
     }
 }
 
-/// Unit vectors perpendicular to each other: those of the axes, and for each number but 0 these reflected by another hyperplane
-/// (OrthoMADS, Abramson, Audet, Dennis and Le Digabel 2009).
+/// An orthonormal basis: that of the axes, and for each number but 0 its reflection by another hyperplane, as in OrthoMADS
+/// (Abramson, Audet, Dennis and Le Digabel 2009).
 fn orthonormal(count: usize, number: usize) -> Vec<Vec<f64>> {
     let normal = sobol_point(number, count);
     let square: f64 = normal.iter().map(|it| it * it).sum();

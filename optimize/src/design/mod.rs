@@ -19,6 +19,7 @@ pub mod coordinates;
 pub mod cost;
 pub mod critical;
 mod differences;
+mod direct_search;
 mod distant_values;
 mod exact;
 mod found;

@@ -72,6 +72,18 @@ impl Problem {
         Ok(tried)
     }
 
+    /// How far a design is from what is required of many motions of its own machine, in units of the bounds, over all cases;
+    /// none if a motion cannot be computed.
+    pub(super) fn trial_violation(&self, design: &Design) -> Option<f64> {
+        let points = self.operating_points(design);
+        let each = points.iter().map(|it| {
+            let own = it.tried_or_refuted().ok()?;
+            let lacks = own.iter().map(|it| it.requirement.violation(it.judged()));
+            Some(lacks.sum::<f64>())
+        });
+        each.sum()
+    }
+
     /// The motions at corners of the tolerances; none where the motion is lost.
     fn corners(&self, design: &Design) -> Vec<(Vec<f64>, Option<Orbit>)> {
         let is_asked = self.trials().any(|it| it.scope == Scope::Tolerances);
@@ -228,12 +240,16 @@ impl OperatingPoint<'_> {
         own.collect()
     }
 
+    /// What its own machine has of the requirements that take many motions, or of the certainty alone, where a few starts refute it.
+    fn tried_or_refuted(&self) -> Result<Vec<Met>, OrbitError> {
+        let few = self.refuted_certainty()?;
+        few.map_or_else(|| self.tried(), |few| Ok(vec![few]))
+    }
+
     /// What it has of the requirements that take many motions, if it meets them.
     fn pass_trials(&self, known: &mut CriticalMachines) -> Result<Vec<Met>, Infeasible> {
         let (problem, design) = (&self.problem, self.design);
-        let few = self.refuted_certainty().map_err(Infeasible::unknown)?;
-        let own = few.map_or_else(|| self.tried(), |few| Ok(vec![few]));
-        let mut own = own.map_err(Infeasible::unknown)?;
+        let mut own = self.tried_or_refuted().map_err(Infeasible::unknown)?;
         for met in own.iter().filter(|it| !it.is_met()) {
             known.note_failed_trial(met.requirement.figure);
         }

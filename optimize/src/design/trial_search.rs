@@ -1,17 +1,17 @@
 //! The search for the best design that passes its trials. They have no derivatives and count motions, so that what is sought
-//! with them is a search among zones: a lattice of them, then those around the best (a compass search, Kolda, Lewis and Torczon
-//! 2003). Of each zone only places that are better than the best so far are tried.
+//! with them is a search among zones: a lattice of them, then those around the best (`direct_search`). Of each zone only places that
+//! are better than the best so far are tried.
 
-use std::mem;
+use std::cell::RefCell;
 
 use serde::Serialize;
-use softstop_console::interrupt;
 use softstop_dynamics::parallel;
 
 use super::ascent::ascend_from;
 use super::certain::{ShareGoal, certain};
 use super::coordinates::{Candidate, Coordinates, best_by};
 use super::critical::CriticalMachines;
+use super::direct_search::direct_search;
 use super::problem::{Objective, Problem};
 use super::space::digits;
 use super::trial::FULL;
@@ -23,14 +23,15 @@ use crate::order::sort_rising;
 const LATTICE: usize = 32;
 /// Distances of the zones beside the design that fails, in edges of the cube: its hill may be narrower than the lattice.
 const BESIDE: [f64; 2] = [0.05, 0.1];
-/// Distance of the zones around the best, in edges of the cube: the first and the last.
-const FIRST: f64 = 0.08;
+/// Last distance of the zones around the best, in edges of the cube.
 const LAST: f64 = 6e-4;
+/// Last distance where none passes, lack within which a zone may hold a design that does, and relative gain on the way there.
+const LAST_MISS: f64 = 5e-3;
+const NEAR_MISS: f64 = 0.1;
+const LEAST_APPROACH: f64 = 1e-2;
 /// Relative gain of a score that is none where trials hold the design back: one start more or less of those that are counted
 /// changes it by more.
 pub(super) const COUNTED_GAIN: f64 = 1e-4;
-/// Factor by which the distance shrinks where nothing better is found, and grows again, up to the first, where something is.
-const SHRINKING: f64 = 0.7;
 /// Places of a zone, and halvings between the best that passes and the next.
 const PLACES: usize = 24;
 const HALVINGS: u32 = 9;
@@ -93,7 +94,7 @@ impl<'a> Trials<'a> {
     }
 
     /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice and
-    /// those beside the design, then by a compass search.
+    /// those beside the design, then by a direct search.
     pub(super) fn best(&self, from: &Candidate) -> Option<Candidate> {
         let coordinates = Coordinates::new(self.problem, &from.unit);
         let lattice = lattice(coordinates.axes().len());
@@ -103,42 +104,78 @@ impl<'a> Trials<'a> {
             .flat_map(|step| coordinates.around(step, 0));
         let zones: Vec<_> = lattice.chain(beside).collect();
         let first = self.first(from);
-        let best = self.best_of(&zones, first.as_ref()).or(first)?;
-        self.compass(best)
+        let best = self.best_of(&zones, first.as_ref()).or(first);
+        self.improve_around(best.or_else(|| self.nearest_passing(&zones))?)
     }
 
-    /// The best design that passes, sought near one that does not: by a compass search without a lattice.
+    /// The best design that passes, sought near one that does not: by a direct search without a lattice.
     pub(super) fn best_near(&self, from: &Candidate) -> Option<Candidate> {
-        self.compass(self.first(from)?)
+        self.improve_around(self.first(from)?)
     }
 
-    /// A compass search from a design, whose directions turn, and which goes on along a step that bettered it: where the border of
-    /// the machines that have a zone holds the design back, only a narrow cone of directions leads up.
-    fn compass(&self, mut best: Candidate) -> Option<Candidate> {
-        let mut step = FIRST;
-        let mut before: Option<Candidate> = None;
-        for turn in 0.. {
-            if step < LAST || interrupt::requested() {
-                break;
+    /// A design that passes, where the zones that were looked at have none: a direct search from that which lacks least, until
+    /// one has it.
+    fn nearest_passing(&self, zones: &[Vec<f64>]) -> Option<Candidate> {
+        let passing = RefCell::new(None);
+        let better = |units: &[Vec<f64>], least: f64| {
+            if passing.borrow().is_some() {
+                return None;
             }
-            let coordinates = Coordinates::new(self.problem, &best.unit);
-            let mut units = coordinates.around(step, turn);
-            units.extend(before.iter().flat_map(|it| coordinates.beyond(&it.unit)));
-            match self.best_of(&units, Some(&best)) {
-                Some(better) => {
-                    if self.score(&better.design) > (1.0 + COUNTED_GAIN) * self.score(&best.design)
-                    {
-                        step = FIRST.min(step / SHRINKING);
-                    }
-                    before = Some(mem::replace(&mut best, better));
-                }
-                None => {
-                    step *= SHRINKING;
-                    before = None;
-                }
+            let misses = parallel::filter_map(units, |unit| {
+                Some((unit.clone(), self.least_violation(unit)?))
+            });
+            let nearest = misses.into_iter().min_by(|a, b| a.1.total_cmp(&b.1));
+            let (unit, lack) = nearest.filter(|(_, lack)| *lack < least)?;
+            if lack < NEAR_MISS {
+                let design = self.along(&unit, 0.0);
+                passing.replace(design.map(|design| Candidate {
+                    unit: unit.clone(),
+                    design,
+                }));
             }
-        }
-        Some(best)
+            Some((unit, lack))
+        };
+        let nearest = better(zones, f64::INFINITY)?;
+        direct_search(
+            self.problem,
+            nearest,
+            LAST_MISS,
+            |(unit, _)| unit,
+            |units, (_, lack)| Some((better(units, (1.0 - LEAST_APPROACH) * lack)?, true)),
+        );
+        passing.into_inner()
+    }
+
+    /// How far the best of a few motions along the zone of a point of the unit cube is from passing.
+    fn least_violation(&self, unit: &[f64]) -> Option<f64> {
+        let cases = self.problem.in_cases();
+        let zoned = Zoned::find(self.problem, &cases, &self.problem.axis_values(unit))?;
+        let window = zoned.window().ok()?;
+        let places = (0..FEW_TRIES).map(|index| index as f64 / (FEW_TRIES - 1) as f64);
+        let lacks = places.filter_map(|place| {
+            let design = self
+                .known
+                .design(self.problem, zoned.at(window.at(place))?)?;
+            self.problem.trial_violation(&design)
+        });
+        lacks.min_by(f64::total_cmp)
+    }
+
+    /// A direct search from a design.
+    fn improve_around(&self, best: Candidate) -> Option<Candidate> {
+        let better = |units: &[Vec<f64>], best: &Candidate| {
+            let better = self.best_of(units, Some(best))?;
+            let least = (1.0 + COUNTED_GAIN) * self.score(&best.design);
+            let gains = self.score(&better.design) > least;
+            Some((better, gains))
+        };
+        Some(direct_search(
+            self.problem,
+            best,
+            LAST,
+            |it| &it.unit,
+            better,
+        ))
     }
 
     /// As [`Trials::nearby`], but from what linear models lead to from each first.
