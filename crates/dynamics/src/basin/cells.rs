@@ -12,7 +12,7 @@ use crate::attractors::catalogue::KnownOrbit;
 use crate::ensemble::{Member, MemberStatus};
 use crate::monitor::{PIECE_DURATION, recall_or_compute};
 use crate::motion::MotionKind;
-use crate::orbit::{Exponents, Orbit, OrbitError};
+use crate::orbit::{BATCH_PERIODS, Exponents, Orbit, OrbitError};
 use crate::parallel;
 use softstop::Start;
 
@@ -20,6 +20,11 @@ use softstop::Start;
 const SMALL_TILE_CELLS: usize = 16;
 /// Longest time that cells are followed before a piece is stored; pieces grow up to it.
 const MAX_PIECE_TIME: Duration = Duration::from_secs(5);
+
+/// Logarithm of the factor by which a motion that settles slowly is let come nearer: ten digits.
+const SLOW_DECAY_LOG: f64 = 23.0;
+/// Most drive periods for which motions that settle slowly are followed on.
+const MAX_SLOW_PERIODS: u64 = 8192;
 
 /// A cell, where its motion is, and what it has come to.
 type FollowedCell = (usize, Start, MemberStatus);
@@ -57,12 +62,18 @@ impl BasinSurvey<'_> {
         &self,
         tile: &[usize],
     ) -> Result<(Vec<FollowedCell>, Option<LostCell>), OrbitError> {
-        let of = ("tile", &*self.scene, self.grid, self.options, tile[0]);
+        let of = (
+            "tile",
+            &*self.scene,
+            self.grid,
+            (self.options, self.transient),
+            tile[0],
+        );
         let open = |cell: &usize| (*cell, self.states[*cell], MemberStatus::Open);
         let mut left: Vec<FollowedCell> = tile.iter().map(open).collect();
         let (mut ended, mut lost) = (Vec::new(), None);
         let (mut periods, mut time) = (0, PIECE_DURATION);
-        while periods < self.options.transient && !left.is_empty() {
+        while periods < self.transient && !left.is_empty() {
             let on = || self.follow_cells_for(&left, periods, time);
             let next = recall_or_compute(self.kept, &(of, periods), on)?;
             let all = next.cells.into_iter();
@@ -87,8 +98,8 @@ impl BasinSurvey<'_> {
         let members = cells.iter().map(|cell| Member::new(0, cell.1));
         let mut members: Vec<Member> = members.collect();
         let mut open: Vec<&mut Member> = members.iter_mut().collect();
-        while periods < self.options.transient && !open.is_empty() && begin.elapsed() < time {
-            let stretch = PERIODS_BETWEEN_CHECKS.min(self.options.transient - periods);
+        while periods < self.transient && !open.is_empty() && begin.elapsed() < time {
+            let stretch = PERIODS_BETWEEN_CHECKS.min(self.transient - periods);
             periods += stretch;
             self.ensemble
                 .advance_batch::<false, false, _>(&mut open, stretch)?;
@@ -122,6 +133,50 @@ impl BasinSurvey<'_> {
             all.lost = earlier_lost(all.lost, lost);
         }
         Ok(all)
+    }
+
+    /// Follows the cells that wander on where they settle slowly: where the largest exponent of one of three of them is negative
+    /// beyond doubt, for as long as it takes to gain [`SLOW_DECAY_LOG`]. The orbits that the scouts come to hold the others.
+    pub(super) fn settle_slow_cells(&mut self) -> Result<(), OrbitError> {
+        let cells = 0..self.outcomes.len();
+        let wandering = cells.filter(|cell| self.outcomes[*cell] == MemberStatus::Wandering);
+        let wandering: Vec<usize> = wandering.collect();
+        let Some(last) = wandering.len().checked_sub(1) else {
+            return Ok(());
+        };
+        let mut periods = 0;
+        for index in [0, last / 2, last] {
+            match self.exponents_of_cell(wandering[index]) {
+                Ok(exponents) if exponents.is_negative() => {
+                    let needed = (SLOW_DECAY_LOG / -exponents.per_period[0]).ceil() as u64;
+                    periods = periods.max(needed);
+                }
+                Err(OrbitError::Stopped) => return Err(OrbitError::Stopped),
+                _ => {}
+            }
+        }
+        if periods > self.transient && periods <= MAX_SLOW_PERIODS {
+            self.transient = periods;
+            for cell in &wandering {
+                self.outcomes[*cell] = MemberStatus::Open;
+            }
+            self.scout_grid()?;
+            self.settle_cells()?;
+            self.judge_all()?;
+        }
+        let left = self
+            .outcomes
+            .iter()
+            .filter(|it| **it == MemberStatus::Wandering);
+        self.ensemble.count_work(left.count() as u64)
+    }
+
+    /// The exponents along the motion of a cell from its latest state on.
+    fn exponents_of_cell(&self, cell: usize) -> Result<Exponents, OrbitError> {
+        let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
+        let (exponents, _) =
+            Exponents::along_motion_with_monitor(&self.scene, state, BATCH_PERIODS.0, ask)?;
+        Ok(exponents)
     }
 
     /// The basins of a survey, class by class: periodic motions by period, impacts and hardest impact, then the others.

@@ -5,7 +5,8 @@
 //! has arrived once its state lies in a ball about a point of a known stable orbit in which the map contracts: in a
 //! norm in which the orbit's own Jacobian does, the Jacobian at all of many points of the ball stays below 1, with the
 //! orbit's number of impacts. What is not caught by any ball is looked at one by one: a state that returns is polished
-//! by Newton's method and is a new motion; what never returns belongs to one set, chaos.
+//! by Newton's method and is a new motion; what does not is followed on if its exponents are negative, for as long as ten
+//! digits take; what never returns belongs to one set, chaos.
 //!
 //! The result depends on scene, grid and options alone, not on the number of threads.
 //!
@@ -94,7 +95,7 @@ impl Basins {
 /// How to follow the motions of a grid's cells.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct BasinOptions {
-    /// Drive periods after which a motion that no ball holds is classified by its log.
+    /// Drive periods after which a motion that no ball holds is classified by its log, or followed on if it settles slowly.
     pub transient: u64,
     /// Longest period looked for, in drive periods.
     pub longest: usize,

@@ -8,7 +8,7 @@ use super::{BasinOptions, Basins, Grid};
 use crate::attractors::catalogue::AttractorCatalogue;
 use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::{Monitor, OptionalMemory, recall_or_compute, stop_if};
-use crate::orbit::{BATCH_PERIODS, Exponents, OrbitError};
+use crate::orbit::OrbitError;
 use crate::parallel;
 use softstop::{CheckedScene, MotionError, Scene, Start};
 use softstop_lanes::Machine;
@@ -19,9 +19,6 @@ pub(super) const TILE_CELLS: usize = 4096;
 const CELLS_BROUGHT_TOGETHER: usize = 1 << 16;
 /// Scouts on each axis of the grid: these cells are judged first.
 const SCOUTS_PER_AXIS: usize = 16;
-
-/// Longest transient of cells that settle slowly, in units of the usual one.
-const MAX_TRANSIENT_FACTOR: u64 = 8;
 
 /// Cells that are judged by their logs before what they have come to is stored; so many groups of the ensemble's.
 const CELLS_JUDGED_TOGETHER: usize = 1024;
@@ -34,6 +31,8 @@ pub(super) struct BasinSurvey<'a> {
     pub scene: CheckedScene,
     pub grid: &'a Grid,
     pub options: BasinOptions,
+    /// Drive periods after which a motion that no ball holds is judged by its log, now.
+    pub transient: u64,
     /// The ensemble of the cells' motions, which counts cells.
     pub ensemble: Ensemble<'a>,
     pub catalogue: AttractorCatalogue,
@@ -76,6 +75,7 @@ pub fn find_basins(
     let mut survey = BasinSurvey {
         grid,
         options: *options,
+        transient: options.transient,
         ensemble,
         catalogue: AttractorCatalogue::new(&scene),
         balls: ContractionBalls::default(),
@@ -147,7 +147,7 @@ impl BasinSurvey<'_> {
     }
 
     /// Judges a few cells, spread over the grid, which fill the catalogue.
-    fn scout_grid(&mut self) -> Result<(), OrbitError> {
+    pub(super) fn scout_grid(&mut self) -> Result<(), OrbitError> {
         let (columns, rows) = (self.grid.across.cells, self.grid.up.cells);
         let along = |cells: usize| cells.div_ceil(SCOUTS_PER_AXIS);
         let rows = (along(rows) / 2..rows).step_by(along(rows));
@@ -158,7 +158,7 @@ impl BasinSurvey<'_> {
             })
             .filter(|cell| self.outcomes[*cell] == MemberStatus::Open)
             .collect();
-        self.judge_cells(&cells, self.options.transient)
+        self.judge_cells(&cells, self.transient)
     }
 
     /// Keeps why a cell is lost; that of the first one stands.
@@ -172,57 +172,12 @@ impl BasinSurvey<'_> {
     }
 
     /// Judges all cells that no ball holds.
-    fn judge_all(&mut self) -> Result<(), OrbitError> {
+    pub(super) fn judge_all(&mut self) -> Result<(), OrbitError> {
         let open: Vec<usize> = self.open_cells().collect();
         for cells in open.chunks(CELLS_JUDGED_TOGETHER) {
             self.judge_cells(cells, 0)?;
         }
         Ok(())
-    }
-
-    /// Follows the cells whose motions have not returned for ever longer transients, as long as one of them has no positive
-    /// exponent: it settles slowly. Scouts find on what, so that the others end in contraction balls.
-    fn settle_slow_cells(&mut self) -> Result<(), OrbitError> {
-        let longest = MAX_TRANSIENT_FACTOR * self.options.transient;
-        while self.options.transient < longest && self.settles_slowly()? {
-            self.options.transient *= 2;
-            for outcome in &mut self.outcomes {
-                if *outcome == MemberStatus::Wandering {
-                    *outcome = MemberStatus::Open;
-                    self.ensemble.planned += 1;
-                }
-            }
-            self.scout_grid()?;
-            self.settle_cells()?;
-            self.judge_all()?;
-        }
-        Ok(())
-    }
-
-    /// True if the first, the middle or the last of the cells whose motions have not returned has no positive exponent.
-    fn settles_slowly(&self) -> Result<bool, OrbitError> {
-        let cells = 0..self.outcomes.len();
-        let wandering = cells.filter(|cell| self.outcomes[*cell] == MemberStatus::Wandering);
-        let wandering: Vec<usize> = wandering.collect();
-        let Some(last) = wandering.len().checked_sub(1) else {
-            return Ok(false);
-        };
-        let mut sample = vec![0, last / 2, last];
-        sample.dedup();
-        for index in sample {
-            if !self.exponents_of_cell(wandering[index])?.is_positive() {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
-    /// The exponents along the motion of a cell from its latest state on.
-    pub(super) fn exponents_of_cell(&self, cell: usize) -> Result<Exponents, OrbitError> {
-        let (state, ask) = (self.states[cell].into(), || self.ensemble.count_work(0));
-        let (exponents, _) =
-            Exponents::along_motion_with_monitor(&self.scene, state, BATCH_PERIODS.0, ask)?;
-        Ok(exponents)
     }
 
     /// Follows cells for so many drive periods, and judges each by its log; stored outcomes are recalled.
@@ -232,6 +187,7 @@ impl BasinSurvey<'_> {
             self.scene.clone(),
             self.grid,
             self.options,
+            self.transient,
             cells.first(),
             periods,
         );
@@ -244,7 +200,7 @@ impl BasinSurvey<'_> {
             for log in &looked.entered {
                 self.judge_log(log)?;
             }
-            self.ensemble.count_work(cells.len() as u64)?;
+            self.count_settled(&looked.outcomes)?;
         }
         let ends = looked.states.into_iter().zip(looked.outcomes);
         for (cell, (state, outcome)) in cells.iter().zip(ends) {
@@ -252,6 +208,12 @@ impl BasinSurvey<'_> {
         }
         self.keep_first_lost(looked.lost);
         Ok(())
+    }
+
+    /// Counts cells but those that wander, which may be followed on.
+    fn count_settled(&self, outcomes: &[MemberStatus]) -> Result<(), OrbitError> {
+        let settled = outcomes.iter().filter(|it| **it != MemberStatus::Wandering);
+        self.ensemble.count_work(settled.count() as u64)
     }
 
     /// Follows cells for so many drive periods, and judges each by its log.
@@ -271,7 +233,7 @@ impl BasinSurvey<'_> {
             if self.catalogue.orbits.len() > known {
                 looked.entered.push(log);
             }
-            self.ensemble.count_work(1)?;
+            self.count_settled(&looked.outcomes[looked.outcomes.len() - 1..])?;
         }
         Ok(looked)
     }
@@ -282,7 +244,13 @@ impl BasinSurvey<'_> {
             return self.log_together(cells, periods);
         }
         let one = |cell: &usize| {
-            let of = ("cell", &*self.scene, self.grid, self.options, cell, periods);
+            let of = (
+                "cell",
+                &*self.scene,
+                self.grid,
+                (self.options, self.transient),
+                (cell, periods),
+            );
             recall_or_compute(self.kept, &of, || self.log_together(&[*cell], periods))
         };
         Ok(parallel::try_map(cells, one)?.concat())

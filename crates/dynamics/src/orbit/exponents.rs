@@ -11,8 +11,8 @@ pub(crate) const BATCH_PERIODS: (u64, u64) = (100, 1600);
 const LASTING_GROWTH: f64 = 100.0;
 /// Student's t of 31 degrees of freedom for a two-sided 95 % interval.
 const STUDENT_T: f64 = 2.039_5;
-/// Errors (half-widths of the 95 % interval) by which an exponent has to lie above zero to be positive.
-const POSITIVE_ERRORS: f64 = 3.0;
+/// Errors (half-widths of the 95 % interval) by which an exponent has to lie away from zero for its sign to be told.
+const SIGN_ERRORS: f64 = 3.0;
 
 /// Both Lyapunov exponents of a motion of the state (x, x'): mean rates at which small differences grow.
 ///
@@ -75,7 +75,7 @@ impl Exponents {
             walk.add_batches(&mut sums, batch, || Ok::<(), MotionError>(()))?;
             let found = Self::of_batches(&sums, batch, scene.period());
             let largest = found.per_period[0];
-            let is_clear = largest.abs() > POSITIVE_ERRORS * found.error;
+            let is_clear = largest.abs() > SIGN_ERRORS * found.error;
             let is_much = largest.abs() * found.periods as f64 > LASTING_GROWTH;
             if (is_clear && is_much) || batch >= BATCH_PERIODS.1 {
                 return Ok(found.is_positive());
@@ -142,9 +142,14 @@ impl Exponents {
         }
     }
 
+    /// True if both Lyapunov exponents are negative beyond doubt.
+    pub fn is_negative(&self) -> bool {
+        -self.per_period[0] > SIGN_ERRORS * self.error
+    }
+
     /// True if the larger Lyapunov exponent is positive beyond doubt.
     pub fn is_positive(&self) -> bool {
-        self.per_period[0] > POSITIVE_ERRORS * self.error
+        self.per_period[0] > SIGN_ERRORS * self.error
     }
 }
 

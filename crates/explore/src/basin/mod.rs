@@ -48,14 +48,15 @@ Examples:
 
 Each cell's motion is followed until it lies in a ball about a stable orbit in which the map
 contracts; what no ball has caught after --transient drive periods is looked at one by one: what
-returns is polished by Newton's method, what does not is chaos. Shares come with Wilson's 95 %
+returns is polished by Newton's method, what does not is followed on if it settles slowly (for up to
+8192 periods), or is chaos. Shares come with Wilson's 95 %
 interval, as if cells were drawn at random. The integrity of a basin is its integrity factor, the
 radius of the largest ball anywhere inside it, in units of half of each axis of the plane: 1 would
 fill the plane.
 
 Along a parameter the plane is the same at all values. An attractor goes on as the nearest one of its
-regime at the next value, or as one of another regime that lies near by, as after a soft flip. The basin entropy (Daza et al. 2016) is that of boxes of 5 by 5 cells; where that of the
-boxes with several basins exceeds ln 2, their boundary is fractal.
+regime at the next value, or as one of another regime that lies near by, as after a soft flip. The
+basin entropy (Daza et al. 2016) is that of boxes of 5 by 5 cells; where that of the boxes with several basins exceeds ln 2, their boundary is fractal.
 
 Files, whole or not at all: basin.png (white spots: the motions at drive angle phi), basin.csv with
 a row for each basin, basin.json; with --along-zone certainty.svg, certainty.csv, certainty.json;
