@@ -67,7 +67,7 @@ pub(super) fn keep_best<T>(best: &mut Option<T>, other: T, score: impl Fn(&T) ->
 /// Distance from the ends of the cube that is none: a solver comes as near to them as that.
 const AT_END: f64 = 1e-9;
 
-/// Most axes with two bases of directions in a turn.
+/// Axes that are moved all at once, at most.
 const FEW: usize = 3;
 
 /// The coordinates that are moved.
@@ -136,15 +136,22 @@ impl Coordinates {
         unit
     }
 
-    /// Points of the unit cube around it: so far along directions that are perpendicular to each other, and, if they are few,
-    /// along as many others. Each turn has directions of its own.
+    /// Points of the unit cube around it: so far along each axis that is moved and, if they are few, along all at once; in each turn
+    /// but the first along the reflections of these directions by another hyperplane, as in OrthoMADS (Abramson, Audet, Dennis and Le
+    /// Digabel 2009).
     pub(super) fn around(&self, step: f64, turn: usize) -> Vec<Vec<f64>> {
         let count = self.moved.len();
-        let sets = match count {
-            2..=FEW => 2,
-            _ => 1,
+        let normal = sobol_point(turn, count);
+        let square: f64 = normal.iter().map(|it| it * it).sum();
+        let reflected = |direction: Vec<f64>| {
+            let along: f64 = direction.iter().zip(&normal).map(|(a, b)| a * b).sum();
+            let pairs = direction.iter().zip(&normal);
+            pairs
+                .map(|(own, normal)| own - 2.0 * along / square * normal)
+                .collect()
         };
-        let directions = (sets * turn..sets * (turn + 1)).flat_map(|set| orthonormal(count, set));
+        let directions = axes_and_diagonals(count).into_iter();
+        let directions = directions.map(|it| if turn == 0 { it } else { reflected(it) });
         let both = directions.flat_map(|it| [step, -step].map(|step| self.moved_by(&it, step)));
         both.collect()
     }
@@ -176,16 +183,16 @@ impl Coordinates {
     }
 }
 
-/// An orthonormal basis: that of the axes, and for each number but 0 its reflection by another hyperplane, as in OrthoMADS
-/// (Abramson, Audet, Dennis and Le Digabel 2009).
-fn orthonormal(count: usize, number: usize) -> Vec<Vec<f64>> {
-    let normal = sobol_point(number, count);
-    let square: f64 = normal.iter().map(|it| it * it).sum();
-    let factor = if number > 0 { 2.0 / square } else { 0.0 };
-    let row = |axis: usize| {
-        let own = unit_row(count, Some(axis)).zip(&normal);
-        own.map(|(own, other)| own - factor * normal[axis] * other)
-            .collect()
+/// The directions of the axes and, if they are few, of the diagonals.
+fn axes_and_diagonals(count: usize) -> Vec<Vec<f64>> {
+    let axes = (0..count).map(|axis| unit_row(count, Some(axis)).collect());
+    let diagonals = match count {
+        2..=FEW => 1 << (count - 1),
+        _ => 0,
     };
-    (0..count).map(row).collect()
+    let diagonals = (0..diagonals).map(|signs| {
+        let sign = |axis| if signs >> axis & 1 == 1 { 1.0 } else { -1.0 };
+        (0..count).map(sign).collect()
+    });
+    axes.chain(diagonals).collect()
 }

@@ -139,6 +139,12 @@ impl Catalogues {
         self.0.iter().map(place).collect()
     }
 
+    /// The points with every choice, as far as they are listed, that have the other coordinates of one.
+    pub(super) fn units(&self, unit: &[f64]) -> Vec<Vec<f64>> {
+        let all = self.all().into_iter();
+        all.map(|places| self.unit(unit, &places)).collect()
+    }
+
     /// A point with other values.
     fn unit(&self, unit: &[f64], places: &[usize]) -> Vec<f64> {
         let mut unit = unit.to_vec();

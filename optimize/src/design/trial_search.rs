@@ -12,6 +12,7 @@ use super::certain::{ShareGoal, certain};
 use super::coordinates::{Candidate, Coordinates, best_by};
 use super::critical::CriticalMachines;
 use super::direct_search::direct_search;
+use super::improve_catalogue::Catalogues;
 use super::problem::{Objective, Problem};
 use super::space::digits;
 use super::trial::FULL;
@@ -23,6 +24,8 @@ use crate::order::sort_rising;
 const LATTICE: usize = 32;
 /// Distances of the zones beside the design that fails, in edges of the cube: its hill may be narrower than the lattice.
 const BESIDE: [f64; 2] = [0.05, 0.1];
+/// Choices from catalogues that are all looked at, at most.
+const MAX_CHOICES: usize = 64;
 /// Last distance of the zones around the best, in edges of the cube.
 const LAST: f64 = 6e-4;
 /// Last distance where none passes, lack within which a zone may hold a design that does, and relative gain on the way there.
@@ -93,8 +96,8 @@ impl<'a> Trials<'a> {
         self.problem.score(design)
     }
 
-    /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice and
-    /// those beside the design, then by a direct search.
+    /// The best design that passes, sought from one that does not: from the first ones on among the zones of a lattice, those
+    /// beside the design and those of other choices from catalogues, then by a direct search and further choices in turn.
     pub(super) fn best(&self, from: &Candidate) -> Option<Candidate> {
         let coordinates = Coordinates::new(self.problem, &from.unit);
         let lattice = lattice(coordinates.axes().len());
@@ -105,7 +108,27 @@ impl<'a> Trials<'a> {
         let zones: Vec<_> = lattice.chain(beside).collect();
         let first = self.first(from);
         let best = self.best_of(&zones, first.as_ref()).or(first);
-        self.improve_around(best.or_else(|| self.nearest_passing(&zones))?)
+        let others = self.best_of(&self.other_choices(from), None);
+        let best = self.better_of(best.into_iter().chain(others).collect());
+        let mut best = best.or_else(|| self.nearest_passing(&zones))?;
+        loop {
+            best = self.improve_around(best)?;
+            match self.best_of(&self.other_choices(&best), Some(&best)) {
+                Some(better) => best = better,
+                None => break,
+            }
+        }
+        let further = self.led_to(&best);
+        self.better_of(further.into_iter().chain([best]).collect())
+    }
+
+    /// The points of other choices from catalogues, if these are few: the best motions are not those that pass.
+    fn other_choices(&self, from: &Candidate) -> Vec<Vec<f64>> {
+        let catalogues = Catalogues::of(self.problem);
+        match catalogues.count() {
+            2..=MAX_CHOICES => catalogues.units(&from.unit),
+            _ => Vec::new(),
+        }
     }
 
     /// The best design that passes, sought near one that does not: by a direct search without a lattice.
