@@ -113,8 +113,8 @@ C_TYPES = {
     "fmi3Status": "c_int", "fmi3Instance": "*mut c_void", "fmi3InstanceEnvironment": "*mut c_void",
     "fmi3FMUState": "*mut c_void", "fmi3ValueReference": "c_uint", "fmi3Boolean": "u8", "fmi3Clock": "u8",
     "fmi3Byte": "u8", "fmi3Char": "c_char", "char": "c_char", "fmi3String": "*const c_char",
-    "fmi3Binary": "*const u8", "size_t": "size_t", "fmi3Float32": "f32", "fmi3Float64": "f64",
-    "fmi3Int8": "i8", "fmi3UInt8": "u8", "fmi3Int16": "i16", "fmi3UInt16": "u16", "fmi3Int32": "c_int",
+    "fmi3Binary": "*const u8", "size_t": "usize", "fmi3Float32": "f32", "fmi3Float64": "f64",
+    "fmi3Int8": "i8", "fmi3UInt8": "u8", "fmi3Int16": "i16", "fmi3UInt16": "u16", "fmi3Int32": "i32",
     "fmi3UInt32": "u32", "fmi3Int64": "i64", "fmi3UInt64": "u64", "fmi3DependencyKind": "c_int",
     "fmi3IntervalQualifier": "c_int", "void": "()", "fmi3LogMessageCallback": "LogMessageCallback",
     "fmi3IntermediateUpdateCallback": "IntermediateUpdateCallback",
@@ -146,22 +146,18 @@ def standard_functions():
 
 
 def library_functions():
-    """The functions as the library's source has them, its macros written out."""
-    folder = TOP / "crates" / "fmi" / "src" / "v3"
+    """The functions as the rows of fmu/tests/abi.rs have them, to which the compiler holds those of the library."""
+    text = (TOP / "fmu" / "tests" / "abi.rs").read_text()
+    rows = re.search(r"types_of_fmi_3\(\) \{\s*let typed = functions! \{(.*?)\n    \};", text, re.S)[1]
+    aliases = dict(re.findall(r"^type (\w+) = ([^;]+);", text, re.M))
+    rows = re.sub(r"\w+", lambda word: aliases.get(word[0], word[0]), rows)
     functions = {}
-    for file in ("functions.rs", "exchange.rs", "absent.rs", "values.rs"):
-        text = re.sub(r"//.*", "", (folder / file).read_text())
-        split = lambda arguments: [one.split(":", 1)[1].strip() for one in arguments.split(",") if ":" in one]
-        for name, arguments, result in re.findall(r"fn (fmi3\w+)<U>\(([^)]*)\)(?: -> ([^{]*?))? \{", text):
-            own = split(arguments)
-            functions[name] = (result, own) if result else ("c_int", ["*mut c_void", *own])
-        if file == "absent.rs":
-            for name, arguments in re.findall(r"(fmi3\w+)\(([^)]*)\);", text):
-                functions[name] = ("c_int", ["*mut c_void", *split(arguments)])
-        for get, set_, kind in re.findall(r"(fmi3Get\w+) (fmi3Set\w+) ([^:]+):", text):
-            listed = ["*mut c_void", "*const c_uint", "size_t"]
-            functions[get] = ("c_int", [*listed, f"*mut {kind}", "size_t"])
-            functions[set_] = ("c_int", [*listed, f"*const {kind}", "size_t"])
+    for row in rows.split(";")[:-1]:
+        arguments, result, names = re.fullmatch(r"\s*\((.*?)\)\s*->\s*(.*?):\s*(.*?)\s*", row, re.S).groups()
+        types = [one.strip() for one in arguments.split(",") if one.strip()]
+        for name in names.split():
+            assert name not in functions
+            functions[name] = (result, types)
     return functions
 
 
