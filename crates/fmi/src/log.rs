@@ -4,8 +4,16 @@ use std::borrow::Cow;
 
 use crate::fault::Fault;
 
-/// Names of a category.
-type Names = &'static [&'static str];
+/// What the model description says of a category of log lines.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LogCategory {
+    /// Its name.
+    pub name: &'static str,
+    /// What its lines tell; none for events, of which the unit knows.
+    pub description: Option<&'static str>,
+    /// The standard's names of such lines (FMI 2.0.4, 2.2.4).
+    pub standard_names: &'static [&'static str],
+}
 
 /// A category of log lines, as in the model description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,28 +29,34 @@ pub(crate) enum Category {
 impl Category {
     pub(crate) const ALL: [Self; 3] = [Self::Events, Self::Warnings, Self::Errors];
 
-    /// Its name; what it tells, which of events the unit knows; the standard's names of that (FMI 2.0.4, 2.2.4).
-    pub(crate) const fn about(self) -> (&'static str, Option<&'static str>, Names) {
+    /// Its entry in the model description.
+    pub(crate) const fn declaration(self) -> LogCategory {
         match self {
-            Self::Events => ("events", None, &["logEvents"]),
-            Self::Warnings => (
-                "warnings",
-                Some("calls that are carried out, but hardly as meant"),
-                &["logStatusWarning"],
-            ),
-            Self::Errors => (
-                "errors",
-                Some("calls that are refused and steps that are discarded, always logged"),
-                &["logStatusDiscard", "logStatusError"],
-            ),
+            Self::Events => LogCategory {
+                name: "events",
+                description: None,
+                standard_names: &["logEvents"],
+            },
+            Self::Warnings => LogCategory {
+                name: "warnings",
+                description: Some("calls that are carried out, but hardly as meant"),
+                standard_names: &["logStatusWarning"],
+            },
+            Self::Errors => LogCategory {
+                name: "errors",
+                description: Some(
+                    "calls that are refused and steps that are discarded, always logged",
+                ),
+                standard_names: &["logStatusDiscard", "logStatusError"],
+            },
         }
     }
 
     /// The categories of a name, its own or one of the standard's.
     fn named(name: &str) -> Result<Vec<Self>, Fault> {
         let is_meant = |it: &Self| {
-            let (own, _, standard) = it.about();
-            own == name || name == LOG_ALL || standard.contains(&name)
+            let own = it.declaration();
+            own.name == name || name == LOG_ALL || own.standard_names.contains(&name)
         };
         let found: Vec<_> = Self::ALL.into_iter().filter(is_meant).collect();
         match found.is_empty() {
@@ -55,19 +69,29 @@ impl Category {
 /// The standard's name of all categories.
 pub(crate) const LOG_ALL: &str = "logAll";
 
-/// The importer's wishes, by category. Errors are always logged: a refused call must not pass in silence.
+/// The importer's wishes. Errors are always logged: a refused call must not pass in silence.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Wanted([bool; 3]);
+pub(crate) struct Wanted {
+    events: bool,
+    warnings: bool,
+}
 
 impl Wanted {
     /// All or nothing, as `loggingOn` at instantiation.
     pub(crate) const fn all(on: bool) -> Self {
-        Self([on, on, true])
+        Self {
+            events: on,
+            warnings: on,
+        }
     }
 
     /// Whether lines of this category are wanted.
     pub(crate) const fn has(self, category: Category) -> bool {
-        self.0[category as usize]
+        match category {
+            Category::Events => self.events,
+            Category::Warnings => self.warnings,
+            Category::Errors => true,
+        }
     }
 
     /// Switches the named categories, or all if none is named.
@@ -78,7 +102,11 @@ impl Wanted {
             *self = Self::all(on);
         }
         for category in categories {
-            self.0[category as usize] = on || category == Category::Errors;
+            match category {
+                Category::Events => self.events = on,
+                Category::Warnings => self.warnings = on,
+                Category::Errors => {}
+            }
         }
         Ok(())
     }

@@ -9,41 +9,60 @@ use crate::unit::{Row, Unit};
 use crate::variable::{Access, Kind};
 use crate::{rows, si};
 
-/// The type that functions of a standard serve: its name in theirs, and the kinds of variables that they take.
+/// A type of values, for which a standard has functions of its own.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Type(pub Standard, pub &'static str, pub fn(&Kind) -> bool);
+pub(crate) struct Type {
+    pub standard: Standard,
+    /// Its name in those of the functions.
+    pub name: &'static str,
+    /// Whether a variable of a kind is of this type.
+    pub includes: fn(&Kind) -> bool,
+}
 
 impl Type {
     /// Real numbers of FMI 2.0.
-    pub(crate) const REAL: Self = Self(Standard::Fmi2, "Real", |it| matches!(it, Kind::Real(_)));
+    pub(crate) const REAL: Self = Self {
+        standard: Standard::Fmi2,
+        name: "Real",
+        includes: |it| matches!(it, Kind::Real(_)),
+    };
     /// Integers and enumerations of FMI 2.0.
-    pub(crate) const INTEGER: Self = Self(Standard::Fmi2, "Integer", |it| {
-        matches!(it, Kind::Count { .. } | Kind::Enumeration(_))
-    });
+    pub(crate) const INTEGER: Self = Self {
+        standard: Standard::Fmi2,
+        name: "Integer",
+        includes: |it| matches!(it, Kind::Count { .. } | Kind::Enumeration(_)),
+    };
     /// Booleans of FMI 2.0.
-    pub(crate) const BOOLEAN: Self =
-        Self(Standard::Fmi2, "Boolean", |it| matches!(it, Kind::Boolean));
+    pub(crate) const BOOLEAN: Self = Self {
+        standard: Standard::Fmi2,
+        name: "Boolean",
+        includes: |it| matches!(it, Kind::Boolean),
+    };
 
     /// One of which there are no variables.
     pub(crate) const fn none(standard: Standard, name: &'static str) -> Self {
-        Self(standard, name, |_| false)
+        Self {
+            standard,
+            name,
+            includes: |_| false,
+        }
     }
 }
 
 pub(crate) fn find<U: Unit>(reference: u32, wanted: Type) -> Result<&'static Row<U>, Fault> {
-    let variable = match (reference, wanted.0) {
+    let variable = match (reference, wanted.standard) {
         (TIME_REFERENCE, Standard::Fmi3) => Some(&Instance::<U>::TIME),
         _ => U::about().table.by_reference(reference),
     };
     let variable = variable.ok_or(Fault::UnknownReference { reference })?;
-    if wanted.2(&variable.kind) {
+    if (wanted.includes)(&variable.kind) {
         Ok(variable)
     } else {
         Err(Fault::WrongType {
             name: variable.name,
             reference,
-            actual: variable.kind.type_name(wanted.0),
-            wanted: wanted.1,
+            actual: variable.kind.type_name(wanted.standard),
+            wanted: wanted.name,
         })
     }
 }

@@ -57,7 +57,11 @@ pub(crate) struct Component<U: Unit> {
 /// Sends one line.
 fn send(sink: &Sink, status: Status, category: Category, text: &str) {
     let c_string = |text: &str| CString::new(text.replace('\0', " ")).unwrap_or_default();
-    sink(status, &c_string(category.about().0), &c_string(text));
+    sink(
+        status,
+        &c_string(category.declaration().name),
+        &c_string(text),
+    );
 }
 
 /// Tells why no instance is made.

@@ -86,17 +86,19 @@ fn log_and_experiment<U: Unit>(about: &About<U>) -> [Element; 2] {
 /// The categories of the unit by their own names and by the standard's; a unit without events has none for them.
 fn log_categories<U: Unit>(about: &About<U>) -> impl Iterator<Item = Element> {
     let told = Category::ALL.map(|it| {
-        let (name, description, standard) = it.about();
-        (name, description.unwrap_or(about.events), standard)
+        let category = it.declaration();
+        (category, category.description.unwrap_or(about.events))
     });
     let told = told
         .into_iter()
-        .filter(|(_, description, _)| !description.is_empty());
+        .filter(|(_, description)| !description.is_empty());
     let own = told
         .clone()
-        .map(|(name, description, _)| (name, description));
-    let standard =
-        told.flat_map(|(_, description, names)| names.iter().map(move |name| (*name, description)));
+        .map(|(category, description)| (category.name, description));
+    let standard = told.flat_map(|(category, description)| {
+        let names = category.standard_names.iter();
+        names.map(move |name| (*name, description))
+    });
     let all = own.chain(standard).chain([(LOG_ALL, "all of these")]);
     all.map(|(name, description)| {
         Element::new("Category").set_all([("name", name), ("description", description)])

@@ -72,13 +72,19 @@ unsafe fn access_none<U: Unit>(
     instance.none_of(Type::none(Fmi3, type_name), references)
 }
 
-/// The functions of the types of which there are variables, with the type and how a value and a number become each
-/// other, and of those of which there are none.
+/// The functions of the types of which there are variables, with a constant for the type and how a value and a number become
+/// each other, and of those of which there are none.
 macro_rules! typed_functions {
     ($dollar:tt
-        some { $($get:ident $set:ident $type:ty: $wanted:literal $kind:pat, $typed:expr, $number:expr;)* }
+        some { $($get:ident $set:ident $type:ty, $wanted:ident: $type_name:literal $kind:pat, $typed:expr, $number:expr;)* }
         none { $($get_none:ident $set_none:ident $none_type:ty: $name:literal $($sizes:ident)?;)* }
     ) => {
+        $(const $wanted: Type = Type {
+            standard: Fmi3,
+            name: $type_name,
+            includes: |it| matches!(it, $kind),
+        };)*
+
         functions! { $dollar export_v3_values v3; ;
             $(
                 /// Reads values of this type.
@@ -90,7 +96,7 @@ macro_rules! typed_functions {
                     let values = write("values", values, value_count)?;
                     let references = expanded(component, references)?;
                     check_count("nValues", value_count, references.len())?;
-                    let read = component.instance.read(&references, values, Type(Fmi3, $wanted, |it| matches!(it, $kind)), $typed);
+                    let read = component.instance.read(&references, values, $wanted, $typed);
                     read.map_err(not_yet)
                 }
 
@@ -103,7 +109,7 @@ macro_rules! typed_functions {
                     let values = read("values", values, value_count)?;
                     let references = expanded(component, references)?;
                     check_count("nValues", value_count, references.len())?;
-                    let set = component.instance.set(&references, values, Type(Fmi3, $wanted, |it| matches!(it, $kind)), $number);
+                    let set = component.instance.set(&references, values, $wanted, $number);
                     set.map_err(Fault::refused)
                 }
             )*
@@ -154,10 +160,10 @@ macro_rules! typed_functions {
 
 typed_functions! { $
     some {
-        fmi3GetFloat64 fmi3SetFloat64 f64: "Float64" Kind::Real(_), |value| value, |value| value;
-        fmi3GetInt32 fmi3SetInt32 c_int: "Int32" Kind::Count { .. }, |value| value as c_int, f64::from;
-        fmi3GetInt64 fmi3SetInt64 i64: "Int64" Kind::Enumeration(_), |value| value as i64, |value| value as f64;
-        fmi3GetBoolean fmi3SetBoolean u8: "Boolean" Kind::Boolean, |value| u8::from(value != 0.0),
+        fmi3GetFloat64 fmi3SetFloat64 f64, FLOAT_64: "Float64" Kind::Real(_), |value| value, |value| value;
+        fmi3GetInt32 fmi3SetInt32 c_int, INT_32: "Int32" Kind::Count { .. }, |value| value as c_int, f64::from;
+        fmi3GetInt64 fmi3SetInt64 i64, INT_64: "Int64" Kind::Enumeration(_), |value| value as i64, |value| value as f64;
+        fmi3GetBoolean fmi3SetBoolean u8, BOOLEAN: "Boolean" Kind::Boolean, |value| u8::from(value != 0.0),
             |value| f64::from(u8::from(value != 0));
     }
     none {
