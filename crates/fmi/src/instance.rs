@@ -59,18 +59,32 @@ impl<U: Unit> Clone for Instance<U> {
 
     /// Reuses the memory of values and signals: going back to a snapshot is asked for as often as a step.
     fn clone_from(&mut self, kept: &Self) {
-        self.lifecycle = kept.lifecycle;
-        self.values.clone_from(&kept.values);
-        self.signals.clone_from(&kept.signals);
-        self.experiment = kept.experiment;
-        self.unit.clone_from(&kept.unit);
-        self.tuned = kept.tuned;
-        self.fell_short = kept.fell_short;
-        self.retreat.clone_from(&kept.retreat);
-        self.awaits = kept.awaits;
-        self.aim = kept.aim;
-        self.exchange.clone_from(&kept.exchange);
-        self.ticks = kept.ticks;
+        let Self {
+            lifecycle,
+            values,
+            signals,
+            experiment,
+            unit,
+            tuned,
+            fell_short,
+            retreat,
+            awaits,
+            aim,
+            exchange,
+            ticks,
+        } = kept;
+        self.lifecycle = *lifecycle;
+        self.values.clone_from(values);
+        self.signals.clone_from(signals);
+        self.experiment = *experiment;
+        self.unit.clone_from(unit);
+        self.tuned = *tuned;
+        self.fell_short = *fell_short;
+        self.retreat.clone_from(retreat);
+        self.awaits = *awaits;
+        self.aim = *aim;
+        self.exchange.clone_from(exchange);
+        self.ticks = *ticks;
     }
 }
 
