@@ -44,35 +44,60 @@ pub enum NotServed {
     Start(#[from] MotionError),
 }
 
-/// The name of a list of slopes, and the slot of their number, behind which lie those of the beginnings and stiffnesses.
-type Chain = (&'static str, Slot);
+/// The slots of a list of slopes.
+#[derive(Clone, Copy)]
+struct SlopeSlots {
+    /// The list's name in a machine file.
+    list: &'static str,
+    /// How many slopes it has.
+    count: Slot,
+    /// Where the first one begins; those of the others follow.
+    from: Slot,
+    /// The stiffness of the first one; those of the others follow.
+    stiffness: Slot,
+}
 
 /// The slots of what of a stop is no parameter.
 struct Laws {
     model: Slot,
     release: Slot,
-    loading: Chain,
-    unloading: Chain,
+    loading: SlopeSlots,
+    unloading: SlopeSlots,
 }
 
 const ABOVE: Laws = Laws {
     model: slot::STOP_MODEL,
     release: slot::STOP_RELEASE,
-    loading: ("stop.loading", slot::LOADING_COUNT),
-    unloading: ("stop.unloading", slot::UNLOADING_COUNT),
+    loading: SlopeSlots {
+        list: "stop.loading",
+        count: slot::LOADING_COUNT,
+        from: slot::LOADING_FROM,
+        stiffness: slot::LOADING_STIFFNESS,
+    },
+    unloading: SlopeSlots {
+        list: "stop.unloading",
+        count: slot::UNLOADING_COUNT,
+        from: slot::UNLOADING_FROM,
+        stiffness: slot::UNLOADING_STIFFNESS,
+    },
 };
 
 const BELOW: Laws = Laws {
     model: slot::BELOW_MODEL,
     release: slot::BELOW_RELEASE,
-    loading: ("stop.below.loading", slot::BELOW_LOADING_COUNT),
-    unloading: ("stop.below.unloading", slot::BELOW_UNLOADING_COUNT),
+    loading: SlopeSlots {
+        list: "stop.below.loading",
+        count: slot::BELOW_LOADING_COUNT,
+        from: slot::BELOW_LOADING_FROM,
+        stiffness: slot::BELOW_LOADING_STIFFNESS,
+    },
+    unloading: SlopeSlots {
+        list: "stop.below.unloading",
+        count: slot::BELOW_UNLOADING_COUNT,
+        from: slot::BELOW_UNLOADING_FROM,
+        stiffness: slot::BELOW_UNLOADING_STIFFNESS,
+    },
 };
-
-/// The slots of one slope of a list, counted from 0: where it begins, and its stiffness.
-const fn slope(count: Slot, index: usize) -> [Slot; 2] {
-    [count.element(1 + index), count.element(1 + SLOPES + index)]
-}
 
 impl StartValues {
     /// The start values that make the unit run `scene` from `start`.
@@ -154,16 +179,16 @@ impl StartValues {
         Ok(())
     }
 
-    fn set_slopes(&mut self, (list, number): Chain, slopes: &[Slope]) -> Result<(), NotServed> {
+    fn set_slopes(&mut self, slots: SlopeSlots, slopes: &[Slope]) -> Result<(), NotServed> {
         let count = slopes.len();
         if count > SLOPES {
+            let list = slots.list;
             return Err(NotServed::TooManySlopes { list, count });
         }
-        self.set(number, count as f64);
-        for (index, of) in slopes.iter().enumerate() {
-            let [from, stiffness] = slope(number, index);
-            self.set(from, of.from);
-            self.set(stiffness, of.stiffness);
+        self.set(slots.count, count as f64);
+        for (index, slope) in slopes.iter().enumerate() {
+            self.set(slots.from.element(index), slope.from);
+            self.set(slots.stiffness.element(index), slope.stiffness);
         }
         Ok(())
     }
@@ -222,12 +247,12 @@ impl StartValues {
         }
     }
 
-    fn slopes(&self, (_, number): Chain) -> Vec<Slope> {
-        let slope = |index| {
-            let [from, stiffness] = slope(number, index).map(|slot| self.get(slot));
-            Slope { from, stiffness }
+    fn slopes(&self, slots: SlopeSlots) -> Vec<Slope> {
+        let slope = |index| Slope {
+            from: self.get(slots.from.element(index)),
+            stiffness: self.get(slots.stiffness.element(index)),
         };
-        let count = self.get(number) as usize;
+        let count = self.get(slots.count) as usize;
         (0..count.min(SLOPES)).map(slope).collect()
     }
 

@@ -1,5 +1,6 @@
 //! The output variables.
 
+use softstop::Impact;
 use softstop_fmi::Clock;
 use softstop_fmi::variable::{Access, Kind};
 
@@ -18,6 +19,14 @@ fn acceleration(machine: &Machine) -> f64 {
 
 fn jerk(machine: &Machine) -> f64 {
     machine.sample().jerk
+}
+
+fn first_impact(machine: &Machine) -> Impact {
+    machine.contacts().first.unwrap_or_default()
+}
+
+fn hardest_impact(machine: &Machine) -> Impact {
+    machine.contacts().hardest.unwrap_or_default()
 }
 
 fn clamp_count(count: u64) -> i32 {
@@ -101,13 +110,13 @@ pub(super) const OUTPUTS: &[Row] = &[
         "Velocity just before the last impact, towards the stop; 0 before the first one"),
     count(219, "impact.step.count", |machine| clamp_count(machine.contacts().impacts),
         "Impacts in the last step"),
-    discrete(220, "impact.step.first.time", real(&units::TIME), (|machine| machine.contacts().first.unwrap_or_default().time, Tangent::of),
+    discrete(220, "impact.step.first.time", real(&units::TIME), (|machine| first_impact(machine).time, Tangent::of),
         "Time of the first impact in the last step; 0 without one"),
-    discrete(221, "impact.step.first.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| machine.contacts().first.unwrap_or_default().velocity, Tangent::of),
+    discrete(221, "impact.step.first.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| first_impact(machine).velocity, Tangent::of),
         "Velocity just before the first impact in the last step; 0 without one"),
-    discrete(222, "impact.step.hardest.time", real(&units::TIME), (|machine| machine.contacts().hardest.unwrap_or_default().time, Tangent::of),
+    discrete(222, "impact.step.hardest.time", real(&units::TIME), (|machine| hardest_impact(machine).time, Tangent::of),
         "Time of the impact with the highest velocity in the last step; 0 without one"),
-    discrete(223, "impact.step.hardest.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| machine.contacts().hardest.unwrap_or_default().velocity, Tangent::of),
+    discrete(223, "impact.step.hardest.velocity", nominal(real(&units::VELOCITY), 10.0), (|machine| hardest_impact(machine).velocity, Tangent::of),
         "Velocity just before the hardest impact in the last step; 0 without one"),
     count(225, "impact.below.count", |machine| clamp_count(machine.simulation().impact_count_below()),
         "Impacts on the stop below since the start, of those that impact.count counts"),
