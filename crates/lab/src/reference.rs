@@ -10,20 +10,30 @@ use softstop::Impact;
 use crate::methods::Solution;
 
 /// One motion in each line: scene, drive periods, stiffness of the stop in N/m if it is swept, else 0, position and velocity at
-/// the end, the three figures of [`Reference::doubt`], then time and velocity of each impact.
+/// the end, the three figures of [`Doubt`], then time and velocity of each impact.
 const STORED: &str = include_str!("../assets/references.txt");
 
 /// Relative difference of stiffnesses that are the same but for rounding.
 const ROUNDING: f64 = 1e-14;
+
+/// Largest differences between the run in 48 digits and that in 67, which is the answer and far better than this.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Doubt {
+    /// Of the position in m and of the velocity in m/s at the end.
+    pub end: f64,
+    /// Of the times of impacts in s.
+    pub impact_time: f64,
+    /// Of the velocities of impacts in m/s.
+    pub impact_velocity: f64,
+}
 
 /// A motion, rounded from many digits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     /// Its end and its impacts, the summable ones of a rigid stop included.
     pub solution: Solution,
-    /// Largest differences between the run in 48 digits and that in 67, which is the answer and far better than this: of the
-    /// position in m and of the velocity in m/s at the end, of the times of impacts in s, of their velocities in m/s.
-    pub doubt: [f64; 3],
+    /// How well it is known.
+    pub doubt: Doubt,
 }
 
 /// The stored motion of a built-in scene, with its own stop or with one of this stiffness in N/m.
@@ -44,7 +54,8 @@ pub fn stored(scene: &str, periods: f64, stiffness: Option<f64>) -> Option<Refer
 }
 
 fn read(numbers: &[f64]) -> Option<Reference> {
-    let (&[position, velocity, end, time, speed], impacts) = numbers.split_first_chunk()?;
+    let (&[position, velocity, end, impact_time, impact_velocity], impacts) =
+        numbers.split_first_chunk()?;
     let impact = |pair: &[f64]| Impact {
         time: pair[0],
         velocity: pair[1],
@@ -55,6 +66,10 @@ fn read(numbers: &[f64]) -> Option<Reference> {
             impacts: impacts.chunks_exact(2).map(impact).collect(),
             ..Solution::default()
         },
-        doubt: [end, time, speed],
+        doubt: Doubt {
+            end,
+            impact_time,
+            impact_velocity,
+        },
     })
 }

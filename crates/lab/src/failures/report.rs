@@ -9,8 +9,21 @@ use softstop_console::columns;
 use softstop_console::record::Record;
 use softstop_console::table::aligned;
 
-/// A run: the atlas, a map of it, the places of stiffness and step.
-pub(super) type Run<'a> = (&'a Atlas, &'a Map, usize, usize);
+/// One run of a method on a machine.
+pub(super) struct Run<'a> {
+    atlas: &'a Atlas,
+    map: &'a Map,
+    /// Index of its stiffness.
+    column: usize,
+    /// Index of its step.
+    row: usize,
+}
+
+impl Run<'_> {
+    fn cell(&self) -> &Cell {
+        &self.map.columns[self.column][self.row]
+    }
+}
 
 /// All runs.
 pub(super) fn runs(atlases: &[Atlas]) -> impl Iterator<Item = Run<'_>> {
@@ -22,22 +35,27 @@ pub(super) fn runs(atlases: &[Atlas]) -> impl Iterator<Item = Run<'_>> {
     });
     columns.flat_map(|(atlas, map, column)| {
         let rows = 0..atlas.axes.step.len();
-        rows.map(move |row| (atlas, map, column, row))
+        rows.map(move |row| Run {
+            atlas,
+            map,
+            column,
+            row,
+        })
     })
 }
 
 /// The columns of the table.
 pub(super) fn table<'a>() -> [Column<Run<'a>>; 9] {
     columns! { Run<'a>, it;
-        "scene" [None], "" => it.0.case.name.as_str();
-        "scheme" [None], "" => it.1.family.title();
-        "events" [None], "" => it.1.family.row();
-        "stiffness (N/m)" [None], "" => it.0.axes.stiffness[it.2];
-        "step (drive periods)" [None], "" => it.0.axes.step[it.3];
-        "verdict" [None], "" => it.1.columns[it.2][it.3].verdict.name();
-        "error" [None], "" => it.1.columns[it.2][it.3].error;
-        "impacts" [None], "" => it.1.columns[it.2][it.3].impacts;
-        "true impacts" [None], "" => it.0.columns[it.2].truth.impacts.len();
+        "scene" [None], "" => it.atlas.case.name.as_str();
+        "scheme" [None], "" => it.map.family.title();
+        "events" [None], "" => it.map.family.row();
+        "stiffness (N/m)" [None], "" => it.atlas.axes.stiffness[it.column];
+        "step (drive periods)" [None], "" => it.atlas.axes.step[it.row];
+        "verdict" [None], "" => it.cell().verdict.name();
+        "error" [None], "" => it.cell().error;
+        "impacts" [None], "" => it.cell().impacts;
+        "true impacts" [None], "" => it.atlas.columns[it.column].truth.impacts.len();
     }
 }
 

@@ -46,14 +46,14 @@ impl Truth {
     }
 
     fn rounded(reference: Reference, scale: &Scale) -> Self {
-        let [end, time, velocity] = reference.doubt;
+        let doubt = reference.doubt;
         Self {
             solution: reference.solution,
             method: DIGITS,
             doubt: Errors {
-                end: end / scale.position.min(scale.velocity),
-                impact_time: Some(time / scale.period),
-                impact_velocity: Some(velocity / scale.velocity),
+                end: doubt.end / scale.position.min(scale.velocity),
+                impact_time: Some(doubt.impact_time / scale.period),
+                impact_velocity: Some(doubt.impact_velocity / scale.velocity),
                 impact_difference: 0,
             },
         }

@@ -23,19 +23,24 @@ pub(super) struct Engine<'a> {
     pub way: Way<'a>,
 }
 
-/// An engine with its times, and the drive periods of a round.
-type EngineTiming<'a> = (&'a Engine<'a>, &'a Timing, f64);
+/// An engine with its times.
+struct EngineTiming<'a> {
+    engine: &'a Engine<'a>,
+    timing: &'a Timing,
+    /// Drive periods of a round.
+    periods: f64,
+}
 
 /// What people read of it.
 fn columns<'a>() -> [Column<EngineTiming<'a>>; 7] {
     columns! { EngineTiming<'a>, it;
-        "engine" [None] Plain, "and instruction set" => name(it.0);
-        "median" [None] Fixed(2), "of all rounds" => it.2 / it.1.median() / 1e6;
-        "slowest" [None] Fixed(2), "round" => it.1.spread(it.2)[0] / 1e6;
-        "fastest" [None] Fixed(2), "round" => it.1.spread(it.2)[1] / 1e6;
-        "lanes" [None] Plain, "motions in lock-step" => it.0.lanes.map(|it| it.0);
-        "handed_over" [None] Plain, "periods left to the safe engine" => it.0.lanes.map(|_| it.1.count.handed_over);
-        "leapt" [None] Plain, "periods leapt over, since each is like the one before" => it.0.lanes.map(|_| it.1.count.leapt);
+        "engine" [None] Plain, "and instruction set" => name(it.engine);
+        "median" [None] Fixed(2), "of all rounds" => it.periods / it.timing.median() / 1e6;
+        "slowest" [None] Fixed(2), "round" => it.timing.spread(it.periods)[0] / 1e6;
+        "fastest" [None] Fixed(2), "round" => it.timing.spread(it.periods)[1] / 1e6;
+        "lanes" [None] Plain, "motions in lock-step" => it.engine.lanes.map(|(lanes, _)| lanes);
+        "handed_over" [None] Plain, "periods left to the safe engine" => it.engine.lanes.map(|_| it.timing.count.handed_over);
+        "leapt" [None] Plain, "periods leapt over, since each is like the one before" => it.engine.lanes.map(|_| it.timing.count.leapt);
     }
 }
 
@@ -46,7 +51,12 @@ fn name(engine: &Engine<'_>) -> String {
 }
 
 /// An engine's times for programs, beside the safe engine and one lane.
-fn figures((engine, timing, periods): &EngineTiming<'_>, safe: &Timing, scalar: &Timing) -> Record {
+fn figures(timed: &EngineTiming<'_>, safe: &Timing, scalar: &Timing) -> Record {
+    let EngineTiming {
+        engine,
+        timing,
+        periods,
+    } = timed;
     let figures = Record::default()
         .hidden("periods_per_second_per_core", periods / timing.median())
         .hidden("spread", timing.spread(*periods))
@@ -78,7 +88,13 @@ pub(super) fn report(
         return None;
     };
     let timed = engines.iter().zip(timings);
-    let timed: Vec<EngineTiming<'_>> = timed.map(|(it, timing)| (it, timing, periods)).collect();
+    let timed: Vec<EngineTiming<'_>> = timed
+        .map(|(engine, timing)| EngineTiming {
+            engine,
+            timing,
+            periods,
+        })
+        .collect();
     let factor = alone.median() / parallel.median();
     let rate = periods * ROUNDS as f64 / parallel.median();
     let machines = f64::from(grid.edge * grid.edge);
@@ -115,7 +131,7 @@ pub(super) fn report(
         .hidden("scene", json!(scene))
         .hidden("repeats", repeats);
     let result = timed.iter().fold(result, |result, it| {
-        result.hidden(it.0.names[0], figures(it, safe, scalar))
+        result.hidden(it.engine.names[0], figures(it, safe, scalar))
     });
     let both_cores = Record::default()
         .hidden("threads", threads)
