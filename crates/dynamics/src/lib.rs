@@ -66,8 +66,7 @@ pub mod internals {
     pub use crate::attractors::region::evenly_spread_point;
     pub use crate::continuation::period_map::carry_on;
     pub use crate::cycle_metrics::peak_contact_force;
-    pub use crate::ensemble::Ensemble;
-    pub use crate::ensemble::{HasMember, Member};
+    pub use crate::ensemble::{Ensemble, HasMember, Member};
     pub use crate::orbit::regime::ImpactCounter;
     pub use crate::zone::Frequencies;
     pub use crate::zone::followed_end::{LONGEST_BRANCH, find_end};

@@ -59,6 +59,15 @@ fn end_between(
     Ok(ZoneEnd::at_point(&point, Loss::Range, None))
 }
 
+/// A branch that was followed from a point of stable motions.
+struct Followed {
+    /// Index of that point.
+    from: usize,
+    branch: Branch,
+    /// The bifurcation or grazing that ends its stable motions, if one does.
+    named_end: Option<ZoneEnd>,
+}
+
 /// The points of a branch but those at a value of the parameter, that of its start.
 fn further(branch: &Branch, start: f64) -> impl Iterator<Item = &BranchPoint> + Clone {
     let points = branch.points.iter();
@@ -73,8 +82,8 @@ pub(super) fn follow_to_end(
     range: (f64, f64),
 ) -> Result<ZoneEnd, OrbitError> {
     let last = points.len().checked_sub(1).ok_or(OrbitError::NotIsolated)?;
-    let from = |index: usize| {
-        let start = &points[index];
+    let follow_from = |from: usize| {
+        let start = &points[from];
         let limits = Limits {
             range: match direction {
                 Direction::Up => (start.parameter, range.1),
@@ -89,19 +98,26 @@ pub(super) fn follow_to_end(
             if direction == Direction::Down {
                 branch.points.reverse();
             }
-            // The bifurcation or grazing that ends its stable motions, if one does.
-            let named_end = first_end(&branch, further(&branch, start.parameter));
-            (index, branch, named_end)
+            Followed {
+                from,
+                named_end: first_end(&branch, further(&branch, start.parameter)),
+                branch,
+            }
         })
     };
     // A branch from right beside its end may be lost there: the one from the first point tells what the end is.
-    let (from, branch, named_end) = match from(last) {
-        Ok(found) if found.2.is_some() => found,
-        other => match from(0) {
-            Ok(found) if other.is_err() || found.2.is_some() => found,
+    let followed = match follow_from(last) {
+        Ok(found) if found.named_end.is_some() => found,
+        other => match follow_from(0) {
+            Ok(found) if other.is_err() || found.named_end.is_some() => found,
             _ => other?,
         },
     };
+    let Followed {
+        from,
+        branch,
+        named_end,
+    } = followed;
     points.truncate(from + 1);
     let further = further(&branch, points[from].parameter);
     if let Some(end) = named_end {
