@@ -1,4 +1,4 @@
-//! Faces: the surfaces that an orbit may graze.
+//! Faces: the surfaces that an orbit may graze, and how near it is to touching one.
 
 use crate::tolerance::ROUNDING;
 use softstop::{Parameter, Scene, Stop};
@@ -18,8 +18,17 @@ pub enum Face {
     Below,
 }
 
+/// Arrays of one value for each face are indexed by `face as usize`: [`Face::ALL`] is in the order of the variants.
+const _: () = {
+    let mut index = 0;
+    while index < Face::ALL.len() {
+        assert!(Face::ALL[index] as usize == index);
+        index += 1;
+    }
+};
+
 impl Face {
-    /// All faces.
+    /// All faces, in the order of the variants.
     pub const ALL: [Self; 5] = [
         Self::Clearance,
         Self::Pierced,
