@@ -28,7 +28,7 @@ pub(crate) fn count_upwards(length: f64) -> usize {
 
 impl Axis {
     /// A value as it is placed: on a logarithmic axis its power of ten.
-    pub(crate) fn position(&self, value: f64) -> f64 {
+    pub fn position(&self, value: f64) -> f64 {
         match self.is_log {
             true => value.log10(),
             false => value,

@@ -9,7 +9,7 @@ use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
 use crate::index;
 use crate::mark::{Align, Mark, Sign};
-use crate::stroke::{Point, RIMMED, Stroke, dashed};
+use crate::stroke::{Point, Stroke, dashed};
 use crate::style;
 
 /// Length and half the width of an arrow's head, in units of the line's width.
@@ -174,13 +174,6 @@ impl Canvas {
                 stroke_dasharray: None,
             });
         }
-    }
-
-    /// A line that is seen on any ground, by its light rim.
-    pub(crate) fn rimmed(&mut self, points: &[Point], dashes: Option<(f64, f64)>) {
-        let rim = Stroke::solid(style::PAPER, RIMMED.width + 2.0);
-        self.line(points, rim);
-        self.line(points, Stroke { dashes, ..RIMMED });
     }
 
     /// A filled polygon; of a share of its opacity, if it is not to hide what is behind it.

@@ -70,11 +70,9 @@ pub(crate) fn document(document: &str, anew: impl Fn(&str) -> String) -> String 
 }
 
 fn lowered(line: &str, anew: impl Fn(&str) -> String) -> String {
-    let text = line.trim_start().starts_with("<text");
-    let Some((tag, text)) = line.split_once('>').filter(|_| text) else {
-        return line.to_owned();
-    };
-    let Some(text) = text.strip_suffix("</text>") else {
+    let is_text = line.trim_start().starts_with("<text");
+    let text = line.strip_suffix("</text>").filter(|_| is_text);
+    let Some((tag, text)) = text.and_then(|text| text.split_once('>')) else {
         return line.to_owned();
     };
     let size = tag
@@ -119,10 +117,9 @@ pub(crate) fn placed(element: &Primitive) -> Vec<Primitive> {
     let is_whole = pieces.len() == 1;
     let (sin, cos) = rotate.unwrap_or(0.0).to_radians().sin_cos();
     let mut along = match anchor {
-        _ if is_whole => 0.0,
-        TextAnchor::Start => 0.0,
-        TextAnchor::Middle => -0.5 * width(*size, content),
-        TextAnchor::End => -width(*size, content),
+        TextAnchor::Middle if !is_whole => -0.5 * width(*size, content),
+        TextAnchor::End if !is_whole => -width(*size, content),
+        _ => 0.0,
     };
     let place = |piece: (String, bool)| {
         let letters = f64::from(*size);

@@ -23,8 +23,8 @@ pub struct Layer {
 /// What a layer is made of; places are values of the axes.
 #[derive(Debug, Clone)]
 pub(crate) enum Shape {
-    Line(Vec<Point>, Stroke),
-    Contour(Vec<Point>, Option<(f64, f64)>),
+    /// With a light rim or without.
+    Line(Vec<Point>, Stroke, bool),
     Dots(Vec<Point>, f64, &'static str),
     Marks(Vec<Point>, Mark, f64, &'static str),
     Band(Vec<(f64, [f64; 2])>, &'static str, f64),
@@ -66,15 +66,15 @@ impl Layer {
 
     /// A line through points, cut at the frame; it has gaps where a value is not finite.
     pub fn line(points: impl IntoIterator<Item = Point>, stroke: Stroke) -> Self {
-        let shape = Shape::Line(points.into_iter().collect(), stroke);
+        let shape = Shape::Line(points.into_iter().collect(), stroke, false);
         Self::new(shape, Some(Sign::Line(stroke)))
     }
 
     /// A line that is seen on any ground; with lengths of dashes and gaps it is dashed.
     pub fn contour(points: impl IntoIterator<Item = Point>, dashes: Option<(f64, f64)>) -> Self {
-        let sign = Sign::Line(Stroke { dashes, ..RIMMED });
-        let shape = Shape::Contour(points.into_iter().collect(), dashes);
-        Self::new(shape, Some(sign))
+        let stroke = Stroke { dashes, ..RIMMED };
+        let shape = Shape::Line(points.into_iter().collect(), stroke, true);
+        Self::new(shape, Some(Sign::Line(stroke)))
     }
 
     /// An ellipse that is seen on any ground: its middle and its half-axes.
@@ -236,8 +236,7 @@ impl Layer {
     /// The points by which it widens the ranges of axes that are not given.
     pub(crate) fn extent(&self) -> Vec<Point> {
         match &self.shape {
-            Shape::Line(points, _)
-            | Shape::Contour(points, _)
+            Shape::Line(points, ..)
             | Shape::Dots(points, ..)
             | Shape::Marks(points, ..)
             | Shape::Direction(points, ..) => points.clone(),

@@ -7,7 +7,7 @@ use crate::layer::{Layer, Shape, Text};
 use crate::layout::PlacedPanel;
 use crate::mark::{Align, Mark};
 use crate::shade::{SHADES, color, shade};
-use crate::stroke::{Point, Stroke};
+use crate::stroke::{Point, RIMMED, Stroke};
 use crate::style;
 
 /// Lines at the round values.
@@ -15,6 +15,8 @@ const GRID: Stroke = Stroke::solid(style::GRID, 1.0);
 /// Half the length of the arrow that shows a direction, its width, and the shortest curve that has one.
 const HEAD: (f64, f64) = (6.5, 2.2);
 const SHORTEST: f64 = 15.0;
+/// The light rim of a line.
+const RIM_OF_LINE: Stroke = Stroke::solid(style::PAPER, RIMMED.width + 2.0);
 /// Room between a mark and its rim on a filled ground.
 const RIM: f64 = 2.0;
 
@@ -73,14 +75,12 @@ impl PlacedPanel<'_> {
     fn shape(&self, canvas: &mut Canvas, shape: &Shape, is_filled: bool) {
         let Frame { x, y, .. } = self.frame;
         match shape {
-            Shape::Line(points, stroke) => {
+            Shape::Line(points, stroke, is_rimmed) => {
                 for piece in self.pieces(points) {
+                    if *is_rimmed {
+                        canvas.line(&piece, RIM_OF_LINE);
+                    }
                     canvas.line(&piece, *stroke);
-                }
-            }
-            Shape::Contour(points, dashes) => {
-                for piece in self.pieces(points) {
-                    canvas.rimmed(&piece, *dashes);
                 }
             }
             Shape::Dots(points, radius, color) => {

@@ -60,25 +60,18 @@ impl Chart {
         let wide = match self.page {
             Some((width, _)) => width - 2.0 * EDGE,
             None => {
-                let title = if is_page {
-                    BOLD * width(letters + 6, &self.title)
-                } else {
-                    0.0
+                let title = match is_page {
+                    true => BOLD * width(letters + 6, &self.title),
+                    false => 0.0,
                 };
                 let beside = key.room(self.legend, f64::INFINITY)[0];
                 title.max(place(self, None).1.0 + beside)
             }
         };
         let [beside, over, under] = key.room(self.legend, wide);
-        let head = if is_page {
-            self.headings(wide)
-        } else {
-            Vec::new()
-        };
-        let notes = if is_page {
-            self.notes(wide)
-        } else {
-            Vec::new()
+        let (head, notes) = match is_page {
+            true => (self.headings(wide), lines(&self.notes, letters - 1, wide)),
+            false => Default::default(),
         };
         let top = EDGE + tall(&head);
         let rest = under + tall(&notes) + EDGE;
@@ -118,11 +111,6 @@ impl Chart {
         title
             .chain(of(&self.subtitle, self.letters - 1, wide))
             .collect()
-    }
-
-    /// Notes in lines of this width.
-    fn notes(&self, wide: f64) -> Vec<Line> {
-        lines(&self.notes, self.letters - 1, wide)
     }
 }
 
