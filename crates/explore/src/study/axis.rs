@@ -141,30 +141,22 @@ impl Axis {
 
 /// The values that are stated, or what is wrong with them.
 fn values(stated: &AxisSettings) -> Result<Values, String> {
-    let AxisSettings {
-        from,
-        to,
-        count,
-        values,
-        scale,
-        sample,
-        ..
-    } = stated;
-    let values = match (values, from, to, count, sample) {
-        (Some(values), None, None, None, None) if *scale == Scale::Linear => Values::List {
-            values: values.clone(),
+    let (scale, range) = (stated.scale, stated.from.zip(stated.to));
+    let is_list = scale == Scale::Linear && stated.from.or(stated.to).is_none();
+    let listed = stated.values.clone();
+    let values = match (listed, range, stated.count, stated.sample) {
+        (Some(values), None, None, None) if is_list => Values::List { values },
+        (None, Some((from, to)), Some(count), None) => Values::Grid {
+            from,
+            to,
+            count,
+            scale,
         },
-        (None, Some(from), Some(to), Some(count), None) => Values::Grid {
-            from: *from,
-            to: *to,
-            count: *count,
-            scale: *scale,
-        },
-        (None, Some(from), Some(to), None, Some(sample)) => Values::Drawn {
-            from: *from,
-            to: *to,
-            scale: *scale,
-            sample: *sample,
+        (None, Some((from, to)), None, Some(sample)) => Values::Drawn {
+            from,
+            to,
+            scale,
+            sample,
         },
         _ => {
             return Err(
@@ -181,14 +173,12 @@ fn values(stated: &AxisSettings) -> Result<Values, String> {
         }
         Values::Grid { count: 0, .. } => Err("count = 0: must be >= 1".into()),
         Values::Grid { from, to, .. } | Values::Drawn { from, to, .. } => {
-            let fits = from.is_finite() && to.is_finite();
-            match scale {
-                _ if !fits => Err(format!("from {from} to {to}: must be finite")),
-                Scale::Log if *from <= 0.0 || *to <= 0.0 => {
-                    Err(format!("from {from} to {to}: must be > 0 on a log scale"))
-                }
-                _ => Ok(values),
-            }
+            let must = match scale {
+                _ if !(from.is_finite() && to.is_finite()) => "finite",
+                Scale::Log if *from <= 0.0 || *to <= 0.0 => "> 0 on a log scale",
+                _ => return Ok(values),
+            };
+            Err(format!("from {from} to {to}: must be {must}"))
         }
         Values::List { .. } => Ok(values),
     }

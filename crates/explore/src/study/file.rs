@@ -160,17 +160,12 @@ impl Study {
             }
             samples => within("samples", samples.unwrap_or(1), 1..=MOST)?,
         }
-        let own = |axis: &Axis| axis.values.count();
-        let counts = axes.iter().filter_map(own).chain(file.samples);
+        let own = axes.iter().filter_map(|axis| axis.values.count());
+        let counts = own.chain(file.samples);
         let points = counts.clone().try_fold(1u64, u64::checked_mul);
         let Some(points) = points.filter(|points| *points <= MOST) else {
+            let all: f64 = counts.clone().map(|count| count as f64).product();
             let counts: Vec<String> = counts.map(|count| count.to_string()).collect();
-            let all: f64 = axes
-                .iter()
-                .filter_map(own)
-                .chain(file.samples)
-                .map(|count| count as f64)
-                .product();
             return Err(Failure::usage(format!(
                 "{} = {all:e} points: must be at most {MOST}; take fewer, split the study, or draw samples instead \
                  of a grid",

@@ -80,7 +80,7 @@ impl View<'_> {
                 layers
             }
         };
-        let png = self.chart(across.axis(), up.axis(), layers).png();
+        let png = self.chart(across.axis, up.axis, layers).png();
         Ok(png.map_err(|error| anyhow!("cannot draw the map: {error}"))?)
     }
 
@@ -111,66 +111,58 @@ impl View<'_> {
     /// A slice, as SVG.
     pub fn slice(&self, points: &[PlotPoint]) -> Vec<u8> {
         let axis = self.axis(0);
-        let x = Axis {
-            is_log: axis.values.scale() == Scale::Log,
-            ..Axis::new(&axis.label)
-        };
         let places = points.iter().map(|point| (point.at[0], point.number));
         let there = places.filter(|place| place.1.is_finite());
         let dots = Layer::dots(there, DOT, style::DESIGN);
-        let chart = self.chart(x, Axis::new(self.name()), vec![dots]);
+        let chart = self.chart(axis.of_chart(), Axis::new(self.name()), vec![dots]);
         chart.svg().into_bytes()
+    }
+}
+
+impl AxisReport {
+    /// As a chart has it, without a range.
+    fn of_chart(&self) -> Axis {
+        Axis {
+            is_log: self.values.scale() == Scale::Log,
+            ..Axis::new(&self.label)
+        }
     }
 }
 
 /// A side of a map: a grid.
 struct Side {
     count: usize,
-    /// Where cells begin and end, and where the first is in the middle.
+    /// Where cells begin and end, as powers of ten on a logarithmic axis.
     range: (f64, f64),
-    is_log: bool,
-    label: String,
+    axis: Axis,
 }
 
 impl Side {
     fn of(axis: &AxisReport) -> Self {
         let count = axis.values.count().unwrap_or(1);
-        let is_log = axis.values.scale() == Scale::Log;
-        let place = |number| match axis.values.at(number) {
-            value if is_log => value.log10(),
-            value => value,
-        };
+        let chart_axis = axis.of_chart();
+        let place = |number| chart_axis.position(axis.values.at(number));
         let (a, b) = (place(0), place(count - 1));
         let (low, high) = (a.min(b), a.max(b));
         let half = match count {
             1 => 0.5,
             _ => 0.5 * (high - low) / (count - 1) as f64,
         };
-        Self {
-            count: count as usize,
-            range: (low - half, high + half),
-            is_log,
-            label: axis.label.clone(),
-        }
-    }
-
-    fn axis(&self) -> Axis {
-        let value = |place: f64| match self.is_log {
+        let range = (low - half, high + half);
+        let value = |place: f64| match chart_axis.is_log {
             true => 10f64.powf(place),
             false => place,
         };
-        let is_log = self.is_log;
-        let range = (value(self.range.0), value(self.range.1));
-        Axis {
-            is_log,
-            ..Axis::new(&self.label).range(range)
+        Self {
+            count: count as usize,
+            range,
+            axis: chart_axis.clone().range((value(range.0), value(range.1))),
         }
     }
 
     /// The cell of a value.
     fn cell(&self, value: f64) -> usize {
-        let value = if self.is_log { value.log10() } else { value };
-        let share = (value - self.range.0) / (self.range.1 - self.range.0);
+        let share = (self.axis.position(value) - self.range.0) / (self.range.1 - self.range.0);
         ((share * self.count as f64) as usize).min(self.count - 1)
     }
 }

@@ -64,12 +64,8 @@ pub(super) fn run(arguments: &PlotArguments) -> Result<(), Failure> {
     let manifest: Manifest = serde_json::from_str(&text).with_context(cannot)?;
     let view = View::new(&manifest, arguments)?;
     let is_map = view.over.len() == 2;
-    let (kind, ending) = if is_map {
-        ("png", "png")
-    } else {
-        ("svg", "svg")
-    };
-    let name = format!("{}.{ending}", view.column.name);
+    let kind = if is_map { "png" } else { "svg" };
+    let name = format!("{}.{kind}", view.column.name);
     check_file(&name)?;
     let export = Export::of_file(kind, &arguments.folder, &name)?;
     let table = arguments.folder.join(TABLE);

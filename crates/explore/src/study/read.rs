@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, Error, bail};
-use parquet::column::reader::ColumnReader;
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::{ByteArray, DataType};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use softstop_console::scene_file;
 
@@ -21,50 +22,50 @@ pub(super) fn read(
 ) -> Result<(), Error> {
     let reader = SerializedFileReader::new(scene_file::open(path)?)?;
     let schema = reader.metadata().file_metadata().schema_descr();
-    let column = |name: &&str| {
+    let place = |name: &&str| {
         let place = schema.columns().iter().position(|it| it.name() == *name);
         place.with_context(|| format!("it has no column {name}"))
     };
-    let places = names.iter().map(column).collect::<Result<Vec<_>, _>>()?;
+    let places = names.iter().map(place).collect::<Result<Vec<_>, _>>()?;
     let mut first = 0;
     for number in 0..reader.num_row_groups() {
         let group = reader.get_row_group(number)?;
         let rows = group.metadata().num_rows() as usize;
         let columns = places
             .iter()
-            .map(|place| values(group.get_column_reader(*place)?, rows));
+            .map(|place| column(group.get_column_reader(*place)?, rows));
         visit(first, &columns.collect::<Result<Vec<_>, Error>>()?);
         first += rows as u64;
     }
     Ok(())
 }
 
-fn values(reader: ColumnReader, rows: usize) -> Result<Column, Error> {
-    let mut levels = Vec::with_capacity(rows);
+fn column(reader: ColumnReader, rows: usize) -> Result<Column, Error> {
     Ok(match reader {
-        ColumnReader::DoubleColumnReader(mut reader) => {
-            let mut there = Vec::with_capacity(rows);
-            reader.read_records(rows, Some(&mut levels), None, &mut there)?;
-            if levels.is_empty() {
-                return Ok(Column::Numbers(there));
-            }
-            let mut there = there.into_iter();
-            let all = levels.iter().map(|level| match level {
-                0 => Some(f64::NAN),
-                _ => there.next(),
-            });
-            Column::Numbers(all.map(|it| it.unwrap_or(f64::NAN)).collect())
+        ColumnReader::DoubleColumnReader(reader) => {
+            let numbers = values(reader, rows)?.map(|it| it.unwrap_or(f64::NAN));
+            Column::Numbers(numbers.collect())
         }
-        ColumnReader::ByteArrayColumnReader(mut reader) => {
-            let mut there = Vec::with_capacity(rows);
-            reader.read_records(rows, Some(&mut levels), None, &mut there)?;
-            let mut there = there.into_iter();
-            let all = levels.iter().map(|level| match level {
-                0 => None,
-                _ => Some(Arc::from(&*String::from_utf8_lossy(there.next()?.data()))),
-            });
-            Column::Words(all.collect(), 0)
+        ColumnReader::ByteArrayColumnReader(reader) => {
+            let word = |it: ByteArray| Arc::from(&*String::from_utf8_lossy(it.data()));
+            Column::Words(values(reader, rows)?.map(|it| it.map(word)).collect(), 0)
         }
         _ => bail!("it was not written by softstop"),
     })
+}
+
+/// The values of a column, none where there is nothing.
+fn values<T: DataType>(
+    mut reader: ColumnReaderImpl<T>,
+    rows: usize,
+) -> Result<impl Iterator<Item = Option<T::T>>, Error> {
+    let (mut levels, mut there) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+    reader.read_records(rows, Some(&mut levels), None, &mut there)?;
+    if levels.is_empty() {
+        // A column that is never empty has no levels.
+        levels.resize(there.len(), 1);
+    }
+    let mut there = there.into_iter();
+    let value = move |level| if level == 0 { None } else { there.next() };
+    Ok(levels.into_iter().map(value))
 }
