@@ -1,4 +1,4 @@
-//! How a run begins: the machine, its start, and the strips that it does not get.
+//! What is to be run: the machine, its start, and the strips that it does not get.
 
 use std::ops::RangeInclusive;
 
@@ -28,17 +28,22 @@ pub struct MotionArguments {
     pub common: CommandArguments,
 }
 
-/// A machine at the beginning of a run.
-pub(crate) struct Begun {
+/// What to run.
+pub(crate) struct Plan {
     /// With the start that counts.
     pub machine: Machine,
     /// Drive periods without a strip, counted from 1.
-    pub missing: Option<RangeInclusive<u64>>,
+    missing: Option<RangeInclusive<u64>>,
+    pub periods: u64,
+    /// In each period.
+    pub samples: u64,
+    /// Periods that are drawn, the last ones.
+    pub drawn: u64,
 }
 
 impl MotionArguments {
-    /// The machine and its start.
-    pub(crate) fn begin(&self) -> Result<Begun, Failure> {
+    /// The run over so many periods, with so many samples in each; the last ones are drawn.
+    pub(crate) fn plan(&self, periods: u64, samples: u64, drawn: u64) -> Result<Plan, Failure> {
         for (flag, value) in [("position", self.position), ("velocity", self.velocity)] {
             Allowed::Finite.check(flag, value.unwrap_or(0.0))?;
             if value.is_some() {
@@ -60,15 +65,26 @@ impl MotionArguments {
         let Start { position, velocity } = machine.start;
         machine.start.position = self.position.unwrap_or(position);
         machine.start.velocity = self.velocity.unwrap_or(velocity);
-        let begun = Begun { machine, missing };
-        begun.motion().map(|_| begun)
+        let plan = Plan {
+            machine,
+            missing,
+            periods,
+            samples,
+            drawn,
+        };
+        plan.motion().map(|_| plan)
     }
 }
 
-impl Begun {
+impl Plan {
     /// The motion that begins there.
     pub(crate) fn motion(&self) -> Result<Motion, Failure> {
         Ok(self.machine.scene.motion(self.machine.start)?)
+    }
+
+    /// Time in s from which on the motion is drawn.
+    pub(crate) fn drawn_from(&self) -> f64 {
+        self.periods.saturating_sub(self.drawn) as f64 * self.machine.scene.period()
     }
 
     /// Whether strips come in a drive period, counted from 0.
@@ -81,13 +97,9 @@ impl Begun {
 /// `FIRST:LAST`.
 fn counted(text: &str) -> Result<RangeInclusive<u64>, String> {
     let number = |part: &str| part.trim().parse::<u64>().ok();
-    match text.split_once(':') {
-        Some((first, last)) => match (number(first), number(last)) {
-            (Some(first), Some(last)) if 1 <= first && first <= last => Ok(first..=last),
-            _ => Err(COUNTED.to_owned()),
-        },
-        None => Err(COUNTED.to_owned()),
+    let pair = text.split_once(':');
+    match pair.and_then(|(first, last)| Some((number(first)?, number(last)?))) {
+        Some((first, last)) if 1 <= first && first <= last => Ok(first..=last),
+        _ => Err("must be FIRST:LAST, two whole numbers with 1 <= FIRST <= LAST, as in 5:7".into()),
     }
 }
-
-const COUNTED: &str = "must be FIRST:LAST, two whole numbers with 1 <= FIRST <= LAST, as in 5:7";

@@ -17,7 +17,7 @@ pub use begin::MotionArguments;
 pub use record::contact_force;
 pub(crate) use record::{Crossed, crossing_columns};
 pub(crate) use report::report;
-pub(crate) use run::{Outcome, Plan, faces};
+pub(crate) use run::{Outcome, faces};
 
 use softstop_console::column;
 use softstop_console::export::Export;
@@ -93,22 +93,18 @@ const DRAWN: u64 = 4;
 /// Runs the scene, writes the files and prints the summary.
 pub fn run(arguments: &SimulateArguments) -> Result<(), Failure> {
     check(arguments)?;
-    let begun = arguments.motion.begin()?;
+    let plan = arguments
+        .motion
+        .plan(arguments.periods, arguments.samples_per_period, DRAWN)?;
     let export = Export::open(&arguments.output, &FILES)?;
     let (samples, crossings) = (run::columns(), crossing_columns());
     let mut samples = export.open_table("motion_csv", &samples)?;
     let mut crossings = export.open_table("crossings_csv", &crossings)?;
-    let plan = Plan {
-        begun: &begun,
-        periods: arguments.periods,
-        samples: arguments.samples_per_period,
-        drawn: DRAWN,
-    };
     let run = || plan.run(|row| samples.row(row), |row| crossings.row(row));
     let outcome = arguments.motion.common.limit.budget.limit(run)?;
     samples.close()?;
     crossings.close()?;
-    let machine = &begun.machine;
+    let machine = &plan.machine;
     let title = report::chart_title(&plan);
     let chart = outcome
         .drawing

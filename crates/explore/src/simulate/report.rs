@@ -3,8 +3,9 @@
 use serde_json::json;
 use softstop::{Impact, Start};
 
+use super::begin::Plan;
 use super::name;
-use super::run::{Outcome, Plan};
+use super::run::Outcome;
 use super::tally::{Rest, Visit};
 use softstop_console::arguments::title;
 use softstop_console::column::{Column, Told, Units};
@@ -17,9 +18,9 @@ use softstop_console::table::{heading, sections};
 fn overview<'a>() -> [Column<Outcome<'a>>; 7] {
     columns! { Outcome<'a>, it;
         "periods" [None] Plain, "drive periods" => it.plan.periods;
-        "period" [Time], "drive period" => it.plan.begun.machine.scene.period();
+        "period" [Time], "drive period" => it.plan.machine.scene.period();
         "duration" [Time] Seven, "time" => it.duration;
-        "start" [None] Plain, "start: position and velocity" => state(it.plan.begun.machine.start);
+        "start" [None] Plain, "start: position and velocity" => state(it.plan.machine.start);
         "end" [None] Plain, "end: position and velocity" => state(it.end);
         "pierced" [None] Plain, "strips pierced" => it.tally.pierced;
         "rest_count" [None] Plain, "rests" => it.tally.rest_count;
@@ -83,8 +84,8 @@ fn state(state: Start) -> Told {
 }
 
 /// The chart's title.
-pub(super) fn chart_title(plan: &Plan<'_>) -> String {
-    let (name, periods) = (title(&plan.begun.machine), plan.periods);
+pub(super) fn chart_title(plan: &Plan) -> String {
+    let (name, periods) = (title(&plan.machine), plan.periods);
     let drawn = periods.min(plan.drawn);
     match drawn == periods {
         true => format!("{name}: {drawn} drive periods"),
@@ -97,7 +98,7 @@ const SHOWN: usize = 10;
 
 /// The summary and the text of it; all impacts stand in crossings.csv, here the last ones.
 pub(crate) fn report(outcome: &Outcome<'_>) -> (Record, String) {
-    let (tally, machine) = (&outcome.tally, &outcome.plan.begun.machine);
+    let (tally, machine) = (&outcome.tally, &outcome.plan.machine);
     let seen = tally.phases.iter();
     let seen: Vec<(Visit, f64)> = seen.map(|visit| (*visit, outcome.duration)).collect();
     let phases = Record::all(&visits(), &seen);

@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use softstop::internals::Motion;
 use softstop::{CheckedScene, Instant, Start};
 
-use super::begin::Begun;
+use super::begin::Plan;
 use super::name;
 use super::record::{Crossed, Recorder, contact_force};
 use super::tally::Tally;
@@ -15,19 +15,9 @@ use softstop_console::failure::Failure;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
 
-/// What to run.
-pub(crate) struct Plan<'a> {
-    pub begun: &'a Begun,
-    pub periods: u64,
-    /// In each period.
-    pub samples: u64,
-    /// Periods that are drawn, the last ones.
-    pub drawn: u64,
-}
-
 /// What came of it.
 pub(crate) struct Outcome<'a> {
-    pub plan: &'a Plan<'a>,
+    pub plan: &'a Plan,
     pub tally: Tally,
     pub drawing: Drawing,
     /// Energy in J stored at the end less that at the start.
@@ -52,10 +42,7 @@ impl Outcome<'_> {
     fn check(&self, before: f64, typical: f64) -> Result<(), Failure> {
         let work = &self.tally.work;
         let energies = [before, self.stored, work.supplied, work.dissipated, typical];
-        let size = energies
-            .iter()
-            .map(|energy| energy.abs())
-            .fold(0.0, f64::max);
+        let size = energies.map(f64::abs).into_iter().fold(0.0, f64::max);
         let defect = self.defect();
         if defect.abs() <= MOST_DEFECT * size {
             return Ok(());
@@ -67,20 +54,15 @@ impl Outcome<'_> {
     }
 }
 
-impl Plan<'_> {
-    /// Time in s from which on the motion is drawn.
-    pub(crate) fn drawn_from(&self) -> f64 {
-        self.periods.saturating_sub(self.drawn) as f64 * self.begun.machine.scene.period()
-    }
-
+impl Plan {
     /// Runs the motion; what tables have is handed on as it comes.
     pub(crate) fn run(
         &self,
         mut sampled: impl FnMut(&Sample) -> Result<(), Failure>,
         crossed: impl FnMut(&Crossed) -> Result<(), Failure>,
     ) -> Result<Outcome<'_>, Failure> {
-        let scene = &self.begun.machine.scene;
-        let mut motion = self.begun.motion()?;
+        let scene = &self.machine.scene;
+        let mut motion = self.motion()?;
         let period = motion.clock().period();
         let before = motion.mechanical_energy(scene);
         let mut recorder = Recorder::new(scene, &motion, crossed, self.drawn_from());
@@ -104,7 +86,7 @@ impl Plan<'_> {
             }
             sampled(&self.sample(&motion))?;
             if part == 0 {
-                motion.feed_strip(self.begun.is_fed(cycle));
+                motion.feed_strip(self.is_fed(cycle));
             }
         }
         drop(progress);
@@ -128,7 +110,7 @@ impl Plan<'_> {
         Sample {
             time: motion.clock().time(motion.now()),
             state,
-            force: contact_force(&self.begun.machine.scene, motion.phase(), state, drive),
+            force: contact_force(&self.machine.scene, motion.phase(), state, drive),
             phase: name(motion.kind()),
         }
     }
@@ -155,12 +137,8 @@ pub(super) fn columns() -> [Column<Sample>; 5] {
 
 /// The positions in m at which the law of force changes.
 pub(crate) fn faces(scene: &CheckedScene) -> Vec<f64> {
-    let mut faces: Vec<f64> = scene
-        .phases()
-        .surfaces
-        .iter()
-        .map(|it| it.position)
-        .collect();
+    let surfaces = scene.phases().surfaces.iter();
+    let mut faces: Vec<f64> = surfaces.map(|it| it.position).collect();
     faces.sort_by(f64::total_cmp);
     faces.dedup();
     faces

@@ -14,7 +14,7 @@ use softstop_console::output::folder_and_file;
 use softstop_console::range::within;
 use strip::Strips;
 
-use crate::simulate::{Crossed, MotionArguments, PERIODS, Plan, report};
+use crate::simulate::{Crossed, MotionArguments, PERIODS, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -58,15 +58,11 @@ pub fn run(arguments: &WatchArguments) -> Result<(), Failure> {
     within("periods", arguments.periods, PERIODS)?;
     within("last", arguments.last, 1..=MOST_SHOWN)?;
     let (folder, file) = folder_and_file(&arguments.output)?;
-    let begun = arguments.motion.begin()?;
+    let plan = arguments
+        .motion
+        .plan(arguments.periods, 1, arguments.last)?;
     let export = Export::of_file("html", folder, file)?;
-    let plan = Plan {
-        begun: &begun,
-        periods: arguments.periods,
-        samples: 1,
-        drawn: arguments.last,
-    };
-    let scene = &begun.machine.scene;
+    let scene = &plan.machine.scene;
     let mut strips = scene.piercing.map(|_| Strips::new(scene.clearance));
     let (mut hits, from) = (Vec::new(), plan.drawn_from());
     let crossed = |crossed: &Crossed| {

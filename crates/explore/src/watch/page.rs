@@ -21,7 +21,7 @@ pub(super) fn hit(it: &Crossed) -> Option<Record> {
 
 /// What the page shows of a run, in the machine's own units: from when on which strip lies there, and every hit.
 pub(super) fn shown(outcome: &Outcome<'_>, strips: &[(f64, Strip)], hits: Vec<Record>) -> Record {
-    let machine = &outcome.plan.begun.machine;
+    let machine = &outcome.plan.machine;
     let excitation = &machine.scene.excitation;
     // The drive `amplitude` cos(2 pi t/`period` + `angle`).
     let drive = Record::default()
