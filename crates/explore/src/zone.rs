@@ -50,10 +50,8 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
     let machine = arguments.common.machine_without_start()?;
     refuse_without_zone(&machine)?;
     let why = "the zone is a range of drive frequencies, whatever the machine's own";
-    arguments
-        .common
-        .machine
-        .refuse(&machine, Parameter::Frequency, why)?;
+    let stated = &arguments.common.machine;
+    stated.refuse(&machine, Parameter::Frequency, why)?;
     let (zone, all) = arguments.common.limit.budget.limit(|| {
         let (zone, all) = hysteresis_and_stable_ranges(&machine.scene, &interrupt::watch);
         Ok((zone, all.map_err(|error| anyhow!(error))?))
@@ -75,17 +73,14 @@ pub fn run(arguments: &ZoneArguments) -> Result<(), Failure> {
 }
 
 /// A machine with its hysteresis zone, if it has one.
+#[derive(Clone, Copy)]
 struct ZoneRow<'a> {
     machine: &'a Machine,
     zone: Option<&'a Zone>,
 }
 
-/// A stable range of a machine, and whether it is a part of its hysteresis zone.
-struct StableRangeRow<'a> {
-    machine: &'a Machine,
-    stretch: &'a StableRange,
-    in_zone: bool,
-}
+/// A stable range of a machine.
+type StableRangeRow<'a> = (ZoneRow<'a>, &'a StableRange);
 
 /// Zone, why there is none if so, and stretches, with the text of them.
 fn report(
@@ -93,23 +88,12 @@ fn report(
     zone: &Result<Zone, ZoneError>,
     all: &[StableRange],
 ) -> (Record, String) {
-    let found = zone.as_ref().ok();
-    let rows = all.iter().map(|stretch| StableRangeRow {
-        machine,
-        stretch,
-        in_zone: found.is_some_and(|zone| stretch.is_part_of(zone)),
-    });
-    let stretches: Vec<Record> = rows
-        .map(|row| Record::of(&stable_range_columns(), &row))
-        .collect();
     let why = zone.as_ref().err().map(ToString::to_string);
-    let zone = Record::of(
-        &columns(),
-        &ZoneRow {
-            machine,
-            zone: found,
-        },
-    );
+    let zone = zone.as_ref().ok();
+    let row = ZoneRow { machine, zone };
+    let rows: Vec<StableRangeRow<'_>> = all.iter().map(|range| (row, range)).collect();
+    let stretches = Record::all(&stable_range_columns(), &rows);
+    let zone = Record::of(&columns(), &row);
     let units = &Units::of(machine);
     let told = report::machine(machine, &[Parameter::Frequency]).and(zone.clone());
     let no_zone = why.iter().map(|why| format!("No zone: {why}\n"));
@@ -143,13 +127,13 @@ fn columns<'a>() -> [Column<ZoneRow<'a>>; 3] {
 
 fn stable_range_columns<'a>() -> [Column<StableRangeRow<'a>>; 7] {
     columns! { StableRangeRow<'a>, it;
-        "from" [Frequency] Six, "lower end" => own(it.machine, it.stretch.low.frequency);
-        "from_by" [None] Plain, "what ends it there" => lost_by(&it.stretch.low.loss);
-        "to" [Frequency] Six, "upper end" => own(it.machine, it.stretch.high.frequency);
-        "to_by" [None] Plain, "what ends it there" => lost_by(&it.stretch.high.loss);
-        "hardest" [Velocity] Six, "highest before-impact velocity" => it.stretch.hardest.before_impact_velocity();
-        "hardest_at" [Frequency] Six, "where" => own(it.machine, it.stretch.hardest.parameter);
-        "in_zone" [None] Plain, "part of the hysteresis zone" => it.in_zone;
+        "from" [Frequency] Six, "lower end" => own(it.0.machine, it.1.low.frequency);
+        "from_by" [None] Plain, "what ends it there" => lost_by(&it.1.low.loss);
+        "to" [Frequency] Six, "upper end" => own(it.0.machine, it.1.high.frequency);
+        "to_by" [None] Plain, "what ends it there" => lost_by(&it.1.high.loss);
+        "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();
+        "hardest_at" [Frequency] Six, "where" => own(it.0.machine, it.1.hardest.parameter);
+        "in_zone" [None] Plain, "part of the hysteresis zone" => it.0.zone.is_some_and(|zone| it.1.is_part_of(zone));
     }
 }
 

@@ -9,10 +9,10 @@ use softstop_draw::{Align, Axis, Chart, Layer, Legend, Panel, Stroke, around, st
 
 /// The diagram of all chains of a plan.
 #[derive(Debug, Clone, Copy)]
-pub struct SweepChart<'a> {
-    machine: &'a Machine,
-    plan: &'a Plan,
-    chains: &'a [Chain],
+pub(super) struct SweepChart<'a> {
+    pub(super) machine: &'a Machine,
+    pub(super) plan: &'a Plan,
+    pub(super) chains: &'a [Chain],
 }
 
 /// Where points are: seen on the way up, on the way down, or both.
@@ -35,18 +35,9 @@ const SEEN: f64 = 0.15;
 /// What a panel shows of a step.
 type Show = fn(&Step) -> Vec<f64>;
 
-impl<'a> SweepChart<'a> {
-    /// The diagram.
-    pub fn new(machine: &'a Machine, plan: &'a Plan, chains: &'a [Chain]) -> Self {
-        Self {
-            machine,
-            plan,
-            chains,
-        }
-    }
-
+impl SweepChart<'_> {
     /// The picture as an SVG document.
-    pub fn svg(&self) -> String {
+    pub(super) fn svg(&self) -> String {
         let position = ("largest position", "X_m", Dimension::Length);
         let velocity = ("before-impact velocity", "X′₋", Dimension::Velocity);
         let mut positions = self.panel(position, |step| vec![step.max_position]);

@@ -1,6 +1,6 @@
 //! `softstop sweep`: a parameter up and down, and where the motion jumps.
 
-pub mod chart;
+mod chart;
 mod report;
 mod steps;
 
@@ -11,7 +11,7 @@ use clap::{Args, ValueEnum};
 use softstop::{Machine, Parameter};
 use softstop_dynamics::{Chain, Direction, Plan};
 
-use crate::sweep::chart::SweepChart;
+use chart::SweepChart;
 use report::report;
 use softstop_console::arguments::CommandArguments;
 use softstop_console::column;
@@ -130,12 +130,10 @@ const FILES: [(&str, &str); 3] = [
 /// Sweeps, writes table and chart, and says where the motion jumps.
 pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     let machine = arguments.common.machine_without_start()?;
+    let stated = &arguments.common.machine;
     let name = arguments.parameter.as_deref();
     let name = name.unwrap_or_else(|| machine.name(Parameter::Frequency));
-    let (parameter, unit) = arguments
-        .common
-        .machine
-        .parameter(&machine, "parameter", name)?;
+    let (parameter, unit) = stated.parameter(&machine, "parameter", name)?;
     for (flag, value) in [("--from", arguments.from), ("--to", arguments.to)] {
         require(value.is_finite(), flag, value, "finite")?;
     }
@@ -143,18 +141,12 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
     require(differs, "--to", arguments.to, "another value than --from")?;
     let ends = [arguments.from * unit, arguments.to * unit];
     let why = "is not used, for it is swept: --from and --to have its values";
-    arguments.common.machine.refuse(&machine, parameter, why)?;
+    stated.refuse(&machine, parameter, why)?;
     if !arguments.clearances.is_empty() {
         let name = Parameter::Clearance.name();
-        arguments
-            .common
-            .machine
-            .parameter(&machine, "clearances", name)?;
+        stated.parameter(&machine, "clearances", name)?;
         let why = "is not used, for --clearances has the values";
-        arguments
-            .common
-            .machine
-            .refuse(&machine, Parameter::Clearance, why)?;
+        stated.refuse(&machine, Parameter::Clearance, why)?;
     }
     let plan = plan(arguments, parameter, ends)?;
     let mut chains = chains(arguments, &machine, parameter, ends)?;
@@ -173,9 +165,13 @@ pub fn run(arguments: &SweepArguments) -> Result<(), Failure> {
         keep.forget();
         return Err(Failure::Run(anyhow!("no sweep has a step: {error}")));
     }
-    let chart = SweepChart::new(&machine, &plan, &chains).svg();
+    let chart = SweepChart {
+        machine: &machine,
+        plan: &plan,
+        chains: &chains,
+    };
     let rows = steps::rows(&plan, &chains);
-    export.sheet(["csv", "svg"], &steps::columns(), rows, &chart)?;
+    export.sheet(["csv", "svg"], &steps::columns(), rows, &chart.svg())?;
     let (result, text) = report(&machine, &plan, &chains);
     export.finish(&result, text, arguments.common.format)?;
     keep.forget();

@@ -85,12 +85,10 @@ fn scenes(
     machine: &Machine,
     name: &str,
 ) -> Result<(Parameter, Vec<(f64, Scene)>), Failure> {
-    let (parameter, unit) = arguments
-        .common
-        .machine
-        .parameter(machine, "parameter", name)?;
+    let stated = &arguments.common.machine;
+    let (parameter, unit) = stated.parameter(machine, "parameter", name)?;
     let why = "is not used, for basins are looked for along it: --from and --to have its values";
-    arguments.common.machine.refuse(machine, parameter, why)?;
+    stated.refuse(machine, parameter, why)?;
     let ends = [arguments.from, arguments.to].map(Option::unwrap_or_default);
     for (flag, value) in ["--from", "--to"].into_iter().zip(ends) {
         require(value.is_finite(), flag, value, "finite")?;
