@@ -118,8 +118,13 @@ pub(super) fn is_one(step: &Step) -> bool {
     step.motion.regime() == Some(Regime::ONE)
 }
 
-/// A sweep's name, its direction, a step of it.
-type StepRow<'a> = (String, &'a str, &'a Step);
+/// A step of a sweep.
+struct StepRow<'a> {
+    /// The sweep's name.
+    sweep: String,
+    direction: &'a str,
+    step: &'a Step,
+}
 
 /// A row for each step of some sweeps, of which the first column tells this.
 pub(super) fn table<'a>(
@@ -127,18 +132,24 @@ pub(super) fn table<'a>(
     sweeps: impl IntoIterator<Item = (String, &'a str, &'a [Step])>,
 ) -> Result<Vec<u8>> {
     let mut columns = columns! { StepRow<'a>, it;
-        "sweep" [None], "which one" => it.0.clone();
-        "direction" [None], "of the frequency" => it.1;
-        "eta" [None], "drive frequency" => format!("{:.12}", it.2.value);
-        "z" [None], "p/n, or what else the motion is" => it.2.motion.to_string().trim_start_matches("z = ");
-        "impacts_per_period" [None], "mean per drive period" => it.2.impacts_per_period;
-        "max_position" [None], "largest position" => format!("{:.6}", it.2.max_position);
-        "before_impact_velocities" [None], "all of them, rising" => velocities(it.2);
+        "sweep" [None], "which one" => it.sweep.clone();
+        "direction" [None], "of the frequency" => it.direction;
+        "eta" [None], "drive frequency" => format!("{:.12}", it.step.value);
+        "z" [None], "p/n, or what else the motion is" => it.step.motion.to_string().trim_start_matches("z = ");
+        "impacts_per_period" [None], "mean per drive period" => it.step.impacts_per_period;
+        "max_position" [None], "largest position" => format!("{:.6}", it.step.max_position);
+        "before_impact_velocities" [None], "all of them, rising" => velocities(it.step);
     };
-    columns[0] = column(name, Unit::None, "which sweep", |it| it.0.clone().into());
+    columns[0] = column(name, Unit::None, "which sweep", |it| {
+        it.sweep.clone().into()
+    });
     let rows = sweeps.into_iter().flat_map(|(sweep, direction, steps)| {
         let steps = steps.iter();
-        steps.map(move |step| (sweep.clone(), direction, step))
+        steps.map(move |step| StepRow {
+            sweep: sweep.clone(),
+            direction,
+            step,
+        })
     });
     Ok(csv(&columns, rows)?)
 }

@@ -57,7 +57,13 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
                 let stays = chain.steps.last().is_some_and(shows);
                 met += u32::from(first.is_some());
                 there += u32::from(stays);
-                rows.push((plan.sweep_rate(), *eta, name, first, stays));
+                rows.push(WayRow {
+                    rate: plan.sweep_rate(),
+                    eta: *eta,
+                    motion: name,
+                    first,
+                    stays,
+                });
             }
             let (rate, ways) = (plan.sweep_rate(), etas.len());
             let told = format!("{name}, {rate:.0e} per period: ways of {ways}");
@@ -66,14 +72,24 @@ pub(super) fn draw(studio: &Studio, _: &Figure) -> Result<Drawn> {
         }
     }
     let columns = columns! { WayRow, it;
-        "change_of_rho_per_period" [None], "how fast" => it.0;
-        "eta" [None], "drive frequency" => it.1;
-        "motion" [None], "that is looked for" => it.2;
-        "first_rho" [None], "clearance at which it is met first" => it.3;
-        "at_rho_10" [None], "whether the way ends on it" => it.4;
+        "change_of_rho_per_period" [None], "how fast" => it.rate;
+        "eta" [None], "drive frequency" => it.eta;
+        "motion" [None], "that is looked for" => it.motion;
+        "first_rho" [None], "clearance at which it is met first" => it.first;
+        "at_rho_10" [None], "whether the way ends on it" => it.stays;
     };
     Ok(Drawn::new([csv(&columns, rows)?], findings))
 }
 
-/// Rate, frequency, motion, where it is met first, whether the way ends on it.
-type WayRow = (f64, f64, &'static str, Option<f64>, bool);
+/// A motion that is looked for along one way.
+struct WayRow {
+    /// Change of the clearance rho in a drive period.
+    rate: f64,
+    /// Drive frequency.
+    eta: f64,
+    motion: &'static str,
+    /// Clearance at which it is met first, if it is.
+    first: Option<f64>,
+    /// True if the way ends on it.
+    stays: bool,
+}

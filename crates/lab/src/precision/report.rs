@@ -95,19 +95,23 @@ fn scene(measured: &SceneMeasurement<'_>) -> String {
     )
 }
 
-/// A method and its most accurate setting.
-type Best<'a> = (&'a str, Option<&'a Row>);
+/// The most accurate run of a method.
+struct Best<'a> {
+    method: &'a str,
+    /// None if no run of it got to the end.
+    row: Option<&'a Row>,
+}
 
 fn columns<'a>() -> [Column<Best<'a>>; 8] {
     columns! { Best<'a>, it;
-        "method" [None] Plain, "" => it.0;
-        "knob" [None] Power(1), "" => it.1.and_then(|row| row.knob);
-        "seconds" [None] Power(1), "" => it.1.and_then(|row| row.seconds);
-        "evaluations" [None] Plain, "" => it.1.and_then(|row| row.evaluations);
-        "end" [None] Power(1), "" => it.1.and_then(|row| row.end_error);
-        "impact_time" [None] Power(1), "" => it.1.and_then(|row| row.impact_time_error);
-        "velocity" [None] Power(1), "" => it.1.and_then(|row| row.impact_velocity_error);
-        "impacts" [None] Plain, "" => it.1.map_or_else(|| "no answer".to_owned(), impacts);
+        "method" [None] Plain, "" => it.method;
+        "knob" [None] Power(1), "" => it.row.and_then(|row| row.knob);
+        "seconds" [None] Power(1), "" => it.row.and_then(|row| row.seconds);
+        "evaluations" [None] Plain, "" => it.row.and_then(|row| row.evaluations);
+        "end" [None] Power(1), "" => it.row.and_then(|row| row.end_error);
+        "impact_time" [None] Power(1), "" => it.row.and_then(|row| row.impact_time_error);
+        "velocity" [None] Power(1), "" => it.row.and_then(|row| row.impact_velocity_error);
+        "impacts" [None] Plain, "" => it.row.map_or_else(|| "no answer".to_owned(), impacts);
     }
 }
 
@@ -121,7 +125,10 @@ fn impacts(row: &Row) -> String {
 fn best(runs: &[Row]) -> Best<'_> {
     let answered = runs.iter().filter_map(|row| Some((row.end_error?, row)));
     let best = answered.min_by(|a, b| a.0.total_cmp(&b.0));
-    (&runs[0].method, best.map(|(_, row)| row))
+    Best {
+        method: &runs[0].method,
+        row: best.map(|(_, row)| row),
+    }
 }
 
 fn leads(leads: &[Lead]) -> String {
