@@ -1,4 +1,4 @@
-//! The machine on the command line: a file or the paper's, and changes of it.
+//! The machine on the command line: a file or the paper's, and changes of it; its title, and what commands refuse of it.
 
 use std::path::PathBuf;
 

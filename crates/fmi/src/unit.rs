@@ -1,4 +1,4 @@
-//! What a unit is: a table of variables and a motion that can be advanced.
+//! What a unit is: a table of variables and a motion that can be advanced; its state space for model exchange, and its clock.
 
 use std::error::Error;
 use std::sync::OnceLock;

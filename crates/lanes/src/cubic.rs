@@ -1,4 +1,4 @@
-//! The cubic Hermite interpolant: values and slopes given at the ends of a stretch of time.
+//! The cubic Hermite interpolant, by values and slopes at the ends of a stretch of time: its maximum, and its rise through zero.
 
 use pulp::Simd;
 

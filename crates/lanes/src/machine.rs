@@ -1,4 +1,4 @@
-//! Machines made ready for the lanes, and the jobs that these are given.
+//! Machines made ready for the lanes, the jobs that these are given, their outcomes, and the instruction set that runs them.
 
 use super::bounce_trains::BounceTrains;
 use super::law::Constants;

@@ -1,8 +1,7 @@
 //! The macros that make C functions.
 
-/// Makes of each function of a standard's module a generic one and, in a macro of the given name, the C function of a
-/// unit. Behind the semicolon stand the calls on an instance: a fault in one becomes its status
-/// and one log line.
+/// Makes of each function of a standard's module a generic one and, in a macro of the given name, the C function of a unit.
+/// Behind the semicolon stand the calls on an instance: a fault in one becomes its status and one log line.
 macro_rules! functions {
     ($dollar:tt $export:ident $module:ident; $(
         $(#[$doc:meta])*

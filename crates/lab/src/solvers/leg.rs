@@ -29,7 +29,7 @@ pub(super) struct Leg<'a> {
 }
 
 impl<'a> Leg<'a> {
-    /// The next one of a walk: the motion in a phase or, while the mass is held, that of the drive.
+    /// The leg that follows in a walk: the motion in a phase or, while the mass is held, that of the drive.
     pub fn new(scene: &'a Scene, walk: &'a Walk, until: f64, most_steps: u64) -> Self {
         let (from, start) = (walk.time(), walk.state());
         let (push, rate) = drive(scene, from);
