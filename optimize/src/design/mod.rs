@@ -36,6 +36,7 @@ mod non_dominated;
 pub mod operating_point;
 pub mod pareto;
 mod pareto_search;
+mod passing_motion;
 mod posed;
 pub mod problem;
 mod reach;
