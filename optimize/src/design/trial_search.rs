@@ -107,7 +107,7 @@ impl<'a> Trials<'a> {
         let best = self.better_of(best.into_iter().chain(others).collect());
         let mut best = best.or_else(|| self.nearest_passing(&zones))?;
         loop {
-            best = self.improve_around(best)?;
+            best = self.improve_around(best);
             match self.best_of(&self.other_choices(&best), Some(&best)) {
                 Some(better) => best = better,
                 None => break,
@@ -128,7 +128,7 @@ impl<'a> Trials<'a> {
 
     /// The best design that passes, sought near one that does not: by a direct search without a lattice.
     pub(super) fn best_near(&self, from: &Candidate) -> Option<Candidate> {
-        self.improve_around(self.first(from)?)
+        Some(self.improve_around(self.first(from)?))
     }
 
     /// A design that passes, where the zones that were looked at have none: a direct search from that which lacks least, until
@@ -180,20 +180,14 @@ impl<'a> Trials<'a> {
     }
 
     /// A direct search from a design.
-    fn improve_around(&self, best: Candidate) -> Option<Candidate> {
+    fn improve_around(&self, best: Candidate) -> Candidate {
         let better = |units: &[Vec<f64>], best: &Candidate| {
             let better = self.best_of(units, Some(best))?;
             let least = (1.0 + COUNTED_GAIN) * self.score(&best.design);
             let gains = self.score(&better.design) > least;
             Some((better, gains))
         };
-        Some(direct_search(
-            self.problem,
-            best,
-            LAST,
-            |it| &it.unit,
-            better,
-        ))
+        direct_search(self.problem, best, LAST, |it| &it.unit, better)
     }
 
     /// As [`Trials::nearby`], but from what linear models lead to from each first.

@@ -144,8 +144,10 @@ impl BasinSurvey<'_> {
         let Some(last) = wandering.len().checked_sub(1) else {
             return Ok(());
         };
+        let mut sample = vec![0, last / 2, last];
+        sample.dedup();
         let mut periods = 0;
-        for index in [0, last / 2, last] {
+        for index in sample {
             match self.exponents_of_cell(wandering[index]) {
                 Ok(exponents) if exponents.is_negative() => {
                     let needed = (SLOW_DECAY_LOG / -exponents.per_period[0]).ceil() as u64;
