@@ -156,11 +156,21 @@ impl Coordinates {
         both.collect()
     }
 
-    /// Points of the unit cube once and twice as far beyond it as it lies beyond another one.
-    pub(super) fn beyond(&self, other: &[f64]) -> [Vec<f64>; 2] {
+    /// Points of the unit cube so far from it, in the direction in which it lies from another one: `distances` tells how far from its
+    /// distance from that.
+    pub(super) fn beyond(
+        &self,
+        other: &[f64],
+        distances: impl Fn(f64) -> [f64; 2],
+    ) -> [Vec<f64>; 2] {
         let by = self.moved.iter().map(|it| self.unit[*it] - other[*it]);
         let by: Vec<f64> = by.collect();
-        [1.0, 2.0].map(|factor| self.moved_by(&by, factor))
+        let way = by.iter().map(|it| it * it).sum::<f64>().sqrt();
+        let unit: Vec<f64> = by
+            .iter()
+            .map(|it| it / way.max(f64::MIN_POSITIVE))
+            .collect();
+        distances(way).map(|distance| self.moved_by(&unit, distance))
     }
 
     /// The point of the unit cube so many times a vector away, or the nearest one.
