@@ -3,6 +3,7 @@
 use softstop::{Dimension, Machine};
 use softstop_console::column::Column;
 use softstop_console::columns;
+use softstop_dynamics::MotionKind;
 use softstop_dynamics::run_up::{Attempt, RunUp, RunUpPeaks, Way};
 
 use crate::page::quantity;
@@ -47,6 +48,9 @@ fn note((machine, _, attempt): &Tried<'_>) -> String {
         (Way::SwitchedOn, ..) => None,
         (_, _, Some(lost)) => own(lost).map(|lost| format!("z = 1 is lost at {lost}")),
         _ => match &attempt.ends {
+            Some(MotionKind::Unsettled) if attempt.share < 1.0 => {
+                Some("has not settled by then".to_owned())
+            }
             Some(motion) if attempt.share < 1.0 => Some(format!("ends in {motion}")),
             _ => attempt
                 .from

@@ -95,6 +95,7 @@ impl Figure {
             Self::ClearancePd => {
                 "no flip on this branch, and no other end down to a quarter of the clearance"
             }
+            Self::StopForce => "a rigid stop is struck",
             _ => "nothing bounds it",
         }
     }
@@ -110,6 +111,7 @@ impl Figure {
             Self::DrivePower => stroke.mean_power,
             Self::MaxPosition => stroke.highest,
             Self::Stroke => stroke.length,
+            Self::StopForce if stroke.impulse > 0.0 => f64::INFINITY,
             Self::StopForce => stroke.stop_force,
             Self::StopDeflection => {
                 let above = stop_deflection(&orbit.scene, stroke.highest);

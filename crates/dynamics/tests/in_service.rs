@@ -1,11 +1,12 @@
 //! What a machine does in service: missing strips, run-up, certainty and integrity along the zone.
 
 use rayon::ThreadPoolBuilder;
-use softstop::{Machine, Scene, Simulation, Start};
+use softstop::{Machine, RigidStop, Scene, Simulation, Start};
 use softstop_dynamics::attractors::{Region, starting_box};
 use softstop_dynamics::basin::{
     BasinOptions, BasinTest, ErosionProfile, Establishment, find_basins, zone_box,
 };
+use softstop_dynamics::figure::Figure;
 use softstop_dynamics::missing_strips::{StopWithoutStrip, survives_missing_strips};
 use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::run_up::{Attempt, RunUp, RunUpSettings, Way};
@@ -108,6 +109,57 @@ fn all_ways() -> RunUpSettings {
         ways: Way::ALL.to_vec(),
         ..RunUpSettings::default()
     }
+}
+
+/// A ramp of more than 16,384 periods changes the frequency in steps of several.
+#[test]
+fn the_slowest_ramps_last_as_long_as_their_rate_says() {
+    let orbit = one(&unloaded(1.15));
+    for rate in [1e-4, 3e-5, 1e-5] {
+        let settings = RunUpSettings {
+            ways: vec![Way::FrequencyRaised],
+            ramp: Some(rate),
+            ..RunUpSettings::default()
+        };
+        let found = RunUp::of(&orbit, &settings, 1, &unmonitored).expect("computed");
+        let attempt = attempt_by(&found, Way::FrequencyRaised);
+        let periods = attempt.periods.expect("periods") as f64;
+        let asked = (1.15 - 0.5) / rate;
+        assert!(
+            asked <= periods && periods < asked + 10.0,
+            "{rate} {periods}"
+        );
+    }
+}
+
+/// A rigid stop that the motion itself does not reach: from a larger amplitude the mass strikes it on the way.
+#[test]
+fn a_blow_at_a_rigid_stop_exceeds_every_force_on_the_way() {
+    let soft = one(&unloaded(1.15));
+    let force = |orbit: &Orbit| Figure::StopForce.of_orbit(orbit).expect("computed");
+    let behind = |gap: f64| {
+        let travel = soft.max_position + gap - soft.scene.stop_position();
+        let rigid = Some(RigidStop {
+            travel,
+            restitution: 0.6,
+        });
+        one(&Scene {
+            rigid,
+            ..unloaded(1.15)
+        })
+    };
+    let clear = behind(0.05);
+    assert_eq!(force(&clear), force(&soft));
+    let settings = RunUpSettings {
+        ways: vec![Way::AmplitudeLowered],
+        most_force: Some(1e6),
+        ..RunUpSettings::default()
+    };
+    let found = RunUp::of(&clear, &settings, 1, &unmonitored).expect("computed");
+    let attempt = attempt_by(&found, Way::AmplitudeLowered);
+    let peaks = attempt.peaks.expect("computed");
+    assert_eq!((attempt.share, peaks.stop_force), (1.0, f64::INFINITY));
+    assert_eq!(found.working_ways().count(), 0);
 }
 
 /// A ramp by a step of the frequency each drive period, against a plain simulation of its periods, one by one.

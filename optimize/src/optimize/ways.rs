@@ -2,13 +2,17 @@
 
 use serde::Deserialize;
 use softstop::internals::with_near_word;
-use softstop::{Dimension, Machine, Parameter};
+use softstop::{Dimension, Machine, Parameter, Stop};
 use softstop_console::failure::Failure;
 use softstop_dynamics::run_up::{RunUpSettings, Way};
 use toml::Value;
 use toml::de::Error;
 
+use crate::design::conflict::format_in_own_unit;
 use crate::design::requirement::Scope;
+
+/// Drive periods in which a ramp could change the frequency by as much as that of the machine, at most.
+const MAX_RAMP_PERIODS: f64 = 1e5;
 
 /// `{ least = 10, most = 12, at = "drawing" }`.
 #[derive(Clone, Copy, Deserialize)]
@@ -82,6 +86,20 @@ pub(super) fn ways(
         positive("ramp_rate", words.ramp_rate, Dimension::Frequency)?,
         positive("force", words.force, Dimension::Force)?,
     );
+    let slowest = machine.scene.excitation.frequency / MAX_RAMP_PERIODS;
+    if let Some(rate) = ramp.filter(|rate| *rate < slowest) {
+        let own = |rate| format_in_own_unit(machine, Dimension::Frequency, rate);
+        return Err(usage(&format!(
+            ".ramp_rate = {}: must be at least {}, a part in {MAX_RAMP_PERIODS} of the machine's frequency",
+            own(rate),
+            own(slowest)
+        )));
+    }
+    if let (Some(force), Stop::Rigid { .. }) = (words.force, &machine.scene.stop) {
+        return Err(usage(&format!(
+            ".force = {force}: the force of a rigid stop has no bound"
+        )));
+    }
     let bounds = Bounds {
         least: words.least.or(words.most.is_none().then_some(1.0)),
         most: words.most,

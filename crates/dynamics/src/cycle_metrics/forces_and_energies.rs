@@ -2,7 +2,7 @@
 
 use super::Losses;
 use softstop::internals::{Phase, largest_value, shares};
-use softstop::{Arc, PhaseKind, Scene, Start, Trajectory};
+use softstop::{Arc, CrossingKind, PhaseKind, Scene, Start, Trajectory};
 
 /// Phases in which the mass touches the strip.
 pub(super) const STRIP_PHASES: &[PhaseKind] =
@@ -42,9 +42,18 @@ pub(super) fn largest_force(motion: &Trajectory, kinds: &[PhaseKind]) -> f64 {
     peaks.fold(0.0, f64::max)
 }
 
-/// Largest contact force in N of a motion while the stop is touched.
-pub(crate) fn peak_stop_force(motion: &Trajectory) -> f64 {
+/// Largest contact force in N of a motion while a stop that gives way is touched.
+pub(super) fn peak_soft_force(motion: &Trajectory) -> f64 {
     largest_force(motion, STOP_PHASES)
+}
+
+/// Largest contact force in N of a motion while a stop is touched: that of a blow at a rigid one has no bound.
+pub(crate) fn peak_stop_force(motion: &Trajectory) -> f64 {
+    let mut crossings = motion.crossings();
+    match crossings.any(|it| matches!(it.kind, CrossingKind::Rebound { .. })) {
+        true => f64::INFINITY,
+        false => peak_soft_force(motion),
+    }
 }
 
 /// Peak power of the drive in W over a motion.

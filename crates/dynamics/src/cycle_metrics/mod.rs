@@ -8,7 +8,7 @@ use crate::orbit::Orbit;
 pub use forces_and_energies::peak_contact_force;
 pub(crate) use forces_and_energies::peak_stop_force;
 use forces_and_energies::{
-    STRIP_PHASES, largest_force, peak_drive_power, supplied_and_lost_energy,
+    STRIP_PHASES, largest_force, peak_drive_power, peak_soft_force, supplied_and_lost_energy,
 };
 use softstop::{CrossingKind, MotionError, PhaseKind, Stop};
 
@@ -42,7 +42,7 @@ pub struct CycleMetrics {
     /// Largest force of contact, of strip or stop with what contact adds to the damping, in N: F in
     /// m x'' + b1 x' + k1 x + F = F0 cos(w t). Blows of rigid stops, which last no time, are not in it.
     pub contact_force: f64,
-    /// Largest force of contact in N while the stop is touched, its preload included.
+    /// Largest force of contact in N while a stop that gives way is touched, its preload included.
     pub stop_force: f64,
     /// That force without the stop's preload, by which the force jumps at first touch.
     pub stop_force_above_preload: f64,
@@ -105,7 +105,7 @@ impl CycleMetrics {
             .filter(|_| !matches!(scene.stop, Stop::Rigid { .. }));
         let lowest = motion.min_position();
         let force = |kinds: &[PhaseKind]| largest_force(&motion, kinds);
-        let (stop_force, strip_force) = (peak_stop_force(&motion), force(STRIP_PHASES));
+        let (stop_force, strip_force) = (peak_soft_force(&motion), force(STRIP_PHASES));
         let blows = motion.crossings();
         let blows = blows.filter(|it| matches!(it.kind, CrossingKind::Rebound { .. }));
         let impulses = blows.map(|it| scene.mass * (it.velocity - it.velocity_after));

@@ -24,13 +24,16 @@ pub use way::Way;
 const RUN_UP_STEPS: usize = 256;
 /// Drive periods of each step of a slow way to run up.
 const STEP_PERIODS: u64 = 64;
+/// Steps of a ramp, at most.
+const MAX_RAMP_STEPS: f64 = (RUN_UP_STEPS as u64 * STEP_PERIODS) as f64;
 
 /// Settings of running up: which ways are tried, and what is asked of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunUpSettings {
     /// The ways that are tried.
     pub ways: Vec<Way>,
-    /// Change of the drive's frequency in rad/s from each drive period to the next; none, or less, for a slow way.
+    /// Change of the drive's frequency in rad/s from each drive period to the next, in steps of several periods where these are more than
+    /// 16,384; none for a slow way.
     pub ramp: Option<f64>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,
@@ -58,13 +61,13 @@ impl RunUpSettings {
 
     /// Steps of the sweep of a parameter on a way to run up, and drive periods of each.
     fn sweep_steps(&self, parameter: Parameter, (low, high): (f64, f64)) -> (usize, u64) {
-        let slow = (RUN_UP_STEPS, STEP_PERIODS);
-        let periods = self.ramp.map(|rate| ((high - low) / rate).ceil() + 1.0);
-        match periods.filter(|_| parameter == Parameter::Frequency) {
-            Some(periods) if periods < (RUN_UP_STEPS as u64 * STEP_PERIODS) as f64 => {
-                (periods as usize, 1)
+        match self.ramp.filter(|_| parameter == Parameter::Frequency) {
+            Some(rate) => {
+                let changes = (high - low) / rate;
+                let each = (changes / MAX_RAMP_STEPS).ceil().max(1.0);
+                ((changes / each).ceil() as usize + 1, each as u64)
             }
-            _ => slow,
+            None => (RUN_UP_STEPS, STEP_PERIODS),
         }
     }
 }
@@ -94,7 +97,7 @@ pub struct Attempt {
 /// The largest values on a way to run up.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct RunUpPeaks {
-    /// Largest contact force in N while the stop is touched.
+    /// Largest contact force in N while the stop is touched; infinite if a rigid one is struck.
     pub stop_force: f64,
     /// Largest position in m.
     pub highest: f64,
