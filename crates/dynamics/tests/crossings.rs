@@ -7,7 +7,7 @@ use softstop::internals::turning_points;
 use softstop::{
     Below, CheckedScene, CrossingKind, Machine, Parameter, Release, Scene, Start, Stop,
 };
-use softstop_dynamics::continuation::{Face, SpecialKind};
+use softstop_dynamics::continuation::{End, Face, SpecialKind};
 use softstop_dynamics::{Branch, BranchPoint, Continuation, Limits, ParameterFamily};
 use softstop_testing::scenes::{hertz, kelvin_voigt, piercing, preloaded, rigid_stop, slope};
 
@@ -49,11 +49,13 @@ fn crossings(scene: &CheckedScene, point: &BranchPoint, periods: u64) -> Option<
     is_known.then(|| faces.iter().map(count).collect())
 }
 
-/// Fails where two neighbouring points of a branch cross something else, and no grazing lies between them.
+/// Fails where two neighbouring points of a branch cross something else and no grazing lies between them, and where what they
+/// cross is known of less than half of the points.
 #[track_caller]
 fn each_change_is_told(machine: &Machine, parameter: Parameter, branch: &Branch) {
     let mut last = None;
     let mut is_told = true;
+    let mut known = 0;
     for point in &branch.points {
         if let Some(special) = branch.special_at(point) {
             is_told |= matches!(special.kind, SpecialKind::Grazing(_));
@@ -72,7 +74,10 @@ fn each_change_is_told(machine: &Machine, parameter: Parameter, branch: &Branch)
             point.parameter
         );
         (last, is_told) = (Some(now), false);
+        known += 1;
     }
+    let all = branch.points.len();
+    assert!(2 * known > all, "{known} of {all}");
 }
 
 /// A machine at a clearance of 1 m from its stop, driven with an amplitude and a frequency.
@@ -96,7 +101,7 @@ fn between(scene: Scene, apart: f64, stop: Stop) -> Scene {
     }
 }
 
-/// Follows the motion that a machine settles on, which repeats after some periods.
+/// Follows the motion that a machine settles on, which repeats after some periods, to where it grazes, merges or leaves the range.
 #[track_caller]
 fn follow(scene: Scene, parameter: Parameter, periods: u64) {
     let settled = scene
@@ -114,6 +119,10 @@ fn follow(scene: Scene, parameter: Parameter, periods: u64) {
     let branch = Continuation::new(&family, periods).branch(own, settled.into(), &limits, go_on);
     let branch = branch.expect("a branch");
     assert_eq!(branch.periods, periods);
+    for end in [&branch.ends.0, &branch.ends.1] {
+        let is_reached = matches!(end, End::Range | End::Grazing | End::Merged);
+        assert!(is_reached, "{end:?} at {own}");
+    }
     each_change_is_told(&machine, parameter, &branch);
 }
 

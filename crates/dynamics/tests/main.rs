@@ -16,6 +16,7 @@ mod invariants;
 mod kept_period;
 mod limits;
 mod machine_reference;
+mod near_grazing;
 mod slopes;
 mod slopes_of_borders;
 mod slopes_of_designs;

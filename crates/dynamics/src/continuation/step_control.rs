@@ -6,7 +6,7 @@
 
 use nalgebra::DVector;
 
-use super::arclength::{Ends, Equations, Node, correct, curve_tangent};
+use super::arclength::{Ends, Equations, Evaluation, Node, correct, curve_tangent};
 use super::follow::{Continuation, same_orientation};
 use super::grazing_test::GrazingTest;
 use super::period_map::PeriodMap;
@@ -17,8 +17,8 @@ use super::test_function::TestFunction;
 use crate::orbit::OrbitError;
 use crate::tolerance::{DIFFERENCE_WIDTH, SAME};
 
-/// Shares of the way to a grazing at which a fold or a flip is looked for behind.
-const TEST_SEARCH_SHARES: [f64; 4] = [0.5, 0.9, 0.99, 0.999];
+/// Shares of the way to a grazing, back from it, at which a fold or a flip is looked for: down to touches too weak for any step.
+const TEST_SEARCH_SHARES: [f64; 6] = [0.5, 0.1, 1e-2, 1e-3, 1e-5, 1e-7];
 /// Scaled distances, ahead and behind, at which something is looked for that a branch without a grazing ends in.
 const BORDER_DISTANCES: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 /// Scaled distances ahead at which a rest is looked for, where the orbits of a branch come to lie side by side.
@@ -178,7 +178,7 @@ impl Continuation<'_> {
     }
 
     /// True if the branch folds or flips between a node and a grazing: right before it multipliers grow without bounds, and a
-    /// flipped orbit may come back through both.
+    /// flipped orbit may come back through both. Motions beside the grazing orbit tell, as the fold may lie beyond it.
     fn folds_or_flips_before(
         &self,
         special: &Special,
@@ -187,14 +187,13 @@ impl Continuation<'_> {
         let Ok(at) = self.place_of(&special.point) else {
             return false;
         };
-        let (from, way) = (&stepper.node.here.point, at - &stepper.node.at);
+        let (from, way) = (&stepper.node.here.point, &at - &stepper.node.at);
         let passes = |share: &f64| {
-            let guess = &stepper.node.at + *share * &way;
-            let found = correct(&self.shooting, &guess, Some(&way.normalize()));
-            found.is_ok_and(|Node { here, .. }| {
-                let ends = (&from.monodromy, &here.point.monodromy);
+            let beside = self.shooting.evaluate(&(&at - *share * &way));
+            beside.is_ok_and(|Evaluation { point, .. }| {
+                let ends = (&from.monodromy, &point.monodromy);
                 let tests = [TestFunction::Fold, TestFunction::Flip];
-                from.sequence == here.point.sequence
+                from.sequence == point.sequence
                     && tests.iter().any(|test| test.passes_zero(ends.0, ends.1))
             })
         };
