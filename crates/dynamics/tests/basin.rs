@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use nalgebra::Vector2;
 use rayon::ThreadPoolBuilder;
 use softstop::{Clock, Ratios, Scene, Start};
-use softstop_dynamics::attractors::starting_box;
+use softstop_dynamics::attractors::{SearchOptions, find_attractors, starting_box};
 use softstop_dynamics::basin::{
     BasinOptions, BasinsAt, Establishment, establishing_certainties, find_basins, follow_attractors,
 };
@@ -13,7 +13,7 @@ use softstop_dynamics::monitor::{stop_if, unmonitored};
 use softstop_dynamics::orbit::{OrbitError, find};
 use softstop_dynamics::{Axis, Basins, Grid, Orbit, Regime, StroboscopicMap, zone};
 use softstop_testing::tolerance::{DIFFERENCED, SOLVED};
-use softstop_testing::{assert_near, is_near, loaded, rigid_stop, unloaded, with_changes};
+use softstop_testing::{assert_near, hertz, is_near, loaded, rigid_stop, unloaded, with_changes};
 
 const NONE: Regime = Regime {
     impacts: 0,
@@ -274,6 +274,37 @@ fn the_box_of_starts_holds_the_hardest_motion_with_room() {
         }
     }
     assert!(widened > 16, "{widened}");
+}
+
+/// A strip that stops the mass at one amplitude and is pierced at another: both motions are z = 1, and few starts come to the softer.
+#[test]
+fn the_box_of_starts_holds_both_of_two_single_impact_motions() {
+    let strip = "piercing.stiffness=13.78 piercing.friction=10.722 piercing.thickness=0.40456 piercing.travel=0.1276";
+    let own = "damping=0.0266 contact.damping=0.032 clearance=2 excitation.frequency=1.2405";
+    let scene = Scene {
+        stop: hertz(79.56, 2.5677, 0.1151),
+        ..with_changes("loaded", &format!("{own} {strip}"))
+    };
+    let region = starting_box(&scene, &unmonitored).expect("there is one");
+    let options = SearchOptions {
+        starts: 256,
+        region: Some(region),
+        ..SearchOptions::default()
+    };
+    let found = find_attractors(&scene, &options, &unmonitored).expect("motions");
+    let orbits = found.attractors.iter().filter_map(|it| it.orbit.as_ref());
+    let singles: Vec<_> = orbits.filter(|orbit| orbit.regime() == ONE).collect();
+    assert_eq!(singles.len(), 2);
+    for orbit in &singles {
+        assert!(1.5 * orbit.velocity.abs() <= region.velocity[1] * (1.0 + SOLVED));
+        assert!(1.5 * orbit.position.abs() <= region.position[1] * (1.0 + SOLVED));
+    }
+    let hardest = find(&scene).expect("there is one");
+    let velocities = singles.iter().map(|orbit| orbit.before_impact_velocity());
+    let harder = velocities.fold(0.0, f64::max);
+    assert_near(hardest.before_impact_velocity(), harder, SOLVED);
+    let needed = 1.5 * hardest.velocity.abs();
+    assert_near(region.velocity[1], needed, SOLVED);
 }
 
 /// The orbit of a machine without damping neither attracts nor repels: what is told at once is what counting all starts gives.
