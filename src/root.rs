@@ -16,9 +16,6 @@ impl RootBracket {
     }
 }
 
-/// Evaluations that a search may take beyond those of bisection: the n0 of Oliveira and Takahashi.
-const EXTRA_EVALUATIONS: f64 = 1.0;
-
 /// Narrows the interval between `low` and `high`, where the function has the values `at_low` and
 /// `at_high` of opposite signs, to `width`: interpolation, truncation, projection (Oliveira and
 /// Takahashi 2020, ACM Trans. Math. Softw. 47, 5). It never takes more evaluations than bisection and
@@ -34,7 +31,8 @@ pub fn narrow_root<E>(
 ) -> Result<RootBracket, E> {
     let ((mut a, mut f_a), (mut b, mut f_b)) = (low, high);
     let half = 0.5 * width;
-    let most = ((b - a) / width).log2().ceil().max(0.0) + EXTRA_EVALUATIONS;
+    // Those of bisection and one: n0 = 1.
+    let most = ((b - a) / width).log2().ceil().max(0.0) + 1.0;
     let truncation = 0.2 / (b - a);
     let mut evaluations = 0;
     while b - a > width {

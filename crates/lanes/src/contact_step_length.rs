@@ -20,8 +20,6 @@ const MIN_RATIO_TO_LAST_TERM: f64 = 1.0 / (1u64 << 24) as f64;
 const MAX_GUESSES: usize = 64;
 /// Exponent e with which the factor of a step's length, ratio^(1 / (DEGREE - 1)), is (32nd root of the ratio)^e.
 const ROOT_EXPONENT: f64 = 32.0 / (DEGREE - 1) as f64;
-/// Second binomial coefficient e (e - 1) / 2 of (1 + x)^e.
-const SECOND_BINOMIAL: f64 = 0.5 * ROOT_EXPONENT * (ROOT_EXPONENT - 1.0);
 
 impl<S: Simd, const N: usize> ContactState<S, N> {
     /// The longest step, in sigma, along which the series of drive and suspension converge fast.
@@ -76,10 +74,8 @@ impl<S: Simd, const N: usize> ContactSeries<S, N> {
         }
         // The root that is asked for from the 32nd one, by two terms of the binomial series.
         let off = root - one;
-        let factor = off.mul_add(
-            off.mul_add(one.like(SECOND_BINOMIAL), one.like(ROOT_EXPONENT)),
-            one,
-        );
+        let second = 0.5 * ROOT_EXPONENT * (ROOT_EXPONENT - 1.0);
+        let factor = off.mul_add(off.mul_add(one.like(second), one.like(ROOT_EXPONENT)), one);
         (near * factor, enough)
     }
 }

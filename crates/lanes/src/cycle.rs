@@ -10,15 +10,13 @@ use nalgebra::{Complex, Matrix2, RowVector2, Vector2};
 use super::cycle_state::{CycleState, Derivatives, Drive, Jet, Passage};
 use super::cycle_windows::CycleWindows;
 use super::face::Face;
-use super::law::Constants;
+use super::law::{Constants, MIN_WINDOW_SHARE};
 use softstop::internals::Modes;
 
 /// Most windows into which a cycle is divided.
 const MAX_WINDOWS: usize = 4096;
 /// Longest window of an arc whose spring draws the mass back, in windows of the scan.
 const MAX_WINDOW_LENGTH: f64 = 2.0;
-/// Shortest window of an arc, as a share of the longest one of that arc.
-const MIN_WINDOW_SHARE: f64 = 1.0 / 256.0;
 /// Largest difference between the state at the end of an arc by its linear law and the one that was recorded there,
 /// relative to the size of the motion, with which the arc is used.
 const MAX_ARC_MISMATCH: f64 = 1e-9;

@@ -6,7 +6,7 @@ use super::engine::Engine;
 use super::guard::Guard;
 use super::guard_search::Found;
 use super::lanes::{Lanes, Mask};
-use super::law::Law;
+use super::law::{Law, MIN_WINDOW_SHARE};
 use super::move_lanes::LaneEnd;
 use super::parts::Parts;
 use super::scan::ScanResult;
@@ -14,8 +14,6 @@ use super::window_ahead::WindowAhead;
 
 /// Shortest time that is decided at once, in windows: less that is left of a period is taken for this long.
 const MIN_DECIDED_SPAN: f64 = 1e-12;
-/// Least share of a window that lanes decide, after halvings; below it the safe engine decides.
-const MIN_WINDOW_SHARE: f64 = 1.0 / 512.0;
 
 impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Decides the window ahead of the lanes that the scan has stopped, and moves all `active` ones on, none longer

@@ -6,6 +6,9 @@ use super::lanes::{Lanes, Mask, Pair};
 
 /// Length of a window times the fastest rate, in rad.
 pub(super) const WINDOW_ANGLE: f64 = 1.2;
+/// Least share of a window, after halvings, of which lanes prove anything: below it the safe engine decides, or a cycle is not
+/// proven.
+pub(super) const MIN_WINDOW_SHARE: f64 = 1.0 / 512.0;
 /// Terms of the polynomial of the free motion over at most half a window: the first one left out is 0.6^16 / 16! < 2e-17.
 pub(super) const FREE_TERMS: usize = 15;
 

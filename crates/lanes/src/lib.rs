@@ -53,6 +53,7 @@
 //! steps or by callgrind, which no command of the project repeats. `engine.rs` lists what was tried and dropped.
 
 mod bounce_trains;
+mod certificate;
 mod constants;
 mod contact;
 mod contact_release;

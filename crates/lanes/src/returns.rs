@@ -20,19 +20,20 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix2, Vector2};
 
+use super::certificate::{Certificate, find_ball};
 use super::contraction::{ContractionNorm, spectral_radius};
 use super::cycle::Cycle;
 use super::cycle_state::{Drive, Passage};
-use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
+use super::extrapolate_limit::{MAX_LAST_STEP, MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
 use super::law::Constants;
 
 /// Largest difference between the time of a return and a whole number of drive periods, in drive periods.
 const MAX_TIME_OFFSET: f64 = 0.25;
 /// Most drive periods between two returns.
 const MAX_PERIODS: f64 = 4.0;
-/// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return
-/// next to the first.
-const MAX_RECURRENCE_RATIO: f64 = 0.3;
+/// Largest ratio of a distance to another one that counts as much shorter: of a return from the first one, to that of the
+/// return next to it, where motions recur; of a step of Newton's method, to the one before, with which a trial goes on.
+const MAX_SHORT_RATIO: f64 = 0.3;
 /// Drive periods from the beginning of a job to the first recording of returns.
 const PERIODS_BEFORE_RECORDING: f64 = 28.0;
 /// Drive periods from a failed attempt to the next recording of returns, before the first growth.
@@ -48,22 +49,6 @@ const MIN_PERIODS_LEFT: f64 = 24.0;
 const MAX_PREDICTION_DISTANCE: f64 = 0.3;
 /// Largest distance between two returns, in these units, from which their limit is extrapolated.
 const MAX_EXTRAPOLATION_DISTANCE: f64 = 0.02;
-/// Largest last step of Newton's method, in these units.
-const MAX_LAST_STEP: f64 = 1e-7;
-/// Largest ratio of a step of Newton's method to the one before with which the trial goes on.
-const MAX_STEP_RATIO: f64 = 0.3;
-/// Largest error of the limit, in units of the distance of returns.
-const MAX_LIMIT_ERROR: f64 = 4e-12;
-/// Largest error of the extrapolated last return, in these units: it adds up what is left out in all returns, as if each bent
-/// the motion the same way.
-const MAX_END_ERROR: f64 = 2e-10;
-/// Most balls about the limit that are tried for the proof.
-const MAX_BALLS: usize = 8;
-/// Ratio of the radius of a ball to that of the one before, on which the proof failed.
-const RADIUS_RATIO: f64 = 0.25;
-/// Least norm of the map of returns that is assumed in the bound on how deviations die out.
-const MIN_RATE: f64 = 0.25;
-
 /// The state of a motion just after an impact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Return {
@@ -127,20 +112,6 @@ enum Stage {
     Trial(f64),
     /// The limit cycle, and what is proven of the motions about it.
     Known(Certificate),
-}
-
-/// What is proven of all returns in a ball about the limit.
-#[derive(Debug, Clone, Copy)]
-struct Certificate {
-    limit: Vector2<f64>,
-    map: Matrix2<f64>,
-    norm: ContractionNorm,
-    /// Radius of the ball, in the norm.
-    radius: f64,
-    /// The next return deviates by the linear map and at most curvature times the square of the deviation, in the
-    /// norm; distance from the limit of the cycle about which this is proven.
-    curvature: f64,
-    aside: f64,
 }
 
 /// What a lane does after a return.
@@ -226,8 +197,8 @@ impl Returns {
         let [first, rest @ ..] = self.own_points();
         let away = rest.map(|point| (point - first).norm());
         let recurs = match away {
-            [one, two, _] if two < MAX_RECURRENCE_RATIO * one => 2.0,
-            [one, _, three] if three < MAX_RECURRENCE_RATIO * one => 3.0,
+            [one, two, _] if two < MAX_SHORT_RATIO * one => 2.0,
+            [one, _, three] if three < MAX_SHORT_RATIO * one => 3.0,
             _ => 1.0,
         };
         let every = self.every * recurs;
@@ -345,7 +316,7 @@ impl Returns {
         let limit = tried + step;
         let length = step.norm();
         if length > MAX_LAST_STEP || length.is_nan() {
-            let goes_on = length < MAX_STEP_RATIO * before && limit.x > 0.0;
+            let goes_on = length < MAX_SHORT_RATIO * before && limit.x > 0.0;
             return goes_on.then(|| self.begin_trial(limit, length));
         }
         if spectral_radius(map.trace(), map.determinant()) > 1.0 - MIN_DECAY {
@@ -356,11 +327,7 @@ impl Returns {
         let aside = norm.norm_of(&step);
         let off = self.own_points()[RETURNS_PER_GUESS - 1] - limit;
         let most = norm.norm_of(&off) + aside;
-        let (radius, curvature) = self.find_ball(&norm, &inverse, most.max(MAX_LAST_STEP))?;
-        let rate = norm.rate.max(MIN_RATE);
-        if curvature * aside * aside / (1.0 - rate) * norm.largest_length() > MAX_LIMIT_ERROR {
-            return (length < MAX_STEP_RATIO * before).then(|| self.begin_trial(limit, length));
-        }
+        let (radius, curvature) = find_ball(&self.cycle, &norm, &inverse, most.max(MAX_LAST_STEP))?;
         let certificate = Certificate {
             limit,
             map,
@@ -369,39 +336,10 @@ impl Returns {
             curvature,
             aside,
         };
-        Some(self.extrapolate_to_end(&certificate))
-    }
-
-    /// The radius of the largest ball of those tried, not larger than `most`, whose motions all make the crossings of
-    /// the cycle and contract to the limit, and the curvature in it; none if rounding moves the limit too far.
-    fn find_ball(
-        &self,
-        norm: &ContractionNorm,
-        inverse: &Matrix2<f64>,
-        most: f64,
-    ) -> Option<(f64, f64)> {
-        let rate = norm.rate.max(MIN_RATE);
-        let mut radius = most;
-        for _ in 0..MAX_BALLS {
-            let ball = norm.from * radius;
-            let Some(remainder) = self.cycle.remainder(&ball) else {
-                radius *= RADIUS_RATIO;
-                continue;
-            };
-            if (inverse.abs() * remainder.rounding).norm() > MAX_LIMIT_ERROR {
-                return None;
-            }
-            let curvature = norm.largest_norm(&remainder.curvature) / (radius * radius);
-            let drawn = 0.5 * rate * (1.0 - rate) / curvature;
-            if curvature.is_nan() || radius > drawn {
-                radius = 0.9 * drawn;
-            } else if self.cycle.ball_is_clear(&ball) {
-                return Some((radius, curvature));
-            } else {
-                radius *= RADIUS_RATIO;
-            }
+        if !certificate.is_exact() {
+            return (length < MAX_SHORT_RATIO * before).then(|| self.begin_trial(limit, length));
         }
-        None
+        Some(self.extrapolate_to_end(&certificate))
     }
 
     /// What the lane does after a return of a motion whose limit is known.
@@ -423,15 +361,8 @@ impl Returns {
     /// Extrapolates all periods but the last at once from the motion's own last return, or waits until that is exact
     /// enough.
     fn extrapolate_to_end(&mut self, certificate: &Certificate) -> ReturnDecision {
-        let Certificate {
-            norm,
-            curvature,
-            aside,
-            ..
-        } = certificate;
         let own = self.own[RETURNS_PER_GUESS - 1];
         let off = self.return_point(&own).1 - certificate.limit;
-        let rate = norm.rate.max(MIN_RATE);
         let times = ((own.left - FOLLOWED_LAST_PERIODS) / self.every).floor();
         let back = |decision| ReturnDecision {
             resume_at: Some(own),
@@ -440,21 +371,15 @@ impl Returns {
         if own.left < MIN_PERIODS_LEFT * self.every {
             return back(self.forget_returns(f64::NEG_INFINITY));
         }
-        let length = norm.norm_of(&off) + aside;
-        // |d_k| <= q rate^k |d_0| with 1/q = 1 - curvature |d_0| / (rate (1 - rate)); what is not linear adds up.
-        let q = 1.0 / (1.0 - curvature * length / (rate * (1.0 - rate))).max(0.5);
-        let bent = curvature * length * q * (q * length / (1.0 - rate) + 2.0 * times * aside);
-        let error = bent * rate.powf(times - 1.0) * norm.largest_length();
-        let excess = ((length + aside) / certificate.radius).max(error / MAX_END_ERROR);
+        let excess = certificate.excess(&off, times);
         if excess > 1.0 || excess.is_nan() {
             self.stage = Stage::Known(*certificate);
-            let wait = (excess.ln() / -rate.ln()).ceil();
+            let wait = certificate.returns_until_exact(excess);
             return back(ReturnDecision::wait(
                 own.left - (wait * self.every - MAX_TIME_OFFSET),
             ));
         }
-        let power = certificate.map.pow(times as u32);
-        let to = self.return_at(certificate.limit + power * off, times);
+        let to = self.return_at(certificate.return_after(&off, times), times);
         self.forget_returns(f64::NEG_INFINITY);
         ReturnDecision {
             resume_at: Some(to),

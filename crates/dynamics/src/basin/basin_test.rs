@@ -25,10 +25,8 @@ pub(super) const PERIODS_BETWEEN_CHECKS: u64 = 16;
 const APPROACH_PERIODS: u64 = 256;
 /// Exponent of e to which motions near a tested orbit must decay, by its slowest multiplier, to arrive.
 const SETTLING_EXPONENT: f64 = 28.0;
-/// Most drive periods that a basin test grants motions for their decay onto the orbit.
-const MAX_SETTLING_PERIODS: f64 = 20_000.0;
-/// Decay a drive period, as an exponent, below which a basin test does not follow all motions to their end.
-pub const SLOW_DECAY: f64 = SETTLING_EXPONENT / MAX_SETTLING_PERIODS;
+/// Decay a drive period, as an exponent, below which a basin test does not follow all motions to their end: 20,000 drive periods.
+pub const SLOW_DECAY: f64 = SETTLING_EXPONENT / 20_000.0;
 /// Decay a drive period, as an exponent, below which an orbit is at a border to rounding, as at a fold.
 const MIN_DECAY_EXPONENT: f64 = 1e-5;
 /// Drive periods that motions get to come to an orbit at a border.
@@ -95,7 +93,7 @@ impl BasinTest {
         let decay = -slowest.ln() / orbit.periods as f64;
         let (patience, arrived) = match decay {
             _ if decay > MIN_DECAY_EXPONENT => {
-                let settling = (SETTLING_EXPONENT / decay).min(MAX_SETTLING_PERIODS);
+                let settling = SETTLING_EXPONENT / decay.max(SLOW_DECAY);
                 (APPROACH_PERIODS + settling as u64, SAME)
             }
             _ if decay > -MIN_DECAY_EXPONENT && !orbit.monodromy.is_neutral() => {
