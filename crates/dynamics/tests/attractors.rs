@@ -7,7 +7,7 @@ use softstop_dynamics::attractors::{
 };
 use softstop_dynamics::monitor::unmonitored;
 use softstop_dynamics::{MotionKind, Orbit, Regime, Survey};
-use softstop_testing::{assert_near, is_near, loaded, unloaded};
+use softstop_testing::{assert_near, is_near, loaded, unloaded, with_changes};
 
 const OPTIONS: SearchOptions = SearchOptions {
     starts: 96,
@@ -200,4 +200,12 @@ fn a_motion_behind_transient_chaos_is_searched_until_it_is_met() {
     assert!(survey.periods < options.patience / 2, "{}", survey.periods);
     let mut orbits = survey.attractors.iter().flat_map(|found| &found.orbit);
     assert!(orbits.any(|orbit| is_half(orbit)));
+}
+
+/// With so much damping a motion comes back by a share of 3e-5 a period: Newton's method leaves 3e-11 of a motion of 4e-6, each start
+/// another rest of it.
+#[test]
+fn a_slow_motion_is_one_motion() {
+    let survey = survey(&with_changes("unloaded", "eta=1.15 rho=10 damping=1e5"));
+    assert_eq!(names(&survey), ["0"]);
 }

@@ -10,7 +10,8 @@ use crate::tolerance::{NEAR, SAME};
 use softstop::{CheckedScene, Start};
 
 /// Two orbits of the same period are one if two of their states are as near as the first of these, and the
-/// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows.
+/// others as near as the second, in units of their size: on a strongly unstable stretch rounding grows. Or if they are as
+/// near as rounding leaves them, which a slow return amplifies.
 const SAME_ORBIT: (f64, f64) = (1e-7, 1e-3);
 
 /// The stable orbits of a scene that are known.
@@ -92,8 +93,8 @@ impl AttractorCatalogue {
         Ok((passage.monodromy.matrix - held).norm() <= SAME && creep <= SAME * size)
     }
 
-    /// The known orbit that has these states, if there is one.
-    fn find_known(&self, periods: u64, states: &[Start]) -> Option<usize> {
+    /// The known orbit that is the same as another one with these states, if there is one.
+    fn find_known(&self, orbit: &Orbit, states: &[Start]) -> Option<usize> {
         let apart = |known: &KnownOrbit, shift: usize| {
             let pairs = states.iter().zip(known.states.iter().cycle().skip(shift));
             let gaps =
@@ -102,12 +103,15 @@ impl AttractorCatalogue {
                 (least.min(gap), largest.max(gap))
             })
         };
+        let unit = self.scene.scales().speed();
         self.orbits.iter().position(|known| {
-            known.orbit.periods == periods
+            let error = unit * (known.orbit.state_error() + orbit.state_error()) / known.size;
+            known.orbit.periods == orbit.periods
                 && (0..known.states.len()).any(|shift| {
                     let (least, largest) = apart(known, shift);
                     // At rest at the origin there is no size to compare with.
-                    known.size == 0.0 || (least <= SAME_ORBIT.0 && largest <= SAME_ORBIT.1)
+                    known.size == 0.0
+                        || (least <= SAME_ORBIT.0.max(error) && largest <= SAME_ORBIT.1.max(error))
                 })
         })
     }
@@ -115,7 +119,7 @@ impl AttractorCatalogue {
     /// Enters a stable orbit in the catalogue, unless it is known, and returns its number.
     fn enter_orbit(&mut self, orbit: Orbit, returned: f64) -> Result<usize, OrbitError> {
         let states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
-        if let Some(index) = self.find_known(orbit.periods, &states) {
+        if let Some(index) = self.find_known(&orbit, &states) {
             return Ok(index);
         }
         let (residual, rounding) = orbit.residual()?;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stroboscopic_map::find_fixed_point;
 use super::{ImpactPattern, Monodromy, OrbitError, Passage, Regime, StroboscopicMap};
-use crate::tolerance::{NEAR, NEAR_GRAZING, ROUNDING};
+use crate::tolerance::{NEAR, NEAR_GRAZING, ROUNDING, ROUNDING_SHARE};
 use softstop::internals::turning_points;
 use softstop::{CheckedScene, Instant, MotionError, PhaseKind, Scene, Touch, Trajectory};
 
@@ -138,8 +138,8 @@ impl Orbit {
             };
             let apart = size(&(own - state));
             let stays = once.monodromy.is_stable() || !passage.monodromy.is_stable();
-            if apart <= ROUNDING * unit || apart <= map.fixed_point_error(state, &passage) && stays
-            {
+            let error = state_error(scene, &state, &passage.monodromy) / ROUNDING_SHARE;
+            if apart <= ROUNDING * unit || apart <= error && stays {
                 return Ok(Self::from_map(part, own, once));
             }
         }
@@ -237,6 +237,12 @@ impl Orbit {
         Ok((gap, scales.map_rounding(&self.state(), &passage.monodromy)))
     }
 
+    /// Error of the orbit's state by rounding, in the scene's scales: what rounding alone may leave of P(s) - s, as a slow
+    /// return amplifies it, whose multiplier is near 1.
+    pub(crate) fn state_error(&self) -> f64 {
+        state_error(&self.scene, &self.state(), &self.monodromy)
+    }
+
     /// True if the orbit is stable: both multipliers lie inside the unit circle, or on it where it is neutral.
     pub fn is_stable(&self) -> bool {
         self.monodromy.is_stable()
@@ -252,6 +258,14 @@ impl Orbit {
     pub(crate) fn is_harder(&self, other: &Self) -> bool {
         self.before_impact_velocity() > (1.0 + ROUNDING) * other.before_impact_velocity()
     }
+}
+
+/// Error of a fixed point of a map by rounding, in the scene's scales, infinite at a fold.
+fn state_error(scene: &Scene, state: &Vector2<f64>, monodromy: &Monodromy) -> f64 {
+    let scales = scene.scales();
+    let response = monodromy.resolvent();
+    let response = response.map_or(f64::INFINITY, |it| scales.jacobian(&it).norm());
+    scales.map_rounding(state, monodromy) * response
 }
 
 /// Time in s and before-impact velocity in m/s of each impact.

@@ -69,14 +69,6 @@ impl StroboscopicMap {
         })
     }
 
-    /// Error of a fixed point of the map, as Newton's method finds it, by rounding, in the map's scales.
-    pub(super) fn fixed_point_error(&self, state: Vector2<f64>, passage: &Passage) -> f64 {
-        let scales = self.scene.scales();
-        let response = passage.monodromy.resolvent();
-        let response = response.map_or(f64::INFINITY, |it| scales.jacobian(&it).norm());
-        scales.map_rounding(&state, &passage.monodromy) * response / ROUNDING_SHARE
-    }
-
     /// The image of a state under the map, without the Jacobian.
     ///
     /// # Errors
