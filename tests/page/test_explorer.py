@@ -74,7 +74,7 @@ def test_zone_and_basins_are_those_of_the_program(explore):
     flips = [it["from"] for it in program["stretches"] if it["from_by"] == "flip"]
     assert zone["s_pd"] == pytest.approx(flips[-1], rel=1e-9)
     basin = {"task": "basin", "machine": page.page.evaluate("state.machine"), "reach": [20, 20], "cells": [16, 16]}
-    basin |= {"rows": [0, 16], "periods": 200, "longest": 200}
+    basin |= {"rows": [0, 16], "periods": 200}
     assert page.ask([basin]) == native([basin])
 
 

@@ -32,7 +32,7 @@ pub(crate) struct Diagram {
 }
 
 /// Drive periods that are looked at.
-const WATCHED: u64 = 64;
+pub(crate) const WATCHED: u64 = 64;
 
 impl Patience {
     /// Follows motions.

@@ -150,7 +150,7 @@ function askBranches() {
 /** Some rows of the basins, and then the others; finer ones once they are whole. */
 function askBasin(size, row) {
   const rows = [row, Math.min(row + Math.max(2, 512 / size), size)];
-  const question = () => ({ task: 'basin', reach: state.about.reach, cells: [size, size], rows, ...QUICK });
+  const question = () => ({ task: 'basin', reach: state.about.reach, cells: [size, size], rows, periods: QUICK.periods });
   ask(slow, 'basin', question, ({ numbers, took }, isNow) => {
     if (!isNow) return;
     if (!row) state.next = { size, kinds: new Float64Array(3 * size * size), took: 0 };
