@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use softstop::{Machine, Parameter, UnitSystem};
+use softstop::{Machine, Parameter, Scene, Stop, UnitSystem};
 
 use crate::budget::BudgetArguments;
 use crate::change::Change;
@@ -170,6 +170,15 @@ impl MachineArguments {
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.set.iter().map(Change::key)
     }
+}
+
+/// What is said of a machine without a stop.
+pub const WITHOUT_STOP: &str =
+    "stop.model = \"none\": the machine has no stop, so no motion of it has an impact";
+
+/// True if anything stands in the way of the mass.
+pub fn has_stop(scene: &Scene) -> bool {
+    scene.stop != Stop::None || scene.piercing.is_some() || scene.wall().is_some()
 }
 
 /// Refuses a machine with a stop below, where it is not known what that does.

@@ -78,7 +78,7 @@ figures! {
     Certainty "certainty", Number, Least, true, "share of starts that lead to the motion";
     Integrity "integrity", Number, Least, true, "largest ball of starts about the motion that all lead to it, in halves of their box";
     RunUp "run_up", Number, Least, true, "ways to run up from rest into the motion";
-    MissingStrips "missing_strips", Number, Least, true, "strips in a row that may be missing at any drive angle";
+    MissingStrips "missing_strips", Number, Least, true, "strips in a row that may be missing at every drive angle";
     Cost "cost", Number, Most, false, "cost by the task's formula";
 }
 

@@ -5,8 +5,8 @@ use clap::Args;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::zone::find_with_monitor;
 
-use softstop::{Parameter, Scene, Stop};
-use softstop_console::arguments::CommandArguments;
+use softstop::Parameter;
+use softstop_console::arguments::{CommandArguments, WITHOUT_STOP, has_stop};
 use softstop_console::column::Units;
 use softstop_console::export;
 use softstop_console::failure::Failure;
@@ -47,13 +47,12 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
     let machine = arguments.common.machine_without_start()?;
     let find = || Ok(find_with_monitor(&machine.scene, &interrupt::watch));
     let orbit = arguments
-        .common.limit
+        .common
+        .limit
         .budget
         .limit(find)?
         .map_err(|error| match error {
-            OrbitError::NotFound { .. } if is_free(&machine.scene) => {
-                anyhow!("stop.model = \"none\": the machine has no stop, so no motion of it has an impact")
-            }
+            OrbitError::NotFound { .. } if !has_stop(&machine.scene) => anyhow!(WITHOUT_STOP),
             OrbitError::NotFound { clearance, .. } => anyhow!(
                 "no stable z = 1 motion found at {} = {}, clearance = {clearance}",
                 machine.name(Parameter::Frequency),
@@ -72,9 +71,4 @@ pub fn run(arguments: &OrbitArguments) -> Result<(), Failure> {
     let result = Record::default().hidden("stability", stability);
     let result = result.and(motion).and(report::stated(&machine));
     export::print(&result, text, arguments.common.format)
-}
-
-/// True if nothing stands in the way of the mass.
-fn is_free(scene: &Scene) -> bool {
-    scene.stop == Stop::None && scene.piercing.is_none() && scene.wall().is_none()
 }

@@ -7,6 +7,7 @@ use argmin::solver::brent::BrentOpt;
 use softstop_dynamics::BranchPoint;
 
 use super::conflict::{conflict, short};
+use super::figure::Figure;
 use super::judge::{Judged, violation};
 use super::problem::Problem;
 use super::space::Interval;
@@ -192,7 +193,12 @@ fn sought(problem: &Problem, motion: &Judged<'_>) -> Result<f64, Infeasible> {
                         short(value)
                     )
                 }
-                _ => format!("{name} has no value"),
+                _ => match &problem.cost {
+                    Some(cost) if figure == Figure::Cost => {
+                        format!("objective.cost = {cost:?} is not a number")
+                    }
+                    _ => format!("{name} has no value"),
+                },
             })
         }),
         gap => Err(Infeasible::new(gap, conflict(motion.machine, &met))),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use softstop::internals::plain_number;
 use softstop::{Dimension, Machine, Parameter};
-use softstop_console::arguments::refuse_without_zone;
+use softstop_console::arguments::{WITHOUT_STOP, has_stop, refuse_without_zone};
 use softstop_console::budget::Budget;
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
@@ -116,6 +116,9 @@ impl Job {
             }
         }
         has_effect(&machine, &axes)?;
+        if !has_stop(&machine.scene) {
+            return Err(located(Failure::usage(WITHOUT_STOP)));
+        }
         let Search { evaluations, zone } = task.search;
         let evaluations = arguments.evaluations.or(evaluations).unwrap_or(EVALUATIONS);
         let least = format!(">= {LEAST_EVALUATIONS}");

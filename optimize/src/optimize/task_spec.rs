@@ -135,14 +135,27 @@ pub struct Search {
 
 /// Which motions are searched.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
 pub enum Motions {
     /// Those beside which the machine may also stay without impacts.
     #[default]
-    #[serde(rename = "hysteresis")]
     Hysteresis,
     /// All stable ones with one impact a drive period.
-    #[serde(rename = "z = 1")]
     SingleImpact,
+}
+
+impl TryFrom<String> for Motions {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        match text.as_str() {
+            "hysteresis" => Ok(Self::Hysteresis),
+            "z = 1" => Ok(Self::SingleImpact),
+            _ => Err(format!(
+                "search.zone = {text:?}: must be \"hysteresis\" or \"z = 1\""
+            )),
+        }
+    }
 }
 
 /// A bound of each figure.

@@ -52,15 +52,16 @@ impl MotionArguments {
         }
         let mut machine = self.common.machine.machine()?;
         let missing = self.missing_strips.clone();
-        if let Some(periods) = &missing {
-            let given = format!("{}:{}", periods.start(), periods.end());
+        if let Some(missing) = &missing {
+            let given = format!("{}:{}", missing.start(), missing.end());
             let has_strip = machine.scene.piercing.is_some();
-            require(
-                has_strip,
-                "missing-strips",
-                given,
-                "left out: the machine has no strip",
-            )?;
+            let within = format!("within the {periods} drive periods of the run");
+            for (is_met, allowed) in [
+                (has_strip, "left out: the machine has no strip"),
+                (*missing.start() <= periods, &within),
+            ] {
+                require(is_met, "missing-strips", &given, allowed)?;
+            }
         }
         let Start { position, velocity } = machine.start;
         machine.start.position = self.position.unwrap_or(position);
