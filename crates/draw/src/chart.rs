@@ -184,6 +184,21 @@ impl Default for Panel {
 }
 
 impl Panel {
+    /// A panel of these axes, across and upwards, and layers.
+    pub fn new(x: Axis, y: Axis, layers: impl IntoIterator<Item = Layer>) -> Self {
+        Self {
+            x,
+            y,
+            layers: layers.into_iter().collect(),
+            ..Self::default()
+        }
+    }
+
+    /// With this width and height.
+    pub fn sized(self, size: (f64, f64)) -> Self {
+        Self { size, ..self }
+    }
+
     /// The bar of shades that stands beside it, if there is one: its range and its axis.
     pub(crate) fn bar(&self) -> Option<((f64, f64), Axis)> {
         self.layers.iter().find_map(|layer| match &layer.shape {

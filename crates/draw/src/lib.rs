@@ -7,17 +7,14 @@
 //! use softstop_draw::{Axis, Chart, Layer, Legend, Mark, Panel, Stroke, style};
 //!
 //! let curve = [(1.0, 3.0), (1.2, 8.1), (1.37, 17.0)];
-//! let panel = Panel {
-//!     x: Axis::new("drive frequency η = ω/Ω"),
-//!     y: Axis::new("before-impact velocity X′₋").from(0.0),
-//!     layers: vec![
-//!         Layer::boxes([[(1.1, 1.3), (0.0, f64::INFINITY)]], style::ALLOWED, 0.2).named("allowed"),
-//!         Layer::line(curve, Stroke::solid(style::DESIGN, 2.4)).named("stable"),
-//!         Layer::marks([curve[2]], Mark::Circle, style::OPTIMUM).named("fold (SN)"),
-//!         Layer::vertical(1.37, Stroke::dashed(style::ASIDE, 1.0, (5.0, 4.0)), "s_SN"),
-//!     ],
-//!     ..Panel::default()
-//! };
+//! let layers = [
+//!     Layer::boxes([[(1.1, 1.3), (0.0, f64::INFINITY)]], style::ALLOWED, 0.2).named("allowed"),
+//!     Layer::line(curve, Stroke::solid(style::DESIGN, 2.4)).named("stable"),
+//!     Layer::marks([curve[2]], Mark::Circle, style::OPTIMUM).named("fold (SN)"),
+//!     Layer::vertical(1.37, Stroke::dashed(style::ASIDE, 1.0, (5.0, 4.0)), "s_SN"),
+//! ];
+//! let velocity = Axis::new("before-impact velocity X′₋").from(0.0);
+//! let panel = Panel::new(Axis::new("drive frequency η = ω/Ω"), velocity, layers);
 //! let chart = Chart {
 //!     subtitle: "the branch from grazing to the fold".to_owned(),
 //!     legend: Legend::Right,

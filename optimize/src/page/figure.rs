@@ -2,7 +2,7 @@
 
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Chart, Layer, Legend, Panel, Stroke, style};
+use softstop_draw::{Chart, Layer, Legend, Panel, Stroke, style};
 
 use super::words::plain;
 
@@ -133,16 +133,6 @@ pub(super) fn lines(name: &str, what: &str, [x, y]: [&str; 2], curves: &[Curve])
         points.map(|(x, y)| row![&*curve.name, *x, *y])
     });
     Sheet::new(name, [what, x, y], rows)
-}
-
-/// A panel with these axes.
-pub(super) fn panel(x: Axis, y: Axis, layers: impl IntoIterator<Item = Layer>) -> Panel {
-    Panel {
-        x,
-        y,
-        layers: layers.into_iter().collect(),
-        ..Panel::default()
-    }
 }
 
 /// The pieces of a row of points between those that are none, of two points at least.

@@ -143,11 +143,7 @@ mod tests {
         let stop = [("stop", nan)];
         let layers = layers.into_iter().chain(bounds(&stop, BOUND));
         for layer in layers {
-            let panel = Panel {
-                x: Axis::new("x"),
-                layers: vec![layer.clone()],
-                ..Panel::default()
-            };
+            let panel = Panel::new(Axis::new("x"), Axis::default(), [layer.clone()]);
             let figure = Figure::new(Section::Place, HALF, "", [panel], "");
             let pictures = &sections([figure].iter())[0].2;
             let svg = &pictures[0].svg;

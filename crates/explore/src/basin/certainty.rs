@@ -26,13 +26,9 @@ pub fn chart(machine: &Machine, places: &[CertaintyAtPlace], title: &str) -> Str
     let across = |place: &CertaintyAtPlace| machine.to_own(Dimension::Frequency, place.frequency);
     let stroke = Stroke::solid(style::DESIGN, 2.2);
     let frequency = machine.label_of(Parameter::Frequency);
-    let panel = Panel {
-        size: (780.0, 400.0),
-        x: Axis::new(format!("{frequency}, from g₀ to s_SN")),
-        y: Axis::new("establishing certainty of z = 1").range(SHARES),
-        layers: layers(places, across, stroke).into(),
-        ..Panel::default()
-    };
+    let x = Axis::new(format!("{frequency}, from g₀ to s_SN"));
+    let y = Axis::new("establishing certainty of z = 1").range(SHARES);
+    let panel = Panel::new(x, y, layers(places, across, stroke)).sized((780.0, 400.0));
     let what = "share of initial states that lead to z = 1, with 95 % interval";
     let chart = Chart {
         subtitle: what.to_owned(),

@@ -23,10 +23,7 @@ const DOT: f64 = 0.8;
 pub fn png(machine: &Machine, basins: &Basins, title: String) -> Result<Vec<u8>, String> {
     let [across, up] = [&basins.grid.across, &basins.grid.up].map(|axis| axis.cells as f64);
     let unit = LONGER / across.max(up);
-    let panel = Panel {
-        size: (unit * across, unit * up),
-        ..panel(machine, basins, &[])
-    };
+    let panel = panel(machine, basins, &[]).sized((unit * across, unit * up));
     let chart = Chart {
         letters: 15,
         ..Chart::new(title, [panel])
@@ -66,13 +63,7 @@ pub fn panel(machine: &Machine, basins: &Basins, wandering: &[(f64, f64)]) -> Pa
         layers.push(Layer::marks(points, Mark::Hollow, style::INK).sized(SPOT));
     }
     let axis = |axis: &BasinAxis| Axis::new(name(machine, axis)).range(axis.range.into());
-    Panel {
-        size: (SIDE, SIDE),
-        x: axis(&grid.across),
-        y: axis(&grid.up),
-        layers,
-        ..Panel::default()
-    }
+    Panel::new(axis(&grid.across), axis(&grid.up), layers).sized((SIDE, SIDE))
 }
 
 fn name(machine: &Machine, axis: &BasinAxis) -> String {

@@ -54,12 +54,9 @@ pub fn branches(machine: &Machine, parameter: Parameter, branches: &[Branch]) ->
     let highest = points.map(BranchPoint::before_impact_velocity);
     let highest = highest.filter(|it| it.is_finite()).fold(0.0, f64::max);
     let velocity = machine.label("before-impact velocity", "X′₋", Dimension::Velocity);
-    let panel = Panel {
-        x: Axis::new(machine.label_of(parameter)),
-        y: Axis::new(velocity).from(-0.03 * highest),
-        layers: lines.chain(specials).collect(),
-        ..Panel::default()
-    };
+    let up = Axis::new(velocity).from(-0.03 * highest);
+    let across = Axis::new(machine.label_of(parameter));
+    let panel = Panel::new(across, up, lines.chain(specials));
     chart("Periodic motions: stable solid, unstable dashed", panel)
 }
 
@@ -85,20 +82,16 @@ pub fn curves(machine: &Machine, parameters: [Parameter; 2], curves: &[Curve]) -
         .named(name)
     });
     let [across, upwards] = parameters.map(|it| Axis::new(machine.label_of(it)));
-    let panel = Panel {
-        x: across,
-        y: upwards,
-        layers: lines.chain(specials).collect(),
-        ..Panel::default()
-    };
+    let panel = Panel::new(across, upwards, lines.chain(specials));
     chart("Bifurcations of periodic motions", panel)
 }
 
 fn chart(title: &str, panel: Panel) -> String {
-    let legend = Legend::Below;
-    let size = (600.0, 420.0);
-    let chart = Chart::new(title, [Panel { size, ..panel }]);
-    Chart { legend, ..chart }.svg()
+    let chart = Chart {
+        legend: Legend::Below,
+        ..Chart::new(title, [panel.sized((600.0, 420.0))])
+    };
+    chart.svg()
 }
 
 /// A line for each impact of a piece, the hardest first.

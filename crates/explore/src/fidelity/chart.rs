@@ -77,21 +77,14 @@ pub(super) fn models(
     }
     let quantity = arguments.quantity.name().replace("before_", "before-");
     let quantity = quantity.replace('_', " ");
-    let across = Axis::new("evaluations of the force per drive period");
-    let panel = Panel {
-        size: (600.0, 430.0),
-        x: across
-            .log()
-            .range(ends(((cheap - 0.15).floor().min(1.0), dear + 0.4))),
-        y: Axis::new(format!("model error of the {quantity}"))
-            .log()
-            .range(ends((low - STRIP, high + STRIP))),
-        layers,
-        ..Panel::default()
-    };
+    let log = |name: String, powers| Axis::new(name).log().range(ends(powers));
+    let across = "evaluations of the force per drive period".to_owned();
+    let across = log(across, ((cheap - 0.15).floor().min(1.0), dear + 0.4));
+    let up = format!("model error of the {quantity}");
+    let panel = Panel::new(across, log(up, (low - STRIP, high + STRIP)), layers);
     Chart {
         subtitle: title(machine),
-        ..Chart::new("How simple a model may be", [panel])
+        ..Chart::new("How simple a model may be", [panel.sized((600.0, 430.0))])
     }
 }
 
@@ -113,13 +106,11 @@ pub(super) fn regimes(machine: &Machine, structure: &Structure) -> String {
         let names = names
             .enumerate()
             .map(|(row, name)| (row as f64 + 0.5, name));
+        let up = Axis::new("").range((0.0, rows)).ticks(names);
+        let layers = [cells].into_iter().chain(keys(&all));
         Panel {
             title: title.to_owned(),
-            size: (ROW.0, ROW.1 * rows),
-            x: x.clone(),
-            y: Axis::new("").range((0.0, rows)).ticks(names),
-            layers: [cells].into_iter().chain(keys(&all)).collect(),
-            ..Panel::default()
+            ..Panel::new(x.clone(), up, layers).sized((ROW.0, ROW.1 * rows))
         }
     });
     let head = title_over_frequency(machine);

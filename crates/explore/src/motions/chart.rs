@@ -42,24 +42,15 @@ pub(super) fn svg(machine: &Machine, survey: &Survey) -> Result<String, MotionEr
     });
     let panels = loops.iter().enumerate().flat_map(|(index, motion)| {
         let (column, row) = (index % COLUMNS, 2 * (index / COLUMNS));
-        let panel = |[x, y]: [Axis; 2], row, title: String, layers| Panel {
-            title,
+        let panel = |[x, y]: &[Axis; 2], row, title: &str, layers: Vec<Layer>| Panel {
+            title: title.to_owned(),
             at: (column, row),
-            size: (190.0, 180.0),
-            x,
-            y,
-            layers,
-            ..Panel::default()
+            ..Panel::new(x.clone(), y.clone(), layers).sized((190.0, 180.0))
         };
         let lines = motion.line_layers(&machine.scene);
         [
-            panel(plane.clone(), row, motion.name.clone(), lines),
-            panel(
-                section.clone(),
-                row + 1,
-                String::new(),
-                vec![motion.state_layer()],
-            ),
+            panel(&plane, row, &motion.name, lines),
+            panel(&section, row + 1, "", vec![motion.state_layer()]),
         ]
     });
     let words =

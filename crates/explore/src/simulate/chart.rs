@@ -43,25 +43,14 @@ impl Drawing {
             }
             layers.push(self.line((0, row)));
             let time = if row == 3 { &names[0].name } else { "" };
-            Panel {
-                size: (560.0, 160.0),
-                x: Axis::new(time).range(end),
-                y: names[row].clone(),
-                layers,
-                ..Panel::default()
-            }
+            Panel::new(Axis::new(time).range(end), names[row].clone(), layers).sized((560.0, 160.0))
         });
         let faces = faces.iter().map(|face| Layer::vertical(*face, FACE, ""));
-        let plane = Panel {
-            size: (560.0, 400.0),
-            x: names[1].clone(),
-            y: names[2].clone(),
-            layers: faces.chain([self.line((1, 2))]).collect(),
-            ..Panel::default()
-        };
+        let layers = faces.chain([self.line((1, 2))]);
+        let plane = Panel::new(names[1].clone(), names[2].clone(), layers);
         let chart = Chart {
             legend: Legend::Above,
-            ..Chart::new(title, series.chain([plane]))
+            ..Chart::new(title, series.chain([plane.sized((560.0, 400.0))]))
         };
         chart.in_columns(1).svg()
     }

@@ -41,13 +41,8 @@ pub fn svg(title: &str, subtitle: &str, strokes: &[(&str, Stroke)]) -> String {
         let name = if strokes.len() > 1 { *name } else { "" };
         draw(&mut layers, stroke, line, name, top);
     }
-    let panel = Panel {
-        size: (556.0, 336.0),
-        x: Axis::new("deflection x − r (m)").range(x),
-        y: force,
-        layers,
-        ..Panel::default()
-    };
+    let deflection = Axis::new("deflection x − r (m)").range(x);
+    let panel = Panel::new(deflection, force, layers).sized((556.0, 336.0));
     let chart = Chart {
         subtitle: subtitle.to_owned(),
         legend: Legend::Inside(Corner::TopLeft),

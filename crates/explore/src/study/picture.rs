@@ -41,13 +41,7 @@ impl View<'_> {
     }
 
     fn chart(&self, x: Axis, y: Axis, layers: Vec<Layer>) -> Chart {
-        let panel = Panel {
-            size: (760.0, 560.0),
-            x,
-            y,
-            layers,
-            ..Panel::default()
-        };
+        let panel = Panel::new(x, y, layers).sized((760.0, 560.0));
         Chart {
             letters: 15,
             ..Chart::new(self.title(), [panel])

@@ -72,13 +72,9 @@ impl SweepChart<'_> {
         let dots = dots.filter(|(_, goes)| *goes);
         let dots =
             dots.map(|((points, (name, color)), _)| Layer::dots(points, radius, color).named(name));
-        Panel {
-            size: SIZE,
-            x: Axis::new(self.machine.label_of(self.plan.parameter)).range(x),
-            y: Axis::new(self.machine.label(what, symbol, dimension)).range(y),
-            layers: dots.chain(message).collect(),
-            ..Panel::default()
-        }
+        let across = Axis::new(self.machine.label_of(self.plan.parameter)).range(x);
+        let up = Axis::new(self.machine.label(what, symbol, dimension)).range(y);
+        Panel::new(across, up, dots.chain(message)).sized(SIZE)
     }
 
     /// Least and largest value with some room.

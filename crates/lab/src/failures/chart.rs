@@ -64,17 +64,12 @@ fn map(atlas: &Atlas, map: &Map) -> Panel {
         line(map.limit.clone(), None).named("longest stable step in contact, theory"),
         line(contacts, DASHES).named("step as long as the shortest contact"),
     ];
+    let up = axis(&format!("{}: step h/T", map.family.row()), step, 1);
+    let layers = [cells].into_iter().chain(keys(atlas)).chain(lines);
+    let panel = Panel::new(axis("", stiffness, 2), up, layers);
     Panel {
         title: map.family.title().to_owned(),
-        size: (size(stiffness.len()), size(step.len())),
-        x: axis("", stiffness, 2),
-        y: axis(&format!("{}: step h/T", map.family.row()), step, 1),
-        layers: [cells]
-            .into_iter()
-            .chain(keys(atlas))
-            .chain(lines)
-            .collect(),
-        ..Panel::default()
+        ..panel.sized((size(stiffness.len()), size(step.len())))
     }
 }
 
@@ -83,13 +78,11 @@ fn exact(atlas: &Atlas) -> Panel {
     let stiffness = &atlas.axes.stiffness;
     let cells = atlas.columns.iter().map(|column| column.exact);
     let colors = cells.map(|cell| cell.map_or(style::PAPER, |cell| cell.verdict.color()));
+    let across = axis("stiffness k (N/m)", stiffness, 2);
+    let cells = Layer::cells(stiffness.len(), colors);
     Panel {
         title: "exact: no step".to_owned(),
-        size: (MAP, STRIP),
-        x: axis("stiffness k (N/m)", stiffness, 2),
-        y: Axis::bare().range((0.0, 1.0)),
-        layers: vec![Layer::cells(stiffness.len(), colors)],
-        ..Panel::default()
+        ..Panel::new(across, Axis::bare().range((0.0, 1.0)), [cells]).sized((MAP, STRIP))
     }
 }
 

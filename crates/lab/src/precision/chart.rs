@@ -57,13 +57,9 @@ pub(super) fn chart(measured: &SceneMeasurement<'_>, looks: impl Iterator<Item =
     curves.sort_by_key(|curve| (curve.look.scheme == 0, !curve.look.blind));
     layers.extend(curves.iter().flat_map(Curve::layers));
     let across = "worst error of end, impact times and velocities";
-    let panel = Panel {
-        size: (500.0, 440.0),
-        x: Axis::new(across).log().range(decades(&x)),
-        y: Axis::new("time of a run (s)").log().range(decades(&y)),
-        layers,
-        ..Panel::default()
-    };
+    let x = Axis::new(across).log().range(decades(&x));
+    let y = Axis::new("time of a run (s)").log().range(decades(&y));
+    let panel = Panel::new(x, y, layers).sized((500.0, 440.0));
     let (title, periods) = (&measured.case.title, measured.case.periods);
     Chart {
         subtitle: format!("{title}, {periods} drive periods; lower left is better"),

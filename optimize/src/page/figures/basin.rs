@@ -4,7 +4,7 @@ use softstop::Dimension;
 use softstop_console::interrupt;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer, Mark, Sign, style};
+use softstop_draw::{Axis, Layer, Mark, Panel, Sign, style};
 use softstop_dynamics::attractors::{Attractor, starting_box};
 use softstop_dynamics::basin::{BasinOptions, find_basins};
 use softstop_dynamics::orbit::OrbitError;
@@ -12,7 +12,7 @@ use softstop_dynamics::{self as dynamics, Grid, Orbit};
 use softstop_explore::palette::distinct_colors;
 
 use crate::design::Design;
-use crate::page::figure::{Figure, HALF, Section, middles, panel};
+use crate::page::figure::{Figure, HALF, Section, middles};
 
 /// Cells on each side.
 const CELLS: usize = 64;
@@ -68,7 +68,7 @@ pub(super) fn basin(design: &Design) -> Result<Figure, OrbitError> {
     let spot = (design.orbit.position, design.orbit.velocity);
     layers.push(Layer::marks([spot], Mark::Hollow, style::INK).sized(SPOT));
     let [across, up] = [(x, ends[0]), (y, ends[1])].map(|(name, ends)| Axis::new(name).range(ends));
-    let panel = panel(across, up, layers);
+    let panel = Panel::new(across, up, layers);
     let shares = classes().zip(&names).map(|(class, name)| {
         let [low, high] = class.interval.map(|share| 100.0 * share);
         format!(

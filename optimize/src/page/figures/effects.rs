@@ -1,11 +1,11 @@
 //! What each tolerance does to the velocity, as bars.
 
 use softstop::{Dimension, Machine};
-use softstop_draw::{Align, Axis, Layer, Stroke, style};
+use softstop_draw::{Align, Axis, Layer, Panel, Stroke, style};
 
 use crate::optimize::study::Study;
 use crate::order::sort_falling;
-use crate::page::figure::{Figure, HALF, Section, panel};
+use crate::page::figure::{Figure, HALF, Section};
 use crate::page::words::quantity;
 
 /// Height of a bar with its name, and how much of that the name takes and the bar.
@@ -48,7 +48,7 @@ pub(super) fn effects(machine: &Machine, study: &Study) -> Figure {
     let zero = Layer::vertical(0.0, Stroke::solid(style::ASIDE, 1.0), "");
     let rows = effects.len() as f64;
     let [x, y] = [(-end, end), (-rows, 0.0)].map(|ends| Axis::bare().range(ends));
-    let panel = panel(x, y, bars.chain([zero]));
+    let panel = Panel::new(x, y, bars.chain([zero]));
     let size = (HALF.0, (32.0 + ROW * rows).max(120.0));
     let caption = "Change of the before-impact velocity when each value goes from its nominal one to the upper end of its tolerance.";
     let title = "Which tolerance counts";

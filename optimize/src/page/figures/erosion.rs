@@ -3,14 +3,14 @@
 use softstop::Dimension;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer, Stroke, style};
+use softstop_draw::{Axis, Layer, Panel, Stroke, style};
 use softstop_dynamics::basin::ErosionProfile;
 
 use crate::design::figure::Figure as Quantity;
 use crate::design::trial::STARTS;
 use crate::design::{Design, Problem};
 use crate::limits::end_name;
-use crate::page::figure::{AT, BESIDE, DESIGN, Figure, HALF, Section, panel};
+use crate::page::figure::{AT, BESIDE, DESIGN, Figure, HALF, Section};
 use crate::page::words::quantity;
 
 const REQUIRED: Stroke = Stroke::dashed(style::ASIDE, 1.6, (3.0, 3.0));
@@ -46,7 +46,7 @@ pub(super) fn erosion(problem: &Problem, design: &Design, profile: &ErosionProfi
     };
     let x = Axis::new(axis).range((0.0, 1.0));
     let y = Axis::new("share, integrity measure").range((0.0, 1.02));
-    let panel = panel(x, y, layers);
+    let panel = Panel::new(x, y, layers);
     let ends = |dimension, ends: [f64; 2]| {
         let [low, high] = ends.map(|end| machine.to_own(dimension, end));
         let (low, high) = (quantity(low, ""), quantity(high, machine.unit(dimension)));

@@ -2,12 +2,12 @@
 
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer, Mark, Stroke, style};
+use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, style};
 
 use crate::design::Problem;
 use crate::design::figure::Figure as Quantity;
 use crate::design::front::Front;
-use crate::page::figure::{Figure, HALF, Section, panel};
+use crate::page::figure::{Figure, HALF, Section};
 use crate::page::words::capital;
 
 const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
@@ -26,7 +26,7 @@ pub(super) fn front(problem: &Problem, front: &Front) -> Figure {
         marks.sized(3.5).named("best designs"),
         design.sized(8.0).named("this design"),
     ];
-    let panel = panel(Axis::new(&x), Axis::new(&y), layers);
+    let panel = Panel::new(Axis::new(&x), Axis::new(&y), layers);
     let caption = format!(
         "Each point is the best design that the search found with another bound of one of the two. {}",
         front.note()

@@ -3,11 +3,11 @@
 use softstop::Dimension;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer, style};
+use softstop_draw::{Axis, Layer, Panel, style};
 
 use crate::design::Design;
 use crate::optimize::study::Study;
-use crate::page::figure::{AT, Figure, HALF, Section, bounds, panel};
+use crate::page::figure::{AT, Figure, HALF, Section, bounds};
 use crate::page::words::{count, quantity};
 
 /// Bars of the histogram.
@@ -32,7 +32,7 @@ pub(super) fn histogram(design: &Design, study: &Study) -> Figure {
     let x = machine.label("before-impact velocity", "", Dimension::Velocity);
     let y = Axis::new("machines in each bar (%)").from(0.0);
     let bars = [Layer::boxes(bars, style::ALLOWED, 1.0)].into_iter();
-    let panel = panel(Axis::new(&x), y, bars.chain(marks));
+    let panel = Panel::new(Axis::new(&x), y, bars.chain(marks));
     let lost = match study.verdict.drawing.lost {
         0 => "none of them loses the motion".to_owned(),
         1 => "one of them loses the motion".to_owned(),

@@ -4,13 +4,13 @@ use softstop::{Dimension, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer, Mark, Stroke, around, style};
+use softstop_draw::{Axis, Layer, Mark, Panel, Stroke, around, style};
 use softstop_dynamics::{Zone, parallel, zone};
 
 use super::velocity;
 use crate::design::{Design, Problem, space};
 use crate::page::branches::Motions;
-use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles, panel, pieces};
+use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles, pieces};
 use crate::page::words::quantity;
 use crate::placed;
 
@@ -121,7 +121,7 @@ fn map(
     if axis.is_log() {
         upwards = upwards.log();
     }
-    let panel = panel(Axis::new(x).range(across), upwards, layers);
+    let panel = Panel::new(Axis::new(x).range(across), upwards, layers);
     let names = [Parameter::Frequency, parameter].map(|it| machine.meaning_of(it).0);
     let title = format!("Before-impact velocity over {} and {}", names[0], names[1]);
     let rows = places.zip(&cells);

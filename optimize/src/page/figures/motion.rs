@@ -3,12 +3,12 @@
 use softstop::Dimension;
 use softstop_console::row;
 use softstop_console::sheet::Sheet;
-use softstop_draw::{Axis, Layer};
+use softstop_draw::{Axis, Layer, Panel};
 use softstop_dynamics::CycleMetrics;
 
 use super::portrait::{Period, faces};
 use crate::design::Design;
-use crate::page::figure::{BOUND, DESIGN, Figure, Section, WIDE, panel};
+use crate::page::figure::{BOUND, DESIGN, Figure, Section, WIDE};
 use crate::page::words::quantity;
 
 /// Periods that are drawn.
@@ -42,7 +42,7 @@ pub(super) fn motion(design: &Design, motions: &[Period]) -> Figure {
     let panel = |row: usize, label: &str, layers: Vec<Layer>| {
         let line = points.iter().map(|point| (point[0], point[row]));
         let layers = layers.into_iter().chain([Layer::line(line, DESIGN)]);
-        panel(Axis::new(&time).range((0.0, end)), Axis::new(label), layers)
+        Panel::new(Axis::new(&time).range((0.0, end)), Axis::new(label), layers)
     };
     let faces = faces(&machine.scene).into_iter();
     let faces = faces

@@ -6,7 +6,7 @@ use crate::design::Problem;
 use crate::design::figure::Sense;
 use crate::design::pareto::Pareto;
 use crate::design::problem::Objective;
-use crate::page::figure::{self, Figure, HALF, Section, WIDE};
+use crate::page::figure::{Figure, HALF, Section, WIDE};
 use crate::pareto::format_tally;
 
 const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
@@ -94,5 +94,5 @@ fn panel(problem: &Problem, front: &Pareto, axes: [usize; 2]) -> Panel {
         nearest.named("nearest to the best of each"),
     ]);
     let [x, y] = [0, 1].map(|it| axis(axes[it]).range(ranges[it]));
-    figure::panel(x, y, layers.chain(labels))
+    Panel::new(x, y, layers.chain(labels))
 }

@@ -7,9 +7,7 @@ use softstop_dynamics::{Orbit, zone};
 use softstop_explore::simulate::contact_force;
 
 use crate::design::Design;
-use crate::page::figure::{
-    BESIDE, BOUND, Curve, DESIGN, Figure, Section, WIDE, bounds, lines, panel,
-};
+use crate::page::figure::{BESIDE, BOUND, Curve, DESIGN, Figure, Section, WIDE, bounds, lines};
 
 /// Points of a period, and the fewest of an arc.
 const POINTS: f64 = 400.0;
@@ -137,7 +135,7 @@ pub(super) fn portrait(design: &Design, motions: &[Period]) -> Figure {
     let [x, y, near] = labels.each_ref();
     let unnamed = faces.iter().map(|it| Layer::vertical(it.1, BOUND, ""));
     let layers = unnamed.chain(curves.iter().map(Curve::layer));
-    let whole = panel(Axis::new(x), Axis::new(y), layers);
+    let whole = Panel::new(Axis::new(x), Axis::new(y), layers);
     let named = bounds(&faces, BOUND).chain(curves.iter().map(Curve::layer));
     let near = (depth.is_finite() && depth > 0.0).then(|| Panel {
         x: Axis::new(near).range((first - NEAR.0 * depth, deepest + NEAR.1 * depth)),

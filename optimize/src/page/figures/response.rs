@@ -4,7 +4,7 @@ use std::slice;
 
 use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
-use softstop_draw::{Axis, Layer, Mark, style};
+use softstop_draw::{Axis, Layer, Mark, Panel, style};
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::zone::ZoneEnd;
 use softstop_dynamics::{Zone, parallel, zone};
@@ -15,7 +15,7 @@ use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
 use crate::page::branches::Motions;
 use crate::page::figure::{
-    BESIDE, BOUND, DESIGN, Figure, Section, UNSTABLE, WIDE, bounds, lines, panel, pieces,
+    BESIDE, BOUND, DESIGN, Figure, Section, UNSTABLE, WIDE, bounds, lines, pieces,
 };
 use crate::page::words::quantity;
 use crate::placed;
@@ -95,7 +95,7 @@ pub fn response(
     layers.push(mark.sized(MARK).named("design"));
     let labels = [machine.label_of(Parameter::Frequency), velocity(machine)];
     let [x, y] = labels.each_ref();
-    let panel = panel(Axis::new(x), Axis::new(y).from(0.0), layers);
+    let panel = Panel::new(Axis::new(x), Axis::new(y).from(0.0), layers);
     let machines = corners.len() * usize::from(!bands.is_empty());
     let caption = caption(machine, at, &ends, machines);
     let title = "How hard the mass strikes over the drive frequency";

@@ -1,9 +1,9 @@
 //! A sketch of the machine with its dimensions, from its values; lengths are not to scale.
 
 use softstop::{Machine, Parameter, Stop};
-use softstop_draw::{Align, Axis, Layer, Stroke, style};
+use softstop_draw::{Align, Axis, Layer, Panel, Stroke, style};
 
-use crate::page::figure::{Figure, Section, panel};
+use crate::page::figure::{Figure, Section};
 use crate::page::words::quantity;
 
 /// Size of the picture, whose panel is in the same units.
@@ -39,7 +39,7 @@ pub fn sketch(machine: &Machine) -> Figure {
     let face = sketch.strip();
     sketch.stop(face);
     let [x, y] = [SIZE.0, SIZE.1].map(|end| Axis::bare().range((0.0, end)));
-    let panel = panel(x, y, sketch.layers);
+    let panel = Panel::new(x, y, sketch.layers);
     let caption = "Not to scale. The mass is drawn at position 0, where the suspension is without force; positions count to the \
                    right. All numbers are those of the design.";
     let title = "The machine and its dimensions";

@@ -61,25 +61,15 @@ pub(super) fn svg(found: &GlobalContinuation<'_>, rows: &[AttractorRow<'_>]) -> 
         Layer::line(boundary, Stroke::dashed(style::INK, 1.5, DASHES))
             .named("of those on boundaries, S_bb"),
     ];
-    let panel = |size, y: Axis, layers| Panel {
-        size,
-        x: Axis::new(found.machine.label_of(found.parameter)),
-        y,
-        layers,
-        ..Panel::default()
+    let panel = |size, y: Axis, layers: Vec<Layer>| {
+        let x = Axis::new(found.machine.label_of(found.parameter));
+        Panel::new(x, y, layers).sized(size)
     };
+    let share = |name: &str| Axis::new(name).range((0.0, 1.0));
     let [large, small] = SIZES;
     let panels = [
-        panel(
-            large,
-            Axis::new("share of the starts").range((0.0, 1.0)),
-            shares,
-        ),
-        panel(
-            small,
-            Axis::new("integrity factor").range((0.0, 1.0)),
-            integrities,
-        ),
+        panel(large, share("share of the starts"), shares),
+        panel(small, share("integrity factor"), integrities),
         panel(small, Axis::new("basin entropy"), entropy),
     ];
     let places = found.places.len();
