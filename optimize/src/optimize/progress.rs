@@ -1,12 +1,17 @@
 //! The progress of a search: how many zones it has seen, the best so far, and when it ends.
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Mutex, OnceLock, mpsc};
+use std::thread;
+use std::time::Duration;
 
 use crate::design::Problem;
 use crate::design::search::Watch;
 use softstop_console::interrupt;
 use softstop_console::progress::Progress;
+
+/// Between two looks whether it is time to say how far a search is.
+const BEAT: Duration = Duration::from_secs(1);
 
 /// Watches a search.
 pub(super) struct Best<'a> {
@@ -27,6 +32,25 @@ impl<'a> Best<'a> {
             evaluations: AtomicU64::new(0),
             budget,
         }
+    }
+
+    /// Does the work of a search, and says how far it is also while the zones that are computed together take long.
+    pub(super) fn while_beating<T>(&self, work: impl FnOnce() -> T) -> T {
+        let (end, ended) = mpsc::channel::<()>();
+        thread::scope(|scope| {
+            scope.spawn(move || {
+                while ended.recv_timeout(BEAT) == Err(mpsc::RecvTimeoutError::Timeout) {
+                    if let Ok(zones) = self.zones.lock()
+                        && let Some((zones, _)) = &*zones
+                    {
+                        zones.beat();
+                    }
+                }
+            });
+            let done = work();
+            drop(end);
+            done
+        })
     }
 
     /// Zones that were computed.

@@ -31,7 +31,8 @@ pub(super) fn solve(job: &Job, keep: &Keep) -> Result<Outcome, Failure> {
         fronts: job.report,
         machines: job.samples,
     };
-    let outcome = Solution::of(&job.problem, job.settings, beside, (&best, Some(keep)));
+    let search = || Solution::of(&job.problem, job.settings, beside, (&best, Some(keep)));
+    let outcome = best.while_beating(search);
     let evaluations = best.evaluations();
     drop(best);
     let mut interrupted = None;
