@@ -1,12 +1,13 @@
 //! Motions of machines near one whose motion is known.
 
-use crate::spread::{Settled, along, in_coordinates, varied};
+use crate::spread::{in_coordinates, motion_of, varied};
 use nalgebra::Vector2;
 use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes;
 
 use super::Tolerances;
+use super::meeting::dot;
 
 /// How far from where its derivatives lead a motion may be found: a share of that way, and so far anyway, in the scales of the
 /// motion.
@@ -39,22 +40,13 @@ impl<'a> Neighbours<'a> {
     /// The motion at some coordinates that goes on from the nominal one: by Newton's method from where its derivatives lead,
     /// and where that is in any doubt by following it there. None if it is lost on the way.
     pub fn motion(&self, at: &[f64]) -> Option<Orbit> {
-        let scene = self.spread.scene(at);
-        if let Some(settled) = self.settled(at) {
-            return Orbit::find_near(&scene, settled.state).ok();
-        }
-        let reached = along(self.spread, self.nominal, at, 1.0).ok()?;
-        let orbit = Orbit::find_near(&scene, reached.point.state());
-        orbit.ok().filter(|_| reached.loss.is_none())
-    }
-
-    fn settled(&self, at: &[f64]) -> Option<Settled> {
-        let [position, velocity] = self.state.as_ref()?;
-        let along = |by: &Vec<f64>| by.iter().zip(at).map(|(by, at)| by * at).sum::<f64>();
-        let way = Vector2::new(along(position), along(velocity));
-        let far = self.nominal.scene.motion_scales().state(&way).norm();
-        let reach = (REACH * far).max(NEAR);
-        Settled::near(&self.spread.scene(at), self.nominal.state() + way, reach)
+        let guess = self.state.as_ref().map(|state| {
+            let way = Vector2::from(state.each_ref().map(|by| dot(by, at)));
+            let far = self.nominal.scene.motion_scales().state(&way).norm();
+            (self.nominal.state() + way, (REACH * far).max(NEAR))
+        });
+        let settled = motion_of(self.spread, self.nominal, at, guess)?;
+        Orbit::find_near(&self.spread.scene(at), settled.state).ok()
     }
 
     /// The value of a figure of the motion at some coordinates.

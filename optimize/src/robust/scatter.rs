@@ -1,6 +1,6 @@
 //! Which tolerance eats the margin.
 
-use crate::spread::{MotionOutcome, PolynomialModel, Surrogate, critical_normal, free_normal};
+use crate::spread::{PolynomialModel, Surrogate, critical_normal, free_normal};
 use softstop_dynamics::continuation::TestFunction;
 use softstop_dynamics::monitor::{Monitor, unmonitored};
 use softstop_dynamics::orbit::OrbitError;
@@ -93,10 +93,7 @@ pub fn scatter(
     let outputs = |at: &[f64]| {
         let [low, high] = ends.at(at);
         let share = (spread.scene(at).excitation.frequency - low) / (high - low);
-        match guide.fate(at) {
-            MotionOutcome::Kept(settled) => Some([settled.velocity, share]),
-            MotionOutcome::Lost { .. } => None,
-        }
+        Some([guide.motion(at)?.velocity, share])
     };
     let found = indices(dimensions, effort, outputs, watcher);
     Ok(found.map(|[velocity, place]| Scatter { velocity, place }))

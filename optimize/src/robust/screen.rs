@@ -1,6 +1,6 @@
 //! Whether machines are as required: by polynomials fitted to some of them where these leave no doubt, else by the motion.
 
-use crate::spread::{MotionOutcome, PolynomialModel, Surrogate, is_inside};
+use crate::spread::{PolynomialModel, Settled, Surrogate, is_inside};
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
 use softstop_dynamics::{CycleMetrics, Orbit};
@@ -37,7 +37,7 @@ impl<'a> Screen<'a> {
         };
         if !required.is_empty() {
             let values = parallel::filter_map(places, |at| {
-                let values = screen.values(at, &screen.guide.fate(at))?;
+                let values = screen.values(at, screen.guide.motion(at))?;
                 Some((at.clone(), values))
             });
             let (kept, values): (Vec<Vec<f64>>, Vec<Vec<f64>>) = values.into_iter().unzip();
@@ -50,30 +50,26 @@ impl<'a> Screen<'a> {
         Ok(screen)
     }
 
-    /// What becomes of a machine, and whether it violates each requirement.
-    pub fn judge(&self, at: &[f64]) -> (MotionOutcome, Vec<bool>) {
-        let fate = self.guide.fate(at);
-        let violated = self.violated(at, &fate);
-        (fate, violated)
+    /// The motion of a machine, if it keeps it, and whether it violates each requirement.
+    pub fn judge(&self, at: &[f64]) -> (Option<Settled>, Vec<bool>) {
+        let motion = self.guide.motion(at);
+        (motion, self.violated(at, motion))
     }
 
     /// The figures of a machine in the order of the requirements; none if it has lost the motion, or one has no value.
-    fn values(&self, at: &[f64], fate: &MotionOutcome) -> Option<Vec<f64>> {
-        let MotionOutcome::Kept(settled) = fate else {
-            return None;
-        };
-        let orbit = Orbit::find_near(&self.spread.scene(at), settled.state).ok()?;
+    fn values(&self, at: &[f64], motion: Option<Settled>) -> Option<Vec<f64>> {
+        let orbit = Orbit::find_near(&self.spread.scene(at), motion?.state).ok()?;
         let stroke = CycleMetrics::of(&orbit).ok()?;
         let spread = self.spread;
         let value = |it: &Requirement| spread.value_of_stroke(it.figure, &orbit, &stroke);
         self.required.iter().map(value).collect()
     }
 
-    fn violated(&self, at: &[f64], fate: &MotionOutcome) -> Vec<bool> {
-        if matches!(fate, MotionOutcome::Kept(_)) && self.is_clear(at) {
+    fn violated(&self, at: &[f64], motion: Option<Settled>) -> Vec<bool> {
+        if motion.is_some() && self.is_clear(at) {
             return vec![false; self.required.len()];
         }
-        match self.values(at, fate) {
+        match self.values(at, motion) {
             Some(values) => {
                 let pairs = self.required.iter().zip(values);
                 pairs.map(|(it, value)| !it.is_met(value)).collect()

@@ -3,7 +3,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use crate::spread::{MotionOutcome, PolynomialModel};
+use crate::spread::{PolynomialModel, Settled};
 use softstop_dynamics::Orbit;
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
@@ -78,10 +78,10 @@ pub struct CaseVerdict {
 }
 
 impl CaseVerdict {
-    fn take(&mut self, fate: &MotionOutcome, violated: &[bool]) {
-        match fate {
-            MotionOutcome::Lost { .. } => self.lost += 1,
-            MotionOutcome::Kept(settled) => self.slowest = self.slowest.min(settled.velocity),
+    fn take(&mut self, motion: Option<Settled>, violated: &[bool]) {
+        match motion {
+            None => self.lost += 1,
+            Some(settled) => self.slowest = self.slowest.min(settled.velocity),
         }
         for (count, is_violated) in self.violating.iter_mut().zip(violated) {
             *count += usize::from(*is_violated);
@@ -171,33 +171,33 @@ pub fn verify_in_cases(
     while verdict.machines < settings.machines && verdict.all_lost() < settings.enough {
         let machines = verdict.machines..(verdict.machines + GROUP).min(settings.machines);
         let rows: Vec<_> = machines.clone().step_by(ROW).collect();
-        let fates = parallel::try_map(&rows, |first| {
+        let judged = parallel::try_map(&rows, |first| {
             let row = *first..(first + ROW).min(machines.end);
-            let fate = |index| {
+            let judge = |index| {
                 let at = spread.draw(&sobol_point(settings.first + index, dimensions));
                 screens.iter().map(|it| it.judge(&at)).collect::<Vec<_>>()
             };
-            let fates: Vec<_> = row.clone().map(fate).collect();
+            let judged: Vec<_> = row.clone().map(judge).collect();
             let looked = row.len() as u64;
             let done = done.fetch_add(looked, Ordering::Relaxed) + looked;
             let go_on = watcher(done, settings.machines as u64);
-            go_on.is_continue().then_some(fates).ok_or(())
+            go_on.is_continue().then_some(judged).ok_or(())
         });
-        let Ok(fates) = fates else {
+        let Ok(judged) = judged else {
             break;
         };
-        for judged in fates.into_iter().flatten() {
-            let is_rejected = |(fate, violated): &(MotionOutcome, Vec<bool>)| {
-                matches!(fate, MotionOutcome::Lost { .. }) || violated.contains(&true)
+        for judged in judged.into_iter().flatten() {
+            let is_rejected = |(motion, violated): &(Option<Settled>, Vec<bool>)| {
+                motion.is_none() || violated.contains(&true)
             };
             verdict.machines += 1;
             verdict.rejected += usize::from(judged.iter().any(is_rejected));
-            if let Some((MotionOutcome::Kept(settled), _)) = judged.first() {
+            if let Some((Some(settled), _)) = judged.first() {
                 verdict.velocities.push(settled.velocity);
             }
             let points = [&mut verdict.drawing].into_iter().chain(&mut verdict.cases);
-            for (point, (fate, violated)) in points.zip(judged) {
-                point.take(&fate, &violated);
+            for (point, (motion, violated)) in points.zip(judged) {
+                point.take(motion, &violated);
             }
         }
     }

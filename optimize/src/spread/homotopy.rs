@@ -1,5 +1,6 @@
 //! The z = 1 motion on a straight way out from the nominal machine.
 
+use nalgebra::Vector2;
 use softstop::{CheckedScene, MotionError};
 use softstop_dynamics::continuation::{BranchPoint, Continuation, Direction, Family};
 use softstop_dynamics::internals::{Frequencies, LONGEST_BRANCH, find_end};
@@ -7,7 +8,7 @@ use softstop_dynamics::monitor::stop_if;
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 use softstop_dynamics::zone::Loss;
 
-use super::Tolerances;
+use super::{Settled, Tolerances};
 
 /// Typical change of the share of the way, the unit of steps.
 const TYPICAL: f64 = 2.0;
@@ -50,6 +51,22 @@ pub fn along(
         share: end.frequency,
         loss: Some(end.loss).filter(|loss| *loss != Loss::Range),
         point: end.point,
+    })
+}
+
+/// The motion of the machine at some coordinates that goes on from the nominal one: by Newton's method from a state near which it
+/// should be, no farther from that than a reach, and where that is in any doubt, or there is no such state, by following it there.
+/// None if it is lost on the way.
+pub fn motion_of(
+    spread: &Tolerances,
+    nominal: &Orbit,
+    at: &[f64],
+    guess: Option<(Vector2<f64>, f64)>,
+) -> Option<Settled> {
+    let near = guess.and_then(|(state, reach)| Settled::near(&spread.scene(at), state, reach));
+    near.or_else(|| {
+        let reached = along(spread, nominal, at, 1.0).ok()?;
+        reached.loss.is_none().then(|| Settled::of(&reached.point))
     })
 }
 

@@ -2,10 +2,9 @@
 
 use nalgebra::Vector2;
 
-use super::{PolynomialModel, Reached, Settled, Tolerances, along};
+use super::{PolynomialModel, Settled, Tolerances, motion_of};
 use softstop_dynamics::orbit::{Orbit, OrbitError};
 use softstop_dynamics::parallel;
-use softstop_dynamics::zone::Loss;
 
 /// How many times farther from where they should be other motions may be than those that are known, and so far anyway, in
 /// the scales of the motion.
@@ -24,20 +23,6 @@ pub struct Surrogate<'a> {
     reach: f64,
 }
 
-/// What becomes of the nominal motion in another machine.
-#[derive(Debug, Clone)]
-pub enum MotionOutcome {
-    /// It goes on.
-    Kept(Settled),
-    /// It ends on the way there.
-    Lost {
-        /// At this share of the way.
-        share: f64,
-        /// By this.
-        loss: Loss,
-    },
-}
-
 /// True if coordinates lie between the bounds, where polynomials hold.
 pub fn is_inside(at: &[f64]) -> bool {
     at.iter().all(|at| at.abs() <= 1.0)
@@ -54,10 +39,10 @@ impl<'a> Surrogate<'a> {
         nominal: &'a Orbit,
         places: &[Vec<f64>],
     ) -> Result<Self, OrbitError> {
+        let known_at = |place: &Vec<f64>, settled: Settled| (place.clone(), settled.state.into());
         let followed = |place: &Vec<f64>| {
-            let reached = along(spread, nominal, place, 1.0).ok()?;
-            let state = reached.point.state();
-            (reached.loss.is_none()).then(|| (place.clone(), state.into()))
+            let settled = motion_of(spread, nominal, place, None)?;
+            Some(known_at(place, settled))
         };
         let (first, others) = places.split_at(FIRST_MACHINES.min(places.len()));
         let mut known: Vec<(Vec<f64>, [f64; 2])> = parallel::filter_map(first, followed);
@@ -79,35 +64,15 @@ impl<'a> Surrogate<'a> {
             })
         };
         let rough: Self = guide(&known)?;
-        let led = |place: &Vec<f64>| match rough.fate(place) {
-            MotionOutcome::Kept(settled) => Some((place.clone(), settled.state.into())),
-            MotionOutcome::Lost { .. } => None,
-        };
+        let led = |place: &Vec<f64>| Some(known_at(place, rough.motion(place)?));
         known.extend(parallel::filter_map(others, led));
         guide(&known)
     }
 
-    /// What becomes of the nominal motion at some coordinates: by Newton's method from where the motion should be, and
-    /// where that is in any doubt or outside the bounds, by following it there.
-    pub fn fate(&self, at: &[f64]) -> MotionOutcome {
-        let settled = || {
-            let guess = Vector2::from(self.states.at(at));
-            Settled::near(&self.spread.scene(at), guess, self.reach)
-        };
-        if let Some(settled) = is_inside(at).then(settled).flatten() {
-            return MotionOutcome::Kept(settled);
-        }
-        match along(self.spread, self.nominal, at, 1.0) {
-            Ok(Reached {
-                share,
-                loss: Some(loss),
-                ..
-            }) => MotionOutcome::Lost { share, loss },
-            Ok(reached) => MotionOutcome::Kept(Settled::of(&reached.point)),
-            Err(error) => MotionOutcome::Lost {
-                share: 0.0,
-                loss: Loss::Lost(error),
-            },
-        }
+    /// The motion at some coordinates that goes on from the nominal one: by Newton's method from where it should be, and where
+    /// that is in any doubt or outside the bounds, by following it there. None if it is lost on the way.
+    pub fn motion(&self, at: &[f64]) -> Option<Settled> {
+        let guess = || (Vector2::from(self.states.at(at)), self.reach);
+        motion_of(self.spread, self.nominal, at, is_inside(at).then(guess))
     }
 }
