@@ -16,18 +16,18 @@ type Placed<'a> = (&'a Problem, &'a Design, &'a [NamedLimit]);
 
 /// Where a design stands.
 pub(crate) fn columns<'a>() -> [Column<Placed<'a>>; 11] {
-    columns! { Placed<'a>, it;
-        "frequency_g0" [Frequency], "grazing g0, above which the motion without impacts exists" => grazing(&it.1.zone).map(|at| it.1.own_frequency(at));
-        "frequency_sn" [Frequency], "fold s_SN, if the zone ends there" => fold(&it.1.zone).map(|at| it.1.own_frequency(at));
-        "margin" [None], "least distance M from both ends, as a share of the zone" => it.0.margin;
-        "s" [None], "place in the zone, in [M, 1 - M]" => it.1.place;
-        "at_limits" [None], "what holds it back" => keys(it.2);
-        "zone" [None], "which motions were searched" => searched(it.1);
-        "zone_from" [Frequency], "lower end of the zone" => it.1.own_frequency(it.1.zone.low.frequency);
-        "zone_from_by" [None], "what ends it there" => end_name(&it.1.zone.low);
-        "zone_to" [Frequency], "upper end of the zone" => it.1.own_frequency(it.1.zone.high.frequency);
-        "zone_to_by" [None], "what ends it there" => end_name(&it.1.zone.high);
-        "starting" [None], "what that means for starting the machine" => starting(it.1);
+    columns! { Placed<'a>, (problem, design, limits);
+        "frequency_g0" [Frequency], "grazing g0, above which the motion without impacts exists" => grazing(&design.zone).map(|at| design.own_frequency(at));
+        "frequency_sn" [Frequency], "fold s_SN, if the zone ends there" => fold(&design.zone).map(|at| design.own_frequency(at));
+        "margin" [None], "least distance M from both ends, as a share of the zone" => problem.margin;
+        "s" [None], "place in the zone, in [M, 1 - M]" => design.place;
+        "at_limits" [None], "what holds it back" => keys(limits);
+        "zone" [None], "which motions were searched" => searched(design);
+        "zone_from" [Frequency], "lower end of the zone" => design.own_frequency(design.zone.low.frequency);
+        "zone_from_by" [None], "what ends it there" => end_name(&design.zone.low);
+        "zone_to" [Frequency], "upper end of the zone" => design.own_frequency(design.zone.high.frequency);
+        "zone_to_by" [None], "what ends it there" => end_name(&design.zone.high);
+        "starting" [None], "what that means for starting the machine" => starting(design);
     }
 }
 

@@ -50,14 +50,14 @@ fn short_name(parameter: Parameter) -> String {
 type Searched<'a> = (&'a Problem, &'a Axis);
 
 fn columns<'a>() -> [Column<Searched<'a>>; 7] {
-    columns! { Searched<'a>, it;
-        "parameter" [None] Plain, "its key in the machine's file" => it.0.machine.name(it.1.parameter);
-        "name" [None] Plain, "its name in figures of rivals" => it.1.parameter.name();
-        "meaning" [None] Plain, "what it is" => it.0.machine.meaning_of(it.1.parameter).0;
-        "unit" [None] Plain, "unit of its values" => it.0.machine.unit_of(it.1.parameter);
-        "low" [None] Six, "lower end" => it.1.range.low;
-        "high" [None] Six, "upper end" => Some(it.1.range.high).filter(|high| high.is_finite());
-        "values" [None] Six, "the values of a catalogue" => it.1.catalogue.clone();
+    columns! { Searched<'a>, (problem, axis);
+        "parameter" [None] Plain, "its key in the machine's file" => problem.machine.name(axis.parameter);
+        "name" [None] Plain, "its name in figures of rivals" => axis.parameter.name();
+        "meaning" [None] Plain, "what it is" => problem.machine.meaning_of(axis.parameter).0;
+        "unit" [None] Plain, "unit of its values" => problem.machine.unit_of(axis.parameter);
+        "low" [None] Six, "lower end" => axis.range.low;
+        "high" [None] Six, "upper end" => Some(axis.range.high).filter(|high| high.is_finite());
+        "values" [None] Six, "the values of a catalogue" => axis.catalogue.clone();
     }
 }
 

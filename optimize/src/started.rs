@@ -12,27 +12,28 @@ type Tried<'a> = (&'a Machine, &'a RunUp, &'a Attempt);
 
 /// What came of a way of a machine.
 pub(crate) fn columns<'a>() -> [Column<Tried<'a>>; 8] {
-    columns! { Tried<'a>, it;
-        "way" [None] Plain, "what is done" => it.2.way.name();
-        "reaches" [None] Plain, "whether the machine then moves as designed" => it.2.share == 1.0;
-        "share" [None], "share of the runs that end on the motion" => it.2.share;
-        "periods" [None] Plain, "drive periods that it takes" => it.2.periods;
-        "stop_force" [Force] Six, "peak force of the stop on the way" => peak(it, Dimension::Force, |it| it.stop_force);
-        "max_position" [Length] Six, "largest position on the way" => peak(it, Dimension::Length, |it| it.highest);
-        "allowed" [None] Plain, "whether that force is allowed" => it.1.is_gentle(it.2);
-        "note" [None] Plain, "what else is to be known" => note(it);
+    columns! { Tried<'a>, (machine, run_up, attempt);
+        "way" [None] Plain, "what is done" => attempt.way.name();
+        "reaches" [None] Plain, "whether the machine then moves as designed" => attempt.share == 1.0;
+        "share" [None], "share of the runs that end on the motion" => attempt.share;
+        "periods" [None] Plain, "drive periods that it takes" => attempt.periods;
+        "stop_force" [Force] Six, "peak force of the stop on the way" => peak(machine, attempt, Dimension::Force, |it| it.stop_force);
+        "max_position" [Length] Six, "largest position on the way" => peak(machine, attempt, Dimension::Length, |it| it.highest);
+        "allowed" [None] Plain, "whether that force is allowed" => run_up.is_gentle(attempt);
+        "note" [None] Plain, "what else is to be known" => note(machine, attempt);
     }
 }
 
 fn peak(
-    (machine, _, attempt): &Tried<'_>,
+    machine: &Machine,
+    attempt: &Attempt,
     dimension: Dimension,
     of: impl Fn(&RunUpPeaks) -> f64,
 ) -> Option<f64> {
     Some(machine.to_own(dimension, of(attempt.peaks.as_ref()?)))
 }
 
-fn note((machine, _, attempt): &Tried<'_>) -> String {
+fn note(machine: &Machine, attempt: &Attempt) -> String {
     let angle = attempt.angle.filter(|_| attempt.share < 1.0);
     let own = |value: f64| {
         let dimension = attempt.way.changed_parameter()?.about().dimension;

@@ -16,17 +16,17 @@ use crate::design::{Design, Problem};
 type Required<'a> = (&'a Machine, &'a Met);
 
 fn columns<'a>() -> [Column<Required<'a>>; 10] {
-    columns! { Required<'a>, it;
-        "name" [None] Plain, "as in the task" => it.1.requirement.figure.name();
-        "required" [None] Plain, "what is required" => bound(it.0, &it.1.requirement);
-        "value" [None] Seven, "what the design has" => own_of(it, it.1.value);
-        "worst" [None] Seven, "what the worst machine within the tolerances has" => it.1.worst.and_then(|worst| own_of(it, worst));
-        "violating" [None] Plain, "share of the machines within the tolerances that violate it" => it.1.violating;
-        "margin" [None] Seven, "distance to the bound, of the worst machine if there are tolerances; negative beyond it" => own_of(it, it.1.margin());
-        "unit" [None] Plain, "unit of value and margin" => it.0.unit(it.1.requirement.figure.dimension());
-        "met" [None] Plain, "whether it is met" => it.1.is_met();
-        "meaning" [None] Plain, "what it is" => it.1.requirement.figure.meaning();
-        "note" [None] Plain, "why there is no value, or from which starts it was counted" => it.1.note(it.0);
+    columns! { Required<'a>, (machine, met);
+        "name" [None] Plain, "as in the task" => met.requirement.figure.name();
+        "required" [None] Plain, "what is required" => bound(machine, &met.requirement);
+        "value" [None] Seven, "what the design has" => own_of(machine, met, met.value);
+        "worst" [None] Seven, "what the worst machine within the tolerances has" => met.worst.and_then(|worst| own_of(machine, met, worst));
+        "violating" [None] Plain, "share of the machines within the tolerances that violate it" => met.violating;
+        "margin" [None] Seven, "distance to the bound, of the worst machine if there are tolerances; negative beyond it" => own_of(machine, met, met.margin());
+        "unit" [None] Plain, "unit of value and margin" => machine.unit(met.requirement.figure.dimension());
+        "met" [None] Plain, "whether it is met" => met.is_met();
+        "meaning" [None] Plain, "what it is" => met.requirement.figure.meaning();
+        "note" [None] Plain, "why there is no value, or from which starts it was counted" => met.note(machine);
     }
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn required(problem: &Problem, machine: &Machine, met: &Met) -> Recor
 }
 
 /// A value of a requirement in the machine's own units; none where nothing bounds it.
-fn own_of((machine, met): &Required<'_>, value: f64) -> Option<f64> {
+fn own_of(machine: &Machine, met: &Met, value: f64) -> Option<f64> {
     let dimension = met.requirement.figure.dimension();
     value.is_finite().then(|| machine.to_own(dimension, value))
 }
@@ -64,25 +64,25 @@ pub(crate) fn rival(problem: &Problem, design: &Design) -> Record {
 type Traded<'a> = (&'a Problem, &'a Front);
 
 fn trades<'a>() -> [Column<Traded<'a>>; 6] {
-    columns! { Traded<'a>, it;
-        "figure" [None], "what is traded" => it.1.figure.name();
-        "unit" [None], "its unit" => it.0.machine.unit(it.1.figure.dimension());
-        "left_out" [None], "designs that fail a trial or lose machines" => it.1.left_out;
-        "note" [None], "how it was found" => it.1.note();
-        "design" [None], "its value at the design, and what is sought" => place(it, &it.1.design);
-        "points" [None], "its values, and the best of what is sought" => points(it);
+    columns! { Traded<'a>, (problem, front);
+        "figure" [None], "what is traded" => front.figure.name();
+        "unit" [None], "its unit" => problem.machine.unit(front.figure.dimension());
+        "left_out" [None], "designs that fail a trial or lose machines" => front.left_out;
+        "note" [None], "how it was found" => front.note();
+        "design" [None], "its value at the design, and what is sought" => place(problem, front, &front.design);
+        "points" [None], "its values, and the best of what is sought" => points(problem, front);
     }
 }
 
 /// A point of a front in the machine's own units.
-fn place((problem, front): &Traded<'_>, (x, y): &(f64, f64)) -> [f64; 2] {
+fn place(problem: &Problem, front: &Front, (x, y): &(f64, f64)) -> [f64; 2] {
     let own = |figure: Figure, value| problem.machine.to_own(figure.dimension(), value);
     [own(front.figure, *x), own(problem.objective.figure, *y)]
 }
 
-fn points(traded: &Traded<'_>) -> Told {
-    let points = traded.1.points.iter();
-    let points: Vec<[f64; 2]> = points.map(|it| place(traded, it)).collect();
+fn points(problem: &Problem, front: &Front) -> Told {
+    let points = front.points.iter();
+    let points: Vec<[f64; 2]> = points.map(|it| place(problem, front, it)).collect();
     Told {
         words: format!("{} designs", points.len()),
         value: json!(points),

@@ -61,7 +61,7 @@ pub const fn column<T>(
     }
 }
 
-/// An array of [`Column`]s, one in each line; see [`column`](crate::column).
+/// An array of [`Column`]s, one in each line, of a row or of its parts, `(a, b)`; see [`column`](crate::column).
 #[macro_export]
 macro_rules! columns {
     (@unit None) => { $crate::column::Unit::None };
@@ -69,7 +69,7 @@ macro_rules! columns {
     (@unit $dimension:ident) => {
         $crate::column::Unit::Own($crate::column::Dimension::$dimension)
     };
-    ($row:ty, $it:ident; $(
+    ($row:ty, $it:tt; $(
         $name:literal [$unit:ident $(($of:expr))?] $($form:ident $(($decimals:expr))?)?,
         $meaning:literal => $cell:expr;
     )*) => {
@@ -78,7 +78,11 @@ macro_rules! columns {
                 $name,
                 $crate::columns!(@unit $unit $(($of))?),
                 $meaning,
-                |$it: &$row| $crate::column::Cell::from($cell),
+                |row: &$row| {
+                    #[allow(unused_variables)]
+                    let $it = row;
+                    $crate::column::Cell::from($cell)
+                },
             )
             $(.shown($crate::column::NumberStyle::$form $(($decimals))?))?
         ),*]
