@@ -138,29 +138,33 @@ impl BasinSurvey<'_> {
     }
 
     /// Follows the cells that wander on where they settle slowly: where the largest exponent of one of three of them is negative
-    /// beyond doubt, for as long as it takes to gain [`SLOW_DECAY_LOG`]. The orbits that the scouts come to hold the others.
-    pub(super) fn settle_slow_cells(&mut self) -> Result<(), OrbitError> {
+    /// beyond doubt, for as long as it takes to gain [`SLOW_DECAY_LOG`]. The orbits that the scouts come to hold the others. The
+    /// exponents of the first one, if it was not followed on.
+    pub(super) fn settle_slow_cells(&mut self) -> Result<Option<Exponents>, OrbitError> {
         let cells = 0..self.outcomes.len();
         let wandering = cells.filter(|cell| self.outcomes[*cell] == MemberStatus::Wandering);
         let wandering: Vec<usize> = wandering.collect();
         let Some(last) = wandering.len().checked_sub(1) else {
-            return Ok(());
+            return Ok(None);
         };
         let mut sample = vec![0, last / 2, last];
         sample.dedup();
-        let mut periods = 0;
+        let (mut periods, mut first) = (0, None);
         for index in sample {
             match self.exponents_of_cell(wandering[index]) {
-                Ok(exponents) if exponents.is_negative() => {
-                    let needed = (SLOW_DECAY_LOG / -exponents.per_period[0]).ceil() as u64;
-                    periods = periods.max(needed);
+                Ok(exponents) => {
+                    first = first.or((index == 0).then_some(exponents));
+                    if exponents.is_negative() {
+                        let needed = (SLOW_DECAY_LOG / -exponents.per_period[0]).ceil() as u64;
+                        periods = periods.max(needed);
+                    }
                 }
                 Err(OrbitError::Stopped) => return Err(OrbitError::Stopped),
                 _ => {}
             }
         }
         if periods > self.transient && periods <= MAX_SLOW_PERIODS {
-            self.transient = periods;
+            (self.transient, first) = (periods, None);
             for cell in &wandering {
                 self.outcomes[*cell] = MemberStatus::Open;
             }
@@ -172,7 +176,8 @@ impl BasinSurvey<'_> {
             .outcomes
             .iter()
             .filter(|it| **it == MemberStatus::Wandering);
-        self.ensemble.count_work(left.count() as u64)
+        self.ensemble.count_work(left.count() as u64)?;
+        Ok(first)
     }
 
     /// The exponents along the motion of a cell from its latest state on.
@@ -183,8 +188,9 @@ impl BasinSurvey<'_> {
         Ok(exponents)
     }
 
-    /// The basins of a survey, class by class: periodic motions by period, impacts and hardest impact, then the others.
-    pub(super) fn into_basins(self) -> Result<Basins, OrbitError> {
+    /// The basins of a survey, class by class: periodic motions by period, impacts and hardest impact, then the others; with the
+    /// exponents of the first cell that wanders, if they are known.
+    pub(super) fn into_basins(self, first: Option<Exponents>) -> Result<Basins, OrbitError> {
         let mut basins = Basins {
             grid: *self.grid,
             classes: Vec::new(),
@@ -205,7 +211,7 @@ impl BasinSurvey<'_> {
             };
             self.enter_class(&mut basins, |it| it.attractor() == Some(index), class);
         }
-        let (wandering, exponents) = self.classify_wandering_cells()?;
+        let (wandering, exponents) = self.classify_wandering_cells(first)?;
         for (outcome, motion) in [
             (MemberStatus::AtRest, MotionKind::Rest),
             (MemberStatus::Wandering, wandering),
@@ -222,13 +228,16 @@ impl BasinSurvey<'_> {
         Ok(basins)
     }
 
-    /// The kind of motion of the cells that have not returned, and the exponents of the first one.
-    fn classify_wandering_cells(&self) -> Result<(MotionKind, Option<Exponents>), OrbitError> {
+    /// The kind of motion of the cells that have not returned, and the exponents of the first one, computed unless they are known.
+    fn classify_wandering_cells(
+        &self,
+        known: Option<Exponents>,
+    ) -> Result<(MotionKind, Option<Exponents>), OrbitError> {
         let mut outcomes = self.outcomes.iter();
         let Some(cell) = outcomes.position(|outcome| *outcome == MemberStatus::Wandering) else {
             return Ok((MotionKind::Unsettled, None));
         };
-        let exponents = self.exponents_of_cell(cell)?;
+        let exponents = known.map_or_else(|| self.exponents_of_cell(cell), Ok)?;
         let motion = match exponents.is_positive() {
             true => MotionKind::Chaos,
             false => MotionKind::Unsettled,

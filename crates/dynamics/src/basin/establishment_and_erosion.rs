@@ -86,12 +86,21 @@ impl Establishment {
         starts: usize,
         monitor: Monitor<'_>,
     ) -> Result<(Self, f64), OrbitError> {
-        let states = region.starts(starts, START_SEED);
+        Self::with_ball_radius_of_starts(orbit, region, &region.starts(starts, START_SEED), monitor)
+    }
+
+    /// [`Establishment::with_ball_radius`] of starts that are made already.
+    fn with_ball_radius_of_starts(
+        orbit: &Orbit,
+        region: &Region,
+        states: &[Start],
+        monitor: Monitor<'_>,
+    ) -> Result<(Self, f64), OrbitError> {
         let basin_test = BasinTest::of(orbit)?;
-        let reached = basin_test.test_starts(&states, monitor)?;
+        let reached = basin_test.test_starts(states, monitor)?;
         let certainty = Self::from_reached(&reached, region);
         let ball = StateBall::new(orbit, region);
-        let mut radius = ball.nearest_lost_distance(&states, &reached, ball.edge_distance(region));
+        let mut radius = ball.nearest_lost_distance(states, &reached, ball.edge_distance(region));
         while radius > MIN_BALL_RADIUS {
             let filling =
                 ball.starts_in_ball(radius, (states.len() / FILL_DIVISOR).max(MIN_FILL_STARTS));
@@ -201,9 +210,10 @@ impl ErosionProfile {
         let held = region.widened_to_hold(&zone.scene, &all.collect::<Vec<_>>());
         let widened = held != *region;
         let region = held;
+        let states = region.starts(starts, START_SEED);
         let place = |(place, orbit): &(&f64, &Orbit)| -> Result<Integrity, ZoneError> {
             let (certainty, radius) =
-                Establishment::with_ball_radius(orbit, &region, starts, monitor)?;
+                Establishment::with_ball_radius_of_starts(orbit, &region, &states, monitor)?;
             Ok(Integrity {
                 place: **place,
                 frequency: orbit.scene.excitation.frequency,

@@ -89,8 +89,8 @@ pub fn find_basins(
     survey.scout_grid()?;
     survey.settle_cells()?;
     survey.judge_all()?;
-    survey.settle_slow_cells()?;
-    survey.into_basins()
+    let first = survey.settle_slow_cells()?;
+    survey.into_basins(first)
 }
 
 /// The basins of several scenes on one grid, in order. The monitor is told of the cells done of all scenes.
