@@ -8,15 +8,10 @@ use crate::design::figure::Figure;
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
 
-/// The table while it is made.
-struct Table<'a> {
-    problem: &'a Problem,
-    /// The design's machine, in whose units all is stated.
-    machine: &'a Machine,
-    /// The machines and their motions by their names, the design first.
-    all: Vec<(&'static str, Machine, &'a Orbit)>,
-    records: Vec<Record>,
-}
+/// A value of a machine and its motion, in the machine's own units.
+type Value<'a> = &'a dyn Fn(&Machine, &Orbit) -> Option<f64>;
+/// A value of a motion, in SI units.
+type FigureOf<'a> = dyn Fn(&Orbit) -> Option<f64> + 'a;
 
 /// The figures and all parameters of a design, in its machine's own units, with those of its references.
 pub(crate) fn comparison(
@@ -24,117 +19,88 @@ pub(crate) fn comparison(
     design: &Design,
     references: &[Reference],
 ) -> Vec<Record> {
-    let own = ("design", design.machine.clone(), &design.orbit);
-    let others = references.iter().map(|it| {
-        let machine = stated_like(&design.machine, &it.machine);
-        (it.name, machine, &it.orbit)
-    });
-    let mut table = Table {
-        problem,
-        machine: &design.machine,
-        all: [own].into_iter().chain(others).collect(),
-        records: Vec::new(),
-    };
-    table.add_figures(design.before_impact_velocity());
-    for parameter in design.machine.parameters() {
-        table.add_parameter(parameter);
-    }
-    table.records
-}
-
-impl Table<'_> {
-    /// A quantity by its name, symbol and unit, and how it was chosen.
-    fn add(
-        &mut self,
-        [name, symbol, unit]: [&str; 3],
-        chosen: String,
-        value: &dyn Fn(&Machine, &Orbit) -> Option<f64>,
-    ) {
+    let machine = &design.machine;
+    let own = ("design", machine.clone(), &design.orbit);
+    let others = references
+        .iter()
+        .map(|it| (it.name, stated_like(machine, &it.machine), &it.orbit));
+    let all: Vec<(&'static str, Machine, &Orbit)> = [own].into_iter().chain(others).collect();
+    let record = |[name, symbol, unit]: [&str; 3], chosen: &str, value: Value<'_>| {
         let head = Record::default().with("quantity", "", name);
-        let head = match self.machine.unit_system {
+        let head = match machine.unit_system {
             UnitSystem::Ratios => head.with("symbol", "", symbol).hidden("unit", unit),
             _ => head.hidden("symbol", "").with("unit", "", unit),
         };
-        let mut record = head.with("chosen", "", chosen);
-        for (name, machine, orbit) in &self.all {
-            record = record.with(name, "", value(machine, orbit));
-        }
-        self.records.push(record);
-    }
-
-    /// A figure of the motions in SI units.
-    fn add_figure(
-        &mut self,
-        [name, symbol]: [&str; 2],
-        dimension: Dimension,
-        is_sought: bool,
-        value: &dyn Fn(&Orbit) -> Option<f64>,
-    ) {
-        let unit = self.machine.unit(dimension);
-        let chosen = if is_sought { "sought" } else { "" };
-        self.add(
-            [name, symbol, unit],
-            chosen.to_owned(),
-            &|machine, orbit| Some(machine.to_own(dimension, value(orbit)?)),
-        );
-    }
-
-    /// What is sought, and what the motions do beside a design of this velocity.
-    fn add_figures(&mut self, velocity: f64) {
-        let problem = self.problem;
-        let sought = problem.objective.figure;
-        let by_velocity = sought == Figure::Velocity;
-        let cost = problem.cost.as_ref().map(|_| Figure::Cost);
-        let cost = cost.filter(|it| *it != sought);
-        for figure in [sought].into_iter().chain(cost) {
-            if figure != Figure::Velocity && figure.is_of_motion() {
-                let (name, dimension) = (figure.meaning(), figure.dimension());
-                self.add_figure([name, ""], dimension, figure == sought, &|orbit| {
-                    problem.value_of_motion(figure, orbit)
-                });
-            }
-        }
-        let [number, length, speed] = [Dimension::Number, Dimension::Length, Dimension::Velocity];
-        let impact = ["before-impact velocity", "X′₋"];
-        self.add_figure(impact, speed, by_velocity, &|orbit| {
-            Some(orbit.before_impact_velocity())
-        });
-        let design = self.all[0].2;
-        let gain = ["velocity, design over this one", ""];
-        self.add_figure(gain, number, false, &|orbit| {
-            let is_other = !std::ptr::eq(orbit, design);
-            is_other.then(|| velocity / orbit.before_impact_velocity())
-        });
-        self.add_figure(["greatest position", ""], length, false, &|orbit| {
-            Some(orbit.max_position)
-        });
-        self.add_figure(["position at time 0", ""], length, false, &|orbit| {
-            Some(orbit.position)
-        });
-        self.add_figure(["velocity at time 0", ""], speed, false, &|orbit| {
-            Some(orbit.velocity)
-        });
-        self.add_figure(["largest multiplier |μ|", ""], number, false, &|orbit| {
-            let moduli = orbit.monodromy.multipliers().map(|it| it.norm());
+        let head = head.with("chosen", "", chosen.to_owned());
+        all.iter().fold(head, |record, (name, machine, orbit)| {
+            record.with(name, "", value(machine, orbit))
+        })
+    };
+    let figure = |[name, symbol]: [&str; 2], dimension, chosen, value: &FigureOf<'_>| {
+        let label = [name, symbol, machine.unit(dimension)];
+        record(label, chosen, &|machine, orbit| {
+            Some(machine.to_own(dimension, value(orbit)?))
+        })
+    };
+    let sought = problem.objective.figure;
+    let chosen_if = |is_sought| if is_sought { "sought" } else { "" };
+    let cost = problem.cost.as_ref().map(|_| Figure::Cost);
+    let figures = [sought].into_iter().chain(cost.filter(|it| *it != sought));
+    let figures = figures.filter(|it| *it != Figure::Velocity && it.is_of_motion());
+    let mut records = Vec::from_iter(figures.map(|it| {
+        let (name, chosen) = (it.meaning(), chosen_if(it == sought));
+        figure([name, ""], it.dimension(), chosen, &|orbit| {
+            problem.value_of_motion(it, orbit)
+        })
+    }));
+    let [number, length, speed] = [Dimension::Number, Dimension::Length, Dimension::Velocity];
+    let by_velocity = chosen_if(sought == Figure::Velocity);
+    let velocity = design.before_impact_velocity();
+    let motion: [([&str; 2], Dimension, &str, &FigureOf<'_>); 6] = [
+        (
+            ["before-impact velocity", "X′₋"],
+            speed,
+            by_velocity,
+            &|it| Some(it.before_impact_velocity()),
+        ),
+        (["velocity, design over this one", ""], number, "", &|it| {
+            let is_other = !std::ptr::eq(it, &design.orbit);
+            is_other.then(|| velocity / it.before_impact_velocity())
+        }),
+        (["greatest position", ""], length, "", &|it| {
+            Some(it.max_position)
+        }),
+        (["position at time 0", ""], length, "", &|it| {
+            Some(it.position)
+        }),
+        (["velocity at time 0", ""], speed, "", &|it| {
+            Some(it.velocity)
+        }),
+        (["largest multiplier |μ|", ""], number, "", &|it| {
+            let moduli = it.monodromy.multipliers().map(|it| it.norm());
             moduli.into_iter().reduce(f64::max)
-        });
-    }
-
-    /// A parameter as the design's machine states it; a preload that is stated as a deflection as a force, too.
-    fn add_parameter(&mut self, parameter: Parameter) {
-        let machine = self.machine;
+        }),
+    ];
+    records.extend(
+        motion.map(|(name, dimension, chosen, value)| figure(name, dimension, chosen, value)),
+    );
+    for parameter in machine.parameters() {
         let (name, symbol) = machine.meaning_of(parameter);
-        let chosen = chosen(self.problem, parameter);
         let label = [name, symbol, machine.unit_of(parameter)];
-        self.add(label, chosen, &|machine, _| machine.value(parameter));
+        let value: Value<'_> = &|machine, _| machine.value(parameter);
+        records.push(record(label, &chosen(problem, parameter), value));
+        // A preload that is stated as a deflection as a force, too.
         if parameter == Parameter::Preload && machine.preload_deflection.is_some() {
-            let (about, unit) = (parameter.about(), machine.unit(Dimension::Force));
-            let label = [about.meaning, about.symbol, unit];
-            self.add(label, String::new(), &|machine, _| {
-                Some(machine.to_own(Dimension::Force, parameter.get(&machine.scene)?))
-            });
+            let about = parameter.about();
+            records.push(figure(
+                [about.meaning, about.symbol],
+                Dimension::Force,
+                "",
+                &|it| parameter.get(&it.scene),
+            ));
         }
     }
+    records
 }
 
 /// A machine that states its preload as another one does, as a force or as a deflection.

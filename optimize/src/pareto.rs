@@ -171,9 +171,10 @@ fn columns(problem: &Problem, front: &Pareto) -> Vec<Column> {
         meaning: figure.meaning(),
         unit: machine.unit(figure.dimension()),
         is_shown,
-        values: own(values
+        values: values
             .into_iter()
-            .map(|it| machine.to_own(figure.dimension(), it))),
+            .map(|it| Some(machine.to_own(figure.dimension(), it)).filter(|it| it.is_finite()))
+            .collect(),
     };
     let sought = objectives.iter().enumerate().map(|(index, it)| {
         let values = points.iter().map(|point| point.values[index]);
@@ -225,13 +226,6 @@ fn columns(problem: &Problem, front: &Pareto) -> Vec<Column> {
     let all = sought.chain(parameters).chain(others).chain(trials);
     let has_values = |it: &Column| it.values.iter().any(Option::is_some);
     all.filter(has_values).chain(violating).collect()
-}
-
-/// Values, without those that are none.
-fn own(values: impl Iterator<Item = f64>) -> Vec<Option<f64>> {
-    values
-        .map(|it| Some(it).filter(|it| it.is_finite()))
-        .collect()
 }
 
 /// The shown columns, a line for each design.

@@ -28,15 +28,6 @@ use crate::searched::SearchReport;
 use crate::tolerated::Tolerated;
 use crate::{cases, placed, started, verdict};
 
-/// A motion and its machine, in the machine's own units.
-#[derive(Debug, Serialize)]
-struct Found {
-    #[serde(flatten)]
-    machine: Record,
-    #[serde(flatten)]
-    motion: Record,
-}
-
 /// What `softstop optimize` reports and writes.
 #[derive(Debug, Serialize)]
 pub struct OptimizeReport {
@@ -45,10 +36,10 @@ pub struct OptimizeReport {
     pub title: Title,
     /// What is sought, and its value.
     objective: Record,
-    /// With its place in its zone and the limits that hold it back.
-    design: Found,
+    /// Its machine and motion, with its place in its zone and the limits that hold it back.
+    design: Record,
     /// The motions beside it, the paper's points A and B or the machine as it was given, with the gain in velocity.
-    reference: BTreeMap<&'static str, Found>,
+    reference: BTreeMap<&'static str, Record>,
     /// All of them side by side, a record for each quantity.
     comparison: Vec<Record>,
     /// What holds the design back.
@@ -123,11 +114,9 @@ impl OptimizeReport {
         let design = &found.design;
         let machine = &design.machine;
         let limits = at_limits(problem, found);
-        let one = |machine: &Machine, orbit: &Orbit, more: Record| Found {
-            machine: stated(machine),
-            motion: motion(machine, orbit).and(more),
-        };
-        let reference = |it: &Reference| (it.name, one(&it.machine, &it.orbit, gain(design, it)));
+        let one = |machine: &Machine, orbit: &Orbit| stated(machine).and(motion(machine, orbit));
+        let reference =
+            |it: &Reference| (it.name, one(&it.machine, &it.orbit).and(gain(design, it)));
         let place = Record::of(&placed::columns(), &(problem, design, &limits));
         let mut met = outcome.met.clone();
         if let Some(study) = study {
@@ -148,7 +137,7 @@ impl OptimizeReport {
         Self {
             title: Title::default(),
             objective: Record::of(&objective(), &(problem, design)),
-            design: one(machine, &design.orbit, place),
+            design: one(machine, &design.orbit).and(place),
             reference: references.iter().map(reference).collect(),
             comparison: comparison(problem, design, references),
             limits,
@@ -266,12 +255,12 @@ fn head(problem: &Problem) -> String {
 type Sought<'a> = (&'a Problem, &'a Design);
 
 fn objective<'a>() -> [Column<Sought<'a>>; 5] {
-    columns! { Sought<'a>, it;
-        "figure" [None], "what is sought" => it.0.objective.figure.name();
-        "meaning" [None], "what it is" => it.0.objective.figure.meaning();
-        "words" [None], "what is sought of it" => it.0.words();
-        "value" [None], "what the design has" => it.0.machine.to_own(it.0.objective.figure.dimension(), it.0.sought_of(it.1));
-        "unit" [None], "its unit" => it.0.machine.unit(it.0.objective.figure.dimension());
+    columns! { Sought<'a>, (problem, design);
+        "figure" [None], "what is sought" => problem.objective.figure.name();
+        "meaning" [None], "what it is" => problem.objective.figure.meaning();
+        "words" [None], "what is sought of it" => problem.words();
+        "value" [None], "what the design has" => problem.machine.to_own(problem.objective.figure.dimension(), problem.sought_of(design));
+        "unit" [None], "its unit" => problem.machine.unit(problem.objective.figure.dimension());
     }
 }
 
@@ -286,10 +275,10 @@ fn left_out(design: &Design) -> Vec<Record> {
 }
 
 fn stretch<'a>() -> [Column<(&'a Design, &'a StableRange)>; 3] {
-    columns! { (&'a Design, &'a StableRange), it;
-        "from" [Frequency] Six, "lower end" => it.0.own_frequency(it.1.low.frequency);
-        "to" [Frequency] Six, "upper end" => it.0.own_frequency(it.1.high.frequency);
-        "hardest" [Velocity] Six, "highest before-impact velocity" => it.1.hardest.before_impact_velocity();
+    columns! { (&'a Design, &'a StableRange), (design, range);
+        "from" [Frequency] Six, "lower end" => design.own_frequency(range.low.frequency);
+        "to" [Frequency] Six, "upper end" => design.own_frequency(range.high.frequency);
+        "hardest" [Velocity] Six, "highest before-impact velocity" => range.hardest.before_impact_velocity();
     }
 }
 

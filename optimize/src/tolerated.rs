@@ -33,35 +33,31 @@ pub(crate) struct Tolerated {
     price: Option<String>,
 }
 
-type Studied<'a> = (&'a Study, &'a Design);
-
-fn machines<'a>() -> [Column<Studied<'a>>; 6] {
-    columns! { Studied<'a>, it;
-        "looked_at" [None] Plain, "machines looked at" => it.0.verdict.machines;
-        "lost" [None] Plain, "machines that lose the motion" => it.0.verdict.drawing.lost;
-        "nominal" [Velocity] Six, "before-impact velocity of the design" => it.1.before_impact_velocity();
-        "worst" [Velocity] Six, "least within the tolerances" => it.0.slowest;
-        "factor" [None] Six, "factor by which all tolerances may grow" => it.0.factor(None);
-        "normal_distance" [None] Six, "normal distance in units of the tolerances" => it.0.normal_distance;
+fn machines<'a>() -> [Column<(&'a Study, &'a Design)>; 6] {
+    columns! { (&'a Study, &'a Design), (study, design);
+        "looked_at" [None] Plain, "machines looked at" => study.verdict.machines;
+        "lost" [None] Plain, "machines that lose the motion" => study.verdict.drawing.lost;
+        "nominal" [Velocity] Six, "before-impact velocity of the design" => design.before_impact_velocity();
+        "worst" [Velocity] Six, "least within the tolerances" => study.slowest;
+        "factor" [None] Six, "factor by which all tolerances may grow" => study.factor(None);
+        "normal_distance" [None] Six, "normal distance in units of the tolerances" => study.normal_distance;
     }
 }
-
-type Counted<'a> = (&'a Study, &'a Problem);
 
 /// Of machines with normal tolerances.
-fn counted<'a>() -> [Column<Counted<'a>>; 6] {
-    columns! { Counted<'a>, it;
-        "rejected" [None] Plain, "machines that lose the motion or violate a requirement" => it.0.verdict.rejected;
-        "share_rejected" [None] Six, "their share" => it.0.verdict.rejected_share();
-        "interval_low" [None] Six, "lower end of its 95 % interval" => it.0.verdict.share_rejected()[0];
-        "interval_high" [None] Six, "upper end" => it.0.verdict.share_rejected()[1];
-        "share_allowed" [None] Six, "share that may" => it.1.violating;
-        "deviations" [None] Six, "standard deviations of normal tolerances within which none does" => it.1.deviations;
+fn counted<'a>() -> [Column<(&'a Study, &'a Problem)>; 6] {
+    columns! { (&'a Study, &'a Problem), (study, problem);
+        "rejected" [None] Plain, "machines that lose the motion or violate a requirement" => study.verdict.rejected;
+        "share_rejected" [None] Six, "their share" => study.verdict.rejected_share();
+        "interval_low" [None] Six, "lower end of its 95 % interval" => study.verdict.share_rejected()[0];
+        "interval_high" [None] Six, "upper end" => study.verdict.share_rejected()[1];
+        "share_allowed" [None] Six, "share that may" => problem.violating;
+        "deviations" [None] Six, "standard deviations of normal tolerances within which none does" => problem.deviations;
     }
 }
 
-fn manifolds<'a>() -> [Column<&'a Nearest>; 2] {
-    columns! { &'a Nearest, it;
+fn manifolds() -> [Column<Nearest>; 2] {
+    columns! { Nearest, it;
         "manifold" [None] Plain, "what is lost there" => match &it.manifold {
             Manifold::Hysteresis => "g0: the motion without impacts strikes".to_owned(),
             Manifold::Motion(loss) => lost_by(loss),
@@ -70,44 +66,63 @@ fn manifolds<'a>() -> [Column<&'a Nearest>; 2] {
     }
 }
 
-type One<'a> = (&'a Machine, &'a Study, usize, &'a Problem);
+/// A tolerance of a design's machine, and what it does.
+struct Effect<'a> {
+    machine: &'a Machine,
+    parameter: Parameter,
+    /// In the machine's own units.
+    half_width: Option<f64>,
+    /// Change of the velocity, in m/s, and of the margins to `s_SN` and g0, in rad/s, at its upper end.
+    velocity: f64,
+    to_fold: Option<f64>,
+    to_free: Option<f64>,
+    /// Sobol indices of the velocity and of the place in the zone.
+    indices: Option<[Index; 2]>,
+}
 
-fn parameters<'a>() -> [Column<One<'a>>; 11] {
-    columns! { One<'a>, it;
-        "parameter" [None] Plain, "which" => it.0.name(parameter(it));
-        "meaning" [None], "what it is" => it.0.meaning_of(parameter(it)).0;
-        "unit" [None], "unit of value and tolerance" => it.0.unit_of(parameter(it));
-        "value" [None], "its value" => it.0.value(parameter(it));
-        "tolerance" [None] Seven, "half-width" => it.3.half_width(it.0, parameter(it));
-        "velocity" [Velocity] Seven, "change of the velocity at its upper end" => it.1.sensitivities.velocity[it.2];
-        "to_fold" [Frequency] Seven, "of the margin to s_SN" => margin(it, it.1.sensitivities.to_fold.as_ref());
-        "to_g0" [Frequency] Seven, "of the margin to g0" => margin(it, it.1.sensitivities.to_free.as_ref());
-        "first_index" [None] Fixed(4), "Sobol index of the velocity" => indices(it).map(|all| all[0].first.value);
-        "total_index" [None] Fixed(4), "with all others" => indices(it).map(|all| all[0].total.value);
-        "margin_index" [None] Fixed(4), "of the place in the zone, with all others; g0 and s_SN as fitted polynomials" => indices(it).map(|all| all[1].total.value);
+impl<'a> Effect<'a> {
+    /// What each tolerance of a study does, about a design of the problem with tolerances as they are stated.
+    fn all(built: &Problem, machine: &'a Machine, study: &Study) -> Vec<Self> {
+        let effects = &study.sensitivities;
+        let own = |by: f64| machine.to_own(Dimension::Frequency, by);
+        let tolerances = study.tolerances.iter().enumerate();
+        let effect = tolerances.map(|(index, it)| Self {
+            machine,
+            parameter: it.parameter,
+            half_width: built.half_width(machine, it.parameter),
+            velocity: effects.velocity[index],
+            to_fold: effects.to_fold.as_ref().map(|by| own(by[index])),
+            to_free: effects.to_free.as_ref().map(|by| own(by[index])),
+            indices: study
+                .scatter
+                .as_ref()
+                .map(|all| [all.velocity[index], all.place[index]]),
+        });
+        effect.collect()
     }
 }
 
-fn parameter((_, study, index, _): &One<'_>) -> Parameter {
-    study.tolerances[*index].parameter
-}
-
-/// Sobol indices of the velocity and of the place in the zone.
-fn indices((_, study, index, _): &One<'_>) -> Option<[Index; 2]> {
-    let all = study.scatter.as_ref()?;
-    Some([all.velocity[*index], all.place[*index]])
-}
-
-/// The change of a margin in the machine's own units.
-fn margin((machine, _, index, _): &One<'_>, all: Option<&Vec<f64>>) -> Option<f64> {
-    Some(machine.to_own(Dimension::Frequency, all?[*index]))
+fn parameters<'a>() -> [Column<Effect<'a>>; 11] {
+    columns! { Effect<'a>, it;
+        "parameter" [None] Plain, "which" => it.machine.name(it.parameter);
+        "meaning" [None], "what it is" => it.machine.meaning_of(it.parameter).0;
+        "unit" [None], "unit of value and tolerance" => it.machine.unit_of(it.parameter);
+        "value" [None], "its value" => it.machine.value(it.parameter);
+        "tolerance" [None] Seven, "half-width" => it.half_width;
+        "velocity" [Velocity] Seven, "change of the velocity at its upper end" => it.velocity;
+        "to_fold" [Frequency] Seven, "of the margin to s_SN" => it.to_fold;
+        "to_g0" [Frequency] Seven, "of the margin to g0" => it.to_free;
+        "first_index" [None] Fixed(4), "Sobol index of the velocity" => it.indices.map(|all| all[0].first.value);
+        "total_index" [None] Fixed(4), "with all others" => it.indices.map(|all| all[0].total.value);
+        "margin_index" [None] Fixed(4), "of the place in the zone, with all others; g0 and s_SN as fitted polynomials" => it.indices.map(|all| all[1].total.value);
+    }
 }
 
 fn withouts() -> [Column<Without>; 4] {
     columns! { Without, it;
         "velocity" [None] Six, "before-impact velocity" => it.design.before_impact_velocity();
-        "machines" [None] Six, "machines within the tolerances" => it.machines;
-        "lost" [None] Six, "that lose the motion" => it.lost;
+        "machines" [None] Six, "machines within the tolerances" => it.verdict.machines;
+        "lost" [None] Six, "that lose the motion" => it.verdict.drawing.lost;
         "slowest" [None] Six, "least velocity seen of the others" => it.slowest;
     }
 }
@@ -119,11 +134,11 @@ fn price(problem: &Problem, design: &Design, study: &Study, without: &Without) -
     let unit = machine.unit(Dimension::Velocity);
     let own = |velocity| Six.format(machine.to_own(Dimension::Velocity, velocity));
     let slowest = own(without.slowest);
-    let worst = match without.lost {
+    let worst = match without.verdict.drawing.lost {
         0 => format!("{slowest} worst"),
         lost => format!(
             "where {lost} of {} machines lose the motion ({slowest} the least seen of the others)",
-            without.machines
+            without.verdict.machines
         ),
     };
     let figure = problem.objective.figure;
@@ -158,8 +173,6 @@ impl Tolerated {
     /// Those of a study.
     pub(crate) fn of(problem: &Problem, design: &Design, study: &Study) -> Self {
         let built = problem.as_built();
-        let all = 0..study.tolerances.len();
-        let all = all.map(|index| (&design.machine, study, index, &built));
         let without = study.without.as_ref();
         let rejected = match problem.has_normal_tolerances() {
             true => Record::of(&counted(), &(study, problem)),
@@ -172,11 +185,8 @@ impl Tolerated {
         };
         Self {
             machines: Record::of(&machines(), &(study, design)).and(rejected),
-            manifolds: study.nearest[0]
-                .iter()
-                .map(|it| Record::of(&manifolds(), &it))
-                .collect(),
-            parameters: all.map(|it| Record::of(&parameters(), &it)).collect(),
+            manifolds: Record::all(&manifolds(), &study.nearest[0]),
+            parameters: Record::all(&parameters(), &Effect::all(&built, &design.machine, study)),
             without: without.map(|it| Record::of(&withouts(), it)),
             price: without.map(|it| price(problem, design, study, it)),
         }

@@ -75,22 +75,16 @@ impl Term {
         orbit: &Orbit,
         rates: impl Fn(Figure) -> Option<Vec<f64>>,
     ) -> Option<Vec<f64>> {
-        let unit = |of: Parameter, by: f64| {
-            let all = slopes.parameters.iter();
-            let all = all.map(|it| if *it == of { by } else { 0.0 });
-            all.collect::<Vec<f64>>()
-        };
+        let none = vec![0.0; slopes.parameters.len()];
         match self {
             Self::Figure(figure) => rates(figure),
-            Self::Parameter(parameter) => Some(unit(parameter, 1.0)),
+            Self::Parameter(parameter) => Some(plus(slopes, none, parameter, 1.0)),
             Self::PreloadDeflection => {
                 let preload = Parameter::Preload.get(&orbit.scene)?;
                 let stiffness = Parameter::StopStiffness.get(&orbit.scene)?;
-                let by_stiffness =
-                    unit(Parameter::StopStiffness, -preload / (stiffness * stiffness));
-                let by_preload = unit(Parameter::Preload, stiffness.recip());
-                let pairs = by_preload.iter().zip(&by_stiffness);
-                Some(pairs.map(|(one, other)| one + other).collect())
+                let by_stiffness = -preload / (stiffness * stiffness);
+                let by = plus(slopes, none, Parameter::StopStiffness, by_stiffness);
+                Some(plus(slopes, by, Parameter::Preload, stiffness.recip()))
             }
         }
     }
@@ -136,6 +130,15 @@ impl Cost {
         }
         Some(total)
     }
+}
+
+/// Derivatives by parameters, with one more by one of them.
+pub(crate) fn plus(slopes: &Slopes, mut by: Vec<f64>, parameter: Parameter, more: f64) -> Vec<f64> {
+    let mut pairs = slopes.parameters.iter().zip(&mut by);
+    if let Some((_, by)) = pairs.find(|(own, _)| **own == parameter) {
+        *by += more;
+    }
+    by
 }
 
 /// The value as of [`value_of_motion`] of an orbit whose metrics are not known.

@@ -8,7 +8,7 @@ use softstop_dynamics::BranchPoint;
 
 use super::conflict::{conflict, short};
 use super::figure::Figure;
-use super::judge::{Judged, violation};
+use super::judge::violation;
 use super::problem::Problem;
 use super::space::Interval;
 use super::zoned::Zoned;
@@ -38,7 +38,8 @@ pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
         line.cost_at(window.low);
         return line.result();
     }
-    let places = samples(window);
+    let places: [f64; SAMPLES] =
+        std::array::from_fn(|index| window.at(index as f64 / (SAMPLES - 1) as f64));
     let costs = places.map(|place| line.cost_at(place));
     let least = (0..SAMPLES)
         .min_by(|&a, &b| costs[a].total_cmp(&costs[b]))
@@ -51,10 +52,6 @@ pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
         line.refine(bracket);
     }
     line.result()
-}
-
-fn samples(window: Interval) -> [f64; SAMPLES] {
-    std::array::from_fn(|index| window.at(index as f64 / (SAMPLES - 1) as f64))
 }
 
 /// The motions along a zone.
@@ -175,34 +172,28 @@ impl Line<'_> {
 /// A design with the value of what is sought, if it is as required.
 fn as_required(problem: &Problem, design: Design) -> Result<Design, Infeasible> {
     let motion = design.judged().map_err(Infeasible::unknown)?;
-    let value = sought(problem, &motion)?;
-    Ok(Design { value, ..design })
-}
-
-/// What is sought, of a motion that is as required.
-fn sought(problem: &Problem, motion: &Judged<'_>) -> Result<f64, Infeasible> {
-    let met = problem.met(motion);
-    match violation(&met) {
-        0.0 => problem.sought(motion).ok_or_else(|| {
-            let figure = problem.objective.figure;
-            let name = figure.name();
-            Infeasible::unknown(match problem.value(motion, figure) {
-                value if value.is_finite() => {
-                    format!(
-                        "{name} is {}: what is sought must be positive",
-                        short(value)
-                    )
-                }
-                _ => match &problem.cost {
-                    Some(cost) if figure == Figure::Cost => {
-                        format!("objective.cost = {cost:?} is not a number")
-                    }
-                    _ => format!("{name} has no value"),
-                },
-            })
-        }),
-        gap => Err(Infeasible::new(gap, conflict(motion.machine, &met))),
+    let met = problem.met(&motion);
+    let gap = violation(&met);
+    if gap != 0.0 {
+        return Err(Infeasible::new(gap, conflict(motion.machine, &met)));
     }
+    let value = problem.sought(&motion).ok_or_else(|| {
+        let figure = problem.objective.figure;
+        let name = figure.name();
+        Infeasible::unknown(match problem.value(&motion, figure) {
+            value if value.is_finite() => {
+                let value = short(value);
+                format!("{name} is {value}: what is sought must be positive")
+            }
+            _ => match &problem.cost {
+                Some(cost) if figure == Figure::Cost => {
+                    format!("objective.cost = {cost:?} is not a number")
+                }
+                _ => format!("{name} has no value"),
+            },
+        })
+    })?;
+    Ok(Design { value, ..design })
 }
 
 impl CostFunction for &Line<'_> {

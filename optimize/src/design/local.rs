@@ -203,23 +203,18 @@ fn of_point(
 /// How far outside a bound the solver may leave what it holds.
 const ROUNDING: f64 = 1e-9;
 
-/// The figures of a point: what is sought, what is required, and the share of the zone if the frequency is given.
-fn figures(problem: &Problem) -> Vec<Figure> {
-    let required = problem.single().map(|it| it.figure);
-    let share = problem.has_given_frequency().then_some(Figure::Share);
-    let sought = [problem.objective.figure].into_iter();
-    sought.chain(required).chain(share).collect()
-}
-
-/// The same with their derivatives, and the drive's frequency: exact ones where the motion has them, differences for the
-/// rest.
+/// The figures of a point with their derivatives: what is sought, what is required, the share of the zone if the frequency is
+/// given, and the drive's frequency. Exact derivatives where the motion has them, differences for the rest.
 fn slopes(
     problem: &Problem,
     at: &At<'_>,
     exact: Option<&Linearization<'_>>,
     (here, motion): (&Design, &Judged<'_>),
 ) -> Option<Vec<Slope>> {
-    let figures = figures(problem);
+    let required = problem.single().map(|it| it.figure);
+    let share = problem.has_given_frequency().then_some(Figure::Share);
+    let sought = [problem.objective.figure].into_iter();
+    let figures: Vec<Figure> = sought.chain(required).chain(share).collect();
     let derivative = |figure: &Figure| exact.and_then(|it| it.by(*figure, motion));
     let mut all: Vec<Option<Vec<f64>>> = figures.iter().map(derivative).collect();
     all.push(exact.map(|it| it.frequency.clone()));

@@ -157,7 +157,11 @@ fn look_at_point(problem: &Problem, design: &Design, known: &mut CriticalMachine
         Err(error) => return unknown(error),
     };
     if let Some(first) = lost.first() {
-        let lack = Some(lacking(first));
+        let reason = format!(
+            "within the tolerances the motion is lost ({}): it goes on over {:.4} of them only",
+            first.by, first.share
+        );
+        let lack = Some(Infeasible::new(1.0 - first.share, reason));
         known.losses.extend(lost.into_iter().map(|it| it.direction));
         return (Look { is_new: true, lack }, value);
     }
@@ -251,14 +255,6 @@ impl Problem {
         });
         each.collect()
     }
-}
-
-fn lacking(lost: &Lost) -> Infeasible {
-    let reason = format!(
-        "within the tolerances the motion is lost ({}): it goes on over {:.4} of them only",
-        lost.by, lost.share
-    );
-    Infeasible::new(1.0 - lost.share, reason)
 }
 
 /// The best designs with what is known of the box, from one, and from other places of its zone.

@@ -1,11 +1,12 @@
 //! Operating points beside that of the drawing: the tables `[[case]]`.
 
+use std::fmt::Display;
 use std::iter::zip;
 
 use softstop::internals::{did_you_mean, nearest_name};
 use softstop::{Machine, Parameter};
 use softstop_console::failure::Failure;
-use toml::{Table, Value};
+use toml::Table;
 
 use super::toml_leaves::{leaves, number};
 use super::vary::Searched;
@@ -21,23 +22,25 @@ const HEAVIEST: f64 = 1e6;
 /// Reads the cases of a task.
 pub(super) fn cases(machine: &Machine, tables: &[Table]) -> Result<Vec<Case>, Failure> {
     let mut all: Vec<Case> = Vec::new();
-    for (index, table) in tables.iter().enumerate() {
-        let case = case(machine, table, index + 1)?;
+    for (table, index) in zip(tables, 1..) {
+        let case = case(machine, table, index)?;
         if all.iter().any(|it| it.name == case.name) {
-            return Err(wrong(
-                index + 1,
-                NAME,
-                format!(" = {:?}: is the name of another case", case.name),
-            ));
+            let name = format!("{:?}", case.name);
+            return Err(wrong(index, NAME, name, "is the name of another case"));
         }
         all.push(case);
     }
     Ok(all)
 }
 
-/// A failure at a key of a case, counted from 1.
-fn wrong(index: usize, key: &str, what: impl AsRef<str>) -> Failure {
-    Failure::usage(format!("case.{index}.{key}{}", what.as_ref()))
+/// A failure in a case, counted from 1.
+fn in_case(index: usize, what: impl Display) -> Failure {
+    Failure::usage(format!("case.{index}.{what}"))
+}
+
+/// A failure at the value of a key of a case, counted from 1.
+fn wrong(index: usize, key: &str, value: impl Display, what: &str) -> Failure {
+    in_case(index, format_args!("{key} = {value}: {what}"))
 }
 
 /// Reads a case, counted from 1.
@@ -48,7 +51,7 @@ fn case(machine: &Machine, table: &Table, index: usize) -> Result<Case, Failure>
         changes: Vec::new(),
     };
     for (key, value) in leaves(table) {
-        let wrong = |what: &str| wrong(index, &key, format!(" = {value}: {what}"));
+        let wrong = |what: &str| wrong(index, &key, value, what);
         let is_name = |name: &&str| {
             !name.trim().is_empty() && !name.contains(char::is_control) && *name != DRAWING
         };
@@ -64,42 +67,38 @@ fn case(machine: &Machine, table: &Table, index: usize) -> Result<Case, Failure>
                 let what = "must be a number in [0, 1e6]; 0 asks for all that is required and counts nothing";
                 case.weight = weight.ok_or_else(|| wrong(what))?;
             }
-            _ => case
-                .changes
-                .push(change(machine, &case, (&key, value), index)?),
+            _ => {
+                let stated = machine.free_parameter(&key);
+                let (parameter, unit) =
+                    stated.map_err(|error| match nearest_name(&key, &[NAME, WEIGHT]) {
+                        None => in_case(index, error),
+                        meant => in_case(
+                            index,
+                            format_args!("{key}: unknown key{}", did_you_mean(meant)),
+                        ),
+                    })?;
+                let own = number(value).ok_or_else(|| wrong("must be a number"))? * unit;
+                let checked = parameter
+                    .about()
+                    .allowed
+                    .check(machine.name(parameter), own);
+                checked.map_err(|error| in_case(index, error))?;
+                if parameter == Parameter::Phase {
+                    return Err(wrong("has no effect: it shifts the drive in time alone"));
+                }
+                if case.value(parameter).is_some() {
+                    return Err(wrong("is given twice"));
+                }
+                case.changes.push((parameter, own));
+            }
         }
     }
     let mut changed = machine.clone();
     for (parameter, value) in &case.changes {
         changed.set(*parameter, *value);
     }
-    let changed = changed.validate();
-    changed.map_err(|error| Failure::usage(format!("case.{index}.{error}")))?;
+    changed.validate().map_err(|error| in_case(index, error))?;
     Ok(case)
-}
-
-/// What a key of a case, counted from 1, changes, in the machine's own units.
-fn change(
-    machine: &Machine,
-    case: &Case,
-    (key, value): (&str, &Value),
-    index: usize,
-) -> Result<(Parameter, f64), Failure> {
-    let wrong = |what: &str| wrong(index, key, format!(" = {value}: {what}"));
-    let stated = machine.free_parameter(key);
-    let (parameter, unit) = stated.map_err(|error| match nearest_name(key, &[NAME, WEIGHT]) {
-        None => Failure::usage(format!("case.{index}.{error}")),
-        meant => self::wrong(index, key, format!(": unknown key{}", did_you_mean(meant))),
-    })?;
-    let own = number(value).ok_or_else(|| wrong("must be a number"))? * unit;
-    let name = machine.name(parameter);
-    let checked = parameter.about().allowed.check(name, own);
-    checked.map_err(|error| Failure::usage(format!("case.{index}.{error}")))?;
-    match parameter {
-        Parameter::Phase => Err(wrong("has no effect: it shifts the drive in time alone")),
-        _ if case.value(parameter).is_some() => Err(wrong("is given twice")),
-        _ => Ok((parameter, own)),
-    }
 }
 
 /// Refuses cases that change what is searched, or nothing.
@@ -111,7 +110,7 @@ pub(super) fn check(
     for (case, index) in zip(cases, 1..) {
         for (parameter, value) in &case.changes {
             let name = machine.name(*parameter);
-            let wrong = |what: &str| Err(wrong(index, name, format!(" = {value}: {what}")));
+            let wrong = |what: &str| Err(wrong(index, name, value, what));
             let is_own = |it: Parameter| it == *parameter;
             let mut axes = searched.axes.iter().filter(|it| !it.range.is_held());
             if axes.any(|it| is_own(it.parameter)) {

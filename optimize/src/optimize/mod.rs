@@ -1,7 +1,6 @@
 //! `softstop optimize`: the hardest impact inside the hysteresis zone, or of all stable z = 1 motions.
 
 mod cases;
-mod cost;
 mod met;
 mod objective;
 pub mod outcome;

@@ -63,8 +63,9 @@ pub(super) fn read_requirements(
         };
         let mut scope = Scope::default();
         let (least, most) = match (value, figure.sense()) {
-            (Value::Boolean(true), _) if figure == Figure::RunUp => (Some(1.0), None),
-            (Value::Boolean(false), _) if figure == Figure::RunUp => (Some(0.0), None),
+            (Value::Boolean(is_any), _) if figure == Figure::RunUp => {
+                (Some(f64::from(*is_any)), None)
+            }
             (Value::Table(words), _) => {
                 let stated = match figure {
                     Figure::RunUp => run_up_bounds,

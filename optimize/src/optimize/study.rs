@@ -49,11 +49,9 @@ pub struct Study {
 pub struct Without {
     /// The design.
     pub design: Design,
-    /// Machines within the tolerances about it.
-    pub machines: usize,
-    /// Those of them that lose the motion.
-    pub lost: usize,
-    /// The slowest impact of the others in m/s: by steps down from the design if none is lost, otherwise the least that was
+    /// What the machines within the tolerances about it have shown.
+    pub verdict: Verdict,
+    /// The slowest impact in m/s of those that keep the motion: by steps down from the design if none is lost, otherwise the least that was
     /// seen, which bounds nothing, for it falls towards the fold.
     pub slowest: f64,
 }
@@ -166,13 +164,12 @@ fn without(problem: &Problem, design: &Design) -> Result<Option<Without>, OrbitE
     let verdict = verify(&drawn, &design.orbit, (settings, &[]), &interrupt::watch)?;
     let CaseVerdict { lost, slowest, .. } = verdict.drawing;
     Ok(Some(Without {
-        machines: verdict.machines,
-        lost,
         // Steps down end wherever the motion is lost.
         slowest: match lost {
             0 => self::slowest(&spread, &design.orbit, &verdict)?,
             _ => slowest.min(design.before_impact_velocity()),
         },
         design: design.clone(),
+        verdict,
     }))
 }

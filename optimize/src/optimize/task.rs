@@ -19,8 +19,7 @@ use toml::Table;
 
 use super::OptimizeArguments;
 use super::cases::{self, cases};
-use super::cost::cost;
-use super::objective::objectives;
+use super::objective::{cost, objectives};
 use super::require::{RESERVE, SHARE, read_requirements};
 use super::task_spec::{Motions, Search, TaskSpec};
 use super::title::{Source, Title};

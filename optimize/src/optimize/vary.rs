@@ -161,21 +161,37 @@ pub(super) fn searched(
 ) -> Result<Searched, Failure> {
     let (mut said, mut links) = (Vec::<Axis>::new(), Vec::<Link>::new());
     for layer in layers {
-        let above = said.len();
+        let mut own = Vec::new();
         for variable in layer {
-            let Some(axis) = axis(machine, variable)? else {
-                links.extend(link(machine, variable)?);
-                continue;
+            let (parameter, unit) = free_parameter(machine, "vary", &variable.key)?;
+            let axis = match &variable.values {
+                Values::Follows(follow) => {
+                    links.push(link(machine, (&variable.key, parameter, unit), follow)?);
+                    continue;
+                }
+                Values::Range(ends) => {
+                    let [low, high] = ends.map(|end| end * unit);
+                    Axis::new(parameter, Interval { low, high })
+                }
+                Values::Catalogue(_) if parameter == Parameter::Frequency => {
+                    let what = "can be a range or a value to hold, not a catalogue";
+                    return Err(wrong(&variable.key, what));
+                }
+                Values::Catalogue(values) => {
+                    Axis::of_catalogue(parameter, values.iter().map(|it| it * unit).collect())
+                }
             };
-            let is_same = |it: &Axis| it.parameter == axis.parameter;
-            if said[above..].iter().any(is_same) {
-                let name = machine.name(axis.parameter);
+            check_range(machine, &axis)?;
+            if own.contains(&parameter) {
                 return Err(wrong(
-                    name,
+                    machine.name(parameter),
                     "only one value to hold or one range can be given",
                 ));
             }
-            said.push(axis);
+            own.push(parameter);
+            if said.iter().all(|it| it.parameter != parameter) {
+                said.push(axis);
+            }
         }
     }
     let usual = USUAL.into_iter().filter(|_| with_usual);
@@ -184,15 +200,11 @@ pub(super) fn searched(
         .collect();
     // Without a bound the zone itself and the margin limit the frequency.
     let mut frequency = Interval::ANY;
-    for (index, axis) in said.iter().enumerate() {
-        let is_same = |it: &Axis| it.parameter == axis.parameter;
-        if said[..index].iter().any(is_same) {
-            continue;
-        }
-        match axes.iter_mut().find(|it| is_same(it)) {
+    for axis in said {
+        match axes.iter_mut().find(|it| it.parameter == axis.parameter) {
             _ if axis.parameter == Parameter::Frequency => frequency = axis.range,
-            Some(known) => known.clone_from(axis),
-            None => axes.push(axis.clone()),
+            Some(known) => *known = axis,
+            None => axes.push(axis),
         }
     }
     check_links(machine, &links, &axes)?;
@@ -207,36 +219,19 @@ fn wrong(key: &str, what: &str) -> Failure {
     Failure::usage(format!("vary.{key}: {what}"))
 }
 
-/// The axis of a variable; none if it follows another one.
-fn axis(machine: &Machine, variable: &Variable) -> Result<Option<Axis>, Failure> {
-    let (parameter, unit) = free_parameter(machine, "vary", &variable.key)?;
-    let axis = match &variable.values {
-        Values::Follows(_) => return Ok(None),
-        Values::Range(ends) => {
-            let [low, high] = ends.map(|end| end * unit);
-            Axis::new(parameter, Interval { low, high })
-        }
-        Values::Catalogue(_) if parameter == Parameter::Frequency => {
-            return Err(wrong(
-                &variable.key,
-                "can be a range or a value to hold, not a catalogue",
-            ));
-        }
-        Values::Catalogue(values) => {
-            Axis::of_catalogue(parameter, values.iter().map(|value| value * unit).collect())
-        }
-    };
+/// Refuses an axis with an end that its parameter may not have, or whose ends are in the wrong order.
+fn check_range(machine: &Machine, axis: &Axis) -> Result<(), Failure> {
     let Interval { low, high } = axis.range;
-    let name = machine.name(parameter);
+    let name = machine.name(axis.parameter);
     for value in [low, high] {
-        let checked = parameter.about().allowed.check(name, value);
+        let checked = axis.parameter.about().allowed.check(name, value);
         checked.map_err(|error| Failure::usage(format!("vary.{error}")))?;
     }
     match low > high {
         true => Err(Failure::usage(format!(
             "vary.{name} = {low}:{high}: low must be <= high"
         ))),
-        false => Ok(Some(axis)),
+        false => Ok(()),
     }
 }
 
@@ -255,12 +250,12 @@ fn usual_axis(machine: &Machine, parameter: Parameter, ends: [f64; 2]) -> Option
     Some(Axis::new(parameter, Interval { low, high }))
 }
 
-/// The link of one parameter to another, in the machine's own units; none if it follows none.
-fn link(machine: &Machine, Variable { key, values }: &Variable) -> Result<Option<Link>, Failure> {
-    let Values::Follows(follow) = values else {
-        return Ok(None);
-    };
-    let (parameter, unit) = free_parameter(machine, "vary", key)?;
+/// The link of a parameter, with its key and the unit of that, to another one, in the machine's own units.
+fn link(
+    machine: &Machine,
+    (key, parameter, unit): (&str, Parameter, f64),
+    follow: &Follow,
+) -> Result<Link, Failure> {
     let followed = machine.free_parameter(&follow.follows);
     let (follows, other) =
         followed.map_err(|error| wrong(&format!("{key}.follows"), &error.to_string()))?;
@@ -274,12 +269,12 @@ fn link(machine: &Machine, Variable { key, values }: &Variable) -> Result<Option
             "must follow another parameter by a finite factor and offset",
         ));
     }
-    Ok(Some(Link {
+    Ok(Link {
         parameter,
         follows,
         factor: follow.factor * unit / other,
         offset: follow.offset * unit,
-    }))
+    })
 }
 
 fn check_links(machine: &Machine, links: &[Link], axes: &[Axis]) -> Result<(), Failure> {

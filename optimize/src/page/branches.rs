@@ -9,14 +9,18 @@ use softstop_dynamics::zone::loss_of_stability;
 use softstop_dynamics::{BranchPoint, Orbit, ParameterFamily, Zone};
 
 use super::figure::Curve;
+use crate::placed::{fold, grazing};
 
 /// The z = 1 motions of a zone, and those below it where it begins at g0.
 pub(super) struct Motions {
     above: Vec<BranchPoint>,
     below: Vec<BranchPoint>,
-    /// Frequency in rad/s at which the period doubles.
-    pub(super) flip: Option<f64>,
+    /// Frequencies in rad/s of g0, of `s_SN` and of where the period doubles, as far as there are such.
+    pub(super) borders: [Option<f64>; 3],
 }
+
+/// What these borders are called.
+pub(super) const BORDERS: [&str; 3] = ["g₀", "s_SN", "s_PD"];
 
 /// Points after which the motions below g0 are given up, and how far they are looked for.
 const LONGEST: usize = 400;
@@ -37,7 +41,7 @@ impl Motions {
         Self {
             above: zone.branch.clone(),
             below,
-            flip,
+            borders: [grazing(zone), fold(zone), flip],
         }
     }
 

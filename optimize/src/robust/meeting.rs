@@ -100,7 +100,7 @@ impl Search<'_> {
             Norm::Box => direction
                 .iter()
                 .fold(0.0, |most: f64, part| most.max(part.abs())),
-            Norm::Ball => euclidean(&direction),
+            Norm::Ball => dot(&direction, &direction).sqrt(),
         };
         direction.iter().map(|part| part / length).collect()
     }
@@ -242,8 +242,4 @@ pub(super) fn same(one: &Manifold, other: &Manifold) -> bool {
 
 pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
-}
-
-fn euclidean(direction: &[f64]) -> f64 {
-    dot(direction, direction).sqrt()
 }

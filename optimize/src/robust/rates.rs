@@ -7,7 +7,7 @@ use softstop_dynamics::figure::Figure;
 use softstop_dynamics::slopes::Slopes;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
-use crate::design::cost::Cost;
+use crate::design::cost::{Cost, plus};
 
 /// Distance, relative, within which two figures are the same one.
 const SAME: f64 = 1e-9;
@@ -76,13 +76,4 @@ pub fn rates(
         }
         _ => None,
     }
-}
-
-/// Derivatives by parameters, with one more by one of them.
-fn plus(slopes: &Slopes, mut by: Vec<f64>, parameter: Parameter, more: f64) -> Vec<f64> {
-    let mut pairs = slopes.parameters.iter().zip(&mut by);
-    if let Some((_, by)) = pairs.find(|(own, _)| **own == parameter) {
-        *by += more;
-    }
-    by
 }

@@ -34,14 +34,10 @@ pub fn sensitivities(
     zone: &Zone,
 ) -> Result<Sensitivities, ZoneError> {
     let centre = vec![0.0; spread.dimensions()];
-    let fold = match zone.high.is_critical(TestFunction::Fold) {
-        true => Some(critical_normal(
-            spread,
-            &centre,
-            (TestFunction::Fold, &zone.high.point),
-        )?),
-        false => None,
-    };
+    let fold = (TestFunction::Fold, &zone.high.point);
+    let ends_in_fold = zone.high.is_critical(TestFunction::Fold);
+    let fold = ends_in_fold.then(|| critical_normal(spread, &centre, fold));
+    let fold = fold.transpose()?;
     Ok(Sensitivities {
         velocity: nominal_slopes(spread, nominal, &unmonitored)?,
         to_fold: fold.map(|normal| normal.iter().map(|part| -part).collect()),

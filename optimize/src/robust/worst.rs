@@ -67,13 +67,6 @@ pub fn worst(
     })
 }
 
-/// The derivatives of a figure of a motion by the coordinates; none if it has no exact ones.
-fn slopes_of(figure: Figure, spread: &Tolerances, at: &[f64], orbit: &Orbit) -> Option<Vec<f64>> {
-    let slopes = slopes::differentiate_orbit(orbit, &varied(spread, at)).ok()?;
-    let by = spread.rates(figure, &slopes, orbit)?;
-    Some(in_coordinates(spread, at, &slopes.parameters, &by))
-}
-
 /// The search for the machine with the least value of a figure, times a sign.
 struct Search<'a> {
     neighbours: &'a Neighbours<'a>,
@@ -141,8 +134,13 @@ impl Search<'_> {
             let (below, above) = (value(index, -DIFFERENCE)?, value(index, DIFFERENCE)?);
             Some((above - below) / (2.0 * DIFFERENCE))
         };
-        let exact = slopes_of(self.figure, self.neighbours.spread, at, orbit);
-        exact.or_else(|| (0..at.len()).map(slope).collect())
+        let exact = || {
+            let spread = self.neighbours.spread;
+            let slopes = slopes::differentiate_orbit(orbit, &varied(spread, at)).ok()?;
+            let by = spread.rates(self.figure, &slopes, orbit)?;
+            Some(in_coordinates(spread, at, &slopes.parameters, &by))
+        };
+        exact().or_else(|| (0..at.len()).map(slope).collect())
     }
 
     /// A machine and its motion, which may have no value; without derivatives at a fold, where no step leads on.

@@ -9,10 +9,9 @@ use softstop_dynamics::{Zone, parallel, zone};
 
 use super::velocity;
 use crate::design::{Design, Problem, space};
-use crate::page::branches::Motions;
+use crate::page::branches::{BORDERS, Motions};
 use crate::page::figure::{Curve, Figure, HALF, Section, WIDE, lines, middles, pieces};
 use crate::page::words::quantity;
-use crate::placed;
 
 /// Maps at most.
 const MAPS: usize = 2;
@@ -20,11 +19,11 @@ const MAPS: usize = 2;
 const CELLS: (usize, usize) = (96, 40);
 /// Half the size of the design's mark.
 const MARK: f64 = 8.0;
-/// The boundaries g0, `s_SN` and `s_PD` of the zone.
-const BOUNDARIES: [(&str, Stroke); 3] = [
-    ("g₀", Stroke::solid(style::INK, 1.6)),
-    ("s_SN", Stroke::dashed(style::INK, 1.6, (9.0, 4.0))),
-    ("s_PD", Stroke::dashed(style::INK, 1.6, (2.0, 3.0))),
+/// The borders of the zone, in the order of [`BORDERS`].
+const STROKES: [Stroke; 3] = [
+    Stroke::solid(style::INK, 1.6),
+    Stroke::dashed(style::INK, 1.6, (9.0, 4.0)),
+    Stroke::dashed(style::INK, 1.6, (2.0, 3.0)),
 ];
 /// Corners of a box about its middle, in half widths, round to the first.
 const CORNERS: [(f64, f64); 5] = [
@@ -65,20 +64,15 @@ fn map(
     };
     let scenes: Vec<Scene> = (0..CELLS.1).map(at).collect();
     let zones = zone::find_zones(problem.zone, &scenes, &interrupt::watch);
-    let rows = parallel::map(&zones, |zone| {
-        let zone = zone.as_ref().ok()?;
-        let motions = Motions::of(zone);
-        let ends = [placed::grazing(zone), placed::fold(zone), motions.flip];
-        Some((ends, motions))
-    });
+    let rows = parallel::map(&zones, |zone| Some(Motions::of(zone.as_ref().ok()?)));
     let own = |frequency: f64| machine.to_own(Dimension::Frequency, frequency);
-    let boundaries = BOUNDARIES.iter().enumerate();
-    let curves = boundaries.flat_map(|(index, (name, stroke))| {
-        let place = |row: usize| Some((own(rows[row].as_ref()?.0[index]?), value(row)));
+    let borders = BORDERS.iter().zip(STROKES).enumerate();
+    let curves = borders.flat_map(|(index, (name, stroke))| {
+        let place = |row: usize| Some((own(rows[row].as_ref()?.borders[index]?), value(row)));
         let pieces = pieces(&Vec::from_iter((0..CELLS.1).map(place)));
-        pieces.into_iter().map(|points| Curve {
+        pieces.into_iter().map(move |points| Curve {
             name: (*name).to_owned(),
-            stroke: *stroke,
+            stroke,
             points,
         })
     });
@@ -87,7 +81,7 @@ fn map(
     let across = around(frequencies.chain([design.frequency()]), 0.05);
     let frequency = middles(across, CELLS.0);
     let cell = |row: usize, column: usize| {
-        let (_, motions) = rows[row].as_ref()?;
+        let motions = rows[row].as_ref()?;
         motions.velocity_at(machine.to_si(Dimension::Frequency, frequency(column)))
     };
     let places = (0..CELLS.1).flat_map(|row| (0..CELLS.0).map(move |column| (row, column)));

@@ -1,7 +1,7 @@
 //! One period of a design's motion in the phase plane, with and without its strip: the whole motion, and the part near the
 //! stop.
 
-use softstop::{Arc, Clock, Dimension, Observer, Scene, Start};
+use softstop::{Arc, Dimension, Scene, Start};
 use softstop_draw::{Axis, Layer, Panel};
 use softstop_dynamics::{Orbit, zone};
 use softstop_explore::simulate::contact_force;
@@ -48,21 +48,14 @@ fn unfed(scene: &Scene) -> Option<Scene> {
 impl Period {
     /// That of a motion; without points if it cannot be computed.
     fn of(orbit: &Orbit) -> Self {
-        let length = orbit.scene.period() * orbit.periods as f64;
-        let mut recorder = Recorder {
-            scene: &orbit.scene,
-            points: Vec::new(),
-        };
-        let end = Clock::at_cycle(orbit.periods);
-        let motion = orbit.scene.motion(orbit.state().into()).ok();
-        let points = motion.and_then(|mut motion| {
-            motion.advance(end, &mut recorder).ok()?;
-            motion.tell_arc(&mut recorder);
-            Some(recorder.points)
-        });
+        let scene = &orbit.scene;
+        let motion = scene.trajectory(orbit.state().into(), orbit.periods).ok();
+        let arcs = motion.iter().flat_map(|it| it.observed_arcs());
         Self {
-            length,
-            points: points.unwrap_or_default(),
+            length: scene.period() * orbit.periods as f64,
+            points: arcs
+                .flat_map(|(arc, elapsed)| points(scene, &arc, elapsed))
+                .collect(),
         }
     }
 
@@ -75,22 +68,17 @@ impl Period {
     }
 }
 
-struct Recorder<'a> {
-    scene: &'a Scene,
-    points: Vec<[f64; 4]>,
-}
-
-impl Observer for Recorder<'_> {
-    fn arc(&mut self, arc: &Arc<'_>, elapsed: f64) {
-        let steps = (POINTS * elapsed / self.scene.period()).ceil().max(FEWEST) as u32;
-        self.points.extend((0..=steps).map(|step| {
-            let after = elapsed * f64::from(step) / f64::from(steps);
-            let state = arc.at(after);
-            let Start { position, velocity } = state;
-            let force = contact_force(self.scene, arc.phase, state, arc.drive(after));
-            [arc.begin() + after, position, velocity, force]
-        }));
-    }
+/// The points of an arc of a motion, both ends among them.
+fn points(scene: &Scene, arc: &Arc<'_>, elapsed: f64) -> Vec<[f64; 4]> {
+    let steps = (POINTS * elapsed / scene.period()).ceil().max(FEWEST) as u32;
+    let point = |step| {
+        let after = elapsed * f64::from(step) / f64::from(steps);
+        let state = arc.at(after);
+        let Start { position, velocity } = state;
+        let force = contact_force(scene, arc.phase, state, arc.drive(after));
+        [arc.begin() + after, position, velocity, force]
+    };
+    (0..=steps).map(point).collect()
 }
 
 /// What the mass meets on its way, and where.

@@ -6,19 +6,17 @@ use softstop::{Dimension, Machine, Parameter, Scene};
 use softstop_console::interrupt;
 use softstop_draw::{Axis, Layer, Mark, Panel, style};
 use softstop_dynamics::continuation::TestFunction;
-use softstop_dynamics::zone::ZoneEnd;
 use softstop_dynamics::{Zone, parallel, zone};
 
 use super::velocity;
 use crate::design::{Design, Problem};
 use crate::optimize::reference::Reference;
 use crate::optimize::study::Study;
-use crate::page::branches::Motions;
+use crate::page::branches::{BORDERS, Motions};
 use crate::page::figure::{
     BESIDE, BOUND, DESIGN, Figure, Section, UNSTABLE, WIDE, bounds, lines, pieces,
 };
 use crate::page::words::quantity;
-use crate::placed;
 use crate::robust::{self, AbsoluteTolerance, Tolerances};
 
 /// Half the size of the marks of designs and references.
@@ -28,12 +26,6 @@ const BESIDE_MARK: f64 = 6.0;
 const BAND: f64 = 0.35;
 const ALLOWED: f64 = 0.3;
 const MARGIN: f64 = 0.15;
-
-/// The frequency in rad/s of an end of a zone that is neither fold nor flip.
-fn ends_otherwise(end: &ZoneEnd) -> Option<f64> {
-    let is_named = end.is_critical(TestFunction::Fold) || end.is_critical(TestFunction::Flip);
-    (!is_named).then_some(end.frequency)
-}
 
 /// The motions of the design's machine, those of references, and the band of machines within the tolerances.
 pub fn response(
@@ -75,14 +67,14 @@ pub fn response(
         let band = band.iter().map(|[x, low, high]| (*x, [*low, *high]));
         Layer::band(band, style::OPTIMUM, BAND).named("within the tolerances")
     }));
-    let ends = [
-        ("g₀", placed::grazing(&design.zone)),
-        ("s_SN", placed::fold(&design.zone)),
-        ("s_PD", motions.flip),
-        ("end of the zone", ends_otherwise(&design.zone.high)),
-    ];
-    let ends = ends.map(|(name, at)| Some((name, own(at?))));
-    let ends: Vec<(&str, f64)> = ends.into_iter().flatten().collect();
+    let high = &design.zone.high;
+    let is_border = [TestFunction::Fold, TestFunction::Flip].map(|test| high.is_critical(test));
+    let end = (!is_border.contains(&true)).then_some(high.frequency);
+    let ends = BORDERS.into_iter().zip(motions.borders);
+    let ends = ends.chain([("end of the zone", end)]);
+    let ends: Vec<(&str, f64)> = ends
+        .filter_map(|(name, at)| Some((name, own(at?))))
+        .collect();
     layers.extend(bounds(&ends, BOUND));
     layers.extend(curves.iter().map(|it| it.layer()));
     for it in references {

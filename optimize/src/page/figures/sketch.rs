@@ -121,11 +121,8 @@ impl Sketch<'_> {
 
     fn damper(&mut self, from: f64, to: f64) {
         let middle = 0.5 * (from + to);
-        let cup = [(-18.0, -11.0), (18.0, -11.0), (18.0, 11.0), (-18.0, 11.0)];
-        let mut cup = cup.map(|(x, y)| (middle + x, DAMPER + y));
-        cup.rotate_left(1);
-        cup.reverse();
-        self.line(&cup, THIN);
+        let cup = [(-18.0, -11.0), (-18.0, 11.0), (18.0, 11.0), (18.0, -11.0)];
+        self.line(&cup.map(|(x, y)| (middle + x, DAMPER + y)), THIN);
         self.line(&[(from, DAMPER), (middle - 4.0, DAMPER)], THIN);
         self.line(
             &[(middle - 4.0, DAMPER - 8.0), (middle - 4.0, DAMPER + 8.0)],
