@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::slice;
 
 use anyhow::{Context, Result, ensure};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use softstop::{Machine, Start};
 use softstop_console::arguments::MachineArguments;
 use softstop_console::failure::Failure;
@@ -95,8 +96,8 @@ pub struct FmuArguments {
     #[arg(long, value_name = "FILE.fmu")]
     pub output: Option<PathBuf>,
     /// Version of FMI
-    #[arg(long, value_enum, value_name = "VERSION", default_value = "2")]
-    pub fmi: Version,
+    #[arg(long, value_parser = version_parser(), value_name = "VERSION", default_value = "2")]
+    pub fmi: Standard,
     /// Tell of model exchange by FMI 2.0, too, which some importers then choose; FMI 3.0 always does
     #[arg(long)]
     pub exchange: bool,
@@ -108,24 +109,14 @@ pub struct FmuArguments {
     pub arrays: bool,
 }
 
-/// A version of FMI, as it is asked for.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Version {
-    /// FMI 2.0
-    #[value(name = "2")]
-    Two,
-    /// FMI 3.0
-    #[value(name = "3")]
-    Three,
-}
-
-impl From<Version> for Standard {
-    fn from(version: Version) -> Self {
-        match version {
-            Version::Two => Self::Fmi2,
-            Version::Three => Self::Fmi3,
-        }
-    }
+/// The parser of a version of FMI, `2` or `3`.
+pub fn version_parser() -> impl TypedValueParser<Value = Standard> {
+    let two = PossibleValue::new("2").help("FMI 2.0");
+    let three = PossibleValue::new("3").help("FMI 3.0");
+    PossibleValuesParser::new([two, three]).map(|version| match &*version {
+        "2" => Standard::Fmi2,
+        _ => Standard::Fmi3,
+    })
 }
 
 /// Packs the machine.
@@ -140,20 +131,18 @@ pub fn run(arguments: &FmuArguments) -> Result<(), Failure> {
         ("--impact-clock", arguments.impact_clock),
         ("--arrays", arguments.arrays),
     ];
-    if matches!(arguments.fmi, Version::Two)
+    if arguments.fmi == Standard::Fmi2
         && let Some((option, _)) = of_three.iter().find(|(_, is_asked)| *is_asked)
     {
         return Err(Failure::usage(format!("{option} needs --fmi 3")));
     }
     let imprint = imprint(&machine, machine.start);
     let imprint = imprint.map_err(|error| Failure::usage(format!("{error:#}")))?;
-    let imprint = imprint
-        .with_standard(arguments.fmi.into())
-        .with_options(Options {
-            exchange: arguments.exchange,
-            clock: arguments.impact_clock,
-            arrays: arguments.arrays,
-        });
+    let imprint = imprint.with_standard(arguments.fmi).with_options(Options {
+        exchange: arguments.exchange,
+        clock: arguments.impact_clock,
+        arrays: arguments.arrays,
+    });
     let (folder, file) = output::folder_and_file(&place)?;
     let folder = Folder::of_file(folder, file)?;
     folder.stage(file, &packed(&library(imprint.standard())?, &imprint)?)?;

@@ -17,13 +17,14 @@ mod wheel;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::slice;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
 
 use fmu::STANDARDS;
 use run::{cargo, cargo_command, run, stage};
-use softstop_optimize::fmu::Version;
+use softstop_optimize::fmu::{Standard, version_parser};
 
 /// Tasks of the workspace.
 #[derive(Parser)]
@@ -42,8 +43,8 @@ enum Task {
     /// piercing-machine-fmi3.ssp at the top level
     Fmu {
         /// Only those for this version of FMI
-        #[arg(long, value_enum, value_name = "VERSION")]
-        fmi: Option<Version>,
+        #[arg(long, value_parser = version_parser(), value_name = "VERSION")]
+        fmi: Option<Standard>,
         /// As it is shipped: optimized as a whole, and for any Linux with version 2.17 of the C library or a
         /// later one; without it the library of the daily build, for this machine's C library
         #[arg(long)]
@@ -108,8 +109,7 @@ fn run_task(task: &Task) -> Result<()> {
             all_targets,
         } => {
             fmu::write_description()?;
-            let one = fmi.map(|version| [version.into()]);
-            let standards = one.as_ref().map_or(&STANDARDS[..], |one| &one[..]);
+            let standards = fmi.as_ref().map_or(&STANDARDS[..], slice::from_ref);
             if *all_targets {
                 fmu::write_shipped_for_all(standards)
             } else if *dist {

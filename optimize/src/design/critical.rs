@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 use softstop::Parameter;
-use softstop_dynamics::slopes;
+use softstop_dynamics::{CycleMetrics, slopes};
 
 use super::Design;
 use super::constraint::Limit;
@@ -18,7 +18,7 @@ use super::reach::{reserve, unreached};
 use super::requirement::{Requirement, Scope, sign};
 use super::slope::Slope;
 use super::within::Rows;
-use crate::robust::Neighbours;
+use crate::robust::{Neighbours, rates};
 
 /// What a machine is extreme in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -188,8 +188,12 @@ impl CriticalMachines {
             match (requirement, target) {
                 (Some(requirement), Target::Bound(_, side)) => {
                     let bound = Limit::Required(figure, *side);
+                    let mut sides = requirement.sides().filter(|(own, _)| own == side);
                     let (limit, slope) = match of {
-                        Some(of) => (bound, of.inside(requirement, *side)),
+                        Some(of) => {
+                            let own = sides.next();
+                            (bound, own.map(|(_, it)| of.beyond(it, sign(*side))))
+                        }
                         // The motion is lost on the way there.
                         None => (Limit::Loss, Some(reserve(about, &spread, at)?)),
                     };
@@ -247,15 +251,6 @@ impl Problem {
     }
 }
 
-impl Slope {
-    /// How far inside a requirement's bound it lies on one side, in units of the bound; none if there is no such bound.
-    fn inside(&self, requirement: &Requirement, side: Sense) -> Option<Self> {
-        let mut sides = requirement.sides();
-        let (_, bound) = sides.find(|(own, _)| *own == side)?;
-        Some(self.beyond(bound, sign(side)))
-    }
-}
-
 /// The value of a figure of the machine at a place of the box, with its derivatives by the coordinates of the search.
 fn slope_at(
     about: &Linearization<'_>,
@@ -271,7 +266,8 @@ fn slope_at(
         let mut parameters = rows.parameters().to_vec();
         parameters.push(Parameter::Frequency);
         let slopes = slopes::differentiate_orbit(&orbit, &parameters).ok()?;
-        let by = spread.rates(figure, &slopes, &orbit)?;
+        let stroke = CycleMetrics::of(&orbit).ok()?;
+        let by = rates((figure, spread.cost()), &slopes, (&orbit, &stroke))?;
         Some(rows.chain(&parameters, &by))
     };
     let differenced = || {

@@ -7,6 +7,7 @@ use argmin::solver::brent::BrentOpt;
 use softstop_dynamics::BranchPoint;
 
 use super::conflict::{conflict, short};
+use super::coordinates::keep_best;
 use super::figure::Figure;
 use super::judge::violation;
 use super::problem::Problem;
@@ -57,7 +58,7 @@ pub(super) fn best(zoned: &Zoned<'_>) -> Result<Design, Infeasible> {
 /// The motions along a zone.
 struct Line<'a> {
     zoned: &'a Zoned<'a>,
-    /// The best that was met: its cost, its place, and its design unless only the velocity counts.
+    /// The best that was met: its score, its place, and its design unless only the velocity counts.
     best: RefCell<Option<(f64, f64, Option<Design>)>>,
     /// What the one lacks that is nearest to feasible ones.
     lack: RefCell<Option<Infeasible>>,
@@ -68,10 +69,9 @@ impl Line<'_> {
     fn cost_at(&self, place: f64) -> f64 {
         match self.score_at(place) {
             Ok((score, design)) => {
-                let mut best = self.best.borrow_mut();
-                if best.as_ref().is_none_or(|(known, ..)| -score < *known) {
-                    *best = Some((-score, place, design));
-                }
+                keep_best(&mut self.best.borrow_mut(), (score, place, design), |it| {
+                    it.0
+                });
                 -score
             }
             Err(found) => {

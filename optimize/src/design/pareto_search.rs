@@ -5,8 +5,7 @@
 
 use softstop_dynamics::parallel;
 
-use super::alternative::Alternative;
-use super::pareto::{Pareto, Tally, undominated};
+use super::pareto::{Alternative, Pareto, Tally, undominated};
 use super::posed::{Posed, Ranges, levels};
 use super::problem::{Objective, Problem};
 use super::search::{Found, LEAST_EVALUATIONS, Quiet, SearchError, Settings, Watch, search_from};

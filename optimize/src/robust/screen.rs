@@ -6,6 +6,7 @@ use softstop_dynamics::parallel;
 use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::Tolerances;
+use crate::design::cost::value_of_motion;
 use crate::design::requirement::Requirement;
 
 /// How many times the largest misfit of a polynomial a value has to lie within its bounds to be within them without doubt.
@@ -60,8 +61,8 @@ impl<'a> Screen<'a> {
     fn values(&self, at: &[f64], motion: Option<Settled>) -> Option<Vec<f64>> {
         let orbit = Orbit::find_near(&self.spread.scene(at), motion?.state).ok()?;
         let stroke = CycleMetrics::of(&orbit).ok()?;
-        let spread = self.spread;
-        let value = |it: &Requirement| spread.value_of_stroke(it.figure, &orbit, &stroke);
+        let cost = self.spread.cost();
+        let value = |it: &Requirement| value_of_motion((it.figure, cost), &orbit, &stroke);
         self.required.iter().map(value).collect()
     }
 

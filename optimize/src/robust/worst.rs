@@ -2,16 +2,17 @@
 
 use crate::order::sort_rising;
 use crate::spread::{in_coordinates, varied};
-use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::{Figure, Sense};
 use softstop_dynamics::monitor::Monitor;
 use softstop_dynamics::orbit::OrbitError;
 use softstop_dynamics::parallel;
 use softstop_dynamics::slopes;
+use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::Tolerances;
 use super::corners::corners;
 use super::neighbours::Neighbours;
+use super::rates::rates;
 use crate::design::requirement::sign;
 
 /// Steps towards the worst machine, and halvings of one.
@@ -92,7 +93,10 @@ impl Search<'_> {
             let Some(start) = self.point(at.clone(), orbit.clone()) else {
                 continue;
             };
-            best = self.worse(best, self.descend(start)?);
+            let other = self.descend(start)?;
+            if self.sign * other.value < self.sign * best.value {
+                best = other;
+            }
         }
         let flipped = |best: &Worst| {
             (0..2 * dimensions).find_map(|index| {
@@ -108,13 +112,6 @@ impl Search<'_> {
             best = self.descend(start)?;
         }
         Ok(best)
-    }
-
-    fn worse(&self, one: Worst, other: Worst) -> Worst {
-        match self.sign * other.value < self.sign * one.value {
-            true => other,
-            false => one,
-        }
     }
 
     /// What is least where a motion is worst.
@@ -137,7 +134,8 @@ impl Search<'_> {
         let exact = || {
             let spread = self.neighbours.spread;
             let slopes = slopes::differentiate_orbit(orbit, &varied(spread, at)).ok()?;
-            let by = spread.rates(self.figure, &slopes, orbit)?;
+            let stroke = CycleMetrics::of(orbit).ok()?;
+            let by = rates((self.figure, spread.cost()), &slopes, (orbit, &stroke))?;
             Some(in_coordinates(spread, at, &slopes.parameters, &by))
         };
         exact().or_else(|| (0..at.len()).map(slope).collect())

@@ -1,13 +1,11 @@
 //! A machine with its tolerances: a box about it.
 
 use softstop::{Allowed, Machine, Parameter, Scene, SceneError};
+use softstop_dynamics::Orbit;
 use softstop_dynamics::figure::Figure;
-use softstop_dynamics::slopes::Slopes;
-use softstop_dynamics::{CycleMetrics, Orbit};
 
 use super::distribution::Distribution;
-use crate::design::cost::{Cost, value_of_motion, value_of_orbit};
-use crate::robust::rates;
+use crate::design::cost::{Cost, value_of_orbit};
 
 /// How far a parameter may lie from its design value, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,20 +61,9 @@ impl Tolerances {
         value_of_orbit((figure, self.cost.as_ref()), orbit)
     }
 
-    /// [`Tolerances::value`] of a motion whose stroke is known.
-    pub(crate) fn value_of_stroke(
-        &self,
-        figure: Figure,
-        orbit: &Orbit,
-        stroke: &CycleMetrics,
-    ) -> Option<f64> {
-        value_of_motion((figure, self.cost.as_ref()), orbit, stroke)
-    }
-
-    /// The derivatives of a figure of a motion by the parameters of its slopes; none if it has no exact ones.
-    pub(crate) fn rates(&self, figure: Figure, slopes: &Slopes, orbit: &Orbit) -> Option<Vec<f64>> {
-        let stroke = CycleMetrics::of(orbit).ok()?;
-        rates((figure, self.cost.as_ref()), slopes, (orbit, &stroke))
+    /// The formula of what its machines cost.
+    pub(crate) fn cost(&self) -> Option<&Cost> {
+        self.cost.as_ref()
     }
 
     /// The tolerances, in the order of the coordinates.

@@ -10,7 +10,8 @@ use crate::design::front::Front;
 use crate::page::figure::{Figure, HALF, Section};
 use crate::page::words::capital;
 
-const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
+/// The line through designs.
+pub(super) const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
 
 /// The picture.
 pub(super) fn front(problem: &Problem, front: &Front) -> Figure {

@@ -1,7 +1,8 @@
 //! The designs of a front: each pair of what is sought.
 
-use softstop_draw::{Align, Axis, Layer, Mark, Panel, Stroke, around, style};
+use softstop_draw::{Align, Axis, Layer, Mark, Panel, around, style};
 
+use super::front::LINED;
 use crate::design::Problem;
 use crate::design::figure::Sense;
 use crate::design::pareto::Pareto;
@@ -9,7 +10,6 @@ use crate::design::problem::Objective;
 use crate::page::figure::{Figure, HALF, Section, WIDE};
 use crate::pareto::format_tally;
 
-const LINED: Stroke = Stroke::solid(style::DESIGN, 1.6);
 /// Height of a row of panels.
 const ROW: f64 = 400.0;
 /// Room about the designs, as a share of their range, and the share of it within which one number stands for all.
