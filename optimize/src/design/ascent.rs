@@ -1,10 +1,10 @@
 //! The ascent from a point of the search to the best design that derivatives lead to: a nonlinear program over the axes and
-//! the place in the zone, for sequential quadratic programming (Kraft 1988, the crate `slsqp`). Where the worst machine within the
-//! tolerances counts, one more coordinate of each operating point is a level below the scores of all its machines that are known.
+//! the place in the zone, for [`Slsqp`] or another solver of `argmin`. Where the worst machine within the tolerances counts,
+//! one more coordinate of each operating point is a level below the scores of all its machines that are known.
 
 use std::cell::RefCell;
 
-use slsqp::{Func, StopTols, minimize};
+use argmin::core::{CostFunction, Error, Executor, Gradient, Jacobian, Operator};
 
 use super::Design;
 use super::coordinates::{Candidate, Coordinates, keep_best};
@@ -13,6 +13,7 @@ use super::local::{Local, local};
 use super::problem::Problem;
 use super::requirement::Scope;
 use super::slope::{Slope, unit_row};
+use super::slsqp::Slsqp;
 
 /// Designs that one run looks at, at most.
 const MAX_EVALUATIONS: usize = 60;
@@ -45,14 +46,24 @@ pub(super) fn ascend_from(
     known: &CriticalMachines,
     (unit, place): (&[f64], f64),
 ) -> Option<Candidate> {
-    let (program, mut start) = Program::new(problem, known, unit, place)?;
+    let (mut program, mut start) = Program::new(problem, known, unit, place)?;
     if start.is_empty() {
         return program.best.into_inner();
     }
     // A run may end where rounding or a border of the motions stops its line search: another goes on from the best design.
     for _ in 0..MAX_RUNS {
         let before = program.best_score();
-        program.minimize(&start);
+        let solver = Slsqp {
+            bounds: program.bounds(),
+            constraints: program.constraints,
+            max_evaluations: MAX_EVALUATIONS,
+            cost_tolerance: COST_TOLERANCE,
+            step_tolerance: STEP_TOLERANCE,
+        };
+        let executor = Executor::new(program, solver);
+        let executor = executor.configure(|state| state.param(start).max_iters(1));
+        let found = executor.timer(false).run().ok()?;
+        program = found.problem.problem?;
         let best = program.best_score();
         if best <= before * (1.0 + LEAST_GAIN) {
             break;
@@ -63,7 +74,7 @@ pub(super) fn ascend_from(
 }
 
 /// A nonlinear program: minus the score of the motion at a place of the zone of a machine, in units of the score at the
-/// start, or minus the mean of the levels, and constraints that hold where they are at most 0.
+/// start, or minus the mean of the levels, and constraints that hold where they are not positive.
 struct Program<'a> {
     problem: &'a Problem,
     known: &'a CriticalMachines,
@@ -144,7 +155,7 @@ impl<'a> Program<'a> {
     }
 
     /// The scores that each level lies below, with its index.
-    fn scores<'b>(&self, of: &'b Local) -> impl Iterator<Item = (usize, &'b Slope)> + use<'b> {
+    fn scores<'b>(&self, of: &'b Local) -> impl Iterator<Item = (usize, &'b Slope)> {
         let points = of.scores.iter().take(self.weights.len()).enumerate();
         points.flat_map(|(index, it)| it.all().map(move |score| (index, score)))
     }
@@ -173,100 +184,89 @@ impl<'a> Program<'a> {
         Some(found)
     }
 
-    /// A value at a point, which is computed once for all that the solver asks of it, with its derivatives.
-    fn with(&self, at: &[f64], take: impl FnOnce(&Local) -> Option<Slope>) -> Slope {
-        let own = &at[..self.levels_at(at)];
-        let is_last = self.last.borrow().0 == own;
+    /// Computes a point once for all that a solver asks of it.
+    fn with<T>(&self, at: &[f64], take: impl FnOnce(Option<&Local>) -> T) -> T {
+        let at = &at[..self.levels_at(at)];
+        let is_last = self.last.borrow().0 == at;
         if !is_last {
-            self.last.replace((own.to_vec(), self.compute(own)));
+            self.last.replace((at.to_vec(), self.compute(at)));
         }
-        let found = self.last.borrow().1.as_ref().and_then(take);
-        found.unwrap_or_else(|| Slope {
-            value: NOWHERE,
-            by: vec![0.0; at.len()],
-        })
+        take(self.last.borrow().1.as_ref())
     }
+}
 
-    /// A run of quadratic programs from a point, whose best design is kept: also of a run that fails, by rounding mostly.
-    fn minimize(&self, start: &[f64]) {
-        let told = |found: Slope, gradient: Option<&mut [f64]>| {
-            if let Some(gradient) = gradient {
-                gradient.copy_from_slice(&found.by);
-            }
-            found.value
+impl CostFunction for Program<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, at: &Vec<f64>) -> Result<f64, Error> {
+        let cost = |it: &Local| match self.weights.is_empty() {
+            true => -it.objective(&self.problem.objective).value / self.score,
+            false => -self.mean_level(at).value,
         };
-        let objective = |at: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
-            told(self.with(at, |it| Some(self.cost(it, at))), gradient)
-        };
-        let constraint = |index: usize| {
-            move |at: &[f64], gradient: Option<&mut [f64]>, (): &mut ()| {
-                let of = |it: &Local| self.constraints_at(it, at).nth(index);
-                told(self.with(at, of), gradient)
-            }
-        };
-        let constraints: Vec<_> = (0..self.constraints).map(constraint).collect();
-        let constraints: Vec<&dyn Func<()>> = constraints.iter().map(|it| it as _).collect();
-        let tolerances = StopTols {
-            ftol_rel: COST_TOLERANCE,
-            xtol_abs: vec![STEP_TOLERANCE; start.len()],
-            ..StopTols::default()
-        };
-        let (bounds, tolerances) = (self.bounds(), Some(tolerances));
-        let _ = minimize(
-            objective,
-            start,
-            &bounds,
-            &constraints,
-            (),
-            MAX_EVALUATIONS,
-            tolerances,
-        );
+        Ok(self.with(at, |found| found.map_or(NOWHERE, cost)))
     }
+}
 
-    fn cost(&self, found: &Local, at: &[f64]) -> Slope {
-        match self.weights.is_empty() {
-            true => {
-                let objective = found.objective(&self.problem.objective);
-                Slope {
-                    value: -objective.value / self.score,
-                    by: scaled(&objective, -1.0 / self.score).collect(),
-                }
-            }
+impl Gradient for Program<'_> {
+    type Param = Vec<f64>;
+    type Gradient = Vec<f64>;
+
+    fn gradient(&self, at: &Vec<f64>) -> Result<Vec<f64>, Error> {
+        let nowhere = || vec![0.0; at.len()];
+        let gradient = |it: &Local| match self.weights.is_empty() {
+            true => scaled(&it.objective(&self.problem.objective), -1.0 / self.score),
             false => {
-                let mean = self.mean_level(at);
-                let own = (0..self.levels_at(at)).map(|_| 0.0);
-                Slope {
-                    value: -mean.value,
-                    by: own.chain(scaled(&mean, -1.0)).collect(),
-                }
+                let mut gradient = vec![0.0; self.levels_at(at)];
+                gradient.extend(scaled(&self.mean_level(at), -1.0));
+                gradient
             }
-        }
+        };
+        Ok(self.with(at, |found| found.map_or_else(nowhere, gradient)))
     }
+}
 
-    /// What must be at most 0: how far short of its bound each constraint is, and how far above a score the level is that lies
-    /// below it.
-    fn constraints_at<'b>(
-        &'b self,
-        found: &'b Local,
-        at: &'b [f64],
-    ) -> impl Iterator<Item = Slope> + 'b {
-        let levels = |own| unit_row(self.weights.len(), own);
-        let constraints = found.constraints.iter().map(move |it| Slope {
-            value: SLACK - it.slope.value,
-            by: scaled(&it.slope, -1.0).chain(levels(None)).collect(),
-        });
-        let scores = self.scores(found).map(move |(index, score)| {
-            let by = scaled(score, -1.0 / self.score);
-            Slope {
-                value: at[self.levels_at(at) + index] - score.value / self.score,
-                by: by.chain(levels(Some(index))).collect(),
-            }
-        });
-        constraints.chain(scores)
+impl Operator for Program<'_> {
+    type Param = Vec<f64>;
+    type Output = Vec<f64>;
+
+    fn apply(&self, at: &Vec<f64>) -> Result<Vec<f64>, Error> {
+        let values = |it: &Local| {
+            let constraints = it.constraints.iter().map(|one| SLACK - one.slope.value);
+            let first = self.levels_at(at);
+            let above =
+                |(index, score): (usize, &Slope)| at[first + index] - score.value / self.score;
+            constraints.chain(self.scores(it).map(above)).collect()
+        };
+        Ok(self.with(at, |found| {
+            found.map_or_else(|| vec![NOWHERE; self.constraints], values)
+        }))
+    }
+}
+
+impl Jacobian for Program<'_> {
+    type Param = Vec<f64>;
+    type Jacobian = Vec<Vec<f64>>;
+
+    fn jacobian(&self, at: &Vec<f64>) -> Result<Vec<Vec<f64>>, Error> {
+        let by_levels = |row: Vec<f64>, own: Option<usize>| {
+            let levels = unit_row(self.weights.len(), own);
+            row.into_iter().chain(levels).collect()
+        };
+        let rows = |it: &Local| {
+            let constraints = it.constraints.iter();
+            let constraints = constraints.map(|one| by_levels(scaled(&one.slope, -1.0), None));
+            let scores = self.scores(it);
+            let scores =
+                scores.map(|(index, one)| by_levels(scaled(one, -1.0 / self.score), Some(index)));
+            constraints.chain(scores).collect()
+        };
+        let nowhere = || vec![vec![0.0; at.len()]; self.constraints];
+        Ok(self.with(at, |found| found.map_or_else(nowhere, rows)))
     }
 }
 
 /// Derivatives times a factor.
-fn scaled(slope: &Slope, factor: f64) -> impl Iterator<Item = f64> {
-    slope.by.iter().map(move |by| factor * by)
+fn scaled(slope: &Slope, factor: f64) -> Vec<f64> {
+    slope.by.iter().map(|by| factor * by).collect()
 }

@@ -45,6 +45,7 @@ pub mod search;
 pub mod share;
 pub mod share_of_starts;
 pub mod slope;
+pub mod slsqp;
 pub mod solution;
 pub mod space;
 mod survey;
