@@ -3,6 +3,8 @@
 
 #[path = "study/columns.rs"]
 mod columns;
+#[path = "study/settled.rs"]
+mod settled;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! Recurrence: whether a row of stroboscopic states returns, and after which period.
 
+use crate::tolerance::ROUNDING;
 use softstop::Start;
 
 /// Distance within which a state has returned unless it is said otherwise, in units of the motion's size.
@@ -87,6 +88,12 @@ pub(crate) fn find_settled_period(frequency: f64, states: &[Start], share: f64) 
         }
         None => (1..=(states.len() - 1) / 4).find(|apart| dies(*apart, DECAY_SHARES.1)),
     }
+}
+
+/// True if a row of states returns after so many drive periods in its second half, to rounding.
+pub(crate) fn returns_to_rounding(frequency: f64, states: &[Start], periods: usize) -> bool {
+    let least = ROUNDING * motion_size(frequency, states);
+    squared_gaps_by_half(frequency, states, periods)[1] <= least * least
 }
 
 /// Largest squared distances of states so many periods apart, in each half of a row.

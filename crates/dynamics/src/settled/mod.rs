@@ -37,7 +37,7 @@ pub struct Settling {
     pub watched: u64,
     /// Most drive periods: what has not returned is followed on to twice as many, again and again, up to these.
     pub longest: u64,
-    /// Distance within which a state has returned, in units of the motion's size.
+    /// Distance within which a state has returned, in units of the motion's size; then its orbit has to be confirmed.
     pub tolerance: f64,
 }
 
@@ -102,7 +102,7 @@ impl Settling {
                     continue;
                 }
                 let scene = ensemble.machines[member.machine].scene();
-                let now = SettledMotion::of(scene, member, self.tolerance, followed);
+                let now = SettledMotion::confirmed(scene, member, self.tolerance, followed);
                 if now.periods.is_some() {
                     member.status = MemberStatus::Arrived(0);
                 }

@@ -4,9 +4,15 @@ use std::f64::consts::LN_10;
 
 use crate::ensemble::Member;
 use crate::motion::MotionKind;
-use crate::orbit::recurrence::find_settled_period;
-use crate::orbit::{ImpactPattern, Regime, StroboscopicMap, smallest_period};
+use crate::orbit::recurrence::{find_settled_period, returns_to_rounding};
+use crate::orbit::{ImpactPattern, Orbit, Regime, StroboscopicMap, smallest_period};
+use crate::tolerance::SAME;
+use nalgebra::Vector2;
 use softstop::{CheckedScene, Instant, MotionError, Scene, Start};
+
+/// Largest distance of an orbit from where the last change of a motion puts it, in units of that place's distance from the
+/// motion: so far off is what lies halfway from a stable orbit to the unstable one that it meets at a fold.
+const MAX_PREDICTION_ERROR: f64 = 1.0;
 
 /// What a motion that was followed has settled on.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,12 +39,71 @@ pub struct SettledMotion {
 impl SettledMotion {
     /// What the record of a member, followed for so many drive periods in all, shows its motion to have settled on.
     pub(crate) fn of(scene: &Scene, member: &Member, tolerance: f64, followed: u64) -> Self {
+        let states = &member.states;
+        let found = find_settled_period(scene.excitation.frequency, states, tolerance)
+            .map(|periods| smallest_period(scene, states, periods));
+        Self::of_record(member, found, followed)
+    }
+
+    /// What the record of a member shows its motion to have settled on, if that is confirmed: its states return to rounding,
+    /// or Newton's method leads from the last one to a stable orbit, which then takes the place of what was seen.
+    pub(super) fn confirmed(scene: &Scene, member: &Member, tolerance: f64, followed: u64) -> Self {
+        let seen = Self::of(scene, member, tolerance, followed);
+        let states = &member.states;
+        let is_open = |periods: &u64| {
+            !returns_to_rounding(scene.excitation.frequency, states, *periods as usize)
+        };
+        match seen.periods.filter(is_open) {
+            Some(periods) => seen
+                .orbit_reached(scene, periods)
+                .and_then(|orbit| seen.on_orbit(&orbit).ok())
+                .unwrap_or_else(|| Self::of_record(member, None, followed)),
+            None => seen,
+        }
+    }
+
+    /// The stable orbit with the impacts of a settled motion that Newton's method reaches from its end, if it is where the
+    /// last change of the state puts it: M (1 - M)^-1 times that change away, with the orbit's monodromy matrix M.
+    fn orbit_reached(&self, scene: &Scene, periods: u64) -> Option<Orbit> {
+        let orbit = Orbit::find_periodic(scene, self.end.into(), periods).ok()?;
+        let monodromy = &orbit.monodromy;
+        let rounds = periods / orbit.periods;
+        let has_impacts = orbit.impacts.len() as u64 * rounds == self.instants.len() as u64;
+        let earlier = (periods - orbit.periods).checked_sub(1);
+        let earlier = earlier.map_or(self.from, |index| self.states[index as usize]);
+        let end = Vector2::from(self.end);
+        let gap = orbit.state() - end;
+        let predicted = monodromy.matrix * monodromy.resolvent()? * (end - Vector2::from(earlier));
+        let size = |state: Vector2<f64>| orbit.scene.scales().state(&state).norm();
+        let is_predicted = size(gap - predicted) <= MAX_PREDICTION_ERROR * size(predicted);
+        let decays = monodromy.is_stable() && !monodromy.is_neutral();
+        (has_impacts && decays && (is_predicted || size(gap) <= SAME)).then_some(orbit)
+    }
+
+    /// The settled motion on its orbit.
+    fn on_orbit(&self, orbit: &Orbit) -> Result<Self, MotionError> {
+        let mut states: Vec<Start> = orbit.states()?.into_iter().map(Start::from).collect();
+        states.rotate_left(1);
+        let mut velocities: Vec<f64> = orbit.before_impact_velocities().collect();
+        velocities.sort_by(f64::total_cmp);
+        Ok(Self {
+            periods: Some(orbit.periods),
+            velocities,
+            from: orbit.state().into(),
+            end: orbit.state().into(),
+            states,
+            instants: orbit.impacts.iter().map(|touch| touch.instant).collect(),
+            length: orbit.periods,
+            followed: self.followed,
+        })
+    }
+
+    /// What the record of a member shows, of the last period if its motion returns after so many drive periods.
+    fn of_record(member: &Member, found: Option<usize>, followed: u64) -> Self {
         let Member {
             states, impacts, ..
         } = member;
         let watched = states.len() - 1;
-        let found = find_settled_period(scene.excitation.frequency, states, tolerance)
-            .map(|periods| smallest_period(scene, states, periods));
         let length = found.unwrap_or(watched);
         let first = (watched - length) as f64;
         // They are in order of time.

@@ -181,7 +181,7 @@ impl PointEvaluation<'_> {
             Observable::Impacts => Some(self.seen.as_ref()?.impacts_per_period()),
             Observable::Exponent => match self.seen.as_ref()?.periods {
                 Some(_) => Some(Exponents::of(self.orbit()?).per_period[0]),
-                None => self.motion()?.1,
+                None => self.wandering_exponent(),
             },
             Observable::Trace => Some(self.orbit()?.monodromy.trace()),
             Observable::Determinant => Some(self.orbit()?.monodromy.determinant()),
@@ -237,6 +237,19 @@ impl PointEvaluation<'_> {
     fn motion(&self) -> Option<&(MotionKind, Option<f64>)> {
         let motion = || self.seen.as_ref()?.motion_kind(self.map()?).ok();
         self.motion.get_or_init(motion).as_ref()
+    }
+
+    /// The larger exponent of a motion that does not return: of chaos the growth of small differences; of an unsettled motion
+    /// by the larger multiplier, in which differences that turn or shear without growth do not count.
+    fn wandering_exponent(&self) -> Option<f64> {
+        let (kind, growth) = self.motion()?;
+        if *kind != MotionKind::Unsettled {
+            return *growth;
+        }
+        let map = self.map()?;
+        let passage = map.apply(self.seen.as_ref()?.from.into()).ok()?;
+        let [larger, _] = passage.monodromy.multipliers();
+        Some(larger.norm().ln() / map.periods() as f64)
     }
 
     /// z = p/n as impacts and drive periods; complete chatter has no end of impacts.
