@@ -4,8 +4,10 @@ use std::f64::consts::TAU;
 
 /// Share of an interval that each step of the golden section keeps: (sqrt(5) - 1) / 2.
 const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
-/// Steps between samples of a function in a period of its fastest oscillation, or in a quarter of one where the time is shorter.
+/// Steps between samples of a function in a period of its fastest oscillation.
 const SAMPLES_PER_OSCILLATION: f64 = 24.0;
+/// Fewest steps between samples, however short the time.
+const MIN_SAMPLES: f64 = 6.0;
 /// Most steps between samples, however long the time.
 const MAX_SAMPLES: f64 = 4096.0;
 /// Width to which the time of a peak is narrowed, as a share of the step between samples: its value, being flat there, is
@@ -15,7 +17,7 @@ const PEAK_WIDTH: f64 = 1e-8;
 /// The largest value between two times of a function that oscillates no faster than with `rate` in rad/s.
 pub fn largest_value((from, to): (f64, f64), rate: f64, value: impl Fn(f64) -> f64) -> f64 {
     let steps = (SAMPLES_PER_OSCILLATION * rate * (to - from) / TAU)
-        .clamp(SAMPLES_PER_OSCILLATION / 4.0, MAX_SAMPLES)
+        .clamp(MIN_SAMPLES, MAX_SAMPLES)
         .ceil();
     let at = |sample: f64| from + (to - from) * (sample / steps);
     let all: Vec<f64> = (0..=steps as u32)

@@ -30,7 +30,8 @@ fn peak(
     dimension: Dimension,
     of: impl Fn(&RunUpPeaks) -> f64,
 ) -> Option<f64> {
-    Some(machine.to_own(dimension, of(attempt.peaks.as_ref()?)))
+    let value = of(attempt.peaks.as_ref()?);
+    value.is_finite().then(|| machine.to_own(dimension, value))
 }
 
 fn note(machine: &Machine, attempt: &Attempt) -> String {
@@ -40,7 +41,9 @@ fn note(machine: &Machine, attempt: &Attempt) -> String {
         let value = machine.to_own(dimension, value);
         Some(quantity(value, machine.unit(dimension)))
     };
+    let strikes = attempt.peaks.is_some_and(|it| it.stop_force.is_infinite());
     let note = match (attempt.way, angle, attempt.lost) {
+        _ if strikes => Some("strikes the rigid stop".to_owned()),
         (Way::SwitchedOn, Some(angle), _) if attempt.share > 0.0 => Some(format!(
             "from {:.0} % of the drive angles, best at {angle:.2} rad",
             100.0 * attempt.share

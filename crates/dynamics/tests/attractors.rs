@@ -209,3 +209,25 @@ fn a_slow_motion_is_one_motion() {
     let survey = survey(&with_changes("unloaded", "eta=1.15 rho=10 damping=1e5"));
     assert_eq!(names(&survey), ["0"]);
 }
+
+/// Without a suspension 1 - M is singular but for rounding: nothing is known of the error of a state, and a motion that rattles between
+/// two stops is none of those that touch none.
+#[test]
+fn motions_that_are_known_badly_are_not_one() {
+    let rattle = include_str!("../../../docs/scenes/rattle.toml");
+    let mut scene = Machine::from_toml(rattle).expect("a machine").scene;
+    (scene.damping, scene.clearance) = (0.2, 3.0);
+    scene.below.as_mut().expect("a stop below").clearance = 3.0;
+    let survey = survey(&scene);
+    let z_2 = Some(Regime {
+        impacts: 2,
+        periods: 1,
+    });
+    let rattling = survey
+        .attractors
+        .iter()
+        .filter(|it| it.motion.regime() == z_2);
+    let starts: usize = rattling.map(|it| it.starts).sum();
+    let share = starts as f64 / survey.starts as f64;
+    assert!((0.5..0.9).contains(&share), "{share}");
+}

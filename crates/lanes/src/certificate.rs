@@ -25,9 +25,9 @@ pub(super) struct Certificate {
     pub norm: ContractionNorm,
     /// Radius of the ball, in the norm.
     pub radius: f64,
-    /// The next return deviates by the linear map and at most curvature times the square of the deviation, in the
-    /// norm; distance from the limit of the cycle about which this is proven.
+    /// The next return deviates by the linear map and at most this times the square of the deviation, in the norm.
     pub curvature: f64,
+    /// Distance from the limit of the cycle about which this is proven.
     pub aside: f64,
 }
 

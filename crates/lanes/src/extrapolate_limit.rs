@@ -6,9 +6,9 @@ use super::contraction::spectral_radius;
 
 /// Returns of the motion from which the limit is first extrapolated.
 pub(super) const RETURNS_PER_GUESS: usize = 4;
-/// Largest step that may be the last one to the limit, from one return to the next or by Newton's method, velocities in units of
-/// the first return's and angles in rad.
-pub(super) const MAX_LAST_STEP: f64 = 1e-7;
+/// Distance between the last two returns, velocities in units of the first one's and angles in rad, below which the last one is
+/// taken for the limit.
+const SETTLED_DISTANCE: f64 = 1e-8;
 /// Least difference between 1 and the spectral radius of the map of returns: deviations decay at least so much in one.
 pub(super) const MIN_DECAY: f64 = 1e-3;
 
@@ -19,7 +19,7 @@ pub(super) fn extrapolate_limit(
 ) -> Option<(Vector2<f64>, f64)> {
     let [a, b, c] = [0, 1, 2].map(|k| points[k + 1] - points[k]);
     let last = points[RETURNS_PER_GUESS - 1];
-    if c.norm() < MAX_LAST_STEP {
+    if c.norm() < SETTLED_DISTANCE {
         return Some((last, 0.0));
     }
     let area = b.perp(&a);

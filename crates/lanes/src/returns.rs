@@ -24,16 +24,16 @@ use super::certificate::{Certificate, find_ball};
 use super::contraction::{ContractionNorm, spectral_radius};
 use super::cycle::Cycle;
 use super::cycle_state::{Drive, Passage};
-use super::extrapolate_limit::{MAX_LAST_STEP, MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
+use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};
 use super::law::Constants;
 
 /// Largest difference between the time of a return and a whole number of drive periods, in drive periods.
 const MAX_TIME_OFFSET: f64 = 0.25;
 /// Most drive periods between two returns.
 const MAX_PERIODS: f64 = 4.0;
-/// Largest ratio of a distance to another one that counts as much shorter: of a return from the first one, to that of the
-/// return next to it, where motions recur; of a step of Newton's method, to the one before, with which a trial goes on.
-const MAX_SHORT_RATIO: f64 = 0.3;
+/// Largest distance of a return from the first one that counts as a recurrence, as a share of the distance of the return
+/// next to the first.
+const MAX_RECURRENCE_RATIO: f64 = 0.3;
 /// Drive periods from the beginning of a job to the first recording of returns.
 const PERIODS_BEFORE_RECORDING: f64 = 28.0;
 /// Drive periods from a failed attempt to the next recording of returns, before the first growth.
@@ -49,6 +49,11 @@ const MIN_PERIODS_LEFT: f64 = 24.0;
 const MAX_PREDICTION_DISTANCE: f64 = 0.3;
 /// Largest distance between two returns, in these units, from which their limit is extrapolated.
 const MAX_EXTRAPOLATION_DISTANCE: f64 = 0.02;
+/// Largest last step of Newton's method, in these units.
+const MAX_LAST_STEP: f64 = 1e-7;
+/// Largest ratio of a step of Newton's method to the one before with which the trial goes on.
+const MAX_STEP_RATIO: f64 = 0.3;
+
 /// The state of a motion just after an impact.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Return {
@@ -197,8 +202,8 @@ impl Returns {
         let [first, rest @ ..] = self.own_points();
         let away = rest.map(|point| (point - first).norm());
         let recurs = match away {
-            [one, two, _] if two < MAX_SHORT_RATIO * one => 2.0,
-            [one, _, three] if three < MAX_SHORT_RATIO * one => 3.0,
+            [one, two, _] if two < MAX_RECURRENCE_RATIO * one => 2.0,
+            [one, _, three] if three < MAX_RECURRENCE_RATIO * one => 3.0,
             _ => 1.0,
         };
         let every = self.every * recurs;
@@ -316,7 +321,7 @@ impl Returns {
         let limit = tried + step;
         let length = step.norm();
         if length > MAX_LAST_STEP || length.is_nan() {
-            let goes_on = length < MAX_SHORT_RATIO * before && limit.x > 0.0;
+            let goes_on = length < MAX_STEP_RATIO * before && limit.x > 0.0;
             return goes_on.then(|| self.begin_trial(limit, length));
         }
         if spectral_radius(map.trace(), map.determinant()) > 1.0 - MIN_DECAY {
@@ -337,7 +342,7 @@ impl Returns {
             aside,
         };
         if !certificate.is_exact() {
-            return (length < MAX_SHORT_RATIO * before).then(|| self.begin_trial(limit, length));
+            return (length < MAX_STEP_RATIO * before).then(|| self.begin_trial(limit, length));
         }
         Some(self.extrapolate_to_end(&certificate))
     }

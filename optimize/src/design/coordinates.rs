@@ -156,8 +156,8 @@ impl Coordinates {
         both.collect()
     }
 
-    /// Points of the unit cube so far from it, in the direction in which it lies from another one: `distances` tells how far from its
-    /// distance from that.
+    /// Points of the unit cube on the line from another one through it, beyond it by the distances that are told of the distance
+    /// between the two.
     pub(super) fn beyond(
         &self,
         other: &[f64],
@@ -165,12 +165,12 @@ impl Coordinates {
     ) -> [Vec<f64>; 2] {
         let by = self.moved.iter().map(|it| self.unit[*it] - other[*it]);
         let by: Vec<f64> = by.collect();
-        let way = by.iter().map(|it| it * it).sum::<f64>().sqrt();
+        let length = by.iter().map(|it| it * it).sum::<f64>().sqrt();
         let unit: Vec<f64> = by
             .iter()
-            .map(|it| it / way.max(f64::MIN_POSITIVE))
+            .map(|it| it / length.max(f64::MIN_POSITIVE))
             .collect();
-        distances(way).map(|distance| self.moved_by(&unit, distance))
+        distances(length).map(|distance| self.moved_by(&unit, distance))
     }
 
     /// The point of the unit cube so many times a vector away, or the nearest one.

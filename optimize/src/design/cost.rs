@@ -147,10 +147,11 @@ pub fn value_of_orbit((figure, cost): (Figure, Option<&Cost>), orbit: &Orbit) ->
         Figure::Cost => cost?.value(orbit, &CycleMetrics::of(orbit).ok()?),
         _ => figure.of_orbit(orbit).ok()??,
     };
-    value.is_finite().then_some(value)
+    (!value.is_nan()).then_some(value)
 }
 
-/// The value of a figure that a motion tells by itself, or of what its design costs, in SI units; none if there is none.
+/// The value of a figure that a motion tells by itself, or of what its design costs, in SI units, infinite if nothing
+/// bounds it; none if there is none.
 pub fn value_of_motion(
     (figure, cost): (Figure, Option<&Cost>),
     orbit: &Orbit,
@@ -160,5 +161,5 @@ pub fn value_of_motion(
         Figure::Cost => cost?.value(orbit, stroke),
         _ => figure.of_motion(orbit, stroke)?,
     };
-    value.is_finite().then_some(value)
+    (!value.is_nan()).then_some(value)
 }

@@ -1,5 +1,6 @@
 //! A direct search: without derivatives, by points around the best so far (Kolda, Lewis and Torczon 2003).
 
+use std::collections::VecDeque;
 use std::mem;
 
 use softstop_console::interrupt;
@@ -12,14 +13,15 @@ const FIRST: f64 = 0.08;
 /// Factor by which the distance shrinks where nothing better is found, and grows again, up to the first, where something is.
 const SHRINKING: f64 = 0.7;
 /// Rounds in a row that gain nothing, after which the search ends.
-const FRUITLESS: usize = 2;
-/// Steps back to the point from which the best has come in the direction that is tried again.
-const STEPS_BACK: usize = 4;
+const MAX_FRUITLESS_ROUNDS: usize = 2;
+/// Points passed, at most, from the first of which to the best a direction leads that is tried; one tells no
+/// other direction than the last step.
+const MAX_PASSED: usize = 4;
 
-/// A direct search in rounds, each from the first step on until that is shorter than `last`, until these gain nothing any more: `better`
-/// tells the best of some points, if that is better, and whether it gains enough. Directions turn, a step that bettered is gone on with, and
-/// the direction of the last few steps is tried, too: where the border of the machines that have a zone holds a design back, only a narrow
-/// cone of directions leads up.
+/// A direct search in rounds, each from the first step on until that is shorter than `last`, until these gain nothing any
+/// more: `better` tells the best of some points, if that is better, and whether it gains enough. Directions turn, a step
+/// that bettered is gone on with, and the direction of the last few steps is tried, too: where the border of the machines
+/// that have a zone holds a design back, only a narrow cone of directions leads up.
 pub(super) fn direct_search<T>(
     problem: &Problem,
     mut best: T,
@@ -28,7 +30,7 @@ pub(super) fn direct_search<T>(
     better: impl Fn(&[Vec<f64>], &T) -> Option<(T, bool)>,
 ) -> T {
     let mut step = FIRST;
-    let mut passed: Vec<Vec<f64>> = Vec::new();
+    let mut passed: VecDeque<Vec<f64>> = VecDeque::new();
     let mut has_bettered = false;
     let mut has_gained = false;
     let mut fruitless = 0;
@@ -40,17 +42,16 @@ pub(super) fn direct_search<T>(
             };
             step = FIRST;
         }
-        if fruitless == FRUITLESS || interrupt::requested() {
+        if fruitless == MAX_FRUITLESS_ROUNDS || interrupt::requested() {
             break;
         }
         let coordinates = Coordinates::new(problem, unit(&best));
         let mut units = coordinates.around(step, turn);
-        if let Some(before) = passed.last().filter(|_| has_bettered) {
-            units.extend(coordinates.beyond(before, |way| [way, 2.0 * way]));
+        if let Some(before) = passed.back().filter(|_| has_bettered) {
+            units.extend(coordinates.beyond(before, |length| [length, 2.0 * length]));
         }
-        let mut earlier = passed.iter().rev().take(STEPS_BACK).skip(1);
-        if let Some(earlier) = earlier.next_back() {
-            units.extend(coordinates.beyond(earlier, |_| [step, -step]));
+        if let Some(first) = passed.front().filter(|_| passed.len() > 1) {
+            units.extend(coordinates.beyond(first, |_| [step, -step]));
         }
         let found = better(&units, &best);
         has_bettered = found.is_some();
@@ -62,7 +63,10 @@ pub(super) fn direct_search<T>(
         };
         if let Some((better, _)) = found {
             let before = mem::replace(&mut best, better);
-            passed.push(unit(&before).clone());
+            passed.push_back(unit(&before).clone());
+            if passed.len() > MAX_PASSED {
+                passed.pop_front();
+            }
         }
     }
     best

@@ -187,7 +187,7 @@ fn as_required(problem: &Problem, design: Design) -> Result<Design, Infeasible> 
             }
             _ => match &problem.cost {
                 Some(cost) if figure == Figure::Cost => {
-                    format!("objective.cost = {cost:?} is not a number")
+                    format!("objective.cost = {cost:?} has no finite value")
                 }
                 _ => format!("{name} has no value"),
             },

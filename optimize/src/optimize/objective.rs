@@ -184,10 +184,9 @@ pub(super) fn lacks(machine: &Machine, goal: &Goal, figure: Figure) -> Option<St
         {
             Some("strip (piercing.thickness)")
         }
-        Figure::StopForce if matches!(scene.stop, Stop::Rigid { .. }) => {
-            Some("soft stop (stop.model): the force of a rigid one has no bound")
-        }
-        Figure::StopDeflection if matches!(scene.stop, Stop::None | Stop::Rigid { .. }) => {
+        Figure::StopForce | Figure::StopDeflection
+            if matches!(scene.stop, Stop::None | Stop::Rigid { .. }) =>
+        {
             Some("soft stop (stop.model)")
         }
         Figure::RigidGap if scene.rigid.is_none() => Some("rigid stop behind (rigid.travel)"),

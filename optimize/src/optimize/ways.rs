@@ -95,10 +95,8 @@ pub(super) fn ways(
             own(slowest)
         )));
     }
-    if let (Some(force), Stop::Rigid { .. }) = (words.force, &machine.scene.stop) {
-        return Err(usage(&format!(
-            ".force = {force}: the force of a rigid stop has no bound"
-        )));
+    if most_force.is_some() && matches!(machine.scene.stop, Stop::None | Stop::Rigid { .. }) {
+        return Err(usage(".force: this machine has no soft stop (stop.model)"));
     }
     let bounds = Bounds {
         least: words.least.or(words.most.is_none().then_some(1.0)),

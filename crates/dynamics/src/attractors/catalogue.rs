@@ -104,8 +104,14 @@ impl AttractorCatalogue {
             })
         };
         let unit = self.scene.scales().speed();
-        self.orbits.iter().position(|known| {
+        // What rounding leaves of motions that return slowly; nothing is known of it where that is not small.
+        let error = |known: &KnownOrbit| {
             let error = unit * (known.orbit.state_error() + orbit.state_error()) / known.size;
+            let tells = error <= NEAR && known.orbit.regime() == orbit.regime();
+            if tells { error } else { 0.0 }
+        };
+        self.orbits.iter().position(|known| {
+            let error = error(known);
             known.orbit.periods == orbit.periods
                 && (0..known.states.len()).any(|shift| {
                     let (least, largest) = apart(known, shift);

@@ -16,6 +16,8 @@ pub struct Region {
     pub velocity: [f64; 2],
 }
 
+/// Half-size of the region of the pilot's starts, in units of the motion's length (and of w times it).
+const PILOT_HALF_SIZE: f64 = 3.0;
 /// Margin on each side of the region in which motions stay, as a share of it.
 const REGION_MARGIN: f64 = 0.5;
 /// Least half-size of a region of starts, in units of the motion's length.
@@ -26,11 +28,10 @@ const BOX_HALF_SIZE: f64 = 2.0;
 const SEQUENCE_STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
 impl Region {
-    /// The region of the pilot's starts: far and wide about the origin, the least box of all starts with its margin.
+    /// The region of the pilot's starts: far and wide about the origin.
     pub(super) fn pilot(scene: &Scene) -> Self {
         let Scales { length, rate } = scene.motion_scales();
-        let half = BOX_HALF_SIZE * (1.0 + REGION_MARGIN);
-        let (x, v) = (half * length, half * rate * length);
+        let (x, v) = (PILOT_HALF_SIZE * length, PILOT_HALF_SIZE * rate * length);
         Self {
             position: [-x, x],
             velocity: [-v, v],

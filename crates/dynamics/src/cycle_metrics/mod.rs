@@ -108,7 +108,7 @@ impl CycleMetrics {
         let (stop_force, strip_force) = (peak_soft_force(&motion), force(STRIP_PHASES));
         let blows = motion.crossings();
         let blows = blows.filter(|it| matches!(it.kind, CrossingKind::Rebound { .. }));
-        let impulses = blows.map(|it| scene.mass * (it.velocity - it.velocity_after));
+        let impulses = blows.map(|it| scene.mass * (it.velocity - it.velocity_after).abs());
         Ok(Self {
             duration,
             impact_velocity: hardest,

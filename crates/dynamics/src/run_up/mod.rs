@@ -32,8 +32,8 @@ const MAX_RAMP_STEPS: f64 = (RUN_UP_STEPS as u64 * STEP_PERIODS) as f64;
 pub struct RunUpSettings {
     /// The ways that are tried.
     pub ways: Vec<Way>,
-    /// Change of the drive's frequency in rad/s from each drive period to the next, in steps of several periods where these are more than
-    /// 16,384; none for a slow way.
+    /// Change of the drive's frequency in rad/s from each drive period to the next, in steps of several periods
+    /// where these are more than 16,384; none, or one that is not positive, for a slow way.
     pub ramp: Option<f64>,
     /// Largest force in N at the stop that is allowed on the way.
     pub most_force: Option<f64>,
@@ -61,7 +61,8 @@ impl RunUpSettings {
 
     /// Steps of the sweep of a parameter on a way to run up, and drive periods of each.
     fn sweep_steps(&self, parameter: Parameter, (low, high): (f64, f64)) -> (usize, u64) {
-        match self.ramp.filter(|_| parameter == Parameter::Frequency) {
+        let ramp = self.ramp.filter(|rate| *rate > 0.0);
+        match ramp.filter(|_| parameter == Parameter::Frequency) {
             Some(rate) => {
                 let changes = (high - low) / rate;
                 let each = (changes / MAX_RAMP_STEPS).ceil().max(1.0);

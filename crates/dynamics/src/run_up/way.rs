@@ -72,14 +72,14 @@ impl Way {
             Self::SwitchedOn => return None,
             Self::FrequencyRaised => {
                 let slow = if own > 0.0 { own.min(w) } else { w };
-                (slow / START_FACTOR, Direction::Up)
+                (LOW_FREQUENCY * slow, Direction::Up)
             }
-            Self::FrequencyLowered => (START_FACTOR * own.max(w), Direction::Down),
+            Self::FrequencyLowered => (HIGH_FACTOR * own.max(w), Direction::Down),
             Self::ClearanceOpened => (START_CLEARANCE * scene.clearance, Direction::Up),
             Self::AmplitudeRaised => (START_AMPLITUDE * amplitude, Direction::Up),
             Self::AmplitudeLowered => {
                 let grazing = GRAZING_FACTOR * scene.least_clearance() / free_amplitude(scene, w);
-                (amplitude * grazing.max(START_FACTOR), Direction::Down)
+                (amplitude * grazing.max(HIGH_FACTOR), Direction::Down)
             }
         };
         let is_possible = first > 0.0 && first.is_finite();
@@ -87,9 +87,10 @@ impl Way {
     }
 }
 
-/// Factor between the frequency at which a changing one begins and the drive's and the mass's own, both of which lie on one side
-/// of it; least such factor of a falling amplitude.
-const START_FACTOR: f64 = 2.0;
+/// Frequency at which a rising one begins, in units of the lower one of the drive's and the mass's own.
+const LOW_FREQUENCY: f64 = 0.5;
+/// Frequency at which a falling one begins, in units of the higher one; least such factor of an amplitude.
+const HIGH_FACTOR: f64 = 2.0;
 /// Clearance at which an opening one begins, in units of that at work.
 const START_CLEARANCE: f64 = 0.05;
 /// Amplitude at which a rising one begins, in units of that at work.
