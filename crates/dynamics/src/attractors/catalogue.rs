@@ -104,11 +104,13 @@ impl AttractorCatalogue {
             })
         };
         let unit = self.scene.scales().speed();
-        // What rounding leaves of motions that return slowly; nothing is known of it where that is not small.
-        let error = |known: &KnownOrbit| {
-            let error = unit * (known.orbit.state_error() + orbit.state_error()) / known.size;
-            let tells = error <= NEAR && known.orbit.regime() == orbit.regime();
-            if tells { error } else { 0.0 }
+        // What rounding may leave of motions that return slowly; how much, is hardly known where that is not small.
+        let error = |known: &KnownOrbit| match known.orbit.regime() == orbit.regime() {
+            true => {
+                let both = known.orbit.state_error() + orbit.state_error();
+                (unit * both / known.size).min(NEAR)
+            }
+            false => 0.0,
         };
         self.orbits.iter().position(|known| {
             let error = error(known);
