@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde_json::json;
 use softstop::Machine;
+use softstop::internals::{did_you_mean, nearest_name};
 use softstop_console::change::Change;
 use softstop_console::failure::Failure;
 use softstop_console::output::Format;
@@ -151,9 +152,12 @@ impl TryFrom<String> for Motions {
         match text.as_str() {
             "hysteresis" => Ok(Self::Hysteresis),
             "z = 1" => Ok(Self::SingleImpact),
-            _ => Err(format!(
-                "search.zone = {text:?}: must be \"hysteresis\" or \"z = 1\""
-            )),
+            _ => {
+                let meant = did_you_mean(nearest_name(&text, &["hysteresis", "z = 1"]));
+                Err(format!(
+                    "search.zone = {text:?}: must be \"hysteresis\" or \"z = 1\"{meant}"
+                ))
+            }
         }
     }
 }
