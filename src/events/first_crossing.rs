@@ -1,9 +1,9 @@
 //! The scan of an arc for its first crossing, window by window.
 
+use super::first_rise::{GuardPolynomial, Point, Verdict, judge_interval};
 use super::guard::{Guard, earliest_rise};
-use super::isolate::{Candidate, Point, Verdict, judge_interval};
-use super::jets::{GuardEnds, Jets};
-use super::pinpoint::pinpoint_rise;
+use super::node_derivatives::{GuardEnds, Jets};
+use super::single_rise::locate_single_rise;
 use super::step_crossing::crossing_on_step;
 use super::{Found, NextEvent};
 use crate::budget;
@@ -156,7 +156,8 @@ impl Scan<'_> {
             Verdict::NoRise => Some(None),
             Verdict::Unknown => None,
             _ => {
-                let (elapsed, position, velocity) = pinpoint_rise(self.course, guard, nodes, ends)?;
+                let (elapsed, position, velocity) =
+                    locate_single_rise(self.course, guard, nodes, ends)?;
                 Some(Some(Found {
                     elapsed,
                     guard: index,
@@ -268,7 +269,7 @@ impl Scan<'_> {
             if self.cannot_rise(guard, left, right, bounds) {
                 return None;
             }
-            let candidate = Candidate {
+            let candidate = GuardPolynomial {
                 coefficients: &guard.taylor_coefficients(&taylor),
                 bound: left.bound_g4(&self.course.flow, guard, span, bounds),
                 rounding: left.guard_rounding(guard),

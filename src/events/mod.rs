@@ -5,15 +5,15 @@
 //! is found with a certificate. Nothing is concluded from the signs at window ends alone.
 
 mod first_crossing;
+mod first_rise;
 mod guard;
-mod isolate;
-mod jets;
-mod pinpoint;
+mod node_derivatives;
+mod single_rise;
 mod step_crossing;
 
 pub use first_crossing::first_crossing;
 pub use guard::Guard;
-pub(crate) use jets::is_clear_near_start;
+pub(crate) use node_derivatives::is_clear_near_start;
 
 use serde::{Deserialize, Serialize};
 

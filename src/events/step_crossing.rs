@@ -1,7 +1,7 @@
 //! The first crossing on one Taylor step.
 
+use super::first_rise::GuardPolynomial;
 use super::guard::{Guard, earliest_rise};
-use super::isolate::Candidate;
 use super::{Found, NextEvent};
 use crate::flow::{DEGREE, Node, TaylorStep, value};
 
@@ -24,7 +24,7 @@ pub(super) fn crossing_on_step(segment: &TaylorStep, guards: &[Guard], node: Nod
         if series_stays_below(&coefficients, to) {
             return None;
         }
-        let candidate = Candidate {
+        let candidate = GuardPolynomial {
             coefficients: &coefficients,
             bound: fourth_derivative_bound(&coefficients, to),
             rounding: series_rounding(&coefficients, to),

@@ -266,7 +266,7 @@ impl ArcSolution {
         }
     }
 
-    /// Bounds on a linear push per mass to the end of time.
+    /// Bounds on the external force per mass, c + r t, together with the drive, to the end of time: infinite unless r = 0.
     pub(crate) fn push_range(&self) -> (f64, f64) {
         let push = &self.departure.push;
         if push.rate() == 0.0 {

@@ -4,7 +4,7 @@ use std::sync::Arc as Shared;
 
 use super::bounce_train::BounceTrain;
 use super::clock::{Clock, Instant};
-use super::force::Force;
+use super::external_force::Force;
 use super::observer::Arc;
 use super::start::Start;
 use crate::checked_scene::CheckedScene;
@@ -274,7 +274,7 @@ impl Motion {
         }
     }
 
-    /// Sets the course of an arc; between two steps `finer` says more sharply than the departure where the mass is.
+    /// Begins an arc: sets its mode and its course (moving, held or chattering) and forgets the next event; between two steps `finer` says more sharply than the departure where the mass is.
     pub(super) fn begin_course(
         &mut self,
         departure: Departure,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc as Shared;
 
 use super::clock::{Clock, Instant};
-use super::force::{Force, force_from_derivatives};
+use super::external_force::{Force, force_from_derivatives};
 use super::motion::Motion;
 use super::simulation::{Checkpoint, Simulation};
 use super::start::Start;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Observer;
 use super::clock::{Clock, Instant};
-use super::force::force_from_derivatives;
+use super::external_force::force_from_derivatives;
 use super::motion::Motion;
 use super::observer::Impact;
 use super::start::Start;

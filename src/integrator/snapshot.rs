@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bounce_train::BounceTrain;
 use super::clock::{Clock, Instant};
-use super::force::Force;
+use super::external_force::Force;
 use super::motion::Motion;
 use super::observer::Impact;
 use super::simulation::{Checkpoint, Simulation};

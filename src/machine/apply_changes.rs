@@ -3,7 +3,8 @@
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::keys::{SlopeKey, with_near_word};
+use super::keys::SlopeKey;
+use super::misspelt_keys::with_near_word;
 use super::{Machine, UnitSystem, keys};
 use crate::error::MachineError;
 use crate::scene::{Below, Parameter, Stop};

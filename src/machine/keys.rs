@@ -1,9 +1,9 @@
-//! The keys of machine files: those that are no numbers of a scene, and what a misspelt one was meant to be.
+//! The keys of machine files: those that are no numbers of a scene, and the parameters that keys name.
 
 use std::f64::consts::TAU;
 
 use super::{Machine, UnitSystem};
-use crate::error::{MachineError, did_you_mean};
+use crate::error::MachineError;
 use crate::scene::{Dimension, Parameter, Stop};
 
 /// Key of the initial position, in m.
@@ -34,8 +34,8 @@ pub(super) const STOP_BELOW_WORDS: WordKeys = [
     "stop.below.unloading",
 ];
 
-/// True if a stop of this law has one of these keys beside its model.
-fn has_word(key: &str, [_, release, loading, unloading]: WordKeys, stop: &Stop) -> bool {
+/// True if a key belongs to the law of a stop: its release, or its loading and unloading slopes.
+fn is_word_key_of(key: &str, [_, release, loading, unloading]: WordKeys, stop: &Stop) -> bool {
     match stop {
         Stop::KelvinVoigt { .. } => key == release,
         Stop::PiecewiseLinear { .. } => key == loading || key == unloading,
@@ -91,7 +91,7 @@ impl<'a> SlopeKey<'a> {
 }
 
 /// Keys of a file that name no [`Parameter`], of machines in SI units.
-fn other_keys() -> impl Iterator<Item = &'static str> {
+pub(super) fn other_keys() -> impl Iterator<Item = &'static str> {
     let rest = [
         PRELOAD_DEFLECTION,
         POSITION,
@@ -121,74 +121,6 @@ pub(super) fn all_keys(unit_system: UnitSystem) -> Vec<&'static str> {
         .filter(|it| !(ratios && it.is_unit()));
     let further = other_keys().filter(|key| !(ratios && *key == FREQUENCY_HZ));
     numbers.map(Parameter::name).chain(further).collect()
-}
-
-/// The one of these keys that a misspelt one may mean.
-pub(super) fn meant_key(key: &str, keys: &[&'static str]) -> Option<&'static str> {
-    if key.ends_with("rpm") && keys.contains(&FREQUENCY_HZ) {
-        return Some(FREQUENCY_HZ);
-    }
-    let called = Parameter::ALL
-        .into_iter()
-        .find(|parameter| parameter.is_called(key) && keys.contains(&parameter.name()));
-    if let Some(parameter) = called {
-        return Some(parameter.name());
-    }
-    meant_table(key, keys)
-        .map(|(_, meant)| meant)
-        .or_else(|| nearest_name(key, keys))
-        .or_else(|| nearest_name(key, &TASK_TABLES).filter(|_| !key.contains('.')))
-}
-
-/// The table of a key, if none of these keys is in it, and that of [`TASK_TABLES`] that it may mean.
-pub(super) fn meant_table<'a>(
-    key: &'a str,
-    keys: &[&'static str],
-) -> Option<(&'a str, &'static str)> {
-    let (table, _) = key.split_once('.')?;
-    let is_table = |key: &&str| key.split_once('.').is_some_and(|(own, _)| own == table);
-    let meant = nearest_name(table, &TASK_TABLES).filter(|_| !keys.iter().any(is_table))?;
-    Some((table, meant))
-}
-
-/// Most bytes of an unknown name for which the nearest known one is searched; no known name has a third of that.
-const MAX_NAME_LENGTH: usize = 200;
-
-/// The one of these names that a misspelt one may mean; dots part a name, and its last part may stand alone.
-pub fn nearest_name<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    if name.len() > MAX_NAME_LENGTH {
-        return None;
-    }
-    let last = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
-    let distance =
-        |known: &&str| edit_distance(name, known).min(1 + edit_distance(&last(name), &last(known)));
-    let nearest = known.iter().copied().min_by_key(distance)?;
-    (distance(&nearest) <= (name.len() / 3).max(1)).then_some(nearest)
-}
-
-/// What a reader says of an unknown word, with the known one that it may mean; any other message stays as it is.
-pub fn with_near_word(message: &str) -> String {
-    let mut quoted = message.split('`').skip(1).step_by(2);
-    let unknown = quoted.next().filter(|_| message.starts_with("unknown "));
-    let known: Vec<&str> = quoted.collect();
-    let meant = unknown.and_then(|unknown| nearest_name(unknown, &known));
-    message.to_owned() + &did_you_mean(meant)
-}
-
-/// Letters to put in, take out or change to make one word of another.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, letter) in a.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, other) in b.iter().enumerate() {
-            let change = corner + usize::from(letter != *other);
-            corner = row[j + 1];
-            row[j + 1] = change.min(row[j] + 1).min(corner + 1);
-        }
-    }
-    row[b.len()]
 }
 
 /// The parameter that a key states in another way than by its name.
@@ -275,36 +207,18 @@ impl Machine {
             PRELOAD_DEFLECTION => {
                 self.preload_deflection.is_none() && self.value(Parameter::Preload).is_some()
             }
-            key if STOP_WORDS[1..].contains(&key) => has_word(key, STOP_WORDS, &self.scene.stop),
+            key if STOP_WORDS[1..].contains(&key) => {
+                is_word_key_of(key, STOP_WORDS, &self.scene.stop)
+            }
             key if STOP_BELOW_WORDS.contains(&key) => {
-                let is_of =
-                    |stop| key == STOP_BELOW_WORDS[0] || has_word(key, STOP_BELOW_WORDS, stop);
+                let is_of = |stop| {
+                    key == STOP_BELOW_WORDS[0] || is_word_key_of(key, STOP_BELOW_WORDS, stop)
+                };
                 self.scene.below.as_ref().is_some_and(|it| is_of(&it.stop))
             }
             _ => true,
         };
         let further = other_keys().filter(has);
         self.parameter_names().into_iter().chain(further).collect()
-    }
-
-    /// The error that this machine does not have a key, with those that it `has`.
-    pub(super) fn unknown_key(&self, key: &str, has: Vec<&'static str>) -> MachineError {
-        let is_parameter = Parameter::ALL.iter().any(|it| it.is_called(key));
-        let exists = is_parameter || other_keys().any(|it| it == key);
-        if exists {
-            return MachineError::Lacks {
-                key: key.to_owned(),
-                has: has.join(", "),
-            };
-        }
-        let in_hertz = (self.unit_system == UnitSystem::Si).then_some(FREQUENCY_HZ);
-        let stated: Vec<_> = has.iter().copied().chain(in_hertz).collect();
-        let is_speed = key.ends_with("rpm");
-        MachineError::UnknownKey {
-            line: None,
-            key: key.to_owned(),
-            meant: meant_key(key, if is_speed { &stated } else { &has }),
-            known: has.join(", "),
-        }
     }
 }

@@ -1,13 +1,14 @@
 //! Machines as their users state them: in files, on command lines, in their own units.
 
 mod apply_changes;
-mod expressions;
+mod followers;
 mod keys;
 mod line_numbers;
+mod misspelt_keys;
 mod read_file;
 mod write_file;
 
-pub use keys::{nearest_name, with_near_word};
+pub use misspelt_keys::{nearest_name, with_near_word};
 
 use crate::checked_scene::CheckedScene;
 use crate::error::{MachineError, SceneError};

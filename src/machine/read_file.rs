@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer, Error, ValueDeserializer};
 
 use super::line_numbers::LineNumbers;
-use super::{Machine, UnitSystem, keys};
+use super::{Machine, UnitSystem, keys, misspelt_keys};
 use crate::error::{MachineError, SceneError};
 use crate::integrator::Start;
 use crate::scene::{Parameter, Scene, Stop};
@@ -47,7 +47,7 @@ impl Machine {
             let (text, message) = (error.to_string(), error.message());
             let text = text
                 .trim_end()
-                .replace(message, &keys::with_near_word(message));
+                .replace(message, &misspelt_keys::with_near_word(message));
             MachineError::Syntax(text)
         };
         let mut table = DeTable::parse(text).map_err(syntax)?;
@@ -170,7 +170,7 @@ fn refuse_unknown_keys(places: &[Place], language: UnitSystem) -> Result<(), Mac
     let Some(place) = places.iter().find(|place| !is_known(place)) else {
         return Ok(());
     };
-    if let Some((table, meant)) = keys::meant_table(&place.key, &keys) {
+    if let Some((table, meant)) = misspelt_keys::meant_table(&place.key, &keys) {
         return Err(MachineError::UnknownTable {
             line: place.line,
             table: table.to_owned(),
@@ -180,7 +180,7 @@ fn refuse_unknown_keys(places: &[Place], language: UnitSystem) -> Result<(), Mac
     Err(MachineError::UnknownKey {
         line: Some(place.line),
         key: place.key.clone(),
-        meant: keys::meant_key(&place.key, &keys),
+        meant: misspelt_keys::meant_key(&place.key, &keys),
         known: keys.join(", "),
     })
 }

@@ -227,30 +227,3 @@ impl Lowering<'_> {
         self.add_exit(PhaseId::FREE, guard, Exit::Forward(first));
     }
 }
-
-impl Layer {
-    /// The phase on the way towards the stop.
-    const fn inward_phase(self) -> PhaseId {
-        if self.side < 0.0 {
-            self.backward
-        } else {
-            self.forward
-        }
-    }
-
-    /// The phase on the way back.
-    const fn outward_phase(self) -> PhaseId {
-        if self.side < 0.0 {
-            self.forward
-        } else {
-            self.backward
-        }
-    }
-}
-
-impl Stack {
-    /// The surface at which it begins.
-    fn first_surface(&self) -> Option<SurfaceId> {
-        self.layers.first().map(|layer| layer.surface).or(self.wall)
-    }
-}

@@ -7,11 +7,13 @@ mod id;
 mod layer_plan;
 mod lower;
 mod mode;
+mod stack;
 mod store;
 
 pub use id::{PhaseId, SurfaceId};
 pub(crate) use mode::Threshold;
 pub use mode::{Mode, Sticking};
+use stack::{Layer, Stack};
 pub use store::{Spring, Store};
 
 use std::ops::Index;
@@ -152,26 +154,6 @@ pub struct Phases {
     fed: Stack,
     unfed: Stack,
     below: Stack,
-}
-
-/// The layers beyond a clearance, and the rigid stop that ends them.
-#[derive(Debug, Clone, PartialEq, Default)]
-struct Stack {
-    layers: Arc<[Layer]>,
-    /// The surface of that rigid stop.
-    wall: Option<SurfaceId>,
-}
-
-/// A range of positions with its phases at positive and at negative velocities.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Layer {
-    from: f64,
-    forward: PhaseId,
-    backward: PhaseId,
-    /// 1 of a stop above, -1 of one below.
-    side: f64,
-    /// The surface at `from`.
-    surface: SurfaceId,
 }
 
 impl Phases {

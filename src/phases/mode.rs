@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::events::Guard;
 
-use super::{Beyond, Layer, PhaseId, PhaseKind, Phases, Stack, Surface};
+use super::{Beyond, Layer, PhaseId, PhaseKind, Phases, Surface};
 
 /// Bounces that count as rest: those lower or slower than this.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -281,14 +281,5 @@ impl Phases {
                 }
             }
         }
-    }
-}
-
-impl Stack {
-    fn layer_at(&self, position: f64) -> Option<&Layer> {
-        self.layers
-            .iter()
-            .rev()
-            .find(|layer| layer.side * position >= layer.side * layer.from)
     }
 }

@@ -32,7 +32,7 @@ impl Tie {
         }
     }
 
-    /// The value of the tied parameter in the unit of its key.
+    /// The value of the tied parameter, divided by the unit of its key.
     pub fn value_in(&self, scene: &Scene) -> f64 {
         let values: Vec<f64> = self.terms.iter().map(|term| term.value_in(scene)).collect();
         self.expression.eval(&values).value

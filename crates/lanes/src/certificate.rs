@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::contraction::ContractionNorm;
+use super::contraction_norm::ContractionNorm;
 use super::cycle::Cycle;
 
 /// Largest error of the limit, in units of the distance of returns.

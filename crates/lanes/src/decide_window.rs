@@ -19,7 +19,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Decides the window ahead of the lanes that the scan has stopped, and moves all `active` ones on, none longer
     /// than `due`; those that came to the end of their job, and those that the safe engine has to take.
     #[inline(always)]
-    pub fn decide_window<const GUARDED: bool>(
+    pub fn decide_window<const HAS_OTHER_ENDS: bool>(
         &mut self,
         phase: usize,
         active: Mask<S, N>,
@@ -35,10 +35,10 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             .min(remaining)
             .max(least);
         let ahead = self.window_ahead(law, reached, pending, span);
-        let guard = Guard::of_window::<GUARDED>(law, &ahead, reached.error_bound);
-        let found = guard.search_window::<GUARDED>(law, &ahead, pending);
+        let guard = Guard::of_window::<HAS_OTHER_ENDS>(law, &ahead, reached.error_bound);
+        let found = guard.search_window::<HAS_OTHER_ENDS>(law, &ahead, pending);
         let (hits, doubtful) =
-            self.move_to_decision::<GUARDED>(phase, active, &guard, &found, scanned);
+            self.move_to_decision::<HAS_OTHER_ENDS>(phase, active, &guard, &found, scanned);
         let arrived = found.clear & remaining.at_most(span);
         self.state.window_fraction = self.next_shares(active, pending.and_not(hits | found.clear));
         let doubtful = doubtful | self.state.window_fraction.below(due.like(MIN_WINDOW_SHARE));
@@ -78,7 +78,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
 
     /// Moves the active lanes to the end of the window or to their crossing; those that cross, and the doubtful ones.
     #[inline(always)]
-    fn move_to_decision<const GUARDED: bool>(
+    fn move_to_decision<const HAS_OTHER_ENDS: bool>(
         &mut self,
         phase: usize,
         active: Mask<S, N>,
@@ -97,7 +97,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             law.side.mul_add(parts.y + parts.p, law.offset),
             law.side * hits.choose(found.velocity, parts.u + parts.q),
         );
-        let end = if GUARDED {
+        let end = if HAS_OTHER_ENDS {
             let (is_low, is_further) = (guard.is_low, guard.is_further);
             let (at_face, at_further) = (hits.and_not(is_further), hits & is_further);
             let turns = at_further & law.ends_at_reversal();

@@ -187,13 +187,13 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
         periods.mul_add(drive.period, -offset)
     }
 
-    /// Moves the lanes that are in a phase to the end of it, or as far as they come in a few windows. `GUARDED`:
+    /// Moves the lanes that are in a phase to the end of it, or as far as they come in a few windows. `HAS_OTHER_ENDS`:
     /// something else than one position may end it.
     #[inline(always)]
-    fn step_phase<const GUARDED: bool>(&mut self, phase: usize, active: Mask<S, N>) {
+    fn step_phase<const HAS_OTHER_ENDS: bool>(&mut self, phase: usize, active: Mask<S, N>) {
         let due = self.time_to_stop();
-        let between = GUARDED && phase == FREE_PHASE;
-        let active = if GUARDED && !between {
+        let between = HAS_OTHER_ENDS && phase == FREE_PHASE;
+        let active = if HAS_OTHER_ENDS && !between {
             self.direct_step(phase, active, due)
         } else {
             active
@@ -202,15 +202,15 @@ impl<'a, S: Simd, const N: usize> Engine<'a, S, N> {
             return;
         }
         let law = &self.laws[phase];
-        let mut reached = if GUARDED && !between {
+        let mut reached = if HAS_OTHER_ENDS && !between {
             self.stand_before_window(law, active)
         } else {
-            self.scan_windows::<GUARDED>(law, active, due * law.per_window)
+            self.scan_windows::<HAS_OTHER_ENDS>(law, active, due * law.per_window)
         };
-        if !GUARDED || between {
-            self.skip_calm_periods::<GUARDED>(phase, active, &mut reached);
+        if !HAS_OTHER_ENDS || between {
+            self.skip_calm_periods::<HAS_OTHER_ENDS>(phase, active, &mut reached);
         }
-        let (ended, doubtful) = self.decide_window::<GUARDED>(phase, active, &reached, due);
+        let (ended, doubtful) = self.decide_window::<HAS_OTHER_ENDS>(phase, active, &reached, due);
         if (ended | doubtful).any() {
             self.serve_lanes(ended, doubtful);
         }

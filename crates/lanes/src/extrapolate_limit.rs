@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::contraction::spectral_radius;
+use super::contraction_norm::spectral_radius;
 
 /// Returns of the motion from which the limit is first extrapolated.
 pub(super) const RETURNS_PER_GUESS: usize = 4;

@@ -27,13 +27,13 @@ pub(super) struct Guard<S: Simd, const N: usize> {
 impl<S: Simd, const N: usize> Guard<S, N> {
     /// The guard that each lane may meet in the window ahead.
     #[inline(always)]
-    pub fn of_window<const GUARDED: bool>(
+    pub fn of_window<const HAS_OTHER_ENDS: bool>(
         law: &Law<S, N>,
         ahead: &WindowAhead<S, N>,
         error_bound: Lanes<S, N>,
     ) -> Self {
         let error_bound = error_bound * ahead.scale;
-        if GUARDED {
+        if HAS_OTHER_ENDS {
             Self::nearest_guard(law, ahead, error_bound)
         } else {
             Self::single_guard(law, error_bound)
@@ -107,13 +107,13 @@ impl<S: Simd, const N: usize> Guard<S, N> {
 
     /// Value and rate of the guard along a motion.
     #[inline(always)]
-    pub fn value_and_rate<const GUARDED: bool>(
+    pub fn value_and_rate<const HAS_OTHER_ENDS: bool>(
         &self,
         law: &Law<S, N>,
         ahead: &WindowAhead<S, N>,
         parts: &Parts<S, N>,
     ) -> Pair<S, N> {
-        if !GUARDED {
+        if !HAS_OTHER_ENDS {
             return (parts.y + (parts.p - law.edge), parts.u + parts.q);
         }
         let [x, v, a] = ahead.state_from_edge(law, parts);

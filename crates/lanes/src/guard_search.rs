@@ -49,17 +49,18 @@ struct Goal<S: Simd, const N: usize> {
 }
 
 impl<S: Simd, const N: usize> Guard<S, N> {
-    /// Searches the guard's rise through zero in the lanes `pending`, and how far the others may go.
+    /// Searches the guard's first rise through zero in the lanes `pending`, and how far the others may go without one; the phase
+    /// `HAS_OTHER_ENDS` if something else than one position may end it.
     #[inline(always)]
-    pub fn search_window<const GUARDED: bool>(
+    pub fn search_window<const HAS_OTHER_ENDS: bool>(
         &self,
         law: &Law<S, N>,
         ahead: &WindowAhead<S, N>,
         pending: Mask<S, N>,
     ) -> Found<S, N> {
-        let left = self.value_and_rate::<GUARDED>(law, ahead, &ahead.here);
-        let right = self.value_and_rate::<GUARDED>(law, ahead, &ahead.there);
-        let single = if GUARDED {
+        let left = self.value_and_rate::<HAS_OTHER_ENDS>(law, ahead, &ahead.here);
+        let right = self.value_and_rate::<HAS_OTHER_ENDS>(law, ahead, &ahead.there);
+        let single = if HAS_OTHER_ENDS {
             pending.and_not(self.several | self.none)
         } else {
             pending
@@ -70,7 +71,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         let root = cubic.guess_rise(leaves, single);
         let sound = single.and_not(touches) | (single & leaves);
         let mut goal = Goal {
-            clear: if GUARDED {
+            clear: if HAS_OTHER_ENDS {
                 pending & self.none
             } else {
                 pending.and_not(pending)
@@ -103,13 +104,13 @@ impl<S: Simd, const N: usize> Guard<S, N> {
         goal.clear = goal.clear.and_not(goal.doubtful);
         let still = goal.clear.choose(ahead.span, root.like(0.0));
         goal.at = (goal.rises | goal.humps).choose(goal.at, still);
-        self.refine_search::<GUARDED>(law, ahead, left, goal)
+        self.refine_search::<HAS_OTHER_ENDS>(law, ahead, left, goal)
     }
 
     /// Refines the guesses by Newton's method: lanes with a maximum first find how high it is, and those whose guard
     /// rises their crossing; the others just go to the end.
     #[inline(always)]
-    fn refine_search<const GUARDED: bool>(
+    fn refine_search<const HAS_OTHER_ENDS: bool>(
         &self,
         law: &Law<S, N>,
         ahead: &WindowAhead<S, N>,
@@ -124,7 +125,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             let parts = ahead.motion_at(law, goal.at);
             let derivatives = local_taylor::motion_derivatives(law, ahead.frequency, &parts);
             let weights = (self.position, self.velocity, self.level);
-            let local = local_taylor::guard_taylor::<S, N, GUARDED>(&derivatives, weights);
+            let local = local_taylor::guard_taylor::<S, N, HAS_OTHER_ENDS>(&derivatives, weights);
             let mut sought = local;
             if goal.humps.any() {
                 for (sought, falling) in sought.iter_mut().zip(local_taylor::negated_rate(&local)) {
@@ -137,7 +138,7 @@ impl<S: Simd, const N: usize> Guard<S, N> {
             tries += 1;
             if !open.any() || tries > MAX_INSTANTS {
                 let moment = hits.choose(zeros.time, zero);
-                let (position, velocity) = if GUARDED {
+                let (position, velocity) = if HAS_OTHER_ENDS {
                     local_taylor::position_and_velocity_at(&derivatives, moment)
                 } else {
                     (zero, zeros.slope)

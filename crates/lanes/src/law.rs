@@ -163,8 +163,8 @@ impl<S: Simd, const N: usize> Law<S, N> {
     /// Upper and lower end of the phase as side (x - offset); the lower one at minus infinity where one position ends
     /// it.
     #[inline(always)]
-    pub fn edges<const GUARDED: bool>(&self) -> Pair<S, N> {
-        if GUARDED {
+    pub fn edges<const HAS_OTHER_ENDS: bool>(&self) -> Pair<S, N> {
+        if HAS_OTHER_ENDS {
             (self.high + self.edge, self.low + self.edge)
         } else {
             (self.edge, self.edge.like(f64::NEG_INFINITY))

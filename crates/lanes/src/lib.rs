@@ -52,6 +52,7 @@
 //! and no laws from the machine's numbers (0.5 us, as much as 13 of the 200 periods). Instructions were counted by single
 //! steps or by callgrind, which no command of the project repeats. `engine.rs` lists what was tried and dropped.
 
+mod arc_bounds;
 mod bounce_trains;
 mod certificate;
 mod constants;
@@ -59,7 +60,7 @@ mod contact;
 mod contact_release;
 mod contact_series;
 mod contact_step_length;
-mod contraction;
+mod contraction_norm;
 mod cubic;
 mod cycle;
 mod cycle_state;

@@ -54,20 +54,20 @@ pub(super) fn motion_derivatives<S: Simd, const N: usize>(
 
 /// Taylor coefficients of the guard position x + velocity v - level.
 #[inline(always)]
-pub(super) fn guard_taylor<S: Simd, const N: usize, const GUARDED: bool>(
+pub(super) fn guard_taylor<S: Simd, const N: usize, const HAS_OTHER_ENDS: bool>(
     derivatives: &[Lanes<S, N>; TERMS + 1],
     (position, velocity, level): (Lanes<S, N>, Lanes<S, N>, Lanes<S, N>),
 ) -> Taylor<S, N> {
     let mut local = [level; TERMS];
     for (n, term) in local.iter_mut().enumerate() {
         let here = derivatives[n];
-        let value = if GUARDED {
+        let value = if HAS_OTHER_ENDS {
             velocity.mul_add(derivatives[n + 1], position * here)
         } else {
             here
         };
         *term = match n {
-            0 if GUARDED => value - level,
+            0 if HAS_OTHER_ENDS => value - level,
             0 | 1 => value,
             _ => value * here.like(RECIPROCAL_FACTORIALS[n]),
         };

@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix2, Vector2};
 
 use super::certificate::{Certificate, find_ball};
-use super::contraction::{ContractionNorm, spectral_radius};
+use super::contraction_norm::{ContractionNorm, spectral_radius};
 use super::cycle::Cycle;
 use super::cycle_state::{Drive, Passage};
 use super::extrapolate_limit::{MIN_DECAY, RETURNS_PER_GUESS, extrapolate_limit};

@@ -62,7 +62,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// Moves the lanes on window by window, on one side of one position or between two, until each stands before a
     /// window in which something may happen, or that is its last. `cap`: windows up to the end of its time.
     #[inline(always)]
-    pub fn scan_windows<const GUARDED: bool>(
+    pub fn scan_windows<const HAS_OTHER_ENDS: bool>(
         &self,
         law: &Law<S, N>,
         active: Mask<S, N>,
@@ -77,7 +77,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             ..
         } = reached;
         let (x, v) = (parts.y + parts.p, parts.u + parts.q);
-        let (ceiling, floor) = law.edges::<GUARDED>();
+        let (ceiling, floor) = law.edges::<HAS_OTHER_ENDS>();
         let mut apart = (ceiling - law.ambiguity).below(x).not();
         let leaves = v.below(-law.slow);
         let mut go = active & self.state.window_fraction.equals(one) & (apart | leaves);
@@ -89,7 +89,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let mut below = apart.choose(limit, leaving);
         let lowest = floor + error_bound;
         let (mut bottom, mut above) = (x, lowest);
-        if GUARDED {
+        if HAS_OTHER_ENDS {
             let apart = x.below(floor + law.ambiguity).not();
             go = go & (apart | law.slow.below(v));
             let ahead = law.third.mul_add(v, x);
@@ -105,7 +105,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
             let before = x.minus_product(law.third, v);
             let mut clear = top.max(x.max(before)).below(below);
             let suspect = go.and_not(clear) & apart & x.below(limit);
-            if GUARDED {
+            if HAS_OTHER_ENDS {
                 clear = clear & above.below(bottom.min(x.min(before)));
             } else if suspect.any() {
                 let left = (parts.y + parts.p, parts.u + parts.q);

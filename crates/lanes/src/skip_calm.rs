@@ -15,7 +15,7 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
     /// their job if they never meet a face: the free motion dies away, and the largest sum of it and the steady one
     /// lies below the guard. An observer is told of the periods that are skipped.
     #[inline(always)]
-    pub fn skip_calm_periods<const GUARDED: bool>(
+    pub fn skip_calm_periods<const HAS_OTHER_ENDS: bool>(
         &mut self,
         phase: usize,
         active: Mask<S, N>,
@@ -26,8 +26,8 @@ impl<S: Simd, const N: usize> Engine<'_, S, N> {
         let left = self.state.left;
         let (zero, last) = (left.like(0.0), left.like(UNSKIPPED_PERIODS));
         let far = law.longest.mul_add(parts.u.abs(), parts.y.abs()) + law.swing;
-        let (ceiling, floor) = law.edges::<GUARDED>();
-        let room = if GUARDED {
+        let (ceiling, floor) = law.edges::<HAS_OTHER_ENDS>();
+        let room = if HAS_OTHER_ENDS {
             ceiling.min(-floor)
         } else {
             ceiling

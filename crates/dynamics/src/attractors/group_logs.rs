@@ -21,8 +21,8 @@ const CELLS_ACROSS: f64 = 100.0;
 /// Pairs of states of two logs that are compared at the cost of one scan window.
 const STATE_PAIRS_PER_SCAN_WINDOW: usize = 8;
 
-/// A state in units of the plane's size.
-type Place = [f64; 2];
+/// A state in units of the width and height of the region that all logs fill.
+type ScaledState = [f64; 2];
 
 /// Groups logs of states by the places that they visit: the number of its group for each log.
 ///
@@ -35,7 +35,7 @@ pub(super) fn group_logs<E>(
     let units = plane_units(logs);
     let place = |state: &Start| [state.position / units[0], state.velocity / units[1]];
     let places = logs.iter().map(|log| log.iter().map(place).collect());
-    let places: Vec<Vec<Place>> = places.collect();
+    let places: Vec<Vec<ScaledState>> = places.collect();
     let cells: Vec<Vec<(i64, i64)>> = places.iter().map(|log| visited_cells(log)).collect();
     let own = places
         .iter()
@@ -76,13 +76,13 @@ fn plane_units(logs: &[&[Start]]) -> [f64; 2] {
 }
 
 /// Squared distance of two places, in units of the plane.
-fn squared_distance(a: &Place, b: &Place) -> f64 {
+fn squared_distance(a: &ScaledState, b: &ScaledState) -> f64 {
     let (x, v) = (a[0] - b[0], a[1] - b[1]);
     x * x + v * v
 }
 
 /// The squared distance of each place of a log from the nearest other one in it.
-fn nearest_gaps_within(log: &[Place]) -> Vec<f64> {
+fn nearest_gaps_within(log: &[ScaledState]) -> Vec<f64> {
     let gap = |index: usize| {
         let others = log.iter().enumerate().filter(|(other, _)| *other != index);
         let squares = others.map(|(_, other)| squared_distance(&log[index], other));
@@ -92,8 +92,8 @@ fn nearest_gaps_within(log: &[Place]) -> Vec<f64> {
 }
 
 /// The cells of the plane that a log visits, in order.
-fn visited_cells(log: &[Place]) -> Vec<(i64, i64)> {
-    let cell = |place: &Place| {
+fn visited_cells(log: &[ScaledState]) -> Vec<(i64, i64)> {
+    let cell = |place: &ScaledState| {
         let [x, v] = place.map(|part| (CELLS_ACROSS * part).floor() as i64);
         (x, v)
     };
@@ -110,13 +110,13 @@ fn have_common_cells(a: &[(i64, i64)], b: &[(i64, i64)]) -> bool {
 }
 
 /// True if enough places of two logs have their nearest neighbour in the other one.
-fn are_mixed([one, other]: [(&[Place], &[f64]); 2]) -> bool {
-    let abroad = |(from, own): (&[Place], &[f64]), to: &[Place]| {
+fn are_mixed([one, other]: [(&[ScaledState], &[f64]); 2]) -> bool {
+    let abroad = |(from, own): (&[ScaledState], &[f64]), to: &[ScaledState]| {
         let range = |axis: usize| extremes(to.iter().map(|at| at[axis])).unwrap_or([0.0; 2]);
         let [across, up] = [range(0), range(1)];
         let within = |value: f64, [low, high]: [f64; 2]| value.max(low).min(high);
         // The nearest place of the box that holds them all is no farther than any of them.
-        let is_nearer = |(place, gap): &(&Place, &f64)| {
+        let is_nearer = |(place, gap): &(&ScaledState, &f64)| {
             let nearest = [within(place[0], across), within(place[1], up)];
             squared_distance(place, &nearest) < **gap
                 && to.iter().any(|at| squared_distance(place, at) < **gap)

@@ -134,7 +134,7 @@ impl Default for SearchOptions {
     }
 }
 
-/// What the motion from a start has arrived at after the transient.
+/// What the motion from a start has arrived at after the transient: its state, the stable orbit there, and whether it repeats.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Arrival {

@@ -3,8 +3,8 @@
 use std::slice::from_ref;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use super::bring_to_section::bring_to_section;
 use super::contraction_ball::ContractionBalls;
-use super::section::bring_to_section;
 use crate::ensemble::{Ensemble, HasMember, Member, MemberStatus};
 use crate::monitor::Monitor;
 use crate::orbit::recurrence::{motion_size, state_distance};

@@ -25,6 +25,7 @@
 //! ```
 
 mod basin_test;
+mod bring_to_section;
 mod cells;
 mod certainty;
 mod contraction_ball;
@@ -33,19 +34,18 @@ mod establishment_and_erosion;
 mod global_continuation;
 mod grid;
 mod largest_ball;
-mod section;
 mod survey;
 
 pub use crate::wilson_interval::wilson_interval;
 pub(crate) use basin_test::TestedMotion;
 pub use basin_test::{BasinTest, SLOW_DECAY};
+pub(crate) use bring_to_section::bring_to_section;
 pub use certainty::{CertaintyAtPlace, establishing_certainties};
 pub use entropy::BasinEntropy;
 pub use establishment_and_erosion::{ErosionProfile, Establishment, Integrity, zone_box};
 pub use global_continuation::{BasinsAt, follow_attractors};
 pub use grid::{Axis, AxisQuantity, Grid};
 pub use largest_ball::{BasinBall, find_largest_ball};
-pub(crate) use section::bring_to_section;
 pub use survey::find_basins;
 
 use serde::Serialize;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::bring_to_section::bring_to_section;
 use super::contraction_ball::ContractionBalls;
-use super::section::bring_to_section;
 use super::{BasinOptions, Basins, Grid};
 use crate::attractors::catalogue::AttractorCatalogue;
 use crate::ensemble::{Ensemble, Member, MemberStatus};

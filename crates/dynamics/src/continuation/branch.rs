@@ -160,7 +160,7 @@ impl<'a> Continuation<'a> {
                     return Err(OrbitError::LOST);
                 }
                 let ends = (&stepper.node, &step.node);
-                let specials = self.specials_between(ends)?;
+                let specials = self.specials_on_step(ends)?;
                 let end = self.record_step(way, ends, specials, &origin, limits)?;
                 Ok((step, ahead, end))
             });

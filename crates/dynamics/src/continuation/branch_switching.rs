@@ -104,7 +104,7 @@ impl Continuation<'_> {
     }
 
     /// The pitchfork of symmetric orbits on a step and its share of the way, if there is one.
-    pub(super) fn pitchfork_between(
+    pub(super) fn pitchfork_on_step(
         &self,
         (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Option<(f64, Special)>, OrbitError> {

@@ -13,7 +13,7 @@ use super::stepper::Stepper;
 use crate::orbit::OrbitError;
 use crate::tolerance::SAME;
 
-/// Limits of a curve: the part of the plane of two parameters in which it is followed.
+/// Where and how far a curve in two parameters is followed: their ranges, the most points in each direction, and the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveLimits {
     /// Lowest and highest values of the parameters.

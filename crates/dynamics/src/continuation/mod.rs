@@ -27,12 +27,10 @@
 //! ```
 
 mod arclength;
-mod between;
 mod branch;
 mod branch_switching;
 mod codimension_two;
 mod curve;
-mod detect;
 mod face;
 mod follow;
 mod grazing_test;
@@ -40,6 +38,7 @@ mod locate;
 mod parameter_family;
 pub(crate) mod period_map;
 mod point;
+mod point_between;
 mod section;
 mod section_orbit;
 mod section_system;
@@ -47,6 +46,7 @@ mod sequence;
 mod settings;
 mod shooting;
 mod special_curve;
+mod specials_on_step;
 mod step_control;
 mod stepper;
 mod test_function;

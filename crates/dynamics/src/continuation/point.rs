@@ -155,7 +155,8 @@ pub enum End {
     Lost(OrbitError),
 }
 
-/// What an orbit meets where its branch ends in a border collision that is no grazing.
+/// What changes in an orbit where its branch ends in a border collision other than a grazing: a rest, a turn under friction, or
+/// the number of surfaces that it crosses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BorderCollision {
     /// The mass comes to rest, by dry friction or at a face, or ceases to.

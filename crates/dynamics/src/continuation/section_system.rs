@@ -109,8 +109,11 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
         Ok(Some((system, guess)))
     }
 
-    /// The orbit with a weak impact of this velocity, in units of the family's scales, where these graze, but for symmetric
-    /// ones, which have two.
+    /// The system of the orbits with one crossing more and a vanishing `test`, and its node at an impact of this velocity, in
+    /// units of the family's scales: what a grazing orbit, at `touch`, becomes beyond the grazing.
+    ///
+    /// # Errors
+    /// [`OrbitError::NotIsolated`] for symmetric orbits, which gain two impacts.
     pub fn with_weak_impact(
         &self,
         touch: &DVector<f64>,

@@ -154,7 +154,8 @@ impl ContactFace {
         is_free.then(|| passage(phase, contact.gathered, free_from, course))
     }
 
-    /// Acceleration in m/s^2 right after the impact, at an instant, that a passage begins with.
+    /// Acceleration in m/s^2 right after the impact that a passage begins with, at an instant, in the phase that follows it: in
+    /// contact, free after a rebound, 0 if the mass rests.
     pub(super) fn acceleration_after<T>(&self, at: Instant, passage: &ContactPassage<T>) -> f64 {
         let at_face = |phase| self.acceleration_at_face(phase, at, passage.velocity_after);
         passage.phase.map_or(0.0, at_face)

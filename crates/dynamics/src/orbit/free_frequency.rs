@@ -57,7 +57,7 @@ impl FreeFrequency<'_> {
         self.0.recheck(self.0.at_frequency(frequency))
     }
 
-    /// The shooting at the frequency of these unknowns.
+    /// The shooting at the frequency that the third unknown is, ln(w/w0); none if the scene is none there.
     fn shooting_at(&self, at: Vector3<f64>) -> Option<MultiSegmentShooting> {
         MultiSegmentShooting::new(&self.scene_at(at).ok()?, 1)
     }

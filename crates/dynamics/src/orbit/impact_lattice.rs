@@ -5,8 +5,9 @@
 //! up shows the cells in which it may vanish, and Newton's method from there finds where it does. How small the basin
 //! of a motion is plays no part.
 
+use super::deflation::DEFLATION_WIDTH;
 use super::free_frequency::find_beside_frequency;
-use super::multi_segment_shooting::{DEFLATION_WIDTH, MultiSegmentShooting, ShootingFailure};
+use super::multi_segment_shooting::{MultiSegmentShooting, ShootingFailure};
 use super::{Orbit, OrbitError};
 use crate::extremes::extremes;
 use crate::monitor::{Monitor, unmonitored};

@@ -9,14 +9,11 @@
 //! the face, and its velocity from the next v. All of it is smooth in t and v down to v = 0: contact
 //! lasts about 2 v / |a|, and its own tangent takes the factor 1/v of the saltation away again. Nothing is
 //! linearised about the face, so no saltation is wrong for a weak impact (Chawla et al., arXiv 2506.18379).
-//!
-//! Deflation multiplies the residual F by M = prod (1 + w^2 / d_k^2), with the distances d_k from what is known: known
-//! zeros are none any more, all others stay. The step of Newton's method for M F is that for F times
-//! 1 / (1 - grad(ln M) . step) (Farrell, Birkisson and Funke 2015, SIAM J. Sci. Comput. 37, A2026).
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::contact_passage::{ContactFace, ContactPassage};
+use super::deflation::deflation_factor;
 use super::{Orbit, OrbitError};
 use crate::linear::solve_linear;
 use crate::tolerance::ROUNDING_SHARE;
@@ -269,24 +266,4 @@ impl MultiSegmentShooting {
         }
         Some(evaluation)
     }
-}
-
-/// Width w of deflation: a share of the drive period in time, and of the velocity in velocity.
-pub(super) const DEFLATION_WIDTH: f64 = 0.05;
-
-/// An impact: its time in s and its before-impact velocity in m/s.
-type Impact = (f64, f64);
-
-/// The factor by which deflation multiplies a Newton step from an impact, away from the known ones.
-pub(super) fn deflation_factor(at: Impact, step: Impact, known: &[Impact], period: f64) -> f64 {
-    let slope = |&(time, velocity): &Impact| {
-        let turns = (at.0 - time) / period;
-        let apart = [turns - turns.round(), (at.1 - velocity) / velocity];
-        let moved = [step.0 / period, step.1 / velocity];
-        let square = apart[0] * apart[0] + apart[1] * apart[1];
-        let change = 2.0 * (apart[0] * moved[0] + apart[1] * moved[1]);
-        -DEFLATION_WIDTH * DEFLATION_WIDTH * change
-            / (square * (square + DEFLATION_WIDTH * DEFLATION_WIDTH))
-    };
-    1.0 / (1.0 - known.iter().map(slope).sum::<f64>())
 }

@@ -300,7 +300,8 @@ pub(super) fn guess_impacts(
     Ok(guesses)
 }
 
-/// The nearest miss of the face: distance in m, time, and speed of an impact if the face stood as much nearer.
+/// The nearest miss of the face: the distance d by which a turn misses it, in m, with the time in s and the speed in m/s of an
+/// impact on a face that stood 2 d nearer.
 fn nearest_miss(motion: &Trajectory, face: f64) -> Option<(f64, (f64, f64))> {
     let free = motion
         .observed_arcs()

@@ -1,7 +1,7 @@
 //! The stable z = 1 motion of a scene at the frequency of its drive, and the zones of scenes.
 
-use super::hysteresis::{UpperEnd, zones_of};
-use super::single_impact::single_impact;
+use super::hysteresis_zone::{UpperEnd, zones_of};
+use super::single_impact_zone::single_impact;
 use super::stable_range::StableRange;
 use super::stable_ranges::find_stable_ranges;
 use super::{Frequencies, ZoneError};

@@ -6,24 +6,24 @@ mod end;
 mod error;
 mod find;
 pub(crate) mod followed_end;
-mod frequencies;
-mod grazing;
-mod hysteresis;
+mod frequency_family;
+mod hysteresis_zone;
+mod impactless_motion;
 mod loss_of_stability;
-mod single_impact;
+mod single_impact_zone;
 mod stable_range;
 mod stable_ranges;
 
 pub use end::{Loss, ZoneEnd};
 pub use error::{BranchEnd, StatedFrequency, ZoneError};
 pub use find::{find, find_among, find_with_monitor, find_zones};
-pub use frequencies::Frequencies;
-pub use grazing::{free_amplitude, grazing_frequencies};
-pub use hysteresis::{
+pub use frequency_family::Frequencies;
+pub use hysteresis_zone::{
     hysteresis, hysteresis_and_stable_ranges, hysteresis_batch, hysteresis_with_monitor,
 };
+pub use impactless_motion::{free_amplitude, grazing_frequencies};
 pub use loss_of_stability::{Bounds, find_end_along, loss_of_stability};
-pub use single_impact::single_impact;
+pub use single_impact_zone::single_impact;
 pub use stable_range::StableRange;
 pub use stable_ranges::{stable_ranges, stable_ranges_with_monitor};
 

@@ -155,17 +155,17 @@ fn in_order(branch: &Branch) -> Vec<&BranchPoint> {
 }
 
 /// Why a part of a branch ends, and the special point there.
-type RangeEnd = (Loss, Option<SpecialKind>);
+type EndCause = (Loss, Option<SpecialKind>);
 
 /// A part of a branch that may be a stable range: its points between two special ones.
 struct RangeCandidate {
-    begins: RangeEnd,
+    begins: EndCause,
     points: Vec<BranchPoint>,
 }
 
 impl RangeCandidate {
     /// A part of a branch without points, with the reason for which it begins.
-    fn new(begins: RangeEnd) -> Self {
+    fn new(begins: EndCause) -> Self {
         Self {
             begins,
             points: Vec::new(),
@@ -181,8 +181,9 @@ impl RangeCandidate {
         }
     }
 
-    /// The stable range, if most motions between the ends of the part are stable, all have one impact, and the ends are told apart.
-    fn into_range(self, continuation: &Continuation<'_>, ends: RangeEnd) -> Option<StableRange> {
+    /// The stable range of this part, whose upper end has this cause, if most motions between the ends are stable, all have one
+    /// impact, and the ends are told apart.
+    fn into_range(self, continuation: &Continuation<'_>, ends: EndCause) -> Option<StableRange> {
         let Self { begins, mut points } = self;
         let end = points.pop()?;
         let mut inner = points.split_off(points.len().min(1));

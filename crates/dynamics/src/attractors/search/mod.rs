@@ -12,7 +12,7 @@ use super::{Arrival, Attractor, Region, SearchOptions, Survey};
 use crate::ensemble::{Ensemble, Member, MemberStatus};
 use crate::monitor::{Monitor, stop_if, unmonitored};
 use crate::orbit::recurrence::find_return;
-use crate::orbit::{self, Exponents, Orbit, OrbitError, Regime, hardest_single};
+use crate::orbit::{self, Exponents, Orbit, OrbitError, Regime, harder_single};
 use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene, Start};
 use softstop_lanes::Machine;
@@ -147,7 +147,7 @@ pub(crate) fn end_states(scene: &Scene, monitor: Monitor<'_>) -> Result<Vec<Star
     let met = search.catalogue.orbits.iter().map(|known| &known.orbit);
     let met = met.filter(|orbit| orbit.regime() == Regime::ONE);
     let hardest = match met.map(Orbit::before_impact_velocity).reduce(f64::max) {
-        Some(met) => hardest_single(&search.scene, (1.0 + SAME) * met, &go_on)?,
+        Some(met) => harder_single(&search.scene, (1.0 + SAME) * met, &go_on)?,
         None => orbit::find_with_monitor(scene, &go_on).ok(),
     };
     search.ensemble.count_work(0)?;

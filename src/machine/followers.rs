@@ -165,7 +165,7 @@ impl Machine {
         self.scene.followers = self.ties_to(Parameter::Frequency);
     }
 
-    /// Sets the preload of a deflection.
+    /// Computes the preload anew from the deflection that states it.
     fn update_preload(&mut self) {
         let stiffness = Parameter::StopStiffness.get(&self.scene);
         if let (Some(deflection), Some(stiffness)) = (self.preload_deflection, stiffness) {

@@ -1,124 +1,16 @@
-//! The stable z = 1 motion of a scene, searched from scratch: from many starts, and from a lattice of impacts.
-
-use std::slice::from_ref;
+//! The fixed points of the map over one drive period, by Newton's method from where trial motions may be near one.
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::impact_lattice::all_single;
 use super::stroboscopic_map::find_new_fixed_point;
 use super::trials::{
-    Candidate, NEAR_RETURN, Trial, Trials, least_moved, scaled_distance, settled_candidates,
+    Candidate, NEAR_RETURN, Trial, least_moved, scaled_distance, settled_candidates,
 };
 use super::{Monodromy, Orbit, OrbitError, Passage, StroboscopicMap};
-use crate::monitor::{Monitor, unmonitored};
+use crate::monitor::Monitor;
 use crate::tolerance::{NEAR, SAME, STABLE_REACH};
+use softstop::CheckedScene;
 use softstop::internals::Scales;
-use softstop::{CheckedScene, Scene};
-use softstop_lanes::Machine;
-
-/// Stages of the search: drive periods after which Newton's method takes over from where motions have moved least, and
-/// those after which it then takes over from all: few for small basins, and far more if none is found.
-const SEARCH_STAGES: [(u64, &[u64]); 3] = [(4, &[]), (12, &[2, 12]), (60, &[60])];
-
-/// The stable z = 1 motion of a scene with the highest before-impact velocity: of those that starts spread over the
-/// plane of states lead to, and of those that a lattice of impacts shows. Motions of narrow stretches of frequency may
-/// show in neither: [`zone::find`](crate::zone::find) looks at all frequencies, too.
-///
-/// # Errors
-/// [`OrbitError::NotFound`] if no start leads to one; [`OrbitError::Motion`] if the scene is invalid.
-pub fn find(scene: &Scene) -> Result<Orbit, OrbitError> {
-    find_with_monitor(scene, &unmonitored)
-}
-
-/// The stable z = 1 motion that [`find`] finds, as long as a monitor, which sees no progress, goes on.
-///
-/// # Errors
-/// As [`find`]; [`OrbitError::Stopped`].
-pub fn find_with_monitor(scene: &Scene, monitor: Monitor<'_>) -> Result<Orbit, OrbitError> {
-    find_with_singles(scene, None, monitor)
-}
-
-/// The motion that [`find_with_monitor`] finds, with the z = 1 orbits that a lattice shows, those with the hardest impacts
-/// last, searched unless they are known.
-pub(crate) fn find_with_singles(
-    scene: &Scene,
-    known: Option<Vec<Orbit>>,
-    monitor: Monitor<'_>,
-) -> Result<Orbit, OrbitError> {
-    let settled = search_all(from_ref(scene), usize::MAX, monitor).remove(0);
-    let mut all = match known {
-        Some(known) => known,
-        None => all_single(scene, monitor)?,
-    };
-    all.retain(Orbit::is_stable);
-    match (settled, all.pop()) {
-        (Ok(settled), Some(other)) if other.is_harder(&settled) => Ok(other),
-        (Err(OrbitError::NotFound { .. }), Some(other)) => Ok(other),
-        (settled, _) => settled,
-    }
-}
-
-/// The stable z = 1 motion that [`find`] finds of each of many scenes at once, from few candidates if they suffice.
-///
-/// # Errors
-/// Each as of [`find`].
-pub(crate) fn find_batch(scenes: &[Scene], monitor: Monitor<'_>) -> Vec<Result<Orbit, OrbitError>> {
-    search_all(scenes, 1, monitor)
-}
-
-/// Searches the hardest stable z = 1 motion of each scene among all that the first groups of states lead to, and
-/// further groups as long as there is none. Motions of all scenes go together, until they lead to a stable one.
-fn search_all(
-    scenes: &[Scene],
-    groups: usize,
-    monitor: Monitor<'_>,
-) -> Vec<Result<Orbit, OrbitError>> {
-    let none = |scene: &Scene| OrbitError::NotFound {
-        frequency: scene.excitation.frequency,
-        clearance: scene.clearance,
-    };
-    let mut found: Vec<_> = scenes.iter().map(|scene| Err(none(scene))).collect();
-    let (mut machines, mut searches) = (Vec::new(), Vec::new());
-    for (index, scene) in scenes.iter().enumerate() {
-        match scene.check() {
-            Ok(scene) => {
-                machines.push(Machine::new(&scene));
-                searches.push((index, FixedPoints::new(&scene)));
-            }
-            Err(error) => found[index] = Err(error.into()),
-        }
-    }
-    let scenes = searches
-        .iter()
-        .map(|(_, fixed_points)| &**fixed_points.map.scene());
-    let kept = SEARCH_STAGES.iter().flat_map(|(_, after)| *after).copied();
-    let mut trials = Trials::new(scenes, kept.collect());
-    for (until, after) in SEARCH_STAGES {
-        trials.follow_trials(&machines, until, monitor);
-        for (machine, (index, fixed_points)) in searches.iter_mut().enumerate() {
-            let trials = trials.of_machine(machine);
-            if !trials.iter().any(|trial| trial.is_open) {
-                if let (Err(OrbitError::NotFound { .. }), Some(hardest)) =
-                    (&found[*index], fixed_points.hardest_single())
-                {
-                    found[*index] = Ok(hardest);
-                }
-                continue;
-            }
-            let hardest = fixed_points
-                .search_trials(trials, after, groups, monitor)
-                .transpose();
-            let is_over = hardest.is_some();
-            if let Some(hardest) = hardest {
-                found[*index] = hardest;
-            }
-            for trial in trials {
-                trial.is_open &= !is_over && !fixed_points.predicts_stable(&trial.last);
-            }
-        }
-    }
-    found
-}
 
 /// The fixed points of a scene's map over one drive period that the search has met.
 pub(super) struct FixedPoints {

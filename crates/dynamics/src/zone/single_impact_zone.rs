@@ -1,13 +1,13 @@
 //! Single-impact zones: all stable z = 1 motions on one branch, below g0 as well.
 
 use super::followed_end::{LONGEST_BRANCH, find_end};
-use super::hysteresis::follow_upward;
+use super::hysteresis_zone::follow_upward;
 use super::stable_ranges::FOLLOWED_RANGE;
 use super::{Frequencies, ZoneError, grazing_frequencies, refuse_below};
 use super::{Zone, ZoneKind};
 use crate::continuation::{BranchPoint, Continuation, Direction};
 use crate::monitor::{Monitor, stop_if};
-use crate::orbit::{Orbit, OrbitError, hardest_single};
+use crate::orbit::{Orbit, OrbitError, harder_single};
 use crate::parallel;
 use crate::tolerance::SAME;
 use softstop::{CheckedScene, Scene};
@@ -40,7 +40,7 @@ fn of_scene(scene: &Scene, between: (f64, f64), monitor: Monitor<'_>) -> Result<
             .filter_map(|zone| zone.point_at(zone.place_of(frequency)).ok());
         let known = known.map(|point| point.before_impact_velocity());
         let least = (1.0 + SAME) * known.fold(0.0, f64::max);
-        if let Some(start) = hardest_single(
+        if let Some(start) = harder_single(
             &scene.recheck(scene.at_frequency(frequency))?,
             least,
             monitor,

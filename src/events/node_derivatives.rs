@@ -1,7 +1,7 @@
 //! Derivatives at a scan node and the bounds that follow from them over the next window.
 
+use super::first_rise::Point;
 use super::guard::Guard;
-use super::isolate::Point;
 use crate::flow::{ArcSolution, LinearLaw, Node, Window};
 
 /// Derivatives of position (of order 0 to 6) and push (0 to 4) at a node.

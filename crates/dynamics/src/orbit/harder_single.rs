@@ -20,7 +20,7 @@ const NEWTON_REACH: (f64, f64) = (4.0 / LATTICE_TIMES as f64, 4.0);
 ///
 /// # Errors
 /// As [`all_single`](super::impact_lattice::all_single).
-pub(crate) fn hardest_single(
+pub(crate) fn harder_single(
     scene: &CheckedScene,
     least: f64,
     monitor: Monitor<'_>,
@@ -85,7 +85,7 @@ impl SingleImpactSearch {
 
 #[cfg(test)]
 mod tests {
-    use super::{Orbit, hardest_single};
+    use super::{Orbit, harder_single};
     use crate::monitor::unmonitored;
     use crate::orbit::impact_lattice::all_single;
     use softstop::{Machine, Parameter};
@@ -107,7 +107,7 @@ mod tests {
                 all.retain(Orbit::is_stable);
                 let hardest = all.last().map(Orbit::before_impact_velocity);
                 let above = |least| {
-                    let found = hardest_single(&scene, least, &unmonitored).expect("a scene");
+                    let found = harder_single(&scene, least, &unmonitored).expect("a scene");
                     found.map(|orbit| orbit.before_impact_velocity())
                 };
                 let Some(hardest) = hardest else {

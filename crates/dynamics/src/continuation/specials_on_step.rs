@@ -54,7 +54,7 @@ impl Continuation<'_> {
     }
 
     /// The special points on a step of a branch, in their order.
-    pub(super) fn specials_between(
+    pub(super) fn specials_on_step(
         &self,
         (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Vec<Special>, OrbitError> {
@@ -63,7 +63,7 @@ impl Continuation<'_> {
         for test in TestFunction::ALL {
             if test.passes_zero(&a.monodromy, &b.monodromy) {
                 if test == TestFunction::Fold
-                    && let Some(pitchfork) = self.pitchfork_between((from, to))?
+                    && let Some(pitchfork) = self.pitchfork_on_step((from, to))?
                 {
                     found.push(pitchfork);
                     continue;
@@ -72,7 +72,7 @@ impl Continuation<'_> {
             }
         }
         found.extend(self.flips_there_and_back((from, to))?);
-        found.extend(self.grazes_between((from, to))?);
+        found.extend(self.grazes_on_step((from, to))?);
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(found.into_iter().map(|(_, special)| special).collect())
     }
@@ -140,7 +140,7 @@ impl Continuation<'_> {
     }
 
     /// The grazings on a step where the branch goes on, which is halved until they make the whole difference.
-    fn grazes_between(
+    fn grazes_on_step(
         &self,
         (from, to): Ends<'_, PeriodMap>,
     ) -> Result<Vec<(f64, Special)>, OrbitError> {
@@ -172,7 +172,7 @@ impl Continuation<'_> {
         let middle = CurveCubic::between(&self.shooting, (from, to))?.node_at(0.5)?;
         let mut grazes = Vec::new();
         for (begins, half) in [(0.0, (from, &middle)), (0.5, (&middle, to))] {
-            let found = self.grazes_between(half)?;
+            let found = self.grazes_on_step(half)?;
             let shares = found
                 .into_iter()
                 .map(|(share, special)| (begins + 0.5 * share, special));

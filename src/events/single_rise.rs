@@ -3,19 +3,19 @@
 //! The jets of the nearer node tell about where it is; a state evaluated there lies so close to it that a
 //! short Taylor polynomial is exact.
 
+use super::first_rise::{Point, guess_rise};
 use super::guard::Guard;
-use super::isolate::{Point, guess_rise};
-use super::jets::Jets;
+use super::node_derivatives::Jets;
 use crate::flow::{ArcSolution, Node};
 
 /// Share of a flow's reach over which a polynomial of degree 5 is exact.
-const CLOSE: f64 = 1.0 / 512.0;
+const SHORT_STEP_SHARE: f64 = 1.0 / 512.0;
 /// Most states that are evaluated before one is close enough.
-const LOOKS: usize = 4;
+const MAX_EVALUATIONS: usize = 4;
 
 /// Time since departure, position and velocity where `guard`, which does not ask for the push, rises through zero
 /// between `left` and `right`, where it rises once at most; none if it takes more to tell.
-pub(super) fn pinpoint_rise(
+pub(super) fn locate_single_rise(
     course: &ArcSolution,
     guard: &Guard,
     (left, right): (&Node, &Node),
@@ -33,8 +33,8 @@ pub(super) fn pinpoint_rise(
         (low.at, left)
     };
     let series = Jets::new(course, *nearer).guard_series(guard);
-    let mut at = origin + zero_by_newton(&series, first - origin, CLOSE * reach)?;
-    for _ in 0..LOOKS {
+    let mut at = origin + zero_by_newton(&series, first - origin, SHORT_STEP_SHARE * reach)?;
+    for _ in 0..MAX_EVALUATIONS {
         if !within(at) {
             return None;
         }
@@ -48,7 +48,7 @@ pub(super) fn pinpoint_rise(
             Some(rest) => rest,
             None => zero_by_newton(&series, 0.0, 0.25 * f64::EPSILON * near.node.elapsed)?,
         };
-        if rest.abs() <= CLOSE * reach.min(8.0 * at) {
+        if rest.abs() <= SHORT_STEP_SHARE * reach.min(8.0 * at) {
             let mut further = near.position_series();
             let rate = std::mem::take(&mut further[1]);
             further[0] = 0.0;
@@ -131,7 +131,7 @@ const ROUNDING: f64 = f64::EPSILON / 16.0;
 /// last two as for quadratic convergence, would be below `grain`.
 fn zero_by_newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
     let mut last = f64::INFINITY;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let (value, rate) = value_and_rate(series, at);
         let step = value / rate;
         at -= step;
@@ -148,7 +148,7 @@ fn zero_by_newton(series: &[f64; 6], mut at: f64, grain: f64) -> Option<f64> {
 }
 
 /// Most steps of Newton's method.
-const MOST_STEPS: usize = 8;
+const MAX_NEWTON_STEPS: usize = 8;
 
 /// Value and first derivative of a polynomial of degree 5.
 #[inline]

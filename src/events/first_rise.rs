@@ -9,7 +9,7 @@ use crate::flow::{DEGREE, evaluate};
 
 /// A polynomial on [0, span] with a bound on its fourth derivative.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Candidate<'a> {
+pub(super) struct GuardPolynomial<'a> {
     /// Coefficients, constant first.
     pub coefficients: &'a [f64; DEGREE + 1],
     /// Bound on |g''''| over the interval.
@@ -42,11 +42,11 @@ pub(super) enum Verdict {
 /// Halvings after which an interval is below the resolution of its ends.
 const DEEPEST: u32 = 60;
 
-impl Candidate<'_> {
+impl GuardPolynomial<'_> {
     /// The first s between two points at which g rises from <= 0 to > 0.
     pub fn first_rise(&self, left: Point, right: Point) -> Option<f64> {
         let (low, high) = self.isolate_rise(left, right, 0)?;
-        Some(self.refine_rise(low, high))
+        Some(self.rise_between(low, high))
     }
 
     /// An interval on which g rises through zero once, the first between two points, by halving.
@@ -86,7 +86,7 @@ impl Candidate<'_> {
     }
 
     /// The zero through which g rises between two points.
-    fn refine_rise(&self, low: Point, high: Point) -> f64 {
+    fn rise_between(&self, low: Point, high: Point) -> f64 {
         let mut terms = self.coefficients.iter().enumerate();
         if low.at == 0.0
             && let Some((order, leading)) = terms.find(|(_, c)| **c != 0.0)
@@ -291,7 +291,7 @@ fn bracketed_newton(
 
 #[cfg(test)]
 mod tests {
-    use super::Candidate;
+    use super::GuardPolynomial;
     use crate::flow::DEGREE;
 
     #[test]
@@ -299,7 +299,7 @@ mod tests {
         let rise = |first: [f64; 3]| {
             let mut coefficients = [0.0; DEGREE + 1];
             coefficients[..3].copy_from_slice(&first);
-            let candidate = Candidate {
+            let candidate = GuardPolynomial {
                 coefficients: &coefficients,
                 bound: 0.0,
                 rounding: 0.0,
