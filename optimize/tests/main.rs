@@ -27,6 +27,7 @@ mod sweep;
 mod ties;
 mod tolerated;
 mod trials;
+mod two_motions;
 mod watch;
 
 use softstop_testing::Program;

@@ -4,9 +4,10 @@ use serde::Deserialize;
 use softstop::internals::turning_points;
 use softstop::{Ratios, Scene, Start, Stop};
 use softstop_dynamics::Zone;
+use softstop_dynamics::continuation::{Direction, TestFunction};
 use softstop_dynamics::orbit::find;
 use softstop_dynamics::zone::{
-    Loss, StableRange, ZoneError, grazing_frequencies, hysteresis, stable_ranges,
+    Loss, StableRange, ZoneError, grazing_frequencies, hysteresis, loss_of_stability, stable_ranges,
 };
 use softstop_testing::tolerance::printed;
 use softstop_testing::{assert_near, is_near, with_changes};
@@ -47,16 +48,46 @@ fn a_branch_with_three_folds() -> Outcome {
     Ok(())
 }
 
-#[test]
-fn a_loaded_branch_with_three_folds() -> Outcome {
-    let scene = with_changes(
+/// A loaded machine whose branch of z = 1 has three folds.
+fn three_folds_loaded() -> Scene {
+    with_changes(
         "loaded",
         "rho=1.812 k4=3.384 Fp=70.97 beta1=0.004497 beta=0.01686 k2=2.463 k3=3.382 \
          sigma=0.3585 nu=0.2899",
-    );
-    let zone = hysteresis(&scene)?;
+    )
+}
+
+/// Of two motions at one frequency each ends at the folds of its own: where it ends when it is followed from its orbit.
+#[test]
+fn a_motion_ends_at_its_own_folds() -> Outcome {
+    for (scene, coexisting) in [(three_folds(), 9), (three_folds_loaded(), 9)] {
+        let zone = hysteresis(&scene)?;
+        assert!(zone.has_inner_folds());
+        let mut met = 0;
+        for place in (1..40).map(|it| f64::from(it) / 40.0) {
+            let points = zone.points_at(place)?;
+            met += usize::from(points.len() > 1);
+            for point in points.iter().filter(|it| it.is_stable()) {
+                let orbit = zone.orbit_of(point)?;
+                let (low, high) = zone.range_of(&orbit)?;
+                let followed = |direction| loss_of_stability(&orbit, direction, TestFunction::Fold);
+                let end = followed(Direction::Up)?.map(|fold| fold.parameter);
+                assert_near(high, end.expect("a fold"), printed(9));
+                if let Some(fold) = followed(Direction::Down)? {
+                    assert_near(low, fold.parameter, printed(9));
+                }
+            }
+        }
+        assert!(met >= coexisting, "{met}");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_loaded_branch_with_three_folds() -> Outcome {
+    let zone = hysteresis(&three_folds_loaded())?;
     assert_folds(&zone, &[1.601, 1.473, 1.664], 3);
-    let hardest = find(&scene.at_frequency(1.495))?.before_impact_velocity();
+    let hardest = find(&zone.scene.at_frequency(1.495))?.before_impact_velocity();
     assert_near(hardest, 60.0, printed(0));
     let share = (1.495 - zone.frequency_g0) / (zone.high.frequency - zone.frequency_g0);
     let on_branch = zone.orbit_at(share)?.before_impact_velocity();

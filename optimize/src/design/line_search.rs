@@ -6,11 +6,8 @@ use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::brent::BrentOpt;
 use softstop_dynamics::BranchPoint;
 
-use super::conflict::{conflict, short};
+use super::as_required::as_required;
 use super::coordinates::keep_best;
-use super::figure::Figure;
-use super::judge::violation;
-use super::problem::Problem;
 use super::space::Interval;
 use super::zoned::Zoned;
 use super::{DISTANT, Design, Infeasible};
@@ -83,31 +80,38 @@ impl Line<'_> {
         }
     }
 
-    /// The score of the design at a place, and the design; where only the velocity counts, without it, since its orbit would take
-    /// a quarter more.
+    /// The best score of the designs at a place, and that design; where only the velocity counts, without it, since its orbit
+    /// would take a quarter more.
     fn score_at(&self, place: f64) -> Result<(f64, Option<Design>), Infeasible> {
         let problem = self.zoned.problem;
-        let point = self.point_at(place)?;
-        match problem.is_plain() {
-            true => Ok((point.before_impact_velocity(), None)),
-            false => {
-                let design = self.design_at(place, &point)?;
-                Ok((problem.score(&design), Some(design)))
-            }
+        if problem.is_plain() {
+            let point = self.zoned.zone.point_at(place);
+            let point = stable_motion(point.map_err(Infeasible::unknown)?, place)?;
+            return Ok((point.before_impact_velocity(), None));
         }
+        let design = self.best_at(place)?;
+        Ok((problem.score(&design), Some(design)))
     }
 
-    /// The stable motion at a place.
-    fn point_at(&self, place: f64) -> Result<BranchPoint, Infeasible> {
-        let point = self.zoned.zone.point_at(place);
-        let point = point.map_err(Infeasible::unknown)?;
-        // At the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
-        let is_stable = point.is_stable() || place >= 1.0;
-        if !is_stable || !point.before_impact_velocity().is_finite() {
-            let reason = "the z = 1 motion is not stable there";
-            return Err(Infeasible::new(instability(&point), reason));
-        }
-        Ok(point)
+    /// The best design at a place: of one of several motions, where the branch of the zone folds back.
+    fn best_at(&self, place: f64) -> Result<Design, Infeasible> {
+        let points = self.zoned.zone.points_at(place);
+        let points = points.map_err(Infeasible::unknown)?.into_iter();
+        let designs = points.map(|point| self.design_at(place, &stable_motion(point, place)?));
+        let better = |one: Result<Design, Infeasible>, other| match (one, other) {
+            (Ok(one), Ok(other)) => {
+                let score = |design: &Design| self.zoned.problem.score(design);
+                Ok(if score(&other) > score(&one) {
+                    other
+                } else {
+                    one
+                })
+            }
+            (Ok(one), Err(_)) | (Err(_), Ok(one)) => Ok(one),
+            (Err(one), Err(other)) => Err(one.nearer(Some(other))),
+        };
+        let lost = || Err(Infeasible::unknown("the z = 1 motion is lost there"));
+        designs.reduce(better).unwrap_or_else(lost)
     }
 
     /// The design at a place with this motion, if it is as required in all cases.
@@ -163,37 +167,20 @@ impl Line<'_> {
     fn result(&self) -> Result<Design, Infeasible> {
         match self.best.take() {
             Some((.., Some(design))) => Ok(design),
-            Some((_, place, None)) => self.design_at(place, &self.point_at(place)?),
+            Some((_, place, None)) => self.best_at(place),
             None => Err(self.lack.take().unwrap_or_else(|| Infeasible::unknown(""))),
         }
     }
 }
 
-/// A design with the value of what is sought, if it is as required.
-fn as_required(problem: &Problem, design: Design) -> Result<Design, Infeasible> {
-    let motion = design.judged().map_err(Infeasible::unknown)?;
-    let met = problem.met(&motion);
-    let gap = violation(&met);
-    if gap != 0.0 {
-        return Err(Infeasible::new(gap, conflict(motion.machine, &met)));
+/// A motion at a place, if it is stable; at the fold itself a multiplier is 1: the limit of the stable motions, wanted for M = 0.
+fn stable_motion(point: BranchPoint, place: f64) -> Result<BranchPoint, Infeasible> {
+    let is_stable = point.is_stable() || place >= 1.0;
+    if !is_stable || !point.before_impact_velocity().is_finite() {
+        let reason = "the z = 1 motion is not stable there";
+        return Err(Infeasible::new(instability(&point), reason));
     }
-    let value = problem.sought(&motion).ok_or_else(|| {
-        let figure = problem.objective.figure;
-        let name = figure.name();
-        Infeasible::unknown(match problem.value(&motion, figure) {
-            value if value.is_finite() => {
-                let value = short(value);
-                format!("{name} is {value}: what is sought must be positive")
-            }
-            _ => match &problem.cost {
-                Some(cost) if figure == Figure::Cost => {
-                    format!("objective.cost = {cost:?} has no finite value")
-                }
-                _ => format!("{name} has no value"),
-            },
-        })
-    })?;
-    Ok(Design { value, ..design })
+    Ok(point)
 }
 
 impl CostFunction for &Line<'_> {

@@ -5,6 +5,7 @@
 //! a zone is feasible. The zone does not depend on s: at each point it is computed once and the best s is
 //! then found along it (`line_search`). [`search`] drives the outer search.
 
+mod as_required;
 mod ascent;
 mod box_window;
 pub mod case;
@@ -263,7 +264,8 @@ impl Problem {
                 problem, design, ..
             } = it;
             let motion = design.judged();
-            let is_met = motion.is_ok_and(|motion| problem.met(&motion).iter().all(Met::is_met));
+            let met = motion.map(|motion| problem.met_beside_window(&motion));
+            let is_met = met.is_ok_and(|met| met.iter().all(Met::is_met));
             let window = problem.window(&design.machine, &design.zone);
             is_met && window.is_ok_and(|it| it.contains(design.place))
         })
@@ -282,8 +284,13 @@ impl Problem {
     ) -> Result<Interval, Infeasible> {
         let own = |frequency: f64| self.machine.to_own(Dimension::Frequency, frequency);
         let si = |frequency: f64| self.machine.to_si(Dimension::Frequency, frequency);
-        let mut low = self.margin.max(zone.place_of(si(self.frequency.low)));
-        let mut high = (1.0 - self.margin).min(zone.place_of(si(self.frequency.high)));
+        // A motion that ends at a fold within the zone is judged by its own range.
+        let margin = match zone.has_inner_folds() {
+            true => 0.0,
+            false => self.margin,
+        };
+        let mut low = margin.max(zone.place_of(si(self.frequency.low)));
+        let mut high = (1.0 - margin).min(zone.place_of(si(self.frequency.high)));
         if let Some(tolerated) = tolerated {
             if let Some(edge) = &tolerated.low {
                 low = low.max(zone.place_of(edge.frequency));

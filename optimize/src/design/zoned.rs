@@ -4,6 +4,7 @@ use softstop::{Dimension, Machine};
 use softstop_dynamics::Zone;
 use softstop_dynamics::zone::ZoneError;
 
+use super::as_required::as_required;
 use super::operating_point::At;
 use super::problem::Problem;
 use super::space::Interval;
@@ -74,9 +75,18 @@ impl<'a> Zoned<'a> {
         })
     }
 
-    /// The motion at a place, and that of each case at the same frequency or its own; none if one is not stable.
+    /// The motion at a place, the best of several, and that of each case at the same frequency or its own; none if one is not
+    /// stable.
     pub fn at(&self, place: f64) -> Option<Design> {
-        let own = Design::on_zone(self.machine.clone(), &self.zone, place)?;
+        let grade = |design: &Design| match as_required(self.problem, design.clone()) {
+            Ok(design) => self.problem.score(&design),
+            Err(lack) => -lack.gap,
+        };
+        let all = Design::on_zone(&self.machine, &self.zone, place);
+        let own = all.reduce(|one, other| match grade(&other) > grade(&one) {
+            true => other,
+            false => one,
+        })?;
         let frequency = own.drive_frequency();
         let cases = self.cases.iter();
         let cases = cases.map(|case| case.at(case.place_of(frequency)));

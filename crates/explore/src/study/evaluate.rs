@@ -198,11 +198,12 @@ impl PointEvaluation<'_> {
             Figure::Velocity => Some(self.seen.as_ref()?.hardest_impact()),
             Figure::MaxPosition => self.seen.as_ref()?.max_position(self.map()?).ok(),
             Figure::Share => {
-                let place = self.place()?;
+                let (low, high) = self.own_range()?;
+                let place = (frequency - low) / (high - low);
                 Some(place.min(1.0 - place))
             }
             Figure::FrequencyG0 => Some(frequency - grazing_frequencies(self.scene()).ok()?.1),
-            Figure::FrequencySn => Some(self.zone.as_ref()?.high.frequency - frequency),
+            Figure::FrequencySn => Some(self.own_range()?.1 - frequency),
             Figure::FrequencyPd => Some(frequency - self.flip()?),
             Figure::ClearanceG0 => {
                 let scene = self.scene();
@@ -283,17 +284,29 @@ impl PointEvaluation<'_> {
 
     /// The frequency of s_PD in rad/s, minus infinity if there is none; nothing without a z = 1 motion to follow.
     fn flip(&self) -> Option<f64> {
-        let is_one = self.seen.as_ref()?.regime() == Some(Regime::ONE);
-        let in_zone = || {
-            let (zone, place) = (self.zone.as_ref()?, self.place()?);
-            zone.orbit_at(place).ok()
-        };
-        let orbit = match is_one {
-            true => self.orbit().cloned(),
-            false => in_zone(),
-        };
-        let flip = loss_of_stability(&orbit?, Direction::Down, TestFunction::Flip).ok()?;
+        self.seen.as_ref()?;
+        let orbit = self.single_impact_orbit()?;
+        let flip = loss_of_stability(&orbit, Direction::Down, TestFunction::Flip).ok()?;
         Some(flip.map_or(f64::NEG_INFINITY, |flip| flip.parameter))
+    }
+
+    /// The motion if it is one of z = 1, otherwise the hardest of the zone here.
+    fn single_impact_orbit(&self) -> Option<Orbit> {
+        let is_one = self.seen.as_ref().and_then(SettledMotion::regime) == Some(Regime::ONE);
+        match is_one {
+            true => self.orbit().cloned(),
+            false => self.zone.as_ref()?.orbit_at(self.place()?).ok(),
+        }
+    }
+
+    /// Lowest and highest frequency in rad/s up to which the z = 1 motion goes on within the zone: its ends, but where the
+    /// branch folds back within it.
+    fn own_range(&self) -> Option<(f64, f64)> {
+        let zone = self.zone.as_ref()?;
+        if !zone.has_inner_folds() {
+            return Some((zone.frequency_g0, zone.high.frequency));
+        }
+        zone.range_of(&self.single_impact_orbit()?).ok()
     }
 
     /// Place in the zone: 0 at g0, 1 at s_SN.
