@@ -64,7 +64,7 @@ impl Drive {
             takes_speed,
             takes_amplitude,
             frequency: of.frequency,
-            ..Self::new(of.phase + speed * time, time, speed, amplitude)
+            ..Self::new(of.reduced_phase() + speed * time, time, speed, amplitude)
         }
     }
 

@@ -33,7 +33,7 @@ pub struct Clock {
 impl Scene {
     /// The clock of its drive.
     pub fn clock(&self) -> Clock {
-        Clock::new(self.excitation.frequency, self.excitation.phase)
+        Clock::new(self.excitation.frequency, self.excitation.reduced_phase())
     }
 }
 

@@ -259,7 +259,8 @@ impl Simulation {
         let (mut clock, mut at) = (*self.motion.clock(), self.motion.now());
         let retimed = old.frequency != new.frequency || old.phase != new.phase;
         if retimed {
-            let angle = old.frequency * at.offset + clock.phase + new.phase - old.phase;
+            let angle =
+                old.frequency * at.offset + clock.phase + new.reduced_phase() - old.reduced_phase();
             let angle = angle.rem_euclid(std::f64::consts::TAU);
             clock = Clock::new(new.frequency, angle);
             at = Clock::at_cycle(0);

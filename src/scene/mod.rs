@@ -80,6 +80,20 @@ pub struct Excitation {
     pub phase: f64,
 }
 
+/// Largest drive angle in rad that is computed with as it is: rounding takes less than 1e-13 rad of it.
+const MAX_PLAIN_PHASE: f64 = 1e3;
+
+impl Excitation {
+    /// Drive angle phi at time 0 in rad, without its whole turns where they would take digits of what is added to it.
+    pub fn reduced_phase(&self) -> f64 {
+        if self.phase.abs() <= MAX_PLAIN_PHASE {
+            return self.phase;
+        }
+        let (sin, cos) = self.phase.sin_cos();
+        sin.atan2(cos)
+    }
+}
+
 /// The strip met from the clearance on (Peterka 2003, eqs. 1-4).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -98,7 +98,7 @@ pub fn survives_missing_strips(
         let (mut machines, mut motions) = (Vec::new(), Vec::new());
         for (machine, turned) in angles.iter().enumerate() {
             let run = run_through_gap(orbit, &without, *turned, missing)?;
-            let angle = (orbit.scene.excitation.phase + turned).rem_euclid(TAU);
+            let angle = (orbit.scene.excitation.reduced_phase() + turned).rem_euclid(TAU);
             machines.push(Machine::new(&orbit.scene.clone().at_phase(angle)?));
             motions.push(TestedMotion {
                 member: Member::new(machine, run.motion.state()),

@@ -94,6 +94,30 @@ fn a_branch_from_a_tiny_value_of_the_parameter_is_that_from_a_usual_one() {
     }
 }
 
+/// A drive angle at time 0 of many turns is the one without them: in a motion bit for bit, in an orbit and its branch to
+/// rounding. Sums of angles at 1e8 rad are good to 1e-8.
+#[test]
+fn whole_turns_of_the_drive_angle_change_nothing() {
+    let turned = 1e8_f64;
+    let found = [turned, turned.sin().atan2(turned.cos())].map(|phase| {
+        let mut scene = unloaded();
+        scene.excitation.phase = phase;
+        let end = scene.trajectory(Start::REST, 50).expect("a motion").end;
+        let orbit = softstop_dynamics::orbit::find(&scene).expect("an orbit");
+        let (eta, state) = (scene.excitation.frequency, orbit.state());
+        let family = ParameterFamily::new(scene, [Parameter::Frequency]).expect("a parameter");
+        (end, state, follow(&family, 1, (eta, state), (0.5, 2.0)))
+    });
+    let [many, none] = &found;
+    assert_eq!(many.0, none.0);
+    assert_near((many.1 - none.1).norm(), 0.0, MOTION);
+    assert_eq!(symbols(&none.2), ["G", "PD", "SN", "G"]);
+    assert_eq!(symbols(&many.2), symbols(&none.2));
+    for (many, none) in many.2.specials.iter().zip(&none.2.specials) {
+        assert_near(many.point.parameter, none.point.parameter, MOTION);
+    }
+}
+
 /// The z = 1 branch through the paper's point A, and states of others (settled from arbitrary starts).
 const A: (f64, f64) = (6.901_267_951_548, 9.516_655_745_459);
 const HALF: (f64, f64) = (9.214_320, 3.694_000);

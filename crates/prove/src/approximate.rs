@@ -42,6 +42,7 @@ pub(crate) fn motion(
     let machine = Machine::new(scene)?;
     let trajectory = scene.trajectory(Start::from(state), periods)?;
     let drive = scene.excitation;
+    let begin = drive.reduced_phase();
     let span = TAU * periods as f64;
     let mut guesses = Vec::new();
     let reach = drive.frequency * state.x.abs();
@@ -54,7 +55,7 @@ pub(crate) fn motion(
                 "the motion rests for a while (dry friction, chatter, or a force below the preload)",
             ));
         }
-        let angle = drive.frequency * trajectory.clock.time(crossing.instant) + drive.phase;
+        let angle = drive.frequency * trajectory.clock.time(crossing.instant) + begin;
         let is_of_touch = touch.is_some_and(|touch| {
             let apart = (angle - touch.angle).rem_euclid(span);
             let near = (crossing.position - touch.position).abs() <= SAME * touch.position.abs();
@@ -70,7 +71,7 @@ pub(crate) fn motion(
         }
     }
     if let Some(touch) = touch {
-        let angle = drive.phase + (touch.angle - drive.phase).rem_euclid(span);
+        let angle = begin + (touch.angle - begin).rem_euclid(span);
         let at = guesses.partition_point(|it| it.unknowns[0] < angle);
         let below = touch.position - SAME * touch.position.abs();
         let phase = machine.phase_at(below, 0.0);
@@ -91,7 +92,7 @@ pub(crate) fn motion(
         guesses.insert(at, guess);
     }
     if guesses.is_empty() {
-        let until = (-drive.phase).rem_euclid(TAU) / drive.frequency;
+        let until = (-begin).rem_euclid(TAU) / drive.frequency;
         let until = trajectory.clock.instant(until);
         let Start { position, velocity } = scene.trajectory_until(Start::from(state), until)?.end;
         guesses.push(Guess {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use softstop::{CheckedScene, MotionError, Start};
+use softstop::{CheckedScene, Excitation, MotionError, Start};
 
 /// The state of a motion from a start at a drive angle in rad when that angle next is the drive's phi.
 pub(crate) fn bring_to_section(
@@ -12,7 +12,11 @@ pub(crate) fn bring_to_section(
 ) -> Result<Start, MotionError> {
     start.validate()?;
     let drive = scene.excitation;
-    let turn = (drive.phase - angle).rem_euclid(TAU);
+    let from = Excitation {
+        phase: angle,
+        ..drive
+    };
+    let turn = (drive.reduced_phase() - from.reduced_phase()).rem_euclid(TAU);
     if turn == 0.0 {
         return Ok(start);
     }

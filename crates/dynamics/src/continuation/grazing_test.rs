@@ -56,7 +56,7 @@ impl GrazingTest {
             crossings: (total, taken),
             parameter: shooting.parameters(&node.at)[0],
             is_symmetric: shooting.symmetric_half_period(node).is_some(),
-            drive: (scene.excitation.phase, scene.excitation.frequency),
+            drive: (scene.excitation.reduced_phase(), scene.excitation.frequency),
             turned: TAU * shooting.turn,
             speed: shooting.velocity_scale(),
             losses: [0.0; 2],

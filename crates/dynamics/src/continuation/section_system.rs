@@ -103,7 +103,7 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
             condition: SectionCondition::Impact(test),
         };
         let time = motion.clock.time(entry.instant);
-        let angle = scene.excitation.phase + scene.excitation.frequency * time;
+        let angle = scene.excitation.reduced_phase() + scene.excitation.frequency * time;
         let [_, speed] = family.state_scales();
         let guess = system.scaled_unknowns(&[angle, entry.velocity.abs() / speed], parameters);
         Ok(Some((system, guess)))
@@ -187,7 +187,7 @@ impl<'a, const N: usize> SectionSystem<'a, N> {
     /// The state of the orbit at time 0 of the family's scene.
     pub fn state(&self, at: &DVector<f64>) -> Result<Vector2<f64>, OrbitError> {
         let (angle, parameters) = (at[0], self.parameters(at));
-        let phase = self.family.scene(parameters)?.excitation.phase;
+        let phase = self.family.scene(parameters)?.excitation.reduced_phase();
         let (scene, position) = self.scene_at(angle, parameters)?;
         let gone = ((angle - phase) / TAU).rem_euclid(self.periods as f64);
         let begin = Vector2::new(position, self.velocity(at));

@@ -66,7 +66,7 @@ impl<'a, const N: usize> Shooting<'a, N> {
     /// The scene of these unknowns, with time 0 at the section.
     pub fn scene_at(&self, at: &DVector<f64>) -> Result<CheckedScene, MotionError> {
         let scene = self.family.scene(self.parameters(at))?;
-        let phase = scene.excitation.phase + TAU * self.turn;
+        let phase = scene.excitation.reduced_phase() + TAU * self.turn;
         Ok(scene.at_phase(phase)?)
     }
 

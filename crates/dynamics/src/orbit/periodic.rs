@@ -200,10 +200,12 @@ impl Orbit {
         impacts.map(|touch| touch.before_impact_velocity)
     }
 
-    /// Drive angles of the orbit's impacts in rad, w t + phi with t within the drive period of each.
+    /// Drive angles of the orbit's impacts in rad, w t + phi with t within the drive period of each and phi as
+    /// [`Excitation::reduced_phase`](softstop::Excitation::reduced_phase) has it.
     pub fn impact_angles(&self) -> impl Iterator<Item = f64> + '_ {
         let drive = self.scene.excitation;
-        let angle = move |touch: &Touch| drive.frequency * touch.instant.offset + drive.phase;
+        let angle =
+            move |touch: &Touch| drive.frequency * touch.instant.offset + drive.reduced_phase();
         self.impacts.iter().map(angle)
     }
 

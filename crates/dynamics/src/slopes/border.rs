@@ -142,7 +142,7 @@ impl Border {
             },
             SpecialKind::Pitchfork => return Err(OrbitError::NotIsolated.into()),
             SpecialKind::Grazing(graze) => {
-                let phase = scene.excitation.phase;
+                let phase = scene.excitation.reduced_phase();
                 find_grazing((&family, *periods), &graze, phase, guess.parameter)?
             }
         };
